@@ -1,0 +1,40 @@
+#pragma once
+// The contract of a structure.
+
+#include <optional>
+
+#include "accel/hit_buffer.hpp"
+#include "accel/primary_rays.hpp"
+#include "accel/ray.hpp"
+#include "accel/statistics.hpp"
+#include "accel/work_counters.hpp"
+
+namespace beambench {
+
+/// A structure built over a scene, ready to be asked. Queries are const and safe from several
+/// threads. The scene must outlive it. Rays must pass `require_valid`.
+///
+/// Each query comes twice: as timed code, and counting the work it does. Structures get both, and
+/// `trace`, by deriving from `TraversalAccelerator` (traversal_accelerator.hpp).
+class Accelerator {
+ public:
+  Accelerator() = default;
+  Accelerator(const Accelerator&) = delete;
+  Accelerator& operator=(const Accelerator&) = delete;
+  virtual ~Accelerator() = default;
+
+  /// The nearest hit in [t_min, t_max], ties to the lowest primitive id.
+  virtual std::optional<Hit> closest_hit(const Ray& ray) const = 0;
+  /// Is there a hit in [t_min, t_max]?
+  virtual bool any_hit(const Ray& ray) const = 0;
+  /// The closest hits of a whole image. `buffer` has the size of `rays`.
+  virtual void trace(const PrimaryRays& rays, HitBuffer& buffer) const = 0;
+
+  virtual std::optional<Hit> closest_hit(const Ray& ray, WorkCounters& counters) const = 0;
+  virtual bool any_hit(const Ray& ray, WorkCounters& counters) const = 0;
+  virtual void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const = 0;
+
+  virtual Statistics statistics() const = 0;
+};
+
+}  // namespace beambench

@@ -1,0 +1,38 @@
+#pragma once
+// The oracle: what Embree says when it is given exact intersectors.
+
+#include <memory>
+#include <optional>
+
+#include "accel/ray.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// A hit whose t has not been rounded to float.
+struct ExactHit {
+  double t;
+  PrimitiveId primitive;
+};
+
+/// Embree's BVH over user geometry whose intersectors compute in double, with code of their own
+/// (none of it shared with the classic structures), ties to the lowest primitive id. Bounds are
+/// padded by 4 x 2^-23 x (largest |coordinate| + reach), without which Embree's float boxes lose
+/// rays aimed at vertices (reference/embree.md). Queries are const and safe from several threads.
+class EmbreeOracle {
+ public:
+  /// `reach`: the largest distance of a ray's origin from the origin of the coordinates.
+  EmbreeOracle(const Scene& scene, double reach);
+  ~EmbreeOracle();
+  EmbreeOracle(EmbreeOracle&&) noexcept;
+  EmbreeOracle& operator=(EmbreeOracle&&) noexcept;
+
+  std::optional<ExactHit> closest_hit(const Ray& ray) const;
+  bool any_hit(const Ray& ray) const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace beambench

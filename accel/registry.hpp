@@ -1,0 +1,72 @@
+#pragma once
+// The registry: structure names with parameters to built structures.
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "accel/accelerator.hpp"
+#include "scenes/parameters.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// How a structure's hits are judged.
+enum class Conformance {
+  kBitExact,   ///< equal to `exhaustive` bit for bit, id and t
+  kTolerance,  ///< arithmetic of its own: judged by the differ's classes
+  kBaseline    ///< answers nothing by design (`null`); its hits must all be misses
+};
+
+/// One structure as the user sees it in `beambench list`.
+struct StructureInfo {
+  std::string name;
+  std::string summary;  ///< one sentence with the source in the literature
+  Conformance conformance;
+  std::vector<ParameterInfo> parameters;
+  /// Builds it over a scene that outlives it. Throws InputError when the scene and the parameters
+  /// do not go together (a cap is exceeded); the message names the parameter to change.
+  std::function<std::unique_ptr<Accelerator>(const Scene&, const Parameters&)> build;
+};
+
+/// A structure picked by the user, its parameters checked: `samet:max_level=6`.
+class StructureChoice {
+ public:
+  StructureChoice(const StructureInfo& info, Parameters parameters)
+      : info_(&info), parameters_(std::move(parameters)) {}
+
+  const StructureInfo& info() const { return *info_; }
+  const Parameters& parameters() const { return parameters_; }
+  /// `samet:max_level=6,max_objects=0,...` with every parameter.
+  std::string label() const { return parameters_.label(); }
+
+  /// Builds the structure; also throws std::logic_error when it ignores a parameter it was given.
+  std::unique_ptr<Accelerator> build(const Scene& scene) const;
+
+ private:
+  const StructureInfo* info_;
+  Parameters parameters_;
+};
+
+class Registry {
+ public:
+  void add(StructureInfo info);
+
+  /// In the order of registration.
+  std::span<const StructureInfo> structures() const { return structures_; }
+  /// Throws InputError for an unknown name (with the nearest and all valid ones) or parameter.
+  StructureChoice choose(const Spec& spec) const;
+  /// A comma-separated list as typed after --accel; `all` is every structure with its defaults.
+  std::vector<StructureChoice> choose_list(std::string_view text) const;
+
+ private:
+  std::vector<StructureInfo> structures_;
+};
+
+/// All structures that were built into this program.
+const Registry& registry();
+
+}  // namespace beambench

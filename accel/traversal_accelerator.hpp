@@ -1,0 +1,59 @@
+#pragma once
+// From one traversal, written once, to the whole contract of a structure.
+
+#include <optional>
+
+#include "accel/accelerator.hpp"
+
+namespace beambench {
+
+/// Implements `Accelerator` for a structure that writes each query once, as a template over the
+/// counting policy (`NoCounting` or `WorkCounters`):
+///
+///     template <class Counting> std::optional<Hit> find_closest(const Ray&, Counting&) const;
+///     template <class Counting> bool find_any(const Ray&, Counting&) const;
+///
+/// A loop over rays calls these directly: no virtual call inside a traversal or between two rays.
+template <class Structure>
+class TraversalAccelerator : public Accelerator {
+ public:
+  std::optional<Hit> closest_hit(const Ray& ray) const override {
+    NoCounting none;
+    return self().find_closest(ray, none);
+  }
+  bool any_hit(const Ray& ray) const override {
+    NoCounting none;
+    return self().find_any(ray, none);
+  }
+  void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
+    NoCounting none;
+    trace_each(rays, buffer, none);
+  }
+
+  std::optional<Hit> closest_hit(const Ray& ray, WorkCounters& counters) const override {
+    return self().find_closest(ray, counters);
+  }
+  bool any_hit(const Ray& ray, WorkCounters& counters) const override {
+    return self().find_any(ray, counters);
+  }
+  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const override {
+    trace_each(rays, buffer, counters);
+  }
+
+ private:
+  const Structure& self() const { return static_cast<const Structure&>(*this); }
+
+  template <class Counting>
+  void trace_each(const PrimaryRays& rays, HitBuffer& buffer, Counting& counting) const {
+    for (int y = 0; y < rays.height(); ++y) {
+      for (int x = 0; x < rays.width(); ++x) {
+        for (int sample = 0; sample < rays.samples(); ++sample) {
+          buffer.set(buffer.index(x, y, sample),
+                     self().find_closest(rays.ray(x, y, sample), counting));
+        }
+      }
+    }
+  }
+};
+
+}  // namespace beambench

@@ -1,0 +1,93 @@
+#pragma once
+// The differ: judges a structure's hits against the oracle, ray by ray.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "accel/embree/oracle.hpp"
+#include "accel/hit_buffer.hpp"
+#include "accel/primary_rays.hpp"
+#include "accel/registry.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// How one answer compares (reference/embree.md, "A differ that can be defended"). u is
+/// 2^-24 x (largest |coordinate| + distance of the ray's origin), K is 16.
+enum class DiffClass : std::size_t {
+  kAgree,        ///< same primitive, |dt| x |cos theta| <= K u (a sphere: | |p - c| - r | <= K u)
+  kTie,          ///< other primitive at the same place: |dt| x the smaller |cos theta| <= K u
+  kGraze,        ///< the disputed primitive's boundary is within K u of the ray
+  kEngineError,  ///< the structure is wrong, by long-double search over all primitives
+  kEmbreeError,  ///< the structure is right and the oracle wrong, by the same search
+  kCount
+};
+inline constexpr std::array<std::string_view, static_cast<std::size_t>(DiffClass::kCount)>
+    kDiffClassNames{"agree", "tie", "graze", "engine_error", "embree_error"};
+
+/// The sentence over a whole image.
+enum class Verdict {
+  kOk,        ///< no engine error, grazes within the budget
+  kMismatch,  ///< at least one engine error
+  kGrazes,    ///< no engine error, but more grazes than max(2, 1e-4 x rays)
+  kBaseline   ///< a structure that answers nothing by design, and did
+};
+std::string_view to_string(Verdict verdict);  // "ok", "mismatch", "grazes", "baseline"
+
+/// One ray that did not agree, with all that is needed to look at it.
+struct Mismatch {
+  std::size_t index;  ///< into the buffer
+  int x, y, sample;
+  Ray ray;
+  DiffClass diff_class;
+  std::optional<Hit> engine;
+  std::optional<ExactHit> oracle;
+  /// The long-double answer; absent where the class was settled without it, or for an exact miss.
+  std::optional<ExactHit> exact;
+  bool adjudicated;  ///< was the long-double search asked?
+};
+
+/// What was found in one buffer.
+struct DiffReport {
+  std::uint64_t rays = 0;
+  std::uint64_t hits = 0;  ///< of the oracle
+  std::array<std::uint64_t, static_cast<std::size_t>(DiffClass::kCount)> counts{};
+  std::vector<Mismatch> examples;  ///< errors first, at most kMaxExamples of each class but agree
+  Verdict verdict = Verdict::kOk;
+
+  static constexpr std::size_t kMaxExamples = 10;
+  std::uint64_t count(DiffClass diff_class) const {
+    return counts[static_cast<std::size_t>(diff_class)];
+  }
+};
+
+/// The oracle's answer to each primary ray of an image, computed once (on all cores) and used for
+/// every contender.
+class ReferenceHits {
+ public:
+  ReferenceHits(const Scene& scene, const PrimaryRays& rays);
+
+  const Scene& scene() const { return *scene_; }
+  const PrimaryRays& rays() const { return *rays_; }
+  std::span<const std::optional<ExactHit>> hits() const { return hits_; }
+
+ private:
+  const Scene* scene_;
+  const PrimaryRays* rays_;
+  std::vector<std::optional<ExactHit>> hits_;
+};
+
+/// Judges a buffer. For Conformance::kBaseline only: are all answers misses?
+/// Throws std::logic_error when the buffer's size is not that of the rays.
+DiffReport judge(const ReferenceHits& reference, const HitBuffer& buffer, Conformance conformance);
+
+/// One mismatch as text: pixel, ray, both hits, the exact answer, and why it was classed so.
+std::string describe(const Scene& scene, const Mismatch& mismatch);
+
+}  // namespace beambench

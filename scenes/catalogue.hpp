@@ -1,0 +1,32 @@
+#pragma once
+// The catalogue: scene names with parameters, and files, to scenes.
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/parameters.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// One generated scene of the catalogue.
+struct SceneInfo {
+  std::string name;
+  std::string summary;  ///< one sentence
+  std::vector<ParameterInfo> parameters;
+  std::function<Scene(const Parameters&)> generate;
+};
+
+/// All generated scenes, sorted by name.
+std::span<const SceneInfo> scene_catalogue();
+
+/// A scene by what the user typed: a catalogue name with parameters (`balls:n=4`) or a path to an
+/// NFF file (anything with a slash or the ending .nff). `Scene::name` is the canonical label of the
+/// former, the path of the latter. Throws InputError: unknown name (with the nearest and all valid
+/// ones), parameter out of range, file missing or malformed.
+Scene load_scene(std::string_view spec);
+
+}  // namespace beambench

@@ -1,0 +1,87 @@
+#pragma once
+// Named, typed, documented parameters: `samet:max_level=6,max_objects=0`, `balls:n=4`.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace beambench {
+
+/// A name with parameters as a user types it: `name` or `name:key=value,key=value`.
+struct Spec {
+  std::string name;
+  std::vector<std::pair<std::string, std::string>> parameters;
+};
+
+/// Throws InputError when the text is not of that form or gives a key twice.
+Spec parse_spec(std::string_view text);
+
+/// Splits `a:x=1,y=2,b` into the specs `a:x=1,y=2` and `b`: a comma starts a new spec when what
+/// follows it has no `=` before the next comma or colon. Throws as parse_spec.
+std::vector<Spec> parse_spec_list(std::string_view text);
+
+/// What a structure or a generator says of one of its parameters; printed by `beambench list`.
+struct ParameterInfo {
+  enum class Type { kInteger, kReal, kFlag, kChoice };
+
+  std::string name;
+  Type type;
+  std::string default_value;
+  double minimum = 0.0;  ///< of a number, inclusive
+  double maximum = 0.0;
+  std::vector<std::string> choices;  ///< of a choice
+  std::string description;           ///< one sentence, units included
+};
+
+ParameterInfo integer_parameter(std::string name, std::int64_t default_value, std::int64_t minimum,
+                                std::int64_t maximum, std::string description);
+ParameterInfo real_parameter(std::string name, double default_value, double minimum, double maximum,
+                             std::string description);
+ParameterInfo flag_parameter(std::string name, bool default_value, std::string description);
+ParameterInfo choice_parameter(std::string name, std::string default_value,
+                               std::vector<std::string> choices, std::string description);
+
+/// The values of one owner's parameters: those given, defaults for the rest.
+class Parameters {
+ public:
+  /// Checks every given value against `infos`. Throws InputError naming `owner`, the parameter, the
+  /// value, its valid range or choices and, for an unknown name, all valid names.
+  Parameters(std::string owner, std::span<const ParameterInfo> infos,
+             std::span<const std::pair<std::string, std::string>> given);
+
+  /// Each throws std::logic_error when the owner declared no such parameter of that type.
+  std::int64_t integer(std::string_view name) const;
+  double real(std::string_view name) const;
+  bool flag(std::string_view name) const;
+  const std::string& choice(std::string_view name) const;
+
+  /// Throws std::logic_error naming a parameter that was given and that nobody has read: its owner
+  /// declares it and then ignores it.
+  void require_given_were_read() const;
+
+  /// All parameters with their values in declared order, `max_level=6,max_objects=0`; numbers in
+  /// their shortest exact form, so that equal values print equally.
+  std::string canonical() const;
+  /// Owner and canonical parameters: `samet:max_level=6,max_objects=0`, or the bare owner.
+  std::string label() const;
+  /// Name and value pairs as in canonical().
+  std::vector<std::pair<std::string, std::string>> values() const;
+
+ private:
+  struct Value {
+    ParameterInfo info;
+    std::string text;
+    double number = 0.0;
+    bool given = false;
+    mutable bool read = false;
+  };
+  const Value& find(std::string_view name, ParameterInfo::Type type) const;
+
+  std::string owner_;
+  std::vector<Value> values_;
+};
+
+}  // namespace beambench

@@ -1,0 +1,61 @@
+#pragma once
+// The primitives of a scene: sphere, cone, polygon (flat or smooth).
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+namespace beambench {
+
+/// Identifies a primitive: its position in `Scene::primitives`.
+using PrimitiveId = std::uint32_t;
+inline constexpr PrimitiveId kNoPrimitive = 0xFFFFFFFFU;
+
+enum class PrimitiveKind : std::uint32_t { kSphere, kCone, kPolygon };
+
+/// What stands at a primitive id: the kind, the index in that kind's array of the scene, and the
+/// index of its surface.
+struct Primitive {
+  PrimitiveKind kind;
+  std::uint32_t index;
+  std::uint32_t surface;
+};
+
+/// A hollow sphere; radius > 0. `inside_only` (a negative radius in NFF): rays hit it only where
+/// they leave it.
+struct Sphere {
+  glm::vec3 center;
+  float radius;
+  bool inside_only;
+};
+
+/// The lateral surface of a cone frustum or cylinder, without caps. Radii are >= 0 and not both 0,
+/// base != apex. `inside_only` (both radii negative in NFF): rays hit it only where they leave it.
+struct Cone {
+  glm::vec3 base;
+  float base_radius;
+  glm::vec3 apex;
+  float apex_radius;
+  bool inside_only;
+};
+
+/// A simple polygon, convex or concave, seen from both sides. Its surface *is* the union of its
+/// triangles (`Scene::triangles[first_triangle ...]`), made once by `triangulate`; everyone,
+/// Embree included, uses these.
+struct Polygon {
+  std::uint32_t first_corner;    ///< into Scene::corners
+  std::uint32_t corner_count;    ///< >= 3
+  std::uint32_t first_triangle;  ///< into Scene::triangles
+  std::uint32_t triangle_count;  ///< >= 1, at most corner_count - 2
+  std::uint32_t first_normal;    ///< into Scene::normals, one per corner; kFlat for a flat polygon
+
+  static constexpr std::uint32_t kFlat = 0xFFFFFFFFU;
+};
+
+/// One triangle of a polygon's surface: three indices into Scene::vertices, and its owner.
+struct Triangle {
+  std::uint32_t vertex[3];
+  PrimitiveId primitive;
+};
+
+}  // namespace beambench

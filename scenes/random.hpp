@@ -1,0 +1,29 @@
+#pragma once
+// Random numbers that are the same on every machine.
+
+#include <cstdint>
+#include <random>
+
+namespace beambench {
+
+/// std::mt19937_64, whose sequence the C++ standard fixes, with distributions of our own (those of
+/// the standard library differ between libraries).
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : engine_(seed) {}
+
+  std::uint64_t bits() { return engine_(); }
+  /// Uniform in [0, 1), a multiple of 2^-53.
+  double unit() { return static_cast<double>(engine_() >> 11U) * 0x1p-53; }
+  /// Uniform in [low, high).
+  double uniform(double low, double high) { return low + (high - low) * unit(); }
+  /// Uniform in 0 ... count - 1 (count >= 1; bias below 2^-32 for counts that fit 32 bits).
+  std::uint64_t below(std::uint64_t count) {
+    return static_cast<std::uint64_t>(unit() * static_cast<double>(count));
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
+
+}  // namespace beambench

@@ -1,0 +1,62 @@
+#pragma once
+// The scene: what every structure is built over and every ray is shot at.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "scenes/bounds.hpp"
+#include "scenes/camera.hpp"
+#include "scenes/primitive.hpp"
+
+namespace beambench {
+
+/// A point light; colour components may exceed 1.
+struct Light {
+  glm::vec3 position;
+  glm::vec3 color{1.0F};
+};
+
+/// NFF's `f`: colour, diffuse and specular factors, Phong exponent, transmittance, index.
+struct Surface {
+  glm::vec3 color{1.0F};
+  float diffuse = 1.0F;
+  float specular = 0.0F;
+  float shine = 0.0F;
+  float transmittance = 0.0F;
+  float refraction_index = 1.0F;
+};
+
+/// A scene in single precision, rounded once, the same bits for everyone. Made by `SceneBuilder`,
+/// which checks all of it: no NaN, no infinity, no coordinate beyond 1e9, no degenerate primitive.
+/// Everything is indexed by 32 bits. Treat it as read-only once built.
+struct Scene {
+  std::string name;
+  std::vector<Camera> cameras;  ///< never empty; the first is the default
+  glm::vec3 background{0.0F};
+  std::vector<Light> lights;
+  std::vector<Surface> surfaces;  ///< never empty when there are primitives
+
+  std::vector<Primitive> primitives;  ///< by PrimitiveId, in the order they were added
+  std::vector<Sphere> spheres;
+  std::vector<Cone> cones;
+  std::vector<Polygon> polygons;
+  std::vector<Triangle> triangles;  ///< the polygons' surfaces
+  std::vector<glm::vec3> vertices;
+  std::vector<std::uint32_t> corners;  ///< polygon corners: indices into vertices
+  std::vector<glm::vec3> normals;      ///< corner normals of smooth polygons
+
+  Bounds bounds;  ///< of all primitives; empty for an empty scene
+};
+
+/// The tight bounds of one primitive, rounded outward to float (a sphere's c + r may not be
+/// representable). For a cone: the box of its two end discs.
+Bounds primitive_bounds(const Scene& scene, PrimitiveId id);
+
+/// A 64-bit fingerprint of all that rays can see: primitives, their coordinates and order
+/// (XXH3 over the bits; not surfaces, lights or cameras). Equal on every machine.
+std::uint64_t scene_hash(const Scene& scene);
+
+}  // namespace beambench

@@ -1,0 +1,61 @@
+#pragma once
+// The door every scene comes in by: rounds to float once and refuses what no kernel may see.
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include <glm/vec3.hpp>
+
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// Collects primitives into a `Scene`. Each add_* rounds its numbers to float, checks them and
+/// throws `InputError` naming the primitive (by kind and the id it would have had) when a number is
+/// NaN, infinite or beyond 1e9 in size, or the primitive is degenerate. Callers that know a file
+/// and line put them in front of the message.
+class SceneBuilder {
+ public:
+  explicit SceneBuilder(std::string name);
+
+  /// Primitives added from now on have this surface. The first default is a white matte one.
+  void set_surface(const Surface& surface);
+  void set_background(const glm::dvec3& color);
+  void add_light(const glm::dvec3& position, const glm::dvec3& color = glm::dvec3(1.0));
+  /// Throws when the angle is not in (0, 180), from == at, or up is parallel to the view.
+  void add_camera(const Camera& camera);
+
+  /// A negative radius means seen from the inside only; 0 is refused.
+  void add_sphere(const glm::dvec3& center, double radius);
+  /// Both radii negative: seen from the inside only. Radii of mixed sign, both 0, or base == apex
+  /// are refused.
+  void add_cone(const glm::dvec3& base, double base_radius, const glm::dvec3& apex,
+                double apex_radius);
+
+  /// Adds a vertex that polygons can share; returns its index.
+  std::uint32_t add_vertex(const glm::dvec3& position);
+  /// A polygon over shared vertices. `normals` is empty (flat) or one per corner. Consecutive
+  /// corners at the same place are merged; a polygon with fewer than three distinct corners, or
+  /// with no area, is refused.
+  void add_polygon(std::span<const std::uint32_t> vertices,
+                   std::span<const glm::dvec3> normals = {});
+  /// The same with vertices of its own.
+  void add_polygon(std::span<const glm::dvec3> vertices, std::span<const glm::dvec3> normals = {});
+
+  std::size_t primitive_count() const { return scene_.primitives.size(); }
+
+  /// The finished scene. Without a camera, one is fitted to the bounds: from the direction
+  /// (1, 0.8, 1.3), angle 45, the whole scene in view.
+  Scene build() &&;
+
+ private:
+  std::uint32_t current_surface();
+  void add_primitive(PrimitiveKind kind, std::uint32_t index);
+
+  Scene scene_;
+  Surface surface_;
+  bool surface_changed_ = true;
+};
+
+}  // namespace beambench
