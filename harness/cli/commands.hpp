@@ -1,0 +1,26 @@
+#pragma once
+// The subcommands of `beambench`, one file each.
+
+#include <CLI/CLI.hpp>
+
+namespace beambench {
+
+/// What the process ends with.
+enum ExitCode : int {
+  kSuccess = 0,
+  kFound = 1,         ///< a mismatch, an error of a structure or a regression was found
+  kWrongRequest = 2,  ///< the request cannot be met as it was made
+  kInternalError = 70
+};
+
+/// Each adds its subcommand with options and help to `app`; when the user picks it, it runs while
+/// `app` parses and leaves its result in `exit_code`, which outlives `app`. Wrong requests are
+/// thrown as InputError.
+void add_list_command(CLI::App& app, int& exit_code);
+void add_scene_command(CLI::App& app, int& exit_code);
+void add_render_command(CLI::App& app, int& exit_code);
+void add_stats_command(CLI::App& app, int& exit_code);
+void add_verify_command(CLI::App& app, int& exit_code);
+void add_run_command(CLI::App& app, int& exit_code);
+
+}  // namespace beambench

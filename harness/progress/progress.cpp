@@ -1,0 +1,86 @@
+#include "harness/progress/progress.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+namespace beambench {
+namespace {
+
+constexpr std::chrono::milliseconds kRedrawInterval{200};
+constexpr double kEarlyPart = 0.005;  // below this much of the work an estimate is a guess
+constexpr const char* kWipe = "\r\033[K";
+
+}  // namespace
+
+std::string format_duration(double seconds) {
+  if (seconds < 10.0) return fmt::format("{:.1f} s", seconds);
+  const long long whole = std::llround(seconds);
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+double remaining_seconds(double elapsed, double part) { return elapsed * (1.0 - part) / part; }
+
+Progress::Progress(std::size_t cells, std::FILE* stream)
+    : Progress(cells, stream, ::isatty(::fileno(stream)) == 1) {}
+
+Progress::Progress(std::size_t cells, std::FILE* stream, bool terminal)
+    : stream_(stream),
+      terminal_(terminal),
+      cells_(std::max<std::size_t>(cells, 1)),
+      begin_(Clock::now()),
+      last_draw_(begin_ - kRedrawInterval) {}
+
+Progress::~Progress() { wipe(); }
+
+void Progress::start(std::string_view name) {
+  name_ = name;
+  if (terminal_) draw(0.0);
+}
+
+void Progress::advance(double part) {
+  if (terminal_ && Clock::now() - last_draw_ >= kRedrawInterval) draw(part);
+}
+
+void Progress::finish(std::string_view result) {
+  ++done_;
+  if (terminal_) {
+    draw(0.0);
+  } else {
+    fmt::print(stream_, "[{}/{}] {}: {}\n", done_, cells_, name_, result);
+    std::fflush(stream_);
+  }
+}
+
+void Progress::say(std::string_view line) {
+  wipe();
+  fmt::print(stream_, "{}\n", line);
+  std::fflush(stream_);
+}
+
+void Progress::draw(double part) {
+  last_draw_ = Clock::now();
+  const double elapsed = std::chrono::duration<double>(last_draw_ - begin_).count();
+  const double done =
+      std::min((static_cast<double>(done_) + part) / static_cast<double>(cells_), 1.0);
+  const std::string remaining =
+      done < kEarlyPart ? std::string("estimating")
+                        : fmt::format("{} left", format_duration(remaining_seconds(elapsed, done)));
+  fmt::print(stream_, "{}{:3.0f}%  {}/{}  {}  {}", kWipe, std::floor(100.0 * done),
+             std::min(done_ + 1, cells_), cells_, remaining, name_);
+  std::fflush(stream_);
+  drawn_ = true;
+}
+
+void Progress::wipe() {
+  if (!drawn_) return;
+  fmt::print(stream_, "{}", kWipe);
+  std::fflush(stream_);
+  drawn_ = false;
+}
+
+}  // namespace beambench
