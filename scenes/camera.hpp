@@ -14,10 +14,10 @@ struct Camera {
   glm::vec3 from{0.0F, 0.0F, 0.0F};
   glm::vec3 at{0.0F, 0.0F, -1.0F};
   glm::vec3 up{0.0F, 1.0F, 0.0F};
-  float angle = 45.0F;   ///< full vertical field of view in degrees, in (0, 180)
-  float aspect = 1.0F;   ///< width of the frustum over its height, > 0
-  float hither = 0.0F;   ///< NFF's near distance; kept for export, rays start at the eye
-  int width = 512;       ///< the resolution the scene asks for, in pixels
+  float angle = 45.0F;  ///< full vertical field of view in degrees, in (0, 180)
+  float aspect = 1.0F;  ///< width of the frustum over its height, > 0
+  float hither = 0.0F;  ///< NFF's near distance; kept for export, rays start at the eye
+  int width = 512;      ///< the resolution the scene asks for, in pixels
   int height = 512;
 };
 

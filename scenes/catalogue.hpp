@@ -26,7 +26,9 @@ std::span<const SceneInfo> scene_catalogue();
 /// A scene by what the user typed: a catalogue name with parameters (`balls:n=4`) or a path to an
 /// NFF file (anything with a slash or the ending .nff). `Scene::name` is the canonical label of the
 /// former, the path of the latter. Throws InputError: unknown name (with the nearest and all valid
-/// ones), parameter out of range, file missing or malformed.
-Scene load_scene(std::string_view spec);
+/// ones), parameter out of range, file missing or malformed. What a file's reader noticed on the
+/// way
+/// (`NffResult::warnings`) is appended to `warnings` when given.
+Scene load_scene(std::string_view spec, std::vector<std::string>* warnings = nullptr);
 
 }  // namespace beambench

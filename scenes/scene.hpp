@@ -27,6 +27,8 @@ struct Surface {
   float shine = 0.0F;
   float transmittance = 0.0F;
   float refraction_index = 1.0F;
+
+  bool operator==(const Surface&) const = default;
 };
 
 /// A scene in single precision, rounded once, the same bits for everyone. Made by `SceneBuilder`,

@@ -11,6 +11,9 @@
 
 namespace beambench {
 
+/// No coordinate, radius or factor of a scene may be larger than this in size.
+inline constexpr double kLargestNumber = 1e9;
+
 /// Collects primitives into a `Scene`. Each add_* rounds its numbers to float, checks them and
 /// throws `InputError` naming the primitive (by kind and the id it would have had) when a number is
 /// NaN, infinite or beyond 1e9 in size, or the primitive is degenerate. Callers that know a file
@@ -23,7 +26,8 @@ class SceneBuilder {
   void set_surface(const Surface& surface);
   void set_background(const glm::dvec3& color);
   void add_light(const glm::dvec3& position, const glm::dvec3& color = glm::dvec3(1.0));
-  /// Throws when the angle is not in (0, 180), from == at, or up is parallel to the view.
+  /// Throws when the angle is not in (0, 180), from == at, up is parallel to the view, or the
+  /// resolution is not from 1x1 to 65535x65535.
   void add_camera(const Camera& camera);
 
   /// A negative radius means seen from the inside only; 0 is refused.
@@ -35,23 +39,23 @@ class SceneBuilder {
 
   /// Adds a vertex that polygons can share; returns its index.
   std::uint32_t add_vertex(const glm::dvec3& position);
-  /// A polygon over shared vertices. `normals` is empty (flat) or one per corner. Consecutive
-  /// corners at the same place are merged; a polygon with fewer than three distinct corners, or
-  /// with no area, is refused.
+  /// A polygon over shared vertices. `normals` is empty (flat) or one per corner; a normal of
+  /// length 0 is replaced by the polygon's own. Consecutive corners at the same place are merged; a
+  /// polygon with fewer than three distinct corners, or with no area, is refused.
   void add_polygon(std::span<const std::uint32_t> vertices,
                    std::span<const glm::dvec3> normals = {});
-  /// The same with vertices of its own.
+  /// The same with vertices of its own. A refused primitive leaves the builder as it was.
   void add_polygon(std::span<const glm::dvec3> vertices, std::span<const glm::dvec3> normals = {});
 
   std::size_t primitive_count() const { return scene_.primitives.size(); }
 
   /// The finished scene. Without a camera, one is fitted to the bounds: from the direction
-  /// (1, 0.8, 1.3), angle 45, the whole scene in view.
+  /// (1, 0.8, 1.3), up +z as in most NFF files, angle 45, the whole scene in view.
   Scene build() &&;
 
  private:
   std::uint32_t current_surface();
-  void add_primitive(PrimitiveKind kind, std::uint32_t index);
+  void add_primitive(PrimitiveKind kind, std::size_t index);
 
   Scene scene_;
   Surface surface_;

@@ -1,0 +1,57 @@
+#include "scenes/catalogue.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scenes/error.hpp"
+#include "scenes/generators/balls.hpp"
+#include "scenes/generators/tetra.hpp"
+#include "scenes/nearest_name.hpp"
+#include "scenes/nff_reader.hpp"
+
+namespace beambench {
+namespace {
+
+bool is_path(std::string_view spec) {
+  return spec.find('/') != std::string_view::npos || spec.ends_with(".nff");
+}
+
+[[noreturn]] void refuse_name(const std::string& name) {
+  std::vector<std::string> names;
+  for (const SceneInfo& info : scene_catalogue()) names.push_back(info.name);
+  throw InputError(fmt::format(
+      "there is no scene '{}'; did you mean '{}'? The scenes are {}; a file is given as "
+      "a path with a slash or the ending .nff",
+      name, nearest_name(name, names), fmt::join(names, ", ")));
+}
+
+}  // namespace
+
+std::span<const SceneInfo> scene_catalogue() {
+  static const std::vector<SceneInfo> catalogue = {balls_scene(), stetra_scene(), tetra_scene()};
+  return catalogue;
+}
+
+Scene load_scene(std::string_view spec, std::vector<std::string>* warnings) {
+  if (is_path(spec)) {
+    NffResult result = read_nff(spec);
+    if (warnings != nullptr) {
+      warnings->insert(warnings->end(), result.warnings.begin(), result.warnings.end());
+    }
+    return std::move(result.scene);
+  }
+
+  const Spec parsed = parse_spec(spec);
+  const auto catalogue = scene_catalogue();
+  const auto info = std::find_if(catalogue.begin(), catalogue.end(),
+                                 [&](const SceneInfo& i) { return i.name == parsed.name; });
+  if (info == catalogue.end()) refuse_name(parsed.name);
+  const Parameters parameters(info->name, info->parameters, parsed.parameters);
+  Scene scene = info->generate(parameters);
+  parameters.require_given_were_read();
+  return scene;
+}
+
+}  // namespace beambench

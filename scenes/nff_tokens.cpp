@@ -1,0 +1,111 @@
+#include "scenes/nff_tokens.hpp"
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "scenes/error.hpp"
+#include "scenes/scene_builder.hpp"
+
+namespace beambench {
+namespace {
+
+bool is_blank(char c) {
+  return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v' || c == '\0';
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// The number that the whole word is, or NaN.
+double parse(std::string_view word) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
+  const char* end = word.data() + word.size();
+  double number = kNone;
+  const auto [rest, error] = std::from_chars(word.data(), end, number);
+  if (rest != end) return kNone;
+  if (error == std::errc::result_out_of_range) {
+    const std::size_t exponent = word.find_first_of("eE");  // 1e-400 is as good as 0
+    return exponent != std::string_view::npos && word.substr(exponent + 1).starts_with('-') ? 0.0
+                                                                                            : kNone;
+  }
+  return error == std::errc() ? number : kNone;
+}
+
+}  // namespace
+
+NffTokens::NffTokens(std::string_view text, std::string file)
+    : file_(std::move(file)), position_(text.data()), end_(text.data() + text.size()) {
+  token_.starts_line = true;  // of the nothing before the first token
+  advance();
+}
+
+void NffTokens::advance() {
+  bool starts_line = position_ == end_ || token_.text.empty();
+  for (; position_ != end_; ++position_) {
+    if (*position_ == '#') {
+      while (position_ != end_ && *position_ != '\n') ++position_;
+      if (position_ == end_) break;
+    }
+    if (!is_blank(*position_)) break;
+    if (*position_ == '\n') {
+      ++token_.line;
+      starts_line = true;
+    }
+  }
+  const char* start = position_;
+  while (position_ != end_ && !is_blank(*position_) && *position_ != '#') ++position_;
+  token_.text = std::string_view(start, static_cast<std::size_t>(position_ - start));
+  token_.starts_line = starts_line;
+}
+
+NffToken NffTokens::take() {
+  const NffToken taken = token_;
+  advance();
+  return taken;
+}
+
+bool NffTokens::at_number() const {
+  if (at_end()) return false;
+  const std::string_view text = token_.text;
+  const std::size_t sign = text[0] == '-' || text[0] == '+' ? 1 : 0;
+  const std::string_view rest = text.substr(sign);
+  return !rest.empty() && (is_digit(rest[0]) || rest[0] == '.' || rest == "nan" || rest == "inf");
+}
+
+std::size_t NffTokens::most_numbers_left() const {
+  const auto bytes = static_cast<std::size_t>(end_ - position_) + token_.text.size();
+  return (bytes + 1) / 2;  // a digit and a blank each
+}
+
+double NffTokens::number(std::string_view what) {
+  if (at_end()) refuse(token_.line, fmt::format("the file ends where {} should stand", what));
+  const double number = parse(token_.text);
+  if (!(std::abs(number) <= kLargestNumber)) {
+    refuse(token_.line, fmt::format("'{}' stands where {} should be a number from -1e9 to 1e9",
+                                    token_.text, what));
+  }
+  advance();
+  return number;
+}
+
+long NffTokens::integer(std::string_view what) {
+  const NffToken token = token_;
+  const double real = number(what);
+  if (real != std::floor(real)) {
+    refuse(token.line, fmt::format("'{}' stands where {} should be an integer", token.text, what));
+  }
+  return static_cast<long>(real);
+}
+
+std::string NffTokens::located(std::size_t line, std::string_view message) const {
+  return fmt::format("{}:{}: {}", file_, line, message);
+}
+
+void NffTokens::refuse(std::size_t line, std::string_view message) const {
+  throw InputError(located(line, message));
+}
+
+}  // namespace beambench

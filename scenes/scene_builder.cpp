@@ -1,0 +1,300 @@
+#include "scenes/scene_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "scenes/error.hpp"
+#include "scenes/triangulate.hpp"
+
+namespace beambench {
+namespace {
+
+constexpr int kLargestResolution = 65535;
+
+/// Names what is being added in messages; put into words only when there is one.
+struct Subject {
+  const char* words;  // "sphere (primitive {})"
+  std::size_t number;
+};
+
+[[noreturn]] void refuse(const Subject& subject, const std::string& why) {
+  throw InputError(fmt::format(fmt::runtime(subject.words), subject.number) + ": " + why);
+}
+
+/// The one rounding to float.
+float rounded(double number, const Subject& subject, const char* what) {
+  if (!(std::abs(number) <= kLargestNumber)) {  // catches NaN too
+    refuse(subject,
+           fmt::format("the {} is {}, but must be a number from -1e9 to 1e9", what, number));
+  }
+  return static_cast<float>(number);
+}
+
+glm::vec3 rounded(const glm::dvec3& point, const Subject& subject, const char* what) {
+  return {rounded(point.x, subject, what), rounded(point.y, subject, what),
+          rounded(point.z, subject, what)};
+}
+
+std::uint32_t index_32(std::size_t index, const Subject& subject) {
+  if (index >= std::numeric_limits<std::uint32_t>::max()) {
+    refuse(subject, "the scene is too large for 32-bit indices; use fewer primitives");
+  }
+  return static_cast<std::uint32_t>(index);
+}
+
+/// The corners of a polygon, consecutive ones at the same place merged into the first.
+struct MergedCorners {
+  std::vector<std::uint32_t> vertices;
+  std::vector<glm::vec3> positions;
+  std::vector<std::size_t> sources;  ///< position in the caller's list
+};
+
+MergedCorners merge_corners(std::span<const std::uint32_t> vertices,
+                            std::span<const glm::vec3> scene_vertices, const Subject& subject) {
+  MergedCorners merged;
+  merged.vertices.reserve(vertices.size());
+  merged.positions.reserve(vertices.size());
+  merged.sources.reserve(vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    if (vertices[i] >= scene_vertices.size()) {
+      refuse(subject, fmt::format("corner {} is vertex {}, but there are only {} vertices", i,
+                                  vertices[i], scene_vertices.size()));
+    }
+    const glm::vec3 position = scene_vertices[vertices[i]];
+    if (!merged.positions.empty() && merged.positions.back() == position) continue;
+    merged.vertices.push_back(vertices[i]);
+    merged.positions.push_back(position);
+    merged.sources.push_back(i);
+  }
+  while (merged.positions.size() > 1 && merged.positions.front() == merged.positions.back()) {
+    merged.vertices.pop_back();
+    merged.positions.pop_back();
+    merged.sources.pop_back();
+  }
+  return merged;
+}
+
+/// Newell's normal of the corners.
+glm::dvec3 polygon_normal(std::span<const glm::vec3> corners) {
+  glm::dvec3 normal(0.0);
+  const glm::dvec3 origin(corners.front());
+  for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+    normal += glm::cross(glm::dvec3(corners[i]) - origin, glm::dvec3(corners[i + 1]) - origin);
+  }
+  return glm::normalize(normal);
+}
+
+std::vector<glm::vec3> corner_normals(const MergedCorners& corners,
+                                      std::span<const glm::dvec3> normals, const Subject& subject) {
+  std::vector<glm::vec3> kept;
+  kept.reserve(corners.sources.size());
+  for (const std::size_t source : corners.sources) {
+    glm::vec3 normal = rounded(normals[source], subject, "normal");
+    if (normal == glm::vec3(0.0F)) normal = polygon_normal(corners.positions);
+    kept.push_back(normal);
+  }
+  return kept;
+}
+
+template <typename T>
+void append(std::vector<T>& list, const std::vector<T>& more) {
+  list.insert(list.end(), more.begin(), more.end());
+}
+
+Camera fitted_camera(const Bounds& bounds) {
+  Camera camera;
+  camera.up = {0.0F, 0.0F, 1.0F};
+  const glm::dvec3 lower(bounds.empty() ? glm::vec3(-1.0F) : bounds.lower);
+  const glm::dvec3 upper(bounds.empty() ? glm::vec3(1.0F) : bounds.upper);
+  const glm::dvec3 center = 0.5 * (lower + upper);
+  // The sphere around the box fills the frustum; far from the origin it is kept large enough for
+  // the eye to differ from the centre in float.
+  const glm::dvec3 farthest = glm::max(glm::abs(lower), glm::abs(upper));
+  const double radius = std::max(0.5 * glm::length(upper - lower), 1e-5 * glm::length(farthest));
+  const double distance = radius / std::sin(0.5 * glm::radians(static_cast<double>(camera.angle)));
+  camera.from = center + distance * glm::normalize(glm::dvec3(1.0, 0.8, 1.3));
+  camera.at = center;
+  return camera;
+}
+
+}  // namespace
+
+SceneBuilder::SceneBuilder(std::string name) { scene_.name = std::move(name); }
+
+void SceneBuilder::set_surface(const Surface& surface) {
+  const Subject subject{"surface {}", scene_.surfaces.size()};
+  rounded(glm::dvec3(surface.color), subject, "colour");
+  for (const float factor : {surface.diffuse, surface.specular, surface.shine,
+                             surface.transmittance, surface.refraction_index}) {
+    rounded(factor, subject, "factor");
+  }
+  surface_changed_ = surface_changed_ || surface != surface_;
+  surface_ = surface;
+}
+
+void SceneBuilder::set_background(const glm::dvec3& color) {
+  scene_.background = rounded(color, {"background", 0}, "colour");
+}
+
+void SceneBuilder::add_light(const glm::dvec3& position, const glm::dvec3& color) {
+  const Subject subject{"light {}", scene_.lights.size()};
+  scene_.lights.push_back(
+      {rounded(position, subject, "position"), rounded(color, subject, "colour")});
+}
+
+void SceneBuilder::add_camera(const Camera& camera) {
+  const Subject subject{"camera {}", scene_.cameras.size()};
+  const glm::dvec3 view = rounded(glm::dvec3(camera.at), subject, "point looked at") -
+                          rounded(glm::dvec3(camera.from), subject, "eye");
+  const glm::dvec3 up = rounded(glm::dvec3(camera.up), subject, "up vector");
+  rounded(camera.hither, subject, "hither distance");
+  if (!(camera.angle > 0.0F && camera.angle < 180.0F)) {
+    refuse(subject,
+           fmt::format("the angle is {}, but must be between 0 and 180 degrees", camera.angle));
+  }
+  if (!(camera.aspect >= 1e-3F && camera.aspect <= 1e3F)) {
+    refuse(subject, fmt::format("the aspect is {}, but must be from 0.001 to 1000", camera.aspect));
+  }
+  if (std::min(camera.width, camera.height) < 1 ||
+      std::max(camera.width, camera.height) > kLargestResolution) {
+    refuse(subject, fmt::format("the resolution is {} x {}, but each must be from 1 to {}",
+                                camera.width, camera.height, kLargestResolution));
+  }
+  if (view == glm::dvec3(0.0)) {
+    refuse(subject, "the eye is the point looked at; move one of them");
+  }
+  if (!(glm::length(glm::cross(view, up)) > 1e-6 * glm::length(view) * glm::length(up))) {
+    refuse(subject, "the up vector is 0 or parallel to the view; turn it");
+  }
+  scene_.cameras.push_back(camera);
+}
+
+void SceneBuilder::add_sphere(const glm::dvec3& center, double radius) {
+  const Subject subject{"sphere (primitive {})", primitive_count()};
+  const glm::vec3 place = rounded(center, subject, "centre");
+  const float size = rounded(radius, subject, "radius");
+  if (size == 0.0F) {
+    refuse(subject,
+           "the radius is 0 in single precision, but must be positive, or negative for a "
+           "sphere seen from the inside only");
+  }
+  add_primitive(PrimitiveKind::kSphere, scene_.spheres.size());
+  scene_.spheres.push_back({place, std::abs(size), size < 0.0F});
+}
+
+void SceneBuilder::add_cone(const glm::dvec3& base, double base_radius, const glm::dvec3& apex,
+                            double apex_radius) {
+  const Subject subject{"cone (primitive {})", primitive_count()};
+  const glm::vec3 from = rounded(base, subject, "base");
+  const glm::vec3 to = rounded(apex, subject, "apex");
+  const float from_radius = rounded(base_radius, subject, "base radius");
+  const float to_radius = rounded(apex_radius, subject, "apex radius");
+  if (from_radius == 0.0F && to_radius == 0.0F) {
+    refuse(subject, "both radii are 0 in single precision, but one must not be");
+  }
+  const auto [least, largest] = std::minmax(from_radius, to_radius);
+  if (least < 0.0F && largest > 0.0F) {
+    refuse(subject, fmt::format("the radii {} and {} differ in sign; make both positive, or both "
+                                "negative for a cone seen from the inside only",
+                                base_radius, apex_radius));
+  }
+  if (from == to) {
+    refuse(subject, "base and apex are the same point in single precision; move one of them");
+  }
+  add_primitive(PrimitiveKind::kCone, scene_.cones.size());
+  scene_.cones.push_back({from, std::abs(from_radius), to, std::abs(to_radius), least < 0.0F});
+}
+
+std::uint32_t SceneBuilder::add_vertex(const glm::dvec3& position) {
+  const Subject subject{"vertex {}", scene_.vertices.size()};
+  const std::uint32_t index = index_32(scene_.vertices.size(), subject);
+  scene_.vertices.push_back(rounded(position, subject, "position"));
+  return index;
+}
+
+void SceneBuilder::add_polygon(std::span<const std::uint32_t> vertices,
+                               std::span<const glm::dvec3> normals) {
+  const Subject subject{"polygon (primitive {})", primitive_count()};
+  if (vertices.size() < 3) {
+    refuse(subject, fmt::format("it has {} corners, but must have at least 3", vertices.size()));
+  }
+  if (!normals.empty() && normals.size() != vertices.size()) {
+    refuse(subject,
+           fmt::format("it has {} normals for {} corners; give one for each corner, or none",
+                       normals.size(), vertices.size()));
+  }
+  const MergedCorners corners = merge_corners(vertices, scene_.vertices, subject);
+  if (corners.vertices.size() < 3) {
+    refuse(subject, fmt::format("only {} of its {} corners differ in single precision, but 3 must",
+                                corners.vertices.size(), vertices.size()));
+  }
+  const auto triangles = triangulate(corners.positions);
+  if (triangles.empty()) {
+    refuse(subject, "it has no area: its corners lie on a line, or it crosses itself; remove it");
+  }
+  std::vector<glm::vec3> kept_normals;
+  if (!normals.empty()) kept_normals = corner_normals(corners, normals, subject);
+
+  index_32(scene_.corners.size() + corners.vertices.size(), subject);
+  const PrimitiveId id = index_32(primitive_count(), subject);
+  Polygon polygon{};
+  polygon.first_corner = static_cast<std::uint32_t>(scene_.corners.size());
+  polygon.corner_count = static_cast<std::uint32_t>(corners.vertices.size());
+  polygon.first_triangle = static_cast<std::uint32_t>(scene_.triangles.size());
+  polygon.triangle_count = static_cast<std::uint32_t>(triangles.size());
+  polygon.first_normal =
+      normals.empty() ? Polygon::kFlat : static_cast<std::uint32_t>(scene_.normals.size());
+  add_primitive(PrimitiveKind::kPolygon, scene_.polygons.size());
+  scene_.polygons.push_back(polygon);
+  append(scene_.corners, corners.vertices);
+  append(scene_.normals, kept_normals);
+  for (const auto& [a, b, c] : triangles) {
+    scene_.triangles.push_back(
+        {{corners.vertices[a], corners.vertices[b], corners.vertices[c]}, id});
+  }
+}
+
+void SceneBuilder::add_polygon(std::span<const glm::dvec3> vertices,
+                               std::span<const glm::dvec3> normals) {
+  const Subject subject{"polygon (primitive {})", primitive_count()};
+  std::vector<glm::vec3> positions;
+  positions.reserve(vertices.size());
+  for (const glm::dvec3& vertex : vertices) positions.push_back(rounded(vertex, subject, "corner"));
+
+  const std::size_t first = scene_.vertices.size();
+  std::vector<std::uint32_t> indices(vertices.size());
+  for (std::size_t i = 0; i < indices.size(); ++i) indices[i] = index_32(first + i, subject);
+  append(scene_.vertices, positions);
+  try {
+    add_polygon(indices, normals);
+  } catch (const InputError&) {
+    scene_.vertices.resize(first);
+    throw;
+  }
+}
+
+std::uint32_t SceneBuilder::current_surface() {
+  if (surface_changed_) scene_.surfaces.push_back(surface_);
+  surface_changed_ = false;
+  return static_cast<std::uint32_t>(scene_.surfaces.size() - 1);
+}
+
+void SceneBuilder::add_primitive(PrimitiveKind kind, std::size_t index) {
+  index_32(primitive_count(), {"primitive {}", primitive_count()});
+  scene_.primitives.push_back({kind, static_cast<std::uint32_t>(index), current_surface()});
+}
+
+Scene SceneBuilder::build() && {
+  const auto count = static_cast<PrimitiveId>(primitive_count());
+  for (PrimitiveId id = 0; id < count; ++id) scene_.bounds.include(primitive_bounds(scene_, id));
+  if (scene_.cameras.empty()) scene_.cameras.push_back(fitted_camera(scene_.bounds));
+  return std::move(scene_);
+}
+
+}  // namespace beambench
