@@ -1,0 +1,16 @@
+#include "accel/exhaustive/exhaustive.hpp"
+
+#include "accel/registry.hpp"
+
+namespace beambench {
+
+void register_exhaustive(Registry& registry) {
+  registry.add(
+      {"exhaustive",
+       "tests every primitive against every ray: the definition of the right answer",
+       Conformance::kBitExact,
+       {},
+       [](const Scene& scene, const Parameters&) { return std::make_unique<Exhaustive>(scene); }});
+}
+
+}  // namespace beambench

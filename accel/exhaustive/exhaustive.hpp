@@ -1,0 +1,38 @@
+#pragma once
+// Exhaustive search: the definition of the right answer.
+
+#include "accel/intersect.hpp"
+#include "accel/traversal_accelerator.hpp"
+
+namespace beambench {
+
+/// Tests every primitive against every ray. Every classic structure must return the same bits.
+class Exhaustive : public TraversalAccelerator<Exhaustive> {
+ public:
+  explicit Exhaustive(const Scene& scene) : scene_(&scene) {}
+
+  Statistics statistics() const override { return {}; }
+
+  template <class Counting>
+  std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
+    counting.add(Counter::kPrimitiveTests, scene_->primitives.size());
+    ClosestHit closest(ray);
+    for (PrimitiveId id = 0; id < scene_->primitives.size(); ++id) closest.test(*scene_, id);
+    return closest.result();
+  }
+
+  template <class Counting>
+  bool find_any(const Ray& ray, Counting& counting) const {
+    const CanonicalRay canonical(ray);
+    for (PrimitiveId id = 0; id < scene_->primitives.size(); ++id) {
+      counting.add(Counter::kPrimitiveTests);
+      if (intersect(canonical, *scene_, id)) return true;
+    }
+    return false;
+  }
+
+ private:
+  const Scene* scene_;
+};
+
+}  // namespace beambench

@@ -1,0 +1,67 @@
+#pragma once
+// The canonical ray-primitive test for any primitive, and its use in a leaf.
+
+#include <optional>
+#include <span>
+
+#include "accel/canonical_ray.hpp"
+#include "accel/intersect_cone.hpp"
+#include "accel/intersect_sphere.hpp"
+#include "accel/intersect_triangle.hpp"
+#include "accel/work_counters.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// The nearest t in the ray's interval over the polygon's triangles.
+inline std::optional<float> intersect_polygon(CanonicalRay ray, const Scene& scene,
+                                              const Polygon& polygon) {
+  std::optional<float> nearest;
+  for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
+    const auto& vertex = scene.triangles[polygon.first_triangle + i].vertex;
+    if (const auto t = intersect_triangle(ray, scene.vertices[vertex[0]], scene.vertices[vertex[1]],
+                                          scene.vertices[vertex[2]])) {
+      nearest = t;
+      ray.t_max = *t;
+    }
+  }
+  return nearest;
+}
+
+/// The smallest t in the ray's interval at which it meets the primitive: the definition that all
+/// classic structures share.
+inline std::optional<float> intersect(const CanonicalRay& ray, const Scene& scene, PrimitiveId id) {
+  const Primitive& primitive = scene.primitives[id];
+  switch (primitive.kind) {
+    case PrimitiveKind::kSphere:
+      return intersect_sphere(ray, scene.spheres[primitive.index]);
+    case PrimitiveKind::kCone:
+      return intersect_cone(ray, scene.cones[primitive.index]);
+    case PrimitiveKind::kPolygon:
+      return intersect_polygon(ray, scene, scene.polygons[primitive.index]);
+  }
+  return std::nullopt;
+}
+
+/// The nearest hit so far: `ray.t_max` is its t, so that farther primitives are not accepted.
+struct ClosestHit {
+  explicit ClosestHit(const Ray& asked) : ray(asked) {}
+
+  /// Tests one primitive and keeps its hit when it precedes the best.
+  void test(const Scene& scene, PrimitiveId id) {
+    const auto t = intersect(ray, scene, id);
+    if (t && (*t < ray.t_max || id < primitive)) {
+      ray.t_max = *t;
+      primitive = id;
+    }
+  }
+  std::optional<Hit> result() const {
+    if (primitive == kNoPrimitive) return std::nullopt;
+    return Hit{ray.t_max, primitive};
+  }
+
+  CanonicalRay ray;
+  PrimitiveId primitive = kNoPrimitive;
+};
+
+}  // namespace beambench

@@ -1,0 +1,63 @@
+#pragma once
+// The canonical ray-triangle test: what a polygon's surface is made of.
+
+#include <algorithm>
+#include <optional>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "accel/canonical_ray.hpp"
+#include "accel/tolerance.hpp"
+
+namespace beambench {
+
+/// Is the point, computed on the triangle's plane, within kHitSlack x `reach` of the triangle? A
+/// ray almost parallel to the plane can pass the edge tests and still meet the plane far outside:
+/// their rounding error is divided by the cosine of incidence. The box keeps points beyond an acute
+/// corner out, which the three edges alone do not.
+inline bool near_triangle(const glm::dvec3& point, const glm::dvec3 (&corners)[3],
+                          const glm::dvec3& normal, double reach) {
+  const double slack = kHitSlack * reach;
+  const glm::dvec3 lower = glm::min(glm::min(corners[0], corners[1]), corners[2]);
+  const glm::dvec3 upper = glm::max(glm::max(corners[0], corners[1]), corners[2]);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (point[axis] < lower[axis] - slack || point[axis] > upper[axis] + slack) return false;
+  }
+  const double slack_squared = slack * slack * glm::dot(normal, normal);
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 edge = corners[(i + 1) % 3] - corners[i];
+    const double inside = glm::dot(glm::cross(normal, edge), point - corners[i]);
+    if (inside < 0.0 && inside * inside > slack_squared * glm::dot(edge, edge)) return false;
+  }
+  return true;
+}
+
+/// The t at which the ray meets the closed triangle, seen from both sides, if it lies in the ray's
+/// interval. Edge by edge the sign of the volume spanned by the ray and the edge decides (Plücker
+/// coordinates; Jones, Ray Tracing News 13(1), 2000). Each volume changes its sign exactly when its
+/// edge is turned round, so two triangles that share an edge leave no gap (-ffp-contract=off is
+/// needed for this). A ray in the plane of the triangle misses.
+inline std::optional<float> intersect_triangle(const CanonicalRay& ray, const glm::vec3& v0,
+                                               const glm::vec3& v1, const glm::vec3& v2) {
+  const glm::dvec3 corners[3] = {glm::dvec3(v0), glm::dvec3(v1), glm::dvec3(v2)};
+  const glm::dvec3 a = corners[0] - ray.origin;
+  const glm::dvec3 b = corners[1] - ray.origin;
+  const glm::dvec3 c = corners[2] - ray.origin;
+  const double u = glm::dot(glm::cross(c, b), ray.direction);
+  const double v = glm::dot(glm::cross(a, c), ray.direction);
+  const double w = glm::dot(glm::cross(b, a), ray.direction);
+  if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return std::nullopt;
+
+  const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
+  const double along = glm::dot(normal, ray.direction);
+  if (along == 0.0) return std::nullopt;
+  const double t = glm::dot(normal, a) / along;
+  const auto accepted = ray.accept(t);
+  if (!accepted) return std::nullopt;
+  const double reach = std::sqrt(std::max({glm::dot(a, a), glm::dot(b, b), glm::dot(c, c)}));
+  if (!near_triangle(ray.at(t), corners, normal, reach)) return std::nullopt;
+  return accepted;
+}
+
+}  // namespace beambench

@@ -1,0 +1,34 @@
+// A structure that answers nothing: what remains of a measurement is the harness's own overhead.
+
+#include "accel/registry.hpp"
+#include "accel/traversal_accelerator.hpp"
+
+namespace beambench {
+
+namespace {
+
+class Null : public TraversalAccelerator<Null> {
+ public:
+  Statistics statistics() const override { return {}; }
+
+  template <class Counting>
+  std::optional<Hit> find_closest(const Ray&, Counting&) const {
+    return std::nullopt;
+  }
+  template <class Counting>
+  bool find_any(const Ray&, Counting&) const {
+    return false;
+  }
+};
+
+}  // namespace
+
+void register_null(Registry& registry) {
+  registry.add({"null",
+                "returns a miss at once: measures the harness's own overhead",
+                Conformance::kBaseline,
+                {},
+                [](const Scene&, const Parameters&) { return std::make_unique<Null>(); }});
+}
+
+}  // namespace beambench

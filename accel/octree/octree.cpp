@@ -1,0 +1,57 @@
+#include "accel/octree/octree.hpp"
+
+namespace beambench {
+
+namespace {
+
+constexpr int kDeepestLevel = 16;
+
+}  // namespace
+
+std::vector<ParameterInfo> OctreeOptions::parameters() {
+  const OctreeOptions defaults;
+  return {
+      integer_parameter("max_level", defaults.max_level, 1, kDeepestLevel,
+                        "deepest level of the octree, the root being level 1 as in the thesis: "
+                        "2^(max_level-1) cells an axis"),
+      integer_parameter("max_objects", defaults.max_objects, 0, 1'000'000,
+                        "a node with more primitives than this is split"),
+      choice_parameter("root", "cube", {"cube", "box"},
+                       "the root cell: the cube around the scene (thesis) or the scene's own box"),
+      choice_parameter("assign", "surface", {"surface", "bbox"},
+                       "what must reach into a cell for a reference: the primitive's surface, or "
+                       "only its bounding box"),
+      real_parameter("pad", defaults.pad, 0.0, 1.0,
+                     "margin added to each side of the root cell, as a fraction of its size"),
+      integer_parameter("max_references", static_cast<std::int64_t>(defaults.max_references), 1,
+                        2'000'000'000,
+                        "give up with an error beyond this many references (4 bytes each)")};
+}
+
+OctreeOptions OctreeOptions::from(const Parameters& parameters) {
+  OctreeOptions options;
+  options.max_level = static_cast<int>(parameters.integer("max_level"));
+  options.max_objects = static_cast<std::uint32_t>(parameters.integer("max_objects"));
+  options.root = parameters.choice("root") == "cube" ? Root::kCube : Root::kBox;
+  options.assign = parameters.choice("assign") == "surface" ? Assign::kSurface : Assign::kBounds;
+  options.pad = parameters.real("pad");
+  options.max_references = static_cast<std::uint64_t>(parameters.integer("max_references"));
+  return options;
+}
+
+Statistics Octree::statistics() const {
+  Statistics statistics;
+  statistics.nodes = nodes_.size();
+  for (const OctreeNode& node : nodes_) {
+    if (!node.is_leaf()) continue;
+    ++statistics.leaves;
+    if (node.count == 0) ++statistics.empty_leaves;
+  }
+  statistics.references = references_.size();
+  statistics.depth = static_cast<std::uint64_t>(deepest_level_);
+  statistics.bytes = sizeof(*this) + nodes_.capacity() * sizeof(OctreeNode) +
+                     references_.capacity() * sizeof(PrimitiveId);
+  return statistics;
+}
+
+}  // namespace beambench

@@ -1,0 +1,72 @@
+#pragma once
+// The octree of the thesis (section 3.3), shared by every structure that walks one.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "accel/octree/octree_grid.hpp"
+#include "accel/statistics.hpp"
+#include "scenes/parameters.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// How an octree is subdivided.
+struct OctreeOptions {
+  enum class Root { kCube, kBox };          ///< a cube around the scene (thesis), or its own box
+  enum class Assign { kSurface, kBounds };  ///< a reference where the surface, or its box, reaches
+
+  int max_level = 6;              ///< the root is level 1 (the thesis's counting)
+  std::uint32_t max_objects = 0;  ///< a leaf with more is split while its level allows
+  Root root = Root::kCube;
+  Assign assign = Assign::kSurface;
+  double pad = 1e-6;  ///< root's margin on each side, relative to its size
+  std::uint64_t max_references = 50'000'000;
+
+  /// The parameters `max_level`, `max_objects`, `root`, `assign`, `pad`, `max_references` that
+  /// every structure over an octree offers, and their values read back.
+  static std::vector<ParameterInfo> parameters();
+  static OctreeOptions from(const Parameters& parameters);
+};
+
+/// A node: interior (its eight children stand together, child i at first + i, i = x + 2 y + 4 z) or
+/// a leaf (its references).
+struct OctreeNode {
+  static constexpr std::uint32_t kInterior = 0xFFFFFFFFU;
+
+  std::uint32_t parent;  ///< index of the parent; the root's is the root
+  std::uint32_t first;   ///< first child, or first reference
+  std::uint32_t count;   ///< kInterior, or the number of references
+
+  bool is_leaf() const { return count != kInterior; }
+};
+
+/// An octree over a scene: nodes in one array (the root first, children after their parent),
+/// references in another. A leaf refers to each primitive whose surface (or box) reaches into its
+/// closed cell, widened by `overlap_tolerance`, in increasing id.
+class Octree {
+ public:
+  /// Static subdivision (thesis, section 3.3): the root is split until a node has at most
+  /// `max_objects` primitives or lies at `max_level`. Throws InputError naming `max_references`
+  /// when the references exceed it.
+  Octree(const Scene& scene, const OctreeOptions& options);
+
+  const OctreeGrid& grid() const { return grid_; }
+  std::span<const OctreeNode> nodes() const { return nodes_; }
+  std::span<const PrimitiveId> references(const OctreeNode& leaf) const {
+    return {references_.data() + leaf.first, leaf.count};
+  }
+
+  Statistics statistics() const;
+
+ private:
+  friend class OctreeBuilder;
+
+  OctreeGrid grid_;
+  std::vector<OctreeNode> nodes_;
+  std::vector<PrimitiveId> references_;
+  int deepest_level_ = 1;
+};
+
+}  // namespace beambench

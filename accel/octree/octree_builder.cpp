@@ -1,0 +1,217 @@
+// Builds an octree from the root down.
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include "accel/octree/octree.hpp"
+#include "accel/tolerance.hpp"
+#include "scenes/error.hpp"
+
+namespace beambench {
+
+namespace {
+
+/// The finest cells that a primitive's widened bounds reach into, both ends included.
+struct CellRange {
+  std::array<std::uint16_t, 3> first;
+  std::array<std::uint16_t, 3> last;
+};
+
+/// A node about to be split: where it is, and its primitives.
+struct Pending {
+  std::uint32_t node;
+  int level;
+  glm::ivec3 corner;
+  std::int32_t size;  ///< in finest cells an axis
+};
+
+OctreeGrid make_grid(const Scene& scene, const OctreeOptions& options, double tolerance) {
+  OctreeGrid grid;
+  grid.cells = 1 << (options.max_level - 1);
+  if (scene.bounds.empty()) return grid;
+  const glm::dvec3 lower(scene.bounds.lower);
+  const glm::dvec3 upper(scene.bounds.upper);
+  glm::dvec3 size = upper - lower;
+  if (options.root == OctreeOptions::Root::kCube) {
+    size = glm::dvec3(std::max({size.x, size.y, size.z}));
+  }
+  // Hits lie within the tolerance of the bounds: the root must hold them.
+  const glm::dvec3 pad = glm::max(size * options.pad, glm::dvec3(2.0 * tolerance));
+  const glm::dvec3 half = size * 0.5 + pad;
+  const glm::dvec3 center = lower + (upper - lower) * 0.5;
+  grid.lower = center - half;
+  grid.cell = half * (2.0 / grid.cells);
+  return grid;
+}
+
+/// The cell that holds a coordinate: the last one whose lower boundary is not above it.
+std::int32_t cell_of(const OctreeGrid& grid, int axis, double coordinate) {
+  const double guess = std::floor((coordinate - grid.lower[axis]) / grid.cell[axis]);
+  auto index = static_cast<std::int32_t>(std::clamp(guess, 0.0, grid.cells - 1.0));
+  while (index > 0 && grid.plane(axis, index) > coordinate) --index;
+  while (index < grid.cells - 1 && grid.plane(axis, index + 1) <= coordinate) ++index;
+  return index;
+}
+
+CellRange cell_range(const OctreeGrid& grid, const Bounds& bounds, double tolerance) {
+  CellRange range{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = bounds.lower[axis] - tolerance;
+    std::int32_t first = cell_of(grid, axis, low);
+    if (first > 0 && grid.plane(axis, first) == low) --first;  // cells are closed
+    const std::int32_t last = cell_of(grid, axis, bounds.upper[axis] + tolerance);
+    const auto slot = static_cast<std::size_t>(axis);
+    range.first[slot] = static_cast<std::uint16_t>(first);
+    range.last[slot] = static_cast<std::uint16_t>(last);
+  }
+  return range;
+}
+
+}  // namespace
+
+/// Depth-first subdivision. Each level keeps the lists of the eight children being worked on in one
+/// array, so nothing is allocated for a node.
+class OctreeBuilder {
+ public:
+  OctreeBuilder(const Scene& scene, const OctreeOptions& options, Octree& octree)
+      : scene_(scene),
+        options_(options),
+        octree_(octree),
+        tolerance_(overlap_tolerance(scene)),
+        lists_(static_cast<std::size_t>(options.max_level) + 1),
+        octants_(static_cast<std::size_t>(options.max_level) + 1) {}
+
+  void build() {
+    octree_.grid_ = make_grid(scene_, options_, tolerance_);
+    const auto count = static_cast<PrimitiveId>(scene_.primitives.size());
+    ranges_.reserve(count);
+    lists_[1].reserve(count);
+    for (PrimitiveId id = 0; id < count; ++id) {
+      ranges_.push_back(cell_range(octree_.grid_, primitive_bounds(scene_, id), tolerance_));
+      lists_[1].push_back(id);
+    }
+    octree_.references_.reserve(count);
+    octree_.nodes_.push_back({0, 0, 0});
+    subdivide({0, 1, glm::ivec3(0), octree_.grid_.cells}, lists_[1]);
+    octree_.nodes_.shrink_to_fit();
+    octree_.references_.shrink_to_fit();
+  }
+
+ private:
+  void subdivide(const Pending& pending, std::span<const PrimitiveId> primitives) {
+    octree_.deepest_level_ = std::max(octree_.deepest_level_, pending.level);
+    if (primitives.size() <= options_.max_objects || pending.level >= options_.max_level) {
+      make_leaf(pending.node, primitives);
+      return;
+    }
+    const auto first_child = static_cast<std::uint32_t>(octree_.nodes_.size());
+    octree_.nodes_.insert(octree_.nodes_.end(), 8, OctreeNode{pending.node, 0, 0});
+    octree_.nodes_[pending.node].first = first_child;
+    octree_.nodes_[pending.node].count = OctreeNode::kInterior;
+
+    const auto ends = distribute(pending, primitives);
+    const auto& list = lists_[static_cast<std::size_t>(pending.level) + 1];
+    const std::int32_t half = pending.size / 2;
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+      const glm::ivec3 offset(octant & 1U, (octant >> 1U) & 1U, octant >> 2U);
+      const std::size_t begin = octant == 0 ? 0 : ends[octant - 1];
+      subdivide({first_child + octant, pending.level + 1, pending.corner + offset * half, half},
+                std::span(list).subspan(begin, ends[octant] - begin));
+    }
+  }
+
+  void make_leaf(std::uint32_t node, std::span<const PrimitiveId> primitives) {
+    auto& references = octree_.references_;
+    if (references.size() + primitives.size() > options_.max_references) {
+      throw InputError(fmt::format(
+          "the octree of max_level {} over '{}' ({} primitives) holds more than {} references; "
+          "lower max_level, raise max_objects, or raise max_references (4 bytes each)",
+          options_.max_level, scene_.name, scene_.primitives.size(), options_.max_references));
+    }
+    octree_.nodes_[node].first = static_cast<std::uint32_t>(references.size());
+    octree_.nodes_[node].count = static_cast<std::uint32_t>(primitives.size());
+    references.insert(references.end(), primitives.begin(), primitives.end());
+  }
+
+  /// Writes the children's lists, one after the other, to the next level's array; returns where
+  /// each ends. A stable counting sort: increasing ids stay so.
+  std::array<std::size_t, 8> distribute(const Pending& pending,
+                                        std::span<const PrimitiveId> primitives) {
+    auto& octants = octants_[static_cast<std::size_t>(pending.level)];
+    octants.resize(primitives.size());
+    std::array<std::size_t, 8> ends{};
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+      octants[i] = overlapped_octants(pending, primitives[i]);
+      for (std::uint32_t rest = octants[i]; rest != 0; rest &= rest - 1) {
+        ++ends[static_cast<std::size_t>(std::countr_zero(rest))];
+      }
+    }
+    std::array<std::size_t, 8> next{};
+    for (std::size_t octant = 1; octant < 8; ++octant) {
+      next[octant] = ends[octant - 1];
+      ends[octant] += ends[octant - 1];
+    }
+    auto& list = lists_[static_cast<std::size_t>(pending.level) + 1];
+    list.resize(ends[7]);
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+      for (std::uint32_t rest = octants[i]; rest != 0; rest &= rest - 1) {
+        list[next[static_cast<std::size_t>(std::countr_zero(rest))]++] = primitives[i];
+      }
+    }
+    return ends;
+  }
+
+  /// The children that a primitive of the node belongs to, as a bit mask.
+  std::uint8_t overlapped_octants(const Pending& pending, PrimitiveId id) const {
+    constexpr std::array<std::uint8_t, 3> kLowHalf{0x55, 0x33,
+                                                   0x0F};  // octants with the axis' bit 0
+    const CellRange& range = ranges_[id];
+    const std::int32_t half = pending.size / 2;
+    std::uint8_t octants = 0xFF;
+    int axes_crossed = 0;
+    bool contained = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int32_t corner = pending.corner[static_cast<int>(axis)];
+      const bool low = range.first[axis] < corner + half;
+      const bool high = range.last[axis] >= corner + half;
+      contained =
+          contained && range.first[axis] >= corner && range.last[axis] < corner + pending.size;
+      if (low && high) {
+        ++axes_crossed;
+      } else {
+        octants &= low ? kLowHalf[axis] : static_cast<std::uint8_t>(~kLowHalf[axis]);
+      }
+    }
+    // One octant is left, or a connected surface inside the node crosses one plane: no test needed.
+    if (axes_crossed == 0 || (axes_crossed == 1 && contained)) return octants;
+    if (options_.assign == OctreeOptions::Assign::kBounds) return octants;
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+      if ((octants >> octant & 1U) == 0) continue;
+      const glm::ivec3 offset(octant & 1U, (octant >> 1U) & 1U, octant >> 2U);
+      if (!surface_overlaps(scene_, id, octree_.grid_.box(pending.corner + offset * half, half),
+                            tolerance_)) {
+        octants &= static_cast<std::uint8_t>(~(1U << octant));
+      }
+    }
+    return octants;
+  }
+
+  const Scene& scene_;
+  const OctreeOptions& options_;
+  Octree& octree_;
+  double tolerance_;
+  std::vector<CellRange> ranges_;                   ///< by primitive
+  std::vector<std::vector<PrimitiveId>> lists_;     ///< by level
+  std::vector<std::vector<std::uint8_t>> octants_;  ///< by level
+};
+
+Octree::Octree(const Scene& scene, const OctreeOptions& options) {
+  OctreeBuilder(scene, options, *this).build();
+}
+
+}  // namespace beambench

@@ -1,0 +1,84 @@
+#pragma once
+// A place in an octree: a node, and where it lies.
+
+#include <bit>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include "accel/octree/octree.hpp"
+#include "accel/octree/octree_ray.hpp"
+
+namespace beambench {
+
+/// A node of an octree with its integer place: the cube of `size` finest cells an axis at `corner`.
+class OctreeCursor {
+ public:
+  explicit OctreeCursor(const Octree& octree)
+      : nodes_(octree.nodes().data()), size_(octree.grid().cells), cells_(octree.grid().cells) {}
+
+  const OctreeNode& node() const { return nodes_[index_]; }
+  std::uint32_t index() const { return index_; }
+  const glm::ivec3& corner() const { return corner_; }
+  std::int32_t size() const { return size_; }
+
+  /// Goes down to the leaf that the ray is in at parameter t (a point on a boundary belongs to the
+  /// side the ray is going to). Returns the number of levels descended.
+  int descend(const OctreeRay& ray, double t) {
+    int levels = 0;
+    for (; !node().is_leaf(); ++levels) {
+      const std::int32_t half = size_ / 2;
+      std::uint32_t octant = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (!ray.above(axis, corner_[axis] + half, t)) continue;
+        octant |= 1U << static_cast<unsigned>(axis);
+        corner_[axis] += half;
+      }
+      index_ = node().first + octant;
+      size_ = half;
+    }
+    return levels;
+  }
+
+  /// Samet's search for the neighbour of equal or larger size across the faces of one or more axes
+  /// (a face, edge or vertex neighbour): climbs to the nearest common ancestor and goes down again,
+  /// the path mirrored, as far as there are nodes (Samet, "Implementing ray tracing with octrees
+  /// and neighbor finding", Computers & Graphics 13(4), 1989; thesis, section 3.5.2.2). `step`
+  /// holds -1, 0 or 1 for each axis. Returns false when the neighbour would lie outside the root.
+  /// `levels` is increased by the levels climbed and descended.
+  bool move_to_neighbour(const glm::ivec3& step, int& levels) {
+    const glm::ivec3 target = corner_ + step * size_;
+    std::uint32_t differing = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (target[axis] < 0 || target[axis] >= cells_) return false;
+      differing |= static_cast<std::uint32_t>(target[axis] ^ corner_[axis]);
+    }
+    const std::int32_t equal_size = size_;
+    // Climb: the common ancestor spans the highest bit in which the coordinates differ.
+    const auto ancestor_size = static_cast<std::int32_t>(std::bit_floor(differing)) * 2;
+    for (; size_ < ancestor_size; ++levels) {
+      index_ = node().parent;
+      size_ *= 2;
+    }
+    // Descend mirrored: the target's coordinates spell the path with the crossed axes reflected.
+    for (; size_ > equal_size && !node().is_leaf(); ++levels) {
+      size_ /= 2;
+      std::uint32_t octant = 0;
+      for (int axis = 0; axis < 3; ++axis) {
+        if ((target[axis] & size_) != 0) octant |= 1U << static_cast<unsigned>(axis);
+      }
+      index_ = node().first + octant;
+    }
+    for (int axis = 0; axis < 3; ++axis) corner_[axis] = target[axis] & -size_;
+    return true;
+  }
+
+ private:
+  std::uint32_t index_ = 0;
+  const OctreeNode* nodes_;
+  glm::ivec3 corner_{0};
+  std::int32_t size_;
+  std::int32_t cells_;
+};
+
+}  // namespace beambench

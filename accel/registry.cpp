@@ -1,0 +1,59 @@
+#include "accel/registry.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scenes/error.hpp"
+#include "scenes/nearest_name.hpp"
+
+namespace beambench {
+
+// Defined by the build from its list of families (register_families.cpp.in).
+void register_families(Registry& registry);
+
+std::unique_ptr<Accelerator> StructureChoice::build(const Scene& scene) const {
+  auto accelerator = info_->build(scene, parameters_);
+  parameters_.require_given_were_read();
+  return accelerator;
+}
+
+void Registry::add(StructureInfo info) { structures_.push_back(std::move(info)); }
+
+StructureChoice Registry::choose(const Spec& spec) const {
+  const auto found =
+      std::find_if(structures_.begin(), structures_.end(),
+                   [&](const StructureInfo& info) { return info.name == spec.name; });
+  if (found == structures_.end()) {
+    std::vector<std::string> names;
+    for (const auto& info : structures_) names.push_back(info.name);
+    throw InputError(fmt::format("unknown structure '{}'; did you mean '{}'? Expected one of {}",
+                                 spec.name, nearest_name(spec.name, names),
+                                 fmt::join(names, ", ")));
+  }
+  return {*found, Parameters(found->name, found->parameters, spec.parameters)};
+}
+
+std::vector<StructureChoice> Registry::choose_list(std::string_view text) const {
+  std::vector<StructureChoice> choices;
+  for (const Spec& spec : parse_spec_list(text)) {
+    if (spec.name == "all" && spec.parameters.empty()) {
+      for (const auto& info : structures_) choices.push_back(choose({info.name, {}}));
+    } else {
+      choices.push_back(choose(spec));
+    }
+  }
+  return choices;
+}
+
+const Registry& registry() {
+  static const Registry all = [] {
+    Registry built;
+    register_families(built);
+    return built;
+  }();
+  return all;
+}
+
+}  // namespace beambench

@@ -1,0 +1,22 @@
+#include "accel/work_counters.hpp"
+
+namespace beambench {
+
+void WorkCounters::add(std::string_view name, std::uint64_t amount) {
+  const auto found = own_.find(name);
+  if (found != own_.end()) {
+    found->second += amount;
+  } else {
+    own_.emplace(name, amount);
+  }
+}
+
+std::map<std::string, std::uint64_t, std::less<>> WorkCounters::by_name() const {
+  auto all = own_;
+  for (std::size_t i = 0; i < kCounterNames.size(); ++i) {
+    all.emplace(std::string(kCounterNames[i]), standard_[i]);
+  }
+  return all;
+}
+
+}  // namespace beambench
