@@ -1,0 +1,71 @@
+"""Horizontal bars, one a contender, from zero, each with its figures beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from matplotlib.axes import Axes
+
+from beambench_report.style import Look
+
+BAR_HEIGHT = 0.26  # inches
+_FAR = 12  # a bar this many times the median one runs off the axis, or it would flatten the others
+_ROOM_FOR_TEXT = 1.45
+
+
+@dataclass(frozen=True)
+class Bar:
+    """A contender's bar: its parts, laid end to end, and the text beside it."""
+
+    contender: str
+    parts: Sequence[float]
+    text: str
+
+
+# The first of several parts is light, so that the second stands out in the structure's colour.
+_PART_ALPHAS = {1: (1.0,), 2: (0.4, 1.0)}
+
+
+def draw_bars(panel: Axes, bars: Sequence[Bar], looks: Mapping[str, Look], unit: str) -> None:
+    """Draws the bars from the top down in the order given; the longest may run off the axis."""
+    totals = np.array([sum(bar.parts) for bar in bars])
+    end = _axis_end(totals)
+    for place, bar in enumerate(bars):
+        start = 0.0
+        for part, alpha in zip(bar.parts, _PART_ALPHAS[len(bar.parts)], strict=True):
+            colour = looks[bar.contender].colour
+            panel.barh(place, part, left=start, height=0.7, color=colour, alpha=alpha)
+            start += part
+        off = start > end
+        panel.annotate(
+            f"{bar.text}  (off the axis)" if off else bar.text,
+            (end if off else start, place),
+            xytext=(-4 if off else 4, 0),
+            textcoords="offset points",
+            ha="right" if off else "left",
+            va="center",
+            fontsize=7.5,
+            bbox={"boxstyle": "square,pad=0.15", "fc": "white", "ec": "none"} if off else None,
+        )
+    panel.set_yticks(range(len(bars)), [bar.contender for bar in bars])
+    panel.set_ylim(len(bars) - 0.4, -0.6)
+    panel.set_xlim(0, end)
+    panel.set_xlabel(unit)
+    panel.grid(axis="x", color="#dddddd", linewidth=0.6)
+    panel.tick_params(axis="y", length=0)
+
+
+def number(value: float) -> str:
+    """Three significant digits, with thousands marked: 0.00123, 4.57, 12,300."""
+    if value == 0 or not np.isfinite(value):
+        return f"{value:g}"
+    digits = max(0, 2 - int(np.floor(np.log10(abs(value)))))
+    return f"{value:,.{min(digits, 6)}f}"
+
+
+def _axis_end(totals: np.ndarray) -> float:
+    near = totals[totals <= _FAR * np.median(totals)] if totals.size else totals
+    longest = near.max() if near.size else 0.0
+    return _ROOM_FOR_TEXT * longest if longest > 0 else 1.0

@@ -1,0 +1,55 @@
+"""Work a ray: the counters of each structure, a figure a view, a panel a counter."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from beambench_report.bars import BAR_HEIGHT, Bar, draw_bars, number
+from beambench_report.figure import Plot, caption, new_figure
+from beambench_report.names import file_stems
+from beambench_report.panels import PANEL_MARGIN
+from beambench_report.records import COUNTER_SUFFIX, Run
+from beambench_report.style import looks
+
+_COLUMNS = 2
+
+
+def counters(run: Run) -> list[Plot]:
+    """The figures of all views for which anything was counted."""
+    all_looks = looks(run.rows)
+    plots = []
+    for title, stem in file_stems(run.views).items():
+        finest = run.finest(title)
+        shown = {
+            name: rows
+            for name in run.counters
+            if not (rows := finest.dropna(subset=[name])).empty and (rows[name] != 0).any()
+        }
+        if not shown:
+            continue
+        lines = -(-len(shown) // _COLUMNS)
+        bars = max(len(rows) for rows in shown.values())
+        figure, panels = new_figure(lines * (PANEL_MARGIN + BAR_HEIGHT * bars), lines, _COLUMNS)
+        for panel in panels[len(shown) :]:
+            panel.set_axis_off()
+        for panel, (name, rows) in zip(panels, shown.items(), strict=False):
+            panel.set_title(name.removesuffix(COUNTER_SUFFIX).replace("_", " "))
+            draw_bars(panel, _bars(rows, name), all_looks, "a ray")
+        first = finest.iloc[0]
+        size = f"{first['width']:.0f}x{first['height']:.0f}"
+        figure.suptitle(f"{title}: work a ray at {size}", x=0.01, ha="left", weight="bold")
+        caption(
+            figure,
+            finest,
+            "Counted in a pass of its own, not in the timed code. A structure that does not count "
+            "its work is left out.",
+        )
+        plots.append(Plot(f"counters-{stem}", figure, f"{title}: counters a ray"))
+    return plots
+
+
+def _bars(rows: pd.DataFrame, name: str) -> list[Bar]:
+    return [
+        Bar(contender, (value,), number(value))
+        for contender, value in zip(rows["contender"], rows[name], strict=True)
+    ]

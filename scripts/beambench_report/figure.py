@@ -1,0 +1,93 @@
+"""Figures of page width, their captions, and writing them whole."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import matplotlib as mpl
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from beambench_report.files import write_whole
+
+PAGE_WIDTH = 7.2  # inches
+_LINE_HEIGHT = 0.16  # inches, of a caption's line
+_CAPTION_COLUMNS = 118  # characters that fit the page width
+
+_STYLE = {
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.axisbelow": True,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "beambench",
+}
+
+
+@dataclass(frozen=True)
+class Plot:
+    """A finished figure, the name of its files and a sentence on what it shows."""
+
+    stem: str
+    figure: Figure
+    summary: str
+
+
+def new_figure(
+    height: float,
+    rows: int = 1,
+    columns: int = 1,
+    height_ratios: Sequence[float] | None = None,
+) -> tuple[Figure, list[Axes]]:
+    """A page-wide figure and its panels, row by row."""
+    with mpl.rc_context(_STYLE):
+        figure = Figure(figsize=(PAGE_WIDTH, height), layout="constrained")
+        panels = figure.subplots(rows, columns, squeeze=False, height_ratios=height_ratios)
+    return figure, list(panels.flat)
+
+
+def caption(figure: Figure, rows: pd.DataFrame, explanation: str) -> None:
+    """Writes under a figure what it shows, where the figures come from and what was left out."""
+    lines = [explanation, _source(rows)]
+    left_out = untimed(rows)
+    if left_out:
+        lines.append(f"Left out, for their hits were not judged right: {'; '.join(left_out)}.")
+    wrapped = "\n".join(textwrap.fill(line, _CAPTION_COLUMNS) for line in lines)
+    figure.supxlabel(wrapped, x=0.01, ha="left", fontsize=7.5, color="#333333")
+    width, height = figure.get_size_inches()
+    figure.set_size_inches(width, height + _LINE_HEIGHT * (wrapped.count("\n") + 1))
+
+
+def untimed(rows: pd.DataFrame) -> list[str]:
+    """The contenders whose times do not count, with the view and the verdict."""
+    kept_out = rows[~rows["timed"]]
+    verdicts = kept_out["verdict"].replace("", "no verdict")
+    return list(dict.fromkeys(kept_out["contender"] + " in " + kept_out["view"] + ": " + verdicts))
+
+
+def write_plot(plot: Plot, directory: Path) -> list[Path]:
+    """Writes STEM.png and STEM.svg."""
+
+    def save(ending: str) -> Path:
+        metadata = {"Date": None} if ending == "svg" else None
+        with mpl.rc_context(_STYLE):
+            return write_whole(
+                directory / f"{plot.stem}.{ending}",
+                lambda path: plot.figure.savefig(path, format=ending, dpi=200, metadata=metadata),
+            )
+
+    return [save("png"), save("svg")]
+
+
+def _source(rows: pd.DataFrame) -> str:
+    first = rows.iloc[0]
+    return (
+        f"Run {first['run_id']}, commit {first['commit'][:12]}, "
+        f"machine {first['machine_id'][:8]}, threads {first['threads']:.0f}."
+    )

@@ -1,0 +1,67 @@
+"""What plots and files call the contenders and the views of a run."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+import pandas as pd
+
+
+def contender_labels(rows: pd.DataFrame) -> pd.Series:
+    """Structure names, with those parameters that differ between rows of one structure.
+
+    `samet` when the run has it once; `samet max_level=6` when it sweeps the level.
+    """
+    parameters = rows["parameters"].map(_parameter_items)
+    varying = {
+        structure: _varying_names(group)
+        for structure, group in parameters.groupby(rows["structure"], sort=False)
+    }
+
+    def label(structure: str, items: dict[str, str]) -> str:
+        shown = [f"{name}={items[name]}" for name in items if name in varying[structure]]
+        return " ".join([structure, *shown])
+
+    labels = [
+        label(structure, items)
+        for structure, items in zip(rows["structure"], parameters, strict=True)
+    ]
+    return pd.Series(labels, index=rows.index)
+
+
+def view_titles(rows: pd.DataFrame) -> pd.Series:
+    """What the rays see: the scene, and camera, samples and ray kind where a run has several."""
+    titles = rows["scene"].copy()
+    if (rows.groupby("scene")["camera"].nunique() > 1).any():
+        titles += ", camera " + rows["camera"]
+    if rows["samples"].nunique() > 1:
+        titles += ", " + rows["samples"].map("{:.0f} samples".format)
+    if rows["ray_kind"].nunique() > 1:
+        titles += ", " + rows["ray_kind"] + " rays"
+    return titles
+
+
+def file_stems(titles: Iterable[str]) -> dict[str, str]:
+    """A file name for each title: lower case, digits and dashes, no two the same."""
+    stems: dict[str, str] = {}
+    for title in titles:
+        stem = plain = re.sub(r"[^a-z0-9]+", "-", title.lower()).strip("-") or "scene"
+        number = 2
+        while stem in stems.values():
+            stem = f"{plain}-{number}"
+            number += 1
+        stems[title] = stem
+    return stems
+
+
+def _parameter_items(text: str) -> dict[str, str]:
+    return dict(item.split("=", 1) for item in text.split(",") if "=" in item)
+
+
+def _varying_names(group: Iterable[dict[str, str]]) -> set[str]:
+    values: dict[str, set[str]] = {}
+    items = list(group)
+    for name in {name for one in items for name in one}:
+        values[name] = {one.get(name, "") for one in items}
+    return {name for name, seen in values.items() if len(seen) > 1}

@@ -1,0 +1,47 @@
+"""The break-even number of rays."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from beambench_report.break_even import AT_ONCE, NEVER, break_even_rays, break_even_table
+from beambench_report.records import read_run
+
+
+@pytest.mark.parametrize(
+    ("times", "rays", "words"),
+    [
+        # build, trace a ray, and the baseline's
+        ((10.0, 1e-3, 0.0, 2e-3), 10_000, "10,000 rays"),
+        ((0.0, 2e-3, 10.0, 1e-3), 10_000, "ahead up to 10,000 rays"),
+        ((1.0, 1e-3, 2.0, 2e-3), None, AT_ONCE),
+        ((1.0, 1e-3, 1.0, 2e-3), None, AT_ONCE),
+        ((2.0, 2e-3, 1.0, 1e-3), None, NEVER),
+        ((2.0, 1e-3, 1.0, 1e-3), None, NEVER),
+        ((1.0, 2e-3, 1.0, 1e-3), None, NEVER),
+    ],
+)
+def test_break_even(times: tuple[float, ...], rays: float | None, words: str) -> None:
+    found, found_words = break_even_rays(*times)
+    assert found == (None if rays is None else pytest.approx(rays))
+    assert found_words == words
+
+
+def test_both_pay_the_same_at_the_break_even() -> None:
+    rays, _ = break_even_rays(7.0, 3e-4, 2.0, 9e-4)
+    assert rays is not None
+    assert 7.0 + 3e-4 * rays == pytest.approx(2.0 + 9e-4 * rays)
+
+
+def test_the_table_has_every_ordered_pair_but_none_with_null(run_folder: Path) -> None:
+    table = break_even_table(read_run(run_folder))
+    assert len(table) == 2 * 4 * 3
+    assert "null" not in {*table["contender"], *table["baseline"]}
+    pair = table[
+        (table["view"] == "escena1")
+        & (table["contender"] == "samet max_level=5")
+        & (table["baseline"] == "exhaustive")
+    ]
+    assert pair["break_even_rays"].item() == pytest.approx((1.5 - 0.001) / (2e-3 - 2.2e-4))

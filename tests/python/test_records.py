@@ -1,0 +1,86 @@
+"""Reading results.csv: what is understood, and what is refused in which words."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from beambench_report.problem import Problem
+from beambench_report.records import read_run
+from made_up_run import made_up_rows, without_times, write_run
+
+
+def test_the_structure_null_is_a_name_and_not_a_missing_value(run_folder: Path) -> None:
+    assert set(read_run(run_folder).rows["structure"]) == {"exhaustive", "samet", "embree", "null"}
+
+
+def test_rows_judged_ok_or_baseline_are_timed(run_folder: Path) -> None:
+    assert read_run(run_folder).rows["timed"].all()
+
+
+@pytest.mark.parametrize("verdict", ["mismatch", "grazes", "error", ""])
+def test_any_other_verdict_takes_a_row_out_of_the_times(tmp_path: Path, verdict: str) -> None:
+    rows = made_up_rows()
+    rows[4] = {**rows[4], "verdict": verdict}  # times left in: the verdict alone must decide
+    timed = read_run(write_run(tmp_path, rows)).rows["timed"]
+    assert not timed[4]
+    assert timed.drop(index=4).all()
+
+
+def test_empty_fields_are_not_measured(tmp_path: Path) -> None:
+    rows = made_up_rows()
+    rows[4] = without_times(rows[4], "mismatch")
+    run = read_run(write_run(tmp_path, rows))
+    assert run.rows["total_ms_median"].isna().sum() == 1
+    assert run.rows["leaves_per_ray"].isna().all()
+    assert run.counters == ["traversal_steps_per_ray", "primitive_tests_per_ray"]
+
+
+def test_a_column_of_the_family_s_own_is_a_counter(tmp_path: Path) -> None:
+    rows = [{**row, "neighbour_climbs_per_ray": 3.5} for row in made_up_rows()]
+    assert "neighbour_climbs_per_ray" in read_run(write_run(tmp_path, rows)).counters
+
+
+def test_finest_gives_the_highest_number_of_rays(run_folder: Path) -> None:
+    rows = read_run(run_folder).finest("escena1")
+    assert set(rows["rays"]) == {1280 * 1024}
+    assert len(rows) == 5
+
+
+def test_missing_columns_are_named(tmp_path: Path) -> None:
+    folder = write_run(tmp_path, made_up_rows(), without=("verdict", "memory_bytes"))
+    with pytest.raises(Problem, match=r"results\.csv: the columns verdict, memory_bytes are miss"):
+        read_run(folder)
+
+
+def test_a_field_that_is_no_number_is_named_with_its_row(tmp_path: Path) -> None:
+    rows = made_up_rows()
+    rows[2] = {**rows[2], "build_ms_median": "fast"}
+    with pytest.raises(Problem, match="row 4: build_ms_median is 'fast', not a number"):
+        read_run(write_run(tmp_path, rows))
+
+
+@pytest.mark.parametrize("column", ["scene", "structure", "rays"])
+def test_a_row_without_identity_is_refused(tmp_path: Path, column: str) -> None:
+    rows = made_up_rows()
+    rows[0] = {**rows[0], column: ""}
+    with pytest.raises(Problem, match=f"row 2: {column} is empty"):
+        read_run(write_run(tmp_path, rows))
+
+
+def test_a_run_without_rows_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(Problem, match="holds no row"):
+        read_run(write_run(tmp_path, []))
+
+
+def test_a_folder_without_results_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(Problem, match="there is no such file"):
+        read_run(tmp_path)
+
+
+@pytest.mark.parametrize("content", [b"", b"\xff\xfe\x00", b'a,b\n"1,2\n3,4,5,6\n'])
+def test_what_is_no_csv_is_refused(tmp_path: Path, content: bytes) -> None:
+    (tmp_path / "results.csv").write_bytes(content)
+    with pytest.raises(Problem, match=r"results\.csv: cannot be read as CSV"):
+        read_run(tmp_path)
