@@ -1,0 +1,32 @@
+#pragma once
+// A picture of numbers: a colour for each pixel's value, and a legend that says which.
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "harness/picture/image.hpp"
+
+namespace beambench {
+
+/// Values >= 0, one for each pixel, row by row from the top left.
+struct HeatMap {
+  std::string title;  ///< what the values are, "traversal_steps per ray"
+  int width;
+  int height;
+  std::vector<float> values;
+};
+
+/// Colours from 0 to the largest value, without a legend.
+Image draw_heat_map(const HeatMap& map);
+
+/// The same above a legend: title, mean and maximum, and a bar with numbers. The picture is widened
+/// where it is narrower than its legend.
+Image draw_heat_map_with_legend(const HeatMap& map);
+
+/// The numbers written under a bar from 0 to `maximum` > 0: multiples of 1, 2 or 5 times a power of
+/// ten, from 0 on, `at_most` of them or fewer.
+std::vector<double> legend_ticks(double maximum, int at_most);
+
+}  // namespace beambench

@@ -1,0 +1,121 @@
+#include "harness/picture/image_file.hpp"
+
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+
+#include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
+
+#include "harness/files/pending_file.hpp"
+#include "harness/picture/srgb.hpp"
+#include "scenes/error.hpp"
+
+namespace beambench {
+namespace {
+
+constexpr std::size_t kValueBytes = 4;  // of every EXR channel here: float or uint32
+
+std::uint8_t to_byte(float encoded) {
+  return static_cast<std::uint8_t>(std::lround(255.0F * encoded));
+}
+
+std::vector<std::uint8_t> png_pixels(const Image& image) {
+  std::vector<std::uint8_t> bytes;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const glm::vec3 encoded = srgb_from_linear(image.at(x, y));
+      bytes.insert(bytes.end(), {to_byte(encoded.x), to_byte(encoded.y), to_byte(encoded.z)});
+    }
+  }
+  return bytes;
+}
+
+/// A pixel's values stand together, each in its channel's own type.
+std::vector<std::uint8_t> exr_pixels(const Image& image, std::span<const DataChannel> data) {
+  std::vector<std::uint8_t> bytes;
+  const auto append = [&](const auto& value) {
+    static_assert(sizeof value == kValueBytes);
+    std::uint8_t raw[kValueBytes];
+    std::memcpy(raw, &value, kValueBytes);
+    bytes.insert(bytes.end(), raw, raw + kValueBytes);
+  };
+  std::size_t pixel = 0;
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x, ++pixel) {
+      const glm::vec3& color = image.at(x, y);
+      append(color.x);
+      append(color.y);
+      append(color.z);
+      for (const DataChannel& channel : data) {
+        std::visit([&](const auto& values) { append(values[pixel]); }, channel.values);
+      }
+    }
+  }
+  return bytes;
+}
+
+OIIO::ImageSpec exr_spec(const Image& image, std::span<const DataChannel> data) {
+  OIIO::ImageSpec spec(image.width(), image.height(), 3 + static_cast<int>(data.size()),
+                       OIIO::TypeDesc::FLOAT);
+  spec.channelformats.assign(3, OIIO::TypeDesc::FLOAT);
+  for (const DataChannel& channel : data) {
+    const bool is_float = std::holds_alternative<std::vector<float>>(channel.values);
+    spec.channelnames[spec.channelformats.size()] = channel.name;
+    spec.channelformats.push_back(is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT32);
+  }
+  spec.attribute("compression", "zip");
+  return spec;
+}
+
+void require_complete(const Image& image, std::span<const DataChannel> data) {
+  const std::size_t pixels =
+      static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
+  for (const DataChannel& channel : data) {
+    if (std::visit([](const auto& values) { return values.size(); }, channel.values) != pixels) {
+      throw std::logic_error("channel '" + channel.name + "' has not one value for each pixel");
+    }
+  }
+}
+
+void write(const std::filesystem::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
+           const std::vector<std::uint8_t>& pixels, const std::filesystem::path& target) {
+  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path.string());
+  const bool written = output && output->open(path.string(), spec) &&
+                       output->write_image(type, pixels.data()) && output->close();
+  if (written) return;
+  const std::string why = output ? output->geterror() : OIIO::geterror();
+  throw InputError(fmt::format("cannot write the picture '{}': {}; choose another place or format",
+                               target.string(), why));
+}
+
+}  // namespace
+
+ImageFormat image_format(const std::filesystem::path& file) {
+  const std::string ending = file.extension().string();
+  if (ending == ".png") return ImageFormat::kPng;
+  if (ending == ".exr") return ImageFormat::kExr;
+  throw InputError(fmt::format(
+      "the picture '{}' has no ending that names a known format; let it end in .png (8-bit sRGB) "
+      "or .exr (float, with depth and ids)",
+      file.string()));
+}
+
+void write_image(const std::filesystem::path& file, const Image& image,
+                 std::span<const DataChannel> data) {
+  const ImageFormat format = image_format(file);
+  require_complete(image, data);
+  PendingFile pending(file);
+  if (format == ImageFormat::kPng) {
+    OIIO::ImageSpec spec(image.width(), image.height(), 3, OIIO::TypeDesc::UINT8);
+    spec.attribute("oiio:ColorSpace", "sRGB");
+    write(pending.path(), spec, OIIO::TypeDesc::UINT8, png_pixels(image), file);
+  } else {
+    // TypeUnknown: the values are in the channels' own types already.
+    write(pending.path(), exr_spec(image, data), OIIO::TypeUnknown, exr_pixels(image, data), file);
+  }
+  pending.commit();
+}
+
+}  // namespace beambench

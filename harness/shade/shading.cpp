@@ -1,0 +1,86 @@
+#include "harness/shade/shading.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "harness/picture/color_map.hpp"
+#include "harness/picture/srgb.hpp"
+#include "harness/shade/normal.hpp"
+#include "harness/shade/preview.hpp"
+#include "scenes/error.hpp"
+
+namespace beambench {
+namespace {
+
+constexpr std::array<std::string_view, 4> kNames{"preview", "normals", "id", "depth"};
+
+using HitColor = std::function<glm::vec3(const Ray&, const Hit&)>;
+
+glm::vec3 normal_color(const Scene& scene, const Ray& ray, const Hit& hit) {
+  return linear_from_srgb(glm::vec3(geometric_normal(scene, ray, hit) * 0.5 + 0.5));
+}
+
+/// Light grey at the nearest hit of the image, dark grey at the farthest; black is a miss.
+HitColor depth_color(const HitBuffer& hits) {
+  float nearest = kInfinity;
+  float farthest = 0.0F;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    if (const auto hit = hits.get(i)) {
+      nearest = std::min(nearest, hit->t);
+      farthest = std::max(farthest, hit->t);
+    }
+  }
+  const float range = farthest > nearest ? farthest - nearest : 1.0F;
+  return [nearest, range](const Ray&, const Hit& hit) {
+    return linear_from_srgb(glm::vec3(0.95F - 0.80F * (hit.t - nearest) / range));
+  };
+}
+
+HitColor color_of(const Scene& scene, const HitBuffer& hits, Shading shading) {
+  switch (shading) {
+    case Shading::kPreview:
+      return [&](const Ray& ray, const Hit& hit) { return preview_color(scene, ray, hit); };
+    case Shading::kNormals:
+      return [&](const Ray& ray, const Hit& hit) { return normal_color(scene, ray, hit); };
+    case Shading::kId:
+      return [](const Ray&, const Hit& hit) { return id_color(hit.primitive); };
+    case Shading::kDepth:
+      break;
+  }
+  return depth_color(hits);
+}
+
+}  // namespace
+
+std::span<const std::string_view> shading_names() { return kNames; }
+
+Shading parse_shading(std::string_view name) {
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) {
+    throw InputError(
+        fmt::format("unknown shading '{}'; choose from: {}", name, fmt::join(kNames, ", ")));
+  }
+  return static_cast<Shading>(found - kNames.begin());
+}
+
+Image shade(const Scene& scene, const PrimaryRays& rays, const HitBuffer& hits, Shading shading) {
+  const HitColor hit_color = color_of(scene, hits, shading);
+  const glm::vec3 miss = shading == Shading::kPreview ? background_color(scene) : glm::vec3(0.0F);
+  const float share = 1.0F / static_cast<float>(rays.samples());
+  Image image(rays.width(), rays.height());
+  for (int y = 0; y < rays.height(); ++y) {
+    for (int x = 0; x < rays.width(); ++x) {
+      for (int sample = 0; sample < rays.samples(); ++sample) {
+        const auto hit = hits.get(hits.index(x, y, sample));
+        image.at(x, y) += share * (hit ? hit_color(rays.ray(x, y, sample), *hit) : miss);
+      }
+    }
+  }
+  return image;
+}
+
+}  // namespace beambench
