@@ -98,6 +98,7 @@ def break_even(run: Run) -> list[Plot]:
         "contender that is built the quickest; dotted: one image at the highest resolution, whose "
         "trace times are used. Every other pair is in break-even.csv.",
         summary="number of rays from which a dearer build pays",
+        times=True,
     )
 
 

@@ -23,6 +23,7 @@ def build_and_trace(run: Run) -> list[Plot]:
         explanation="Medians of one build and one image of primary rays at each view's highest "
         "resolution. The medians of the parts need not add up to the median of the whole.",
         summary="build and trace time of each structure at the highest resolution",
+        times=True,
     )
     for plot in plots:
         plot.figure.legend(

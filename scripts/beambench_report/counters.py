@@ -43,6 +43,7 @@ def counters(run: Run) -> list[Plot]:
             finest,
             "Counted in a pass of its own, not in the timed code. A structure that does not count "
             "its work is left out.",
+            times=False,
         )
         plots.append(Plot(f"counters-{stem}", figure, f"{title}: counters a ray"))
     return plots

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Sequence
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -39,6 +40,11 @@ class Plot:
     summary: str
 
 
+def house_style() -> AbstractContextManager[None]:
+    """Within it, matplotlib draws as all our figures look."""
+    return mpl.rc_context(_STYLE)
+
+
 def new_figure(
     height: float,
     rows: int = 1,
@@ -46,18 +52,20 @@ def new_figure(
     height_ratios: Sequence[float] | None = None,
 ) -> tuple[Figure, list[Axes]]:
     """A page-wide figure and its panels, row by row."""
-    with mpl.rc_context(_STYLE):
-        figure = Figure(figsize=(PAGE_WIDTH, height), layout="constrained")
-        panels = figure.subplots(rows, columns, squeeze=False, height_ratios=height_ratios)
+    figure = Figure(figsize=(PAGE_WIDTH, height), layout="constrained")
+    panels = figure.subplots(rows, columns, squeeze=False, height_ratios=height_ratios)
     return figure, list(panels.flat)
 
 
-def caption(figure: Figure, rows: pd.DataFrame, explanation: str) -> None:
-    """Writes under a figure what it shows, where the figures come from and what was left out."""
+def caption(figure: Figure, rows: pd.DataFrame, explanation: str, *, times: bool) -> None:
+    """Writes under a figure what it shows, where the data come from and whose hits were wrong.
+
+    A figure of times leaves the latter out; counters and memory are shown all the same.
+    """
     lines = [explanation, _source(rows)]
-    left_out = untimed(rows)
-    if left_out:
-        lines.append(f"Left out, for their hits were not judged right: {'; '.join(left_out)}.")
+    if wrong := untimed(rows):
+        start = "Left out, not being judged right" if times else "Shown, though not judged right"
+        lines.append(f"{start}: {'; '.join(wrong)}.")
     wrapped = "\n".join(textwrap.fill(line, _CAPTION_COLUMNS) for line in lines)
     figure.supxlabel(wrapped, x=0.01, ha="left", fontsize=7.5, color="#333333")
     width, height = figure.get_size_inches()
@@ -72,15 +80,14 @@ def untimed(rows: pd.DataFrame) -> list[str]:
 
 
 def write_plot(plot: Plot, directory: Path) -> list[Path]:
-    """Writes STEM.png and STEM.svg."""
+    """Writes the figure as PNG and as SVG."""
 
     def save(ending: str) -> Path:
         metadata = {"Date": None} if ending == "svg" else None
-        with mpl.rc_context(_STYLE):
-            return write_whole(
-                directory / f"{plot.stem}.{ending}",
-                lambda path: plot.figure.savefig(path, format=ending, dpi=200, metadata=metadata),
-            )
+        return write_whole(
+            directory / f"{plot.stem}.{ending}",
+            lambda path: plot.figure.savefig(path, format=ending, dpi=200, metadata=metadata),
+        )
 
     return [save("png"), save("svg")]
 

@@ -23,11 +23,18 @@ def memory(run: Run) -> list[Plot]:
         draw=lambda panel, rows: draw_bars(panel, _bars(rows), all_looks, "memory in MiB"),
         explanation="What the structure holds beside the scene, by its own account.",
         summary="memory of each structure",
+        times=False,
     )
 
 
 def _bars(rows: pd.DataFrame) -> list[Bar]:
     return [
-        Bar(row.contender, (row.memory_bytes / _MIB,), number(row.memory_bytes / _MIB))
+        Bar(row.contender, (row.memory_bytes / _MIB,), _in_words(row.memory_bytes))
         for row in rows.itertuples()
     ]
+
+
+def _in_words(size: float) -> str:
+    if size < 1024:
+        return f"{size:.0f} B"
+    return f"{number(size / 1024)} KiB" if size < _MIB else f"{number(size / _MIB)} MiB"

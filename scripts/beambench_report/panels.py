@@ -22,6 +22,7 @@ def panel_per_view(
     draw: Callable[[Axes, pd.DataFrame], None],
     explanation: str,
     summary: str,
+    times: bool,
 ) -> list[Plot]:
     """One figure over the views for which `select` gives rows; an empty list if there is none."""
     shown = {title: rows for title in run.views if not (rows := select(title)).empty}
@@ -33,5 +34,5 @@ def panel_per_view(
         first = rows.iloc[0]
         panel.set_title(f"{title} ({first['width']:.0f}x{first['height']:.0f})")
         draw(panel, rows)
-    caption(figure, run.rows, explanation)
+    caption(figure, run.rows, explanation, times=times)
     return [Plot(stem, figure, summary)]

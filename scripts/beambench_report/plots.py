@@ -7,7 +7,7 @@ from pathlib import Path
 from beambench_report.break_even import break_even, break_even_table
 from beambench_report.build_and_trace import build_and_trace
 from beambench_report.counters import counters
-from beambench_report.figure import Plot, write_plot
+from beambench_report.figure import Plot, house_style, write_plot
 from beambench_report.files import write_whole
 from beambench_report.memory import memory
 from beambench_report.records import Run, read_run
@@ -21,8 +21,9 @@ def write_plots(directory: Path) -> list[Path]:
     run = read_run(directory)
     folder = directory / "plots"
     folder.mkdir(exist_ok=True)
-    plots = [plot for make in FIGURES for plot in make(run)]
-    paths = [path for plot in plots for path in write_plot(plot, folder)]
+    with house_style():
+        plots = [plot for make in FIGURES for plot in make(run)]
+        paths = [path for plot in plots for path in write_plot(plot, folder)]
     table = break_even_table(run)
     paths.append(
         write_whole(folder / "break-even.csv", lambda path: table.to_csv(path, index=False))

@@ -31,6 +31,7 @@ def time_over_rays(run: Run) -> list[Plot]:
             rows,
             "Median of build and trace together; the bars are the median's 95% interval. "
             "Both axes are logarithmic.",
+            times=True,
         )
         plots.append(
             Plot(f"time-{stem}", figure, f"{title}: time, build included, against number of rays")

@@ -72,7 +72,7 @@ def test_a_wrong_contender_has_no_line_and_is_named_in_the_caption(tmp_path: Pat
     assert main(["plots", str(tmp_path)]) == 0
     text = svg_text(tmp_path / "plots" / "time-escena1.svg")
     assert "samet max_level=6 in escena1: mismatch" in text
-    assert "Left out" not in svg_text(tmp_path / "plots" / "time-tetra-n-6.svg")
+    assert "judged right" not in svg_text(tmp_path / "plots" / "time-tetra-n-6.svg")
 
 
 def test_a_run_in_which_nothing_was_right_still_shows_its_counters(tmp_path: Path) -> None:
