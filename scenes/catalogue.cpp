@@ -7,6 +7,9 @@
 
 #include "scenes/error.hpp"
 #include "scenes/generators/balls.hpp"
+#include "scenes/generators/bumpy.hpp"
+#include "scenes/generators/escena1.hpp"
+#include "scenes/generators/escena2.hpp"
 #include "scenes/generators/tetra.hpp"
 #include "scenes/nearest_name.hpp"
 #include "scenes/nff_reader.hpp"
@@ -30,7 +33,8 @@ bool is_path(std::string_view spec) {
 }  // namespace
 
 std::span<const SceneInfo> scene_catalogue() {
-  static const std::vector<SceneInfo> catalogue = {balls_scene(), stetra_scene(), tetra_scene()};
+  static const std::vector<SceneInfo> catalogue = {balls_scene(),   bumpy_scene(),  escena1_scene(),
+                                                   escena2_scene(), stetra_scene(), tetra_scene()};
   return catalogue;
 }
 
