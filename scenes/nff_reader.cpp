@@ -78,7 +78,7 @@ const std::array<NffReader::Command, 8> NffReader::kCommands = {{
 }};
 
 NffResult NffReader::read() && {
-  if (tokens_.peek().text == "nff") {
+  if (tokens_.peek().text == "nff" || tokens_.peek().text == "NFF") {
     tokens_.refuse(
         tokens_.peek().line,
         "this is a Sense8 WorldToolKit file, another format of the same name; convert it "

@@ -27,13 +27,13 @@ struct Subject {
   throw InputError(fmt::format(fmt::runtime(subject.words), subject.number) + ": " + why);
 }
 
-/// The one rounding to float.
+/// The one rounding to float; -0 becomes 0, so that equal scenes have equal bits.
 float rounded(double number, const Subject& subject, const char* what) {
   if (!(std::abs(number) <= kLargestNumber)) {  // catches NaN too
     refuse(subject,
            fmt::format("the {} is {}, but must be a number from -1e9 to 1e9", what, number));
   }
-  return static_cast<float>(number);
+  return static_cast<float>(number) + 0.0F;
 }
 
 glm::vec3 rounded(const glm::dvec3& point, const Subject& subject, const char* what) {

@@ -11,7 +11,7 @@ namespace {
 Scene generate(const Parameters& parameters) {
   SceneBuilder builder(parameters.label());
   Camera camera;
-  camera.from = {6.0F, -46.0F, 8.0F};
+  camera.from = {5.0F, -54.0F, 7.0F};
   camera.at = {0.0F, 0.0F, 0.0F};
   camera.up = {0.0F, 0.0F, 1.0F};
   builder.add_camera(camera);

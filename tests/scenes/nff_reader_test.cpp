@@ -1,0 +1,250 @@
+#include "scenes/nff_reader.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "scenes/catalogue.hpp"
+#include "scenes/random.hpp"
+#include "tests/scenes/thrown_message.hpp"
+
+namespace beambench {
+namespace {
+
+const std::string kFolder = std::string(BEAMBENCH_TEST_FILES) + "/golden/nff/";
+
+NffResult parse(std::string_view text) { return parse_nff(text, "test.nff"); }
+
+TEST(NffReader, ReadsOneOfEverything) {
+  const NffResult result = read_nff(kFolder + "complete.nff");
+  EXPECT_TRUE(result.warnings.empty());
+  const Scene& scene = result.scene;
+  EXPECT_EQ(scene.background, glm::vec3(0.078F, 0.361F, 0.753F));
+
+  ASSERT_EQ(scene.cameras.size(), 1U);
+  const Camera& camera = scene.cameras[0];
+  EXPECT_EQ(camera.from, glm::vec3(2.1F, 1.3F, 1.7F));
+  EXPECT_EQ(camera.at, glm::vec3(0.0F));
+  EXPECT_EQ(camera.up, glm::vec3(0, 0, 1));
+  EXPECT_EQ(camera.angle, 45.0F);
+  EXPECT_EQ(camera.aspect, 1.0F);
+  EXPECT_EQ(camera.hither, 0.01F);
+  EXPECT_EQ(camera.width, 640);
+  EXPECT_EQ(camera.height, 480);
+
+  ASSERT_EQ(scene.lights.size(), 2U);
+  EXPECT_EQ(scene.lights[0].color, glm::vec3(1.0F));
+  EXPECT_EQ(scene.lights[1].color, glm::vec3(0.5F, 0.25F, 20.0F));
+
+  ASSERT_EQ(scene.primitives.size(), 6U);
+  EXPECT_EQ(scene.spheres[0].radius, 0.5F);
+  EXPECT_TRUE(scene.spheres[1].inside_only);
+  EXPECT_EQ(scene.cones[0].apex, glm::vec3(0, 0, 2));
+  EXPECT_EQ(scene.cones[0].apex_radius, 0.05F);
+  EXPECT_TRUE(scene.cones[1].inside_only);
+  EXPECT_EQ(scene.cones[1].base_radius, 0.1F);
+  EXPECT_EQ(scene.polygons[0].corner_count, 4U);
+  EXPECT_EQ(scene.polygons[0].first_normal, Polygon::kFlat);
+  ASSERT_NE(scene.polygons[1].first_normal, Polygon::kFlat);
+  EXPECT_EQ(scene.normals[1], glm::vec3(0, 1, 1));
+  EXPECT_EQ(scene.normals[2], glm::vec3(0, 0, 1)) << "a normal of 0 is the polygon's own";
+
+  const Surface& surface = scene.surfaces[scene.primitives[1].surface];
+  EXPECT_EQ(surface.color, glm::vec3(1.0F, 0.9F, 0.7F));
+  EXPECT_EQ(surface.diffuse, 0.5F);
+  EXPECT_EQ(surface.specular, 0.5F);
+  EXPECT_EQ(surface.shine, 3.0827F);
+  EXPECT_EQ(surface.transmittance, 0.0F);
+  EXPECT_EQ(surface.refraction_index, 1.5F);
+  EXPECT_EQ(scene.surfaces[scene.primitives[0].surface].diffuse, 0.8F);
+}
+
+TEST(NffReader, ReadsFilesAsTheyAreFound) {
+  const std::string file = kFolder + "quirks.nff";
+  const NffResult result = read_nff(file);
+  const Scene& scene = result.scene;
+  EXPECT_EQ(scene.name, file);
+  ASSERT_EQ(scene.spheres.size(), 2U);
+  EXPECT_EQ(scene.spheres[0].center, glm::vec3(1.5e-5F, -20.0F, 3.0F));
+  EXPECT_EQ(scene.spheres[1].center.z, 0.0F) << "1e-400";
+  ASSERT_EQ(scene.polygons.size(), 1U);
+  EXPECT_EQ(scene.surfaces[1].shine, 100000.0F);
+  EXPECT_EQ(scene.surfaces[0].diffuse, 1.0F) << "f with three fields";
+  EXPECT_EQ(scene.lights.size(), 1U);
+  EXPECT_EQ(scene.cameras.size(), 1U) << "a camera is fitted where there is no view";
+  ASSERT_EQ(result.warnings.size(), 3U);
+  EXPECT_TRUE(says(result.warnings[0], {file + ":1: ", "'From'", "line 5"}));
+  EXPECT_TRUE(says(result.warnings[1], {file + ":8: ", "'obj'", "line 10"}));
+  EXPECT_TRUE(says(result.warnings[2], {file + ":12: ", "'la'", "line 13"}));
+}
+
+TEST(NffReader, CatalogueHandsOnTheWarnings) {
+  std::vector<std::string> warnings;
+  const Scene scene = load_scene(kFolder + "quirks.nff", &warnings);
+  EXPECT_EQ(scene.primitives.size(), 3U);
+  EXPECT_EQ(warnings.size(), 3U);
+}
+
+TEST(NffReader, OnlyTheLayoutThatCountsCounts) {
+  const std::uint64_t hash = scene_hash(parse("s 1 2 3 4\nc 0 0 0 1 0 0 1 2\n").scene);
+  for (const char* text : {"s 1 2 3 4\r\nc 0 0 0 1 0 0 1 2", "s\n1\n2\n3\n4\nc\n0 0 0 1\n0 0 1 2\n",
+                           "  s 1 2#x\n3 4#\nc 0 0 0 1# s 1 1 1 1\n0 0 1 2\n#",
+                           "\n\n#c 1\ns\t1.0 .2e1 +3 4.\nc 0 0 -0.0e9 1 0 0 1 2"}) {
+    EXPECT_EQ(scene_hash(parse(text).scene), hash) << text;
+  }
+}
+
+TEST(NffReader, LaterViewsAreFurtherCameras) {
+  const std::string view = "v\nfrom 1 2 3\nat 0 0 0\nup 0 0 1\nangle 40\nresolution 8 8\n";
+  const Scene scene = parse(view + view + "s 0 0 0 1\n").scene;
+  ASSERT_EQ(scene.cameras.size(), 2U);
+  EXPECT_EQ(scene.cameras[0].name, "default");
+  EXPECT_EQ(scene.cameras[1].name, "view 2");
+}
+
+struct Malformed {
+  const char* name;
+  const char* text;
+  std::size_t line;
+  const char* words;
+};
+
+class MalformedNff : public testing::TestWithParam<Malformed> {};
+
+TEST_P(MalformedNff, IsRefusedWithFileLineAndWord) {
+  EXPECT_TRUE(says(thrown_message([] { parse(GetParam().text); }),
+                   {"test.nff:" + std::to_string(GetParam().line) + ": ", GetParam().words}));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    NffReader, MalformedNff,
+    testing::Values(
+        Malformed{"empty", "", 1, "no NFF command"},
+        Malformed{"no_command", "hello\nworld 1 2\n", 1, "no NFF command"},
+        Malformed{"sense8", "# x\nNFF\nversion 2.00\n", 2, "Sense8"},
+        Malformed{"sense8_lower_case", "nff\nversion 2.00\n", 1, "Sense8"},
+        Malformed{"cut_in_sphere", "b 0 0 0\ns 0 0", 2, "ends where the sphere's centre"},
+        Malformed{"cut_before_radius", "s 0 0 0\n\n", 3, "ends where the sphere's radius"},
+        Malformed{"cut_in_polygon", "p 3\n0 0 0\n1 0 0\n0 1", 1, "cut off"},
+        Malformed{"next_command_too_early", "s 0 0 0\ns 0 0 0 1\n", 2, "'s' stands where"},
+        Malformed{"not_a_number", "s 0 0 0 1\ns 0 0 zero 1\n", 2, "'zero'"},
+        Malformed{"half_a_number", "s 0 0 0 1.2.3\n", 1, "'1.2.3'"},
+        Malformed{"decimal_comma", "s 0,5 0 0 1\n", 1, "'0,5'"},
+        Malformed{"nan", "b 0 0 0\nl 1 nan 2\n", 2, "'nan'"},
+        Malformed{"negative_nan_colour", "l 1 1 2 -nan 1 1\n", 1, "'-nan'"},
+        Malformed{"inf", "s 0 0 inf 1\n", 1, "'inf'"},
+        Malformed{"too_large_for_double", "s 0 0 1e999 1\n", 1, "'1e999'"},
+        Malformed{"beyond_limit", "\ns 0 0 1.1e9 1\n", 2, "'1.1e9'"},
+        Malformed{"radius_0", "b 0 0 0\n\ns 0 0 0 0\n", 3, "radius is 0"},
+        Malformed{"cone_of_radius_0", "c 0 0 0 0\n1 1 1 0\n", 1, "both radii are 0"},
+        Malformed{"cone_of_mixed_radii", "c 0 0 0 1\n1 1 1 -1\n", 1, "differ in sign"},
+        Malformed{"cone_without_length", "c 1 1 1 1\n1 1 1 1\n", 1, "same point"},
+        Malformed{"polygon_of_two", "b 0 0 0\np 2\n0 0 0\n1 1 1\n", 2, "at least 3"},
+        Malformed{"polygon_of_minus_one", "p -1\n", 1, "at least 3"},
+        Malformed{"polygon_of_a_billion", "b 0 0 0\np 1000000000\n0 0 0\n1 0 0\n0 1 0\n", 2,
+                  "a polygon of 1000000000 vertices"},
+        Malformed{"smooth_polygon_of_a_billion", "pp 1000000000\n0 0 0\n", 1, "can hold"},
+        Malformed{"count_beyond_limit", "p 99999999999999\n0 0 0\n", 1, "number of vertices"},
+        Malformed{"count_not_whole", "p 3.5\n0 0 0\n", 1, "integer"},
+        Malformed{"count_missing", "p\nfoo", 2, "number of vertices"},
+        Malformed{"count_too_small", "p 3\n0 0 0\n1 0 0\n1 1 0\n0 1 0\ns 0 0 0 1\n", 5,
+                  "line 1 takes fewer numbers"},
+        Malformed{"polygon_without_area", "s 0 0 0 1\np 3\n0 0 0\n1 1 1\n2 2 2\n", 2, "no area"},
+        Malformed{"polygon_in_one_place", "p 3\n0 0 0\n0 0 0\n0 0 0\n", 1, "only 1 of its 3"},
+        Malformed{"too_many_surface_fields", "f 1 1 1 1 1 1 1 1 1\n2\n", 2, "'2'"},
+        Malformed{"too_few_surface_fields", "f 1 1\ns 0 0 0 1\n", 2, "the colour"},
+        Malformed{"light_with_half_a_colour", "l 1 1 1 1\ns 0 0 0 1", 2, "light's colour"},
+        Malformed{"obj_file", "v 1 2 3\nv 2 3 4\nf 1 2 3\n", 1, "no 'from'"},
+        Malformed{"view_without_at", "b 0 0 0\nv\nfrom 1 1 1\nup 0 0 1\n", 2, "no 'at'"},
+        Malformed{"cut_in_view", "v\nfrom 1 1 1\nat 0 0 0\nup 0 0 1\nangle 45\n", 1,
+                  "no 'resolution'"},
+        Malformed{"view_at_itself", "v\nfrom 1 1 1\nat 1 1 1\nup 0 0 1\nangle 45\nresolution 4 4\n",
+                  1, "the eye is the point looked at"},
+        Malformed{"view_angle", "v\nfrom 1 1 1\nat 0 0 0\nup 0 0 1\nangle 180\nresolution 4 4\n", 1,
+                  "between 0 and 180"},
+        Malformed{"view_resolution",
+                  "v\nfrom 1 1 1\nat 0 0 0\nup 0 0 1\nangle 45\nresolution 0 4\n", 1, "0 x 4"}),
+    [](const auto& info) { return std::string(info.param.name); });
+
+TEST(NffReader, UnreadableFilesAreRefused) {
+  EXPECT_TRUE(says(thrown_message([] { read_nff("/no/such/file.nff"); }),
+                   {"/no/such/file.nff", "No such file"}));
+  EXPECT_TRUE(says(thrown_message([] { read_nff(kFolder); }), {kFolder, "folder"}));
+}
+
+/// Parses text that may be anything: it gives a scene or an InputError that names the place.
+void expect_scene_or_refusal(const std::string& text) {
+  try {
+    const Scene scene = parse(text).scene;
+    RC_ASSERT(scene.cameras.size() >= 1U);
+    for (const Sphere& sphere : scene.spheres) {
+      RC_ASSERT(sphere.radius > 0.0F && std::abs(sphere.center.x) <= 1e9F);
+    }
+    for (const Polygon& polygon : scene.polygons) RC_ASSERT(polygon.triangle_count > 0U);
+  } catch (const InputError& error) {
+    RC_ASSERT(std::string(error.what()).starts_with("test.nff:"));
+  }
+}
+
+std::string golden(const std::string& name) {
+  std::ifstream stream(kFolder + name, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+RC_GTEST_PROP(NffReader, TruncatedTextGivesASceneOrARefusal, ()) {
+  const std::string whole = golden(*rc::gen::element("complete.nff", "quirks.nff"));
+  expect_scene_or_refusal(whole.substr(0, *rc::gen::inRange<std::size_t>(0, whole.size())));
+}
+
+RC_GTEST_PROP(NffReader, MutatedTextGivesASceneOrARefusal, (std::uint64_t seed)) {
+  static constexpr std::array<std::string_view, 16> kPieces = {
+      "nan",      "-",         "1e9", "\n", " ",   "#",      "p 1000000000",
+      "pp 3\n",   "v\n",       "0",   "s ", "c\n", "1e-999", std::string_view("\0", 1),
+      "\xFF\xFE", "9999999999"};
+  Random random(seed);
+  std::string text = golden(random.below(2) == 0 ? "complete.nff" : "quirks.nff");
+  const std::uint64_t mutations = 1 + random.below(8);
+  for (std::uint64_t i = 0; i < mutations; ++i) {
+    const std::size_t at = random.below(text.size());
+    const std::size_t length = std::min<std::size_t>(random.below(12), text.size() - at);
+    switch (random.below(3)) {
+      case 0:
+        text.erase(at, length);
+        break;
+      case 1:
+        text.insert(at, kPieces[random.below(kPieces.size())]);
+        break;
+      default:
+        text[at] = static_cast<char>(random.below(256));
+    }
+    if (text.empty()) break;
+  }
+  expect_scene_or_refusal(text);
+}
+
+RC_GTEST_PROP(NffReader, AnyTextGivesASceneOrARefusal, (const std::string& text)) {
+  expect_scene_or_refusal(text);
+}
+
+TEST(NffReader, TenMegabytesTakeWellUnderASecond) {
+  Random random(1);
+  std::ostringstream text;
+  for (int i = 0; i < 120000; ++i) {
+    text << "p 3\n";
+    for (int k = 0; k < 9; ++k) text << random.uniform(-1, 1) << (k % 3 == 2 ? '\n' : ' ');
+  }
+  const auto start = std::chrono::steady_clock::now();
+  EXPECT_EQ(parse(text.str()).scene.polygons.size(), 120000U);
+  // Some 70 ms in a release build; the bound only catches work that grows with the square.
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
+}
+
+}  // namespace
+}  // namespace beambench
