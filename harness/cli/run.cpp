@@ -1,0 +1,124 @@
+// beambench run: measures a sweep.
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "harness/cli/commands.hpp"
+#include "harness/sweep/sweep_run.hpp"
+#include "scenes/error.hpp"
+
+namespace beambench {
+namespace {
+
+struct RunRequest {
+  std::string config;
+  std::string output;
+  std::string resume;
+  bool dry_run = false;
+  std::vector<std::string> benchmark_flags;
+};
+
+std::filesystem::path config_path(const RunRequest& request) {
+  if (!request.config.empty()) return request.config;
+  if (!request.resume.empty()) return std::filesystem::path(request.resume) / "config.json";
+  throw InputError(
+      "no configuration given; name a sweep's JSON file, such as harness/sweeps/default.json, or "
+      "go "
+      "on with a run by --resume DIR");
+}
+
+SweepOptions options_of(const RunRequest& request) {
+  SweepOptions options;
+  options.flags = parse_benchmark_flags(request.benchmark_flags);
+  options.resume = !request.resume.empty();
+  if (options.resume) options.folder = request.resume;
+  if (!request.output.empty()) options.folder = request.output;
+  return options;
+}
+
+/// --benchmark_repetitions=N: exactly N, in the configuration that is kept, too.
+void override_repetitions(SweepConfig& config, int repetitions) {
+  config.minimum_repetitions = config.maximum_repetitions = repetitions;
+  config.source["repetitions"] = {{"minimum", repetitions}, {"maximum", repetitions}};
+}
+
+std::vector<std::string> cell_names(const Plan& plan) {
+  std::vector<std::string> names;
+  for (const CellGroup& group : plan.groups) {
+    for (const PlannedCell& cell : group.cells) names.push_back(cell.id.name());
+  }
+  return names;
+}
+
+/// The cells that the configuration asks for and --benchmark_filter selects.
+Plan selected_plan(const SweepConfig& config, const GoogleBenchmark& benchmark) {
+  Plan plan = make_plan(config);
+  if (plan.merged > 0) {
+    fmt::print(stderr, "{} cells that the configuration asks for more than once are made once\n",
+               plan.merged);
+  }
+  const std::set<std::string> selected = benchmark.select(cell_names(plan));
+  filter_cells(plan, [&](const CellId& id) { return selected.contains(id.name()); });
+  return plan;
+}
+
+int report(const SweepOutcome& outcome) {
+  if (outcome.failed > 0) {
+    fmt::print(stderr, "{} of {} cells have no times: their hits were not right\n", outcome.failed,
+               outcome.cells);
+  } else {
+    fmt::print(stderr, "{} cells, all judged right\n", outcome.cells);
+  }
+  fmt::print("{}\n", outcome.results.string());
+  return outcome.failed > 0 ? kFound : kSuccess;
+}
+
+int run(const RunRequest& request) {
+  const SweepOptions options = options_of(request);
+  for (const std::string& note : options.flags.notes) fmt::print(stderr, "{}\n", note);
+  SweepConfig config = read_sweep(config_path(request), registry());
+  if (options.flags.repetitions) override_repetitions(config, *options.flags.repetitions);
+  const GoogleBenchmark benchmark(options.flags);
+  Plan plan = selected_plan(config, benchmark);
+  if (request.dry_run || options.flags.list) {
+    for (const std::string& name : cell_names(plan)) fmt::print("{}\n", name);
+    return kSuccess;
+  }
+  return report(run_sweep(config, std::move(plan), benchmark, options, stderr));
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("run", "Measure a sweep: times of structures whose hits are judged right");
+  const auto request = std::make_shared<RunRequest>();
+  command->add_option("CONFIG", request->config, "The sweep's JSON file");
+  CLI::Option* output =
+      command->add_option("-o,--output", request->output,
+                          "Folder for the record (default: results/runs/<time>-<name>)");
+  command
+      ->add_option("--resume", request->resume,
+                   "Go on with the run in this folder; finished cells are not repeated")
+      ->excludes(output);
+  command->add_flag("--dry-run", request->dry_run, "Print the names of the cells and stop");
+  command->allow_extras();
+  command->footer(
+      "Google Benchmark's flags work where they mean something here: --benchmark_filter=REGEX\n"
+      "(over the names that --dry-run prints), --benchmark_repetitions=N,\n"
+      "--benchmark_list_tests, --benchmark_context=KEY=VALUE, --v=N.\n"
+      "Examples:\n"
+      "  beambench run harness/sweeps/quick.json\n"
+      "  beambench run harness/sweeps/default.json -o my-run --benchmark_filter=tetra.*samet\n"
+      "  beambench run --resume my-run");
+  command->callback([command, request, &exit_code] {
+    request->benchmark_flags = command->remaining();
+    exit_code = run(*request);
+  });
+}
+
+}  // namespace beambench

@@ -1,0 +1,181 @@
+#include "harness/record/cell_record.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "accel/work_counters.hpp"
+#include "harness/record/fingerprint.hpp"
+#include "harness/record/robust_statistics.hpp"
+
+namespace beambench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<std::string_view, 3> kStopReasonNames{"precision", "budget", "repetitions"};
+
+/// One figure of every repetition.
+template <class Figure>
+std::vector<double> collect(const CellRecord& cell, Figure figure) {
+  std::vector<double> values;
+  for (const Repetition& repetition : cell.repetitions) {
+    values.push_back(std::invoke(figure, repetition));
+  }
+  return values;
+}
+
+bool has_times(const CellRecord& cell) { return cell.keeps_times() && !cell.repetitions.empty(); }
+
+void add_run(Row& row, const RunFacts& run, const CellRecord& cell) {
+  row["run_id"] = run.run_id;
+  row["time_utc"] = cell.time_utc;
+  row["commit"] = run.commit;
+  row["dirty"] = run.dirty;
+  row["machine_id"] = run.machine_id;
+  row["build_type"] = run.build_type;
+  row["flags"] = run.flags;
+  row["isa"] = run.isa;
+  row["threads"] = run.threads;
+}
+
+void add_identity(Row& row, const CellRecord& cell) {
+  row["scene"] = cell.id.scene;
+  row["camera"] = cell.id.camera;
+  row["scene_hash"] = hex_digits(cell.rays.scene_hash);
+  row["rays_hash"] = hex_digits(cell.rays.rays_hash);
+  row["seed"] = cell.rays.seed;
+  row["primitives"] = cell.rays.primitives;
+  row["structure"] = cell.id.structure;
+  row["parameters"] = cell.id.parameters;
+  row["width"] = cell.id.resolution.width;
+  row["height"] = cell.id.resolution.height;
+  row["samples"] = cell.id.samples;
+  row["ray_kind"] = to_string(cell.id.ray_kind);
+  row["rays"] = cell.rays.rays;
+}
+
+void add_wall_time(Row& row, const std::string& phase, const std::vector<double>& samples) {
+  const bool known = !samples.empty();
+  row[phase + "_ms_median"] = known ? Json(median(samples)) : Json();
+  row[phase + "_ms_min"] = known ? Json(minimum(samples)) : Json();
+  row[phase + "_ms_mad"] = known ? Json(median_absolute_deviation(samples)) : Json();
+}
+
+void add_times(Row& row, const CellRecord& cell) {
+  const bool known = has_times(cell);
+  const auto samples = [&](auto figure) {
+    return known ? collect(cell, figure) : std::vector<double>();
+  };
+  const auto median_of = [&](auto figure) {
+    return known ? Json(median(collect(cell, figure))) : Json();
+  };
+  row["repetitions"] = cell.repetitions.size();
+  row["stop_reason"] = cell.stop_reason ? Json(to_string(*cell.stop_reason)) : Json();
+  add_wall_time(row, "build", samples(&Repetition::build_ms));
+  add_wall_time(row, "trace", samples(&Repetition::trace_ms));
+  const std::vector<double> totals = samples(&Repetition::total_ms);
+  add_wall_time(row, "total", totals);
+  const std::optional<Interval> interval = median_interval(totals);
+  row["total_ms_ci_low"] = interval ? Json(interval->low) : Json();
+  row["total_ms_ci_high"] = interval ? Json(interval->high) : Json();
+  row["build_cpu_ms_median"] = median_of(&Repetition::build_cpu_ms);
+  row["trace_cpu_ms_median"] = median_of(&Repetition::trace_cpu_ms);
+  row["mrays_per_s"] = Json();
+  if (known) {
+    const double trace_us = 1e3 * median(collect(cell, &Repetition::trace_ms));
+    if (trace_us > 0.0) row["mrays_per_s"] = static_cast<double>(cell.rays.rays) / trace_us;
+  }
+}
+
+/// A family without nodes (Embree does not tell, `exhaustive` has none) leaves their sizes empty.
+void add_statistics(Row& row, const CellRecord& cell) {
+  row["memory_bytes"] = cell.statistics ? Json(cell.statistics->bytes) : Json();
+  const bool has_nodes = cell.statistics && cell.statistics->nodes > 0;
+  const auto size = [&](std::uint64_t Statistics::*member) {
+    return has_nodes ? Json((*cell.statistics).*member) : Json();
+  };
+  row["nodes"] = size(&Statistics::nodes);
+  row["leaves"] = size(&Statistics::leaves);
+  row["empty_leaves"] = size(&Statistics::empty_leaves);
+  row["references"] = size(&Statistics::references);
+  row["depth"] = size(&Statistics::depth);
+}
+
+void add_counters(Row& row, const CellRecord& cell) {
+  const double rays = static_cast<double>(cell.rays.rays);
+  for (const std::string_view name : kCounterNames) {
+    const auto found = cell.counters.find(name);
+    row[fmt::format("{}_per_ray", name)] =
+        found == cell.counters.end() ? Json() : Json(static_cast<double>(found->second) / rays);
+  }
+  for (const auto& [name, count] : cell.counters) {
+    row[name + "_per_ray"] = static_cast<double>(count) / rays;
+  }
+}
+
+void add_judgement(Row& row, const CellRecord& cell) {
+  row["hits"] = cell.diff ? Json(cell.diff->hits) : Json();
+  for (std::size_t i = 0; i < kDiffClassNames.size(); ++i) {
+    row[std::string(kDiffClassNames[i])] = cell.diff ? Json(cell.diff->counts[i]) : Json();
+  }
+  row["verdict"] = cell.verdict;
+}
+
+Json repetition_json(const Repetition& repetition) {
+  return {{"round", repetition.round},
+          {"position", repetition.position},
+          {"build_ms", repetition.build_ms},
+          {"trace_ms", repetition.trace_ms},
+          {"build_cpu_ms", repetition.build_cpu_ms},
+          {"trace_cpu_ms", repetition.trace_cpu_ms}};
+}
+
+}  // namespace
+
+std::string CellId::name() const {
+  return fmt::format("{}/{}/{}/{}/{}/{}{}{}", scene, camera, to_string(resolution), samples,
+                     to_string(ray_kind), structure, parameters.empty() ? "" : ":", parameters);
+}
+
+std::string CellId::key() const { return hex_digits(fingerprint(name())); }
+
+std::string_view to_string(StopReason reason) {
+  return kStopReasonNames[static_cast<std::size_t>(reason)];
+}
+
+Row to_row(const RunFacts& run, const CellRecord& cell) {
+  Row row = Row::object();
+  add_run(row, run, cell);
+  add_identity(row, cell);
+  add_times(row, cell);
+  add_statistics(row, cell);
+  add_counters(row, cell);
+  add_judgement(row, cell);
+  return row;
+}
+
+Json to_json(const RunFacts& run, const CellRecord& cell) {
+  Json repetitions = Json::array();
+  if (cell.keeps_times()) {
+    for (const Repetition& repetition : cell.repetitions) {
+      repetitions.push_back(repetition_json(repetition));
+    }
+  }
+  Json more = Json::object();
+  if (cell.statistics) {
+    for (const auto& [name, value] : cell.statistics->more) more[name] = value;
+  }
+  return {{"index", cell.index},
+          {"name", cell.id.name()},
+          {"key", cell.id.key()},
+          {"row", to_row(run, cell)},
+          {"hits_hash", cell.hits_hash ? Json(hex_digits(*cell.hits_hash)) : Json()},
+          {"message", cell.message},
+          {"examples", cell.examples},
+          {"family_statistics", more},
+          {"repetitions", repetitions}};
+}
+
+}  // namespace beambench

@@ -1,0 +1,106 @@
+#pragma once
+// The record of one cell: one structure asked with one set of rays.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accel/statistics.hpp"
+#include "harness/differ/differ.hpp"
+#include "harness/rays/ray_kind.hpp"
+#include "harness/rays/resolution.hpp"
+#include "harness/record/csv.hpp"
+
+namespace beambench {
+
+/// What tells a cell from every other cell of a sweep.
+struct CellId {
+  std::string scene;
+  std::string camera;
+  std::string structure;   ///< the bare name
+  std::string parameters;  ///< all of them, canonical
+  Resolution resolution;
+  int samples;
+  RayKind ray_kind;
+
+  /// `escena1/default/320x200/1/primary/samet:max_level=6,max_objects=0`.
+  std::string name() const;
+  /// The fingerprint of the name, sixteen hexadecimal digits.
+  std::string key() const;
+};
+
+/// One timed repetition: built, traced, thrown away.
+struct Repetition {
+  int round;     ///< the contenders of a group take turns, one repetition each a round
+  int position;  ///< in the order of that round
+  double build_ms;
+  double trace_ms;
+  double build_cpu_ms;
+  double trace_cpu_ms;
+
+  double total_ms() const { return build_ms + trace_ms; }
+};
+
+/// Why no further repetition was made.
+enum class StopReason {
+  kPrecision,   ///< the median's interval is as narrow as was wanted
+  kBudget,      ///< the time was up
+  kRepetitions  ///< as many as were allowed
+};
+std::string_view to_string(StopReason reason);  // "precision", "budget", "repetitions"
+
+/// What every row of a run has in common.
+struct RunFacts {
+  std::string run_id;
+  std::string commit;
+  bool dirty;
+  std::string machine_id;
+  std::string build_type;
+  std::string flags;
+  std::string isa;
+  int threads;
+};
+
+/// What every cell of a group has in common.
+struct RaySetFacts {
+  std::uint64_t scene_hash;
+  std::uint64_t rays_hash;
+  std::uint64_t seed;  ///< of a random set of rays; 0 where nothing is random
+  std::uint64_t primitives;
+  std::uint64_t rays;
+};
+
+/// A cell and all that was found out about it.
+struct CellRecord {
+  std::size_t index;  ///< in the plan of the whole sweep: the order of rows
+  CellId id;
+  RaySetFacts rays;
+  std::string time_utc;  ///< when it was finished
+
+  /// Work of the counting pass by name; empty where the structure counts nothing.
+  std::map<std::string, std::uint64_t, std::less<>> counters;
+  /// Absent where the structure could not be built.
+  std::optional<Statistics> statistics;
+  std::vector<Repetition> repetitions;
+  std::optional<StopReason> stop_reason;
+  /// The judgement of the timed buffer, and its fingerprint. Absent where there is none.
+  std::optional<DiffReport> diff;
+  std::optional<std::uint64_t> hits_hash;
+
+  std::string verdict;                ///< a Verdict's name, or "error": it could not be built
+  std::string message;                ///< what is wrong, in one sentence; empty when nothing is
+  std::vector<std::string> examples;  ///< disputed rays, described
+
+  /// Are its times worth showing? Only hits that are right (or absent by design) were earned.
+  bool keeps_times() const { return verdict == "ok" || verdict == "baseline"; }
+};
+
+/// One row of results.csv. A cell that does not keep its times has null there.
+Row to_row(const RunFacts& run, const CellRecord& cell);
+
+/// The file of a cell: name, key, row, message, examples, and every repetition.
+nlohmann::ordered_json to_json(const RunFacts& run, const CellRecord& cell);
+
+}  // namespace beambench

@@ -1,0 +1,37 @@
+#include "harness/record/fingerprint.hpp"
+
+#include <vector>
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+namespace beambench {
+
+static_assert(sizeof(Ray) == 8 * sizeof(float), "rays are hashed as bytes: no padding");
+
+std::uint64_t fingerprint(std::string_view bytes) {
+  return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+std::uint64_t fingerprint(const PrimaryRays& rays) {
+  std::uint64_t hash = 0;
+  std::vector<Ray> row;
+  for (int y = 0; y < rays.height(); ++y) {
+    row.clear();
+    for (int x = 0; x < rays.width(); ++x) {
+      for (int sample = 0; sample < rays.samples(); ++sample) row.push_back(rays.ray(x, y, sample));
+    }
+    // Each row's hash is seeded with that of the rows above, so the whole is never in memory.
+    hash = XXH3_64bits_withSeed(row.data(), row.size() * sizeof(Ray), hash);
+  }
+  return hash;
+}
+
+std::uint64_t fingerprint(const HitBuffer& buffer) {
+  const std::uint64_t distances = XXH3_64bits(buffer.t(), buffer.size() * sizeof(float));
+  return XXH3_64bits_withSeed(buffer.primitive(), buffer.size() * sizeof(PrimitiveId), distances);
+}
+
+std::string hex_digits(std::uint64_t value) { return fmt::format("{:016x}", value); }
+
+}  // namespace beambench

@@ -1,0 +1,30 @@
+#pragma once
+// The machine a run was made on, as far as it tells.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace beambench {
+
+struct Machine {
+  std::string id;  ///< fingerprint of the host's name: tells machines apart without naming them
+  std::string cpu;
+  unsigned cores;  ///< that this process may use
+  std::uint64_t memory_bytes;
+  std::string kernel;
+  std::string governor;           ///< of the first core; empty where the system does not tell
+  std::string turbo;              ///< "on", "off", or empty where the system does not tell
+  double load;                    ///< one-minute load average at the time of asking
+  std::uint64_t executable_hash;  ///< of this program's file
+};
+
+Machine inspect_machine();
+
+/// What of it disturbs timings and cannot be controlled from here, a sentence each.
+std::vector<std::string> disturbances(const Machine& machine);
+
+/// Now in UTC, `2024-05-31T14:07:09Z`.
+std::string utc_now();
+
+}  // namespace beambench

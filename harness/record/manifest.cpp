@@ -1,0 +1,86 @@
+#include "harness/record/manifest.hpp"
+
+#include "harness/record/build_info.hpp"
+#include "harness/record/fingerprint.hpp"
+
+namespace beambench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The layout of the files of a run. Counted up when a reader of the old one would err.
+constexpr int kRecordVersion = 1;
+
+constexpr std::string_view kLibraryNote =
+    "google-benchmark.json says library_build_type 'debug' where the system's Google Benchmark was "
+    "built without NDEBUG, as Debian's is; that slows its own loop, of which nothing is timed here "
+    "(times are taken by beambench and handed over). beambench's own build type is in 'program'.";
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
+Json program_json(const Manifest& manifest) {
+  const BuildInfo& info = build_info();
+  Json libraries = Json::object();
+  for (const auto& [name, version] : info.libraries) {
+    libraries[std::string(name)] = text_or_null(std::string(version));
+  }
+  return {{"version", info.version},
+          {"commit", info.commit},
+          {"dirty", info.dirty},
+          {"build_type", info.build_type},
+          {"compiler", info.compiler},
+          {"flags", info.flags},
+          {"executable_hash", hex_digits(manifest.machine.executable_hash)},
+          {"libraries", libraries}};
+}
+
+Json machine_json(const Machine& machine) {
+  return {{"id", machine.id},
+          {"cpu", machine.cpu},
+          {"cores", machine.cores},
+          {"memory_bytes", machine.memory_bytes},
+          {"kernel", machine.kernel},
+          {"governor", text_or_null(machine.governor)},
+          {"turbo", text_or_null(machine.turbo)},
+          {"load_average", machine.load}};
+}
+
+Json measurement_json(const Manifest& manifest) {
+  const MeasurementFacts& facts = manifest.measurement;
+  return {{"threads", manifest.run.threads},
+          {"isa", manifest.run.isa},
+          {"flush_to_zero", facts.flush_to_zero},
+          {"denormals_are_zero", facts.flush_to_zero},
+          {"pinned", facts.pinned_core >= 0},
+          {"pinned_core", facts.pinned_core >= 0 ? Json(facts.pinned_core) : Json()},
+          {"warm_up_seconds", facts.warm_up_seconds},
+          {"wall_clock", "steady_clock"},
+          {"cpu_clock", "CLOCK_THREAD_CPUTIME_ID"}};
+}
+
+Json scenes_json(const std::vector<SceneFacts>& scenes) {
+  Json list = Json::array();
+  for (const SceneFacts& scene : scenes) {
+    list.push_back(
+        {{"name", scene.name}, {"hash", hex_digits(scene.hash)}, {"primitives", scene.primitives}});
+  }
+  return list;
+}
+
+}  // namespace
+
+Json to_json(const Manifest& manifest) {
+  return {{"record_version", kRecordVersion},
+          {"run_id", manifest.run.run_id},
+          {"sweep", manifest.sweep},
+          {"time_utc", manifest.begun_utc},
+          {"finished_utc", text_or_null(manifest.finished_utc)},
+          {"program", program_json(manifest)},
+          {"machine", machine_json(manifest.machine)},
+          {"measurement", measurement_json(manifest)},
+          {"scenes", scenes_json(manifest.scenes)},
+          {"uncontrolled", manifest.uncontrolled},
+          {"notes", {kLibraryNote}}};
+}
+
+}  // namespace beambench

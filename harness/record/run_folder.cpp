@@ -1,0 +1,118 @@
+#include "harness/record/run_folder.hpp"
+
+#include <fstream>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "harness/files/pending_file.hpp"
+#include "harness/record/csv.hpp"
+#include "scenes/error.hpp"
+
+namespace beambench {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kCells = "cells";
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) {
+    throw InputError(fmt::format("cannot make the folder '{}': {}; choose another with -o",
+                                 path.string(), error.message()));
+  }
+}
+
+Json parse_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  Json document = Json::parse(file, nullptr, /*allow_exceptions=*/false);
+  if (!document.is_discarded()) return document;
+  throw InputError(
+      fmt::format("cannot read '{}', which a run should have left whole; measure anew "
+                  "into another folder with -o",
+                  path.string()));
+}
+
+}  // namespace
+
+RunFolder RunFolder::create(const fs::path& path) {
+  make_folder(path);
+  RunFolder folder(path);
+  for (const fs::path& trace : {path / "manifest.json", folder.results(), path / kCells}) {
+    if (!fs::exists(trace)) continue;
+    throw InputError(
+        fmt::format("'{}' already holds a run; go on with it by --resume '{}', or "
+                    "choose another folder with -o",
+                    path.string(), path.string()));
+  }
+  make_folder(path / kCells);
+  return folder;
+}
+
+RunFolder RunFolder::open(const fs::path& path) {
+  if (!fs::exists(path / "manifest.json")) {
+    throw InputError(
+        fmt::format("'{}' holds no run to resume: there is no manifest.json; begin one "
+                    "with -o",
+                    path.string()));
+  }
+  make_folder(path / kCells);
+  RunFolder folder(path);
+  folder.load_cells();
+  return folder;
+}
+
+Json RunFolder::read_json(const std::string& name) const { return parse_file(path_ / name); }
+
+void RunFolder::write_json(const std::string& name, const Json& document) const {
+  write_text(name, document.dump(2) + '\n');
+}
+
+void RunFolder::write_text(const std::string& name, const std::string& text) const {
+  write_file(path_ / name, text);
+}
+
+void RunFolder::add_cell(const Json& cell) {
+  const auto key = cell.at("key").get<std::string>();
+  write_file(path_ / kCells / (key + ".json"), cell.dump(2) + '\n');
+  remember(cell);
+  write_results();
+}
+
+std::vector<Json> RunFolder::cells() const {
+  std::vector<Json> list;
+  for (const auto& [index, cell] : cells_) list.push_back(cell);
+  return list;
+}
+
+void RunFolder::load_cells() {
+  for (const auto& entry : fs::directory_iterator(path_ / kCells)) {
+    const std::string name = entry.path().filename().string();
+    const bool unfinished = name.starts_with('.');  // a PendingFile that a kill left behind
+    if (unfinished || entry.path().extension() != ".json") continue;
+    Json cell = parse_file(entry.path());
+    for (const char* member : {"index", "key", "row", "repetitions", "name", "message"}) {
+      if (cell.contains(member)) continue;
+      throw InputError(fmt::format("'{}' is not a cell of a run: it has no '{}'; remove it",
+                                   entry.path().string(), member));
+    }
+    remember(std::move(cell));
+  }
+}
+
+void RunFolder::remember(Json cell) {
+  keys_.insert(cell.at("key").get<std::string>());
+  const auto index = cell.at("index").get<std::size_t>();
+  cells_.insert_or_assign(index, std::move(cell));
+}
+
+void RunFolder::write_results() const {
+  std::vector<Row> rows;
+  for (const auto& [index, cell] : cells_) rows.push_back(cell.at("row"));
+  write_text("results.csv", csv_table(rows));
+}
+
+}  // namespace beambench

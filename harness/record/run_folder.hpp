@@ -1,0 +1,49 @@
+#pragma once
+// The folder of a run: one file for each finished cell, and all that is derived from them.
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace beambench {
+
+/// Keeps what is finished, whatever happens next: `cells/<key>.json` is whole or not there,
+/// results.csv is made anew from the cells after each. Methods throw InputError when the folder
+/// cannot be written.
+class RunFolder {
+ public:
+  /// Makes a folder for a new run; throws InputError when it already holds one.
+  static RunFolder create(const std::filesystem::path& path);
+  /// Opens the folder of a run that was begun; throws InputError when it holds none or a file of it
+  /// cannot be read.
+  static RunFolder open(const std::filesystem::path& path);
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path results() const { return path_ / "results.csv"; }
+
+  nlohmann::ordered_json read_json(const std::string& name) const;
+  void write_json(const std::string& name, const nlohmann::ordered_json& document) const;
+  void write_text(const std::string& name, const std::string& text) const;
+
+  bool has_cell(const std::string& key) const { return keys_.contains(key); }
+  /// Keeps a finished cell and brings results.csv up to date.
+  void add_cell(const nlohmann::ordered_json& cell);
+  /// All finished cells in the order of the plan.
+  std::vector<nlohmann::ordered_json> cells() const;
+
+ private:
+  explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  void load_cells();
+  void remember(nlohmann::ordered_json cell);
+  void write_results() const;
+
+  std::filesystem::path path_;
+  std::set<std::string> keys_;
+  std::map<std::size_t, nlohmann::ordered_json> cells_;  ///< by index in the plan
+};
+
+}  // namespace beambench

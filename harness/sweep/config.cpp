@@ -1,0 +1,133 @@
+#include "harness/sweep/config.hpp"
+
+#include <algorithm>
+
+#include "accel/primary_rays.hpp"
+#include "harness/sweep/json_node.hpp"
+#include "harness/sweep/structure_entry.hpp"
+
+namespace beambench {
+namespace {
+
+constexpr double kDefaultPrecision = 0.02;
+constexpr std::int64_t kMaxRepetitions = 100'000;
+constexpr double kMaxBudgetSeconds = 1e7;  // some four months
+
+SceneEntry read_scene(const JsonNode& node) {
+  if (node.value().is_string()) return {node.text(), {}, node.place()};
+  node.require_object({"scene", "cameras"});
+  SceneEntry entry{node.require("scene").text(), {}, node.place()};
+  if (const auto cameras = node.find("cameras")) {
+    for (const JsonNode& camera : cameras->elements()) entry.cameras.push_back(camera.text());
+  }
+  return entry;
+}
+
+int read_samples(const JsonNode& node) {
+  const int samples = static_cast<int>(node.integer(1, 4096));
+  node.checked([&] { return sample_offsets(samples); });
+  return samples;
+}
+
+Exclusion read_exclusion(const JsonNode& node, const Registry& structures) {
+  node.require_object({"structure", "scene", "primitives_above", "rays_above"});
+  if (node.members().empty())
+    node.fail("expected at least one condition; this excludes everything");
+  Exclusion exclusion;
+  if (const auto structure = node.find("structure")) {
+    const std::string name = structure->text();
+    structure->checked([&] { return structures.choose({name, {}}); });
+    exclusion.structure = name;
+  }
+  if (const auto scene = node.find("scene")) exclusion.scene = scene->text();
+  const auto limit = [&](const char* key) -> std::optional<std::uint64_t> {
+    const auto member = node.find(key);
+    if (!member) return std::nullopt;
+    return static_cast<std::uint64_t>(member->integer(0, INT64_MAX));
+  };
+  exclusion.primitives_above = limit("primitives_above");
+  exclusion.rays_above = limit("rays_above");
+  return exclusion;
+}
+
+void read_repetitions(const JsonNode& root, SweepConfig& config) {
+  config.minimum_repetitions = 5;
+  config.maximum_repetitions = 50;
+  const auto node = root.find("repetitions");
+  if (!node) return;
+  node->require_object({"minimum", "maximum"});
+  if (const auto minimum = node->find("minimum")) {
+    config.minimum_repetitions = static_cast<int>(minimum->integer(1, kMaxRepetitions));
+    config.maximum_repetitions = std::max(config.maximum_repetitions, config.minimum_repetitions);
+  }
+  if (const auto maximum = node->find("maximum")) {
+    config.maximum_repetitions =
+        static_cast<int>(maximum->integer(config.minimum_repetitions, kMaxRepetitions));
+  }
+}
+
+void read_effort(const JsonNode& root, SweepConfig& config) {
+  const auto precision = root.find("precision");
+  config.precision = precision ? precision->number(0.0, 1.0) : kDefaultPrecision;
+  config.budget_seconds = root.require("budget_seconds").number(0.0, kMaxBudgetSeconds);
+  read_repetitions(root, config);
+}
+
+void read_structures(const JsonNode& list, const Registry& structures, SweepConfig& config) {
+  for (const JsonNode& node : list.elements()) {
+    for (StructureChoice& choice : read_structure_entry(node, structures)) {
+      config.structures.push_back(std::move(choice));
+    }
+  }
+}
+
+void read_rays(const JsonNode& root, SweepConfig& config) {
+  for (const JsonNode& node : root.require("resolutions").elements()) {
+    const std::string text = node.text();
+    config.resolutions.push_back(node.checked([&] { return parse_resolution(text); }));
+  }
+  config.samples = {1};
+  if (const auto samples = root.find("samples")) {
+    config.samples.clear();
+    for (const JsonNode& node : samples->elements()) config.samples.push_back(read_samples(node));
+  }
+  for (const Resolution& resolution : config.resolutions) {
+    for (const int samples : config.samples) {
+      root.checked([&] { require_ray_count(resolution, samples); });
+    }
+  }
+  config.rays = {RayKind::kPrimary};
+  if (const auto rays = root.find("rays")) {
+    config.rays.clear();
+    for (const JsonNode& node : rays->elements()) {
+      const std::string name = node.text();
+      config.rays.push_back(node.checked([&] { return parse_ray_kind(name); }));
+    }
+  }
+}
+
+}  // namespace
+
+SweepConfig read_sweep(const std::filesystem::path& path, const Registry& structures) {
+  SweepConfig config{};
+  config.source = read_json_file(path);
+  const JsonNode root(config.source, path.string());
+  root.require_object({"$schema", "name", "description", "scenes", "structures", "resolutions",
+                       "samples", "rays", "precision", "repetitions", "budget_seconds", "exclude"});
+  config.name = root.require("name").text();
+  if (const auto description = root.find("description")) config.description = description->text();
+  for (const JsonNode& node : root.require("scenes").elements()) {
+    config.scenes.push_back(read_scene(node));
+  }
+  read_structures(root.require("structures"), structures, config);
+  read_rays(root, config);
+  read_effort(root, config);
+  if (const auto exclude = root.find("exclude")) {
+    for (const JsonNode& node : exclude->elements()) {
+      config.exclude.push_back(read_exclusion(node, structures));
+    }
+  }
+  return config;
+}
+
+}  // namespace beambench

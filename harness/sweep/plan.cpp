@@ -1,0 +1,138 @@
+#include "harness/sweep/plan.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scenes/catalogue.hpp"
+#include "scenes/error.hpp"
+#include "scenes/nearest_name.hpp"
+
+namespace beambench {
+namespace {
+
+std::shared_ptr<const Scene> load(const SceneEntry& entry) {
+  try {
+    return std::make_shared<const Scene>(load_scene(entry.spec));
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", entry.place, error.what()));
+  }
+}
+
+Camera camera_named(const Scene& scene, const std::string& name, const std::string& place) {
+  std::vector<std::string> names;
+  for (const Camera& camera : scene.cameras) {
+    if (camera.name == name) return camera;
+    names.push_back(camera.name);
+  }
+  throw InputError(fmt::format("{}: the scene has no camera '{}'; did you mean '{}'? It has {}",
+                               place, name, nearest_name(name, names), fmt::join(names, ", ")));
+}
+
+std::vector<Camera> cameras_of(const Scene& scene, const SceneEntry& entry) {
+  if (entry.cameras.empty()) return {scene.cameras.front()};
+  std::vector<Camera> cameras;
+  for (const std::string& name : entry.cameras) {
+    cameras.push_back(camera_named(scene, name, entry.place));
+  }
+  return cameras;
+}
+
+std::uint64_t ray_count(const CellGroup& group) {
+  return static_cast<std::uint64_t>(group.resolution.width) *
+         static_cast<std::uint64_t>(group.resolution.height) *
+         static_cast<std::uint64_t>(group.samples);
+}
+
+bool applies(const Exclusion& rule, const CellGroup& group, const SceneEntry& entry,
+             const StructureChoice& structure) {
+  if (rule.structure && *rule.structure != structure.info().name) return false;
+  if (rule.scene && *rule.scene != entry.spec && *rule.scene != group.scene->name) return false;
+  if (rule.primitives_above && group.scene->primitives.size() <= *rule.primitives_above) {
+    return false;
+  }
+  return !rule.rays_above || ray_count(group) > *rule.rays_above;
+}
+
+/// Makes the groups and cells of a plan, each cell once.
+class Planner {
+ public:
+  explicit Planner(const SweepConfig& config) : config_(config) {}
+
+  Plan make() && {
+    for (const SceneEntry& entry : config_.scenes) add_scene(entry);
+    return std::move(plan_);
+  }
+
+ private:
+  void add_scene(const SceneEntry& entry) {
+    const std::shared_ptr<const Scene> scene = load(entry);
+    for (const Camera& camera : cameras_of(*scene, entry)) {
+      for (const Resolution& resolution : config_.resolutions) {
+        for (const int samples : config_.samples) {
+          for (const RayKind kind : config_.rays) {
+            add_group({scene, camera, resolution, samples, kind, {}}, entry);
+          }
+        }
+      }
+    }
+  }
+
+  void add_group(CellGroup group, const SceneEntry& entry) {
+    for (const StructureChoice& structure : config_.structures) {
+      const auto excluded = [&](const Exclusion& rule) {
+        return applies(rule, group, entry, structure);
+      };
+      if (std::any_of(config_.exclude.begin(), config_.exclude.end(), excluded)) continue;
+      CellId id{group.scene->name,     group.camera.name,
+                structure.info().name, structure.parameters().canonical(),
+                group.resolution,      group.samples,
+                group.ray_kind};
+      if (names_.insert(id.name()).second) {
+        group.cells.push_back({names_.size() - 1, std::move(id), structure});
+      } else {
+        ++plan_.merged;
+      }
+    }
+    if (!group.cells.empty()) plan_.groups.push_back(std::move(group));
+  }
+
+  const SweepConfig& config_;
+  Plan plan_;
+  std::set<std::string> names_;
+};
+
+}  // namespace
+
+std::string CellGroup::name() const {
+  return fmt::format("{}/{}/{}/{}/{}", scene->name, camera.name, to_string(resolution), samples,
+                     to_string(ray_kind));
+}
+
+std::size_t Plan::cell_count() const {
+  std::size_t count = 0;
+  for (const CellGroup& group : groups) count += group.cells.size();
+  return count;
+}
+
+Plan make_plan(const SweepConfig& config) {
+  Plan plan = Planner(config).make();
+  if (plan.groups.empty()) {
+    throw InputError("nothing is left to measure: 'exclude' leaves out every cell; relax it");
+  }
+  return plan;
+}
+
+std::vector<SceneFacts> scene_facts(const Plan& plan) {
+  std::vector<SceneFacts> facts;
+  for (const CellGroup& group : plan.groups) {
+    const Scene& scene = *group.scene;
+    if (!facts.empty() && facts.back().name == scene.name) continue;  // groups go scene by scene
+    facts.push_back({scene.name, scene_hash(scene), scene.primitives.size()});
+  }
+  return facts;
+}
+
+}  // namespace beambench

@@ -1,0 +1,60 @@
+#pragma once
+// The plan of a sweep: its cells, in groups that share their rays.
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/record/cell_record.hpp"
+#include "harness/record/manifest.hpp"
+#include "harness/sweep/config.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// One cell to measure.
+struct PlannedCell {
+  std::size_t index;  ///< in the whole plan: the order of the record's rows
+  CellId id;
+  StructureChoice structure;
+};
+
+/// The cells that are asked with the same rays over the same scene: contenders, measured in turns.
+struct CellGroup {
+  std::shared_ptr<const Scene> scene;  ///< freed when the last of its groups is done
+  Camera camera;
+  Resolution resolution;
+  int samples;
+  RayKind ray_kind;
+  std::vector<PlannedCell> cells;
+
+  /// `escena1/default/320x200/1/primary`.
+  std::string name() const;
+};
+
+struct Plan {
+  std::vector<CellGroup> groups;
+  std::size_t merged = 0;  ///< cells that the configuration asked for more than once
+
+  std::size_t cell_count() const;
+};
+
+/// Loads every scene once and multiplies the configuration out: scene by scene, all structures of a
+/// group together. Cells asked for twice are made once. Throws InputError when a scene cannot be
+/// loaded, has no camera of that name, or nothing is left to measure.
+Plan make_plan(const SweepConfig& config);
+
+/// The scenes that the plan measures, each once.
+std::vector<SceneFacts> scene_facts(const Plan& plan);
+
+/// Leaves out the cells that `keep` refuses, and groups without cells.
+template <class Keep>
+void filter_cells(Plan& plan, Keep keep) {
+  for (CellGroup& group : plan.groups) {
+    std::erase_if(group.cells, [&](const PlannedCell& cell) { return !keep(cell.id); });
+  }
+  std::erase_if(plan.groups, [](const CellGroup& group) { return group.cells.empty(); });
+}
+
+}  // namespace beambench

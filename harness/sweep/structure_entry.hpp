@@ -1,0 +1,17 @@
+#pragma once
+// One entry of a sweep's list of structures.
+
+#include <vector>
+
+#include "accel/registry.hpp"
+#include "harness/sweep/json_node.hpp"
+
+namespace beambench {
+
+/// The structures that an entry stands for: a text as after `--accel` ("samet:max_level=6", "all"),
+/// or an object {"structure": name, "parameters": {name: value or list of values}} whose lists are
+/// multiplied out, the alphabetically last parameter varying fastest. Throws InputError at the very
+/// value that the structure refuses.
+std::vector<StructureChoice> read_structure_entry(const JsonNode& node, const Registry& structures);
+
+}  // namespace beambench

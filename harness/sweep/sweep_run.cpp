@@ -1,0 +1,212 @@
+#include "harness/sweep/sweep_run.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "accel/embree/version.hpp"
+#include "harness/progress/progress.hpp"
+#include "harness/record/build_info.hpp"
+#include "harness/record/fingerprint.hpp"
+#include "harness/record/manifest.hpp"
+#include "harness/sweep/conditions.hpp"
+#include "harness/sweep/resume.hpp"
+#include "harness/sweep/turns.hpp"
+
+namespace beambench {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Json = nlohmann::ordered_json;
+
+/// `20240531-140709-default`: sorts by time.
+std::string new_run_id(const std::string& utc, const std::string& sweep) {
+  std::string id;
+  for (const char letter : utc) {
+    if (letter >= '0' && letter <= '9') id += letter;
+    if (letter == 'T') id += '-';
+  }
+  return fmt::format("{}-{}", id, sweep);
+}
+
+Manifest new_manifest(const SweepConfig& config, const Plan& plan, const SweepOptions& options,
+                      int core) {
+  const BuildInfo& build = build_info();
+  Manifest manifest;
+  manifest.machine = inspect_machine();
+  manifest.sweep = config.name;
+  manifest.begun_utc = utc_now();
+  manifest.run = {new_run_id(manifest.begun_utc, config.name),
+                  std::string(build.commit),
+                  build.dirty,
+                  manifest.machine.id,
+                  std::string(build.build_type),
+                  std::string(build.flags),
+                  embree_isa(),
+                  /*threads=*/1};
+  manifest.measurement = {MeasuringFloatMode::available(), core, options.warm_up.count()};
+  manifest.scenes = scene_facts(plan);
+  manifest.uncontrolled = disturbances(manifest.machine);
+  if (core < 0) manifest.uncontrolled.emplace_back("The measuring thread could not be pinned.");
+  if (build.build_type != "Release") {
+    manifest.uncontrolled.push_back(
+        fmt::format("beambench was built as '{}', not as Release.", build.build_type));
+  }
+  return manifest;
+}
+
+/// The core to pin to, or -1 where pinning does not work.
+int pinnable_core() {
+  const int core = present_core();
+  return PinnedThread(core).pinned() ? core : -1;
+}
+
+/// `build 1.23 ms, trace 35.1 ms, 37.0 Mrays/s, ok after 12 repetitions (precision)`.
+std::string result_line(const CellRecord& cell, const Row& row) {
+  if (!cell.keeps_times()) return fmt::format("{}: {}", cell.verdict, cell.message);
+  return fmt::format(
+      "build {:.4g} ms, trace {:.4g} ms, {:.4g} Mrays/s, {} after {} repetitions ({})",
+      row.at("build_ms_median").get<double>(), row.at("trace_ms_median").get<double>(),
+      row.at("mrays_per_s").is_null() ? 0.0 : row.at("mrays_per_s").get<double>(), cell.verdict,
+      cell.repetitions.size(), to_string(*cell.stop_reason));
+}
+
+class SweepRun {
+ public:
+  SweepRun(const SweepConfig& config, Plan plan, const GoogleBenchmark& benchmark,
+           const SweepOptions& options, std::FILE* messages)
+      : config_(config),
+        benchmark_(benchmark),
+        options_(options),
+        messages_(messages),
+        core_(pinnable_core()),
+        manifest_(new_manifest(config, plan, options, core_)),
+        folder_(open_folder()),
+        plan_(unfinished(std::move(plan))) {}
+
+  SweepOutcome run() && {
+    {
+      const PinnedThread pin(core_);
+      warm_up(options_.warm_up);
+    }
+    const auto begin = Clock::now();
+    std::size_t cells_left = plan_.cell_count();
+    Progress progress(cells_left, messages_);
+    for (CellGroup& group : plan_.groups) {
+      const double left_ms = 1e3 * config_.budget_seconds - elapsed_ms(begin);
+      const double share_ms = std::max(left_ms, 0.0) / static_cast<double>(cells_left);
+      cells_left -= group.cells.size();
+      run_group(group, share_ms, progress);
+      group.scene.reset();
+    }
+    return close();
+  }
+
+ private:
+  static double elapsed_ms(Clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  }
+
+  RunFolder open_folder() {
+    if (!options_.resume) {
+      const auto path = options_.folder.value_or(std::filesystem::path("results") / "runs" /
+                                                 manifest_.run.run_id);
+      RunFolder folder = RunFolder::create(path);
+      folder.write_json("config.json", config_.source);
+      folder.write_json("manifest.json", to_json(manifest_));
+      return folder;
+    }
+    RunFolder folder = RunFolder::open(options_.folder.value());
+    require_same_run(folder, config_.source, to_json(manifest_));
+    const Json begun = folder.read_json("manifest.json");
+    manifest_.run.run_id = begun.at("run_id").get<std::string>();
+    manifest_.uncontrolled.push_back(
+        fmt::format("The run was cut off and went on at {}.", manifest_.begun_utc));
+    manifest_.begun_utc = begun.at("time_utc").get<std::string>();
+    return folder;
+  }
+
+  Plan unfinished(Plan plan) const {
+    filter_cells(plan, [&](const CellId& id) { return !folder_.has_cell(id.key()); });
+    return plan;
+  }
+
+  void run_group(const CellGroup& group, double share_ms, Progress& progress) {
+    const auto begin = Clock::now();
+    const auto label = [&] { progress.start(group.name()); };
+    label();
+    SharedQuestion question(group, hash_of(*group.scene));
+    std::vector<Contender> contenders;
+    for (const PlannedCell& cell : group.cells) contenders.emplace_back(cell, question).count();
+    // The oracle's and the counting passes' time is the group's own.
+    const double cells = static_cast<double>(group.cells.size());
+    const double allowance_ms = std::max(share_ms - elapsed_ms(begin) / cells, 0.0);
+    const StoppingRule stopping{config_.precision, config_.minimum_repetitions,
+                                config_.maximum_repetitions};
+    const TurnRules rules{stopping, allowance_ms, core_, fingerprint(group.name())};
+    take_turns(std::move(contenders), benchmark_, rules,
+               {[&](const CellRecord& cell) {
+                  finish(cell, progress);
+                  label();
+                },
+                [&](double done) { progress.advance(done); }});
+  }
+
+  void finish(const CellRecord& cell, Progress& progress) {
+    const Json json = to_json(manifest_.run, cell);
+    folder_.add_cell(json);
+    if (!cell.keeps_times()) {
+      progress.say(fmt::format("{}: {}: {}", cell.verdict, cell.id.name(), cell.message));
+      for (const std::string& example : cell.examples) progress.say(example);
+    }
+    progress.start(cell.id.name());
+    progress.finish(result_line(cell, json.at("row")));
+  }
+
+  std::uint64_t hash_of(const Scene& scene) const {
+    const auto found =
+        std::find_if(manifest_.scenes.begin(), manifest_.scenes.end(),
+                     [&](const SceneFacts& facts) { return facts.name == scene.name; });
+    return found->hash;
+  }
+
+  SweepOutcome close() {
+    const std::vector<Json> cells = folder_.cells();
+    manifest_.finished_utc = utc_now();
+    folder_.write_text("google-benchmark.json", google_benchmark_json(cells, benchmark_context()));
+    folder_.write_json("manifest.json", to_json(manifest_));
+    const auto failed = std::count_if(cells.begin(), cells.end(), [](const Json& cell) {
+      const auto verdict = cell.at("row").at("verdict").get<std::string>();
+      return verdict != "ok" && verdict != "baseline";
+    });
+    return {folder_.results(), cells.size(), static_cast<std::size_t>(failed)};
+  }
+
+  Json benchmark_context() const {
+    // The host's name stays out of records; library_build_type is of Google Benchmark alone.
+    return {{"host_name", manifest_.machine.id},
+            {"beambench_run_id", manifest_.run.run_id},
+            {"beambench_commit", manifest_.run.commit},
+            {"beambench_dirty", manifest_.run.dirty},
+            {"beambench_build_type", manifest_.run.build_type},
+            {"beambench_isa", manifest_.run.isa}};
+  }
+
+  const SweepConfig& config_;
+  const GoogleBenchmark& benchmark_;
+  const SweepOptions& options_;
+  std::FILE* messages_;
+  int core_;
+  Manifest manifest_;
+  RunFolder folder_;
+  Plan plan_;
+};
+
+}  // namespace
+
+SweepOutcome run_sweep(const SweepConfig& config, Plan plan, const GoogleBenchmark& benchmark,
+                       const SweepOptions& options, std::FILE* messages) {
+  return SweepRun(config, std::move(plan), benchmark, options, messages).run();
+}
+
+}  // namespace beambench

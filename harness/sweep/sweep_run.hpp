@@ -1,0 +1,39 @@
+#pragma once
+// Runs a sweep from its plan to its folder.
+
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "harness/record/run_folder.hpp"
+#include "harness/sweep/benchmark_flags.hpp"
+#include "harness/sweep/config.hpp"
+#include "harness/sweep/google_benchmark.hpp"
+#include "harness/sweep/plan.hpp"
+
+namespace beambench {
+
+struct SweepOptions {
+  /// Where to; nothing: a new folder in results/runs, named after the run.
+  std::optional<std::filesystem::path> folder;
+  /// Go on with the run in `folder`.
+  bool resume = false;
+  BenchmarkFlags flags;
+  std::chrono::duration<double> warm_up{0.5};
+};
+
+struct SweepOutcome {
+  std::filesystem::path results;  ///< results.csv
+  std::size_t cells = 0;          ///< in the record, those of an earlier part of the run included
+  std::size_t failed = 0;         ///< of them, without a verdict that keeps its times
+};
+
+/// Measures all cells of `plan` that the folder does not hold yet. Progress, mismatches and notes
+/// go to `messages`. Throws InputError when the folder cannot be written, already holds a run, or
+/// holds one that cannot go on; a structure's fault is recorded and never thrown.
+SweepOutcome run_sweep(const SweepConfig& config, Plan plan, const GoogleBenchmark& benchmark,
+                       const SweepOptions& options, std::FILE* messages);
+
+}  // namespace beambench
