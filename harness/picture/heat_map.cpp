@@ -12,13 +12,14 @@
 namespace beambench {
 namespace {
 
+constexpr std::size_t kBrightestPerMille = 995;
 const glm::vec3 kPaper(0.012F);
 const glm::vec3 kInk(0.82F);
 
 /// Sizes of a legend in pixels: text as large as the picture's width allows, for reading.
 struct LegendLayout {
   LegendLayout(int picture_width, std::string_view heading)
-      : scale(std::clamp(picture_width / (text_width(heading, 1) + 2 * kMargin), 1, 3)),
+      : scale(std::clamp(picture_width / (text_width(heading, 1) + 2 * kMargin), 1, 2)),
         margin(kMargin * scale),
         width(std::max(picture_width, text_width(heading, scale) + 2 * margin)),
         heading_y(margin),
@@ -52,30 +53,50 @@ void draw_bar(Image& image, int top, const LegendLayout& layout) {
   }
 }
 
-void draw_ticks(Image& image, int top, const LegendLayout& layout, double maximum) {
-  const int widest = text_width(fmt::format("{:.6g}", maximum), layout.scale);
-  const int at_most = std::max(2, layout.bar_width() / (widest + 4 * kGlyphAdvance * layout.scale));
-  for (const double tick : legend_ticks(maximum, at_most)) {
-    const int x =
-        layout.margin + static_cast<int>(std::lround(tick / maximum * (layout.bar_width() - 1)));
-    for (int y = 0; y < 3 * layout.scale; ++y) {
-      image.at(x, top + layout.bar_y + layout.bar_height + y) = kInk;
-    }
-    const std::string number = fmt::format("{:.6g}", tick);
-    const int text = text_width(number, layout.scale) - layout.scale;
-    const int left = std::clamp(x - text / 2, layout.margin, layout.width - layout.margin - text);
-    draw_text(image, left, top + layout.numbers_y, number, layout.scale, kInk);
+/// Writes a number under its place on the bar; `part` of the bar is to its left.
+void draw_number(Image& image, int top, const LegendLayout& layout, double part,
+                 const std::string& number) {
+  const int x = layout.margin + static_cast<int>(std::lround(part * (layout.bar_width() - 1)));
+  for (int y = 0; y < 3 * layout.scale; ++y) {
+    image.at(x, top + layout.bar_y + layout.bar_height + y) = kInk;
   }
+  const int text = text_width(number, layout.scale) - layout.scale;
+  const int left = std::clamp(x - text / 2, layout.margin, layout.width - layout.margin - text);
+  draw_text(image, left, top + layout.numbers_y, number, layout.scale, kInk);
+}
+
+void draw_numbers(Image& image, int top, const LegendLayout& layout, const HeatMap& map) {
+  const double end = brightest_value(map);
+  const bool clipped = largest(map) > brightest_value(map);
+  const std::string end_number = fmt::format("{:.6g}{}", end, clipped ? "+" : "");
+  const int room = text_width(end_number, layout.scale) + 2 * kGlyphAdvance * layout.scale;
+  for (const double tick : legend_ticks(end, std::max(2, layout.bar_width() * 3 / (4 * room)))) {
+    const bool free_of_end = (1.0 - tick / end) * layout.bar_width() > 1.5 * room;
+    if (free_of_end) draw_number(image, top, layout, tick / end, fmt::format("{:.6g}", tick));
+  }
+  draw_number(image, top, layout, 1.0, end_number);
 }
 
 }  // namespace
 
+float brightest_value(const HeatMap& map) {
+  std::vector<float> sorted;
+  for (const float value : map.values) {
+    if (value > 0.0F) sorted.push_back(value);
+  }
+  if (sorted.empty()) return 1.0F;
+  std::sort(sorted.begin(), sorted.end());
+  const std::size_t zeros = map.values.size() - sorted.size();
+  const std::size_t rank = map.values.size() * kBrightestPerMille / 1000;
+  return sorted[std::min(rank > zeros ? rank - zeros : 0, sorted.size() - 1)];
+}
+
 Image draw_heat_map(const HeatMap& map) {
   Image image(map.width, map.height);
-  const float maximum = std::max(largest(map), 1e-30F);
+  const float end = brightest_value(map);
   std::size_t index = 0;
   for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) image.at(x, y) = heat_color(map.values[index++] / maximum);
+    for (int x = 0; x < map.width; ++x) image.at(x, y) = heat_color(map.values[index++] / end);
   }
   return image;
 }
@@ -95,7 +116,7 @@ Image draw_heat_map_with_legend(const HeatMap& map) {
   draw_text(image, layout.margin, map.height + layout.heading_y, heading, layout.scale, kInk);
   if (maximum > 0.0) {
     draw_bar(image, map.height, layout);
-    draw_ticks(image, map.height, layout, maximum);
+    draw_numbers(image, map.height, layout, map);
   }
   return image;
 }

@@ -18,11 +18,16 @@ struct HeatMap {
   std::vector<float> values;
 };
 
-/// Colours from 0 to the largest value, without a legend.
+/// The value that gets the brightest colour: the quantile of 99.5%, so that a few rays that had far
+/// more to do than all others do not leave these in the dark. At least the smallest value > 0.
+float brightest_value(const HeatMap& map);
+
+/// Colours from 0 to the brightest value, without a legend.
 Image draw_heat_map(const HeatMap& map);
 
-/// The same above a legend: title, mean and maximum, and a bar with numbers. The picture is widened
-/// where it is narrower than its legend.
+/// The same above a legend: title, mean and maximum, and a bar with numbers; a plus behind the last
+/// says that larger values share its colour. The picture is widened where it is narrower than its
+/// legend.
 Image draw_heat_map_with_legend(const HeatMap& map);
 
 /// The numbers written under a bar from 0 to `maximum` > 0: multiples of 1, 2 or 5 times a power of

@@ -35,7 +35,7 @@ Progress::Progress(std::size_t cells, std::FILE* stream, bool terminal)
       begin_(Clock::now()),
       last_draw_(begin_ - kRedrawInterval) {}
 
-Progress::~Progress() { wipe(); }
+Progress::~Progress() { clear(); }
 
 void Progress::start(std::string_view name) {
   name_ = name;
@@ -56,8 +56,12 @@ void Progress::finish(std::string_view result) {
   }
 }
 
+void Progress::skip(std::size_t cells) {
+  cells_ = std::max<std::size_t>(cells_ - std::min(cells, cells_), 1);
+}
+
 void Progress::say(std::string_view line) {
-  wipe();
+  clear();
   fmt::print(stream_, "{}\n", line);
   std::fflush(stream_);
 }
@@ -76,7 +80,7 @@ void Progress::draw(double part) {
   drawn_ = true;
 }
 
-void Progress::wipe() {
+void Progress::clear() {
   if (!drawn_) return;
   fmt::print(stream_, "{}", kWipe);
   std::fflush(stream_);

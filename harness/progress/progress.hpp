@@ -19,7 +19,7 @@ class Progress {
   /// `cells` may differ in length; give `advance` the work done if they differ much.
   explicit Progress(std::size_t cells, std::FILE* stream = stderr);
   Progress(std::size_t cells, std::FILE* stream, bool terminal);
-  /// Wipes the line on a terminal.
+  /// Clears.
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -30,15 +30,18 @@ class Progress {
   void advance(double part);
   /// The present cell is done; `result` is what its line says behind the name.
   void finish(std::string_view result);
+  /// So many cells will not come.
+  void skip(std::size_t cells);
   /// A line of its own (a warning, a result) that does not get mixed up with the progress line.
   void say(std::string_view line);
+  /// Wipes the progress line, before something else writes to the terminal.
+  void clear();
 
   bool on_terminal() const { return terminal_; }
 
  private:
   using Clock = std::chrono::steady_clock;
   void draw(double part);
-  void wipe();
 
   std::FILE* stream_;
   bool terminal_;

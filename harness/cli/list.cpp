@@ -1,0 +1,132 @@
+// beambench list: what can be asked for.
+
+#include <cstdio>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "accel/registry.hpp"
+#include "harness/cli/commands.hpp"
+#include "harness/cli/text.hpp"
+#include "harness/rays/ray_kind.hpp"
+#include "scenes/catalogue.hpp"
+
+namespace beambench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string_view conformance_name(Conformance conformance) {
+  switch (conformance) {
+    case Conformance::kBitExact:
+      return "bit-exact";
+    case Conformance::kTolerance:
+      return "tolerance";
+    case Conformance::kBaseline:
+      break;
+  }
+  return "baseline";
+}
+
+std::string_view type_name(ParameterInfo::Type type) {
+  switch (type) {
+    case ParameterInfo::Type::kInteger:
+      return "integer";
+    case ParameterInfo::Type::kReal:
+      return "real";
+    case ParameterInfo::Type::kFlag:
+      return "flag";
+    case ParameterInfo::Type::kChoice:
+      break;
+  }
+  return "choice";
+}
+
+bool is_number(const ParameterInfo& info) {
+  return info.type == ParameterInfo::Type::kInteger || info.type == ParameterInfo::Type::kReal;
+}
+
+std::string range_text(const ParameterInfo& info) {
+  if (is_number(info)) {
+    return fmt::format("{} from {} to {}", type_name(info.type), info.minimum, info.maximum);
+  }
+  if (info.type == ParameterInfo::Type::kFlag) return "true or false";
+  return fmt::format("{}", fmt::join(info.choices, " | "));
+}
+
+void print_parameters(const std::vector<ParameterInfo>& parameters) {
+  for (const ParameterInfo& info : parameters) {
+    fmt::print("      {}={}  ({})\n", info.name, info.default_value, range_text(info));
+    fmt::print("{}", wrap(info.description, 10));
+  }
+}
+
+void print_text() {
+  fmt::print("Structures, for --accel NAME:parameter=value,... ('all' is every one):\n");
+  for (const StructureInfo& info : registry().structures()) {
+    fmt::print("\n  {}  [{}]\n{}", info.name, conformance_name(info.conformance),
+               wrap(info.summary, 6));
+    print_parameters(info.parameters);
+  }
+  fmt::print("\n{}", wrap("bit-exact: equal to exhaustive bit for bit; tolerance: arithmetic of "
+                          "its own, judged by the differ's classes; baseline: answers nothing by "
+                          "design.",
+                          2));
+  fmt::print("\nScenes, as NAME:parameter=value,... (or the path of an NFF file):\n");
+  for (const SceneInfo& info : scene_catalogue()) {
+    fmt::print("\n  {}\n{}", info.name, wrap(info.summary, 6));
+    print_parameters(info.parameters);
+  }
+  fmt::print("\nKinds of rays, for --rays:\n\n");
+  for (const RayKindInfo& info : ray_kinds()) fmt::print("  {}  {}\n", info.name, info.summary);
+}
+
+Json parameters_json(const std::vector<ParameterInfo>& parameters) {
+  Json list = Json::array();
+  for (const ParameterInfo& info : parameters) {
+    Json entry{
+        {"name", info.name}, {"type", type_name(info.type)}, {"default", info.default_value}};
+    if (is_number(info)) {
+      entry["minimum"] = info.minimum;
+      entry["maximum"] = info.maximum;
+    }
+    if (info.type == ParameterInfo::Type::kChoice) entry["choices"] = info.choices;
+    entry["description"] = info.description;
+    list.push_back(std::move(entry));
+  }
+  return list;
+}
+
+void print_json() {
+  Json all;
+  for (const StructureInfo& info : registry().structures()) {
+    all["structures"].push_back({{"name", info.name},
+                                 {"summary", info.summary},
+                                 {"conformance", conformance_name(info.conformance)},
+                                 {"parameters", parameters_json(info.parameters)}});
+  }
+  for (const SceneInfo& info : scene_catalogue()) {
+    all["scenes"].push_back({{"name", info.name},
+                             {"summary", info.summary},
+                             {"parameters", parameters_json(info.parameters)}});
+  }
+  for (const RayKindInfo& info : ray_kinds()) {
+    all["rays"].push_back({{"name", info.name}, {"summary", info.summary}});
+  }
+  fmt::print("{}\n", all.dump(2));
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& app, int&) {
+  CLI::App* command =
+      app.add_subcommand("list", "Structures with their parameters, scenes, kinds of rays");
+  const auto json = std::make_shared<bool>(false);
+  command->add_flag("--json", *json, "Print JSON instead of text");
+  command->footer("Examples:\n  beambench list\n  beambench list --json");
+  command->callback([json] { *json ? print_json() : print_text(); });
+}
+
+}  // namespace beambench

@@ -1,0 +1,106 @@
+// The command line: picks a subcommand, and turns whatever goes wrong into one sentence and an exit
+// code.
+
+#include <cstdio>
+#include <filesystem>
+#include <new>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "harness/cli/commands.hpp"
+#include "harness/record/build_info.hpp"
+#include "scenes/error.hpp"
+#include "scenes/nearest_name.hpp"
+
+namespace beambench {
+namespace {
+
+constexpr const char* kDescription =
+    "Compares the acceleration structures of ray tracing on the same scenes, cameras and rays,\n"
+    "and lets no timing out that the hits do not back.";
+constexpr const char* kExamples =
+    "Examples:\n"
+    "  beambench list\n"
+    "  beambench render balls --accel samet -o balls.png\n"
+    "  beambench verify tetra:n=4 --accel all\n"
+    "'beambench COMMAND --help' tells more. Exit codes: 0 fine, 1 a mismatch or regression was\n"
+    "found, 2 the request was wrong.";
+
+/// One line, whatever the message was made of.
+int complain(std::string message, int exit_code) {
+  for (char& c : message) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  while (!message.empty() && message.back() == ' ') message.pop_back();
+  fmt::print(stderr, "beambench: {}\n", message);
+  return exit_code;
+}
+
+/// CLI11 would only say that an argument was not expected.
+void require_known_command(const CLI::App& app, int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  if (word.empty() || word.front() == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  for (const std::string& name : names) {
+    if (name == word) return;
+  }
+  throw InputError(
+      fmt::format("there is no command '{}'; did you mean '{}'? 'beambench --help' "
+                  "lists all",
+                  word, nearest_name(word, names)));
+}
+
+int parse_and_run(int argc, char** argv) {
+  CLI::App app(kDescription, "beambench");
+  int exit_code = kSuccess;
+  app.set_version_flag("--version", fmt::format("beambench {}", build_info().version));
+  app.footer(kExamples);
+  app.get_formatter()->column_width(34);
+  app.require_subcommand(1);
+  for (const auto add : {add_list_command, add_scene_command, add_render_command, add_stats_command,
+                         add_verify_command, add_run_command}) {
+    add(app, exit_code);
+  }
+  try {
+    require_known_command(app, argc, argv);
+    app.parse(argc, argv);
+  } catch (const CLI::Success& success) {  // --help and --version
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    const auto picked = app.get_subcommands();
+    const std::string command = picked.empty() ? "" : picked.front()->get_name() + ' ';
+    return complain(fmt::format("{}; see 'beambench {}--help'", error.what(), command),
+                    kWrongRequest);
+  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    return complain("cannot write to the standard output; make room where it goes", kWrongRequest);
+  }
+  return exit_code;
+}
+
+int run_command_line(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const InputError& error) {
+    return complain(error.what(), kWrongRequest);
+  } catch (const std::bad_alloc&) {
+    return complain(
+        "the memory does not suffice for this request; choose a smaller scene, resolution or "
+        "structure",
+        kWrongRequest);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return complain(error.what(), kWrongRequest);
+  } catch (const std::exception& error) {
+    return complain(
+        fmt::format("internal error, please report it with the command line: {}", error.what()),
+        kInternalError);
+  }
+}
+
+}  // namespace
+}  // namespace beambench
+
+int main(int argc, char** argv) { return beambench::run_command_line(argc, argv); }

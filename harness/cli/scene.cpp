@@ -1,0 +1,109 @@
+// beambench scene: what a scene consists of.
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/cli/commands.hpp"
+#include "harness/cli/inputs.hpp"
+#include "harness/record/fingerprint.hpp"
+
+namespace beambench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
+
+std::string to_text(const glm::vec3& v) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
+}
+
+std::size_t smooth_polygons(const Scene& scene) {
+  std::size_t count = 0;
+  for (const Polygon& polygon : scene.polygons) count += polygon.first_normal != Polygon::kFlat;
+  return count;
+}
+
+void print_text(const Scene& scene) {
+  const auto line = [](std::string_view name, const std::string& value) {
+    fmt::print("  {:<12}  {}\n", name, value);
+  };
+  fmt::print("{}\n", scene.name);
+  line("primitives", fmt::format("{}: {} spheres, {} cones, {} polygons ({} of them smooth)",
+                                 scene.primitives.size(), scene.spheres.size(), scene.cones.size(),
+                                 scene.polygons.size(), smooth_polygons(scene)));
+  line("triangles",
+       fmt::format("{} over {} vertices", scene.triangles.size(), scene.vertices.size()));
+  line("bounds", scene.bounds.empty() ? "none"
+                                      : fmt::format("{} to {}", to_text(scene.bounds.lower),
+                                                    to_text(scene.bounds.upper)));
+  for (const Camera& camera : scene.cameras) {
+    line("camera", fmt::format("{}: from {} at {} up {}, angle {:.4g}, {}x{}", camera.name,
+                               to_text(camera.from), to_text(camera.at), to_text(camera.up),
+                               camera.angle, camera.width, camera.height));
+  }
+  for (const Light& light : scene.lights) {
+    line("light", fmt::format("at {}, colour {}", to_text(light.position), to_text(light.color)));
+  }
+  line("surfaces", fmt::format("{}", scene.surfaces.size()));
+  line("background", to_text(scene.background));
+  line("hash", hex_digits(scene_hash(scene)));
+}
+
+Json camera_json(const Camera& camera) {
+  return {{"name", camera.name},      {"from", to_json(camera.from)}, {"at", to_json(camera.at)},
+          {"up", to_json(camera.up)}, {"angle", camera.angle},        {"aspect", camera.aspect},
+          {"width", camera.width},    {"height", camera.height}};
+}
+
+void print_json(const Scene& scene) {
+  Json out{{"name", scene.name},
+           {"primitives", scene.primitives.size()},
+           {"spheres", scene.spheres.size()},
+           {"cones", scene.cones.size()},
+           {"polygons", scene.polygons.size()},
+           {"smooth_polygons", smooth_polygons(scene)},
+           {"triangles", scene.triangles.size()},
+           {"vertices", scene.vertices.size()},
+           {"bounds", nullptr},
+           {"cameras", Json::array()},
+           {"lights", Json::array()},
+           {"surfaces", scene.surfaces.size()},
+           {"background", to_json(scene.background)},
+           {"hash", hex_digits(scene_hash(scene))}};
+  if (!scene.bounds.empty()) {
+    out["bounds"] = {{"lower", to_json(scene.bounds.lower)},
+                     {"upper", to_json(scene.bounds.upper)}};
+  }
+  for (const Camera& camera : scene.cameras) out["cameras"].push_back(camera_json(camera));
+  for (const Light& light : scene.lights) {
+    out["lights"].push_back(
+        {{"position", to_json(light.position)}, {"color", to_json(light.color)}});
+  }
+  fmt::print("{}\n", out.dump(2));
+}
+
+struct Request {
+  std::string scene;
+  bool json = false;
+};
+
+}  // namespace
+
+void add_scene_command(CLI::App& app, int&) {
+  CLI::App* command = app.add_subcommand("scene", "A scene's counts, bounds, cameras and hash");
+  const auto request = std::make_shared<Request>();
+  command->add_option("SCENE", request->scene, "Catalogue name or path of an NFF file")->required();
+  command->add_flag("--json", request->json, "Print JSON instead of text");
+  command->footer("Examples:\n  beambench scene escena1\n  beambench scene balls:n=3 --json");
+  command->callback([request] {
+    const Scene scene = open_scene(request->scene);
+    request->json ? print_json(scene) : print_text(scene);
+  });
+}
+
+}  // namespace beambench

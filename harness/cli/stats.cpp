@@ -1,0 +1,221 @@
+// beambench stats: how large structures are and how much work a ray makes them do.
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/cli/commands.hpp"
+#include "harness/cli/inputs.hpp"
+#include "harness/cli/text.hpp"
+#include "harness/progress/progress.hpp"
+#include "harness/rays/ray_kind.hpp"
+#include "harness/rays/resolution.hpp"
+#include "scenes/error.hpp"
+
+namespace beambench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Request {
+  std::string scene;
+  std::string structures;
+  std::string resolution = "320x200";
+  std::string camera;
+  std::string rays = "primary";
+  bool json = false;
+};
+
+/// What was found out about one structure.
+struct Finding {
+  StructureChoice choice;
+  Statistics statistics;
+  double build_ms = 0.0;
+  std::uint64_t hits = 0;
+  std::map<std::string, std::uint64_t, std::less<>> counters;
+};
+
+Finding examine(const StructureChoice& choice, const Scene& scene, const PrimaryRays& rays) {
+  const auto begin = std::chrono::steady_clock::now();
+  const auto accelerator = choice.build(scene);
+  const std::chrono::duration<double, std::milli> building =
+      std::chrono::steady_clock::now() - begin;
+
+  HitBuffer hits(rays.width(), rays.height(), rays.samples());
+  WorkCounters counters;
+  accelerator->trace(rays, hits, counters);
+  Finding finding{choice, accelerator->statistics(), building.count(), 0, counters.by_name()};
+  for (std::size_t i = 0; i < hits.size(); ++i) finding.hits += hits.get(i).has_value();
+  return finding;
+}
+
+/// One line of the table: a name and how to show it for a structure.
+class StatisticsTable {
+ public:
+  explicit StatisticsTable(const std::vector<Finding>& findings)
+      : findings_(findings), table_(header(findings)) {}
+
+  template <class Show>
+  void add(std::string name, Show show) {
+    std::vector<std::string> row{std::move(name)};
+    for (const Finding& finding : findings_) row.push_back(show(finding));
+    table_.add(std::move(row));
+  }
+  std::string text() const { return table_.text(); }
+
+ private:
+  static std::vector<std::string> header(const std::vector<Finding>& findings) {
+    std::vector<std::string> names{""};
+    for (const Finding& finding : findings) names.push_back(short_label(finding.choice));
+    return names;
+  }
+
+  const std::vector<Finding>& findings_;
+  TextTable table_;
+};
+
+std::string or_dash(std::uint64_t value) { return value == 0 ? "-" : fmt::format("{}", value); }
+
+void add_sizes(StatisticsTable& table, const std::vector<Finding>& findings) {
+  table.add("nodes", [](const Finding& f) { return or_dash(f.statistics.nodes); });
+  table.add("leaves", [](const Finding& f) { return or_dash(f.statistics.leaves); });
+  table.add("empty leaves", [](const Finding& f) { return or_dash(f.statistics.empty_leaves); });
+  table.add("references", [](const Finding& f) { return or_dash(f.statistics.references); });
+  table.add("depth", [](const Finding& f) { return or_dash(f.statistics.depth); });
+  table.add("memory", [](const Finding& f) { return format_bytes(f.statistics.bytes); });
+  table.add("build time (1)",
+            [](const Finding& f) { return fmt::format("{:.3g} ms", f.build_ms); });
+
+  std::set<std::string> extras;
+  for (const Finding& finding : findings) {
+    for (const auto& [name, value] : finding.statistics.more) extras.insert(name);
+  }
+  for (const std::string& extra : extras) {
+    table.add(extra, [&](const Finding& f) -> std::string {
+      for (const auto& [name, value] : f.statistics.more) {
+        if (name == extra) return fmt::format("{:.6g}", value);
+      }
+      return "-";
+    });
+  }
+}
+
+void add_work(StatisticsTable& table, const std::vector<Finding>& findings, std::size_t rays) {
+  table.add("rays that hit", [&](const Finding& f) { return format_share(f.hits, rays); });
+  std::vector<std::string> names(kCounterNames.begin(), kCounterNames.end());
+  for (const Finding& finding : findings) {
+    for (const auto& [name, count] : finding.counters) {
+      if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+  }
+  for (const std::string& name : names) {
+    table.add(name + " per ray", [&](const Finding& f) -> std::string {
+      const auto found = f.counters.find(name);
+      if (found == f.counters.end() || found->second == 0) return "-";
+      return fmt::format("{:.4f}", static_cast<double>(found->second) / static_cast<double>(rays));
+    });
+  }
+}
+
+void print_text(const Scene& scene, const PrimaryRays& rays, const std::vector<Finding>& findings) {
+  fmt::print("{}: {} primitives, {} primary rays ({}x{})\n\n", scene.name, scene.primitives.size(),
+             rays.count(), rays.width(), rays.height());
+  StatisticsTable table(findings);
+  add_sizes(table, findings);
+  add_work(table, findings, rays.count());
+  fmt::print("{}\n(1) of this one build, for information; 'beambench run' measures\n",
+             table.text());
+}
+
+Json to_json(const Finding& finding, std::size_t rays) {
+  const Statistics& sizes = finding.statistics;
+  const auto per_ray = [rays](std::uint64_t count) {
+    return static_cast<double>(count) / static_cast<double>(rays);
+  };
+  Json out{{"structure", finding.choice.info().name},
+           {"parameters", finding.choice.parameters().canonical()},
+           {"nodes", sizes.nodes},
+           {"leaves", sizes.leaves},
+           {"empty_leaves", sizes.empty_leaves},
+           {"references", sizes.references},
+           {"depth", sizes.depth},
+           {"memory_bytes", sizes.bytes},
+           {"more", Json::object()},
+           {"build_ms", finding.build_ms},
+           {"hits", finding.hits},
+           {"hit_share", per_ray(finding.hits)},
+           {"per_ray", Json::object()}};
+  for (const auto& [name, value] : sizes.more) out["more"][name] = value;
+  for (const auto& [name, count] : finding.counters) out["per_ray"][name] = per_ray(count);
+  return out;
+}
+
+void print_json(const Scene& scene, const PrimaryRays& rays, const std::vector<Finding>& findings) {
+  Json out{{"scene", scene.name},        {"primitives", scene.primitives.size()},
+           {"width", rays.width()},      {"height", rays.height()},
+           {"ray_kind", "primary"},      {"rays", rays.count()},
+           {"structures", Json::array()}};
+  for (const Finding& finding : findings) {
+    out["structures"].push_back(to_json(finding, rays.count()));
+  }
+  fmt::print("{}\n", out.dump(2));
+}
+
+/// A structure that cannot be built over the scene does not keep the others from being shown.
+int show_statistics(const Request& request) {
+  const Resolution resolution = parse_resolution(request.resolution);
+  parse_ray_kinds(request.rays);
+  registry().choose_list(request.structures);  // refuses a wrong name before a scene is generated
+  const Scene scene = open_scene(request.scene);
+  const PrimaryRays rays(choose_camera(scene, request.camera), resolution.width, resolution.height,
+                         1);
+  require_ray_count(resolution, 1);
+  const Contenders contenders = choose_contenders(request.structures, scene);
+
+  Progress progress(contenders.choices.size());
+  if (!contenders.note.empty()) progress.say(contenders.note);
+  std::vector<Finding> findings;
+  for (const StructureChoice& choice : contenders.choices) {
+    progress.start(choice.info().name);
+    try {
+      findings.push_back(examine(choice, scene, rays));
+      progress.finish(fmt::format("built in {:.3g} ms", findings.back().build_ms));
+    } catch (const InputError& error) {
+      if (contenders.choices.size() == 1) throw;
+      progress.finish(fmt::format("not built: {}", error.what()));
+    }
+  }
+  progress.clear();
+  request.json ? print_json(scene, rays, findings) : print_text(scene, rays, findings);
+  return findings.size() == contenders.choices.size() ? kSuccess : kWrongRequest;
+}
+
+}  // namespace
+
+void add_stats_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("stats", "Sizes of structures and the work a ray makes them do");
+  const auto request = std::make_shared<Request>();
+  command->add_option("SCENE", request->scene, "Catalogue name or path of an NFF file")->required();
+  command->add_option("--accel", request->structures, "Structures: NAME:parameter=value,... or all")
+      ->required();
+  command->add_option("--resolution", request->resolution, "WxH")->capture_default_str();
+  command->add_option("--rays", request->rays, "Kind of rays")->capture_default_str();
+  command->add_option("--camera", request->camera, "By name (default: the scene's first)");
+  command->add_flag("--json", request->json, "Print JSON instead of text");
+  command->footer(
+      "Examples:\n"
+      "  beambench stats escena1 --accel all\n"
+      "  beambench stats tetra:n=5 --accel samet:max_level=5,samet:max_level=7\n"
+      "  beambench stats balls --accel samet --resolution 640x480 --json");
+  command->callback([request, &exit_code] { exit_code = show_statistics(*request); });
+}
+
+}  // namespace beambench

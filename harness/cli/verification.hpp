@@ -1,0 +1,41 @@
+#pragma once
+// Judging structures over a scene: against the oracle, and bit for bit among themselves.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/differ/differ.hpp"
+#include "harness/progress/progress.hpp"
+
+namespace beambench {
+
+/// The judgement of one structure over one scene.
+struct VerifiedCell {
+  std::string scene;
+  std::uint64_t primitives = 0;
+  std::string structure;   ///< the bare name
+  std::string parameters;  ///< all of them, canonical
+  std::string label;       ///< the name and the parameters that are not at their defaults
+
+  std::optional<DiffReport> report;   ///< absent where the structure could not be built
+  std::vector<std::string> disputes;  ///< rays described, errors first
+  std::string bits_reference;         ///< whose bits it was compared with; empty: nobody's
+  std::uint64_t different_bits = 0;   ///< rays whose answer differs from the reference's
+  std::string verdict;                ///< a Verdict's name, or "error": it could not be built
+  std::string message;                ///< why it could not be built
+
+  bool passed() const { return verdict == "ok" || verdict == "baseline"; }
+};
+
+/// Judges each contender, the exhaustive search first where it is among them: the bit-exact ones
+/// are compared with it, or with the first of them. `progress` gets one cell for each contender.
+std::vector<VerifiedCell> verify_scene(const Scene& scene, const PrimaryRays& rays,
+                                       std::vector<StructureChoice> contenders, Progress& progress);
+
+nlohmann::ordered_json to_json(const VerifiedCell& cell);
+
+}  // namespace beambench

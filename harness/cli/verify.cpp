@@ -1,0 +1,147 @@
+// beambench verify: are the structures right?
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "harness/cli/commands.hpp"
+#include "harness/cli/inputs.hpp"
+#include "harness/cli/text.hpp"
+#include "harness/cli/verification.hpp"
+#include "harness/files/pending_file.hpp"
+#include "harness/rays/ray_kind.hpp"
+#include "harness/rays/resolution.hpp"
+#include "harness/record/build_info.hpp"
+#include "scenes/catalogue.hpp"
+
+namespace beambench {
+namespace {
+
+constexpr std::size_t kPrintedDisputes = 3;  // of each cell; the JSON has them all
+
+struct Request {
+  std::vector<std::string> scenes;
+  std::string structures = "all";
+  std::string resolution = "320x200";
+  std::string rays = "primary";
+  std::string json;
+};
+
+std::string bits_text(const VerifiedCell& cell) {
+  if (cell.bits_reference.empty()) return "-";
+  return cell.different_bits == 0 ? "equal" : fmt::format("{} differ", cell.different_bits);
+}
+
+std::string table_text(const std::vector<VerifiedCell>& cells) {
+  TextTable table({"scene", "structure", "rays", "hits", "agree", "tie", "graze", "engine error",
+                   "embree error", "bits", "verdict"},
+                  2);
+  for (const VerifiedCell& cell : cells) {
+    std::vector<std::string> row{cell.scene, cell.label};
+    if (cell.report) {
+      row.push_back(fmt::format("{}", cell.report->rays));
+      row.push_back(fmt::format("{}", cell.report->hits));
+      for (const std::uint64_t count : cell.report->counts) row.push_back(fmt::format("{}", count));
+    } else {
+      row.resize(row.size() + 2 + kDiffClassNames.size(), "-");
+    }
+    row.push_back(bits_text(cell));
+    row.push_back(cell.verdict);
+    table.add(std::move(row));
+  }
+  return table.text();
+}
+
+void print_disputes(const VerifiedCell& cell) {
+  if (!cell.message.empty()) fmt::print("\n{} over {}: {}\n", cell.label, cell.scene, cell.message);
+  if (cell.disputes.empty()) return;
+  fmt::print("\n{} over {}:\n", cell.label, cell.scene);
+  const std::size_t shown = std::min(cell.disputes.size(), kPrintedDisputes);
+  for (std::size_t i = 0; i < shown; ++i) fmt::print("{}\n", cell.disputes[i]);
+  if (shown < cell.disputes.size()) {
+    fmt::print("... and {} more, which --json FILE writes\n", cell.disputes.size() - shown);
+  }
+}
+
+void write_json(const Request& request, const std::vector<VerifiedCell>& cells, bool passed) {
+  nlohmann::ordered_json out{{"beambench", build_info().version},
+                             {"resolution", request.resolution},
+                             {"ray_kind", "primary"},
+                             {"passed", passed},
+                             {"cells", nlohmann::ordered_json::array()}};
+  for (const VerifiedCell& cell : cells) out["cells"].push_back(to_json(cell));
+  write_file(request.json, out.dump(2) + '\n');
+}
+
+std::vector<std::string> wanted_scenes(const Request& request) {
+  if (!request.scenes.empty()) return request.scenes;
+  std::vector<std::string> names;
+  for (const SceneInfo& info : scene_catalogue()) names.push_back(info.name);
+  return names;
+}
+
+int verify(const Request& request) {
+  const Resolution resolution = parse_resolution(request.resolution);
+  parse_ray_kinds(request.rays);
+  require_ray_count(resolution, 1);
+  if (!request.json.empty()) require_writable(request.json);
+  const std::size_t structures = registry().choose_list(request.structures).size();
+  const std::vector<std::string> scenes = wanted_scenes(request);
+
+  Progress progress(scenes.size() * structures);
+  std::vector<VerifiedCell> cells;
+  for (const std::string& name : scenes) {
+    const Scene scene = open_scene(name);
+    const PrimaryRays rays(scene.cameras.front(), resolution.width, resolution.height, 1);
+    Contenders contenders = choose_contenders(request.structures, scene);
+    if (!contenders.note.empty()) progress.say(contenders.note);
+    progress.skip(structures - contenders.choices.size());
+    for (VerifiedCell& cell : verify_scene(scene, rays, std::move(contenders.choices), progress)) {
+      cells.push_back(std::move(cell));
+    }
+  }
+  progress.clear();
+
+  const bool passed = std::all_of(cells.begin(), cells.end(),
+                                  [](const VerifiedCell& cell) { return cell.passed(); });
+  fmt::print("{}", table_text(cells));
+  for (const VerifiedCell& cell : cells) print_disputes(cell);
+  if (!request.json.empty()) write_json(request, cells, passed);
+  return passed ? kSuccess : kFound;
+}
+
+}  // namespace
+
+void add_verify_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("verify", "Judges structures, ray by ray, against an exact oracle");
+  const auto request = std::make_shared<Request>();
+  command->add_option("SCENE", request->scenes,
+                      "Catalogue names or paths of NFF files (default: the whole catalogue)");
+  command->add_option("--accel", request->structures, "Structures: NAME:parameter=value,... or all")
+      ->capture_default_str();
+  command->add_option("--resolution", request->resolution, "WxH")->capture_default_str();
+  command->add_option("--rays", request->rays, "Kinds of rays")->capture_default_str();
+  command->add_option("--json", request->json, "Write the judgement to this file, too");
+  command->footer(
+      "Each ray's answer is compared with that of Embree given exact intersectors. agree: the "
+      "same\n"
+      "primitive at the same place; tie: another primitive at the same place; graze: the ray "
+      "passes\n"
+      "a boundary within rounding; engine error, embree error: one of both is wrong, as a search "
+      "of\n"
+      "all primitives in long double finds. bits: do bit-exact structures repeat exhaustive, or\n"
+      "the first of them? Exits with 1 unless every verdict is ok (baseline for 'null').\n"
+      "Examples:\n"
+      "  beambench verify\n"
+      "  beambench verify escena1 tetra:n=4 --accel all\n"
+      "  beambench verify balls --accel samet:max_level=5,embree --resolution 640x480 --json "
+      "v.json");
+  command->callback([request, &exit_code] { exit_code = verify(*request); });
+}
+
+}  // namespace beambench
