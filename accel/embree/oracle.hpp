@@ -16,9 +16,13 @@ struct ExactHit {
 };
 
 /// Embree's BVH over user geometry whose intersectors compute in double, with code of their own
-/// (none of it shared with the classic structures), ties to the lowest primitive id. Bounds are
-/// padded by 4 x 2^-23 x (largest |coordinate| + reach), without which Embree's float boxes lose
-/// rays aimed at vertices (reference/embree.md). Queries are const and safe from several threads.
+/// (none of it shared with the classic structures). Bounds are padded by
+/// 4 x 2^-23 x (largest |coordinate| + reach), without which Embree's float boxes lose rays aimed
+/// at vertices (reference/embree.md). Queries are const and safe from several threads.
+///
+/// Ties go to the lowest primitive id, but at equal *double* t, while structures break ties of the
+/// t they rounded to float: at an edge the two may name different primitives of one place, which
+/// the differ classes as a tie.
 class EmbreeOracle {
  public:
   /// `reach`: the largest distance of a ray's origin from the origin of the coordinates.
@@ -27,6 +31,7 @@ class EmbreeOracle {
   EmbreeOracle(EmbreeOracle&&) noexcept;
   EmbreeOracle& operator=(EmbreeOracle&&) noexcept;
 
+  /// Rays must pass `require_valid`.
   std::optional<ExactHit> closest_hit(const Ray& ray) const;
   bool any_hit(const Ray& ray) const;
 

@@ -1,0 +1,98 @@
+// Embree's native geometry as a structure to compare with.
+
+#include "accel/embree/native_scene.hpp"
+#include "accel/embree/trace.hpp"
+#include "accel/registry.hpp"
+
+namespace beambench {
+namespace {
+
+using embree::NativeScene;
+using embree::TraceMode;
+
+class EmbreeContender : public Accelerator {
+ public:
+  EmbreeContender(const Scene& scene, RTCBuildQuality quality, bool robust, TraceMode mode,
+                  bool coherent)
+      : scene_(scene, quality, robust), mode_(mode), coherent_(coherent) {}
+
+  std::optional<Hit> closest_hit(const Ray& ray) const override {
+    embree::Context context(coherent_);
+    RTCRayHit query = embree::to_embree_query(ray);
+    embree::intersect(scene_.get(), context, query);
+    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return Hit{query.ray.tfar, scene_.owner(query.hit.geomID, query.hit.primID)};
+  }
+  bool any_hit(const Ray& ray) const override {
+    embree::Context context(coherent_);
+    RTCRay query = embree::to_embree(ray);
+    return embree::occluded(scene_.get(), context, query);
+  }
+  void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
+    embree::trace(scene_, mode_, coherent_, rays, buffer);
+  }
+
+  // Embree does not let its work be counted.
+  std::optional<Hit> closest_hit(const Ray& ray, WorkCounters&) const override {
+    return closest_hit(ray);
+  }
+  bool any_hit(const Ray& ray, WorkCounters&) const override { return any_hit(ray); }
+  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters&) const override {
+    trace(rays, buffer);
+  }
+
+  Statistics statistics() const override {
+    Statistics statistics;
+    statistics.bytes = scene_.bytes();
+    statistics.more = {{"triangles", static_cast<double>(scene_.triangle_count())},
+                       {"sphere_points", static_cast<double>(scene_.sphere_count())},
+                       {"user_primitives", static_cast<double>(scene_.user_count())}};
+    return statistics;
+  }
+
+ private:
+  NativeScene scene_;
+  TraceMode mode_;
+  bool coherent_;
+};
+
+TraceMode parse_mode(const std::string& name) {
+  if (name == "packet4") return TraceMode::kPacket4;
+  if (name == "packet8") return TraceMode::kPacket8;
+  if (name == "packet16") return TraceMode::kPacket16;
+  if (name == "stream") return TraceMode::kStream;
+  return TraceMode::kSingle;
+}
+
+RTCBuildQuality parse_quality(const std::string& name) {
+  if (name == "low") return RTC_BUILD_QUALITY_LOW;
+  if (name == "medium") return RTC_BUILD_QUALITY_MEDIUM;
+  return RTC_BUILD_QUALITY_HIGH;
+}
+
+}  // namespace
+
+void register_embree(Registry& registry) {
+  registry.add(
+      {"embree",
+       "Intel Embree's BVH over its native triangles and spheres, built on one thread (Wald et "
+       "al., ACM TOG 33(4), 2014)",
+       Conformance::kTolerance,
+       {choice_parameter("mode", "single", {"single", "packet4", "packet8", "packet16", "stream"},
+                         "how an image is traced: ray by ray, in packets (blocks of 2x2, 4x2 or "
+                         "4x4 pixels) or as streams of a tile's rays"),
+        choice_parameter("quality", "high", {"low", "medium", "high"},
+                         "Embree's build quality; high builds several times longer than medium"),
+        flag_parameter("robust", true,
+                       "watertight traversal; without it Embree loses rays at vertices and edges, "
+                       "which costs the verdict where they matter"),
+        flag_parameter("coherent", true,
+                       "tells Embree that neighbouring rays are alike, which packets need")},
+       [](const Scene& scene, const Parameters& parameters) {
+         return std::make_unique<EmbreeContender>(
+             scene, parse_quality(parameters.choice("quality")), parameters.flag("robust"),
+             parse_mode(parameters.choice("mode")), parameters.flag("coherent"));
+       }});
+}
+
+}  // namespace beambench

@@ -1,0 +1,161 @@
+#include "accel/embree/exact_tests.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace beambench::embree {
+
+using glm::dvec3;
+
+// Side of the ray on which an edge passes, by the product of their Plücker coordinates. The edge
+// vector changes sign and the sum does not when the edge is walked the other way, so the two
+// triangles of a shared edge see exactly opposite numbers: no ray slips between them.
+static double side(const ExactRay& ray, const dvec3& from, const dvec3& to) {
+  return glm::dot(glm::cross(to - from, from + to), ray.direction);
+}
+
+std::optional<double> first_hit(const ExactRay& ray, const Scene& scene, const Triangle& triangle) {
+  const dvec3 a = dvec3(scene.vertices[triangle.vertex[0]]) - ray.origin;
+  const dvec3 b = dvec3(scene.vertices[triangle.vertex[1]]) - ray.origin;
+  const dvec3 c = dvec3(scene.vertices[triangle.vertex[2]]) - ray.origin;
+  // The sides are the hit's barycentric weights, as yet without a common scale.
+  const double at_c = side(ray, a, b);
+  const double at_a = side(ray, b, c);
+  const double at_b = side(ray, c, a);
+  const auto [least, greatest] = std::minmax({at_a, at_b, at_c});
+  if (least < 0.0 && greatest > 0.0) return std::nullopt;
+  const double sum = at_a + at_b + at_c;
+  if (sum == 0.0) return std::nullopt;  // seen edge-on: no area
+
+  // A mean of the corners stays on the triangle even when it is seen nearly edge-on.
+  const dvec3 hit = (at_a / sum) * a + (at_b / sum) * b + (at_c / sum) * c;
+  const double t = glm::dot(hit, ray.direction) / glm::dot(ray.direction, ray.direction);
+  return ray.contains(t) ? std::optional(t) : std::nullopt;
+}
+
+namespace {
+
+/// Where a ray passes through a quadric a t^2 + 2 b t + c that is negative inside: it enters where
+/// the derivative is negative and leaves where it is positive. Infinite where it does not.
+struct Crossings {
+  double enter = kInfinity;
+  double leave = kInfinity;
+};
+
+/// Both roots are written so that nothing cancels. Nothing comes back for a ray that passes by, and
+/// both roots are the same for one that touches.
+std::optional<Crossings> crossings(double a, double b, double c) {
+  if (a == 0.0) {
+    if (b == 0.0) return std::nullopt;
+    const double t = -0.5 * c / b;
+    return b > 0.0 ? Crossings{kInfinity, t} : Crossings{t, kInfinity};
+  }
+  const double discriminant = b * b - a * c;
+  if (discriminant < 0.0) return std::nullopt;
+  const double root = std::sqrt(discriminant);
+  if (b < 0.0) return Crossings{c / (root - b), (root - b) / a};
+  if (b + root == 0.0) return Crossings{0.0, 0.0};
+  return Crossings{-(b + root) / a, -c / (b + root)};
+}
+
+/// The t of the ray's point closest to `point`. Equations are set up from there: seen from a
+/// distant eye their digits would cancel.
+double closest_approach(const ExactRay& ray, const dvec3& point) {
+  return glm::dot(point - ray.origin, ray.direction) / glm::dot(ray.direction, ray.direction);
+}
+
+}  // namespace
+
+std::optional<double> first_hit(const ExactRay& ray, const Sphere& sphere) {
+  const dvec3 center(sphere.center);
+  const double shift = closest_approach(ray, center);
+  const dvec3 start = (ray.origin - center) + shift * ray.direction;
+  const double distance = glm::length(start);
+  const double radius = sphere.radius;
+  const auto found =
+      crossings(glm::dot(ray.direction, ray.direction), glm::dot(start, ray.direction),
+                (distance - radius) * (distance + radius));
+  if (!found) return std::nullopt;
+  const double enter = shift + found->enter;
+  const double leave = shift + found->leave;
+  if (!sphere.inside_only && ray.contains(enter)) return enter;
+  return ray.contains(leave) ? std::optional(leave) : std::nullopt;
+}
+
+namespace {
+
+/// A cone's own frame: base at the origin, apex on the z axis.
+struct ConeFrame {
+  explicit ConeFrame(const Cone& cone) : base(cone.base) {
+    const dvec3 axis = dvec3(cone.apex) - base;
+    length = glm::length(axis);
+    z = axis / length;
+    const dvec3 size = glm::abs(z);
+    const dvec3 other = size.x <= size.y && size.x <= size.z ? dvec3(1.0, 0.0, 0.0)
+                        : size.y <= size.z                   ? dvec3(0.0, 1.0, 0.0)
+                                                             : dvec3(0.0, 0.0, 1.0);
+    x = glm::normalize(glm::cross(other, z));
+    y = glm::cross(z, x);
+  }
+
+  dvec3 to_local(const dvec3& vector) const {
+    return {glm::dot(vector, x), glm::dot(vector, y), glm::dot(vector, z)};
+  }
+
+  dvec3 base, x, y, z;
+  double length;
+};
+
+}  // namespace
+
+std::optional<double> first_hit(const ExactRay& ray, const Cone& cone) {
+  const ConeFrame frame(cone);
+  const double shift = closest_approach(ray, frame.base + 0.5 * frame.length * frame.z);
+  const dvec3 o = frame.to_local((ray.origin - frame.base) + shift * ray.direction);
+  const dvec3 d = frame.to_local(ray.direction);
+
+  // x^2 + y^2 - r(z)^2 with the radius r(z) = r + slope z along the ray.
+  const double slope = (static_cast<double>(cone.apex_radius) - cone.base_radius) / frame.length;
+  const double r = cone.base_radius + slope * o.z;
+  const double r_grows = slope * d.z;
+  const double b = o.x * d.x + o.y * d.y - r * r_grows;
+  const auto found =
+      crossings(d.x * d.x + d.y * d.y - r_grows * r_grows, b, o.x * o.x + o.y * o.y - r * r);
+  if (!found) return std::nullopt;
+  if (cone.inside_only && found->enter == found->leave) return std::nullopt;  // only touched
+
+  // Between base and apex the radius is not negative: the mirrored half of the double cone is out,
+  // and so are infinite and undefined roots, for which the comparisons are false.
+  std::optional<double> nearest;
+  const auto consider = [&](double t) {
+    const double height = o.z + t * d.z;
+    if (!(0.0 <= height && height <= frame.length) || !ray.contains(shift + t)) return;
+    if (!nearest || shift + t < *nearest) nearest = shift + t;
+  };
+  if (!cone.inside_only) consider(found->enter);
+  consider(found->leave);
+  return nearest;
+}
+
+ExactBounds bounds_of(const Scene& scene, const Triangle& triangle) {
+  const dvec3 a(scene.vertices[triangle.vertex[0]]);
+  const dvec3 b(scene.vertices[triangle.vertex[1]]);
+  const dvec3 c(scene.vertices[triangle.vertex[2]]);
+  return {glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)};
+}
+
+ExactBounds bounds_of(const Sphere& sphere) {
+  const dvec3 center(sphere.center);
+  const double radius = sphere.radius;
+  return {center - radius, center + radius};
+}
+
+ExactBounds bounds_of(const Cone& cone) {
+  const ExactBounds base = bounds_of(Sphere{cone.base, cone.base_radius, false});
+  const ExactBounds apex = bounds_of(Sphere{cone.apex, cone.apex_radius, false});
+  return {glm::min(base.lower, apex.lower), glm::max(base.upper, apex.upper)};
+}
+
+}  // namespace beambench::embree

@@ -1,0 +1,45 @@
+#pragma once
+// Ray-primitive tests in double precision for Embree's user geometry. They are written apart from
+// the canonical tests of the classic structures, with other formulas, so that a mistake in one is
+// seen by the other.
+
+#include <optional>
+
+#include <glm/vec3.hpp>
+
+#include "accel/ray.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::embree {
+
+/// A ray's floats as doubles.
+struct ExactRay {
+  explicit ExactRay(const Ray& ray)
+      : origin(ray.origin), direction(ray.direction), t_min(ray.t_min), t_max(ray.t_max) {}
+
+  bool contains(double t) const { return t_min <= t && t <= t_max; }
+
+  glm::dvec3 origin;
+  glm::dvec3 direction;
+  double t_min;
+  double t_max;
+};
+
+/// Each returns the smallest t in the ray's closed range at which it hits, if any.
+/// Triangles are two-sided and closed; rays through a shared edge hit one of its triangles.
+std::optional<double> first_hit(const ExactRay& ray, const Scene& scene, const Triangle& triangle);
+std::optional<double> first_hit(const ExactRay& ray, const Sphere& sphere);
+std::optional<double> first_hit(const ExactRay& ray, const Cone& cone);
+
+/// A box in double precision.
+struct ExactBounds {
+  glm::dvec3 lower;
+  glm::dvec3 upper;
+};
+
+ExactBounds bounds_of(const Scene& scene, const Triangle& triangle);
+ExactBounds bounds_of(const Sphere& sphere);
+/// Loose: the box of the spheres around its ends.
+ExactBounds bounds_of(const Cone& cone);
+
+}  // namespace beambench::embree

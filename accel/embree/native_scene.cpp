@@ -1,0 +1,86 @@
+#include "accel/embree/native_scene.hpp"
+
+#include <cstring>
+
+#include <glm/vec4.hpp>
+#include <tbb/global_control.h>
+
+namespace beambench::embree {
+namespace {
+
+/// A new buffer of `count` elements, to be filled. Embree reads 16 bytes at every vertex, so that a
+/// scene's own array cannot be shared: its last element may end a page.
+template <class Element>
+Element* new_buffer(const GeometryHandle& geometry, RTCBufferType type, RTCFormat format,
+                    std::size_t count) {
+  return static_cast<Element*>(
+      rtcSetNewGeometryBuffer(geometry.get(), type, 0, format, sizeof(Element), count));
+}
+
+}  // namespace
+
+NativeScene::NativeScene(const Scene& scene, RTCBuildQuality quality, bool robust)
+    : device_("threads=1"), user_(scene), scene_(rtcNewScene(device_.get())) {
+  // Embree takes the largest thread count of all its living devices; this holds it to one.
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
+  rtcSetSceneBuildQuality(scene_.get(), quality);
+  rtcSetSceneFlags(scene_.get(), robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
+
+  owners_.reserve(scene.triangles.size() + scene.spheres.size() + scene.cones.size());
+  for (const Triangle& triangle : scene.triangles) owners_.push_back(triangle.primitive);
+  if (!scene.triangles.empty()) attach(kTriangles, make_triangles(scene));
+
+  first_owner_[kSpheres] = owners_.size();
+  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+    const Primitive& primitive = scene.primitives[id];
+    if (primitive.kind == PrimitiveKind::kSphere && !is_user_primitive(scene, primitive)) {
+      owners_.push_back(id);
+    }
+  }
+  first_owner_[kUser] = owners_.size();
+  if (sphere_count() > 0) attach(kSpheres, make_spheres(scene));
+
+  owners_.insert(owners_.end(), user_.ids().begin(), user_.ids().end());
+  if (user_count() > 0) attach(kUser, user_.make(device_.get()));
+
+  rtcCommitScene(scene_.get());
+  device_.check("building over " + scene.name);
+}
+
+void NativeScene::attach(GeometryId id, const GeometryHandle& geometry) {
+  rtcAttachGeometryByID(scene_.get(), geometry.get(), id);
+}
+
+GeometryHandle NativeScene::make_triangles(const Scene& scene) {
+  GeometryHandle geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
+  auto* const vertices = new_buffer<glm::vec3>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3,
+                                               scene.vertices.size());
+  device_.check("building over " + scene.name);
+  std::memcpy(vertices, scene.vertices.data(), scene.vertices.size() * sizeof(glm::vec3));
+  // A triangle's indices stand in front of its owner, so that this array can be shared.
+  rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                             scene.triangles.data(), 0, sizeof(Triangle), scene.triangles.size());
+  rtcCommitGeometry(geometry.get());
+  return geometry;
+}
+
+GeometryHandle NativeScene::make_spheres(const Scene& scene) {
+  GeometryHandle geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT));
+  auto* const points =
+      new_buffer<glm::vec4>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, sphere_count());
+  device_.check("building over " + scene.name);
+  for (std::size_t i = 0; i < sphere_count(); ++i) {
+    const PrimitiveId id = owners_[first_owner_[kSpheres] + i];
+    const Sphere& sphere = scene.spheres[scene.primitives[id].index];
+    points[i] = glm::vec4(sphere.center, sphere.radius);
+  }
+  rtcCommitGeometry(geometry.get());
+  return geometry;
+}
+
+std::uint64_t NativeScene::bytes() const {
+  return device_.bytes() + owners_.capacity() * sizeof(PrimitiveId) +
+         user_.ids().capacity() * sizeof(PrimitiveId);
+}
+
+}  // namespace beambench::embree

@@ -1,0 +1,169 @@
+#include "accel/embree/oracle.hpp"
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "accel/embree/device.hpp"
+#include "accel/embree/exact_tests.hpp"
+
+namespace beambench {
+
+using embree::Context;
+using embree::ExactBounds;
+using embree::ExactRay;
+
+namespace {
+
+/// A query on its way through Embree: the best hit so far keeps its double t here, since Embree's
+/// own ray has only a float.
+struct OracleQuery : Context {
+  explicit OracleQuery(const Ray& r) : Context(false), ray(r) {}
+
+  ExactRay ray;  ///< t_max shrinks to the best hit
+  PrimitiveId primitive = kNoPrimitive;
+};
+
+OracleQuery& query_of(RTCIntersectContext* context) { return *static_cast<OracleQuery*>(context); }
+
+/// The smallest float that is not below: Embree prunes by it, so it may only err to the far side.
+float rounded_up(double t) {
+  const auto rounded = static_cast<float>(t);
+  return static_cast<double>(rounded) < t ? std::nextafter(rounded, kInfinity) : rounded;
+}
+
+/// One user geometry holds all primitives of one kind, which says how many there are, and of each
+/// its owner, its bounds and where a ray hits it first.
+struct Triangles {
+  const Scene& scene;
+
+  std::size_t count() const { return scene.triangles.size(); }
+  PrimitiveId owner(std::size_t i) const { return scene.triangles[i].primitive; }
+  ExactBounds bounds(std::size_t i) const { return embree::bounds_of(scene, scene.triangles[i]); }
+  std::optional<double> hit(const ExactRay& ray, std::size_t i) const {
+    return first_hit(ray, scene, scene.triangles[i]);
+  }
+};
+
+template <class Shape>
+struct Shapes {
+  const std::vector<Shape>& shapes;
+  std::vector<PrimitiveId> owners;
+
+  Shapes(const Scene& scene, PrimitiveKind kind, const std::vector<Shape>& all)
+      : shapes(all), owners(all.size()) {
+    for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+      const Primitive& primitive = scene.primitives[id];
+      if (primitive.kind == kind) owners[primitive.index] = id;
+    }
+  }
+  std::size_t count() const { return shapes.size(); }
+  PrimitiveId owner(std::size_t i) const { return owners[i]; }
+  ExactBounds bounds(std::size_t i) const { return embree::bounds_of(shapes[i]); }
+  std::optional<double> hit(const ExactRay& ray, std::size_t i) const {
+    return first_hit(ray, shapes[i]);
+  }
+};
+
+/// A kind with the padding of its bounds; Embree's user data.
+template <class Kind>
+struct Padded {
+  Kind kind;
+  double pad;
+
+  static const Padded& of(const void* user_data) { return *static_cast<const Padded*>(user_data); }
+
+  static void on_bounds(const RTCBoundsFunctionArguments* arguments) {
+    const Padded& self = of(arguments->geometryUserPtr);
+    const ExactBounds bounds = self.kind.bounds(arguments->primID);
+    const glm::vec3 lower(bounds.lower - self.pad);  // rounding is far smaller than the padding
+    const glm::vec3 upper(bounds.upper + self.pad);
+    *arguments->bounds_o = {lower.x, lower.y, lower.z, 0.0F, upper.x, upper.y, upper.z, 0.0F};
+  }
+
+  // The oracle asks with single rays only, so N is 1 in both callbacks.
+  static void on_intersect(const RTCIntersectFunctionNArguments* arguments) {
+    if (arguments->valid[0] == 0) return;
+    const Padded& self = of(arguments->geometryUserPtr);
+    OracleQuery& query = query_of(arguments->context);
+    const std::optional<double> t = self.kind.hit(query.ray, arguments->primID);
+    const PrimitiveId owner = self.kind.owner(arguments->primID);
+    if (!t || (*t == query.ray.t_max && owner >= query.primitive)) return;
+    query.ray.t_max = *t;
+    query.primitive = owner;
+    RTCRayHitN* const ray_hit = arguments->rayhit;
+    RTCRayN_tfar(RTCRayHitN_RayN(ray_hit, 1), 1, 0) = rounded_up(*t);
+    RTCHitN_geomID(RTCRayHitN_HitN(ray_hit, 1), 1, 0) = arguments->geomID;
+    RTCHitN_primID(RTCRayHitN_HitN(ray_hit, 1), 1, 0) = arguments->primID;
+  }
+
+  static void on_occluded(const RTCOccludedFunctionNArguments* arguments) {
+    if (arguments->valid[0] == 0) return;
+    const Padded& self = of(arguments->geometryUserPtr);
+    if (self.kind.hit(query_of(arguments->context).ray, arguments->primID)) {
+      RTCRayN_tfar(arguments->ray, 1, 0) = -kInfinity;
+    }
+  }
+
+  void attach(RTCDevice device, RTCScene scene) {
+    if (kind.count() == 0) return;
+    const embree::GeometryHandle geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
+    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(kind.count()));
+    rtcSetGeometryUserData(geometry.get(), this);
+    rtcSetGeometryBoundsFunction(geometry.get(), on_bounds, nullptr);
+    rtcSetGeometryIntersectFunction(geometry.get(), on_intersect);
+    rtcSetGeometryOccludedFunction(geometry.get(), on_occluded);
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometry(scene, geometry.get());
+  }
+};
+
+double padding(const Scene& scene, double reach) {
+  return 4.0 * 0x1p-23 * (static_cast<double>(scene.bounds.largest_coordinate()) + reach);
+}
+
+}  // namespace
+
+struct EmbreeOracle::State {
+  State(const Scene& s, double pad)
+      : device(""),
+        triangles{{s}, pad},
+        spheres{{s, PrimitiveKind::kSphere, s.spheres}, pad},
+        cones{{s, PrimitiveKind::kCone, s.cones}, pad},
+        scene(rtcNewScene(device.get())) {
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    triangles.attach(device.get(), scene.get());
+    spheres.attach(device.get(), scene.get());
+    cones.attach(device.get(), scene.get());
+    rtcCommitScene(scene.get());
+    device.check("building the oracle over " + s.name);
+  }
+
+  embree::Device device;
+  Padded<Triangles> triangles;
+  Padded<Shapes<Sphere>> spheres;
+  Padded<Shapes<Cone>> cones;
+  embree::SceneHandle scene;
+};
+
+EmbreeOracle::EmbreeOracle(const Scene& scene, double reach)
+    : state_(std::make_unique<State>(scene, padding(scene, reach))) {}
+EmbreeOracle::~EmbreeOracle() = default;
+EmbreeOracle::EmbreeOracle(EmbreeOracle&&) noexcept = default;
+EmbreeOracle& EmbreeOracle::operator=(EmbreeOracle&&) noexcept = default;
+
+std::optional<ExactHit> EmbreeOracle::closest_hit(const Ray& ray) const {
+  OracleQuery query(ray);
+  RTCRayHit ray_hit = embree::to_embree_query(ray);
+  embree::intersect(state_->scene.get(), query, ray_hit);
+  if (query.primitive == kNoPrimitive) return std::nullopt;
+  return ExactHit{query.ray.t_max, query.primitive};
+}
+
+bool EmbreeOracle::any_hit(const Ray& ray) const {
+  OracleQuery query(ray);
+  RTCRay out = embree::to_embree(ray);
+  return embree::occluded(state_->scene.get(), query, out);
+}
+
+}  // namespace beambench
