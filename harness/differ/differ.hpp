@@ -4,10 +4,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "accel/embree/oracle.hpp"
@@ -19,11 +19,14 @@
 namespace beambench {
 
 /// How one answer compares (reference/embree.md, "A differ that can be defended"). u is
-/// 2^-24 x (largest |coordinate| + distance of the ray's origin), K is 16.
+/// 2^-24 x (largest |coordinate| + distance of the ray's origin), K is 16. The first three need a
+/// sound answer: its point lies within K u of the primitive it names.
 enum class DiffClass : std::size_t {
-  kAgree,        ///< same primitive, |dt| x |cos theta| <= K u (a sphere: | |p - c| - r | <= K u)
+  kAgree,        ///< same primitive, |dt| x |cos theta| <= K u (a sphere or cone: the point is
+                 ///< within K u of the surface, where the ray enters or leaves as the oracle's)
   kTie,          ///< other primitive at the same place: |dt| x the smaller |cos theta| <= K u
-  kGraze,        ///< the disputed primitive's boundary is within K u of the ray
+  kGraze,        ///< the disputed primitive's boundary is within K u of the ray, or the disputed
+                 ///< hit within K u of the ray's end
   kEngineError,  ///< the structure is wrong, by long-double search over all primitives
   kEmbreeError,  ///< the structure is right and the oracle wrong, by the same search
   kCount
@@ -50,7 +53,8 @@ struct Mismatch {
   std::optional<ExactHit> oracle;
   /// The long-double answer; absent where the class was settled without it, or for an exact miss.
   std::optional<ExactHit> exact;
-  bool adjudicated;  ///< was the long-double search asked?
+  bool adjudicated;         ///< was the long-double search asked?
+  std::string_view reason;  ///< why it was classed so: a clause for `describe`
 };
 
 /// What was found in one buffer.
@@ -83,7 +87,10 @@ class ReferenceHits {
   std::vector<std::optional<ExactHit>> hits_;
 };
 
-/// Judges a buffer. For Conformance::kBaseline only: are all answers misses?
+/// Judges a buffer. Disputed rays are searched in long double until their number is hopeless (64
+/// errors are proven, or the search has made 4e8 primitive tests); what is disputed beyond that
+/// counts as engine error, unproven. For Conformance::kBaseline the only question is whether all
+/// answers are misses; others are engine errors.
 /// Throws std::logic_error when the buffer's size is not that of the rays.
 DiffReport judge(const ReferenceHits& reference, const HitBuffer& buffer, Conformance conformance);
 

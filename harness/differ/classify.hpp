@@ -1,0 +1,25 @@
+#pragma once
+// The differ's classes for one ray: rules that need no search through the scene.
+
+#include <optional>
+
+#include "harness/differ/differ.hpp"
+
+namespace beambench {
+
+/// K u for rays from `origin`: the length within which places cannot be told apart in float.
+double tolerance(const Scene& scene, const glm::vec3& origin);
+
+/// The class of an answer against a reference answer by the first three rules of
+/// reference/embree.md (agree, tie, graze), `tolerance` being K u; nothing when none of them
+/// applies and the answers are in dispute. A hit only passes at all when it is sound: when its
+/// point lies within K u of the primitive it names.
+std::optional<DiffClass> classify(const Scene& scene, const Ray& ray,
+                                  const std::optional<Hit>& answer,
+                                  const std::optional<ExactHit>& reference, double tolerance);
+
+/// Is the answer none at all: a primitive the scene does not have, or a t that is not a number in
+/// the ray's interval? `t` of a miss is infinity.
+bool is_nonsense(const Scene& scene, const Ray& ray, const Hit& answer);
+
+}  // namespace beambench

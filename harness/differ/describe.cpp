@@ -1,0 +1,50 @@
+#include <fmt/format.h>
+
+#include "harness/differ/differ.hpp"
+
+namespace beambench {
+namespace {
+
+std::string_view kind_of(const Scene& scene, PrimitiveId id) {
+  if (id >= scene.primitives.size()) return "not in the scene";
+  switch (scene.primitives[id].kind) {
+    case PrimitiveKind::kSphere:
+      return "sphere";
+    case PrimitiveKind::kCone:
+      return "cone";
+    case PrimitiveKind::kPolygon:
+      return "polygon";
+  }
+  return "unknown";
+}
+
+/// Floats and doubles are printed with as many digits as tell them apart from their neighbours.
+template <class AnyHit>
+std::string text(const Scene& scene, const std::optional<AnyHit>& hit) {
+  if (!hit) return "miss";
+  if (hit->primitive == kNoPrimitive) return fmt::format("miss, but with t = {}", hit->t);
+  return fmt::format("primitive {} ({}) at t = {}", hit->primitive, kind_of(scene, hit->primitive),
+                     hit->t);
+}
+
+std::string text(const glm::vec3& vector) {
+  return fmt::format("({}, {}, {})", vector.x, vector.y, vector.z);
+}
+
+}  // namespace
+
+std::string describe(const Scene& scene, const Mismatch& mismatch) {
+  return fmt::format(
+      "pixel ({}, {}) sample {}: {}, {}\n"
+      "  ray    from {} along {}, t in [{}, {}]\n"
+      "  engine {}\n"
+      "  oracle {}\n"
+      "  exact  {}\n",
+      mismatch.x, mismatch.y, mismatch.sample,
+      kDiffClassNames[static_cast<std::size_t>(mismatch.diff_class)], mismatch.reason,
+      text(mismatch.ray.origin), text(mismatch.ray.direction), mismatch.ray.t_min,
+      mismatch.ray.t_max, text(scene, mismatch.engine), text(scene, mismatch.oracle),
+      mismatch.adjudicated ? text(scene, mismatch.exact) : "not asked");
+}
+
+}  // namespace beambench

@@ -1,0 +1,135 @@
+#include "harness/differ/exact_search.hpp"
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace beambench {
+namespace {
+
+using Real = long double;
+using Vector = glm::vec<3, Real>;
+
+/// Gathers the nearest hit of all tests of one ray.
+class Search {
+ public:
+  Search(const Scene& scene, const Ray& ray)
+      : scene_(scene),
+        origin_(ray.origin),
+        direction_(ray.direction),
+        t_min_(ray.t_min),
+        best_t_(ray.t_max),
+        length_2_(glm::dot(direction_, direction_)) {}
+
+  std::optional<ExactHit> run() {
+    for (PrimitiveId id = 0; id < scene_.primitives.size(); ++id) {
+      const Primitive& primitive = scene_.primitives[id];
+      switch (primitive.kind) {
+        case PrimitiveKind::kSphere:
+          test(id, scene_.spheres[primitive.index]);
+          break;
+        case PrimitiveKind::kCone:
+          test(id, scene_.cones[primitive.index]);
+          break;
+        case PrimitiveKind::kPolygon:
+          test(id, scene_.polygons[primitive.index]);
+          break;
+      }
+    }
+    if (best_ == kNoPrimitive) return std::nullopt;
+    return ExactHit{static_cast<double>(best_t_), best_};
+  }
+
+ private:
+  // Ids come in ascending order, so of equal hits the first stays. NaN is never in range.
+  void offer(PrimitiveId id, Real t) {
+    if (!(t_min_ <= t) || !(best_ == kNoPrimitive ? t <= best_t_ : t < best_t_)) return;
+    best_t_ = t;
+    best_ = id;
+  }
+
+  void test(PrimitiveId id, const Sphere& sphere) {
+    const Vector offset = origin_ - Vector(sphere.center);
+    const Real b = glm::dot(offset, direction_);
+    const Real off_line = glm::dot(glm::cross(offset, direction_), glm::cross(offset, direction_));
+    const Real radius = sphere.radius;
+    // (b^2 - a c) = a r^2 - |offset x d|^2, by Lagrange's identity.
+    const Real discriminant = length_2_ * radius * radius - off_line;
+    if (discriminant < 0.0L) return;
+    const Real root = std::sqrt(discriminant);
+    if (!sphere.inside_only) offer(id, (-b - root) / length_2_);
+    offer(id, (-b + root) / length_2_);
+  }
+
+  void test(PrimitiveId id, const Polygon& polygon) {
+    for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
+      test(id, scene_.triangles[polygon.first_triangle + i]);
+    }
+  }
+
+  void test(PrimitiveId id, const Triangle& triangle) {
+    const Vector a(scene_.vertices[triangle.vertex[0]]);
+    const Vector b(scene_.vertices[triangle.vertex[1]]);
+    const Vector c(scene_.vertices[triangle.vertex[2]]);
+    // Cramer's rule for origin + t d = a + v (b - a) + w (c - a).
+    const Vector ab = b - a;
+    const Vector ac = c - a;
+    const Vector from_a = origin_ - a;
+    const Vector p = glm::cross(direction_, ac);
+    const Real determinant = glm::dot(ab, p);
+    if (determinant == 0.0L) return;
+    const Real v = glm::dot(from_a, p) / determinant;
+    if (!(0.0L <= v && v <= 1.0L)) return;
+    const Vector q = glm::cross(from_a, ab);
+    const Real w = glm::dot(direction_, q) / determinant;
+    if (!(0.0L <= w && v + w <= 1.0L)) return;
+    offer(id, glm::dot(ac, q) / determinant);
+  }
+
+  void test(PrimitiveId id, const Cone& cone) {
+    // Along the ray, s is the position on the axis (0 base, 1 apex), y the part of the point across
+    // the axis and r the radius there: s = s0 + t s1, y = y0 + t y1, r = r0 + t r1; hits have
+    // |y| = r. Where |y1| = |r1| the ray is parallel to a line of the surface.
+    const Vector axis = Vector(cone.apex) - Vector(cone.base);
+    const Real length_2 = glm::dot(axis, axis);
+    const Vector x = origin_ - Vector(cone.base);
+    const Real k = static_cast<Real>(cone.apex_radius) - cone.base_radius;
+    const Real s0 = glm::dot(x, axis) / length_2;
+    const Real s1 = glm::dot(direction_, axis) / length_2;
+    const Vector y0 = x - s0 * axis;
+    const Vector y1 = direction_ - s1 * axis;
+    const Real r0 = cone.base_radius + k * s0;
+    const Real r1 = k * s1;
+
+    const Real a = glm::dot(y1, y1) - r1 * r1;
+    const Real b = glm::dot(y0, y1) - r0 * r1;
+    const Real c = glm::dot(y0, y0) - r0 * r0;
+    const auto consider = [&](Real t) {
+      const Real s = s0 + t * s1;
+      const bool leaves = a * t + b > 0.0L;
+      if (0.0L <= s && s <= 1.0L && (leaves || !cone.inside_only)) offer(id, t);
+    };
+    const Real discriminant = b * b - a * c;
+    if (discriminant < 0.0L) return;
+    const Real root = std::sqrt(discriminant);
+    const Real sum = b < 0.0L ? b - root : b + root;
+    consider(-sum / a);
+    consider(-c / sum);
+  }
+
+  const Scene& scene_;
+  Vector origin_;
+  Vector direction_;
+  Real t_min_;
+  Real best_t_;
+  Real length_2_;
+  PrimitiveId best_ = kNoPrimitive;
+};
+
+}  // namespace
+
+std::optional<ExactHit> exact_closest_hit(const Scene& scene, const Ray& ray) {
+  return Search(scene, ray).run();
+}
+
+}  // namespace beambench

@@ -1,0 +1,17 @@
+#pragma once
+// The last instance: a search through all primitives in long double.
+
+#include <optional>
+
+#include "accel/embree/oracle.hpp"
+#include "accel/ray.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// The closest hit in the ray's closed interval, ties to the lowest primitive id, by testing every
+/// primitive in long double (64-bit mantissa on x86) with code that neither the structures nor the
+/// oracle share. Slow: some 20 ns a primitive.
+std::optional<ExactHit> exact_closest_hit(const Scene& scene, const Ray& ray);
+
+}  // namespace beambench
