@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "accel/primary_rays.hpp"
 #include "harness/sweep/json_node.hpp"
 #include "harness/sweep/structure_entry.hpp"
@@ -12,6 +14,24 @@ namespace {
 constexpr double kDefaultPrecision = 0.02;
 constexpr std::int64_t kMaxRepetitions = 100'000;
 constexpr double kMaxBudgetSeconds = 1e7;  // some four months
+
+/// The name ends up in run ids and folder names.
+std::string read_name(const JsonNode& node) {
+  constexpr std::size_t kMaxLength = 64;
+  const std::string name = node.text();
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  };
+  const auto is_allowed = [&](char c) { return is_plain(c) || c == '.' || c == '_' || c == '-'; };
+  if (name.empty() || name.size() > kMaxLength || !is_plain(name.front()) ||
+      !std::all_of(name.begin(), name.end(), is_allowed)) {
+    node.fail(
+        fmt::format("expected 1 to {} of the letters A-Z, a-z, 0-9, '.', '_', '-', the first "
+                    "one a letter or digit",
+                    kMaxLength));
+  }
+  return name;
+}
 
 SceneEntry read_scene(const JsonNode& node) {
   if (node.value().is_string()) return {node.text(), {}, node.place()};
@@ -114,7 +134,7 @@ SweepConfig read_sweep(const std::filesystem::path& path, const Registry& struct
   const JsonNode root(config.source, path.string());
   root.require_object({"$schema", "name", "description", "scenes", "structures", "resolutions",
                        "samples", "rays", "precision", "repetitions", "budget_seconds", "exclude"});
-  config.name = root.require("name").text();
+  config.name = read_name(root.require("name"));
   if (const auto description = root.find("description")) config.description = description->text();
   for (const JsonNode& node : root.require("scenes").elements()) {
     config.scenes.push_back(read_scene(node));

@@ -17,12 +17,11 @@ using nlohmann::json;
 
 std::string read_text(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string text(std::istreambuf_iterator<char>(file), {});
-  if (!file.is_open() || file.bad() || std::filesystem::is_directory(path)) {
+  if (!file || std::filesystem::is_directory(path)) {
     throw InputError(
         fmt::format("cannot read '{}': give the path of a sweep's JSON file", path.string()));
   }
-  return text;
+  return {std::istreambuf_iterator<char>(file), {}};
 }
 
 /// nlohmann's message without its own prefix and position.

@@ -14,21 +14,22 @@ struct PhaseTime {
 };
 
 /// CPU time of the calling thread so far.
-inline double thread_cpu_ms() {
+inline std::chrono::nanoseconds thread_cpu_time() {
   timespec now{};
   ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+  return std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec);
 }
 
 /// Times `work`. The wall clock is read innermost: reading the CPU clock is a system call.
 template <class Work>
 PhaseTime time_phase(Work&& work) {
-  const double cpu_begin = thread_cpu_ms();
+  const auto cpu_begin = thread_cpu_time();
   const auto begin = std::chrono::steady_clock::now();
   std::invoke(std::forward<Work>(work));
   const auto end = std::chrono::steady_clock::now();
-  const double cpu_end = thread_cpu_ms();
-  return {std::chrono::duration<double, std::milli>(end - begin).count(), cpu_end - cpu_begin};
+  const auto cpu_end = thread_cpu_time();
+  using Milliseconds = std::chrono::duration<double, std::milli>;
+  return {Milliseconds(end - begin).count(), Milliseconds(cpu_end - cpu_begin).count()};
 }
 
 }  // namespace beambench

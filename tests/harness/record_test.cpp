@@ -1,0 +1,278 @@
+// The record of a run: statistics, CSV, fingerprints, rows.
+
+#include <algorithm>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "harness/record/cell_record.hpp"
+#include "harness/record/csv.hpp"
+#include "harness/record/fingerprint.hpp"
+#include "harness/record/machine.hpp"
+#include "harness/record/robust_statistics.hpp"
+#include "harness/record/run_folder.hpp"
+#include "scenes/camera.hpp"
+#include "tests/harness/temporary_folder.hpp"
+#include "tests/scenes/thrown_message.hpp"
+
+namespace beambench {
+namespace {
+
+using Fields = std::vector<std::vector<std::string>>;
+
+/// Reads CSV back by RFC 4180, independently of how it was written.
+Fields read_csv(const std::string& text) {
+  Fields rows;
+  std::vector<std::string> row;
+  std::string field;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted) {
+      if (c != '"') {
+        field += c;
+      } else if (i + 1 < text.size() && text[i + 1] == '"') {
+        field += text[++i];
+      } else {
+        quoted = false;
+      }
+    } else if (c == '"') {
+      quoted = true;
+    } else if (c == ',' || c == '\n') {
+      row.push_back(std::exchange(field, {}));
+      if (c == '\n') rows.push_back(std::exchange(row, {}));
+    } else {
+      field += c;
+    }
+  }
+  return rows;
+}
+
+TEST(Statistics, MedianIsTheMiddle) {
+  EXPECT_EQ(median(std::vector{3.0, 1.0, 2.0}), 2.0);
+  EXPECT_EQ(median(std::vector{4.0, 1.0, 2.0, 3.0}), 2.5);
+  EXPECT_EQ(median(std::vector{7.0}), 7.0);
+}
+
+TEST(Statistics, OneWildRepetitionMovesNothing) {
+  const std::vector<double> calm{10.0, 11.0, 12.0, 13.0, 14.0};
+  const std::vector<double> disturbed{10.0, 11.0, 12.0, 13.0, 1e6};
+  EXPECT_EQ(median(disturbed), median(calm));
+  EXPECT_EQ(median_absolute_deviation(disturbed), median_absolute_deviation(calm));
+  EXPECT_EQ(minimum(disturbed), 10.0);
+}
+
+TEST(Statistics, IntervalHasTheTabulatedRanks) {
+  // Ranks of the 95% interval of the median (Conover, table A3): n -> lower rank.
+  const std::vector<std::pair<int, int>> table{{6, 1},   {8, 1},   {9, 2},   {11, 2}, {12, 3},
+                                               {15, 4},  {17, 5},  {20, 6},  {25, 8}, {30, 10},
+                                               {40, 14}, {50, 18}, {100, 40}};
+  for (const auto& [n, rank] : table) {
+    std::vector<double> samples(static_cast<std::size_t>(n));
+    std::iota(samples.begin(), samples.end(), 1.0);
+    const auto interval = median_interval(samples);
+    ASSERT_TRUE(interval) << n;
+    EXPECT_EQ(interval->low, rank) << n;
+    EXPECT_EQ(interval->high, n + 1 - rank) << n;
+  }
+}
+
+TEST(Statistics, FewerThanSixSamplesHaveNoInterval) {
+  EXPECT_FALSE(median_interval(std::vector{1.0, 2.0, 3.0, 4.0, 5.0}));
+  EXPECT_FALSE(median_interval({}));
+}
+
+TEST(Statistics, IntervalCoversTheMedianOfASkewedDistribution) {
+  std::mt19937_64 engine(1);
+  std::exponential_distribution<double> distribution(1.0);
+  const double true_median = std::log(2.0);
+  int covered = 0;
+  constexpr int kTrials = 4000;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    std::vector<double> samples(21);
+    std::generate(samples.begin(), samples.end(), [&] { return distribution(engine); });
+    const auto interval = median_interval(samples);
+    covered += interval->low <= true_median && true_median <= interval->high ? 1 : 0;
+  }
+  EXPECT_GT(covered, kTrials * 94 / 100);
+  EXPECT_LT(covered, kTrials * 99 / 100);  // an interval of everything would say nothing
+}
+
+TEST(Csv, QuotesOnlyWhatNeedsIt) {
+  EXPECT_EQ(csv_field("tetra"), "tetra");
+  EXPECT_EQ(csv_field(""), "");
+  EXPECT_EQ(csv_field("max_level=6,max_objects=0"), "\"max_level=6,max_objects=0\"");
+  EXPECT_EQ(csv_field("a \"b\""), "\"a \"\"b\"\"\"");
+  EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
+}
+
+RC_GTEST_PROP(Csv, TextsComeBackAsTheyWere, (const std::vector<std::string>& texts)) {
+  Row row = Row::object();
+  row["first"] = "x";
+  std::vector<std::string> expected{"x"};
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    row["column" + std::to_string(i)] = texts[i];
+    expected.push_back(texts[i]);
+  }
+  const Fields read = read_csv(csv_table(std::vector{row}));
+  RC_ASSERT(read.size() == 2U);
+  RC_ASSERT(read[1] == expected);
+}
+
+RC_GTEST_PROP(Csv, NumbersComeBackAsTheyWere, (double number)) {
+  const Fields read = read_csv(csv_table(std::vector{Row{{"number", number}}}));
+  RC_ASSERT(std::stod(read[1][0]) == number);
+}
+
+TEST(Csv, ColumnsAreTheUnionInOrder) {
+  const std::vector<Row> rows{{{"a", 1}, {"z", true}}, {{"a", 2}, {"b", 0.5}, {"z", nullptr}}};
+  EXPECT_EQ(csv_table(rows), "a,b,z\n1,,true\n2,0.5,\n");
+}
+
+CellRecord some_cell() {
+  CellRecord cell{};
+  cell.id = {"tetra:n=2", "default", "samet", "max_level=6", {32, 20}, 1, RayKind::kPrimary};
+  cell.rays = {1, 2, 0, 16, 640};
+  cell.verdict = "ok";
+  cell.statistics.emplace();
+  cell.statistics->nodes = 9;
+  cell.counters = {{"traversal_steps", 1280}, {"clips", 64}};
+  cell.stop_reason = StopReason::kPrecision;
+  cell.diff = DiffReport{};
+  for (int round = 0; round < 7; ++round) {
+    cell.repetitions.push_back({round, 0, 1.0 + round, 10.0, 1.0, 9.0});
+  }
+  return cell;
+}
+
+const RunFacts kRun{"id", "abc", true, "m", "Release", "-O3", "AVX2", 1};
+
+/// The columns that scripts and people rely on, in order.
+const char* const kContract =
+    "run_id,time_utc,commit,dirty,machine_id,build_type,flags,isa,threads,"
+    "scene,camera,scene_hash,rays_hash,seed,primitives,"
+    "structure,parameters,width,height,samples,ray_kind,rays,"
+    "repetitions,stop_reason,"
+    "build_ms_median,build_ms_min,build_ms_mad,trace_ms_median,trace_ms_min,trace_ms_mad,"
+    "total_ms_median,total_ms_min,total_ms_mad,total_ms_ci_low,total_ms_ci_high,"
+    "build_cpu_ms_median,trace_cpu_ms_median,mrays_per_s,"
+    "memory_bytes,nodes,leaves,empty_leaves,references,depth,"
+    "traversal_steps_per_ray,leaves_per_ray,empty_leaves_per_ray,box_tests_per_ray,"
+    "primitive_tests_per_ray,"
+    "hits,agree,tie,graze,engine_error,embree_error,verdict\n";
+
+TEST(CellRow, HasTheColumnsOfTheContract) {
+  CellRecord cell = some_cell();
+  cell.counters.erase("clips");
+  const std::string table = csv_table(std::vector{to_row(kRun, cell)});
+  EXPECT_EQ(table.substr(0, table.find('\n') + 1), kContract);
+}
+
+TEST(CellRow, SumsUpTheRepetitions) {
+  const Row row = to_row(kRun, some_cell());
+  EXPECT_EQ(row.at("repetitions"), 7);
+  EXPECT_EQ(row.at("build_ms_median"), 4.0);
+  EXPECT_EQ(row.at("trace_ms_median"), 10.0);
+  EXPECT_EQ(row.at("total_ms_median"), 14.0);
+  EXPECT_EQ(row.at("total_ms_ci_low"), 11.0);
+  EXPECT_EQ(row.at("total_ms_ci_high"), 17.0);
+  EXPECT_EQ(row.at("mrays_per_s"), 0.064);  // 640 rays in 10 ms
+  EXPECT_EQ(row.at("traversal_steps_per_ray"), 2.0);
+  EXPECT_EQ(row.at("clips_per_ray"), 0.1);
+  EXPECT_TRUE(row.at("box_tests_per_ray").is_null());
+}
+
+TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
+  CellRecord cell = some_cell();
+  cell.verdict = "mismatch";
+  const Row row = to_row(kRun, cell);
+  for (const auto& [column, value] : row.items()) {
+    const bool is_time = column.find("_ms_") != std::string::npos || column == "mrays_per_s";
+    EXPECT_EQ(value.is_null(),
+              is_time || column == "leaves_per_ray" || column == "empty_leaves_per_ray" ||
+                  column == "box_tests_per_ray" || column == "primitive_tests_per_ray")
+        << column;
+  }
+  EXPECT_TRUE(to_json(kRun, cell).at("repetitions").empty());
+}
+
+TEST(CellId, KeysDifferWhereCellsDo) {
+  const CellId id = some_cell().id;
+  CellId other = id;
+  other.samples = 4;
+  EXPECT_NE(id.key(), other.key());
+  EXPECT_EQ(id.name(), "tetra:n=2/default/32x20/1/primary/samet:max_level=6");
+  EXPECT_EQ(id.key().size(), 16U);
+}
+
+TEST(Fingerprint, TellsRaysAndHitsApart) {
+  const Camera camera;
+  Camera other = camera;
+  other.angle = 45.001F;
+  EXPECT_EQ(fingerprint(PrimaryRays(camera, 8, 8, 1)), fingerprint(PrimaryRays(camera, 8, 8, 1)));
+  EXPECT_NE(fingerprint(PrimaryRays(camera, 8, 8, 1)), fingerprint(PrimaryRays(other, 8, 8, 1)));
+  HitBuffer one(8, 8, 1);
+  HitBuffer two(8, 8, 1);
+  EXPECT_EQ(fingerprint(one), fingerprint(two));
+  two.set(63, Hit{1.0F, 5});
+  EXPECT_NE(fingerprint(one), fingerprint(two));
+  one.set(63, Hit{1.0F, 6});
+  EXPECT_NE(fingerprint(one), fingerprint(two));
+}
+
+TEST(RunFolder, RefusesWhatAlreadyHoldsARun) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "run";
+  RunFolder::create(path);
+  EXPECT_TRUE(says(thrown_message([&] { RunFolder::create(path); }), {path.string(), "--resume"}));
+}
+
+TEST(RunFolder, RefusesAPlaceWhereNoFolderCanBe) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("file", "");
+  const std::string message = thrown_message([&] { RunFolder::create(file / "run"); });
+  EXPECT_TRUE(says(message, {"cannot make", "file/run", "-o"}));
+}
+
+TEST(RunFolder, RefusesToResumeWhatIsNoRun) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(says(thrown_message([&] { RunFolder::open(folder.path()); }), {"manifest.json"}));
+}
+
+TEST(RunFolder, KeepsCellsInTheOrderOfThePlan) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "run";
+  {
+    RunFolder run = RunFolder::create(path);
+    run.write_json("manifest.json", {});
+    for (const std::size_t index : {2U, 0U, 1U}) {
+      CellRecord cell = some_cell();
+      cell.index = index;
+      cell.id.samples = static_cast<int>(index);
+      run.add_cell(to_json(kRun, cell));
+    }
+    folder.write("run/cells/.left-behind.123.partial.json", "{");
+  }
+  const std::string results = read_text(path / "results.csv");
+  RunFolder again = RunFolder::open(path);
+  ASSERT_EQ(again.cells().size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(again.cells()[i].at("index"), i);
+  again.add_cell(again.cells()[1]);
+  EXPECT_EQ(read_text(path / "results.csv"), results);
+}
+
+TEST(Machine, TellsWhatItCan) {
+  const Machine machine = inspect_machine();
+  EXPECT_EQ(machine.id.size(), 16U);
+  EXPECT_GE(machine.cores, 1U);
+  EXPECT_GT(machine.memory_bytes, 0U);
+  EXPECT_NE(machine.executable_hash, fingerprint(std::string_view()));
+  EXPECT_EQ(utc_now().size(), std::string_view("2024-05-31T14:07:09Z").size());
+}
+
+}  // namespace
+}  // namespace beambench

@@ -1,0 +1,328 @@
+// Whole sweeps over tiny scenes: what is right keeps its times, what is wrong loses them, and what
+// is finished is not repeated.
+
+#include <atomic>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "accel/registry.hpp"
+#include "harness/sweep/sweep_run.hpp"
+#include "tests/harness/temporary_folder.hpp"
+#include "tests/scenes/thrown_message.hpp"
+
+namespace beambench {
+namespace {
+
+using nlohmann::json;
+
+/// What a broken structure does to the buffer; `pass` counts its traces, the counting one included.
+using Fault = std::function<void(HitBuffer&, int pass)>;
+
+/// `exhaustive` with a fault.
+class FaultyAccelerator : public Accelerator {
+ public:
+  FaultyAccelerator(const Scene& scene, Fault fault, std::shared_ptr<int> passes)
+      : right_(registry().choose({"exhaustive", {}}).build(scene)),
+        fault_(std::move(fault)),
+        passes_(std::move(passes)) {}
+
+  std::optional<Hit> closest_hit(const Ray& ray) const override { return right_->closest_hit(ray); }
+  bool any_hit(const Ray& ray) const override { return right_->any_hit(ray); }
+  void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
+    right_->trace(rays, buffer);
+    fault_(buffer, (*passes_)++);
+  }
+  std::optional<Hit> closest_hit(const Ray& ray, WorkCounters& counters) const override {
+    return right_->closest_hit(ray, counters);
+  }
+  bool any_hit(const Ray& ray, WorkCounters& counters) const override {
+    return right_->any_hit(ray, counters);
+  }
+  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const override {
+    right_->trace(rays, buffer, counters);
+    fault_(buffer, (*passes_)++);
+  }
+  Statistics statistics() const override { return right_->statistics(); }
+
+ private:
+  std::unique_ptr<Accelerator> right_;
+  Fault fault_;
+  std::shared_ptr<int> passes_;
+};
+
+void for_each_hit(HitBuffer& buffer, const std::function<void(std::size_t)>& change) {
+  for (std::size_t i = 0; i < buffer.size(); ++i) {
+    if (buffer.get(i)) change(i);
+  }
+}
+
+class Sweep : public testing::Test {
+ protected:
+  Sweep() {
+    for (const StructureInfo& info : beambench::registry().structures()) structures_.add(info);
+  }
+
+  void add_faulty(Fault fault) {
+    const auto passes = std::make_shared<int>(0);
+    structures_.add({"faulty",
+                     "A broken structure.",
+                     Conformance::kBitExact,
+                     {},
+                     [fault, passes](const Scene& scene, const Parameters&) {
+                       return std::make_unique<FaultyAccelerator>(scene, fault, passes);
+                     }});
+  }
+
+  static json config(const json& structures) {
+    return {{"name", "test"},           {"scenes", {"tetra:n=2"}},
+            {"structures", structures}, {"resolutions", {"32x20"}},
+            {"precision", 0},           {"repetitions", {{"minimum", 4}, {"maximum", 4}}},
+            {"budget_seconds", 1}};
+  }
+
+  SweepOutcome run(const json& document, bool resume = false) {
+    const SweepConfig sweep = read_sweep(folder_.write("sweep.json", document.dump()), structures_);
+    SweepOptions options;
+    options.folder = results();
+    options.resume = resume;
+    options.warm_up = std::chrono::duration<double>(0.0);
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages(
+        std::fopen((folder_.path() / "messages").c_str(), "w"), std::fclose);
+    return run_sweep(sweep, make_plan(sweep), GoogleBenchmark(options.flags), options,
+                     messages.get());
+  }
+
+  std::filesystem::path results() const { return folder_.path() / "run"; }
+  std::string messages() const { return read_text(folder_.path() / "messages"); }
+  json read_json(const std::string& name) const { return json::parse(read_text(results() / name)); }
+  /// The cells by the bare name of their structure.
+  std::map<std::string, json> cells() const {
+    std::map<std::string, json> found;
+    for (const auto& entry : std::filesystem::directory_iterator(results() / "cells")) {
+      json cell = json::parse(read_text(entry.path()));
+      found[cell["row"]["structure"].get<std::string>()] = cell;
+    }
+    return found;
+  }
+
+  Registry structures_;
+  TemporaryFolder folder_;
+};
+
+/// Intervals aside: four repetitions have none.
+bool is_time(const std::string& column) {
+  return column.find("_ms_") != std::string::npos && column.find("_ci_") == std::string::npos;
+}
+
+void expect_times(const json& cell, bool has_times) {
+  for (const auto& [column, value] : cell["row"].items()) {
+    if (!is_time(column)) continue;
+    EXPECT_EQ(value.is_number(), has_times) << column << " of " << cell["name"];
+  }
+  EXPECT_EQ(cell["repetitions"].empty(), !has_times);
+}
+
+TEST_F(Sweep, RightStructuresKeepTheirTimes) {
+  const SweepOutcome outcome =
+      run(config({"null", "exhaustive", "samet:max_level=4", "embree:mode=single"}));
+  EXPECT_EQ(outcome.cells, 4U);
+  EXPECT_EQ(outcome.failed, 0U);
+  for (const auto& [structure, cell] : cells()) {
+    EXPECT_EQ(cell["row"]["verdict"], structure == "null" ? "baseline" : "ok");
+    EXPECT_EQ(cell["row"]["stop_reason"], "repetitions");
+    EXPECT_GT(cell["row"]["hits"], 0);
+    EXPECT_EQ(cell["repetitions"].size(), 4U);
+    expect_times(cell, true);
+  }
+  EXPECT_GT(cells()["samet"]["row"]["traversal_steps_per_ray"], 1.0);
+  EXPECT_GT(cells()["samet"]["row"]["nodes"], 1);
+  EXPECT_TRUE(cells()["embree"]["row"]["nodes"].is_null());
+  EXPECT_EQ(cells()["samet"]["hits_hash"], cells()["exhaustive"]["hits_hash"]);
+}
+
+TEST_F(Sweep, TheFolderHoldsTheWholeRecord) {
+  run(config({"null", "samet:max_level=4"}));
+  const std::string table = read_text(results() / "results.csv");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3);
+  EXPECT_EQ(read_json("config.json"), config({"null", "samet:max_level=4"}));
+  const json manifest = read_json("manifest.json");
+  EXPECT_EQ(manifest["scenes"][0]["name"], "tetra:n=2");
+  EXPECT_FALSE(manifest["finished_utc"].is_null());
+  EXPECT_EQ(manifest["program"]["libraries"]["google_benchmark"].get<std::string>().substr(0, 1),
+            "1");
+  const json google = read_json("google-benchmark.json");
+  EXPECT_EQ(google["context"]["beambench_run_id"], manifest["run_id"]);
+  ASSERT_EQ(google["benchmarks"].size(), 8U);
+  const json& first = google["benchmarks"][0];
+  EXPECT_EQ(first["time_unit"], "ms");
+  EXPECT_NEAR(first["real_time"].get<double>(),
+              first["build_ms"].get<double>() + first["trace_ms"].get<double>(), 1e-9);
+}
+
+TEST_F(Sweep, ContendersTakeTurns) {
+  run(config({"null", "exhaustive", "samet:max_level=4"}));
+  std::map<int, std::set<int>> positions;
+  for (const auto& [structure, cell] : cells()) {
+    int round = 0;
+    for (const json& repetition : cell["repetitions"]) {
+      EXPECT_EQ(repetition["round"], round);
+      positions[round++].insert(repetition["position"].get<int>());
+    }
+  }
+  ASSERT_EQ(positions.size(), 4U);
+  for (const auto& [round, taken] : positions) EXPECT_EQ(taken, (std::set<int>{0, 1, 2}));
+}
+
+/// A fault in the hits, and what the message says of it.
+struct Planted {
+  const char* name;
+  Fault fault;
+  const char* words;
+};
+
+class PlantedFault : public Sweep, public testing::WithParamInterface<Planted> {};
+
+TEST_P(PlantedFault, LosesItsTimesAndNobodyElses) {
+  add_faulty(GetParam().fault);
+  const SweepOutcome outcome = run(config({"faulty", "exhaustive"}));
+  EXPECT_EQ(outcome.cells, 2U);
+  EXPECT_EQ(outcome.failed, 1U);
+  const json faulty = cells()["faulty"];
+  EXPECT_EQ(faulty["row"]["verdict"], "mismatch");
+  EXPECT_TRUE(says(faulty["message"].get<std::string>(), {GetParam().words}));
+  EXPECT_TRUE(says(messages(), {"mismatch: tetra:n=2/default/32x20/1/primary/faulty"}));
+  EXPECT_GT(faulty["row"]["primitive_tests_per_ray"], 0);
+  expect_times(faulty, false);
+  EXPECT_EQ(cells()["exhaustive"]["row"]["verdict"], "ok");
+  expect_times(cells()["exhaustive"], true);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    , PlantedFault,
+    testing::Values(Planted{"ShiftedT",
+                            [](HitBuffer& buffer, int) {
+                              for_each_hit(buffer, [&](std::size_t i) { buffer.t()[i] *= 1.001F; });
+                            },
+                            "wrong hit"},
+                    Planted{"OneDroppedHit",
+                            [](HitBuffer& buffer, int) {
+                              buffer.set(buffer.index(16, 10, 0), std::nullopt);
+                            },
+                            "1 of 640 rays got a wrong hit"},
+                    Planted{"OneSampleLeftUnwritten",
+                            [](HitBuffer& buffer, int) {
+                              buffer.t()[0] = std::numeric_limits<float>::quiet_NaN();
+                              buffer.primitive()[0] = kNoPrimitive - 1;
+                            },
+                            "1 of 640 rays got a wrong hit"},
+                    Planted{"AnotherAnswerInTheThirdRepetition",
+                            [](HitBuffer& buffer, int pass) {
+                              if (pass == 3) buffer.set(buffer.index(16, 10, 0), std::nullopt);
+                            },
+                            "repetition 3 wrote other hits"},
+                    Planted{"AnotherAnswerWhileCounting",
+                            [](HitBuffer& buffer, int pass) {
+                              if (pass == 0) buffer.set(buffer.index(16, 10, 0), std::nullopt);
+                            },
+                            "the counting pass found other hits"}),
+    [](const auto& planted) { return planted.param.name; });
+
+TEST_F(Sweep, AWrongHitIsDescribed) {
+  add_faulty([](HitBuffer& buffer, int) { buffer.set(buffer.index(16, 10, 0), std::nullopt); });
+  run(config({"faulty"}));
+  ASSERT_EQ(cells()["faulty"]["examples"].size(), 1U);
+  EXPECT_TRUE(says(cells()["faulty"]["examples"][0].get<std::string>(), {"16", "10"}));
+}
+
+TEST_F(Sweep, AStructureThatCannotBeBuiltIsAnErrorAndTheRunGoesOn) {
+  const SweepOutcome outcome = run(config({"samet:max_level=8,max_references=1", "exhaustive"}));
+  EXPECT_EQ(outcome.failed, 1U);
+  const json samet = cells()["samet"];
+  EXPECT_EQ(samet["row"]["verdict"], "error");
+  EXPECT_TRUE(says(samet["message"].get<std::string>(), {"max_references"}));
+  expect_times(samet, false);
+  EXPECT_EQ(cells()["exhaustive"]["row"]["verdict"], "ok");
+  const json google = read_json("google-benchmark.json");
+  EXPECT_EQ(google["benchmarks"][0]["error_occurred"], true);
+}
+
+TEST_F(Sweep, AnExceptionInATimedRepetitionEndsThatCellOnly) {
+  add_faulty([](HitBuffer&, int pass) {
+    if (pass == 2) throw std::runtime_error("worn out");
+  });
+  run(config({"faulty", "exhaustive"}));
+  EXPECT_EQ(cells()["faulty"]["row"]["verdict"], "error");
+  EXPECT_EQ(cells()["faulty"]["message"], "worn out");
+  expect_times(cells()["faulty"], false);
+  EXPECT_EQ(cells()["exhaustive"]["row"]["verdict"], "ok");
+}
+
+class Resume : public Sweep {
+ protected:
+  Resume() {
+    add_faulty([this](HitBuffer&, int) { ++traces_; });  // right, and counted
+  }
+  json config_ = config({"faulty", "exhaustive"});
+  int traces_ = 0;
+};
+
+TEST_F(Resume, RepeatsNoFinishedCell) {
+  run(config_);
+  const std::string table = read_text(results() / "results.csv");
+  const int traces = std::exchange(traces_, 0);
+  EXPECT_EQ(traces, 5);  // the counting pass and four repetitions
+  EXPECT_EQ(run(config_, true).cells, 2U);
+  EXPECT_EQ(traces_, 0);
+  EXPECT_EQ(read_text(results() / "results.csv"), table);
+}
+
+TEST_F(Resume, MakesUpForTheCellThatIsMissing) {
+  run(config_);
+  const std::string run_id = read_json("manifest.json")["run_id"];
+  const json exhaustive = cells()["exhaustive"];
+  const auto missing = cells()["faulty"]["key"].get<std::string>() + ".json";
+  std::filesystem::remove(results() / "cells" / missing);
+  traces_ = 0;
+  EXPECT_EQ(run(config_, true).cells, 2U);
+  EXPECT_EQ(traces_, 5);
+  EXPECT_EQ(cells()["exhaustive"], exhaustive);
+  EXPECT_EQ(cells()["faulty"]["row"]["run_id"], run_id);
+  EXPECT_EQ(read_json("google-benchmark.json")["benchmarks"].size(), 8U);
+}
+
+TEST_F(Resume, RefusesAChangedConfiguration) {
+  run(config_);
+  json changed = config_;
+  changed["precision"] = 0.5;
+  EXPECT_TRUE(says(thrown_message([&] { run(changed, true); }),
+                   {"cannot resume", "configuration", "/precision"}));
+}
+
+TEST_F(Resume, RefusesAnotherBuildOrScene) {
+  run(config_);
+  const json manifest = read_json("manifest.json");
+  json changed = manifest;
+  changed["program"]["executable_hash"] = "0";
+  folder_.write("run/manifest.json", changed.dump());
+  EXPECT_TRUE(says(thrown_message([&] { run(config_, true); }), {"another build"}));
+  changed = manifest;
+  changed["scenes"][0]["hash"] = "0";
+  folder_.write("run/manifest.json", changed.dump());
+  EXPECT_TRUE(says(thrown_message([&] { run(config_, true); }), {"tetra:n=2", "has changed"}));
+}
+
+TEST_F(Resume, ANewRunDoesNotOverwriteAnOldOne) {
+  run(config_);
+  EXPECT_TRUE(says(thrown_message([&] { run(config_); }), {"already holds a run", "--resume"}));
+}
+
+}  // namespace
+}  // namespace beambench
