@@ -160,7 +160,9 @@ Parameters::Parameters(std::string owner, std::span<const ParameterInfo> infos,
     }
     values_.push_back({info, parsed->text, parsed->number});
   }
-  for (const auto& [name, text] : given) {
+  for (const Given& pair : given) {
+    const std::string& name = pair.first;
+    const std::string& text = pair.second;
     const auto value = std::find_if(values_.begin(), values_.end(),
                                     [&](const Value& v) { return v.info.name == name; });
     if (value == values_.end()) refuse_name(owner_, infos, name);

@@ -1,6 +1,7 @@
 #pragma once
 // The primitives of a scene: sphere, cone, polygon (flat or smooth).
 
+#include <array>
 #include <cstdint>
 
 #include <glm/vec3.hpp>
@@ -54,7 +55,7 @@ struct Polygon {
 
 /// One triangle of a polygon's surface: three indices into Scene::vertices, and its owner.
 struct Triangle {
-  std::uint32_t vertex[3];
+  std::array<std::uint32_t, 3> vertex;
   PrimitiveId primitive;
 };
 

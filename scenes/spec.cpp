@@ -57,6 +57,7 @@ Spec parse_spec(std::string_view text) {
 }
 
 std::vector<Spec> parse_spec_list(std::string_view text) {
+  if (text.ends_with(',')) refuse(text, "a name is missing after the last comma");
   std::vector<Spec> specs;
   std::string_view rest = text;
   std::size_t start = 0;  // of the spec being collected

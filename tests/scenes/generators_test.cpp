@@ -22,6 +22,8 @@ struct Expected {
   std::size_t polygons;
 };
 
+void PrintTo(const Expected& expected, std::ostream* stream) { *stream << expected.spec; }
+
 class Counts : public testing::TestWithParam<Expected> {};
 
 TEST_P(Counts, AreTheDefinitions) {

@@ -114,6 +114,8 @@ struct Malformed {
   const char* words;
 };
 
+void PrintTo(const Malformed& malformed, std::ostream* stream) { *stream << malformed.name; }
+
 class MalformedNff : public testing::TestWithParam<Malformed> {};
 
 TEST_P(MalformedNff, IsRefusedWithFileLineAndWord) {
