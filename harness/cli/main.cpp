@@ -1,13 +1,16 @@
 // The command line: picks a subcommand, and turns whatever goes wrong into one sentence and an exit
 // code.
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <new>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "harness/cli/commands.hpp"
 #include "harness/record/build_info.hpp"
@@ -38,19 +41,20 @@ int complain(std::string message, int exit_code) {
   return exit_code;
 }
 
-/// CLI11 would only say that an argument was not expected.
+/// CLI11 would only say that a subcommand is required, or that an argument was not expected.
 void require_known_command(const CLI::App& app, int argc, char** argv) {
-  const std::string word = argc > 1 ? argv[1] : "";
-  if (word.empty() || word.front() == '-') return;
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  for (const std::string& name : names) {
-    if (name == word) return;
+  const std::string word = argc > 1 ? argv[1] : "";
+  if (word.starts_with('-')) return;
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  const std::string_view remedy = "'beambench --help' tells what they do";
+  if (word.empty()) {
+    throw InputError(fmt::format("name a command: {}; {}", fmt::join(names, ", "), remedy));
   }
   throw InputError(
-      fmt::format("there is no command '{}'; did you mean '{}'? 'beambench --help' "
-                  "lists all",
-                  word, nearest_name(word, names)));
+      fmt::format("there is no command '{}'; did you mean '{}'? The commands are {}; {}", word,
+                  nearest_name(word, names), fmt::join(names, ", "), remedy));
 }
 
 int parse_and_run(int argc, char** argv) {

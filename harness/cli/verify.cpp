@@ -77,11 +77,13 @@ void write_json(const Request& request, const std::vector<VerifiedCell>& cells, 
   write_file(request.json, out.dump(2) + '\n');
 }
 
-std::vector<std::string> wanted_scenes(const Request& request) {
-  if (!request.scenes.empty()) return request.scenes;
-  std::vector<std::string> names;
-  for (const SceneInfo& info : scene_catalogue()) names.push_back(info.name);
-  return names;
+/// All of them before any work is done, so that a wrong name costs nobody's patience.
+std::vector<Scene> open_scenes(const Request& request) {
+  std::vector<Scene> scenes;
+  for (const std::string& spec : request.scenes) scenes.push_back(open_scene(spec));
+  if (!scenes.empty()) return scenes;
+  for (const SceneInfo& info : scene_catalogue()) scenes.push_back(open_scene(info.name));
+  return scenes;
 }
 
 int verify(const Request& request) {
@@ -90,12 +92,11 @@ int verify(const Request& request) {
   require_ray_count(resolution, 1);
   if (!request.json.empty()) require_writable(request.json);
   const std::size_t structures = registry().choose_list(request.structures).size();
-  const std::vector<std::string> scenes = wanted_scenes(request);
+  const std::vector<Scene> scenes = open_scenes(request);
 
   Progress progress(scenes.size() * structures);
   std::vector<VerifiedCell> cells;
-  for (const std::string& name : scenes) {
-    const Scene scene = open_scene(name);
+  for (const Scene& scene : scenes) {
     const PrimaryRays rays(scene.cameras.front(), resolution.width, resolution.height, 1);
     Contenders contenders = choose_contenders(request.structures, scene);
     if (!contenders.note.empty()) progress.say(contenders.note);

@@ -56,6 +56,9 @@ PendingFile::PendingFile(fs::path target) : target_(std::move(target)) {
   require_writable(target_);
   path_ = folder_of(target_) / fmt::format(".{}.{}.partial{}", target_.stem().string(), ::getpid(),
                                            target_.extension().string());
+  const int file = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (file < 0) refuse(target_, std::strerror(errno), "choose another place");
+  ::close(file);
 }
 
 PendingFile::~PendingFile() {

@@ -14,7 +14,7 @@ void require_writable(const std::filesystem::path& target);
 /// removed and the target stays as it was.
 class PendingFile {
  public:
-  /// Throws as require_writable.
+  /// Creates the file, empty. Throws InputError when that cannot be done.
   explicit PendingFile(std::filesystem::path target);
   ~PendingFile();
   PendingFile(const PendingFile&) = delete;

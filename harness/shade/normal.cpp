@@ -65,7 +65,8 @@ Place place_in(const Scene& scene, const Polygon& polygon, const glm::dvec3& poi
 glm::dvec3 corner_normal(const Scene& scene, const Polygon& polygon, std::uint32_t vertex) {
   const auto corners = std::span(scene.corners).subspan(polygon.first_corner, polygon.corner_count);
   const auto corner = std::find(corners.begin(), corners.end(), vertex) - corners.begin();
-  return glm::dvec3(scene.normals[polygon.first_normal + static_cast<std::size_t>(corner)]);
+  const glm::vec3& normal = scene.normals[polygon.first_normal + static_cast<std::size_t>(corner)];
+  return glm::normalize(glm::dvec3(normal));  // a file's normals may have any length
 }
 
 glm::dvec3 polygon_normal(const Scene& scene, const Polygon& polygon, const glm::dvec3& point,

@@ -1,0 +1,120 @@
+// Resolutions, kinds of rays, whole files and progress.
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "harness/files/pending_file.hpp"
+#include "harness/progress/progress.hpp"
+#include "harness/rays/ray_kind.hpp"
+#include "harness/rays/resolution.hpp"
+#include "scenes/error.hpp"
+#include "tests/harness/temporary_folder.hpp"
+
+namespace beambench {
+namespace {
+
+namespace fs = std::filesystem;
+
+RC_GTEST_PROP(Resolution, ReadsBackWhatItPrints, ()) {
+  const Resolution resolution{*rc::gen::inRange(1, Resolution::kMaxSide + 1),
+                              *rc::gen::inRange(1, Resolution::kMaxSide + 1)};
+  RC_ASSERT(parse_resolution(to_string(resolution)) == resolution);
+}
+
+TEST(Resolution, IsTwoWholeNumbersInRange) {
+  for (const char* text : {"", "x", "640", "640x", "x480", "0x0", "-1x5", "99999x99999", "1e3x3",
+                           "640X480", "640x480x3", " 640x480", "640x480 ", "nanx1"}) {
+    EXPECT_THROW(parse_resolution(text), InputError) << text;
+  }
+}
+
+TEST(RayCount, IsLimitedByPixelsTimesSamples) {
+  EXPECT_NO_THROW(require_ray_count({16384, 16384}, 1));
+  EXPECT_THROW(require_ray_count({16384, 16384}, 4), InputError);
+}
+
+TEST(RayKinds, AreReadFromAListEachOnce) {
+  EXPECT_EQ(parse_ray_kinds("primary,primary"), std::vector{RayKind::kPrimary});
+  for (const char* text : {"", "primary,", ",primary", "Primary", "shadows"}) {
+    EXPECT_THROW(parse_ray_kinds(text), InputError) << text;
+  }
+}
+
+TEST(PendingFile, IsNotSeenBeforeItIsCommitted) {
+  const TemporaryFolder folder;
+  const fs::path target = folder.write("a.txt", "old");
+  {
+    const PendingFile pending(target);
+    EXPECT_EQ(pending.path().extension(), ".txt");
+    EXPECT_NE(pending.path(), target);
+    EXPECT_EQ(read_text(target), "old");
+  }
+  EXPECT_EQ(read_text(target), "old") << "without a commit nothing changes";
+  write_file(target, "new");
+  EXPECT_EQ(read_text(target), "new");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+}
+
+TEST(PendingFile, RefusesPlacesWhereNoFileCanBe) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("a.txt", "");
+  for (const fs::path& target :
+       {folder.path(), folder.path() / "missing" / "b.txt", file / "b.txt", fs::path("/proc/b")}) {
+    EXPECT_THROW(write_file(target, "text"), InputError) << target;
+  }
+}
+
+/// What a progress writes into a stream that is, or is not, taken for a terminal.
+template <class Work>
+std::string written(bool terminal, Work work) {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(std::tmpfile(), &std::fclose);
+  {
+    Progress progress(2, stream.get(), terminal);
+    work(progress);
+  }
+  std::string text(static_cast<std::size_t>(std::ftell(stream.get())), '\0');
+  std::rewind(stream.get());
+  EXPECT_EQ(std::fread(text.data(), 1, text.size(), stream.get()), text.size());
+  return text;
+}
+
+void two_cells(Progress& progress) {
+  progress.start("first");
+  progress.advance(0.5);
+  progress.finish("ok");
+  progress.start("second");
+  progress.finish("mismatch");
+}
+
+TEST(Progress, IsOneLineForEachCellWhereNobodyWatches) {
+  EXPECT_EQ(written(false, two_cells), "[1/2] first: ok\n[2/2] second: mismatch\n");
+}
+
+TEST(Progress, IsARedrawnLineOnATerminalAndLeavesNothingBehind) {
+  const std::string text = written(true, two_cells);
+  EXPECT_EQ(text.find('\n'), std::string::npos);
+  EXPECT_NE(text.find("1/2  estimating  first"), std::string::npos) << text;
+  EXPECT_NE(text.find("50%  2/2"), std::string::npos) << text;
+  EXPECT_NE(text.find(" left  second"), std::string::npos) << text;
+  EXPECT_TRUE(text.ends_with("\r\033[K"));
+}
+
+TEST(Progress, EstimatesFromThePaceSoFar) {
+  EXPECT_DOUBLE_EQ(remaining_seconds(10.0, 0.25), 30.0);
+  EXPECT_DOUBLE_EQ(remaining_seconds(10.0, 1.0), 0.0);
+}
+
+TEST(Progress, DurationsReadWell) {
+  EXPECT_EQ(format_duration(0.04), "0.0 s");
+  EXPECT_EQ(format_duration(9.94), "9.9 s");
+  EXPECT_EQ(format_duration(59.2), "59 s");
+  EXPECT_EQ(format_duration(200.0), "3 min 20 s");
+  EXPECT_EQ(format_duration(7500.0), "2 h 5 min");
+}
+
+}  // namespace
+}  // namespace beambench
