@@ -3,6 +3,8 @@
 
 #include <optional>
 
+#include <glm/common.hpp>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "accel/ray.hpp"
@@ -12,7 +14,14 @@ namespace beambench {
 /// A ray widened to double. `t_max` shrinks while a traversal finds nearer hits.
 struct CanonicalRay {
   explicit CanonicalRay(const Ray& ray)
-      : origin(ray.origin), direction(ray.direction), t_min(ray.t_min), t_max(ray.t_max) {}
+      : origin(ray.origin), direction(ray.direction), t_min(ray.t_min), t_max(ray.t_max) {
+    const glm::vec3 size = glm::abs(ray.direction);
+    main_axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+    side_axis[0] = (main_axis + 1) % 3;
+    side_axis[1] = (main_axis + 2) % 3;
+    shear[0] = direction[side_axis[0]] / direction[main_axis];
+    shear[1] = direction[side_axis[1]] / direction[main_axis];
+  }
 
   glm::dvec3 at(double t) const { return origin + direction * t; }
 
@@ -23,10 +32,22 @@ struct CanonicalRay {
     return std::nullopt;
   }
 
+  /// A point's place beside the ray: relative to the origin and sheared along the main axis so that
+  /// the ray becomes that axis (Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection",
+  /// 2013).
+  glm::dvec2 beside(const glm::vec3& point) const {
+    const double along = point[main_axis] - origin[main_axis];
+    return {point[side_axis[0]] - origin[side_axis[0]] - shear[0] * along,
+            point[side_axis[1]] - origin[side_axis[1]] - shear[1] * along};
+  }
+
   glm::dvec3 origin;
   glm::dvec3 direction;
   float t_min;
   float t_max;
+  int main_axis;     ///< in which the direction is largest
+  int side_axis[2];  ///< the other two
+  double shear[2];   ///< direction on the side axes over that on the main axis
 };
 
 }  // namespace beambench

@@ -51,7 +51,8 @@ OctreeGrid make_grid(const Scene& scene, const OctreeOptions& options, double to
 
 /// The cell that holds a coordinate: the last one whose lower boundary is not above it.
 std::int32_t cell_of(const OctreeGrid& grid, int axis, double coordinate) {
-  const double guess = std::floor((coordinate - grid.lower[axis]) / grid.cell[axis]);
+  // A guess to round-off; `plane` has the last word.
+  const double guess = (coordinate - grid.lower[axis]) / grid.cell[axis];
   auto index = static_cast<std::int32_t>(std::clamp(guess, 0.0, grid.cells - 1.0));
   while (index > 0 && grid.plane(axis, index) > coordinate) --index;
   while (index < grid.cells - 1 && grid.plane(axis, index + 1) <= coordinate) ++index;

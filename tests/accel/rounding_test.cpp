@@ -1,0 +1,24 @@
+// "Rounded once, the same bits for everyone" needs a compiler that rounds.
+
+#include <glm/vec2.hpp>
+#include <gtest/gtest.h>
+
+namespace beambench {
+namespace {
+
+// Not inlined, so that the two conversions stay side by side: GCC 12.2 at -O2 and above gives the
+// sums back unrounded, unless its SLP vectorizer is off (as our build has it).
+__attribute__((noinline)) glm::dvec2 through_float(const glm::dvec2& a, const glm::dvec2& b) {
+  const auto x = static_cast<float>(a.x + b.x);
+  const auto y = static_cast<float>(a.y + b.y);
+  return {static_cast<double>(x), static_cast<double>(y)};
+}
+
+TEST(Rounding, ToFloatAndBackLosesBits) {
+  const glm::dvec2 rounded = through_float({1.0 / 3.0, 1.0 / 7.0}, {1.0 / 11.0, 1.0 / 13.0});
+  EXPECT_EQ(rounded.x, 0x1.b26c9cp-2);
+  EXPECT_EQ(rounded.y, 0x1.c21c22p-3);
+}
+
+}  // namespace
+}  // namespace beambench
