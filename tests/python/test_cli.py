@@ -1,0 +1,423 @@
+"""Command lines as users type them: what they print, what they write, what they refuse."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+from PIL import Image
+
+BINARY = Path(
+    os.environ.get(
+        "BEAMBENCH_BINARY",
+        Path(__file__).resolve().parents[2] / "build/release/bin/beambench",
+    )
+)
+
+VIEW = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0.1\nresolution 8 8\n"
+STRUCTURES = ["exhaustive", "samet", "embree", "null"]
+
+
+def beambench(*arguments: str | Path, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [BINARY, *map(str, arguments)],
+        cwd=cwd,
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+    )
+
+
+def output_of(*arguments: str | Path) -> str:
+    """The standard output of a command that must succeed."""
+    done = beambench(*arguments)
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+def count_colors(picture: Image.Image) -> int:
+    return len(picture.getcolors(picture.width * picture.height) or [])
+
+
+# What can be asked for
+
+
+def test_list_names_structures_scenes_and_rays_with_their_parameters() -> None:
+    text = output_of("list")
+    for word in [*STRUCTURES, "max_level=", "mode=", "balls", "escena1", "tetra", "primary"]:
+        assert word in text
+    assert max(map(len, text.splitlines())) <= 100
+
+
+def test_list_as_json_says_all_of_each_parameter() -> None:
+    everything = json.loads(output_of("list", "--json"))
+    structures = {structure["name"]: structure for structure in everything["structures"]}
+    assert set(STRUCTURES) <= set(structures)
+    assert structures["samet"]["conformance"] == "bit-exact"
+    assert structures["embree"]["conformance"] == "tolerance"
+    assert structures["null"]["conformance"] == "baseline"
+    level = next(p for p in structures["samet"]["parameters"] if p["name"] == "max_level")
+    assert level["type"] == "integer"
+    assert level["minimum"] <= int(level["default"]) <= level["maximum"]
+    assert level["description"]
+    mode = next(p for p in structures["embree"]["parameters"] if p["name"] == "mode")
+    assert mode["type"] == "choice"
+    assert mode["default"] in mode["choices"]
+    assert {"balls", "bumpy", "escena1", "escena2", "stetra", "tetra"} <= {
+        scene["name"] for scene in everything["scenes"]
+    }
+    assert [kind["name"] for kind in everything["rays"]] == ["primary"]
+
+
+@pytest.mark.parametrize("command", ["list", "scene", "render", "stats", "verify", "run"])
+def test_help_of_each_command_has_examples(command: str) -> None:
+    text = output_of(command, "--help")
+    assert "Examples:" in text
+    assert f"beambench {command}" in text
+
+
+def test_version() -> None:
+    assert re.fullmatch(r"beambench \d+\.\d+\.\d+\n", output_of("--version"))
+
+
+# Scenes
+
+
+def test_scene_counts_what_the_generator_made() -> None:
+    scene = json.loads(output_of("scene", "tetra:n=3", "--json"))
+    assert scene["name"] == "tetra:n=3"
+    assert scene["primitives"] == scene["polygons"] == scene["triangles"] == 4**3
+    assert scene["spheres"] == scene["cones"] == 0
+    assert re.fullmatch("[0-9a-f]{16}", scene["hash"])
+    assert all(
+        low < high
+        for low, high in zip(scene["bounds"]["lower"], scene["bounds"]["upper"], strict=True)
+    )
+    text = output_of("scene", "tetra:n=3")
+    assert scene["hash"] in text
+    assert "64 polygons" in text
+
+
+def test_scene_reads_a_file_with_all_kinds(tmp_path: Path) -> None:
+    file = tmp_path / "mixed.nff"
+    file.write_text(
+        VIEW
+        + "l 1 2 3\nf 1 0 0 1 0 0 0 0\ns 0 0 0 1\nc\n0 0 0 1\n0 0 1 0.5\n"
+        + "p 3\n0 0 0\n1 0 0\n0 1 0\n"
+    )
+    scene = json.loads(output_of("scene", file, "--json"))
+    assert (scene["spheres"], scene["cones"], scene["polygons"]) == (1, 1, 1)
+    assert scene["cameras"][0]["width"] == 8
+    assert scene["lights"][0]["position"] == [1, 2, 3]
+
+
+def test_equal_scenes_have_equal_hashes_and_a_seed_changes_them() -> None:
+    def hash_of(scene: str) -> str:
+        return json.loads(output_of("scene", scene, "--json"))["hash"]
+
+    assert hash_of("escena1") == hash_of("escena1:seed=1999")
+    assert hash_of("escena1") != hash_of("escena1:seed=7")
+
+
+# Pictures
+
+
+def test_render_writes_a_png_of_the_wanted_size(tmp_path: Path) -> None:
+    file = tmp_path / "balls.png"
+    done = beambench("render", "balls:n=1", "--accel", "samet", "-o", file, "--resolution", "60x40")
+    assert done.returncode == 0, done.stderr
+    assert "100.0% of the rays hit" in done.stderr
+    with Image.open(file) as picture:
+        assert picture.size == (60, 40)
+        assert picture.mode == "RGB"
+        assert count_colors(picture) > 50
+    assert list(tmp_path.iterdir()) == [file]
+
+
+def test_the_camera_says_the_size_where_nobody_else_does(tmp_path: Path) -> None:
+    scene = tmp_path / "ball.nff"
+    scene.write_text(VIEW + "s 0 0 0 1\n")
+    output_of("render", scene, "--accel", "exhaustive", "-o", tmp_path / "a.png")
+    with Image.open(tmp_path / "a.png") as picture:
+        assert picture.size == (8, 8)
+
+
+@pytest.mark.parametrize("shading", ["preview", "normals", "id", "depth"])
+def test_every_structure_draws_the_same_picture(tmp_path: Path, shading: str) -> None:
+    pictures = []
+    for structure in ["exhaustive", "samet"]:
+        file = tmp_path / f"{structure}.png"
+        output_of(
+            *("render", "tetra:n=3", "--accel", structure, "-o", file),
+            *("--resolution", "64x64", "--shade", shading),
+        )
+        pictures.append(file.read_bytes())
+    assert pictures[0] == pictures[1]
+
+
+def test_a_heat_map_of_exhaustive_is_even_and_has_a_legend(tmp_path: Path) -> None:
+    file = tmp_path / "work.png"
+    output_of(
+        *("render", "tetra:n=2", "--accel", "exhaustive", "-o", file),
+        *("--resolution", "400x30", "--heatmap", "primitive_tests"),
+    )
+    with Image.open(file) as picture:
+        width, height = picture.size
+        assert width == 400
+        assert height > 30
+        assert count_colors(picture.crop((0, 0, 400, 30))) == 1
+        assert count_colors(picture.crop((0, 30, 400, height))) > 50
+
+
+def test_render_writes_an_exr(tmp_path: Path) -> None:
+    file = tmp_path / "hits.exr"
+    output_of("render", "tetra:n=2", "--accel", "embree", "-o", file, "--resolution", "16x16")
+    header = file.read_bytes()[:2000]
+    assert header.startswith(b"\x76\x2f\x31\x01")
+    for channel in [b"\0R\0", b"\0G\0", b"\0Z\0", b"\0id\0"]:
+        assert channel in header
+
+
+# Statistics
+
+
+def test_stats_compare_structures() -> None:
+    arguments = ("stats", "tetra:n=3", "--accel", "all", "--resolution", "32x32")
+    text = output_of(*arguments)
+    for word in [*STRUCTURES, "memory", "references", "primitive_tests per ray"]:
+        assert word in text
+
+    found = json.loads(output_of(*arguments, "--json"))
+    assert found["rays"] == 32 * 32
+    by_name = {structure["structure"]: structure for structure in found["structures"]}
+    assert by_name["exhaustive"]["per_ray"]["primitive_tests"] == 4**3
+    assert by_name["samet"]["per_ray"]["primitive_tests"] < 4**3
+    assert by_name["samet"]["hits"] == by_name["exhaustive"]["hits"] > 0
+    assert by_name["null"]["hits"] == 0
+    assert by_name["samet"]["leaves"] > by_name["samet"]["empty_leaves"]
+
+
+def test_stats_tell_parameters_apart() -> None:
+    text = output_of(
+        *("stats", "tetra:n=3", "--accel", "samet:max_level=3,samet:max_level=4,root=box"),
+        *("--resolution", "8x8"),
+    )
+    assert "samet:max_level=3" in text
+    assert "samet:max_level=4,root=box" in text
+
+
+def test_a_structure_over_its_cap_names_the_parameter() -> None:
+    done = beambench("stats", "tetra:n=4", "--accel", "samet:max_references=1")
+    refused(done, ["max_references"])
+
+
+def test_a_structure_over_its_cap_does_not_hide_the_others() -> None:
+    done = beambench("stats", "tetra:n=4", "--accel", "samet:max_references=1,embree")
+    assert done.returncode == 2
+    assert "max_references" in done.stderr
+    assert "embree" in done.stdout
+
+
+# Verdicts
+
+
+def test_verify_judges_every_structure(tmp_path: Path) -> None:
+    file = tmp_path / "verdicts.json"
+    done = beambench(
+        *("verify", "escena1:spheres=40", "tetra:n=2", "balls:n=1"),
+        *("--accel", "all", "--resolution", "40x30", "--json", file),
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert len(re.findall(r"\[\d+/\d+\] ", done.stderr)) == 3 * len(STRUCTURES)
+
+    verdicts = json.loads(file.read_text())
+    assert verdicts["passed"] is True
+    assert len(verdicts["cells"]) == 3 * len(STRUCTURES)
+    for cell in verdicts["cells"]:
+        assert cell["rays"] == 40 * 30
+        if cell["structure"] == "null":
+            assert cell["verdict"] == "baseline"
+            continue
+        assert cell["verdict"] == "ok"
+        assert cell["engine_error"] == 0
+        assert cell["agree"] + cell["tie"] + cell["graze"] + cell["embree_error"] == cell["rays"]
+        if cell["structure"] == "samet":
+            assert cell["bits"] == {"compared_with": "exhaustive", "different": 0}
+
+
+def test_verify_goes_on_past_a_structure_that_cannot_be_built(tmp_path: Path) -> None:
+    file = tmp_path / "verdicts.json"
+    done = beambench(
+        *("verify", "tetra:n=4", "--accel", "samet:max_references=1,samet"),
+        *("--resolution", "16x16", "--json", file),
+    )
+    assert done.returncode == 1
+    verdicts = json.loads(file.read_text())
+    assert verdicts["passed"] is False
+    assert [cell["verdict"] for cell in verdicts["cells"]] == ["error", "ok"]
+    assert "max_references" in verdicts["cells"][0]["message"]
+    assert "max_references" in done.stdout
+
+
+def test_verify_leaves_exhaustive_out_of_all_over_many_primitives() -> None:
+    done = beambench("verify", "bumpy:triangles=21168", "--resolution", "8x8")
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "exhaustive is left out" in done.stderr
+    assert "exhaustive" not in done.stdout
+    assert "samet" in done.stdout
+
+
+# What is refused
+
+
+def refused(done: subprocess.CompletedProcess[str], words: list[str]) -> None:
+    """Exit code 2, nothing on stdout, one sentence on stderr that holds the words."""
+    assert done.returncode == 2, (done.returncode, done.stdout, done.stderr)
+    assert done.stdout == ""
+    lines = done.stderr.splitlines()
+    assert len(lines) == 1, done.stderr
+    assert lines[0].startswith("beambench: ")
+    assert "terminate called" not in done.stderr
+    assert "internal error" not in done.stderr
+    for word in words:
+        assert word in lines[0]
+
+
+WRONG_FILES = {
+    "cut.nff": (VIEW + "s 0 0", [":8", "ends", "sphere"]),
+    "cut_polygon.nff": (VIEW + "p 4\n0 0 0\n1 0 0\n", [":8", "polygon", "cut off"]),
+    "nan.nff": (VIEW + "s 0 nan 0 1\n", [":8", "nan", "sphere"]),
+    "infinite.nff": (VIEW + "s 0 inf 0 1\n", [":8", "inf"]),
+    "overflow.nff": (VIEW + "s 0 1e999 0 1\n", [":8", "1e999"]),
+    "too_far.nff": (VIEW + "s 0 2e9 0 1\n", [":8", "1e9"]),
+    "flat_ball.nff": (VIEW + "s 0 0 0 0\n", [":8", "radius"]),
+    "two_corners.nff": (VIEW + "p 2\n0 0 0\n1 1 1\n", [":8", "polygon", "3"]),
+    "no_corners.nff": (VIEW + "p 0\n", [":8", "polygon"]),
+    "fewer_than_none.nff": (VIEW + "p -3\n", [":8", "polygon"]),
+    "billion.nff": (VIEW + "p 1000000000\n0 0 0\n", [":8", "1000000000"]),
+    "trillion.nff": (VIEW + "p 1000000000000000\n0 0 0\n", [":8", "vertices"]),
+    "no_area.nff": (VIEW + "p 3\n0 0 0\n1 1 1\n2 2 2\n", [":8", "polygon", "area"]),
+    "no_cone.nff": (VIEW + "c\n0 0 0 0\n0 0 1 0\n", [":8", "cone"]),
+    "short_cone.nff": (VIEW + "c\n0 0 0 1\n0 0 0 1\n", [":8", "cone"]),
+    "wrong_view.nff": (VIEW.replace("angle 45", "angle 200") + "s 0 0 0 1\n", ["angle"]),
+    "word.nff": (VIEW + "s 0 zero 0 1\n", [":8", "zero"]),
+}
+
+
+@pytest.mark.parametrize("name", WRONG_FILES)
+def test_a_malformed_file_is_refused_with_its_line(tmp_path: Path, name: str) -> None:
+    text, words = WRONG_FILES[name]
+    (tmp_path / name).write_text(text)
+    refused(beambench("scene", tmp_path / name), [name, *words])
+
+
+def test_bytes_of_any_kind_do_not_crash(tmp_path: Path) -> None:
+    file = tmp_path / "bytes.nff"
+    file.write_bytes(bytes(range(256)) * 40)
+    done = beambench("scene", file)
+    assert done.returncode in (0, 2)
+    assert "terminate called" not in done.stderr
+
+
+STATS = ("stats", "tetra:n=1", "--accel")
+RENDER = ("render", "tetra:n=1", "--accel")
+
+WRONG_REQUESTS = [
+    # commands and options
+    ([], ["list", "render", "--help"]),
+    (["rendr"], ["rendr", "render"]),
+    (["render"], ["SCENE", "render --help"]),
+    (["render", "balls:n=1"], ["--accel"]),
+    (["list", "--colour"], ["--colour", "list --help"]),
+    (["verify", "--resolution"], ["--resolution"]),
+    # scenes
+    (["scene", "missing.nff"], ["missing.nff", "cannot be read"]),
+    (["scene", "no/such/place.nff"], ["no/such/place.nff"]),
+    (["scene", "."], ["."]),
+    (["scene", "./"], ["./", "folder"]),
+    (["scene", "teapott"], ["teapott", "balls", "tetra"]),
+    (["scene", "balls:n=1000000000"], ["balls", "n", "1000000000", "7"]),
+    (["scene", "balls:n=99999999999999999999"], ["balls", "n"]),
+    (["scene", "balls:n=-1"], ["balls", "n", "-1"]),
+    (["scene", "balls:n=nan"], ["nan"]),
+    (["scene", "balls:n=2.5"], ["2.5"]),
+    (["scene", "balls:levels=2"], ["levels", "n"]),
+    (["scene", "balls:n"], ["balls:n"]),
+    (["scene", "balls:n="], ["n="]),
+    (["scene", "balls:n=1,n=2"], ["twice"]),
+    (["scene", ""], ["name"]),
+    # structures
+    ([*STATS, "smet"], ["smet", "samet"]),
+    ([*STATS, "samet:max_level=99"], ["max_level", "99"]),
+    ([*STATS, "samet:max_level=nan"], ["max_level", "nan"]),
+    ([*STATS, "samet:depth=5"], ["depth", "max_level"]),
+    ([*STATS, "embree:mode=packet5"], ["mode", "packet5", "packet4"]),
+    ([*STATS, "null:x=1"], ["null", "x"]),
+    ([*STATS, ""], ["name"]),
+    ([*STATS, "samet,"], ["samet,", "comma"]),
+    ([*RENDER, "all", "-o", "a.png"], ["all", "one"]),
+    # rays and cameras
+    *(
+        ([*STATS, "null", "--resolution", text], [f"'{text}'", "640x480"])
+        for text in ["640x", "x480", "0x0", "-1x5", "99999x99999", "1e3x1", "nanxnan", "640*480"]
+    ),
+    ([*STATS, "null", "--rays", "shadowy"], ["shadowy", "primary"]),
+    ([*STATS, "null", "--camera", "side"], ["side", "default"]),
+    ([*RENDER, "null", "-o", "a.png", "--samples", "3"], ["3 samples"]),
+    ([*RENDER, "null", "-o", "a.png", "--samples", "many"], ["many"]),
+    (
+        [*RENDER, "null", "-o", "a.png", "--samples", "64", "--resolution", "16384x16384"],
+        ["resolution", "samples"],
+    ),
+    # files to write
+    ([*RENDER, "null", "-o", "a.jpg"], ["a.jpg", ".png", ".exr"]),
+    ([*RENDER, "null", "-o", "picture"], ["picture", ".png"]),
+    ([*RENDER, "null", "-o", "missing/a.png"], ["missing", "create"]),
+    ([*RENDER, "null", "-o", "/proc/a.png"], ["/proc/a.png"]),
+    ([*RENDER, "null", "-o", "a.png", "--shade", "whited"], ["whited", "preview"]),
+    ([*RENDER, "null", "-o", "a.png", "--heatmap", "steps"], ["steps", "traversal_steps"]),
+    (["verify", "tetra:n=1", "--json", "missing/v.json"], ["missing"]),
+    (["verify", "tetra:n=1", "nowhere"], ["nowhere"]),
+    # configurations
+    (["run", "missing.json"], ["missing.json"]),
+    (["run", "cut.json"], ["cut.json"]),
+    (["run", "list.json"], ["list.json"]),
+    (["run", "unknown.json", "-o", "out"], ["smet"]),
+]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"), WRONG_REQUESTS, ids=lambda value: " ".join(value) or "nothing"
+)
+def test_a_wrong_request_is_refused_in_one_sentence(
+    tmp_path: Path, arguments: list[str], words: list[str]
+) -> None:
+    (tmp_path / "cut.json").write_text('{"name": "cut", "scenes": [')
+    (tmp_path / "list.json").write_text("[1, 2, 3]")
+    (tmp_path / "unknown.json").write_text(
+        '{"name": "unknown", "scenes": ["tetra:n=1"], "structures": ["smet"],'
+        ' "resolutions": ["8x8"]}'
+    )
+    before = set(tmp_path.iterdir())
+    refused(beambench(*arguments, cwd=tmp_path), words)
+    assert set(tmp_path.iterdir()) == before, "a refused request leaves nothing behind"
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")
+def test_a_folder_without_write_permission_is_refused(tmp_path: Path) -> None:
+    tmp_path.chmod(0o500)
+    refused(beambench(*RENDER, "null", "-o", tmp_path / "a.png"), ["not writable"])
+
+
+def test_a_full_disk_is_reported() -> None:
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [BINARY, "list"], stdout=full, stderr=subprocess.PIPE, text=True, check=False
+        )
+    assert done.returncode == 2
+    assert "cannot write" in done.stderr
