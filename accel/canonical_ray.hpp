@@ -1,7 +1,7 @@
 #pragma once
 // A ray as the canonical ray-primitive tests see it.
 
-#include <optional>
+#include <limits>
 
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
@@ -10,6 +10,12 @@
 #include "accel/ray.hpp"
 
 namespace beambench {
+
+/// What a ray-primitive test returns when there is no hit: a NaN, so that it neither precedes nor
+/// equals any t. (An optional<float> would be passed through memory in two halves, which cost more
+/// than the tests themselves.)
+inline constexpr float kMiss = std::numeric_limits<float>::quiet_NaN();
+inline bool is_hit(float t) { return t == t; }
 
 /// A ray widened to double. `t_max` shrinks while a traversal finds nearer hits.
 struct CanonicalRay {
@@ -25,11 +31,10 @@ struct CanonicalRay {
 
   glm::dvec3 at(double t) const { return origin + direction * t; }
 
-  /// t rounded once to float, if it lies in the closed interval.
-  std::optional<float> accept(double t) const {
+  /// t rounded once to float, if it lies in the closed interval; otherwise kMiss.
+  float accept(double t) const {
     const auto rounded = static_cast<float>(t);
-    if (rounded >= t_min && rounded <= t_max) return rounded;
-    return std::nullopt;
+    return rounded >= t_min && rounded <= t_max ? rounded : kMiss;
   }
 
   /// A point's place beside the ray: relative to the origin and sheared along the main axis so that

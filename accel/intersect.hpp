@@ -13,24 +13,22 @@
 
 namespace beambench {
 
-/// The nearest t in the ray's interval over the polygon's triangles.
-inline std::optional<float> intersect_polygon(CanonicalRay ray, const Scene& scene,
-                                              const Polygon& polygon) {
-  std::optional<float> nearest;
+/// The nearest t in the ray's interval over the polygon's triangles, or kMiss.
+inline float intersect_polygon(const CanonicalRay& ray, const Scene& scene,
+                               const Polygon& polygon) {
+  float nearest = kMiss;
   for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
     const auto& vertex = scene.triangles[polygon.first_triangle + i].vertex;
-    if (const auto t = intersect_triangle(ray, scene.vertices[vertex[0]], scene.vertices[vertex[1]],
-                                          scene.vertices[vertex[2]])) {
-      nearest = t;
-      ray.t_max = *t;
-    }
+    const float t = intersect_triangle(ray, scene.vertices[vertex[0]], scene.vertices[vertex[1]],
+                                       scene.vertices[vertex[2]]);
+    if (is_hit(t) && !(nearest <= t)) nearest = t;
   }
   return nearest;
 }
 
-/// The smallest t in the ray's interval at which it meets the primitive: the definition that all
-/// classic structures share.
-inline std::optional<float> intersect(const CanonicalRay& ray, const Scene& scene, PrimitiveId id) {
+/// The smallest t in the ray's interval at which it meets the primitive, or kMiss: the
+/// definition that all classic structures share.
+inline float intersect(const CanonicalRay& ray, const Scene& scene, PrimitiveId id) {
   const Primitive& primitive = scene.primitives[id];
   switch (primitive.kind) {
     case PrimitiveKind::kSphere:
@@ -40,7 +38,7 @@ inline std::optional<float> intersect(const CanonicalRay& ray, const Scene& scen
     case PrimitiveKind::kPolygon:
       return intersect_polygon(ray, scene, scene.polygons[primitive.index]);
   }
-  return std::nullopt;
+  return kMiss;
 }
 
 /// The nearest hit so far: `ray.t_max` is its t, so that farther primitives are not accepted.
@@ -49,9 +47,9 @@ struct ClosestHit {
 
   /// Tests one primitive and keeps its hit when it precedes the best.
   void test(const Scene& scene, PrimitiveId id) {
-    const auto t = intersect(ray, scene, id);
-    if (t && (*t < ray.t_max || id < primitive)) {
-      ray.t_max = *t;
+    const float t = intersect(ray, scene, id);
+    if (t < ray.t_max || (t == ray.t_max && id < primitive)) {
+      ray.t_max = t;
       primitive = id;
     }
   }

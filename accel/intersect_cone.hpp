@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -31,7 +30,7 @@ struct Linear {
 /// do not cancel. Near the tip the quadratic is ill-conditioned: its roots are improved by a step
 /// of Newton's method on the equation before squaring, and one whose point is still farther than
 /// kHitSlack from the surface is not a hit.
-inline std::optional<float> intersect_cone(const CanonicalRay& ray, const Cone& cone) {
+inline float intersect_cone(const CanonicalRay& ray, const Cone& cone) {
   const glm::dvec3 base(cone.base);
   const glm::dvec3 axis = glm::dvec3(cone.apex) - base;
   const double axis_squared = glm::dot(axis, axis);
@@ -50,7 +49,7 @@ inline std::optional<float> intersect_cone(const CanonicalRay& ray, const Cone& 
   const double b = glm::dot(radial.value, radial.slope) - radius.value * radius.slope;
   const double c = glm::dot(radial.value, radial.value) - radius.value * radius.value;
   const double discriminant = b * b - a * c;
-  if (discriminant < 0.0) return std::nullopt;
+  if (discriminant < 0.0) return kMiss;
   const double q = -(b + std::copysign(std::sqrt(discriminant), b));
   double roots[2] = {q / a, c / q};  // a or q may be 0: that root is infinite or NaN, and not taken
 
@@ -70,9 +69,10 @@ inline std::optional<float> intersect_cone(const CanonicalRay& ray, const Cone& 
     if (!(std::abs(off_surface(root)) <= slack)) continue;
     if (!(s.at(root) >= 0.0 && s.at(root) <= 1.0)) continue;
     if (cone.inside_only && a * root + b <= 0.0) continue;
-    if (const auto t = ray.accept(t_near + root)) return t;
+    const float t = ray.accept(t_near + root);
+    if (is_hit(t)) return t;
   }
-  return std::nullopt;
+  return kMiss;
 }
 
 }  // namespace beambench

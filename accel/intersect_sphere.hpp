@@ -2,7 +2,6 @@
 // The canonical ray-sphere test.
 
 #include <cmath>
-#include <optional>
 
 #include <glm/geometric.hpp>
 
@@ -16,17 +15,18 @@ namespace beambench {
 /// between the centre and the ray's closest point, which does not cancel for small or distant
 /// spheres (Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems,
 /// 2019); the point at t is then within some ulps of its distance from the surface.
-inline std::optional<float> intersect_sphere(const CanonicalRay& ray, const Sphere& sphere) {
+inline float intersect_sphere(const CanonicalRay& ray, const Sphere& sphere) {
   const glm::dvec3 from_center = ray.origin - glm::dvec3(sphere.center);
   const double inverse = 1.0 / glm::dot(ray.direction, ray.direction);
   const double t_closest = -glm::dot(from_center, ray.direction) * inverse;
   const glm::dvec3 closest = from_center + ray.direction * t_closest;
   const double radius = sphere.radius;
   const double discriminant = radius * radius - glm::dot(closest, closest);
-  if (discriminant < 0.0) return std::nullopt;
+  if (discriminant < 0.0) return kMiss;
   const double half_chord = std::sqrt(discriminant * inverse);
   if (!sphere.inside_only) {
-    if (const auto t = ray.accept(t_closest - half_chord)) return t;
+    const float t = ray.accept(t_closest - half_chord);
+    if (is_hit(t)) return t;
   }
   return ray.accept(t_closest + half_chord);
 }

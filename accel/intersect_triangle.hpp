@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -35,32 +34,33 @@ inline bool near_triangle(const glm::dvec3& point, const glm::dvec3 (&corners)[3
 }
 
 /// The t at which the ray meets the closed triangle, seen from both sides, if it lies in the ray's
-/// interval. Seen along the ray, the signs of the areas that the ray spans with the three edges
-/// decide (Woop, Benthin and Wald 2013, in double). A corner has one place beside the ray, and an
-/// area changes its sign exactly when its edge is turned round, so two triangles that share an edge
-/// leave no gap (-ffp-contract=off is needed for this). A ray in the triangle's plane misses.
-inline std::optional<float> intersect_triangle(const CanonicalRay& ray, const glm::vec3& v0,
-                                               const glm::vec3& v1, const glm::vec3& v2) {
+/// interval; otherwise kMiss. Seen along the ray, the signs of the areas that the ray spans with
+/// the three edges decide (Woop, Benthin and Wald 2013, in double). A corner has one place beside
+/// the ray, and an area changes its sign exactly when its edge is turned round, so two triangles
+/// that share an edge leave no gap (-ffp-contract=off is needed for this). A ray in the triangle's
+/// plane misses.
+inline float intersect_triangle(const CanonicalRay& ray, const glm::vec3& v0, const glm::vec3& v1,
+                                const glm::vec3& v2) {
   const glm::dvec2 a = ray.beside(v0);
   const glm::dvec2 b = ray.beside(v1);
   const glm::dvec2 c = ray.beside(v2);
   const double u = c.x * b.y - c.y * b.x;
   const double v = a.x * c.y - a.y * c.x;
   const double w = b.x * a.y - b.y * a.x;
-  if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return std::nullopt;
+  if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return kMiss;
 
   const glm::dvec3 corners[3] = {glm::dvec3(v0), glm::dvec3(v1), glm::dvec3(v2)};
   const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double along = glm::dot(normal, ray.direction);
-  if (along == 0.0) return std::nullopt;
+  if (along == 0.0) return kMiss;
   const double t = glm::dot(normal, corners[0] - ray.origin) / along;
-  const auto accepted = ray.accept(t);
-  if (!accepted) return std::nullopt;
+  const float accepted = ray.accept(t);
+  if (!is_hit(accepted)) return kMiss;
   double reach_squared = 0.0;
   for (const glm::dvec3& corner : corners) {
     reach_squared = std::max(reach_squared, glm::dot(corner - ray.origin, corner - ray.origin));
   }
-  if (!near_triangle(ray.at(t), corners, normal, std::sqrt(reach_squared))) return std::nullopt;
+  if (!near_triangle(ray.at(t), corners, normal, std::sqrt(reach_squared))) return kMiss;
   return accepted;
 }
 

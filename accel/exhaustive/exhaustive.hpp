@@ -26,7 +26,7 @@ class Exhaustive : public TraversalAccelerator<Exhaustive> {
     const CanonicalRay canonical(ray);
     for (PrimitiveId id = 0; id < scene_->primitives.size(); ++id) {
       counting.add(Counter::kPrimitiveTests);
-      if (intersect(canonical, *scene_, id)) return true;
+      if (is_hit(intersect(canonical, *scene_, id))) return true;
     }
     return false;
   }

@@ -42,7 +42,7 @@ class Samet : public TraversalAccelerator<Samet> {
     visit_leaves(ray, counting, [&](std::span<const PrimitiveId> references, double exit_t) {
       for (const PrimitiveId id : references) {
         counting.add(Counter::kPrimitiveTests);
-        found = intersect(canonical, *scene_, id).has_value();
+        found = is_hit(intersect(canonical, *scene_, id));
         if (found) return true;
       }
       return canonical.t_max < static_cast<float>(exit_t);

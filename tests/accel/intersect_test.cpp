@@ -3,6 +3,7 @@
 #include "accel/intersect.hpp"
 
 #include <cmath>
+#include <optional>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -18,11 +19,13 @@ Ray ray(glm::vec3 origin, glm::vec3 direction, float t_min = 0.0F, float t_max =
   return {origin, t_min, direction, t_max};
 }
 
+std::optional<float> hit_or_none(float t) { return is_hit(t) ? std::optional(t) : std::nullopt; }
+
 std::optional<float> hit(const Sphere& sphere, const Ray& asked) {
-  return intersect_sphere(CanonicalRay(asked), sphere);
+  return hit_or_none(intersect_sphere(CanonicalRay(asked), sphere));
 }
 std::optional<float> hit(const Cone& cone, const Ray& asked) {
-  return intersect_cone(CanonicalRay(asked), cone);
+  return hit_or_none(intersect_cone(CanonicalRay(asked), cone));
 }
 
 const Sphere kUnitSphere{{0, 0, 0}, 1.0F, false};
@@ -75,7 +78,9 @@ TEST(IntersectTriangle, ClosedEdgesBothSides) {
   const glm::vec3 a(0, 0, 0);
   const glm::vec3 b(1, 0, 0);
   const glm::vec3 c(0, 1, 0);
-  const auto t = [&](const Ray& asked) { return intersect_triangle(CanonicalRay(asked), a, b, c); };
+  const auto t = [&](const Ray& asked) {
+    return hit_or_none(intersect_triangle(CanonicalRay(asked), a, b, c));
+  };
   EXPECT_EQ(t(ray({0.25F, 0.25F, 2}, {0, 0, -1})), 2.0F);
   EXPECT_EQ(t(ray({0.25F, 0.25F, -2}, {0, 0, 1})), 2.0F);
   EXPECT_EQ(t(ray({0.5F, 0.5F, 2}, {0, 0, -1})), 2.0F) << "on an edge";
@@ -89,7 +94,7 @@ TEST(IntersectTriangle, ClosedMeshIsWatertight) {
   const Scene scene = load_scene("bumpy:triangles=768");
   const auto any = [&](const CanonicalRay& asked) {
     for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-      if (intersect(asked, scene, id)) return true;
+      if (is_hit(intersect(asked, scene, id))) return true;
     }
     return false;
   };
@@ -158,12 +163,12 @@ RC_GTEST_PROP(Intersect, PointAtTheHitLiesOnThePrimitive, (std::uint32_t seed)) 
     const CanonicalRay canonical(asked);
     const double diagonal = glm::length(glm::dvec3(scene.bounds.extent()));
     for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-      const auto t = intersect(canonical, scene, id);
-      if (!t) continue;
-      RC_ASSERT(*t >= asked.t_min);
-      RC_ASSERT(*t <= asked.t_max);
-      const double rounding = 0x1p-24 * *t * glm::length(canonical.direction);
-      RC_ASSERT(distance_to(scene, id, canonical.at(*t)) <= rounding + 0x1p-30 * diagonal);
+      const float t = intersect(canonical, scene, id);
+      if (!is_hit(t)) continue;
+      RC_ASSERT(t >= asked.t_min);
+      RC_ASSERT(t <= asked.t_max);
+      const double rounding = 0x1p-24 * t * glm::length(canonical.direction);
+      RC_ASSERT(distance_to(scene, id, canonical.at(t)) <= rounding + 0x1p-30 * diagonal);
     }
   }
 }

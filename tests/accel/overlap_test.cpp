@@ -81,11 +81,11 @@ RC_GTEST_PROP(Overlap, NeverFalseWhereAHitIs, (std::uint32_t seed)) {
     const Ray ray = testing::random_ray(scene, random);
     CanonicalRay canonical(ray);
     for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-      const auto t = intersect(canonical, scene, id);
-      if (!t) continue;
+      const float t = intersect(canonical, scene, id);
+      if (!is_hit(t)) continue;
       // The point at the rounded t: widen by that rounding, as the traversal has the unrounded t.
-      const double rounding = 0x1p-24 * *t * glm::length(canonical.direction);
-      const Box box = box_with(canonical.at(*t), random);
+      const double rounding = 0x1p-24 * t * glm::length(canonical.direction);
+      const Box box = box_with(canonical.at(t), random);
       RC_ASSERT(surface_overlaps(scene, id, box, tolerance + rounding));
     }
   }
