@@ -72,10 +72,13 @@ struct DiffReport {
 };
 
 /// The oracle's answer to each primary ray of an image, computed once (on all cores) and used for
-/// every contender.
+/// every contender. Scene and rays must outlive it.
 class ReferenceHits {
  public:
   ReferenceHits(const Scene& scene, const PrimaryRays& rays);
+  /// The same with answers from elsewhere, in the order of a `HitBuffer`.
+  ReferenceHits(const Scene& scene, const PrimaryRays& rays,
+                std::vector<std::optional<ExactHit>> hits);
 
   const Scene& scene() const { return *scene_; }
   const PrimaryRays& rays() const { return *rays_; }

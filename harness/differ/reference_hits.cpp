@@ -1,3 +1,7 @@
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
@@ -18,6 +22,15 @@ ReferenceHits::ReferenceHits(const Scene& scene, const PrimaryRays& rays)
       }
     }
   });
+}
+
+ReferenceHits::ReferenceHits(const Scene& scene, const PrimaryRays& rays,
+                             std::vector<std::optional<ExactHit>> hits)
+    : scene_(&scene), rays_(&rays), hits_(std::move(hits)) {
+  if (hits_.size() != rays.count()) {
+    throw std::logic_error(
+        fmt::format("{} reference hits are given for {} rays", hits_.size(), rays.count()));
+  }
 }
 
 }  // namespace beambench

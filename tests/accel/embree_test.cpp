@@ -1,0 +1,204 @@
+// Embree as oracle and as contender: what the adapter must get right on top of Embree.
+
+#include <cmath>
+#include <string>
+
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "accel/embree/oracle.hpp"
+#include "accel/embree/version.hpp"
+#include "accel/hit_buffer.hpp"
+#include "accel/registry.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/error.hpp"
+#include "scenes/scene_builder.hpp"
+#include "tests/random_scene.hpp"
+
+namespace beambench {
+namespace {
+
+using testing::random_ray;
+using testing::random_scene;
+
+Ray ray(const glm::vec3& origin, const glm::vec3& direction) {
+  Ray made;
+  made.origin = origin;
+  made.direction = direction;
+  return made;
+}
+
+/// Along the x axis: a sphere, one seen from inside only, a cylinder across, one from inside only,
+/// two polygons of one square at x = 12.
+Scene row_of_primitives() {
+  SceneBuilder builder("row");
+  builder.add_sphere({0.0, 0.0, 0.0}, 1.0);
+  builder.add_sphere({3.0, 0.0, 0.0}, -1.0);
+  builder.add_cone({6.0, 0.0, -1.0}, 1.0, {6.0, 0.0, 1.0}, 1.0);
+  builder.add_cone({9.0, 0.0, -1.0}, -1.0, {9.0, 0.0, 1.0}, -1.0);
+  const glm::dvec3 square[] = {
+      {12.0, -1.0, -1.0}, {12.0, 1.0, -1.0}, {12.0, 1.0, 1.0}, {12.0, -1.0, 1.0}};
+  builder.add_polygon(square);
+  builder.add_polygon(square);
+  return std::move(builder).build();
+}
+
+void expect_hit(const std::optional<ExactHit>& hit, double t, PrimitiveId primitive) {
+  ASSERT_TRUE(hit.has_value());
+  EXPECT_DOUBLE_EQ(hit->t, t);
+  EXPECT_EQ(hit->primitive, primitive);
+}
+
+TEST(EmbreeOracle, HitsEachKindWhereItsDefinitionSays) {
+  const Scene scene = row_of_primitives();
+  const EmbreeOracle oracle(scene, 10.0);
+  Ray along = ray({-5.0F, 0.0F, 0.25F}, {2.0F, 0.0F, 0.0F});
+  const double half = std::sqrt(1.0 - 0.0625);
+  expect_hit(oracle.closest_hit(along), (5.0 - half) / 2.0, 0);
+  along.t_min = 2.3F;  // beyond the entry: the far side of the hollow sphere
+  expect_hit(oracle.closest_hit(along), (5.0 + half) / 2.0, 0);
+  along.t_min = 3.1F;  // the next sphere is entered at 3.5 unseen
+  expect_hit(oracle.closest_hit(along), (8.0 + half) / 2.0, 1);
+  along.t_min = 4.6F;
+  expect_hit(oracle.closest_hit(along), 5.0, 2);
+  along.t_min = 5.5F;
+  expect_hit(oracle.closest_hit(along), 6.0, 2);
+  along.t_min = 6.2F;  // the next cylinder is entered at 6.5 unseen
+  expect_hit(oracle.closest_hit(along), 7.5, 3);
+  along.t_min = 7.6F;  // two polygons at one place
+  expect_hit(oracle.closest_hit(along), 8.5, 4);
+  along.t_min = 8.6F;
+  EXPECT_FALSE(oracle.closest_hit(along).has_value());
+}
+
+TEST(EmbreeOracle, TakesTheRangeAsClosed) {
+  const Scene scene = row_of_primitives();
+  const EmbreeOracle oracle(scene, 10.0);
+  Ray exact = ray({10.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F});
+  exact.t_min = 2.0F;
+  exact.t_max = 2.0F;
+  expect_hit(oracle.closest_hit(exact), 2.0, 4);
+  EXPECT_TRUE(oracle.any_hit(exact));
+  exact.t_min = std::nextafter(2.0F, 3.0F);
+  exact.t_max = kInfinity;
+  EXPECT_FALSE(oracle.closest_hit(exact).has_value());
+  EXPECT_FALSE(oracle.any_hit(exact));
+}
+
+TEST(EmbreeOracle, SeesNoCapsOnACone) {
+  const Scene scene = row_of_primitives();
+  const EmbreeOracle oracle(scene, 10.0);
+  EXPECT_FALSE(oracle.any_hit(ray({6.0F, 0.0F, -5.0F}, {0.0F, 0.0F, 1.0F})));
+  EXPECT_TRUE(oracle.any_hit(ray({6.0F, 0.0F, -5.0F}, {0.2F, 0.0F, 1.0F})));
+}
+
+TEST(EmbreeOracle, LosesNoRayAtTheVerticesOfAClosedMesh) {
+  const Scene scene = load_scene("bumpy:triangles=5000");
+  const glm::vec3 inside(0.1F, -0.2F, 0.05F);  // from here no vertex is on a silhouette
+  const EmbreeOracle oracle(scene, glm::length(inside));
+  for (const glm::vec3& vertex : scene.vertices) {
+    const Ray aimed = ray(inside, vertex - inside);
+    ASSERT_TRUE(oracle.any_hit(aimed));
+    ASSERT_TRUE(oracle.closest_hit(aimed).has_value());
+  }
+}
+
+TEST(EmbreeOracle, AnswersAnyHitAsClosestHit) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    const Scene scene = random_scene(seed, 30);
+    const EmbreeOracle oracle(scene, 20'000.0);
+    Random random(seed);
+    for (int i = 0; i < 200; ++i) {
+      const Ray shot = random_ray(scene, random);
+      ASSERT_EQ(oracle.any_hit(shot), oracle.closest_hit(shot).has_value()) << scene.name;
+    }
+  }
+}
+
+std::unique_ptr<Accelerator> embree(const std::string& parameters, const Scene& scene) {
+  return registry().choose(parse_spec("embree:" + parameters)).build(scene);
+}
+
+class EmbreeModes : public ::testing::TestWithParam<const char*> {
+ protected:
+  std::string mode() const { return std::string("mode=") + GetParam(); }
+};
+INSTANTIATE_TEST_SUITE_P(All, EmbreeModes,
+                         ::testing::Values("single", "packet4", "packet8", "packet16", "stream"));
+
+TEST_P(EmbreeModes, WriteEverySampleOfAnImageOfAnySize) {
+  const Scene scene = row_of_primitives();  // user geometry meets packets, too
+  const auto structure = embree(mode(), scene);
+  for (const auto& [width, height, samples] :
+       {std::tuple(1, 1, 1), std::tuple(17, 5, 1), std::tuple(3, 18, 4), std::tuple(33, 31, 5)}) {
+    const PrimaryRays rays(scene.cameras.front(), width, height, samples);
+    HitBuffer buffer(width, height, samples);
+    for (std::size_t i = 0; i < buffer.size(); ++i) buffer.set(i, Hit{-1.0F, 123'456});
+    structure->trace(rays, buffer);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        for (int sample = 0; sample < samples; ++sample) {
+          const std::size_t index = buffer.index(x, y, sample);
+          const auto single = structure->closest_hit(rays.ray(x, y, sample));
+          const auto traced = buffer.get(index);
+          ASSERT_EQ(traced.has_value(), single.has_value());
+          if (!traced) {
+            ASSERT_EQ(buffer.t()[index], kInfinity);
+            continue;
+          }
+          // The twin polygons at one place may come in either order.
+          ASSERT_EQ(std::min(traced->primitive, 4U), std::min(single->primitive, 4U));
+          ASSERT_NEAR(traced->t, single->t, 1e-5F * single->t);
+        }
+      }
+    }
+  }
+}
+
+TEST_P(EmbreeModes, MissEverythingInAnEmptyScene) {
+  const Scene scene = SceneBuilder("empty").build();
+  const auto structure = embree(mode(), scene);
+  const PrimaryRays rays(scene.cameras.front(), 20, 20, 1);
+  HitBuffer buffer(20, 20, 1);
+  structure->trace(rays, buffer);
+  EXPECT_EQ(buffer, HitBuffer(20, 20, 1));
+  EXPECT_FALSE(structure->any_hit(rays.ray(3, 3, 0)));
+}
+
+TEST(Embree, AnswersAnyHitAsClosestHit) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Scene scene = random_scene(seed, 30);
+    const auto structure = embree("mode=single", scene);
+    Random random(seed);
+    int differences = 0;
+    for (int i = 0; i < 200; ++i) {
+      const Ray shot = random_ray(scene, random);
+      differences += structure->any_hit(shot) != structure->closest_hit(shot).has_value() ? 1 : 0;
+    }
+    EXPECT_LE(differences, 1) << scene.name;  // float kernels: a grazing ray may go either way
+  }
+}
+
+TEST(Embree, TellsItsMemoryAndWhatItHolds) {
+  const Scene scene = load_scene("balls:n=3");
+  const Statistics statistics = embree("quality=medium", scene)->statistics();
+  EXPECT_GT(statistics.bytes, scene.primitives.size() * 16);
+  EXPECT_LT(statistics.bytes, scene.primitives.size() * 2000);
+  double held = 0.0;
+  for (const auto& [name, count] : statistics.more) held += count;
+  EXPECT_EQ(held, static_cast<double>(scene.triangles.size() + scene.spheres.size()));
+}
+
+TEST(Embree, RefusesAnUnknownMode) {
+  const Scene scene = row_of_primitives();
+  EXPECT_THROW(embree("mode=packet32", scene), InputError);
+}
+
+TEST(Embree, TellsItsVersionAndInstructionSet) {
+  EXPECT_EQ(embree_version().substr(0, 2), "3.");
+  EXPECT_NE(embree_isa(), "unknown");
+  EXPECT_EQ(embree_isa(), embree_isa());
+}
+
+}  // namespace
+}  // namespace beambench
