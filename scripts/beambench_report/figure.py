@@ -94,7 +94,8 @@ def write_plot(plot: Plot, directory: Path) -> list[Path]:
 
 def _source(rows: pd.DataFrame) -> str:
     first = rows.iloc[0]
+    modified = " (modified)" if first["dirty"] == "true" else ""
     return (
-        f"Run {first['run_id']}, commit {first['commit'][:12]}, "
+        f"Run {first['run_id']}, commit {first['commit'][:12]}{modified}, "
         f"machine {first['machine_id'][:8]}, threads {first['threads']:.0f}."
     )

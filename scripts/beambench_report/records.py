@@ -13,6 +13,7 @@ from beambench_report.problem import Problem
 TEXT_COLUMNS = (
     "run_id",
     "commit",
+    "dirty",
     "machine_id",
     "scene",
     "camera",
