@@ -19,7 +19,10 @@ namespace beambench {
 /// take turns.
 class SharedQuestion {
  public:
+  /// The group's scene outlives it.
   SharedQuestion(const CellGroup& group, std::uint64_t scene_hash);
+  SharedQuestion(const SharedQuestion&) = delete;
+  SharedQuestion& operator=(const SharedQuestion&) = delete;
 
   const Scene& scene() const { return *scene_; }
   const PrimaryRays& rays() const { return rays_; }

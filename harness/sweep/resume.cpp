@@ -34,10 +34,14 @@ void require_same_program(const RunFolder& folder, const Json& then, const Json&
   const auto differs = [&](const char* pointer) {
     return member(then, pointer) != member(now, pointer);
   };
-  if (differs("/program/executable_hash")) {
-    refuse(folder, fmt::format("it was begun by another build of beambench (commit {}, this one is "
-                               "of {})",
+  if (differs("/program/commit")) {
+    refuse(folder, fmt::format("it was begun by beambench of commit {}, this one is of {}",
                                member(then, "/program/commit"), member(now, "/program/commit")));
+  }
+  if (differs("/program/executable_hash")) {
+    refuse(folder,
+           "it was begun by another build of beambench, from changed sources or with other "
+           "options");
   }
   if (differs("/machine/id")) refuse(folder, "it was begun on another machine");
 }

@@ -4,11 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "accel/embree/version.hpp"
 #include "harness/progress/progress.hpp"
-#include "harness/record/build_info.hpp"
 #include "harness/record/fingerprint.hpp"
-#include "harness/record/manifest.hpp"
+#include "harness/sweep/begin_manifest.hpp"
 #include "harness/sweep/conditions.hpp"
 #include "harness/sweep/resume.hpp"
 #include "harness/sweep/turns.hpp"
@@ -18,42 +16,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
-
-/// `20240531-140709-default`: sorts by time.
-std::string new_run_id(const std::string& utc, const std::string& sweep) {
-  std::string id;
-  for (const char letter : utc) {
-    if (letter >= '0' && letter <= '9') id += letter;
-    if (letter == 'T') id += '-';
-  }
-  return fmt::format("{}-{}", id, sweep);
-}
-
-Manifest new_manifest(const SweepConfig& config, const Plan& plan, const SweepOptions& options,
-                      int core) {
-  const BuildInfo& build = build_info();
-  Manifest manifest;
-  manifest.machine = inspect_machine();
-  manifest.sweep = config.name;
-  manifest.begun_utc = utc_now();
-  manifest.run = {new_run_id(manifest.begun_utc, config.name),
-                  std::string(build.commit),
-                  build.dirty,
-                  manifest.machine.id,
-                  std::string(build.build_type),
-                  std::string(build.flags),
-                  embree_isa(),
-                  /*threads=*/1};
-  manifest.measurement = {MeasuringFloatMode::available(), core, options.warm_up.count()};
-  manifest.scenes = scene_facts(plan);
-  manifest.uncontrolled = disturbances(manifest.machine);
-  if (core < 0) manifest.uncontrolled.emplace_back("The measuring thread could not be pinned.");
-  if (build.build_type != "Release") {
-    manifest.uncontrolled.push_back(
-        fmt::format("beambench was built as '{}', not as Release.", build.build_type));
-  }
-  return manifest;
-}
 
 /// The core to pin to, or -1 where pinning does not work.
 int pinnable_core() {
@@ -80,7 +42,7 @@ class SweepRun {
         options_(options),
         messages_(messages),
         core_(pinnable_core()),
-        manifest_(new_manifest(config, plan, options, core_)),
+        manifest_(begin_manifest(config.name, scene_facts(plan), core_, options.warm_up)),
         folder_(open_folder()),
         plan_(unfinished(std::move(plan))) {}
 

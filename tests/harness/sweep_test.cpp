@@ -188,9 +188,9 @@ struct Planted {
   const char* words;
 };
 
-class PlantedFault : public Sweep, public testing::WithParamInterface<Planted> {};
+class PlantedSweepFault : public Sweep, public testing::WithParamInterface<Planted> {};
 
-TEST_P(PlantedFault, LosesItsTimesAndNobodyElses) {
+TEST_P(PlantedSweepFault, LosesItsTimesAndNobodyElses) {
   add_faulty(GetParam().fault);
   const SweepOutcome outcome = run(config({"faulty", "exhaustive"}));
   EXPECT_EQ(outcome.cells, 2U);
@@ -206,7 +206,7 @@ TEST_P(PlantedFault, LosesItsTimesAndNobodyElses) {
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    , PlantedFault,
+    , PlantedSweepFault,
     testing::Values(Planted{"ShiftedT",
                             [](HitBuffer& buffer, int) {
                               for_each_hit(buffer, [&](std::size_t i) { buffer.t()[i] *= 1.001F; });

@@ -1,0 +1,52 @@
+#include "harness/sweep/begin_manifest.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "accel/embree/version.hpp"
+#include "harness/record/build_info.hpp"
+#include "harness/sweep/conditions.hpp"
+
+namespace beambench {
+namespace {
+
+/// `20240531-140709-default`: sorts by time.
+std::string new_run_id(const std::string& utc, const std::string& sweep) {
+  std::string id;
+  for (const char letter : utc) {
+    if (letter >= '0' && letter <= '9') id += letter;
+    if (letter == 'T') id += '-';
+  }
+  return fmt::format("{}-{}", id, sweep);
+}
+
+RunFacts facts_of(const BuildInfo& build, const std::string& run_id, const Machine& machine) {
+  return {run_id,       std::string(build.commit),     build.dirty,
+          machine.id,   std::string(build.build_type), std::string(build.flags),
+          embree_isa(),
+          /*threads=*/1};
+}
+
+}  // namespace
+
+Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes, int core,
+                        std::chrono::duration<double> warm_up) {
+  const BuildInfo& build = build_info();
+  Manifest manifest;
+  manifest.machine = inspect_machine();
+  manifest.sweep = sweep;
+  manifest.begun_utc = utc_now();
+  manifest.run = facts_of(build, new_run_id(manifest.begun_utc, sweep), manifest.machine);
+  manifest.measurement = {MeasuringFloatMode::available(), core, warm_up.count()};
+  manifest.scenes = std::move(scenes);
+  manifest.uncontrolled = disturbances(manifest.machine);
+  if (core < 0) manifest.uncontrolled.emplace_back("The measuring thread could not be pinned.");
+  if (build.build_type != "Release") {
+    manifest.uncontrolled.push_back(
+        fmt::format("beambench was built as '{}', not as Release.", build.build_type));
+  }
+  return manifest;
+}
+
+}  // namespace beambench
