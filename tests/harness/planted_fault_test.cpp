@@ -1,0 +1,123 @@
+// A fault planted in a structure turns the verdict, however small it is.
+
+#include <cstdint>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include "accel/intersect.hpp"
+#include "accel/octree/samet_walk.hpp"
+#include "accel/traversal_accelerator.hpp"
+#include "harness/differ/differ.hpp"
+#include "scenes/catalogue.hpp"
+
+namespace beambench {
+namespace {
+
+/// What is wrong with a `FaultySamet`. Leaves are named by their index among the nodes.
+struct Fault {
+  std::optional<std::size_t> skipped_leaf;
+  std::optional<std::uint32_t> dropped_reference;  ///< index into the octree's references
+};
+
+/// Samet's structure, but for one fault.
+class FaultySamet : public TraversalAccelerator<FaultySamet> {
+ public:
+  FaultySamet(const Scene& scene, const Fault& fault)
+      : scene_(&scene), octree_(scene, OctreeOptions{}), fault_(fault) {}
+
+  Statistics statistics() const override { return octree_.statistics(); }
+  const Octree& octree() const { return octree_; }
+
+  template <class Counting>
+  std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
+    ClosestHit closest(ray);
+    walk_leaves(octree_, ray, counting, [&](const OctreeNode& leaf, double exit_t) {
+      const auto index = static_cast<std::size_t>(&leaf - octree_.nodes().data());
+      const auto references = octree_.references(leaf);
+      for (std::uint32_t i = 0; i < references.size() && fault_.skipped_leaf != index; ++i) {
+        if (fault_.dropped_reference != leaf.first + i) closest.test(*scene_, references[i]);
+      }
+      return closest.ray.t_max < static_cast<float>(exit_t);
+    });
+    return closest.result();
+  }
+  template <class Counting>
+  bool find_any(const Ray& ray, Counting& counting) const {
+    return find_closest(ray, counting).has_value();
+  }
+
+ private:
+  const Scene* scene_;
+  Octree octree_;
+  Fault fault_;
+};
+
+class PlantedFault : public ::testing::TestWithParam<const char*> {
+ protected:
+  static constexpr int kSide = 96;
+
+  PlantedFault()
+      : scene_(load_scene(GetParam())),
+        rays_(scene_.cameras.front(), kSide, kSide, 1),
+        reference_(scene_, rays_) {}
+
+  DiffReport judge_with(const Fault& fault) const {
+    HitBuffer buffer(kSide, kSide, 1);
+    FaultySamet(scene_, fault).trace(rays_, buffer);
+    return judge(reference_, buffer, Conformance::kBitExact);
+  }
+
+  /// The leaf in which some ray finds its hit, and the reference that is hit there.
+  Fault where_a_hit_is_found(bool whole_leaf) const {
+    const FaultySamet sound(scene_, {});
+    const Octree& octree = sound.octree();
+    Fault fault;
+    for (int i = 0; i < kSide * kSide; ++i) {
+      const Ray ray = rays_.ray(i % kSide, i / kSide, 0);
+      const auto hit = sound.closest_hit(ray);
+      if (!hit) continue;
+      int leaves = 0;
+      NoCounting none;
+      walk_leaves(octree, ray, none, [&](const OctreeNode& leaf, double) {
+        const auto references = octree.references(leaf);
+        for (std::uint32_t k = 0; k < references.size(); ++k) {
+          if (references[k] != hit->primitive) continue;
+          ++leaves;
+          fault = whole_leaf ? Fault{static_cast<std::size_t>(&leaf - octree.nodes().data()), {}}
+                             : Fault{{}, leaf.first + k};
+        }
+        return false;
+      });
+      if (leaves == 1) return fault;  // no other leaf on the whole way knows the primitive
+    }
+    ADD_FAILURE() << "no ray finds its hit in one leaf alone";
+    return fault;
+  }
+
+  Scene scene_;
+  PrimaryRays rays_;
+  ReferenceHits reference_;
+};
+
+TEST_P(PlantedFault, NoneIsOk) { EXPECT_EQ(judge_with({}).verdict, Verdict::kOk); }
+
+TEST_P(PlantedFault, OneReferenceDroppedIsAMismatch) {
+  const DiffReport report = judge_with(where_a_hit_is_found(false));
+  EXPECT_EQ(report.verdict, Verdict::kMismatch);
+  EXPECT_GT(report.count(DiffClass::kEngineError), 0U);
+}
+
+TEST_P(PlantedFault, OneLeafSkippedIsAMismatch) {
+  const DiffReport report = judge_with(where_a_hit_is_found(true));
+  EXPECT_EQ(report.verdict, Verdict::kMismatch);
+  EXPECT_GT(report.count(DiffClass::kEngineError), 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, PlantedFault, ::testing::Values("tetra:n=4", "escena1"),
+                         [](const auto& info) {
+                           return info.param[0] == 't' ? "tetra" : "escena1";
+                         });
+
+}  // namespace
+}  // namespace beambench
