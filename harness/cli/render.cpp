@@ -124,13 +124,12 @@ void add_render_command(CLI::App& app, int&) {
   command->add_option("--shade", request->shading, "preview, normals, id or depth")
       ->capture_default_str();
   command->add_option("--heatmap", request->heatmap,
-                      "Instead of shading: a work counter in colours, such as traversal_steps, "
-                      "leaves, empty_leaves, box_tests, primitive_tests");
+                      "Instead of shading: a work counter in colours");
   command->add_option("--camera", request->camera, "By name (default: the scene's first)");
   command->footer(
-      "An .exr holds linear float R, G, B, depth Z, primitive id (4294967295 for a miss), and "
-      "with\n"
-      "--heatmap the counts.\n"
+      "Counters for --heatmap: traversal_steps, leaves, empty_leaves, box_tests, primitive_tests,\n"
+      "and a structure's own. A .png gets a legend; an .exr holds the counts beside linear float\n"
+      "R, G, B, the depth Z and the primitive id (4294967295 for a miss).\n"
       "Examples:\n"
       "  beambench render escena1 --accel samet -o escena1.png\n"
       "  beambench render balls:n=3 --accel samet -o work.png --heatmap primitive_tests\n"

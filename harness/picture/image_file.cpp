@@ -1,7 +1,8 @@
 #include "harness/picture/image_file.hpp"
 
+#include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
 #include <memory>
 #include <stdexcept>
 
@@ -36,10 +37,8 @@ std::vector<std::uint8_t> png_pixels(const Image& image) {
 std::vector<std::uint8_t> exr_pixels(const Image& image, std::span<const DataChannel> data) {
   std::vector<std::uint8_t> bytes;
   const auto append = [&](const auto& value) {
-    static_assert(sizeof value == kValueBytes);
-    std::uint8_t raw[kValueBytes];
-    std::memcpy(raw, &value, kValueBytes);
-    bytes.insert(bytes.end(), raw, raw + kValueBytes);
+    const auto raw = std::bit_cast<std::array<std::uint8_t, kValueBytes>>(value);
+    bytes.insert(bytes.end(), raw.begin(), raw.end());
   };
   std::size_t pixel = 0;
   for (int y = 0; y < image.height(); ++y) {
@@ -63,7 +62,7 @@ OIIO::ImageSpec exr_spec(const Image& image, std::span<const DataChannel> data) 
   for (const DataChannel& channel : data) {
     const bool is_float = std::holds_alternative<std::vector<float>>(channel.values);
     spec.channelnames[spec.channelformats.size()] = channel.name;
-    spec.channelformats.push_back(is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT32);
+    spec.channelformats.emplace_back(is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT32);
   }
   spec.attribute("compression", "zip");
   return spec;
@@ -79,8 +78,9 @@ void require_complete(const Image& image, std::span<const DataChannel> data) {
   }
 }
 
-void write(const std::filesystem::path& path, const OIIO::ImageSpec& spec, OIIO::TypeDesc type,
-           const std::vector<std::uint8_t>& pixels, const std::filesystem::path& target) {
+void write(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
+           const OIIO::TypeDesc& type, const std::vector<std::uint8_t>& pixels,
+           const std::filesystem::path& target) {
   const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path.string());
   const bool written = output && output->open(path.string(), spec) &&
                        output->write_image(type, pixels.data()) && output->close();
