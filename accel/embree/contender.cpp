@@ -82,7 +82,9 @@ void register_embree(Registry& registry) {
                          "how an image is traced: ray by ray, in packets (blocks of 2x2, 4x2 or "
                          "4x4 pixels) or as streams of a tile's rays"),
         choice_parameter("quality", "high", {"low", "medium", "high"},
-                         "Embree's build quality; high builds several times longer than medium"),
+                         "Embree's build quality: low sorts by Morton codes, medium minimises "
+                         "surface area, high also splits triangles, which Embree 3 does for "
+                         "robust=false only"),
         flag_parameter("robust", true,
                        "watertight traversal; without it Embree loses rays at vertices and edges, "
                        "which costs the verdict where they matter"),

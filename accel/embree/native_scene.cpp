@@ -28,7 +28,7 @@ NativeScene::NativeScene(const Scene& scene, RTCBuildQuality quality, bool robus
 
   owners_.reserve(scene.triangles.size() + scene.spheres.size() + scene.cones.size());
   for (const Triangle& triangle : scene.triangles) owners_.push_back(triangle.primitive);
-  if (!scene.triangles.empty()) attach(kTriangles, make_triangles(scene));
+  if (!scene.triangles.empty()) attach(kTriangles, make_triangles(scene), quality);
 
   first_owner_[kSpheres] = owners_.size();
   for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
@@ -38,16 +38,18 @@ NativeScene::NativeScene(const Scene& scene, RTCBuildQuality quality, bool robus
     }
   }
   first_owner_[kUser] = owners_.size();
-  if (sphere_count() > 0) attach(kSpheres, make_spheres(scene));
+  if (sphere_count() > 0) attach(kSpheres, make_spheres(scene), quality);
 
   owners_.insert(owners_.end(), user_.ids().begin(), user_.ids().end());
-  if (user_count() > 0) attach(kUser, user_.make(device_.get()));
+  if (user_count() > 0) attach(kUser, user_.make(device_.get()), quality);
 
   rtcCommitScene(scene_.get());
   device_.check("building over " + scene.name);
 }
 
-void NativeScene::attach(GeometryId id, const GeometryHandle& geometry) {
+void NativeScene::attach(GeometryId id, const GeometryHandle& geometry, RTCBuildQuality quality) {
+  rtcSetGeometryBuildQuality(geometry.get(), quality);  // what makes a scene of low quality quick
+  rtcCommitGeometry(geometry.get());
   rtcAttachGeometryByID(scene_.get(), geometry.get(), id);
 }
 
@@ -60,7 +62,6 @@ GeometryHandle NativeScene::make_triangles(const Scene& scene) {
   // A triangle's indices stand in front of its owner, so that this array can be shared.
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                              scene.triangles.data(), 0, sizeof(Triangle), scene.triangles.size());
-  rtcCommitGeometry(geometry.get());
   return geometry;
 }
 
@@ -74,7 +75,6 @@ GeometryHandle NativeScene::make_spheres(const Scene& scene) {
     const Sphere& sphere = scene.spheres[scene.primitives[id].index];
     points[i] = glm::vec4(sphere.center, sphere.radius);
   }
-  rtcCommitGeometry(geometry.get());
   return geometry;
 }
 

@@ -149,8 +149,6 @@ struct EmbreeOracle::State {
 EmbreeOracle::EmbreeOracle(const Scene& scene, double reach)
     : state_(std::make_unique<State>(scene, padding(scene, reach))) {}
 EmbreeOracle::~EmbreeOracle() = default;
-EmbreeOracle::EmbreeOracle(EmbreeOracle&&) noexcept = default;
-EmbreeOracle& EmbreeOracle::operator=(EmbreeOracle&&) noexcept = default;
 
 std::optional<ExactHit> EmbreeOracle::closest_hit(const Ray& ray) const {
   OracleQuery query(ray);

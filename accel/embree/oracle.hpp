@@ -27,9 +27,9 @@ class EmbreeOracle {
  public:
   /// `reach`: the largest distance of a ray's origin from the origin of the coordinates.
   EmbreeOracle(const Scene& scene, double reach);
+  EmbreeOracle(const EmbreeOracle&) = delete;
+  EmbreeOracle& operator=(const EmbreeOracle&) = delete;
   ~EmbreeOracle();
-  EmbreeOracle(EmbreeOracle&&) noexcept;
-  EmbreeOracle& operator=(EmbreeOracle&&) noexcept;
 
   /// Rays must pass `require_valid`.
   std::optional<ExactHit> closest_hit(const Ray& ray) const;

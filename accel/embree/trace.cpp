@@ -1,6 +1,7 @@
 #include "accel/embree/trace.hpp"
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace beambench::embree {
@@ -74,13 +75,13 @@ void trace_packets(const NativeScene& scene, Context& context, const PrimaryRays
   using Block = Block<N>;
   typename Block::Query query;
   Block::prepare(rays, query);
-  alignas(64) int valid[N];
+  alignas(64) std::array<int, N> valid;
   for (int y = 0; y < rays.height(); y += Block::kHeight) {
     for (int x = 0; x < rays.width(); x += Block::kWidth) {
       for (int sample = 0; sample < rays.samples(); ++sample) {
         Block::aim(rays, x, y, sample, query);
         for (int i = 0; i < N; ++i) valid[i] = query.ray.tfar[i] > 0.0F ? -1 : 0;
-        Packet<N>::intersect(valid, scene.get(), context, query);
+        Packet<N>::intersect(valid.data(), scene.get(), context, query);
         Block::write(scene, query, x, y, sample, buffer);
       }
     }

@@ -53,7 +53,6 @@ GeometryHandle UserGeometry::make(RTCDevice device) {
   rtcSetGeometryBoundsFunction(geometry.get(), on_bounds, nullptr);
   rtcSetGeometryIntersectFunction(geometry.get(), on_intersect);
   rtcSetGeometryOccludedFunction(geometry.get(), on_occluded);
-  rtcCommitGeometry(geometry.get());
   return geometry;
 }
 

@@ -15,10 +15,11 @@ class UserGeometry {
   explicit UserGeometry(const Scene& scene);
   UserGeometry(const UserGeometry&) = delete;
   UserGeometry& operator=(const UserGeometry&) = delete;
+  ~UserGeometry() = default;
 
   /// By the primitive number that Embree reports.
   const std::vector<PrimitiveId>& ids() const { return ids_; }
-  /// A geometry over them, committed; they must outlive it.
+  /// A geometry over them, not yet committed; they must outlive it.
   GeometryHandle make(RTCDevice device);
 
  private:

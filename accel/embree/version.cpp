@@ -36,10 +36,11 @@ std::vector<std::string> words_before(const std::string& text, std::string_view 
   std::istringstream line(text.substr(newline + 1, end - newline - 1));
   std::vector<std::string> words;
   for (std::string word; line >> word;) {
-    if (word == ":")
+    if (word == ":") {
       words.clear();
-    else
+    } else {
       words.push_back(word);
+    }
   }
   return words;
 }

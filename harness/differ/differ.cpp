@@ -40,10 +40,11 @@ class Judge {
     for (std::size_t i = 0; i < buffer_.size(); ++i) {
       if (agrees_at_once(i)) continue;
       Mismatch found = mismatch(i);
-      if (settle_by_rules(found))
+      if (settle_by_rules(found)) {
         record(found);
-      else
+      } else {
         disputed.push_back(found);
+      }
     }
     agree_with_the_rest(disputed.size());
     adjudicate(disputed);

@@ -79,8 +79,10 @@ TEST(Judge, AcceptsEveryModeOfEmbree) {
     const Scene scene = load_scene(name);
     const PrimaryRays rays(scene.cameras.front(), 200, 160, 1);
     const ReferenceHits reference(scene, rays);
-    for (const char* mode : {"single", "packet4", "packet8", "packet16", "stream"}) {
-      const std::string structure = std::string("embree:mode=") + mode;
+    for (const char* parameters :
+         {"mode=single", "mode=packet4", "mode=packet8", "mode=packet16", "mode=stream",
+          "mode=packet16,coherent=false", "quality=low", "quality=medium", "robust=false"}) {
+      const std::string structure = std::string("embree:") + parameters;
       const DiffReport report =
           judge(reference, traced(structure, scene, rays), Conformance::kTolerance);
       EXPECT_EQ(report.verdict, Verdict::kOk) << name << " " << structure << "\n"
