@@ -36,7 +36,7 @@ void compare_bits(const HitBuffer& hits, const BitsReference& reference, Verifie
     if (same_bits(ours, theirs)) continue;
     if (cell.different_bits++ > 0) continue;
     const std::size_t pixel = i / static_cast<std::size_t>(hits.samples());
-    const std::size_t width = static_cast<std::size_t>(hits.width());
+    const auto width = static_cast<std::size_t>(hits.width());
     cell.disputes.push_back(fmt::format(
         "pixel ({}, {}): {} found {}, {} found {}; a bit-exact structure must find the same",
         pixel % width, pixel / width, cell.label, show(ours), reference.label, show(theirs)));
@@ -112,6 +112,7 @@ std::vector<VerifiedCell> verify_scene(const Scene& scene, const PrimaryRays& ra
   });
   SceneVerifier verifier(scene, rays, progress);
   std::vector<VerifiedCell> cells;
+  cells.reserve(contenders.size());
   for (const StructureChoice& choice : contenders) cells.push_back(verifier.verify(choice));
   return cells;
 }

@@ -26,6 +26,7 @@ RayKind parse_ray_kind(std::string_view name) {
     if (info.name == name) return info.kind;
   }
   std::vector<std::string_view> names;
+  names.reserve(kRayKinds.size());
   for (const RayKindInfo& info : kRayKinds) names.push_back(info.name);
   throw InputError(
       fmt::format("unknown ray kind '{}'; choose from: {}", name, fmt::join(names, ", ")));

@@ -71,7 +71,8 @@ glm::vec3 preview_color(const Scene& scene, const Ray& ray, const Hit& hit) {
   const double headlight = std::max(glm::dot(normal, to_eye), 0.0);
   const glm::dvec3 matte = kAmbient + kHeadlight * headlight + kLights * lights.matte;
   const glm::dvec3 glossy = kHighlight * double{std::min(surface.specular, 1.0F)} * lights.glossy;
-  return glm::vec3(glm::dvec3(display_to_linear(surface.color)) * matte + glossy);
+  const glm::dvec3 color(display_to_linear(surface.color));
+  return {color * matte + glossy};
 }
 
 glm::vec3 background_color(const Scene& scene) { return display_to_linear(scene.background); }
