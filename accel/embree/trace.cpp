@@ -80,7 +80,7 @@ void trace_packets(const NativeScene& scene, Context& context, const PrimaryRays
     for (int x = 0; x < rays.width(); x += Block::kWidth) {
       for (int sample = 0; sample < rays.samples(); ++sample) {
         Block::aim(rays, x, y, sample, query);
-        for (int i = 0; i < N; ++i) valid[i] = query.ray.tfar[i] > 0.0F ? -1 : 0;
+        for (std::size_t i = 0; i < valid.size(); ++i) valid[i] = query.ray.tfar[i] > 0.0F ? -1 : 0;
         Packet<N>::intersect(valid.data(), scene.get(), context, query);
         Block::write(scene, query, x, y, sample, buffer);
       }
