@@ -36,14 +36,14 @@ class Judge {
   }
 
   DiffReport against_oracle() {
-    std::vector<Mismatch> disputed;
+    std::vector<std::size_t> disputed;
     for (std::size_t i = 0; i < buffer_.size(); ++i) {
       if (agrees_at_once(i)) continue;
       Mismatch found = mismatch(i);
       if (settle_by_rules(found)) {
         record(found);
       } else {
-        disputed.push_back(found);
+        disputed.push_back(i);
       }
     }
     agree_with_the_rest(disputed.size());
@@ -124,20 +124,21 @@ class Judge {
   }
 
   /// Rule 4, batch by batch, so that the outcome does not depend on the number of threads.
-  void adjudicate(std::vector<Mismatch>& disputed) {
+  void adjudicate(const std::vector<std::size_t>& disputed) {
     std::uint64_t tests = 0;
+    std::vector<Mismatch> batch;
     for (std::size_t first = 0; first < disputed.size(); first += kBatch) {
       const std::size_t last = std::min(first + kBatch, disputed.size());
-      const bool hopeless =
-          report_.count(DiffClass::kEngineError) >= kEnoughErrors || tests >= kSearchBudget;
-      if (!hopeless) {
-        tbb::parallel_for(first, last, [&](std::size_t i) { adjudicate(disputed[i]); });
-        tests += (last - first) * (scene_.triangles.size() + scene_.primitives.size());
+      batch.clear();
+      for (std::size_t i = first; i < last; ++i) batch.push_back(mismatch(disputed[i]));
+      if (report_.count(DiffClass::kEngineError) < kEnoughErrors && tests < kSearchBudget) {
+        tbb::parallel_for(std::size_t{0}, batch.size(),
+                          [&](std::size_t i) { adjudicate(batch[i]); });
+        tests += batch.size() * (scene_.triangles.size() + scene_.primitives.size());
+      } else {
+        for (Mismatch& found : batch) presume_error(found);
       }
-      for (std::size_t i = first; i < last; ++i) {
-        if (hopeless) presume_error(disputed[i]);
-        record(disputed[i]);
-      }
+      for (const Mismatch& found : batch) record(found);
     }
   }
 
