@@ -10,6 +10,8 @@ namespace {
 using embree::NativeScene;
 using embree::TraceMode;
 
+/// Differs from the contract where Embree does: of hits at one place any may come back, not the one
+/// of lowest id, and without `robust` a triangle is hit at t > t_min only, not at t_min itself.
 class EmbreeContender : public Accelerator {
  public:
   EmbreeContender(const Scene& scene, RTCBuildQuality quality, bool robust, TraceMode mode,
