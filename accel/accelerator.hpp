@@ -2,11 +2,13 @@
 // The contract of a structure.
 
 #include <optional>
+#include <vector>
 
 #include "accel/hit_buffer.hpp"
 #include "accel/primary_rays.hpp"
 #include "accel/ray.hpp"
 #include "accel/statistics.hpp"
+#include "accel/trace_step.hpp"
 #include "accel/work_counters.hpp"
 
 namespace beambench {
@@ -14,8 +16,8 @@ namespace beambench {
 /// A structure built over a scene, ready to be asked. Queries are const and safe from several
 /// threads. The scene must outlive it. Rays must pass `require_valid`.
 ///
-/// Each query comes twice: as timed code, and counting the work it does. Structures get both, and
-/// `trace`, by deriving from `TraversalAccelerator` (traversal_accelerator.hpp).
+/// Each query comes twice: as timed code, and counting the work it does. Structures get both,
+/// `trace` and `explain` by deriving from `TraversalAccelerator` (traversal_accelerator.hpp).
 class Accelerator {
  public:
   Accelerator() = default;
@@ -33,6 +35,9 @@ class Accelerator {
   virtual std::optional<Hit> closest_hit(const Ray& ray, WorkCounters& counters) const = 0;
   virtual bool any_hit(const Ray& ray, WorkCounters& counters) const = 0;
   virtual void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const = 0;
+
+  /// The way of `closest_hit`, step by step; empty where the structure cannot tell it.
+  virtual std::vector<TraceStep> explain(const Ray&) const { return {}; }
 
   virtual Statistics statistics() const = 0;
 };

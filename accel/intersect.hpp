@@ -45,13 +45,15 @@ inline float intersect(const CanonicalRay& ray, const Scene& scene, PrimitiveId 
 struct ClosestHit {
   explicit ClosestHit(const Ray& asked) : ray(asked) {}
 
-  /// Tests one primitive and keeps its hit when it precedes the best.
-  void test(const Scene& scene, PrimitiveId id) {
+  /// Tests one primitive and keeps its hit when it precedes the best. Returns the test's t or
+  /// kMiss.
+  float test(const Scene& scene, PrimitiveId id) {
     const float t = intersect(ray, scene, id);
     if (t < ray.t_max || (t == ray.t_max && id < primitive)) {
       ray.t_max = t;
       primitive = id;
     }
+    return t;
   }
   std::optional<Hit> result() const {
     if (primitive == kNoPrimitive) return std::nullopt;

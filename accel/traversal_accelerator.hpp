@@ -2,13 +2,16 @@
 // From one traversal, written once, to the whole contract of a structure.
 
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "accel/accelerator.hpp"
+#include "accel/step_recorder.hpp"
 
 namespace beambench {
 
 /// Implements `Accelerator` for a structure that writes each query once, as a template over the
-/// counting policy (`NoCounting` or `WorkCounters`):
+/// policy (`NoCounting`, `WorkCounters` or `StepRecorder`; see NoCounting for what it is told):
 ///
 ///     template <class Counting> std::optional<Hit> find_closest(const Ray&, Counting&) const;
 ///     template <class Counting> bool find_any(const Ray&, Counting&) const;
@@ -38,6 +41,12 @@ class TraversalAccelerator : public Accelerator {
   }
   void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const override {
     trace_each(rays, buffer, counters);
+  }
+
+  std::vector<TraceStep> explain(const Ray& ray) const override {
+    StepRecorder recorder;
+    self().find_closest(ray, recorder);
+    return std::move(recorder).take_steps();
   }
 
  private:

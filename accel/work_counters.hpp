@@ -1,5 +1,5 @@
 #pragma once
-// Counting work: a compile-time policy, so that timed code has none of it.
+// Watching a traversal work: a compile-time policy, so that timed code has none of it.
 
 #include <array>
 #include <cstddef>
@@ -7,6 +7,8 @@
 #include <map>
 #include <string>
 #include <string_view>
+
+#include "scenes/primitive.hpp"
 
 namespace beambench {
 
@@ -24,15 +26,26 @@ enum class Counter : std::size_t {
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::kCount)>
     kCounterNames{"traversal_steps", "leaves", "empty_leaves", "box_tests", "primitive_tests"};
 
-/// The policy of timed code: nothing is counted.
+/// The policy of timed code: nothing is counted, no step recorded. A traversal tells its policy
+/// - how much work it does (`add`),
+/// - each place it enters (`enter`): `make()` returns the `TraceStep`, and is called by the policy
+///   that wants it only (`StepRecorder`),
+/// - each ray-primitive test in that place, and its t or kMiss (`tested`).
 struct NoCounting {
   static constexpr void add(Counter, std::uint64_t = 1) {}
   static constexpr void add(std::string_view, std::uint64_t = 1) {}
+  template <class Make>
+  static constexpr void enter(const Make&) {}
+  static constexpr void tested(PrimitiveId, float) {}
 };
 
 /// The policy of the counting pass. A family adds counters of its own by name.
 class WorkCounters {
  public:
+  template <class Make>
+  static constexpr void enter(const Make&) {}
+  static constexpr void tested(PrimitiveId, float) {}
+
   void add(Counter counter, std::uint64_t amount = 1) {
     standard_[static_cast<std::size_t>(counter)] += amount;
   }

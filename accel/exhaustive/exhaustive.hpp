@@ -17,7 +17,10 @@ class Exhaustive : public TraversalAccelerator<Exhaustive> {
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     counting.add(Counter::kPrimitiveTests, scene_->primitives.size());
     ClosestHit closest(ray);
-    for (PrimitiveId id = 0; id < scene_->primitives.size(); ++id) closest.test(*scene_, id);
+    counting.enter([&] { return TraceStep{.t_enter = ray.t_min, .t_exit = ray.t_max}; });
+    for (PrimitiveId id = 0; id < scene_->primitives.size(); ++id) {
+      counting.tested(id, closest.test(*scene_, id));
+    }
     return closest.result();
   }
 

@@ -21,6 +21,8 @@ class OctreeCursor {
   std::uint32_t index() const { return index_; }
   const glm::ivec3& corner() const { return corner_; }
   std::int32_t size() const { return size_; }
+  /// The root being level 1.
+  int level() const { return std::countr_zero(static_cast<std::uint32_t>(cells_ / size_)) + 1; }
 
   /// Goes down to the leaf that the ray is in at parameter t (a point on a boundary belongs to the
   /// side the ray is going to). Returns the number of levels descended.

@@ -21,7 +21,9 @@ class Samet : public TraversalAccelerator<Samet> {
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     ClosestHit closest(ray);
     walk_leaves(octree_, ray, counting, [&](const OctreeNode& leaf, double exit_t) {
-      for (const PrimitiveId id : octree_.references(leaf)) closest.test(*scene_, id);
+      for (const PrimitiveId id : octree_.references(leaf)) {
+        counting.tested(id, closest.test(*scene_, id));
+      }
       counting.add(Counter::kPrimitiveTests, leaf.count);
       // Strictly: a hit at the exit's own rounded t may lie behind it and have a lower id.
       return closest.ray.t_max < static_cast<float>(exit_t);

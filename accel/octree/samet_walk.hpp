@@ -6,6 +6,7 @@
 #include "accel/octree/octree.hpp"
 #include "accel/octree/octree_cursor.hpp"
 #include "accel/octree/octree_ray.hpp"
+#include "accel/trace_step.hpp"
 #include "accel/work_counters.hpp"
 
 namespace beambench {
@@ -32,7 +33,16 @@ void walk_leaves(const Octree& octree, const Ray& ray, Counting& counting, Visit
     const double exits[3] = {way.exit_t(0, cursor.corner(), cursor.size()),
                              way.exit_t(1, cursor.corner(), cursor.size()),
                              way.exit_t(2, cursor.corner(), cursor.size())};
+    const double enter_t = t;
     t = std::min({exits[0], exits[1], exits[2]});
+    counting.enter([&] {
+      return TraceStep{.place = "leaf",
+                       .index = cursor.index(),
+                       .level = cursor.level(),
+                       .box = octree.grid().box(cursor.corner(), cursor.size()),
+                       .t_enter = std::max(enter_t, static_cast<double>(ray.t_min)),
+                       .t_exit = t};
+    });
     if (visit(leaf, t)) return;
     glm::ivec3 step(0);
     for (int axis = 0; axis < 3; ++axis) {
