@@ -12,7 +12,6 @@
 #include "scenes/generators/escena2.hpp"
 #include "scenes/generators/tetra.hpp"
 #include "scenes/nearest_name.hpp"
-#include "scenes/nff_reader.hpp"
 
 namespace beambench {
 namespace {
@@ -38,9 +37,9 @@ std::span<const SceneInfo> scene_catalogue() {
   return catalogue;
 }
 
-Scene load_scene(std::string_view spec, std::vector<std::string>* warnings) {
+Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, NffOptions options) {
   if (is_path(spec)) {
-    NffResult result = read_nff(spec);
+    NffResult result = read_nff(spec, options);
     if (warnings != nullptr) {
       warnings->insert(warnings->end(), result.warnings.begin(), result.warnings.end());
     }

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/nff_reader.hpp"
 #include "scenes/parameters.hpp"
 #include "scenes/scene.hpp"
 
@@ -27,8 +28,8 @@ std::span<const SceneInfo> scene_catalogue();
 /// NFF file (anything with a slash or the ending .nff). `Scene::name` is the canonical label of the
 /// former, the path of the latter. Throws InputError: unknown name (with the nearest and all valid
 /// ones), parameter out of range, file missing or malformed. What a file's reader noticed on the
-/// way
-/// (`NffResult::warnings`) is appended to `warnings` when given.
-Scene load_scene(std::string_view spec, std::vector<std::string>* warnings = nullptr);
+/// way (`NffResult::warnings`) is appended to `warnings` when given; the options are for files.
+Scene load_scene(std::string_view spec, std::vector<std::string>* warnings = nullptr,
+                 NffOptions options = {});
 
 }  // namespace beambench

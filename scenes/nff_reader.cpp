@@ -4,13 +4,16 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <system_error>
 
 #include <fmt/format.h>
 
 #include "scenes/error.hpp"
+#include "scenes/nff_notes.hpp"
 #include "scenes/nff_tokens.hpp"
+#include "scenes/nff_view.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench {
@@ -19,7 +22,8 @@ namespace {
 /// Reads one file, command by command, into a builder.
 class NffReader {
  public:
-  NffReader(std::string_view text, const std::string& file) : tokens_(text, file), builder_(file) {}
+  NffReader(std::string_view text, const std::string& file, NffOptions options)
+      : tokens_(text, file), builder_(file), options_(options) {}
 
   NffResult read() &&;
 
@@ -29,24 +33,21 @@ class NffReader {
     void (NffReader::*read)();
   };
   static const std::array<Command, 8> kCommands;
-  const Command* next_command() const;
+  std::optional<Command> next_command() const;
   void skip_unknown();
+  void note(std::size_t line, const std::string& cause, const std::string& more = "");
 
   void read_view();
-  void read_view_word(std::string_view word, Camera& camera);
   void read_background();
   void read_light();
   void read_surface();
+  void read_finish();
+  void read_surface_fields(Surface surface);
   void read_sphere();
   void read_cone();
   void read_polygon() { read_corners(false); }
   void read_smooth_polygon() { read_corners(true); }
   void read_corners(bool smooth);
-
-  glm::dvec3 triple(std::string_view what) {
-    return {tokens_.number(what), tokens_.number(what), tokens_.number(what)};
-  }
-  float single(std::string_view what) { return static_cast<float>(tokens_.number(what)); }
 
   /// Runs a call of the builder and puts file and line of the command before its complaints.
   template <typename Add>
@@ -54,14 +55,15 @@ class NffReader {
     try {
       call();
     } catch (const InputError& error) {
-      tokens_.refuse(line_, error.what());
+      tokens_.refuse(command_.line, error.what());
     }
   }
 
   NffTokens tokens_;
   SceneBuilder builder_;
-  std::vector<std::string> warnings_;
-  std::size_t line_ = 1;      // of the command being read
+  NffOptions options_;
+  NffNotes notes_;
+  NffToken command_;          // the one being read
   bool any_command_ = false;  // what precedes the first command may be the header of an e-mail
   std::size_t view_count_ = 0;
 };
@@ -85,27 +87,29 @@ NffResult NffReader::read() && {
         "to Haines's Neutral File Format");
   }
   while (!tokens_.at_end()) {
-    const Command* command = next_command();
-    if (command == nullptr) {
+    const std::optional<Command> command = next_command();
+    if (!command) {
       skip_unknown();
       continue;
     }
     any_command_ = true;
-    line_ = tokens_.take().line;
+    command_ = tokens_.take();
     (this->*command->read)();
   }
   if (!any_command_) {
     tokens_.refuse(1, "there is no NFF command (v, b, l, f, s, c, p or pp) in the file");
   }
-  return {std::move(builder_).build(), std::move(warnings_)};
+  return {std::move(builder_).build(), notes_.messages()};
 }
 
-const NffReader::Command* NffReader::next_command() const {
+std::optional<NffReader::Command> NffReader::next_command() const {
   const NffToken& token = tokens_.peek();
-  if (!token.starts_line) return nullptr;
-  const auto command = std::find_if(kCommands.begin(), kCommands.end(),
-                                    [&](const Command& c) { return c.word == token.text; });
-  return command == kCommands.end() ? nullptr : &*command;
+  if (!token.starts_line) return std::nullopt;
+  const auto* const command = std::find_if(kCommands.begin(), kCommands.end(),
+                                           [&](const Command& c) { return c.word == token.text; });
+  if (command != kCommands.end()) return *command;
+  if (find_finish(token.text)) return Command{token.text, &NffReader::read_finish};
+  return std::nullopt;
 }
 
 void NffReader::skip_unknown() {
@@ -113,90 +117,77 @@ void NffReader::skip_unknown() {
   if (any_command_ && tokens_.at_number()) {
     tokens_.refuse(unknown.line, fmt::format("the number '{}' stands where a command should; the "
                                              "command at line {} takes fewer numbers",
-                                             unknown.text, line_));
+                                             unknown.text, command_.line));
   }
-  while (!tokens_.at_end() && next_command() == nullptr) tokens_.take();
+  while (!tokens_.at_end() && !next_command()) tokens_.take();
   const std::string end =
       tokens_.at_end() ? "the end of the file" : fmt::format("line {}", tokens_.peek().line);
-  warnings_.push_back(tokens_.located(
-      unknown.line, fmt::format("unknown word '{}', skipped up to {}", unknown.text, end)));
+  note(unknown.line, fmt::format("unknown word '{}'", unknown.text), ", skipped up to " + end);
+}
+
+/// Remarks on something that the file can be read in spite of.
+void NffReader::note(std::size_t line, const std::string& cause, const std::string& more) {
+  if (options_.strict) {
+    tokens_.refuse(line, cause + "; correct the file, or read it without --strict");
+  }
+  notes_.add(cause, tokens_.located(line, cause + more));
 }
 
 void NffReader::read_view() {
-  static constexpr std::array<std::string_view, 6> kWords = {"from",  "at",         "up",
-                                                             "angle", "resolution", "hither"};
-  constexpr std::size_t kRequired = 5;
-  std::array<bool, kWords.size()> seen{};
-  Camera camera;
-  if (view_count_++ > 0) camera.name = fmt::format("view {}", view_count_);
-  while (true) {
-    const auto word = std::find(kWords.begin(), kWords.end(), tokens_.peek().text);
-    if (word == kWords.end()) break;
-    seen[static_cast<std::size_t>(word - kWords.begin())] = true;
-    tokens_.take();
-    read_view_word(*word, camera);
+  Camera camera = read_nff_view(tokens_, command_);
+  if (camera.name.empty()) {
+    camera.name = view_count_ == 0 ? "default" : fmt::format("view {}", view_count_ + 1);
   }
-  for (std::size_t i = 0; i < kRequired; ++i) {
-    if (!seen[i]) {
-      tokens_.refuse(line_, fmt::format("the view has no '{}'; v takes from, at, up, angle, hither "
-                                        "and resolution, each on a line",
-                                        kWords[i]));
-    }
-  }
+  ++view_count_;
   add([&] { builder_.add_camera(camera); });
 }
 
-void NffReader::read_view_word(std::string_view word, Camera& camera) {
-  if (word == "from") {
-    camera.from = triple("the eye");
-  } else if (word == "at") {
-    camera.at = triple("the point looked at");
-  } else if (word == "up") {
-    camera.up = triple("the up vector");
-  } else if (word == "angle") {
-    camera.angle = single("the angle");
-  } else if (word == "hither") {
-    camera.hither = single("the hither distance");
-  } else {
-    camera.width = static_cast<int>(tokens_.integer("the width in pixels"));
-    camera.height = static_cast<int>(tokens_.integer("the height in pixels"));
-  }
-}
-
 void NffReader::read_background() {
-  const glm::dvec3 color = triple("the background colour");
+  const glm::dvec3 color = tokens_.triple("the background colour");
   add([&] { builder_.set_background(color); });
 }
 
 void NffReader::read_light() {
-  const glm::dvec3 position = triple("the light's position");
+  const glm::dvec3 position = tokens_.triple("the light's position");
   glm::dvec3 color(1.0);
-  if (tokens_.at_number()) color = triple("the light's colour");
+  if (tokens_.at_number()) color = tokens_.triple("the light's colour");
   add([&] { builder_.add_light(position, color); });
 }
 
 void NffReader::read_surface() {
-  Surface surface;
-  surface.color = triple("the colour");
+  if (!tokens_.at_number()) tokens_.number("the colour");  // refuses
+  read_surface_fields({});
+}
+
+void NffReader::read_finish() {
+  read_surface_fields(finished_surface(*find_finish(command_.text)));
+}
+
+/// Numbers that are given replace the surface's own.
+void NffReader::read_surface_fields(Surface surface) {
+  if (tokens_.at_number()) surface.color = tokens_.triple("the colour");
   for (float* field : {&surface.diffuse, &surface.specular, &surface.shine, &surface.transmittance,
                        &surface.refraction_index}) {
     if (!tokens_.at_number()) break;
-    *field = single("a factor of the surface");
+    *field = tokens_.number("a factor of the surface");
   }
-  if (tokens_.at_number()) single("the ninth field of the surface");  // of no known meaning
+  if (tokens_.at_number()) {
+    note(command_.line, "the ninth field of a surface has no known meaning and is ignored");
+    tokens_.number("the ninth field of the surface");
+  }
   add([&] { builder_.set_surface(surface); });
 }
 
 void NffReader::read_sphere() {
-  const glm::dvec3 center = triple("the sphere's centre");
+  const glm::dvec3 center = tokens_.triple("the sphere's centre");
   const double radius = tokens_.number("the sphere's radius");
   add([&] { builder_.add_sphere(center, radius); });
 }
 
 void NffReader::read_cone() {
-  const glm::dvec3 base = triple("the cone's base");
+  const glm::dvec3 base = tokens_.triple("the cone's base");
   const double base_radius = tokens_.number("the cone's base radius");
-  const glm::dvec3 apex = triple("the cone's apex");
+  const glm::dvec3 apex = tokens_.triple("the cone's apex");
   const double apex_radius = tokens_.number("the cone's apex radius");
   add([&] { builder_.add_cone(base, base_radius, apex, apex_radius); });
 }
@@ -204,11 +195,12 @@ void NffReader::read_cone() {
 void NffReader::read_corners(bool smooth) {
   const long count = tokens_.integer("the number of vertices");
   if (count < 3) {
-    tokens_.refuse(line_, fmt::format("a polygon of {} vertices; it must have at least 3", count));
+    tokens_.refuse(command_.line,
+                   fmt::format("a polygon of {} vertices; it must have at least 3", count));
   }
   const auto size = static_cast<std::size_t>(count);
   if (size > tokens_.most_numbers_left() / (smooth ? 6 : 3)) {
-    tokens_.refuse(line_,
+    tokens_.refuse(command_.line,
                    fmt::format("a polygon of {} vertices, more than the rest of the file can "
                                "hold; is the file cut off?",
                                count));
@@ -218,19 +210,27 @@ void NffReader::read_corners(bool smooth) {
   vertices.reserve(size);
   normals.reserve(smooth ? size : 0);
   for (std::size_t i = 0; i < size; ++i) {
-    vertices.push_back(triple("a vertex"));
-    if (smooth) normals.push_back(triple("a normal"));
+    vertices.push_back(tokens_.triple("a vertex"));
+    if (smooth) normals.push_back(tokens_.triple("a normal"));
   }
+  const Repairs before = builder_.repairs();
   add([&] { builder_.add_polygon(vertices, normals); });
+  const Repairs& after = builder_.repairs();
+  if (after.merged_corners > before.merged_corners) {
+    note(command_.line, "a polygon has consecutive corners at the same place, taken as one");
+  }
+  if (after.replaced_normals > before.replaced_normals) {
+    note(command_.line, "a polygon has a normal of length 0, its own taken instead");
+  }
 }
 
 }  // namespace
 
-NffResult parse_nff(std::string_view text, const std::string& file) {
-  return NffReader(text, file).read();
+NffResult parse_nff(std::string_view text, const std::string& file, NffOptions options) {
+  return NffReader(text, file, options).read();
 }
 
-NffResult read_nff(const std::filesystem::path& path) {
+NffResult read_nff(const std::filesystem::path& path, NffOptions options) {
   const std::string file = path.string();
   if (std::filesystem::is_directory(path)) {
     throw InputError(file + ": this is a folder; name an NFF file in it");
@@ -243,7 +243,7 @@ NffResult read_nff(const std::filesystem::path& path) {
     throw InputError(fmt::format("{}: the file cannot be read ({}); check the path", file,
                                  std::generic_category().message(errno)));
   }
-  return parse_nff(text.view(), file);
+  return parse_nff(text.view(), file, options);
 }
 
 }  // namespace beambench

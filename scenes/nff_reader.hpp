@@ -10,20 +10,27 @@
 
 namespace beambench {
 
-/// A scene read from NFF and what was noticed on the way (unknown words that were skipped,
-/// repaired primitives), each as `file:line: message`.
+/// How to read: strictly, whatever would give a warning is an error.
+struct NffOptions {
+  bool strict = false;
+};
+
+/// A scene read from NFF and what was noticed on the way (unknown words that were skipped, fields
+/// that were ignored, repaired polygons), each as `file:line: message`; what happened often is told
+/// once, with a count.
 struct NffResult {
   Scene scene;
   std::vector<std::string> warnings;
 };
 
-/// Parses NFF text (Haines, "A Proposal for Standard Graphics Environments", 1987; quirks of files
-/// in the wild are listed in the README). `file` is used in messages and as the scene's name.
-/// Throws InputError with file, line and word when the text is malformed or truncated, when a
-/// primitive is degenerate or a number is not finite, and for Sense8 WTK files (first word `nff`).
-NffResult parse_nff(std::string_view text, const std::string& file);
+/// Parses NFF text (Haines, "A Proposal for Standard Graphics Environments", 1987, with the words
+/// that the thesis adds; quirks of files in the wild are listed in the README). `file` is used in
+/// messages and as the scene's name. Throws InputError with file, line and word when the text is
+/// malformed or truncated, when a primitive is degenerate or a number is not finite, for Sense8 WTK
+/// files (first word `nff`), and for what the options do not allow.
+NffResult parse_nff(std::string_view text, const std::string& file, NffOptions options = {});
 
 /// Reads and parses a file; throws InputError also when it cannot be read.
-NffResult read_nff(const std::filesystem::path& path);
+NffResult read_nff(const std::filesystem::path& path, NffOptions options = {});
 
 }  // namespace beambench

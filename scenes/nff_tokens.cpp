@@ -18,19 +18,24 @@ bool is_blank(char c) {
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-/// The number that the whole word is, or NaN.
-double parse(std::string_view word) {
-  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+/// Whether a decimal number that no float or double can hold is too small for them, not too large.
+bool too_small(std::string_view word) {
+  const std::size_t exponent = word.find_first_of("eE");
+  if (exponent != std::string_view::npos) return word.substr(exponent + 1).starts_with('-');
+  const std::size_t first = word.find_first_not_of("-0");
+  return first != std::string_view::npos && word[first] == '.';
+}
+
+/// The number that the whole word is, rounded once, or NaN.
+template <typename Number>
+Number parse(std::string_view word) {
+  constexpr Number kNone = std::numeric_limits<Number>::quiet_NaN();
   if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
   const char* end = word.data() + word.size();
-  double number = kNone;
+  Number number = kNone;
   const auto [rest, error] = std::from_chars(word.data(), end, number);
   if (rest != end) return kNone;
-  if (error == std::errc::result_out_of_range) {
-    const std::size_t exponent = word.find_first_of("eE");  // 1e-400 is as good as 0
-    return exponent != std::string_view::npos && word.substr(exponent + 1).starts_with('-') ? 0.0
-                                                                                            : kNone;
-  }
+  if (error == std::errc::result_out_of_range) return too_small(word) ? Number{0} : kNone;
   return error == std::errc() ? number : kNone;
 }
 
@@ -45,6 +50,7 @@ NffTokens::NffTokens(std::string_view text, std::string file)
 void NffTokens::advance() {
   bool starts_line = position_ == end_ || token_.text.empty();
   for (; position_ != end_; ++position_) {
+    if (starts_line && at_own_comment()) position_ += kOwnComment.size();
     if (*position_ == '#') {
       while (position_ != end_ && *position_ != '\n') ++position_;
       if (position_ == end_) break;
@@ -59,6 +65,12 @@ void NffTokens::advance() {
   while (position_ != end_ && !is_blank(*position_) && *position_ != '#') ++position_;
   token_.text = std::string_view(start, static_cast<std::size_t>(position_ - start));
   token_.starts_line = starts_line;
+}
+
+bool NffTokens::at_own_comment() const {
+  const std::string_view rest(position_, static_cast<std::size_t>(end_ - position_));
+  return rest.starts_with(kOwnComment) && rest.size() > kOwnComment.size() &&
+         is_blank(rest[kOwnComment.size()]);
 }
 
 NffToken NffTokens::take() {
@@ -80,10 +92,11 @@ std::size_t NffTokens::most_numbers_left() const {
   return (bytes + 1) / 2;  // a digit and a blank each
 }
 
-double NffTokens::number(std::string_view what) {
+template <typename Number>
+Number NffTokens::take_number(std::string_view what) {
   if (at_end()) refuse(token_.line, fmt::format("the file ends where {} should stand", what));
-  const double number = parse(token_.text);
-  if (!(std::abs(number) <= kLargestNumber)) {
+  const Number number = parse<Number>(token_.text);
+  if (!(std::abs(number) <= static_cast<Number>(kLargestNumber))) {
     refuse(token_.line, fmt::format("'{}' stands where {} should be a number from -1e9 to 1e9",
                                     token_.text, what));
   }
@@ -91,13 +104,34 @@ double NffTokens::number(std::string_view what) {
   return number;
 }
 
+float NffTokens::number(std::string_view what) { return take_number<float>(what); }
+
+glm::vec3 NffTokens::triple(std::string_view what) {
+  const float x = number(what);
+  const float y = number(what);
+  const float z = number(what);
+  return {x, y, z};
+}
+
 long NffTokens::integer(std::string_view what) {
   const NffToken token = token_;
-  const double real = number(what);
+  const auto real = take_number<double>(what);
   if (real != std::floor(real)) {
     refuse(token.line, fmt::format("'{}' stands where {} should be an integer", token.text, what));
   }
   return static_cast<long>(real);
+}
+
+std::string_view NffTokens::rest_of_line(const NffToken& word, std::string_view what) {
+  if (at_end() || token_.line != word.line) {
+    refuse(word.line, fmt::format("{} should stand after '{}' on its line", what, word.text));
+  }
+  const char* start = token_.text.data();
+  while (position_ != end_ && *position_ != '\n' && *position_ != '#') ++position_;
+  std::string_view rest(start, static_cast<std::size_t>(position_ - start));
+  while (is_blank(rest.back())) rest.remove_suffix(1);
+  advance();
+  return rest;
 }
 
 std::string NffTokens::located(std::size_t line, std::string_view message) const {

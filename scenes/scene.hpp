@@ -10,6 +10,7 @@
 #include "scenes/bounds.hpp"
 #include "scenes/camera.hpp"
 #include "scenes/primitive.hpp"
+#include "scenes/surface.hpp"
 
 namespace beambench {
 
@@ -17,18 +18,6 @@ namespace beambench {
 struct Light {
   glm::vec3 position;
   glm::vec3 color{1.0F};
-};
-
-/// NFF's `f`: colour, diffuse and specular factors, Phong exponent, transmittance, index.
-struct Surface {
-  glm::vec3 color{1.0F};
-  float diffuse = 1.0F;
-  float specular = 0.0F;
-  float shine = 0.0F;
-  float transmittance = 0.0F;
-  float refraction_index = 1.0F;
-
-  bool operator==(const Surface&) const = default;
 };
 
 /// A scene in single precision, rounded once, the same bits for everyone. Made by `SceneBuilder`,

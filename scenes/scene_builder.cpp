@@ -90,21 +90,51 @@ glm::dvec3 polygon_normal(std::span<const glm::vec3> corners) {
   return glm::normalize(normal);
 }
 
+/// The merged corners' normals; `replaced` counts those of length 0.
 std::vector<glm::vec3> corner_normals(const MergedCorners& corners,
-                                      std::span<const glm::dvec3> normals, const Subject& subject) {
+                                      std::span<const glm::dvec3> normals, const Subject& subject,
+                                      std::size_t& replaced) {
   std::vector<glm::vec3> kept;
   kept.reserve(corners.sources.size());
   for (const std::size_t source : corners.sources) {
     glm::vec3 normal = rounded(normals[source], subject, "normal");
-    if (normal == glm::vec3(0.0F)) normal = polygon_normal(corners.positions);
+    if (normal == glm::vec3(0.0F)) {
+      normal = rounded(polygon_normal(corners.positions), subject, "normal");
+      ++replaced;
+    }
     kept.push_back(normal);
   }
   return kept;
 }
 
+/// Camera names are typed on command lines and stand in a line of NFF.
+void require_plain_name(const std::string& name, const Subject& subject) {
+  const bool plain = std::none_of(
+      name.begin(), name.end(), [](unsigned char c) { return c < ' ' || c == '\x7F' || c == '#'; });
+  if (!plain || name.empty() || name.front() == ' ' || name.back() == ' ') {
+    refuse(subject, fmt::format("the name is '{}', but must be a line of text without '#' and "
+                                "without blanks at its ends",
+                                name));
+  }
+}
+
 template <typename T>
 void append(std::vector<T>& list, const std::vector<T>& more) {
   list.insert(list.end(), more.begin(), more.end());
+}
+
+/// The eye that far from the centre, but no coordinate beyond the limit: where there is no room, it
+/// is put on the origin's side or nearer.
+glm::dvec3 fitted_eye(const glm::dvec3& center, double distance) {
+  glm::dvec3 direction = glm::normalize(glm::dvec3(1.0, 0.8, 1.3));
+  double room = distance;
+  for (int axis = 0; axis < 3; ++axis) {
+    const bool too_far = center[axis] + distance * direction[axis] > kLargestNumber;
+    if (too_far && center[axis] > 0.0) direction[axis] = -direction[axis];
+    const double beside = kLargestNumber - std::copysign(1.0, direction[axis]) * center[axis];
+    room = std::min(room, beside / std::abs(direction[axis]));
+  }
+  return center + room * direction;
 }
 
 Camera fitted_camera(const Bounds& bounds) {
@@ -118,7 +148,7 @@ Camera fitted_camera(const Bounds& bounds) {
   const glm::dvec3 farthest = glm::max(glm::abs(lower), glm::abs(upper));
   const double radius = std::max(0.5 * glm::length(upper - lower), 1e-5 * glm::length(farthest));
   const double distance = radius / std::sin(0.5 * glm::radians(static_cast<double>(camera.angle)));
-  camera.from = center + distance * glm::normalize(glm::dvec3(1.0, 0.8, 1.3));
+  camera.from = fitted_eye(center, distance);
   camera.at = center;
   return camera;
 }
@@ -129,13 +159,13 @@ SceneBuilder::SceneBuilder(std::string name) { scene_.name = std::move(name); }
 
 void SceneBuilder::set_surface(const Surface& surface) {
   const Subject subject{"surface {}", scene_.surfaces.size()};
-  rounded(glm::dvec3(surface.color), subject, "colour");
-  for (const float factor : {surface.diffuse, surface.specular, surface.shine,
-                             surface.transmittance, surface.refraction_index}) {
-    rounded(factor, subject, "factor");
+  Surface checked = surface;
+  checked.color = rounded(glm::dvec3(surface.color), subject, "colour");
+  for (float* factor : {&checked.diffuse, &checked.specular, &checked.shine, &checked.transmittance,
+                        &checked.refraction_index}) {
+    *factor = rounded(*factor, subject, "factor");
   }
-  surface_changed_ = surface_changed_ || surface != surface_;
-  surface_ = surface;
+  surface_ = checked;
 }
 
 void SceneBuilder::set_background(const glm::dvec3& color) {
@@ -154,6 +184,7 @@ void SceneBuilder::add_camera(const Camera& camera) {
                           rounded(glm::dvec3(camera.from), subject, "eye");
   const glm::dvec3 up = rounded(glm::dvec3(camera.up), subject, "up vector");
   rounded(camera.hither, subject, "hither distance");
+  require_plain_name(camera.name, subject);
   if (!(camera.angle > 0.0F && camera.angle < 180.0F)) {
     refuse(subject,
            fmt::format("the angle is {}, but must be between 0 and 180 degrees", camera.angle));
@@ -238,8 +269,9 @@ void SceneBuilder::add_polygon(std::span<const std::uint32_t> vertices,
   if (triangles.empty()) {
     refuse(subject, "it has no area: its corners lie on a line, or it crosses itself; remove it");
   }
+  std::size_t replaced = 0;
   std::vector<glm::vec3> kept_normals;
-  if (!normals.empty()) kept_normals = corner_normals(corners, normals, subject);
+  if (!normals.empty()) kept_normals = corner_normals(corners, normals, subject, replaced);
 
   index_32(scene_.corners.size() + corners.vertices.size(), subject);
   const PrimitiveId id = index_32(primitive_count(), subject);
@@ -252,6 +284,8 @@ void SceneBuilder::add_polygon(std::span<const std::uint32_t> vertices,
       normals.empty() ? Polygon::kFlat : static_cast<std::uint32_t>(scene_.normals.size());
   add_primitive(PrimitiveKind::kPolygon, scene_.polygons.size());
   scene_.polygons.push_back(polygon);
+  repairs_.merged_corners += vertices.size() - corners.vertices.size();
+  repairs_.replaced_normals += replaced;
   append(scene_.corners, corners.vertices);
   append(scene_.normals, kept_normals);
   for (const auto& [a, b, c] : triangles) {
@@ -280,8 +314,9 @@ void SceneBuilder::add_polygon(std::span<const glm::dvec3> vertices,
 }
 
 std::uint32_t SceneBuilder::current_surface() {
-  if (surface_changed_) scene_.surfaces.push_back(surface_);
-  surface_changed_ = false;
+  if (scene_.surfaces.empty() || scene_.surfaces.back() != surface_) {
+    scene_.surfaces.push_back(surface_);
+  }
   return static_cast<std::uint32_t>(scene_.surfaces.size() - 1);
 }
 

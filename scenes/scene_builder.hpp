@@ -1,6 +1,7 @@
 #pragma once
 // The door every scene comes in by: rounds to float once and refuses what no kernel may see.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -13,6 +14,12 @@ namespace beambench {
 
 /// No coordinate, radius or factor of a scene may be larger than this in size.
 inline constexpr double kLargestNumber = 1e9;
+
+/// How often a builder set something right instead of refusing it.
+struct Repairs {
+  std::size_t merged_corners = 0;    ///< of polygons: at the place of the corner before
+  std::size_t replaced_normals = 0;  ///< of length 0, by the polygon's own
+};
 
 /// Collects primitives into a `Scene`. Each add_* rounds its numbers to float, checks them and
 /// throws `InputError` naming the primitive (by kind and the id it would have had) when a number is
@@ -27,7 +34,8 @@ class SceneBuilder {
   void set_background(const glm::dvec3& color);
   void add_light(const glm::dvec3& position, const glm::dvec3& color = glm::dvec3(1.0));
   /// Throws when the angle is not in (0, 180), from == at, up is parallel to the view, or the
-  /// resolution is not from 1x1 to 65535x65535.
+  /// resolution is not from 1x1 to 65535x65535, or the name is not one line of text without '#' and
+  /// without blanks at its ends.
   void add_camera(const Camera& camera);
 
   /// A negative radius means seen from the inside only; 0 is refused.
@@ -48,9 +56,11 @@ class SceneBuilder {
   void add_polygon(std::span<const glm::dvec3> vertices, std::span<const glm::dvec3> normals = {});
 
   std::size_t primitive_count() const { return scene_.primitives.size(); }
+  const Repairs& repairs() const { return repairs_; }
 
   /// The finished scene. Without a camera, one is fitted to the bounds: from the direction
-  /// (1, 0.8, 1.3), up +z as in most NFF files, angle 45, the whole scene in view.
+  /// (1, 0.8, 1.3), up +z as in most NFF files, angle 45, the whole scene in view as far as the eye
+  /// can be moved back within the limit of coordinates.
   Scene build() &&;
 
  private:
@@ -59,7 +69,7 @@ class SceneBuilder {
 
   Scene scene_;
   Surface surface_;
-  bool surface_changed_ = true;
+  Repairs repairs_;
 };
 
 }  // namespace beambench

@@ -90,6 +90,9 @@ TEST(SceneBuilder, RefusesBadCameras) {
   EXPECT_TRUE(says(camera([](Camera& c) { c.up = {0, 0, 0}; }), {"up vector is 0"}));
   EXPECT_TRUE(says(camera([](Camera& c) { c.width = 0; }), {"0 x 512"}));
   EXPECT_TRUE(says(camera([](Camera& c) { c.aspect = 0.0F; }), {"aspect"}));
+  for (const char* name : {"", " side", "side ", "two\nlines", "a\tb", "#1"}) {
+    EXPECT_TRUE(says(camera([&](Camera& c) { c.name = name; }), {"camera 0", "name"})) << name;
+  }
 }
 
 TEST(SceneBuilder, RefusesBadSurfacesLightsAndBackgrounds) {
@@ -168,6 +171,9 @@ TEST(SceneBuilder, SurfacesFollowTheirPrimitives) {
   builder.add_sphere({0, 0, 0}, 1.0);
   builder.set_surface({.color = {0, 1, 0}});
   builder.add_sphere({0, 0, 0}, 1.0);
+  builder.set_surface({.color = {0, 0, 1}});
+  builder.set_surface({.color = {0, 1, 0}});
+  builder.add_sphere({0, 0, 0}, 1.0);
   const Scene scene = std::move(builder).build();
   ASSERT_EQ(scene.surfaces.size(), 2U) << "unused and repeated surfaces are left out";
   EXPECT_EQ(scene.surfaces[scene.primitives[0].surface].color, glm::vec3(1, 1, 1));
@@ -196,6 +202,18 @@ TEST(SceneBuilder, FittedCameraSeesAllCorners) {
       if ((corner >> axis & 1) != 0) point[axis] = scene.bounds.upper[axis];
     }
     EXPECT_GE(glm::dot(glm::normalize(point - camera.from), forward), least_cosine);
+  }
+}
+
+TEST(SceneBuilder, FittedEyeStaysWithinTheLimit) {
+  for (const double place : {-1e9, -5e8, 0.0, 5e8, 1e9}) {
+    for (const double radius : {1e-3, 1e6, 1e9}) {
+      SceneBuilder builder("test");
+      builder.add_sphere({place, -place, place}, radius);
+      const Camera camera = std::move(builder).build().cameras[0];
+      SceneBuilder again("again");
+      EXPECT_NO_THROW(again.add_camera(camera)) << place << ' ' << radius;
+    }
   }
 }
 
