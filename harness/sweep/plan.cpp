@@ -1,6 +1,7 @@
 #include "harness/sweep/plan.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <set>
 
 #include <fmt/format.h>
@@ -15,7 +16,10 @@ namespace {
 
 std::shared_ptr<const Scene> load(const SceneEntry& entry) {
   try {
-    return std::make_shared<const Scene>(load_scene(entry.spec));
+    std::vector<std::string> warnings;
+    auto scene = std::make_shared<const Scene>(load_scene(entry.spec, &warnings));
+    for (const std::string& warning : warnings) fmt::print(stderr, "beambench: {}\n", warning);
+    return scene;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", entry.place, error.what()));
   }
