@@ -104,7 +104,7 @@ void add_statistics(Row& row, const CellRecord& cell) {
 }
 
 void add_counters(Row& row, const CellRecord& cell) {
-  const double rays = static_cast<double>(cell.rays.rays);
+  const auto rays = static_cast<double>(cell.rays.rays);
   for (const std::string_view name : kCounterNames) {
     const auto found = cell.counters.find(name);
     row[fmt::format("{}_per_ray", name)] =

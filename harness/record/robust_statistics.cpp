@@ -19,11 +19,11 @@ std::vector<double> sorted(std::span<const double> samples) {
 /// How many of the smallest (and of the largest) of n samples lie outside the interval: the
 /// largest k with P(B(n, 1/2) < k) <= kTail.
 std::size_t samples_outside(std::size_t n) {
-  const double count = static_cast<double>(n);
+  const auto count = static_cast<double>(n);
   double cumulative = 0.0;
   std::size_t k = 0;
   while (k < n) {
-    const double chosen = static_cast<double>(k);
+    const auto chosen = static_cast<double>(k);
     const double log_probability = std::lgamma(count + 1.0) - std::lgamma(chosen + 1.0) -
                                    std::lgamma(count - chosen + 1.0) - count * std::log(2.0);
     cumulative += std::exp(log_probability);

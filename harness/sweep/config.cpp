@@ -18,7 +18,7 @@ constexpr double kMaxBudgetSeconds = 1e7;  // some four months
 /// The name ends up in run ids and folder names.
 std::string read_name(const JsonNode& node) {
   constexpr std::size_t kMaxLength = 64;
-  const std::string name = node.text();
+  std::string name = node.text();
   const auto is_plain = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
   };

@@ -145,8 +145,10 @@ void Contender::judge_first() {
   record_.diff = judge(question_->reference(), buffer, cell_->structure.info().conformance);
   record_.verdict = to_string(record_.diff->verdict);
   if (!record_.keeps_times()) {
+    const ReplayCommand replay(question_->scene(), cell_->id.camera, cell_->structure,
+                               question_->rays());
     for (const Mismatch& example : record_.diff->examples) {
-      record_.examples.push_back(describe(question_->scene(), example));
+      record_.examples.push_back(describe(question_->scene(), example, replay));
     }
     return fail(record_.verdict, mismatch_message(*record_.diff));
   }

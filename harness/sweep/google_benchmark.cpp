@@ -101,6 +101,7 @@ GoogleBenchmark::GoogleBenchmark(const BenchmarkFlags& flags) {
                                      "--benchmark_out="};
   arguments.insert(arguments.end(), flags.passed_on.begin(), flags.passed_on.end());
   std::vector<char*> pointers;
+  pointers.reserve(arguments.size());
   for (std::string& argument : arguments) pointers.push_back(argument.data());
   int count = static_cast<int>(pointers.size());
   benchmark::Initialize(&count, pointers.data());

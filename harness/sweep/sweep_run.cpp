@@ -101,7 +101,7 @@ class SweepRun {
     std::vector<Contender> contenders;
     for (const PlannedCell& cell : group.cells) contenders.emplace_back(cell, question).count();
     // The oracle's and the counting passes' time is the group's own.
-    const double cells = static_cast<double>(group.cells.size());
+    const auto cells = static_cast<double>(group.cells.size());
     const double allowance_ms = std::max(share_ms - elapsed_ms(begin) / cells, 0.0);
     const StoppingRule stopping{config_.precision, config_.minimum_repetitions,
                                 config_.maximum_repetitions};

@@ -1,10 +1,9 @@
 // Whole sweeps over tiny scenes: what is right keeps its times, what is wrong loses them, and what
 // is finished is not repeated.
 
-#include <atomic>
+#include <algorithm>
 #include <cstdio>
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -23,8 +22,13 @@ namespace {
 
 using nlohmann::json;
 
-/// What a broken structure does to the buffer; `pass` counts its traces, the counting one included.
-using Fault = std::function<void(HitBuffer&, int pass)>;
+/// A trace that a broken structure spoils.
+struct Traced {
+  HitBuffer& buffer;        ///< with the right hits
+  const HitBuffer& before;  ///< what was in it before
+  int pass;                 ///< counts the traces, the counting one included
+};
+using Fault = std::function<void(const Traced&)>;
 
 /// `exhaustive` with a fault.
 class FaultyAccelerator : public Accelerator {
@@ -37,8 +41,9 @@ class FaultyAccelerator : public Accelerator {
   std::optional<Hit> closest_hit(const Ray& ray) const override { return right_->closest_hit(ray); }
   bool any_hit(const Ray& ray) const override { return right_->any_hit(ray); }
   void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
+    const HitBuffer before = buffer;
     right_->trace(rays, buffer);
-    fault_(buffer, (*passes_)++);
+    fault_({buffer, before, (*passes_)++});
   }
   std::optional<Hit> closest_hit(const Ray& ray, WorkCounters& counters) const override {
     return right_->closest_hit(ray, counters);
@@ -47,8 +52,9 @@ class FaultyAccelerator : public Accelerator {
     return right_->any_hit(ray, counters);
   }
   void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const override {
+    const HitBuffer before = buffer;
     right_->trace(rays, buffer, counters);
-    fault_(buffer, (*passes_)++);
+    fault_({buffer, before, (*passes_)++});
   }
   Statistics statistics() const override { return right_->statistics(); }
 
@@ -58,11 +64,7 @@ class FaultyAccelerator : public Accelerator {
   std::shared_ptr<int> passes_;
 };
 
-void for_each_hit(HitBuffer& buffer, const std::function<void(std::size_t)>& change) {
-  for (std::size_t i = 0; i < buffer.size(); ++i) {
-    if (buffer.get(i)) change(i);
-  }
-}
+void drop_one_hit(HitBuffer& buffer) { buffer.set(buffer.index(16, 10, 0), std::nullopt); }
 
 class Sweep : public testing::Test {
  protected:
@@ -70,7 +72,7 @@ class Sweep : public testing::Test {
     for (const StructureInfo& info : beambench::registry().structures()) structures_.add(info);
   }
 
-  void add_faulty(Fault fault) {
+  void add_faulty(const Fault& fault) {
     const auto passes = std::make_shared<int>(0);
     structures_.add({"faulty",
                      "A broken structure.",
@@ -208,35 +210,35 @@ TEST_P(PlantedSweepFault, LosesItsTimesAndNobodyElses) {
 INSTANTIATE_TEST_SUITE_P(
     , PlantedSweepFault,
     testing::Values(Planted{"ShiftedT",
-                            [](HitBuffer& buffer, int) {
-                              for_each_hit(buffer, [&](std::size_t i) { buffer.t()[i] *= 1.001F; });
+                            [](const Traced& traced) {
+                              for (std::size_t i = 0; i < traced.buffer.size(); ++i) {
+                                if (traced.buffer.get(i)) traced.buffer.t()[i] *= 1.001F;
+                              }
                             },
                             "wrong hit"},
                     Planted{"OneDroppedHit",
-                            [](HitBuffer& buffer, int) {
-                              buffer.set(buffer.index(16, 10, 0), std::nullopt);
-                            },
+                            [](const Traced& traced) { drop_one_hit(traced.buffer); },
                             "1 of 640 rays got a wrong hit"},
-                    Planted{"OneSampleLeftUnwritten",
-                            [](HitBuffer& buffer, int) {
-                              buffer.t()[0] = std::numeric_limits<float>::quiet_NaN();
-                              buffer.primitive()[0] = kNoPrimitive - 1;
+                    Planted{"OneSampleLeftAsItWas",
+                            [](const Traced& traced) {
+                              traced.buffer.t()[0] = traced.before.t()[0];
+                              traced.buffer.primitive()[0] = traced.before.primitive()[0];
                             },
                             "1 of 640 rays got a wrong hit"},
                     Planted{"AnotherAnswerInTheThirdRepetition",
-                            [](HitBuffer& buffer, int pass) {
-                              if (pass == 3) buffer.set(buffer.index(16, 10, 0), std::nullopt);
+                            [](const Traced& traced) {
+                              if (traced.pass == 3) drop_one_hit(traced.buffer);
                             },
                             "repetition 3 wrote other hits"},
                     Planted{"AnotherAnswerWhileCounting",
-                            [](HitBuffer& buffer, int pass) {
-                              if (pass == 0) buffer.set(buffer.index(16, 10, 0), std::nullopt);
+                            [](const Traced& traced) {
+                              if (traced.pass == 0) drop_one_hit(traced.buffer);
                             },
                             "the counting pass found other hits"}),
     [](const auto& planted) { return planted.param.name; });
 
 TEST_F(Sweep, AWrongHitIsDescribed) {
-  add_faulty([](HitBuffer& buffer, int) { buffer.set(buffer.index(16, 10, 0), std::nullopt); });
+  add_faulty([](const Traced& traced) { drop_one_hit(traced.buffer); });
   run(config({"faulty"}));
   ASSERT_EQ(cells()["faulty"]["examples"].size(), 1U);
   EXPECT_TRUE(says(cells()["faulty"]["examples"][0].get<std::string>(), {"16", "10"}));
@@ -255,8 +257,8 @@ TEST_F(Sweep, AStructureThatCannotBeBuiltIsAnErrorAndTheRunGoesOn) {
 }
 
 TEST_F(Sweep, AnExceptionInATimedRepetitionEndsThatCellOnly) {
-  add_faulty([](HitBuffer&, int pass) {
-    if (pass == 2) throw std::runtime_error("worn out");
+  add_faulty([](const Traced& traced) {
+    if (traced.pass == 2) throw std::runtime_error("worn out");
   });
   run(config({"faulty", "exhaustive"}));
   EXPECT_EQ(cells()["faulty"]["row"]["verdict"], "error");
@@ -268,7 +270,7 @@ TEST_F(Sweep, AnExceptionInATimedRepetitionEndsThatCellOnly) {
 class Resume : public Sweep {
  protected:
   Resume() {
-    add_faulty([this](HitBuffer&, int) { ++traces_; });  // right, and counted
+    add_faulty([this](const Traced&) { ++traces_; });  // right, and counted
   }
   json config_ = config({"faulty", "exhaustive"});
   int traces_ = 0;
