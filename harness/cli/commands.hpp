@@ -18,6 +18,7 @@ enum ExitCode : int {
 /// thrown as InputError.
 void add_list_command(CLI::App& app, int& exit_code);
 void add_scene_command(CLI::App& app, int& exit_code);
+void add_export_command(CLI::App& app, int& exit_code);
 void add_render_command(CLI::App& app, int& exit_code);
 void add_stats_command(CLI::App& app, int& exit_code);
 void add_verify_command(CLI::App& app, int& exit_code);

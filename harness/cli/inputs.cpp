@@ -11,9 +11,9 @@
 
 namespace beambench {
 
-Scene open_scene(std::string_view spec) {
+Scene open_scene(std::string_view spec, NffOptions options) {
   std::vector<std::string> warnings;
-  Scene scene = load_scene(spec, &warnings);
+  Scene scene = load_scene(spec, &warnings, options);
   for (const std::string& warning : warnings) fmt::print(stderr, "beambench: {}\n", warning);
   return scene;
 }

@@ -6,12 +6,14 @@
 #include <vector>
 
 #include "accel/registry.hpp"
+#include "scenes/nff_reader.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench {
 
-/// Loads a scene; what its file's reader noticed goes to stderr. Throws as load_scene.
-Scene open_scene(std::string_view spec);
+/// Loads a scene; what its file's reader noticed goes to stderr, or where the options are strict,
+/// is refused. Throws as load_scene.
+Scene open_scene(std::string_view spec, NffOptions options = {});
 
 /// The camera of that name, the first where the name is empty. Throws InputError listing the names.
 const Camera& choose_camera(const Scene& scene, std::string_view name);

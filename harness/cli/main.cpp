@@ -64,8 +64,9 @@ int parse_and_run(int argc, char** argv) {
   app.footer(kExamples);
   app.get_formatter()->column_width(34);
   app.require_subcommand(1);
-  for (const auto add : {add_list_command, add_scene_command, add_render_command, add_stats_command,
-                         add_verify_command, add_run_command}) {
+  for (const auto add :
+       {add_list_command, add_scene_command, add_export_command, add_render_command,
+        add_stats_command, add_verify_command, add_run_command}) {
     add(app, exit_code);
   }
   try {

@@ -1,10 +1,14 @@
 // beambench scene: what a scene consists of.
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/commands.hpp"
@@ -28,6 +32,17 @@ std::size_t smooth_polygons(const Scene& scene) {
   return count;
 }
 
+/// The words of the finishes in use, in the order of the surfaces.
+std::vector<std::string_view> finishes_of(const Scene& scene) {
+  std::vector<std::string_view> words;
+  for (const Surface& surface : scene.surfaces) {
+    const std::string_view word = finish_word(surface.finish);
+    const bool seen = std::find(words.begin(), words.end(), word) != words.end();
+    if (surface.finish != Finish::kPlain && !seen) words.push_back(word);
+  }
+  return words;
+}
+
 void print_text(const Scene& scene) {
   const auto line = [](std::string_view name, const std::string& value) {
     fmt::print("  {:<12}  {}\n", name, value);
@@ -49,7 +64,9 @@ void print_text(const Scene& scene) {
   for (const Light& light : scene.lights) {
     line("light", fmt::format("at {}, colour {}", to_text(light.position), to_text(light.color)));
   }
-  line("surfaces", fmt::format("{}", scene.surfaces.size()));
+  const std::vector<std::string_view> finishes = finishes_of(scene);
+  line("surfaces", fmt::format("{}{}{}", scene.surfaces.size(), finishes.empty() ? "" : ", with ",
+                               fmt::join(finishes, ", ")));
   line("background", to_text(scene.background));
   line("hash", hex_digits(scene_hash(scene)));
 }
@@ -73,6 +90,7 @@ void print_json(const Scene& scene) {
            {"cameras", Json::array()},
            {"lights", Json::array()},
            {"surfaces", scene.surfaces.size()},
+           {"finishes", finishes_of(scene)},
            {"background", to_json(scene.background)},
            {"hash", hex_digits(scene_hash(scene))}};
   if (!scene.bounds.empty()) {
@@ -90,6 +108,7 @@ void print_json(const Scene& scene) {
 struct Request {
   std::string scene;
   bool json = false;
+  NffOptions options;
 };
 
 }  // namespace
@@ -99,9 +118,14 @@ void add_scene_command(CLI::App& app, int&) {
   const auto request = std::make_shared<Request>();
   command->add_option("SCENE", request->scene, "Catalogue name or path of an NFF file")->required();
   command->add_flag("--json", request->json, "Print JSON instead of text");
-  command->footer("Examples:\n  beambench scene escena1\n  beambench scene balls:n=3 --json");
+  command->add_flag("--strict", request->options.strict,
+                    "Refuse a file with unknown words, ignored fields or polygons to repair");
+  command->footer(
+      "Examples:\n"
+      "  beambench scene escena1\n"
+      "  beambench scene balls:n=3 --json");
   command->callback([request] {
-    const Scene scene = open_scene(request->scene);
+    const Scene scene = open_scene(request->scene, request->options);
     request->json ? print_json(scene) : print_text(scene);
   });
 }

@@ -77,9 +77,15 @@ void PendingFile::commit() {
 }
 
 void write_file(const fs::path& target, std::string_view text) {
+  write_file(target, [text](std::ostream& file) {
+    file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  });
+}
+
+void write_file(const fs::path& target, const std::function<void(std::ostream&)>& write) {
   PendingFile pending(target);
   std::ofstream file(pending.path(), std::ios::binary);
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
+  write(file);
   file.close();
   if (!file) {
     refuse(target, std::strerror(errno), "make room on the disk or choose another place");

@@ -2,6 +2,8 @@
 // Files that are either whole or not there.
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string_view>
 
 namespace beambench {
@@ -33,5 +35,8 @@ class PendingFile {
 
 /// Writes a text file whole or not at all. Throws InputError when it cannot be written.
 void write_file(const std::filesystem::path& target, std::string_view text);
+/// The same, for what is too long to be put together first: `write` puts it into the stream.
+void write_file(const std::filesystem::path& target,
+                const std::function<void(std::ostream&)>& write);
 
 }  // namespace beambench

@@ -1,0 +1,55 @@
+// beambench export: a scene as an NFF file.
+
+#include <cstdio>
+#include <memory>
+#include <ostream>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "harness/cli/commands.hpp"
+#include "harness/cli/inputs.hpp"
+#include "harness/files/pending_file.hpp"
+#include "scenes/error.hpp"
+#include "scenes/nff_writer.hpp"
+
+namespace beambench {
+namespace {
+
+struct Request {
+  std::string scene;
+  std::string file;
+  NffOptions options;
+};
+
+void export_scene(const Request& request) {
+  if (!request.file.ends_with(".nff")) {
+    throw InputError(
+        fmt::format("'{}': scenes are written as NFF; end the name with .nff, by which "
+                    "they are known when they are read",
+                    request.file));
+  }
+  require_writable(request.file);
+  const Scene scene = open_scene(request.scene, request.options);
+  write_file(request.file, [&](std::ostream& file) { write_nff(scene, file); });
+  fmt::print(stderr, "{}: {}, {} primitives\n", request.file, scene.name, scene.primitives.size());
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, int&) {
+  CLI::App* command = app.add_subcommand("export", "A scene as an NFF file");
+  const auto request = std::make_shared<Request>();
+  command->add_option("SCENE", request->scene, "Catalogue name or path of an NFF file")->required();
+  command->add_option("-o", request->file, "File to write, .nff")->required();
+  command->add_flag("--strict", request->options.strict,
+                    "Refuse a file with unknown words, ignored fields or polygons to repair");
+  command->footer(
+      "The file reads back as the same scene, bit for bit.\n"
+      "Examples:\n"
+      "  beambench export balls:n=3 -o balls.nff\n"
+      "  beambench scene balls.nff");
+  command->callback([request] { export_scene(*request); });
+}
+
+}  // namespace beambench
