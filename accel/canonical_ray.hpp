@@ -1,6 +1,7 @@
 #pragma once
 // A ray as the canonical ray-primitive tests see it.
 
+#include <array>
 #include <limits>
 
 #include <glm/common.hpp>
@@ -50,9 +51,9 @@ struct CanonicalRay {
   glm::dvec3 direction;
   float t_min;
   float t_max;
-  int main_axis;     ///< in which the direction is largest
-  int side_axis[2];  ///< the other two
-  double shear[2];   ///< direction on the side axes over that on the main axis
+  int main_axis;                 ///< in which the direction is largest
+  std::array<int, 2> side_axis;  ///< the other two
+  std::array<double, 2> shear;   ///< direction on the side axes over that on the main axis
 };
 
 }  // namespace beambench

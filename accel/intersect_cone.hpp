@@ -2,6 +2,7 @@
 // The canonical ray-cone test.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -51,7 +52,8 @@ inline float intersect_cone(const CanonicalRay& ray, const Cone& cone) {
   const double discriminant = b * b - a * c;
   if (discriminant < 0.0) return kMiss;
   const double q = -(b + std::copysign(std::sqrt(discriminant), b));
-  double roots[2] = {q / a, c / q};  // a or q may be 0: that root is infinite or NaN, and not taken
+  std::array<double, 2> roots{
+      q / a, c / q};  // a or q may be 0: that root is infinite or NaN, and not taken
 
   const auto off_surface = [&](double t) { return glm::length(radial.at(t)) - radius.at(t); };
   for (double& root : roots) {

@@ -2,6 +2,7 @@
 // The canonical ray-triangle test: what a polygon's surface is made of.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -16,7 +17,7 @@ namespace beambench {
 /// ray almost parallel to the plane can pass the edge tests and still meet the plane far outside:
 /// their rounding error is divided by the cosine of incidence. The box keeps points beyond an acute
 /// corner out, which the three edges alone do not.
-inline bool near_triangle(const glm::dvec3& point, const glm::dvec3 (&corners)[3],
+inline bool near_triangle(const glm::dvec3& point, const std::array<glm::dvec3, 3>& corners,
                           const glm::dvec3& normal, double reach) {
   const double slack = kHitSlack * reach;
   const glm::dvec3 lower = glm::min(glm::min(corners[0], corners[1]), corners[2]);
@@ -25,7 +26,7 @@ inline bool near_triangle(const glm::dvec3& point, const glm::dvec3 (&corners)[3
     if (point[axis] < lower[axis] - slack || point[axis] > upper[axis] + slack) return false;
   }
   const double slack_squared = slack * slack * glm::dot(normal, normal);
-  for (int i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i) {
     const glm::dvec3 edge = corners[(i + 1) % 3] - corners[i];
     const double inside = glm::dot(glm::cross(normal, edge), point - corners[i]);
     if (inside < 0.0 && inside * inside > slack_squared * glm::dot(edge, edge)) return false;
@@ -49,7 +50,7 @@ inline float intersect_triangle(const CanonicalRay& ray, const glm::vec3& v0, co
   const double w = b.x * a.y - b.y * a.x;
   if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return kMiss;
 
-  const glm::dvec3 corners[3] = {glm::dvec3(v0), glm::dvec3(v1), glm::dvec3(v2)};
+  const std::array<glm::dvec3, 3> corners{glm::dvec3(v0), glm::dvec3(v1), glm::dvec3(v2)};
   const glm::dvec3 normal = glm::cross(corners[1] - corners[0], corners[2] - corners[0]);
   const double along = glm::dot(normal, ray.direction);
   if (along == 0.0) return kMiss;

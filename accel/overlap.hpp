@@ -1,6 +1,8 @@
 #pragma once
 // Box-primitive overlap: does a primitive's surface reach into a closed box?
 
+#include <array>
+
 #include <glm/vec3.hpp>
 
 #include "scenes/scene.hpp"
@@ -30,7 +32,7 @@ bool polygon_overlaps(const Scene& scene, const Polygon& polygon, const Box& box
 
 /// Exact but for the widening at corners, by the 13 separating axes of box and triangle
 /// (Akenine-Möller, "Fast 3D triangle-box overlap testing", 2001).
-bool triangle_overlaps(const glm::dvec3 (&corners)[3], const Box& box, double tolerance);
+bool triangle_overlaps(const std::array<glm::dvec3, 3>& corners, const Box& box, double tolerance);
 
 /// Conservative: the box of the end discs, the planes of the ends, the distance to the axis and,
 /// inside, the corners against the solid cone.

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -47,7 +48,7 @@ std::uint32_t outcode(const glm::dvec3& p, const glm::dvec3& half) {
 }
 
 /// Do the projections on `axis` of the triangle `v` and of the centred box `half` lie apart?
-bool separated(const glm::dvec3& axis, const glm::dvec3 (&v)[3], const glm::dvec3& half,
+bool separated(const glm::dvec3& axis, const std::array<glm::dvec3, 3>& v, const glm::dvec3& half,
                double slack) {
   const double p0 = glm::dot(axis, v[0]);
   const double p1 = glm::dot(axis, v[1]);
@@ -56,14 +57,14 @@ bool separated(const glm::dvec3& axis, const glm::dvec3 (&v)[3], const glm::dvec
   return std::min({p0, p1, p2}) > radius || std::max({p0, p1, p2}) < -radius;
 }
 
-bool centered_triangle_overlaps(const glm::dvec3 (&v)[3], const glm::dvec3& half) {
+bool centered_triangle_overlaps(const std::array<glm::dvec3, 3>& v, const glm::dvec3& half) {
   for (int axis = 0; axis < 3; ++axis) {
     if (std::min({v[0][axis], v[1][axis], v[2][axis]}) > half[axis] ||
         std::max({v[0][axis], v[1][axis], v[2][axis]}) < -half[axis]) {
       return false;
     }
   }
-  const glm::dvec3 edges[3] = {v[1] - v[0], v[2] - v[1], v[0] - v[2]};
+  const std::array<glm::dvec3, 3> edges{v[1] - v[0], v[2] - v[1], v[0] - v[2]};
   const glm::dvec3 largest = glm::max(glm::max(glm::abs(v[0]), glm::abs(v[1])), glm::abs(v[2]));
   const double reach = largest.x + largest.y + largest.z;
   const double edge_reach = 2.0 * reach;
@@ -81,10 +82,10 @@ bool centered_triangle_overlaps(const glm::dvec3 (&v)[3], const glm::dvec3& half
 
 }  // namespace
 
-bool triangle_overlaps(const glm::dvec3 (&corners)[3], const Box& box, double tolerance) {
+bool triangle_overlaps(const std::array<glm::dvec3, 3>& corners, const Box& box, double tolerance) {
   const glm::dvec3 center = (box.lower + box.upper) * 0.5;
   const glm::dvec3 half = (box.upper - box.lower) * 0.5 + glm::dvec3(tolerance);
-  const glm::dvec3 v[3] = {corners[0] - center, corners[1] - center, corners[2] - center};
+  const std::array<glm::dvec3, 3> v{corners[0] - center, corners[1] - center, corners[2] - center};
   return centered_triangle_overlaps(v, half);
 }
 
@@ -102,9 +103,9 @@ bool polygon_overlaps(const Scene& scene, const Polygon& polygon, const Box& box
   }
   for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
     const auto& vertex = scene.triangles[polygon.first_triangle + i].vertex;
-    const glm::dvec3 v[3] = {glm::dvec3(scene.vertices[vertex[0]]) - center,
-                             glm::dvec3(scene.vertices[vertex[1]]) - center,
-                             glm::dvec3(scene.vertices[vertex[2]]) - center};
+    const std::array<glm::dvec3, 3> v{glm::dvec3(scene.vertices[vertex[0]]) - center,
+                                      glm::dvec3(scene.vertices[vertex[1]]) - center,
+                                      glm::dvec3(scene.vertices[vertex[2]]) - center};
     if (centered_triangle_overlaps(v, half)) return true;
   }
   return false;

@@ -2,6 +2,7 @@
 // The leaves of an octree along a ray, in order.
 
 #include <algorithm>
+#include <array>
 
 #include "accel/octree/octree.hpp"
 #include "accel/octree/octree_cursor.hpp"
@@ -30,9 +31,9 @@ void walk_leaves(const Octree& octree, const Ray& ray, Counting& counting, Visit
     counting.add(Counter::kLeaves);
     counting.add(Counter::kEmptyLeaves, leaf.count == 0 ? 1 : 0);
 
-    const double exits[3] = {way.exit_t(0, cursor.corner(), cursor.size()),
-                             way.exit_t(1, cursor.corner(), cursor.size()),
-                             way.exit_t(2, cursor.corner(), cursor.size())};
+    const std::array<double, 3> exits{way.exit_t(0, cursor.corner(), cursor.size()),
+                                      way.exit_t(1, cursor.corner(), cursor.size()),
+                                      way.exit_t(2, cursor.corner(), cursor.size())};
     const double enter_t = t;
     t = std::min({exits[0], exits[1], exits[2]});
     counting.enter([&] {

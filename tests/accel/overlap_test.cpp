@@ -3,6 +3,7 @@
 #include "accel/overlap.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -34,7 +35,7 @@ TEST(OverlapSphere, SurfaceNotSolid) {
 }
 
 TEST(OverlapTriangle, EveryKindOfSeparation) {
-  const glm::dvec3 triangle[3] = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}};
+  const std::array<glm::dvec3, 3> triangle{glm::dvec3(0, 0, 0), {2, 0, 0}, {0, 2, 0}};
   EXPECT_TRUE(triangle_overlaps(triangle, cube(0.5, 0.5, 0, 0.1), 0.0)) << "pierced by its inside";
   EXPECT_TRUE(triangle_overlaps(triangle, cube(0, 0, 0, 5), 0.0)) << "wholly inside";
   EXPECT_TRUE(triangle_overlaps(triangle, cube(3, 0, 0, 1), 0.0)) << "touches a vertex";
@@ -93,8 +94,8 @@ RC_GTEST_PROP(Overlap, NeverFalseWhereAHitIs, (std::uint32_t seed)) {
 
 /// The part of a triangle inside a box, by clipping against its six planes (Sutherland and Hodgman
 /// 1974): is any left?
-bool clipped_triangle_remains(const glm::dvec3 (&corners)[3], const Box& box) {
-  std::vector<glm::dvec3> polygon(corners, corners + 3);
+bool clipped_triangle_remains(const std::array<glm::dvec3, 3>& corners, const Box& box) {
+  std::vector<glm::dvec3> polygon(corners.begin(), corners.end());
   for (int plane = 0; plane < 6 && !polygon.empty(); ++plane) {
     const int axis = plane / 2;
     const auto inside = [&](const glm::dvec3& p) {
@@ -120,7 +121,7 @@ RC_GTEST_PROP(OverlapTriangle, AgreesWithClipping, (std::uint32_t seed)) {
     return glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
   };
   for (int i = 0; i < 200; ++i) {
-    const glm::dvec3 corners[3] = {point(), point(), point()};
+    const std::array<glm::dvec3, 3> corners{point(), point(), point()};
     const Box box = box_with(point(), random);
     constexpr double kBand = 1e-9;  // where clipping itself may be wrong
     Box smaller{box.lower + kBand, box.upper - kBand};
