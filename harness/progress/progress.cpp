@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 namespace beambench {
@@ -12,6 +13,13 @@ namespace {
 constexpr std::chrono::milliseconds kRedrawInterval{200};
 constexpr double kEarlyPart = 0.005;  // below this much of the work an estimate is a guess
 constexpr const char* kWipe = "\r\033[K";
+
+/// The columns of the terminal; 80 where it does not tell.
+std::size_t columns_of(std::FILE* stream) {
+  winsize size{};
+  const bool known = ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return known ? size.ws_col : 80;
+}
 
 }  // namespace
 
@@ -74,8 +82,11 @@ void Progress::draw(double part) {
   const std::string remaining =
       done < kEarlyPart ? std::string("estimating")
                         : fmt::format("{} left", format_duration(remaining_seconds(elapsed, done)));
-  fmt::print(stream_, "{}{:3.0f}%  {}/{}  {}  {}", kWipe, std::floor(100.0 * done),
-             std::min(done_ + 1, cells_), cells_, remaining, name_);
+  std::string line = fmt::format("{:3.0f}%  {}/{}  {}  {}", std::floor(100.0 * done),
+                                 std::min(done_ + 1, cells_), cells_, remaining, name_);
+  // A line that runs over the edge could not be wiped.
+  line.resize(std::min(line.size(), columns_of(stream_) - 1));
+  fmt::print(stream_, "{}{}", kWipe, line);
   std::fflush(stream_);
   drawn_ = true;
 }

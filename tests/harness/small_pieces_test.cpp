@@ -1,5 +1,6 @@
 // Resolutions, kinds of rays, whole files and progress.
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -101,6 +102,13 @@ TEST(Progress, IsARedrawnLineOnATerminalAndLeavesNothingBehind) {
   EXPECT_NE(text.find("50%  2/2"), std::string::npos) << text;
   EXPECT_NE(text.find(" left  second"), std::string::npos) << text;
   EXPECT_TRUE(text.ends_with("\r\033[K"));
+}
+
+TEST(Progress, StaysWithinOneLineOfTheTerminal) {
+  const std::string name(300, 'x');
+  const std::string text = written(true, [&](Progress& progress) { progress.start(name); });
+  EXPECT_LT(std::count(text.begin(), text.end(), 'x'), 80);
+  EXPECT_GT(std::count(text.begin(), text.end(), 'x'), 40);
 }
 
 TEST(Progress, EstimatesFromThePaceSoFar) {
