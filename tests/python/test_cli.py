@@ -22,7 +22,9 @@ VIEW = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0.1\nresolution 8 8\
 STRUCTURES = ["exhaustive", "samet", "embree", "null"]
 
 
-def beambench(*arguments: str | Path, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+def beambench(
+    *arguments: str | Path, cwd: Path | None = None
+) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         [BINARY, *map(str, arguments)],
         cwd=cwd,
@@ -49,19 +51,31 @@ def count_colors(picture: Image.Image) -> int:
 
 def test_list_names_structures_scenes_and_rays_with_their_parameters() -> None:
     text = output_of("list")
-    for word in [*STRUCTURES, "max_level=", "mode=", "balls", "escena1", "tetra", "primary"]:
+    for word in [
+        *STRUCTURES,
+        "max_level=",
+        "mode=",
+        "balls",
+        "escena1",
+        "tetra",
+        "primary",
+    ]:
         assert word in text
     assert max(map(len, text.splitlines())) <= 100
 
 
 def test_list_as_json_says_all_of_each_parameter() -> None:
     everything = json.loads(output_of("list", "--json"))
-    structures = {structure["name"]: structure for structure in everything["structures"]}
+    structures = {
+        structure["name"]: structure for structure in everything["structures"]
+    }
     assert set(STRUCTURES) <= set(structures)
     assert structures["samet"]["conformance"] == "bit-exact"
     assert structures["embree"]["conformance"] == "tolerance"
     assert structures["null"]["conformance"] == "baseline"
-    level = next(p for p in structures["samet"]["parameters"] if p["name"] == "max_level")
+    level = next(
+        p for p in structures["samet"]["parameters"] if p["name"] == "max_level"
+    )
     assert level["type"] == "integer"
     assert level["minimum"] <= int(level["default"]) <= level["maximum"]
     assert level["description"]
@@ -74,7 +88,9 @@ def test_list_as_json_says_all_of_each_parameter() -> None:
     assert [kind["name"] for kind in everything["rays"]] == ["primary"]
 
 
-@pytest.mark.parametrize("command", ["list", "scene", "render", "stats", "verify", "run"])
+@pytest.mark.parametrize(
+    "command", ["list", "scene", "export", "render", "stats", "verify", "run"]
+)
 def test_help_of_each_command_has_examples(command: str) -> None:
     text = output_of(command, "--help")
     assert "Examples:" in text
@@ -96,7 +112,9 @@ def test_scene_counts_what_the_generator_made() -> None:
     assert re.fullmatch("[0-9a-f]{16}", scene["hash"])
     assert all(
         low < high
-        for low, high in zip(scene["bounds"]["lower"], scene["bounds"]["upper"], strict=True)
+        for low, high in zip(
+            scene["bounds"]["lower"], scene["bounds"]["upper"], strict=True
+        )
     )
     text = output_of("scene", "tetra:n=3")
     assert scene["hash"] in text
@@ -124,12 +142,84 @@ def test_equal_scenes_have_equal_hashes_and_a_seed_changes_them() -> None:
     assert hash_of("escena1") != hash_of("escena1:seed=7")
 
 
+def facts_of(scene: str | Path) -> dict:
+    """What `scene --json` says of a scene, but for its name and the sharing of vertices."""
+    facts = json.loads(output_of("scene", scene, "--json"))
+    del facts["name"], facts["vertices"]
+    return facts
+
+
+@pytest.mark.parametrize(
+    "scene", ["escena1", "escena2", "tetra:n=3", "bumpy:triangles=768"]
+)
+def test_an_exported_scene_is_the_same(tmp_path: Path, scene: str) -> None:
+    file = tmp_path / "scene.nff"
+    done = beambench("export", scene, "-o", file)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == ""
+    assert re.search(r"scene\.nff: \S+, \d+ primitives", done.stderr)
+    assert facts_of(file) == facts_of(scene)
+    again = tmp_path / "again.nff"
+    output_of("export", file, "--strict", "-o", again)
+    assert again.read_text().splitlines()[1:] == file.read_text().splitlines()[1:]
+    assert set(tmp_path.iterdir()) == {file, again}
+
+
+def test_an_export_keeps_cameras_surfaces_and_the_words_of_the_thesis(
+    tmp_path: Path,
+) -> None:
+    file = tmp_path / "mixed.nff"
+    file.write_text(
+        VIEW
+        + "#beambench name from the front\n#beambench aspect 1.5\n"
+        + "l 1 2 3 20 0 .5\ntexredmarble\ns 0 0 0 -1\nsurfglass 1 0 0\nc 0 0 0 -1 0 0 1 0\n"
+        + "f 1 0 0 .5 .5 100000\npp 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 .6 .8\n"
+    )
+    copy = tmp_path / "copy.nff"
+    output_of("export", file, "-o", copy)
+    assert facts_of(copy) == facts_of(file)
+    assert facts_of(copy)["finishes"] == ["texredmarble", "surfglass"]
+    assert facts_of(copy)["cameras"][0]["name"] == "from the front"
+    text = output_of("scene", copy)
+    assert "texredmarble, surfglass" in text
+
+
+def test_what_a_reader_skips_is_said_and_strictly_refused(tmp_path: Path) -> None:
+    file = tmp_path / "dialect.nff"
+    file.write_text(VIEW + "g 1\ns 0 0 0 1\ng 2\ns 1 0 0 1\nf 1 1 1 1 0 0 0 1 7\n")
+    done = beambench("scene", file)
+    assert done.returncode == 0
+    assert done.stderr.splitlines() == [
+        f"beambench: {file}:8: unknown word 'g', skipped up to line 9 (and 1 more)",
+        f"beambench: {file}:12: the ninth field of a surface has no known meaning and is ignored",
+    ]
+    refused(beambench("scene", file, "--strict"), [":8", "'g'", "--strict"])
+    refused(
+        beambench("export", file, "--strict", "-o", tmp_path / "a.nff"), [":8", "'g'"]
+    )
+    assert set(tmp_path.iterdir()) == {file}
+
+
+def test_a_sweep_hands_on_what_a_reader_skipped(tmp_path: Path) -> None:
+    (tmp_path / "dialect.nff").write_text(VIEW + "g 1\ns 0 0 0 1\n")
+    (tmp_path / "sweep.json").write_text(
+        '{"name": "s", "scenes": ["./dialect.nff"], "structures": ["exhaustive"],'
+        ' "resolutions": ["8x8"], "precision": 0.1, "budget_seconds": 1,'
+        ' "repetitions": {"minimum": 1, "maximum": 1}}'
+    )
+    done = beambench("run", "sweep.json", "-o", "out", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert "dialect.nff:8: unknown word 'g'" in done.stderr
+
+
 # Pictures
 
 
 def test_render_writes_a_png_of_the_wanted_size(tmp_path: Path) -> None:
     file = tmp_path / "balls.png"
-    done = beambench("render", "balls:n=1", "--accel", "samet", "-o", file, "--resolution", "60x40")
+    done = beambench(
+        "render", "balls:n=1", "--accel", "samet", "-o", file, "--resolution", "60x40"
+    )
     assert done.returncode == 0, done.stderr
     assert "100.0% of the rays hit" in done.stderr
     with Image.open(file) as picture:
@@ -176,7 +266,9 @@ def test_a_heat_map_of_exhaustive_is_even_and_has_a_legend(tmp_path: Path) -> No
 
 def test_render_writes_an_exr(tmp_path: Path) -> None:
     file = tmp_path / "hits.exr"
-    output_of("render", "tetra:n=2", "--accel", "embree", "-o", file, "--resolution", "16x16")
+    output_of(
+        "render", "tetra:n=2", "--accel", "embree", "-o", file, "--resolution", "16x16"
+    )
     header = file.read_bytes()[:2000]
     assert header.startswith(b"\x76\x2f\x31\x01")
     for channel in [b"\0R\0", b"\0G\0", b"\0Z\0", b"\0id\0"]:
@@ -204,7 +296,12 @@ def test_stats_compare_structures() -> None:
 
 def test_stats_tell_parameters_apart() -> None:
     text = output_of(
-        *("stats", "tetra:n=3", "--accel", "samet:max_level=3,samet:max_level=4,root=box"),
+        *(
+            "stats",
+            "tetra:n=3",
+            "--accel",
+            "samet:max_level=3,samet:max_level=4,root=box",
+        ),
         *("--resolution", "8x8"),
     )
     assert "samet:max_level=3" in text
@@ -245,7 +342,10 @@ def test_verify_judges_every_structure(tmp_path: Path) -> None:
             continue
         assert cell["verdict"] == "ok"
         assert cell["engine_error"] == 0
-        assert cell["agree"] + cell["tie"] + cell["graze"] + cell["embree_error"] == cell["rays"]
+        assert (
+            cell["agree"] + cell["tie"] + cell["graze"] + cell["embree_error"]
+            == cell["rays"]
+        )
         if cell["structure"] == "samet":
             assert cell["bits"] == {"compared_with": "exhaustive", "different": 0}
 
@@ -304,7 +404,10 @@ WRONG_FILES = {
     "no_area.nff": (VIEW + "p 3\n0 0 0\n1 1 1\n2 2 2\n", [":8", "polygon", "area"]),
     "no_cone.nff": (VIEW + "c\n0 0 0 0\n0 0 1 0\n", [":8", "cone"]),
     "short_cone.nff": (VIEW + "c\n0 0 0 1\n0 0 0 1\n", [":8", "cone"]),
-    "wrong_view.nff": (VIEW.replace("angle 45", "angle 200") + "s 0 0 0 1\n", ["angle"]),
+    "wrong_view.nff": (
+        VIEW.replace("angle 45", "angle 200") + "s 0 0 0 1\n",
+        ["angle"],
+    ),
     "word.nff": (VIEW + "s 0 zero 0 1\n", [":8", "zero"]),
 }
 
@@ -364,14 +467,32 @@ WRONG_REQUESTS = [
     # rays and cameras
     *(
         ([*STATS, "null", "--resolution", text], [f"'{text}'", "640x480"])
-        for text in ["640x", "x480", "0x0", "-1x5", "99999x99999", "1e3x1", "nanxnan", "640*480"]
+        for text in [
+            "640x",
+            "x480",
+            "0x0",
+            "-1x5",
+            "99999x99999",
+            "1e3x1",
+            "nanxnan",
+            "640*480",
+        ]
     ),
     ([*STATS, "null", "--rays", "shadowy"], ["shadowy", "primary"]),
     ([*STATS, "null", "--camera", "side"], ["side", "default"]),
     ([*RENDER, "null", "-o", "a.png", "--samples", "3"], ["3 samples"]),
     ([*RENDER, "null", "-o", "a.png", "--samples", "many"], ["many"]),
     (
-        [*RENDER, "null", "-o", "a.png", "--samples", "64", "--resolution", "16384x16384"],
+        [
+            *RENDER,
+            "null",
+            "-o",
+            "a.png",
+            "--samples",
+            "64",
+            "--resolution",
+            "16384x16384",
+        ],
         ["resolution", "samples"],
     ),
     # files to write
@@ -380,9 +501,17 @@ WRONG_REQUESTS = [
     ([*RENDER, "null", "-o", "missing/a.png"], ["missing", "create"]),
     ([*RENDER, "null", "-o", "/proc/a.png"], ["/proc/a.png"]),
     ([*RENDER, "null", "-o", "a.png", "--shade", "whited"], ["whited", "preview"]),
-    ([*RENDER, "null", "-o", "a.png", "--heatmap", "steps"], ["steps", "traversal_steps"]),
+    (
+        [*RENDER, "null", "-o", "a.png", "--heatmap", "steps"],
+        ["steps", "traversal_steps"],
+    ),
     (["verify", "tetra:n=1", "--json", "missing/v.json"], ["missing"]),
     (["verify", "tetra:n=1", "nowhere"], ["nowhere"]),
+    (["export", "tetra:n=1"], ["-o", "export --help"]),
+    (["export", "tetra:n=1", "-o", "a.obj"], ["a.obj", ".nff"]),
+    (["export", "tetra:n=1", "-o", "missing/a.nff"], ["missing", "create"]),
+    (["export", "tetra:n=1", "-o", "/dev/full/a.nff"], ["/dev/full"]),
+    (["export", "tetraa", "-o", "a.nff"], ["tetraa", "tetra"]),
     # configurations
     (["run", "missing.json"], ["missing.json"]),
     (["run", "cut.json"], ["cut.json"]),
@@ -392,7 +521,9 @@ WRONG_REQUESTS = [
 
 
 @pytest.mark.parametrize(
-    ("arguments", "words"), WRONG_REQUESTS, ids=lambda value: " ".join(value) or "nothing"
+    ("arguments", "words"),
+    WRONG_REQUESTS,
+    ids=lambda value: " ".join(value) or "nothing",
 )
 def test_a_wrong_request_is_refused_in_one_sentence(
     tmp_path: Path, arguments: list[str], words: list[str]
@@ -417,7 +548,11 @@ def test_a_folder_without_write_permission_is_refused(tmp_path: Path) -> None:
 def test_a_full_disk_is_reported() -> None:
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            [BINARY, "list"], stdout=full, stderr=subprocess.PIPE, text=True, check=False
+            [BINARY, "list"],
+            stdout=full,
+            stderr=subprocess.PIPE,
+            text=True,
+            check=False,
         )
     assert done.returncode == 2
     assert "cannot write" in done.stderr
