@@ -42,6 +42,8 @@ class StructureChoice {
   const Parameters& parameters() const { return parameters_; }
   /// `samet:max_level=6,max_objects=0,...` with every parameter.
   std::string label() const { return parameters_.label(); }
+  /// As short as it can be told: the name and the parameters that are not at their defaults.
+  std::string short_label() const;
 
   /// Builds the structure; also throws std::logic_error when it ignores a parameter it was given.
   std::unique_ptr<Accelerator> build(const Scene& scene) const;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/rays/resolution.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/error.hpp"
 
@@ -29,6 +30,29 @@ const Camera& choose_camera(const Scene& scene, std::string_view name) {
                                fmt::join(names, ", ")));
 }
 
+StructureChoice choose_one(std::string_view option, std::string_view text) {
+  std::vector<StructureChoice> choices = registry().choose_list(text);
+  if (choices.size() == 1) return choices.front();
+  throw InputError(fmt::format("{} '{}' names {} structures, but one is shown at a time; name one",
+                               option, text, choices.size()));
+}
+
+PrimaryRays choose_rays(const Scene& scene, const ImageRequest& request) {
+  const Camera& camera = choose_camera(scene, request.camera);
+  const Resolution resolution = request.resolution.empty() ? Resolution{camera.width, camera.height}
+                                                           : parse_resolution(request.resolution);
+  const auto samples = sample_offsets(request.samples).size();
+  require_ray_count(resolution, static_cast<int>(samples));
+  return {camera, resolution.width, resolution.height, request.samples};
+}
+
+void add_image_options(CLI::App& command, ImageRequest& request) {
+  command.add_option("--resolution", request.resolution, "WxH (default: the camera's own)");
+  command.add_option("--samples", request.samples, "Rays a pixel: 1, 4, 5, 9, 16, ...")
+      ->capture_default_str();
+  command.add_option("--camera", request.camera, "By name (default: the scene's first)");
+}
+
 Contenders choose_contenders(std::string_view list, const Scene& scene) {
   Contenders contenders;
   const std::vector<Spec> specs = parse_spec_list(list);
@@ -47,19 +71,6 @@ Contenders choose_contenders(std::string_view list, const Scene& scene) {
         scene.name, kExhaustiveLimit, scene.primitives.size());
   }
   return contenders;
-}
-
-std::string short_label(const StructureChoice& choice) {
-  const auto values = choice.parameters().values();
-  const std::vector<ParameterInfo>& infos = choice.info().parameters;
-  std::vector<std::string> changed;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i].second != infos[i].default_value) {
-      changed.push_back(values[i].first + '=' + values[i].second);
-    }
-  }
-  const std::string& name = choice.info().name;
-  return changed.empty() ? name : fmt::format("{}:{}", name, fmt::join(changed, ","));
 }
 
 }  // namespace beambench

@@ -2,21 +2,19 @@
 
 #include <cstdio>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include <fmt/format.h>
 
 #include "harness/cli/commands.hpp"
+#include "harness/cli/difference_picture.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/cli/watched_trace.hpp"
 #include "harness/cli/work_picture.hpp"
 #include "harness/files/pending_file.hpp"
 #include "harness/picture/image_file.hpp"
-#include "harness/rays/resolution.hpp"
 #include "harness/shade/shading.hpp"
-#include "scenes/error.hpp"
 
 namespace beambench {
 namespace {
@@ -25,28 +23,11 @@ struct Request {
   std::string scene;
   std::string structure;
   std::string file;
-  std::string resolution;
-  std::string camera;
+  ImageRequest image;
   std::string heatmap;
+  std::string difference;
   std::string shading = "preview";
-  int samples = 1;
 };
-
-StructureChoice choose_one(const std::string& text) {
-  std::vector<StructureChoice> choices = registry().choose_list(text);
-  if (choices.size() == 1) return choices.front();
-  throw InputError(fmt::format(
-      "--accel '{}' names {} structures, but a picture shows one; name one", text, choices.size()));
-}
-
-PrimaryRays choose_rays(const Scene& scene, const Request& request) {
-  const Camera& camera = choose_camera(scene, request.camera);
-  const Resolution resolution = request.resolution.empty() ? Resolution{camera.width, camera.height}
-                                                           : parse_resolution(request.resolution);
-  const auto samples = sample_offsets(request.samples).size();
-  require_ray_count(resolution, static_cast<int>(samples));
-  return {camera, resolution.width, resolution.height, request.samples};
-}
 
 /// Depth and id of each pixel, those of its nearest sample.
 std::vector<DataChannel> hit_channels(const HitBuffer& hits) {
@@ -78,34 +59,65 @@ void write_heat_map(const Request& request, const HeatMap& map, const HitBuffer&
   write_image(request.file, draw_heat_map(map), channels);
 }
 
-std::uint64_t count_hits(const HitBuffer& hits) {
+std::string share_of_hits(const HitBuffer& hits) {
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) count += hits.get(i).has_value();
-  return count;
+  return format_share(count, hits.size()) + " of the rays hit something";
+}
+
+/// What --difference compares with: the oracle, or what another structure finds.
+ReferenceHits find_reference(const Request& request, const Scene& scene, const PrimaryRays& rays) {
+  if (request.difference == kOracleName) return {scene, rays};
+  const StructureChoice other = choose_one("--difference", request.difference);
+  HitBuffer hits(rays.width(), rays.height(), rays.samples());
+  other.build(scene)->trace(rays, hits);
+  return reference_from(scene, rays, hits);
+}
+
+/// Writes the picture of differences; returns how many there are.
+std::string compare(const Request& request, const StructureChoice& choice, const Scene& scene,
+                    const PrimaryRays& rays, const HitBuffer& hits) {
+  const ReferenceHits reference = find_reference(request, scene, rays);
+  std::vector<DiffClass> classes(hits.size());
+  const DiffReport report = judge(reference, hits, Conformance::kTolerance, classes);
+  write_difference(request.file, reference, classes, {choice.short_label(), request.difference});
+  return fmt::format("{} of {} rays differ from {}: {} ties, {} grazes, {} wrong, {} wrong there",
+                     report.rays - report.count(DiffClass::kAgree), report.rays, request.difference,
+                     report.count(DiffClass::kTie), report.count(DiffClass::kGraze),
+                     report.count(DiffClass::kEngineError), report.count(DiffClass::kEmbreeError));
 }
 
 void render(const Request& request) {
   const Shading shading = parse_shading(request.shading);
   image_format(request.file);
   require_writable(request.file);
-  const StructureChoice choice = choose_one(request.structure);
+  if (!request.difference.empty() && request.difference != kOracleName) {
+    choose_one("--difference", request.difference);
+  }
+  const StructureChoice choice = choose_one("--accel", request.structure);
   const Scene scene = open_scene(request.scene);
-  const PrimaryRays rays = choose_rays(scene, request);
+  const PrimaryRays rays = choose_rays(scene, request.image);
 
   Progress progress(1);
   progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
   const auto accelerator = choice.build(scene);
   HitBuffer hits(rays.width(), rays.height(), rays.samples());
-  if (request.heatmap.empty()) {
-    watched_trace(*accelerator, rays, hits, progress);
-    write_image(request.file, shade(scene, rays, hits, shading), hit_channels(hits));
-  } else {
+  std::string found;
+  if (!request.heatmap.empty()) {
     const HeatMap map = count_work(*accelerator, rays, request.heatmap, hits, progress);
     write_heat_map(request, map, hits);
+    found = share_of_hits(hits);
+  } else {
+    watched_trace(*accelerator, rays, hits, progress);
+    if (request.difference.empty()) {
+      write_image(request.file, shade(scene, rays, hits, shading), hit_channels(hits));
+      found = share_of_hits(hits);
+    } else {
+      found = compare(request, choice, scene, rays, hits);
+    }
   }
-  progress.say(fmt::format("{}: {} by {}, {}x{}, {} of the rays hit something", request.file,
-                           scene.name, short_label(choice), rays.width(), rays.height(),
-                           format_share(count_hits(hits), hits.size())));
+  progress.say(fmt::format("{}: {} by {}, {}x{}, {}", request.file, scene.name,
+                           choice.short_label(), rays.width(), rays.height(), found));
 }
 
 }  // namespace
@@ -118,21 +130,27 @@ void add_render_command(CLI::App& app, int&) {
   command->add_option("--accel", request->structure, "Structure: NAME:parameter=value,...")
       ->required();
   command->add_option("-o", request->file, "Picture to write, .png or .exr")->required();
-  command->add_option("--resolution", request->resolution, "WxH (default: the camera's own)");
-  command->add_option("--samples", request->samples, "Rays a pixel: 1, 4, 5, 9, 16, ...")
-      ->capture_default_str();
+  add_image_options(*command, request->image);
   command->add_option("--shade", request->shading, "preview, normals, id or depth")
       ->capture_default_str();
-  command->add_option("--heatmap", request->heatmap,
-                      "Instead of shading: a work counter in colours");
-  command->add_option("--camera", request->camera, "By name (default: the scene's first)");
+  CLI::Option* heatmap = command->add_option("--heatmap", request->heatmap,
+                                             "Instead of shading: a work counter in colours");
+  command
+      ->add_option("--difference", request->difference,
+                   "Instead of shading: where the hits differ from those of another structure, or "
+                   "of the 'oracle' of verify")
+      ->excludes(heatmap);
   command->footer(
       "Counters for --heatmap: traversal_steps, leaves, empty_leaves, box_tests, primitive_tests,\n"
       "and a structure's own. A .png gets a legend; an .exr holds the counts beside linear float\n"
-      "R, G, B, the depth Z and the primitive id (4294967295 for a miss).\n"
+      "R, G, B, the depth Z and the primitive id (4294967295 for a miss). --difference colours\n"
+      "pixels by the classes that 'beambench verify --help' tells; who is wrong, the search of "
+      "all\n"
+      "primitives says.\n"
       "Examples:\n"
       "  beambench render escena1 --accel samet -o escena1.png\n"
       "  beambench render balls:n=3 --accel samet -o work.png --heatmap primitive_tests\n"
+      "  beambench render tetra --accel embree:robust=false -o wrong.png --difference oracle\n"
       "  beambench render tetra --accel embree -o tetra.exr --resolution 640x480 --samples 4");
   command->callback([request] { render(*request); });
 }

@@ -73,7 +73,7 @@ class StatisticsTable {
  private:
   static std::vector<std::string> header(const std::vector<Finding>& findings) {
     std::vector<std::string> names{""};
-    for (const Finding& finding : findings) names.push_back(short_label(finding.choice));
+    for (const Finding& finding : findings) names.push_back(finding.choice.short_label());
     return names;
   }
 

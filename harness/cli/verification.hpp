@@ -2,6 +2,7 @@
 // Judging structures over a scene: against the oracle, and bit for bit among themselves.
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,14 +28,24 @@ struct VerifiedCell {
   std::uint64_t different_bits = 0;   ///< rays whose answer differs from the reference's
   std::string verdict;                ///< a Verdict's name, or "error": it could not be built
   std::string message;                ///< why it could not be built
+  std::filesystem::path picture;      ///< of the differences; empty: none was made
 
   bool passed() const { return verdict == "ok" || verdict == "baseline"; }
 };
 
+/// What the contenders over a scene are asked. The scene outlives it.
+struct VerifiedView {
+  const Scene& scene;
+  const Camera& camera;
+  PrimaryRays rays;
+};
+
 /// Judges each contender, the exhaustive search first where it is among them: the bit-exact ones
 /// are compared with it, or with the first of them. `progress` gets one cell for each contender.
-std::vector<VerifiedCell> verify_scene(const Scene& scene, const PrimaryRays& rays,
-                                       std::vector<StructureChoice> contenders, Progress& progress);
+/// Unless `pictures` is empty, each cell with wrong answers leaves a picture in that folder.
+std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
+                                       std::vector<StructureChoice> contenders,
+                                       const std::filesystem::path& pictures, Progress& progress);
 
 nlohmann::ordered_json to_json(const VerifiedCell& cell);
 

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -17,6 +19,7 @@
 #include "harness/rays/resolution.hpp"
 #include "harness/record/build_info.hpp"
 #include "scenes/catalogue.hpp"
+#include "scenes/error.hpp"
 
 namespace beambench {
 namespace {
@@ -27,8 +30,11 @@ struct Request {
   std::vector<std::string> scenes;
   std::string structures = "all";
   std::string resolution = "320x200";
+  std::string camera;
+  int samples = 1;
   std::string rays = "primary";
   std::string json;
+  std::string pictures;
 };
 
 std::string bits_text(const VerifiedCell& cell) {
@@ -58,18 +64,20 @@ std::string table_text(const std::vector<VerifiedCell>& cells) {
 
 void print_disputes(const VerifiedCell& cell) {
   if (!cell.message.empty()) fmt::print("\n{} over {}: {}\n", cell.label, cell.scene, cell.message);
-  if (cell.disputes.empty()) return;
+  if (cell.disputes.empty() && cell.picture.empty()) return;
   fmt::print("\n{} over {}:\n", cell.label, cell.scene);
   const std::size_t shown = std::min(cell.disputes.size(), kPrintedDisputes);
   for (std::size_t i = 0; i < shown; ++i) fmt::print("{}\n", cell.disputes[i]);
   if (shown < cell.disputes.size()) {
     fmt::print("... and {} more, which --json FILE writes\n", cell.disputes.size() - shown);
   }
+  if (!cell.picture.empty()) fmt::print("picture: {}\n", cell.picture.string());
 }
 
 void write_json(const Request& request, const std::vector<VerifiedCell>& cells, bool passed) {
   nlohmann::ordered_json out{{"beambench", build_info().version},
                              {"resolution", request.resolution},
+                             {"samples", request.samples},
                              {"ray_kind", "primary"},
                              {"passed", passed},
                              {"cells", nlohmann::ordered_json::array()}};
@@ -86,22 +94,35 @@ std::vector<Scene> open_scenes(const Request& request) {
   return scenes;
 }
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error) return;
+  throw InputError(fmt::format("cannot make the folder '{}': {}; choose another with --pictures",
+                               folder.string(), error.message()));
+}
+
 int verify(const Request& request) {
   const Resolution resolution = parse_resolution(request.resolution);
   parse_ray_kinds(request.rays);
-  require_ray_count(resolution, 1);
+  require_ray_count(resolution, static_cast<int>(sample_offsets(request.samples).size()));
   if (!request.json.empty()) require_writable(request.json);
   const std::size_t structures = registry().choose_list(request.structures).size();
   const std::vector<Scene> scenes = open_scenes(request);
+  for (const Scene& scene : scenes) choose_camera(scene, request.camera);
+  if (!request.pictures.empty()) make_folder(request.pictures);
 
   Progress progress(scenes.size() * structures);
   std::vector<VerifiedCell> cells;
   for (const Scene& scene : scenes) {
-    const PrimaryRays rays(scene.cameras.front(), resolution.width, resolution.height, 1);
+    const Camera& camera = choose_camera(scene, request.camera);
+    const VerifiedView view{
+        scene, camera, {camera, resolution.width, resolution.height, request.samples}};
     Contenders contenders = choose_contenders(request.structures, scene);
     if (!contenders.note.empty()) progress.say(contenders.note);
     progress.skip(structures - contenders.choices.size());
-    for (VerifiedCell& cell : verify_scene(scene, rays, std::move(contenders.choices), progress)) {
+    for (VerifiedCell& cell :
+         verify_scene(view, std::move(contenders.choices), request.pictures, progress)) {
       cells.push_back(std::move(cell));
     }
   }
@@ -127,7 +148,12 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--resolution", request->resolution, "WxH")->capture_default_str();
   command->add_option("--rays", request->rays, "Kinds of rays")->capture_default_str();
+  command->add_option("--samples", request->samples, "Rays a pixel: 1, 4, 5, 9, 16, ...")
+      ->capture_default_str();
+  command->add_option("--camera", request->camera, "By name (default: each scene's first)");
   command->add_option("--json", request->json, "Write the judgement to this file, too");
+  command->add_option("--pictures", request->pictures,
+                      "Write a picture of the differences to this folder where there are errors");
   command->footer(
       "Each ray's answer is compared with that of Embree given exact intersectors. agree: the "
       "same\n"
@@ -137,6 +163,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       "of\n"
       "all primitives in long double finds. bits: do bit-exact structures repeat exhaustive, or\n"
       "the first of them? Exits with 1 unless every verdict is ok (baseline for 'null').\n"
+      "Each error is printed with the command that replays it, a 'beambench trace'.\n"
       "Examples:\n"
       "  beambench verify\n"
       "  beambench verify escena1 tetra:n=4 --accel all\n"

@@ -35,16 +35,22 @@ std::string text(const glm::vec3& vector) {
 
 std::string describe(const Scene& scene, const Mismatch& mismatch) {
   return fmt::format(
-      "pixel ({}, {}) sample {}: {}, {}\n"
+      "pixel ({}, {}) sample {}: {}{}{}\n"
       "  ray    from {} along {}, t in [{}, {}]\n"
       "  engine {}\n"
       "  oracle {}\n"
       "  exact  {}\n",
       mismatch.x, mismatch.y, mismatch.sample,
-      kDiffClassNames[static_cast<std::size_t>(mismatch.diff_class)], mismatch.reason,
-      text(mismatch.ray.origin), text(mismatch.ray.direction), mismatch.ray.t_min,
-      mismatch.ray.t_max, text(scene, mismatch.engine), text(scene, mismatch.oracle),
+      kDiffClassNames[static_cast<std::size_t>(mismatch.diff_class)],
+      mismatch.reason.empty() ? "" : ", ", mismatch.reason, text(mismatch.ray.origin),
+      text(mismatch.ray.direction), mismatch.ray.t_min, mismatch.ray.t_max,
+      text(scene, mismatch.engine), text(scene, mismatch.oracle),
       mismatch.adjudicated ? text(scene, mismatch.exact) : "not asked");
+}
+
+std::string describe(const Scene& scene, const Mismatch& mismatch, const ReplayCommand& replay) {
+  return fmt::format("{}  replay {}\n", describe(scene, mismatch),
+                     replay.of(mismatch.x, mismatch.y, mismatch.sample));
 }
 
 }  // namespace beambench

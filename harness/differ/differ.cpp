@@ -9,8 +9,7 @@
 #include <tbb/parallel_for.h>
 
 #include "harness/differ/classify.hpp"
-#include "harness/differ/contact.hpp"
-#include "harness/differ/exact_search.hpp"
+#include "harness/differ/judge_ray.hpp"
 
 namespace beambench {
 namespace {
@@ -24,13 +23,15 @@ double graze_budget(std::uint64_t rays) { return std::max(2.0, 1e-4 * static_cas
 /// The judging of one buffer.
 class Judge {
  public:
-  Judge(const ReferenceHits& reference, const HitBuffer& buffer)
+  Judge(const ReferenceHits& reference, const HitBuffer& buffer, std::span<DiffClass> classes)
       : scene_(reference.scene()),
         rays_(reference.rays()),
         hits_(reference.hits()),
         buffer_(buffer),
+        classes_(classes),
         tolerance_(tolerance(scene_, rays_.eye())) {
     report_.rays = buffer.size();
+    std::fill(classes_.begin(), classes_.end(), DiffClass::kAgree);
     report_.hits = static_cast<std::uint64_t>(
         std::count_if(hits_.begin(), hits_.end(), [](const auto& hit) { return hit.has_value(); }));
   }
@@ -40,7 +41,7 @@ class Judge {
     for (std::size_t i = 0; i < buffer_.size(); ++i) {
       if (agrees_at_once(i)) continue;
       Mismatch found = mismatch(i);
-      if (settle_by_rules(found)) {
+      if (settle_by_rules(scene_, tolerance_, found)) {
         record(found);
       } else {
         disputed.push_back(i);
@@ -55,8 +56,7 @@ class Judge {
     for (std::size_t i = 0; i < buffer_.size(); ++i) {
       if (is_miss(i)) continue;
       Mismatch found = mismatch(i);
-      found.diff_class = DiffClass::kEngineError;
-      found.reason = "this structure answers nothing by design, and here it did";
+      settle_as_baseline(found);
       record(found);
     }
     const bool silent = report_.count(DiffClass::kEngineError) == 0;
@@ -86,36 +86,7 @@ class Judge {
            apart * apart * glm::dot(direction, direction) <= tolerance_ * tolerance_;
   }
 
-  Mismatch mismatch(std::size_t i) const {
-    const auto samples = static_cast<std::size_t>(rays_.samples());
-    const auto width = static_cast<std::size_t>(rays_.width());
-    Mismatch found{};
-    found.index = i;
-    found.x = static_cast<int>(i / samples % width);
-    found.y = static_cast<int>(i / samples / width);
-    found.sample = static_cast<int>(i % samples);
-    found.ray = ray(i);
-    if (!is_miss(i)) found.engine = answer(i);
-    found.oracle = hits_[i];
-    return found;
-  }
-
-  /// Rules 1 to 3, and answers that are none. False: a dispute.
-  bool settle_by_rules(Mismatch& found) const {
-    if (found.engine && is_nonsense(scene_, found.ray, *found.engine)) {
-      found.diff_class = DiffClass::kEngineError;
-      found.reason = "no such answer exists: the primitive or t is out of range";
-      return true;
-    }
-    const auto by_rules = classify(scene_, found.ray, found.engine, found.oracle, tolerance_);
-    if (!by_rules) return false;
-    found.diff_class = *by_rules;
-    if (*by_rules == DiffClass::kTie) found.reason = "both primitives are hit at one place";
-    if (*by_rules == DiffClass::kGraze) {
-      found.reason = "the disputed primitive is only grazed, or touched at the ray's end";
-    }
-    return true;
-  }
+  Mismatch mismatch(std::size_t i) const { return ask_again(rays_, buffer_, i, hits_[i]); }
 
   void agree_with_the_rest(std::size_t disputed) {
     std::uint64_t others = disputed;
@@ -132,34 +103,15 @@ class Judge {
       batch.clear();
       for (std::size_t i = first; i < last; ++i) batch.push_back(mismatch(disputed[i]));
       if (report_.count(DiffClass::kEngineError) < kEnoughErrors && tests < kSearchBudget) {
-        tbb::parallel_for(std::size_t{0}, batch.size(),
-                          [&](std::size_t i) { adjudicate(batch[i]); });
+        tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
+          beambench::adjudicate(scene_, tolerance_, batch[i]);
+        });
         tests += batch.size() * (scene_.triangles.size() + scene_.primitives.size());
       } else {
         for (Mismatch& found : batch) presume_error(found);
       }
       for (const Mismatch& found : batch) record(found);
     }
-  }
-
-  void adjudicate(Mismatch& found) const {
-    found.adjudicated = true;
-    found.exact = exact_closest_hit(scene_, found.ray);
-    const bool right =
-        classify(scene_, found.ray, found.engine, found.exact, tolerance_).has_value();
-    found.diff_class = right ? DiffClass::kEmbreeError : DiffClass::kEngineError;
-    found.reason =
-        right ? "the structure gives the exact answer and the oracle does not" : why_wrong(found);
-  }
-
-  std::string_view why_wrong(const Mismatch& found) const {
-    if (!found.engine) return "the structure lost a hit";
-    const ExactHit claim{found.engine->t, found.engine->primitive};
-    if (!(contact(scene_, found.ray, claim, tolerance_).offset <= tolerance_)) {
-      return "the ray does not meet the structure's primitive at its t";
-    }
-    if (!found.exact || claim.t < found.exact->t) return "the structure reports a hit too many";
-    return "the structure lost a nearer hit";
   }
 
   static void presume_error(Mismatch& found) {
@@ -173,6 +125,7 @@ class Judge {
       report_.examples.push_back(found);
     }
     ++count;
+    if (!classes_.empty()) classes_[found.index] = found.diff_class;
   }
 
   Verdict judge_counts() const {
@@ -196,6 +149,7 @@ class Judge {
   const PrimaryRays& rays_;
   std::span<const std::optional<ExactHit>> hits_;
   const HitBuffer& buffer_;
+  std::span<DiffClass> classes_;
   double tolerance_;
   DiffReport report_;
 };
@@ -216,7 +170,8 @@ std::string_view to_string(Verdict verdict) {
   return "unknown";
 }
 
-DiffReport judge(const ReferenceHits& reference, const HitBuffer& buffer, Conformance conformance) {
+DiffReport judge(const ReferenceHits& reference, const HitBuffer& buffer, Conformance conformance,
+                 std::span<DiffClass> classes) {
   if (buffer.width() != reference.rays().width() || buffer.height() != reference.rays().height() ||
       buffer.samples() != reference.rays().samples()) {
     throw std::logic_error(fmt::format("a buffer of {}x{}x{} is judged by rays of {}x{}x{}",
@@ -224,7 +179,10 @@ DiffReport judge(const ReferenceHits& reference, const HitBuffer& buffer, Confor
                                        reference.rays().width(), reference.rays().height(),
                                        reference.rays().samples()));
   }
-  Judge judging(reference, buffer);
+  if (!classes.empty() && classes.size() != buffer.size()) {
+    throw std::logic_error("the classes of an image need one place for each ray");
+  }
+  Judge judging(reference, buffer, classes);
   return conformance == Conformance::kBaseline ? judging.as_baseline() : judging.against_oracle();
 }
 

@@ -14,6 +14,7 @@
 #include "accel/hit_buffer.hpp"
 #include "accel/primary_rays.hpp"
 #include "accel/registry.hpp"
+#include "harness/differ/replay_command.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench {
@@ -93,11 +94,14 @@ class ReferenceHits {
 /// Judges a buffer. Disputed rays are searched in long double until their number is hopeless (64
 /// errors are proven, or the search has made 4e8 primitive tests); what is disputed beyond that
 /// counts as engine error, unproven. For Conformance::kBaseline the only question is whether all
-/// answers are misses; others are engine errors.
+/// answers are misses; others are engine errors. `classes`, unless empty, gets that of each ray.
 /// Throws std::logic_error when the buffer's size is not that of the rays.
-DiffReport judge(const ReferenceHits& reference, const HitBuffer& buffer, Conformance conformance);
+DiffReport judge(const ReferenceHits& reference, const HitBuffer& buffer, Conformance conformance,
+                 std::span<DiffClass> classes = {});
 
 /// One mismatch as text: pixel, ray, both hits, the exact answer, and why it was classed so.
 std::string describe(const Scene& scene, const Mismatch& mismatch);
+/// The same, and the command that shows this ray's way (`ReplayCommand`).
+std::string describe(const Scene& scene, const Mismatch& mismatch, const ReplayCommand& replay);
 
 }  // namespace beambench

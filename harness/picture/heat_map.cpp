@@ -7,28 +7,25 @@
 #include <fmt/format.h>
 
 #include "harness/picture/color_map.hpp"
+#include "harness/picture/legend.hpp"
 #include "harness/picture/text.hpp"
 
 namespace beambench {
 namespace {
 
 constexpr std::size_t kBrightestPerMille = 995;
-const glm::vec3 kPaper(0.012F);
-const glm::vec3 kInk(0.82F);
 
 /// Sizes of a legend in pixels: text as large as the picture's width allows, for reading.
 struct LegendLayout {
   LegendLayout(int picture_width, std::string_view heading)
-      : scale(std::clamp(picture_width / (text_width(heading, 1) + 2 * kMargin), 1, 2)),
-        margin(kMargin * scale),
+      : scale(std::clamp(picture_width / (text_width(heading, 1) + 2 * kLegendMargin), 1, 2)),
+        margin(kLegendMargin * scale),
         width(std::max(picture_width, text_width(heading, scale) + 2 * margin)),
         heading_y(margin),
         bar_y(heading_y + (kGlyphHeight + 4) * scale),
         bar_height(8 * scale),
         numbers_y(bar_y + bar_height + 5 * scale),
         height(numbers_y + kGlyphHeight * scale + margin) {}
-
-  static constexpr int kMargin = 8;
 
   int scale, margin, width, heading_y, bar_y, bar_height, numbers_y, height;
   int bar_width() const { return width - 2 * margin; }

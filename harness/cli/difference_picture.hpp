@@ -1,0 +1,30 @@
+#pragma once
+// Where two answers to the same rays differ, as a picture.
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "harness/differ/differ.hpp"
+
+namespace beambench {
+
+/// Who was compared with whom.
+struct Comparison {
+  std::string judged;     ///< whose errors are `DiffClass::kEngineError`
+  std::string reference;  ///< whose errors are `DiffClass::kEmbreeError`
+};
+
+/// `kOracleName` as a reference stands for the oracle itself.
+inline constexpr const char* kOracleName = "oracle";
+
+/// Writes the classes of an image's rays over a grey preview of what the reference sees; a pixel
+/// shows the gravest class of its samples. A .png gets a legend; an .exr the preview in colours and
+/// the classes as numbers (0 agree, 1 tie, 2 graze, 3 the judged is wrong, 4 the reference is).
+void write_difference(const std::filesystem::path& file, const ReferenceHits& reference,
+                      std::span<const DiffClass> classes, const Comparison& comparison);
+
+/// A structure's hits as reference; answers that are none count as misses.
+ReferenceHits reference_from(const Scene& scene, const PrimaryRays& rays, const HitBuffer& hits);
+
+}  // namespace beambench

@@ -1,0 +1,188 @@
+#include "harness/cli/ray_way.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "accel/intersect.hpp"
+#include "harness/cli/text.hpp"
+
+namespace beambench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kListedMisses = 40;  // in the text; the JSON has them all
+
+/// What a ray-primitive test came to. A primitive beyond the best hit is not missed by the ray.
+struct TestOutcome {
+  PrimitiveId primitive;
+  bool hit;
+  float t;  ///< kMiss where the ray misses it altogether
+};
+
+/// The tests of a way with the best hit after each step.
+class Account {
+ public:
+  Account(const Scene& scene, const Ray& ray) : scene_(scene), ray_(ray) {}
+
+  std::vector<TestOutcome> take(const TraceStep& step) {
+    std::vector<TestOutcome> outcomes;
+    for (const TestedPrimitive& test : step.tests) {
+      const bool hit = is_hit(test.t);
+      outcomes.push_back(
+          {test.primitive, hit, hit ? test.t : intersect(ray_, scene_, test.primitive)});
+      const Hit found{test.t, test.primitive};
+      if (hit && (!best_ || precedes(found, *best_))) best_ = found;
+    }
+    return outcomes;
+  }
+  const std::optional<Hit>& best() const { return best_; }
+
+ private:
+  const Scene& scene_;
+  CanonicalRay ray_;
+  std::optional<Hit> best_;
+};
+
+std::string text(const glm::dvec3& v) {
+  return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
+}
+
+std::string tests_text(const std::vector<TestOutcome>& outcomes) {
+  std::string out;
+  std::vector<PrimitiveId> missed;
+  for (const TestOutcome& outcome : outcomes) {
+    if (outcome.hit) {
+      out += fmt::format("primitive {} is hit at t = {}\n", outcome.primitive, outcome.t);
+    } else if (is_hit(outcome.t)) {
+      out += fmt::format("primitive {} would be hit at t = {}, behind the best\n",
+                         outcome.primitive, outcome.t);
+    } else {
+      missed.push_back(outcome.primitive);
+    }
+  }
+  if (missed.empty()) return out;
+  const std::size_t more = missed.size() - std::min(missed.size(), kListedMisses);
+  missed.resize(missed.size() - more);
+  return out + fmt::format("missed: {}{}\n", fmt::join(missed, " "),
+                           more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+std::string step_text(std::size_t number, const TraceStep& step, Account& account) {
+  std::string head = fmt::format("{:4}  {}", number, step.place);
+  if (step.box) head += fmt::format(" {}", step.index);
+  if (step.level > 0) head += fmt::format(", level {}", step.level);
+  if (step.box) head += fmt::format(", {} to {}", text(step.box->lower), text(step.box->upper));
+  head += fmt::format(", t in [{:.9g}, {:.9g}]\n", step.t_enter, step.t_exit);
+
+  std::string body = step.tests.empty() ? "nothing to test\n" : tests_text(account.take(step));
+  if (account.best()) {
+    body += fmt::format("best so far: primitive {} at t = {}\n", account.best()->primitive,
+                        account.best()->t);
+  }
+  std::string out = head;
+  for (std::size_t begin = 0; begin < body.size();) {
+    const std::size_t end = body.find('\n', begin) + 1;
+    out += "        " + body.substr(begin, end - begin);
+    begin = end;
+  }
+  return out;
+}
+
+std::string counters_text(const RayWay& way) {
+  std::vector<std::string> parts;
+  for (const auto& [name, count] : way.counters) {
+    if (count > 0) parts.push_back(fmt::format("{} {}", name, count));
+  }
+  return parts.empty() ? "" : fmt::format("  work   {}\n", fmt::join(parts, ", "));
+}
+
+bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
+  return a.has_value() == b.has_value() && (!a || *a == *b);
+}
+
+std::string alone_text(const RayWay& way) {
+  if (!way.in_image) return "";
+  if (same(way.alone, way.judgement.engine)) return "";
+  return fmt::format("  alone  {}: asked without the other rays of the image\n",
+                     way.alone
+                         ? fmt::format("primitive {} at t = {}", way.alone->primitive, way.alone->t)
+                         : "miss");
+}
+
+template <class AnyHit>
+Json hit_json(const std::optional<AnyHit>& hit) {
+  if (!hit) return nullptr;
+  return {{"primitive", hit->primitive}, {"t", hit->t}};
+}
+
+template <class Vector>
+Json vector_json(const Vector& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+Json step_json(const TraceStep& step, Account& account) {
+  Json out{{"place", step.place}};
+  if (step.box) {
+    out["index"] = step.index;
+    if (step.level > 0) out["level"] = step.level;
+    out["box"] = {{"lower", vector_json(step.box->lower)}, {"upper", vector_json(step.box->upper)}};
+  }
+  out["t_enter"] = step.t_enter;
+  out["t_exit"] = step.t_exit;
+  out["tests"] = Json::array();
+  for (const TestOutcome& outcome : account.take(step)) {
+    Json test{{"primitive", outcome.primitive}, {"hit", outcome.hit}, {"t", nullptr}};
+    if (is_hit(outcome.t)) test["t"] = outcome.t;
+    out["tests"].push_back(std::move(test));
+  }
+  out["best"] = hit_json(account.best());
+  return out;
+}
+
+}  // namespace
+
+std::string to_text(const Scene& scene, const RayWay& way) {
+  std::string out =
+      fmt::format("{} by {}, {}x{} pixels with {} {} each\n\n", scene.name, way.structure,
+                  way.width, way.height, way.samples, way.samples == 1 ? "sample" : "samples");
+  Account account(scene, way.judgement.ray);
+  for (std::size_t i = 0; i < way.steps.size(); ++i) {
+    out += step_text(i + 1, way.steps[i], account);
+  }
+  if (way.steps.empty()) {
+    out += fmt::format("{} tells no steps: it entered nothing, or cannot tell\n", way.structure);
+  }
+  return out + '\n' + describe(scene, way.judgement) + alone_text(way) + counters_text(way);
+}
+
+nlohmann::ordered_json to_json(const Scene& scene, const RayWay& way) {
+  const Mismatch& judgement = way.judgement;
+  const Ray& ray = judgement.ray;
+  Json out{{"scene", scene.name},
+           {"structure", way.structure},
+           {"width", way.width},
+           {"height", way.height},
+           {"samples", way.samples},
+           {"pixel", {judgement.x, judgement.y}},
+           {"sample", judgement.sample},
+           {"ray",
+            {{"origin", vector_json(ray.origin)},
+             {"direction", vector_json(ray.direction)},
+             {"t_min", ray.t_min},
+             {"t_max", ray.t_max}}},
+           {"steps", Json::array()},
+           {"counters", way.counters},
+           {"hit", hit_json(judgement.engine)},
+           {"hit_alone", hit_json(way.alone)},
+           {"traced_image", way.in_image},
+           {"oracle", hit_json(judgement.oracle)}};
+  Account account(scene, ray);
+  for (const TraceStep& step : way.steps) out["steps"].push_back(step_json(step, account));
+  if (judgement.adjudicated) out["exact"] = hit_json(judgement.exact);
+  out["class"] = kDiffClassNames[static_cast<std::size_t>(judgement.diff_class)];
+  out["reason"] = judgement.reason;
+  return out;
+}
+
+}  // namespace beambench

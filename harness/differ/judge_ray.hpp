@@ -1,0 +1,29 @@
+#pragma once
+// The judgement of one ray: by rules where they suffice, by the long-double search where not.
+
+#include <cstddef>
+#include <optional>
+
+#include "harness/differ/differ.hpp"
+
+namespace beambench {
+
+/// The sample of the image that stands at an index of a `HitBuffer`, its answer, and the oracle's,
+/// not yet judged. An answer that is neither hit nor miss is kept as it stands.
+Mismatch ask_again(const PrimaryRays& rays, const HitBuffer& buffer, std::size_t index,
+                   const std::optional<ExactHit>& oracle);
+
+/// Sets class and reason by the first three rules, or where the answer is none at all; false where
+/// they leave a dispute. `tolerance` is K u.
+bool settle_by_rules(const Scene& scene, double tolerance, Mismatch& found);
+
+/// Settles a dispute by the long-double search.
+void adjudicate(const Scene& scene, double tolerance, Mismatch& found);
+
+/// A baseline's answer: only a miss is right.
+void settle_as_baseline(Mismatch& found);
+
+/// All of it for one ray: `found` as `ask_again` returns it.
+void judge_ray(const Scene& scene, Conformance conformance, Mismatch& found);
+
+}  // namespace beambench

@@ -1,0 +1,44 @@
+#pragma once
+// A picture of kinds: each pixel is left grey or gets the colour of its category, with a legend.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "harness/picture/image.hpp"
+
+namespace beambench {
+
+/// What a colour says.
+struct Category {
+  std::string name;
+  glm::vec3 color;  ///< linear light
+};
+
+/// Which category each pixel belongs to, row by row from the top left.
+struct CategoryMap {
+  static constexpr std::uint8_t kNone = 255;
+
+  std::string title;
+  std::vector<Category> categories;
+  std::vector<std::uint8_t> pixels;  ///< index into `categories`, or kNone
+};
+
+/// Colours that people with any kind of colour vision tell apart, and from grey: four of Okabe and
+/// Ito, "Color Universal Design", 2008. Linear light.
+namespace okabe_ito {
+extern const glm::vec3 kSkyBlue;
+extern const glm::vec3 kYellow;
+extern const glm::vec3 kBluishGreen;
+extern const glm::vec3 kVermillion;
+}  // namespace okabe_ito
+
+/// The map over `ground`, an image of its size that is shown in dimmed grey, above a legend with
+/// the number of pixels of each category. Pixels of a category that has only a few are framed, or
+/// nobody would find them. The picture is widened where it is narrower than its legend.
+Image draw_category_map(const CategoryMap& map, const Image& ground);
+
+}  // namespace beambench
