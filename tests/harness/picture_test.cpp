@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "harness/picture/category_map.hpp"
 #include "harness/picture/color_map.hpp"
 #include "harness/picture/heat_map.hpp"
 #include "harness/picture/image_file.hpp"
@@ -241,6 +242,33 @@ TEST(Text, IsCutOffAtTheEdgesOfThePicture) {
   Image image(5, 5);
   draw_text(image, -7, -3, "888", 2, glm::vec3(1.0F));
   EXPECT_TRUE(is_inked(image, 0));
+}
+
+TEST(CategoryMap, ColoursItsPixelsAndDimsTheOthersToGrey) {
+  const Image ground = colorful(120, 40);
+  CategoryMap map{"a against b", {{"many", {1.0F, 0.0F, 0.0F}}, {"few", {0.0F, 0.0F, 1.0F}}}, {}};
+  map.pixels.assign(120 * 40, CategoryMap::kNone);
+  for (std::size_t i = 0; i < 120; ++i) map.pixels[i] = 0;  // the first row
+  map.pixels[20 * 120 + 60] = 1;
+
+  const Image picture = draw_category_map(map, ground);
+  ASSERT_EQ(picture.width(), 120);
+  EXPECT_GT(picture.height(), 40 + 2 * kGlyphHeight);
+  EXPECT_EQ(picture.at(50, 0), map.categories[0].color);
+  EXPECT_EQ(picture.at(60, 20), map.categories[1].color);
+  EXPECT_EQ(picture.at(65, 20), map.categories[1].color) << "the frame of a pixel hard to find";
+  EXPECT_NE(picture.at(50, 5), map.categories[0].color) << "no frames where there are many";
+  const glm::vec3 grey = picture.at(10, 30);
+  EXPECT_EQ(grey.x, grey.y);
+  EXPECT_EQ(grey.y, grey.z);
+  EXPECT_GT(grey.x, 0.0F);
+}
+
+TEST(CategoryMap, IsWidenedForItsLegend) {
+  const CategoryMap map{"title", {{"a category with a long name", {1.0F, 0.0F, 0.0F}}}, {0, 0}};
+  const Image picture = draw_category_map(map, Image(2, 1));
+  EXPECT_GT(picture.width(), 100);
+  EXPECT_EQ(picture.at(picture.width() / 2 - 1, 0), map.categories[0].color);
 }
 
 }  // namespace

@@ -1,0 +1,133 @@
+// A mismatch can be looked at again: its report holds a command that works when it is pasted.
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include "harness/differ/differ.hpp"
+#include "harness/differ/judge_ray.hpp"
+#include "scenes/catalogue.hpp"
+#include "tests/harness/temporary_folder.hpp"
+
+namespace beambench {
+namespace {
+
+TEST(ShellQuoted, LeavesPlainWordsAlone) {
+  EXPECT_EQ(shell_quoted("samet:max_level=6,root=box"), "samet:max_level=6,root=box");
+  EXPECT_EQ(shell_quoted("a/b.nff"), "a/b.nff");
+}
+
+TEST(ShellQuoted, GivesTheShellBackEveryCharacter) {
+  const TemporaryFolder folder;
+  for (const std::string word :
+       {"", "two words", "it's", "$HOME `ls` \"x\" \\ ; & | * ~ #", "''"}) {
+    const std::string command =
+        "printf %s " + shell_quoted(word) + " > '" + (folder.path() / "out").string() + "'";
+    ASSERT_EQ(std::system(command.c_str()), 0) << command;
+    EXPECT_EQ(read_text(folder.path() / "out"), word);
+  }
+}
+
+TEST(ReplayCommand, NamesWhatIsNotTheDefault) {
+  Scene scene = load_scene("tetra:n=1");
+  scene.cameras.push_back(scene.cameras.front());
+  scene.cameras.back().name = "from the side";
+  const StructureChoice samet = registry().choose(parse_spec("samet:max_level=3"));
+  const PrimaryRays one(scene.cameras.front(), 32, 20, 1);
+  EXPECT_EQ(ReplayCommand(scene, scene.cameras.front().name, samet, one).of(3, 4, 0),
+            "beambench trace tetra:n=1 --accel samet:max_level=3 --pixel 3,4 --resolution 32x20");
+  const PrimaryRays four(scene.cameras.back(), 32, 20, 4);
+  EXPECT_EQ(ReplayCommand(scene, "from the side", samet, four).of(3, 4, 2),
+            "beambench trace tetra:n=1 --accel samet:max_level=3 --pixel 3,4 --resolution 32x20 "
+            "--samples 4 --camera 'from the side' --sample 2");
+}
+
+/// The line of a text that begins with `beginning`.
+std::string line_of(const std::string& text, const std::string& beginning) {
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with(beginning)) return line;
+  }
+  return "no line begins with '" + beginning + "' in: " + text;
+}
+
+/// A scene whose name a shell would take apart, and hits that a test makes wrong.
+class PlantedMismatch : public ::testing::Test {
+ protected:
+  static constexpr int kSamples = 4;
+
+  PlantedMismatch() {
+    folder_.write("it's $one.nff",
+                  "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0.1\nresolution 8 8\n"
+                  "f 1 0 0 1 0 0 0 0\ns 0 0 0 1\np 3\n-2 -2 -1\n2 -2 -1\n0 2 -1\n");
+    scene_ = load_scene((folder_.path() / "it's $one.nff").string());
+  }
+
+  /// Runs a command as it would be pasted, with the real program on PATH.
+  std::string paste(const std::string& command, int expected_exit_code) const {
+    const std::string bin = std::filesystem::path(BEAMBENCH_BINARY).parent_path().string();
+    const std::string file = (folder_.path() / "out").string();
+    const int status =
+        std::system(("PATH='" + bin + "':$PATH; " + command + " > '" + file + "' 2>&1").c_str());
+    EXPECT_EQ(WEXITSTATUS(status), expected_exit_code) << command << "\n" << read_text(file);
+    return read_text(file);
+  }
+
+  TemporaryFolder folder_;
+  Scene scene_;
+};
+
+TEST_F(PlantedMismatch, IsReplayedByThePastedCommand) {
+  const PrimaryRays rays(scene_.cameras.front(), 33, 21, kSamples);
+  const ReferenceHits reference(scene_, rays);
+  const StructureChoice samet = registry().choose(parse_spec("samet:max_level=3"));
+  HitBuffer buffer(33, 21, kSamples);
+  samet.build(scene_)->trace(rays, buffer);
+  const std::size_t lost = buffer.index(16, 10, 3);
+  ASSERT_TRUE(buffer.get(lost));
+  buffer.set(lost, std::nullopt);
+
+  std::vector<DiffClass> classes(buffer.size());
+  const DiffReport report = judge(reference, buffer, Conformance::kBitExact, classes);
+  ASSERT_EQ(report.verdict, Verdict::kMismatch);
+  ASSERT_EQ(report.examples.size(), 1U);
+  EXPECT_EQ(classes[lost], DiffClass::kEngineError);
+  EXPECT_EQ(std::count(classes.begin(), classes.end(), DiffClass::kAgree),
+            static_cast<std::ptrdiff_t>(classes.size()) - 1);
+
+  const ReplayCommand replay(scene_, scene_.cameras.front().name, samet, rays);
+  const std::string described = describe(scene_, report.examples[0], replay);
+  const std::string pasted = line_of(described, "  replay ").substr(9);
+  const std::string shown = paste(pasted, 0);  // the program's own samet does not lose the hit
+  EXPECT_EQ(line_of(shown, "  ray "), line_of(described, "  ray "));
+  EXPECT_EQ(line_of(shown, "  oracle "), line_of(described, "  oracle "));
+  EXPECT_NE(shown.find("pixel (16, 10) sample 3: agree"), std::string::npos) << shown;
+  EXPECT_NE(shown.find("leaf"), std::string::npos) << shown;
+}
+
+TEST_F(PlantedMismatch, OneRayIsJudgedAsInItsImage) {
+  const PrimaryRays rays(scene_.cameras.front(), 16, 16, 1);
+  const ReferenceHits reference(scene_, rays);
+  HitBuffer buffer(16, 16, 1);
+  registry().choose(parse_spec("exhaustive")).build(scene_)->trace(rays, buffer);
+  for (std::size_t i = 0; i < buffer.size(); i += 3) {  // lost, moved, invented
+    const auto hit = buffer.get(i);
+    if (!hit) buffer.set(i, Hit{4.0F, 1});
+    if (hit) buffer.set(i, i % 2 == 0 ? std::nullopt : std::optional(Hit{hit->t + 1.0F, 0}));
+  }
+  for (const Conformance conformance : {Conformance::kBitExact, Conformance::kBaseline}) {
+    std::vector<DiffClass> classes(buffer.size());
+    judge(reference, buffer, conformance, classes);
+    for (std::size_t i = 0; i < buffer.size(); ++i) {
+      Mismatch asked = ask_again(rays, buffer, i, reference.hits()[i]);
+      judge_ray(scene_, conformance, asked);
+      EXPECT_EQ(asked.diff_class, classes[i]) << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace beambench
