@@ -11,35 +11,10 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-BINARY = Path(
-    os.environ.get(
-        "BEAMBENCH_BINARY",
-        Path(__file__).resolve().parents[2] / "build/release/bin/beambench",
-    )
-)
+from program import BINARY, beambench, output_of, refused
 
 VIEW = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0.1\nresolution 8 8\n"
 STRUCTURES = ["exhaustive", "samet", "embree", "null"]
-
-
-def beambench(
-    *arguments: str | Path, cwd: Path | None = None
-) -> subprocess.CompletedProcess[str]:
-    return subprocess.run(
-        [BINARY, *map(str, arguments)],
-        cwd=cwd,
-        capture_output=True,
-        text=True,
-        timeout=120,
-        check=False,
-    )
-
-
-def output_of(*arguments: str | Path) -> str:
-    """The standard output of a command that must succeed."""
-    done = beambench(*arguments)
-    assert done.returncode == 0, done.stderr
-    return done.stdout
 
 
 def count_colors(picture: Image.Image) -> int:
@@ -66,16 +41,12 @@ def test_list_names_structures_scenes_and_rays_with_their_parameters() -> None:
 
 def test_list_as_json_says_all_of_each_parameter() -> None:
     everything = json.loads(output_of("list", "--json"))
-    structures = {
-        structure["name"]: structure for structure in everything["structures"]
-    }
+    structures = {structure["name"]: structure for structure in everything["structures"]}
     assert set(STRUCTURES) <= set(structures)
     assert structures["samet"]["conformance"] == "bit-exact"
     assert structures["embree"]["conformance"] == "tolerance"
     assert structures["null"]["conformance"] == "baseline"
-    level = next(
-        p for p in structures["samet"]["parameters"] if p["name"] == "max_level"
-    )
+    level = next(p for p in structures["samet"]["parameters"] if p["name"] == "max_level")
     assert level["type"] == "integer"
     assert level["minimum"] <= int(level["default"]) <= level["maximum"]
     assert level["description"]
@@ -88,9 +59,7 @@ def test_list_as_json_says_all_of_each_parameter() -> None:
     assert [kind["name"] for kind in everything["rays"]] == ["primary"]
 
 
-@pytest.mark.parametrize(
-    "command", ["list", "scene", "export", "render", "stats", "verify", "run"]
-)
+@pytest.mark.parametrize("command", ["list", "scene", "export", "render", "stats", "verify", "run"])
 def test_help_of_each_command_has_examples(command: str) -> None:
     text = output_of(command, "--help")
     assert "Examples:" in text
@@ -112,9 +81,7 @@ def test_scene_counts_what_the_generator_made() -> None:
     assert re.fullmatch("[0-9a-f]{16}", scene["hash"])
     assert all(
         low < high
-        for low, high in zip(
-            scene["bounds"]["lower"], scene["bounds"]["upper"], strict=True
-        )
+        for low, high in zip(scene["bounds"]["lower"], scene["bounds"]["upper"], strict=True)
     )
     text = output_of("scene", "tetra:n=3")
     assert scene["hash"] in text
@@ -149,9 +116,7 @@ def facts_of(scene: str | Path) -> dict:
     return facts
 
 
-@pytest.mark.parametrize(
-    "scene", ["escena1", "escena2", "tetra:n=3", "bumpy:triangles=768"]
-)
+@pytest.mark.parametrize("scene", ["escena1", "escena2", "tetra:n=3", "bumpy:triangles=768"])
 def test_an_exported_scene_is_the_same(tmp_path: Path, scene: str) -> None:
     file = tmp_path / "scene.nff"
     done = beambench("export", scene, "-o", file)
@@ -194,9 +159,7 @@ def test_what_a_reader_skips_is_said_and_strictly_refused(tmp_path: Path) -> Non
         f"beambench: {file}:12: the ninth field of a surface has no known meaning and is ignored",
     ]
     refused(beambench("scene", file, "--strict"), [":8", "'g'", "--strict"])
-    refused(
-        beambench("export", file, "--strict", "-o", tmp_path / "a.nff"), [":8", "'g'"]
-    )
+    refused(beambench("export", file, "--strict", "-o", tmp_path / "a.nff"), [":8", "'g'"])
     assert set(tmp_path.iterdir()) == {file}
 
 
@@ -217,9 +180,7 @@ def test_a_sweep_hands_on_what_a_reader_skipped(tmp_path: Path) -> None:
 
 def test_render_writes_a_png_of_the_wanted_size(tmp_path: Path) -> None:
     file = tmp_path / "balls.png"
-    done = beambench(
-        "render", "balls:n=1", "--accel", "samet", "-o", file, "--resolution", "60x40"
-    )
+    done = beambench("render", "balls:n=1", "--accel", "samet", "-o", file, "--resolution", "60x40")
     assert done.returncode == 0, done.stderr
     assert "100.0% of the rays hit" in done.stderr
     with Image.open(file) as picture:
@@ -266,9 +227,7 @@ def test_a_heat_map_of_exhaustive_is_even_and_has_a_legend(tmp_path: Path) -> No
 
 def test_render_writes_an_exr(tmp_path: Path) -> None:
     file = tmp_path / "hits.exr"
-    output_of(
-        "render", "tetra:n=2", "--accel", "embree", "-o", file, "--resolution", "16x16"
-    )
+    output_of("render", "tetra:n=2", "--accel", "embree", "-o", file, "--resolution", "16x16")
     header = file.read_bytes()[:2000]
     assert header.startswith(b"\x76\x2f\x31\x01")
     for channel in [b"\0R\0", b"\0G\0", b"\0Z\0", b"\0id\0"]:
@@ -342,10 +301,7 @@ def test_verify_judges_every_structure(tmp_path: Path) -> None:
             continue
         assert cell["verdict"] == "ok"
         assert cell["engine_error"] == 0
-        assert (
-            cell["agree"] + cell["tie"] + cell["graze"] + cell["embree_error"]
-            == cell["rays"]
-        )
+        assert cell["agree"] + cell["tie"] + cell["graze"] + cell["embree_error"] == cell["rays"]
         if cell["structure"] == "samet":
             assert cell["bits"] == {"compared_with": "exhaustive", "different": 0}
 
@@ -373,19 +329,6 @@ def test_verify_leaves_exhaustive_out_of_all_over_many_primitives() -> None:
 
 
 # What is refused
-
-
-def refused(done: subprocess.CompletedProcess[str], words: list[str]) -> None:
-    """Exit code 2, nothing on stdout, one sentence on stderr that holds the words."""
-    assert done.returncode == 2, (done.returncode, done.stdout, done.stderr)
-    assert done.stdout == ""
-    lines = done.stderr.splitlines()
-    assert len(lines) == 1, done.stderr
-    assert lines[0].startswith("beambench: ")
-    assert "terminate called" not in done.stderr
-    assert "internal error" not in done.stderr
-    for word in words:
-        assert word in lines[0]
 
 
 WRONG_FILES = {
@@ -495,7 +438,31 @@ WRONG_REQUESTS = [
         ],
         ["resolution", "samples"],
     ),
+    *(
+        (["trace", "tetra:n=1", "--accel", "null", "--resolution", "8x8", "--pixel", *rest], words)
+        for rest, words in [
+            (["8,0"], ["8,0", "0 to 7"]),
+            (["0,-1"], ["0,-1", "8x8"]),
+            (["5"], ["'5'", "10,20"]),
+            (["1,2,3"], ["1,2,3"]),
+            (["1,2", "--sample", "1"], ["sample 1", "0 to 0"]),
+            (["1,2", "--samples", "2"], ["2 samples"]),
+            (["1,2", "--camera", "side"], ["side", "default"]),
+        ]
+    ),
+    (["trace", "tetra:n=1", "--accel", "all", "--pixel", "1,1"], ["all", "one"]),
+    (["trace", "tetra:n=1", "--accel", "null"], ["--pixel"]),
+    (["verify", "tetra:n=1", "--camera", "side"], ["side", "default"]),
+    (["verify", "tetra:n=1", "--samples", "3"], ["3 samples"]),
+    (["completion", "tcsh"], ["tcsh", "bash"]),
     # files to write
+    ([*RENDER, "null", "-o", "a.png", "--difference", "smet"], ["smet", "samet"]),
+    ([*RENDER, "null", "-o", "a.png", "--difference", "all"], ["--difference", "one"]),
+    (
+        [*RENDER, "null", "-o", "a.png", "--difference", "oracle", "--heatmap", "leaves"],
+        ["exclude"],
+    ),
+    (["verify", "tetra:n=1", "--pictures", "cut.json"], ["cut.json", "--pictures"]),
     ([*RENDER, "null", "-o", "a.jpg"], ["a.jpg", ".png", ".exr"]),
     ([*RENDER, "null", "-o", "picture"], ["picture", ".png"]),
     ([*RENDER, "null", "-o", "missing/a.png"], ["missing", "create"]),
