@@ -210,8 +210,8 @@ void NffReader::read_corners(bool smooth) {
   vertices.reserve(size);
   normals.reserve(smooth ? size : 0);
   for (std::size_t i = 0; i < size; ++i) {
-    vertices.push_back(tokens_.triple("a vertex"));
-    if (smooth) normals.push_back(tokens_.triple("a normal"));
+    vertices.emplace_back(tokens_.triple("a vertex"));
+    if (smooth) normals.emplace_back(tokens_.triple("a normal"));
   }
   const Repairs before = builder_.repairs();
   add([&] { builder_.add_polygon(vertices, normals); });

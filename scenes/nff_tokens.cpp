@@ -95,7 +95,7 @@ std::size_t NffTokens::most_numbers_left() const {
 template <typename Number>
 Number NffTokens::take_number(std::string_view what) {
   if (at_end()) refuse(token_.line, fmt::format("the file ends where {} should stand", what));
-  const Number number = parse<Number>(token_.text);
+  const auto number = parse<Number>(token_.text);
   if (!(std::abs(number) <= static_cast<Number>(kLargestNumber))) {
     refuse(token_.line, fmt::format("'{}' stands where {} should be a number from -1e9 to 1e9",
                                     token_.text, what));

@@ -132,7 +132,7 @@ class Numbers {
                                                       1e-45F, 0.1F,  16777216.0F, 0x1.5c87fap-84F};
     if (below(4) == 0) return kSpecial[below(kSpecial.size())];
     while (true) {
-      const float number = std::bit_cast<float>(static_cast<std::uint32_t>(random_.bits()));
+      const auto number = std::bit_cast<float>(static_cast<std::uint32_t>(random_.bits()));
       if (std::abs(number) <= 1e9F) return number;
     }
   }
@@ -177,7 +177,7 @@ void add_polygon(SceneBuilder& builder, Numbers& numbers) {
   for (std::uint64_t i = 0; i < count; ++i) {
     const bool repeated = i > 0 && numbers.below(8) == 0;
     corners.push_back(repeated ? corners.back() : glm::dvec3(numbers.point()));
-    if (smooth) normals.push_back(numbers.below(8) == 0 ? glm::vec3(0.0F) : numbers.point());
+    if (smooth) normals.emplace_back(numbers.below(8) == 0 ? glm::vec3(0.0F) : numbers.point());
   }
   builder.add_polygon(corners, normals);
 }
