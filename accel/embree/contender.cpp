@@ -1,5 +1,7 @@
 // Embree's native geometry as a structure to compare with.
 
+#include <algorithm>
+
 #include "accel/embree/native_scene.hpp"
 #include "accel/embree/trace.hpp"
 #include "accel/registry.hpp"
@@ -14,7 +16,7 @@ using embree::TraceMode;
 /// of lowest id, and without `robust` a triangle is hit at t > t_min only, not at t_min itself.
 class EmbreeContender : public Accelerator {
  public:
-  EmbreeContender(const Scene& scene, RTCBuildQuality quality, bool robust, TraceMode mode,
+  EmbreeContender(const Scene& scene, RTCBuildQuality quality, bool robust, const TraceMode& mode,
                   bool coherent)
       : scene_(scene, quality, robust), mode_(mode), coherent_(coherent) {}
 
@@ -31,7 +33,8 @@ class EmbreeContender : public Accelerator {
     return embree::occluded(scene_.get(), context, query);
   }
   void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
-    embree::trace(scene_, mode_, coherent_, rays, buffer);
+    embree::Context context(coherent_);
+    mode_.trace(scene_, context, rays, buffer);
   }
 
   // Embree does not let its work be counted.
@@ -58,12 +61,14 @@ class EmbreeContender : public Accelerator {
   bool coherent_;
 };
 
-TraceMode parse_mode(const std::string& name) {
-  if (name == "packet4") return TraceMode::kPacket4;
-  if (name == "packet8") return TraceMode::kPacket8;
-  if (name == "packet16") return TraceMode::kPacket16;
-  if (name == "stream") return TraceMode::kStream;
-  return TraceMode::kSingle;
+std::vector<std::string> mode_names() {
+  std::vector<std::string> names;
+  for (const TraceMode& mode : embree::trace_modes()) names.emplace_back(mode.name);
+  return names;
+}
+
+const TraceMode& find_mode(const std::string& name) {
+  return *std::ranges::find(embree::trace_modes(), name, &TraceMode::name);
 }
 
 RTCBuildQuality parse_quality(const std::string& name) {
@@ -80,9 +85,9 @@ void register_embree(Registry& registry) {
        "Intel Embree's BVH over its native triangles and spheres, built on one thread (Wald et "
        "al., ACM TOG 33(4), 2014)",
        Conformance::kTolerance,
-       {choice_parameter("mode", "single", {"single", "packet4", "packet8", "packet16", "stream"},
+       {choice_parameter("mode", "single", mode_names(),
                          "how an image is traced: ray by ray, in packets (blocks of 2x2, 4x2 or "
-                         "4x4 pixels) or as streams of a tile's rays"),
+                         "4x4 pixels) or, by Embree 3 only, as streams of a tile's rays"),
         choice_parameter("quality", "high", {"low", "medium", "high"},
                          "Embree's build quality: low sorts by Morton codes, medium minimises "
                          "surface area, high also splits triangles, which Embree 3 does for "
@@ -95,7 +100,7 @@ void register_embree(Registry& registry) {
        [](const Scene& scene, const Parameters& parameters) {
          return std::make_unique<EmbreeContender>(
              scene, parse_quality(parameters.choice("quality")), parameters.flag("robust"),
-             parse_mode(parameters.choice("mode")), parameters.flag("coherent"));
+             find_mode(parameters.choice("mode")), parameters.flag("coherent"));
        }});
 }
 

@@ -24,7 +24,7 @@ struct OracleQuery : Context {
   PrimitiveId primitive = kNoPrimitive;
 };
 
-OracleQuery& query_of(RTCIntersectContext* context) { return *static_cast<OracleQuery*>(context); }
+OracleQuery& query_of(embree::RawContext* context) { return *static_cast<OracleQuery*>(context); }
 
 /// The smallest float that is not below: Embree prunes by it, so it may only err to the far side.
 float rounded_up(double t) {
@@ -81,14 +81,18 @@ struct Padded {
     *arguments->bounds_o = {lower.x, lower.y, lower.z, 0.0F, upper.x, upper.y, upper.z, 0.0F};
   }
 
-  // The oracle asks with single rays only, so N is 1 in both callbacks.
+  // The oracle asks with single rays only, so N is 1 in both callbacks. Embree 4 reads in `valid`
+  // whether there was a hit.
   static void on_intersect(const RTCIntersectFunctionNArguments* arguments) {
     if (arguments->valid[0] == 0) return;
     const Padded& self = of(arguments->geometryUserPtr);
     OracleQuery& query = query_of(arguments->context);
     const std::optional<double> t = self.kind.hit(query.ray, arguments->primID);
     const PrimitiveId owner = self.kind.owner(arguments->primID);
-    if (!t || (*t == query.ray.t_max && owner >= query.primitive)) return;
+    if (!t || (*t == query.ray.t_max && owner >= query.primitive)) {
+      arguments->valid[0] = 0;
+      return;
+    }
     query.ray.t_max = *t;
     query.primitive = owner;
     RTCRayHitN* const ray_hit = arguments->rayhit;
@@ -102,6 +106,8 @@ struct Padded {
     const Padded& self = of(arguments->geometryUserPtr);
     if (self.kind.hit(query_of(arguments->context).ray, arguments->primID)) {
       RTCRayN_tfar(arguments->ray, 1, 0) = -kInfinity;
+    } else {
+      arguments->valid[0] = 0;
     }
   }
 

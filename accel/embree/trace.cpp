@@ -81,13 +81,14 @@ void trace_packets(const NativeScene& scene, Context& context, const PrimaryRays
       for (int sample = 0; sample < rays.samples(); ++sample) {
         Block::aim(rays, x, y, sample, query);
         for (std::size_t i = 0; i < valid.size(); ++i) valid[i] = query.ray.tfar[i] > 0.0F ? -1 : 0;
-        Packet<N>::intersect(valid.data(), scene.get(), context, query);
+        intersect(valid.data(), scene.get(), context, query);
         Block::write(scene, query, x, y, sample, buffer);
       }
     }
   }
 }
 
+#if BEAMBENCH_EMBREE_MAJOR == 3
 /// Streams: all rays of one sample of a tile at once, as packets of 16.
 void trace_stream(const NativeScene& scene, Context& context, const PrimaryRays& rays,
                   HitBuffer& buffer) {
@@ -119,24 +120,18 @@ void trace_stream(const NativeScene& scene, Context& context, const PrimaryRays&
     }
   }
 }
+#endif
+
+constexpr TraceMode kModes[] = {
+    {"single", trace_single},      {"packet4", trace_packets<4>},
+    {"packet8", trace_packets<8>}, {"packet16", trace_packets<16>},
+#if BEAMBENCH_EMBREE_MAJOR == 3
+    {"stream", trace_stream},
+#endif
+};
 
 }  // namespace
 
-void trace(const NativeScene& scene, TraceMode mode, bool coherent, const PrimaryRays& rays,
-           HitBuffer& buffer) {
-  Context context(coherent);
-  switch (mode) {
-    case TraceMode::kSingle:
-      return trace_single(scene, context, rays, buffer);
-    case TraceMode::kPacket4:
-      return trace_packets<4>(scene, context, rays, buffer);
-    case TraceMode::kPacket8:
-      return trace_packets<8>(scene, context, rays, buffer);
-    case TraceMode::kPacket16:
-      return trace_packets<16>(scene, context, rays, buffer);
-    case TraceMode::kStream:
-      return trace_stream(scene, context, rays, buffer);
-  }
-}
+std::span<const TraceMode> trace_modes() { return kModes; }
 
 }  // namespace beambench::embree

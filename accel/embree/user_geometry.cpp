@@ -64,6 +64,8 @@ void UserGeometry::on_bounds(const RTCBoundsFunctionArguments* arguments) {
   *arguments->bounds_o = {lower.x, lower.y, lower.z, 0.0F, upper.x, upper.y, upper.z, 0.0F};
 }
 
+// Embree 4 reads in `valid` whether there was a hit; Embree 3 hands out a copy and reads nothing.
+
 void UserGeometry::on_intersect(const RTCIntersectFunctionNArguments* arguments) {
   const auto& self = *static_cast<const UserGeometry*>(arguments->geometryUserPtr);
   const unsigned n = arguments->N;
@@ -73,7 +75,10 @@ void UserGeometry::on_intersect(const RTCIntersectFunctionNArguments* arguments)
     if (arguments->valid[i] == 0) continue;
     const std::optional<double> t =
         hit(self.scene_, self.ids_[arguments->primID], ray_of(rays, n, i));
-    if (!t) continue;
+    if (!t) {
+      arguments->valid[i] = 0;
+      continue;
+    }
     RTCRayN_tfar(rays, n, i) = static_cast<float>(*t);
     RTCHitN_geomID(hits, n, i) = arguments->geomID;
     RTCHitN_primID(hits, n, i) = arguments->primID;
@@ -87,6 +92,8 @@ void UserGeometry::on_occluded(const RTCOccludedFunctionNArguments* arguments) {
     if (arguments->valid[i] == 0) continue;
     if (hit(self.scene_, self.ids_[arguments->primID], ray_of(arguments->ray, n, i))) {
       RTCRayN_tfar(arguments->ray, n, i) = -kInfinity;
+    } else {
+      arguments->valid[i] = 0;
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -14,11 +15,13 @@
 #include "harness/differ/exact_search.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
+#include "tests/embree_modes.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench {
 namespace {
 
+using testing::embree_modes;
 using testing::random_ray;
 using testing::random_scene;
 
@@ -75,14 +78,15 @@ TEST(Judge, FindsNoErrorInExhaustiveSearchOnRandomScenes) {
 }
 
 TEST(Judge, AcceptsEveryModeOfEmbree) {
+  std::vector<std::string> variants = {"mode=packet16,coherent=false", "quality=low",
+                                       "quality=medium", "robust=false"};
+  for (const std::string& mode : embree_modes()) variants.push_back("mode=" + mode);
   for (const char* name : {"tetra:n=4", "escena1", "balls:n=2", "bumpy:triangles=2000"}) {
     const Scene scene = load_scene(name);
     const PrimaryRays rays(scene.cameras.front(), 200, 160, 1);
     const ReferenceHits reference(scene, rays);
-    for (const char* parameters :
-         {"mode=single", "mode=packet4", "mode=packet8", "mode=packet16", "mode=stream",
-          "mode=packet16,coherent=false", "quality=low", "quality=medium", "robust=false"}) {
-      const std::string structure = std::string("embree:") + parameters;
+    for (const std::string& variant : variants) {
+      const std::string structure = "embree:" + variant;
       const DiffReport report =
           judge(reference, traced(structure, scene, rays), Conformance::kTolerance);
       EXPECT_EQ(report.verdict, Verdict::kOk) << name << " " << structure << "\n"
@@ -97,7 +101,8 @@ TEST(Judge, AcceptsEmbreesOwnConesAndInsideSpheres) {
     const Scene scene = random_scene(4 * seed + 3, 40);  // neither snapped, repeated nor remote
     const PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
     const ReferenceHits reference(scene, rays);
-    for (const char* structure : {"embree", "embree:mode=packet8", "embree:mode=stream"}) {
+    for (const std::string& mode : embree_modes()) {
+      const std::string structure = "embree:mode=" + mode;
       const DiffReport report =
           judge(reference, traced(structure, scene, rays), Conformance::kTolerance);
       ASSERT_EQ(report.verdict, Verdict::kOk) << structure << "\n" << first_example(scene, report);

@@ -1,0 +1,41 @@
+#pragma once
+// Queries of Embree 3. Included by api.hpp only.
+
+#include <embree3/rtcore.h>
+
+namespace beambench::embree {
+
+using RawContext = RTCIntersectContext;
+
+/// What Embree hands on to user geometry; derive from it to carry the state of a query.
+struct Context : RawContext {
+  explicit Context(bool coherent) {
+    rtcInitIntersectContext(this);
+    flags = coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+  }
+};
+
+inline void intersect(RTCScene scene, Context& context, RTCRayHit& query) {
+  rtcIntersect1(scene, &context, &query);
+}
+inline void intersect(const int* valid, RTCScene scene, Context& context, RTCRayHit4& query) {
+  rtcIntersect4(valid, scene, &context, &query);
+}
+inline void intersect(const int* valid, RTCScene scene, Context& context, RTCRayHit8& query) {
+  rtcIntersect8(valid, scene, &context, &query);
+}
+inline void intersect(const int* valid, RTCScene scene, Context& context, RTCRayHit16& query) {
+  rtcIntersect16(valid, scene, &context, &query);
+}
+inline void look_for_any_hit(RTCScene scene, Context& context, RTCRay& ray) {
+  rtcOccluded1(scene, &context, &ray);
+}
+
+/// A stream of packets of 16 in one go; rays with tfar < tnear are left out.
+inline void intersect_stream(RTCScene scene, Context& context, RTCRayHit16* queries,
+                             unsigned count) {
+  rtcIntersectNM(scene, &context, reinterpret_cast<RTCRayHitN*>(queries), 16, count,
+                 sizeof(RTCRayHit16));
+}
+
+}  // namespace beambench::embree

@@ -1,0 +1,17 @@
+#pragma once
+// The modes of the Embree that is built in: version 4 has one less.
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "accel/registry.hpp"
+
+namespace beambench::testing {
+
+inline std::vector<std::string> embree_modes() {
+  const StructureChoice embree = registry().choose({"embree", {}});
+  return std::ranges::find(embree.info().parameters, "mode", &ParameterInfo::name)->choices;
+}
+
+}  // namespace beambench::testing
