@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 
 #include "harness/cli/commands.hpp"
+#include "harness/cli/interruption.hpp"
+#include "harness/differ/replay_command.hpp"
 #include "harness/sweep/sweep_run.hpp"
 #include "scenes/error.hpp"
 
@@ -24,11 +26,13 @@ struct RunRequest {
 
 std::filesystem::path config_path(const RunRequest& request) {
   if (!request.config.empty()) return request.config;
-  if (!request.resume.empty()) return std::filesystem::path(request.resume) / "config.json";
+  if (!request.resume.empty()) {
+    require_run(request.resume);
+    return std::filesystem::path(request.resume) / "config.json";
+  }
   throw InputError(
       "no configuration given; name a sweep's JSON file, such as harness/sweeps/default.json, or "
-      "go "
-      "on with a run by --resume DIR");
+      "go on with a run by --resume DIR");
 }
 
 SweepOptions options_of(const RunRequest& request) {
@@ -77,7 +81,29 @@ int report(const SweepOutcome& outcome) {
   return outcome.failed > 0 ? kFound : kSuccess;
 }
 
+std::string resume_command(const std::filesystem::path& folder) {
+  return fmt::format("beambench run --resume {}", shell_quoted(folder.string()));
+}
+
+/// Runs the sweep so that, however it is cut off, its end says how to go on.
+SweepOutcome run_resumable(const SweepConfig& config, Plan plan, const GoogleBenchmark& benchmark,
+                           SweepOptions options, Interruption& interruption) {
+  std::string go_on;
+  options.begun = [&](const std::filesystem::path& folder) {
+    go_on = resume_command(folder);
+    interruption.set_last_line(
+        fmt::format("interrupted; every finished cell is kept, go on with: {}", go_on));
+  };
+  try {
+    return run_sweep(config, std::move(plan), benchmark, options, stderr);
+  } catch (const InputError& error) {
+    if (go_on.empty()) throw;
+    throw InputError(fmt::format("{}; then go on with: {}", error.what(), go_on));
+  }
+}
+
 int run(const RunRequest& request) {
+  Interruption interruption("interrupted; nothing was measured yet");
   const SweepOptions options = options_of(request);
   for (const std::string& note : options.flags.notes) fmt::print(stderr, "{}\n", note);
   SweepConfig config = read_sweep(config_path(request), registry());
@@ -88,7 +114,7 @@ int run(const RunRequest& request) {
     for (const std::string& name : cell_names(plan)) fmt::print("{}\n", name);
     return kSuccess;
   }
-  return report(run_sweep(config, std::move(plan), benchmark, options, stderr));
+  return report(run_resumable(config, std::move(plan), benchmark, options, interruption));
 }
 
 }  // namespace

@@ -16,6 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kPartial = ".partial";  // in the names of files that are being written
+
 [[noreturn]] void refuse(const fs::path& target, std::string_view why, std::string_view remedy) {
   throw InputError(fmt::format("cannot write '{}': {}; {}", target.string(), why, remedy));
 }
@@ -24,12 +26,26 @@ fs::path folder_of(const fs::path& target) {
   return target.has_parent_path() ? target.parent_path() : fs::path(".");
 }
 
-/// Waits until the file's contents are on the disk; false when they cannot be brought there.
+/// What the system says, and what to do about it.
+[[noreturn]] void refuse_by_error(const fs::path& target, int error) {
+  if (error == ENOSPC || error == EDQUOT) {
+    refuse(target, fmt::format("the disk of the folder '{}' is full", folder_of(target).string()),
+           "make room there or choose another place");
+  }
+  refuse(target, error == 0 ? "the writing failed" : std::strerror(error), "choose another place");
+}
+
+/// Waits until what a file or folder holds is on the disk; false, with errno set, when it cannot be
+/// brought there.
 bool reaches_disk(const fs::path& path) {
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return false;
-  const bool synced = ::fsync(file) == 0;
-  return (::close(file) == 0) && synced;
+  // Some file systems have nothing to sync for a folder and say EINVAL.
+  const bool synced = ::fsync(file) == 0 || errno == EINVAL;
+  const int error = errno;
+  ::close(file);
+  errno = error;
+  return synced;
 }
 
 }  // namespace
@@ -54,10 +70,10 @@ void require_writable(const fs::path& target) {
 
 PendingFile::PendingFile(fs::path target) : target_(std::move(target)) {
   require_writable(target_);
-  path_ = folder_of(target_) / fmt::format(".{}.{}.partial{}", target_.stem().string(), ::getpid(),
-                                           target_.extension().string());
+  path_ = folder_of(target_) / fmt::format(".{}.{}{}{}", target_.stem().string(), ::getpid(),
+                                           kPartial, target_.extension().string());
   const int file = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (file < 0) refuse(target_, std::strerror(errno), "choose another place");
+  if (file < 0) refuse_by_error(target_, errno);
   ::close(file);
 }
 
@@ -67,13 +83,18 @@ PendingFile::~PendingFile() {
 }
 
 void PendingFile::commit() {
-  if (!reaches_disk(path_)) {
-    refuse(target_, std::strerror(errno), "make room on the disk or choose another place");
-  }
+  if (!reaches_disk(path_)) refuse_by_error(target_, errno);
   std::error_code error;
   fs::rename(path_, target_, error);
-  if (error) refuse(target_, error.message(), "choose another place");
+  if (error) refuse_by_error(target_, error.value());
   committed_ = true;
+  // The new name is the folder's contents: without this a power loss could bring back the old file.
+  if (!reaches_disk(folder_of(target_))) refuse_by_error(target_, errno);
+}
+
+bool is_left_behind(const fs::path& path) {
+  const std::string name = path.filename().string();
+  return name.starts_with('.') && name.find(kPartial) != std::string::npos;
 }
 
 void write_file(const fs::path& target, std::string_view text) {
@@ -84,12 +105,11 @@ void write_file(const fs::path& target, std::string_view text) {
 
 void write_file(const fs::path& target, const std::function<void(std::ostream&)>& write) {
   PendingFile pending(target);
+  errno = 0;
   std::ofstream file(pending.path(), std::ios::binary);
   write(file);
   file.close();
-  if (!file) {
-    refuse(target, std::strerror(errno), "make room on the disk or choose another place");
-  }
+  if (!file) refuse_by_error(target, errno);
   pending.commit();
 }
 

@@ -24,7 +24,8 @@ class PendingFile {
 
   /// Where to write meanwhile: a name of its own in the target's folder, with its ending.
   const std::filesystem::path& path() const { return path_; }
-  /// Brings what was written to the disk and renames it. Throws InputError when that fails.
+  /// Brings what was written to the disk and renames it; a power loss later does not undo it.
+  /// Throws InputError when that fails.
   void commit();
 
  private:
@@ -32,6 +33,9 @@ class PendingFile {
   std::filesystem::path path_;
   bool committed_ = false;
 };
+
+/// Is this the file that a PendingFile was writing when its process was killed?
+bool is_left_behind(const std::filesystem::path& path);
 
 /// Writes a text file whole or not at all. Throws InputError when it cannot be written.
 void write_file(const std::filesystem::path& target, std::string_view text);

@@ -1,5 +1,7 @@
 #include "harness/record/manifest.hpp"
 
+#include <fmt/format.h>
+
 #include "harness/record/build_info.hpp"
 #include "harness/record/fingerprint.hpp"
 
@@ -69,6 +71,19 @@ Json scenes_json(const std::vector<SceneFacts>& scenes) {
 
 }  // namespace
 
+void go_on(Manifest& now, const Json& before) {
+  now.run.run_id = before.at("run_id").get<std::string>();
+  now.begun_utc = before.at("time_utc").get<std::string>();
+  now.earlier_parts = before.value("earlier_parts", Json::array());
+  Json part = Json::object();
+  for (const char* member : {"part_begun_utc", "machine", "measurement", "uncontrolled"}) {
+    part[member] = before.value(member, Json());
+  }
+  now.earlier_parts.push_back(part);
+  now.uncontrolled.push_back(
+      fmt::format("The run was cut off and went on at {}.", now.part_begun_utc));
+}
+
 Json to_json(const Manifest& manifest) {
   return {{"record_version", kRecordVersion},
           {"run_id", manifest.run.run_id},
@@ -80,6 +95,8 @@ Json to_json(const Manifest& manifest) {
           {"measurement", measurement_json(manifest)},
           {"scenes", scenes_json(manifest.scenes)},
           {"uncontrolled", manifest.uncontrolled},
+          {"part_begun_utc", manifest.part_begun_utc},
+          {"earlier_parts", manifest.earlier_parts},
           {"notes", {kLibraryNote}}};
 }
 

@@ -29,12 +29,18 @@ struct Manifest {
   RunFacts run;
   std::string sweep;  ///< the configuration's name
   std::string begun_utc;
-  std::string finished_utc;  ///< empty while the run goes on, or when it was cut off
+  std::string part_begun_utc;  ///< later than `begun_utc` when the run was cut off and goes on
+  std::string finished_utc;    ///< empty while the run goes on, or when it was cut off
   Machine machine;
   MeasurementFacts measurement;
   std::vector<SceneFacts> scenes;
   std::vector<std::string> uncontrolled;  ///< sentences
+  /// The conditions of the parts that the run had before it was cut off and went on.
+  nlohmann::ordered_json earlier_parts = nlohmann::ordered_json::array();
 };
+
+/// Makes `now` the manifest of the run that was begun under `before` (its file) and goes on.
+void go_on(Manifest& now, const nlohmann::ordered_json& before);
 
 nlohmann::ordered_json to_json(const Manifest& manifest);
 

@@ -16,6 +16,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kCells = "cells";
+constexpr const char* kManifest = "manifest.json";
+constexpr const char* kResults = "results.csv";
 
 void make_folder(const fs::path& path) {
   std::error_code error;
@@ -31,18 +33,37 @@ Json parse_file(const fs::path& path) {
   Json document = Json::parse(file, nullptr, /*allow_exceptions=*/false);
   if (!document.is_discarded()) return document;
   throw InputError(
-      fmt::format("cannot read '{}', which a run should have left whole; measure anew "
-                  "into another folder with -o",
+      fmt::format("cannot read '{}', which a run should have left whole; remove a cell's file to "
+                  "have the cell measured again, or begin a new run with -o",
                   path.string()));
+}
+
+void remove_left_behind(const fs::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (is_left_behind(entry.path())) fs::remove(entry.path(), ignored);
+  }
+}
+
+/// A run that was killed before its manifest was whole has measured nothing and counts as none.
+bool holds_run(const fs::path& path) {
+  const fs::path cells = path / kCells;
+  return fs::exists(path / kManifest) || fs::exists(path / kResults) ||
+         (fs::exists(cells) && !fs::is_empty(cells));
 }
 
 }  // namespace
 
+void require_run(const fs::path& folder) {
+  if (fs::exists(folder / kManifest)) return;
+  throw InputError(fmt::format("'{}' holds no run to resume: there is no {}; begin one with -o",
+                               folder.string(), kManifest));
+}
+
 RunFolder RunFolder::create(const fs::path& path) {
   make_folder(path);
   RunFolder folder(path);
-  for (const fs::path& trace : {path / "manifest.json", folder.results(), path / kCells}) {
-    if (!fs::exists(trace)) continue;
+  if (holds_run(path)) {
     throw InputError(
         fmt::format("'{}' already holds a run; go on with it by --resume '{}', or "
                     "choose another folder with -o",
@@ -53,14 +74,11 @@ RunFolder RunFolder::create(const fs::path& path) {
 }
 
 RunFolder RunFolder::open(const fs::path& path) {
-  if (!fs::exists(path / "manifest.json")) {
-    throw InputError(
-        fmt::format("'{}' holds no run to resume: there is no manifest.json; begin one "
-                    "with -o",
-                    path.string()));
-  }
-  make_folder(path / kCells);
+  require_run(path);
   RunFolder folder(path);
+  make_folder(path / kCells);
+  remove_left_behind(path);
+  remove_left_behind(path / kCells);
   folder.load_cells();
   return folder;
 }
@@ -90,9 +108,7 @@ std::vector<Json> RunFolder::cells() const {
 
 void RunFolder::load_cells() {
   for (const auto& entry : fs::directory_iterator(path_ / kCells)) {
-    const std::string name = entry.path().filename().string();
-    const bool unfinished = name.starts_with('.');  // a PendingFile that a kill left behind
-    if (unfinished || entry.path().extension() != ".json") continue;
+    if (entry.path().extension() != ".json") continue;
     Json cell = parse_file(entry.path());
     for (const char* member : {"index", "key", "row", "repetitions", "name", "message"}) {
       if (cell.contains(member)) continue;
@@ -112,7 +128,7 @@ void RunFolder::remember(Json cell) {
 void RunFolder::write_results() const {
   std::vector<Row> rows;
   for (const auto& [index, cell] : cells_) rows.push_back(cell.at("row"));
-  write_text("results.csv", csv_table(rows));
+  write_text(kResults, csv_table(rows));
 }
 
 }  // namespace beambench

@@ -9,17 +9,20 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/files/folder_lock.hpp"
+
 namespace beambench {
 
-/// Keeps what is finished, whatever happens next: `cells/<key>.json` is whole or not there,
-/// results.csv is made anew from the cells after each. Methods throw InputError when the folder
-/// cannot be written.
+/// Keeps what is finished, whatever happens next (Ctrl-C, a kill, a full disk, a power loss):
+/// `cells/<key>.json` is whole or not there, results.csv is made anew from the cells after each,
+/// and a folder with a manifest.json holds a run. One process at a time may have a folder. Methods
+/// throw InputError when the folder cannot be written.
 class RunFolder {
  public:
   /// Makes a folder for a new run; throws InputError when it already holds one.
   static RunFolder create(const std::filesystem::path& path);
   /// Opens the folder of a run that was begun; throws InputError when it holds none or a file of it
-  /// cannot be read.
+  /// cannot be read. What a kill left half-written is removed.
   static RunFolder open(const std::filesystem::path& path);
 
   const std::filesystem::path& path() const { return path_; }
@@ -32,18 +35,23 @@ class RunFolder {
   bool has_cell(const std::string& key) const { return keys_.contains(key); }
   /// Keeps a finished cell and brings results.csv up to date.
   void add_cell(const nlohmann::ordered_json& cell);
+  /// Makes results.csv from the cells: a kill may have come between a cell and its row.
+  void write_results() const;
   /// All finished cells in the order of the plan.
   std::vector<nlohmann::ordered_json> cells() const;
 
  private:
-  explicit RunFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  explicit RunFolder(std::filesystem::path path) : path_(std::move(path)), lock_(path_) {}
   void load_cells();
   void remember(nlohmann::ordered_json cell);
-  void write_results() const;
 
   std::filesystem::path path_;
+  FolderLock lock_;
   std::set<std::string> keys_;
   std::map<std::size_t, nlohmann::ordered_json> cells_;  ///< by index in the plan
 };
+
+/// Throws InputError when a folder holds no run that could go on.
+void require_run(const std::filesystem::path& folder);
 
 }  // namespace beambench

@@ -36,7 +36,7 @@ Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes
   Manifest manifest;
   manifest.machine = inspect_machine();
   manifest.sweep = sweep;
-  manifest.begun_utc = utc_now();
+  manifest.begun_utc = manifest.part_begun_utc = utc_now();
   manifest.run = facts_of(build, new_run_id(manifest.begun_utc, sweep), manifest.machine);
   manifest.measurement = {MeasuringFloatMode::available(), core, warm_up.count()};
   manifest.scenes = std::move(scenes);

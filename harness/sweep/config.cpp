@@ -12,6 +12,8 @@ namespace beambench {
 namespace {
 
 constexpr double kDefaultPrecision = 0.02;
+constexpr double kDefaultWarmUp = 0.5;  // seconds
+constexpr double kMaxWarmUp = 60.0;
 constexpr std::int64_t kMaxRepetitions = 100'000;
 constexpr double kMaxBudgetSeconds = 1e7;  // some four months
 
@@ -90,6 +92,9 @@ void read_effort(const JsonNode& root, SweepConfig& config) {
   const auto precision = root.find("precision");
   config.precision = precision ? precision->number(0.0, 1.0) : kDefaultPrecision;
   config.budget_seconds = root.require("budget_seconds").number(0.0, kMaxBudgetSeconds);
+  const auto warm_up = root.find("warm_up_seconds");
+  config.warm_up =
+      std::chrono::duration<double>(warm_up ? warm_up->number(0.0, kMaxWarmUp) : kDefaultWarmUp);
   read_repetitions(root, config);
 }
 
@@ -133,7 +138,8 @@ SweepConfig read_sweep(const std::filesystem::path& path, const Registry& struct
   config.source = read_json_file(path);
   const JsonNode root(config.source, path.string());
   root.require_object({"$schema", "name", "description", "scenes", "structures", "resolutions",
-                       "samples", "rays", "precision", "repetitions", "budget_seconds", "exclude"});
+                       "samples", "rays", "precision", "repetitions", "budget_seconds",
+                       "warm_up_seconds", "exclude"});
   config.name = read_name(root.require("name"));
   if (const auto description = root.find("description")) config.description = description->text();
   for (const JsonNode& node : root.require("scenes").elements()) {

@@ -1,6 +1,7 @@
 #pragma once
 // The configuration of a sweep: what is to be measured, read from JSON.
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -42,6 +43,7 @@ struct SweepConfig {
   int minimum_repetitions;
   int maximum_repetitions;
   double budget_seconds;  ///< for the whole run; the least repetitions are made all the same
+  std::chrono::duration<double> warm_up;  ///< of the machine, before anything is timed
   std::vector<Exclusion> exclude;
 
   nlohmann::json source;  ///< as it was read

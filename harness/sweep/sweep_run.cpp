@@ -42,15 +42,17 @@ class SweepRun {
         options_(options),
         messages_(messages),
         core_(pinnable_core()),
-        manifest_(begin_manifest(config.name, scene_facts(plan), core_, options.warm_up)),
+        manifest_(begin_manifest(config.name, scene_facts(plan), core_, config.warm_up)),
         folder_(open_folder()),
         plan_(unfinished(std::move(plan))) {}
 
   SweepOutcome run() && {
     {
       const PinnedThread pin(core_);
-      warm_up(options_.warm_up);
+      warm_up(config_.warm_up);
     }
+    folder_.write_json("manifest.json", to_json(manifest_));
+    if (options_.begun) options_.begun(folder_.path());
     const auto begin = Clock::now();
     std::size_t cells_left = plan_.cell_count();
     Progress progress(cells_left, messages_);
@@ -70,21 +72,18 @@ class SweepRun {
   }
 
   RunFolder open_folder() {
-    if (!options_.resume) {
-      const auto path = options_.folder.value_or(std::filesystem::path("results") / "runs" /
-                                                 manifest_.run.run_id);
-      RunFolder folder = RunFolder::create(path);
-      folder.write_json("config.json", config_.source);
-      folder.write_json("manifest.json", to_json(manifest_));
-      return folder;
-    }
+    if (options_.resume) return reopen_folder();
+    RunFolder folder = RunFolder::create(
+        options_.folder.value_or(std::filesystem::path("results") / "runs" / manifest_.run.run_id));
+    folder.write_json("config.json", config_.source);
+    return folder;
+  }
+
+  RunFolder reopen_folder() {
     RunFolder folder = RunFolder::open(options_.folder.value());
     require_same_run(folder, config_.source, to_json(manifest_));
-    const Json begun = folder.read_json("manifest.json");
-    manifest_.run.run_id = begun.at("run_id").get<std::string>();
-    manifest_.uncontrolled.push_back(
-        fmt::format("The run was cut off and went on at {}.", manifest_.begun_utc));
-    manifest_.begun_utc = begun.at("time_utc").get<std::string>();
+    go_on(manifest_, folder.read_json("manifest.json"));
+    folder.write_results();
     return folder;
   }
 

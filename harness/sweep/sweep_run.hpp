@@ -1,9 +1,9 @@
 #pragma once
 // Runs a sweep from its plan to its folder.
 
-#include <chrono>
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
@@ -21,7 +21,8 @@ struct SweepOptions {
   /// Go on with the run in `folder`.
   bool resume = false;
   BenchmarkFlags flags;
-  std::chrono::duration<double> warm_up{0.5};
+  /// Called with the run's folder as soon as the run can be resumed.
+  std::function<void(const std::filesystem::path&)> begun;
 };
 
 struct SweepOutcome {

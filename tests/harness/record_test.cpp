@@ -227,7 +227,8 @@ TEST(Fingerprint, TellsRaysAndHitsApart) {
 TEST(RunFolder, RefusesWhatAlreadyHoldsARun) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "run";
-  RunFolder::create(path);
+  RunFolder::create(path);  // killed before its manifest was written: it has measured nothing
+  RunFolder::create(path).write_json("manifest.json", {});
   EXPECT_TRUE(says(thrown_message([&] { RunFolder::create(path); }), {path.string(), "--resume"}));
 }
 
@@ -263,6 +264,14 @@ TEST(RunFolder, KeepsCellsInTheOrderOfThePlan) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(again.cells()[i].at("index"), i);
   again.add_cell(again.cells()[1]);
   EXPECT_EQ(read_text(path / "results.csv"), results);
+  EXPECT_FALSE(std::filesystem::exists(path / "cells" / ".left-behind.123.partial.json"));
+}
+
+TEST(RunFolder, BelongsToOneAtATime) {
+  const TemporaryFolder folder;
+  const RunFolder run = RunFolder::create(folder.path() / "run");
+  EXPECT_TRUE(says(thrown_message([&] { RunFolder::create(folder.path() / "run"); }),
+                   {"another beambench", "wait until"}));
 }
 
 TEST(Machine, TellsWhatItCan) {

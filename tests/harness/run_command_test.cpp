@@ -39,7 +39,8 @@ class RunCommand : public testing::Test {
                      {"structures", structures},
                      {"resolutions", {"8x8"}},
                      {"repetitions", {{"minimum", 2}, {"maximum", 2}}},
-                     {"budget_seconds", 1}};
+                     {"budget_seconds", 1},
+                     {"warm_up_seconds", 0}};
     folder_.write("tiny.json", sweep.dump());
   }
 
@@ -107,7 +108,7 @@ TEST_F(RunCommand, WrongRequestsGetOneSentence) {
   expect_refused("tiny.json --benchmark_fliter=x", {"--benchmark_fliter"});
   expect_refused("tiny.json --benchmark_filter=zzz", {"'zzz'", "none of the 1 cells"});
   expect_refused("tiny.json -o a --resume b", {"excludes"});
-  expect_refused("--resume .", {"no", "config.json"});
+  expect_refused("--resume .", {"holds no run to resume", "manifest.json"});
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ class Sweep : public testing::Test {
     return {{"name", "test"},           {"scenes", {"tetra:n=2"}},
             {"structures", structures}, {"resolutions", {"32x20"}},
             {"precision", 0},           {"repetitions", {{"minimum", 4}, {"maximum", 4}}},
-            {"budget_seconds", 1}};
+            {"budget_seconds", 1},      {"warm_up_seconds", 0}};
   }
 
   SweepOutcome run(const json& document, bool resume = false) {
@@ -95,7 +95,6 @@ class Sweep : public testing::Test {
     SweepOptions options;
     options.folder = results();
     options.resume = resume;
-    options.warm_up = std::chrono::duration<double>(0.0);
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages(
         std::fopen((folder_.path() / "messages").c_str(), "w"), std::fclose);
     return run_sweep(sweep, make_plan(sweep), GoogleBenchmark(options.flags), options,
