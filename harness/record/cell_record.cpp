@@ -29,6 +29,7 @@ std::vector<double> collect(const CellRecord& cell, Figure figure) {
 bool has_times(const CellRecord& cell) { return cell.keeps_times() && !cell.repetitions.empty(); }
 
 void add_run(Row& row, const RunFacts& run, const CellRecord& cell) {
+  row["schema_version"] = kSchemaVersion;
   row["run_id"] = run.run_id;
   row["time_utc"] = cell.time_utc;
   row["commit"] = run.commit;

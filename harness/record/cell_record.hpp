@@ -15,6 +15,11 @@
 
 namespace beambench {
 
+/// The version of the columns of results.csv, their first one. Counted up when a column changes its
+/// name, meaning or unit or goes away, since a reader of the old ones would err; a new column alone
+/// is no new version. What each means is in scripts/beambench_report/columns.json.
+inline constexpr int kSchemaVersion = 1;
+
 /// What tells a cell from every other cell of a sweep.
 struct CellId {
   std::string scene;

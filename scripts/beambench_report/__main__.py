@@ -1,4 +1,4 @@
-"""Command line: python -m beambench_report plots|pictures RUN."""
+"""Command line: python -m beambench_report plots|pictures|page|columns ..."""
 
 from __future__ import annotations
 
@@ -6,6 +6,8 @@ import argparse
 import sys
 from pathlib import Path
 
+from beambench_report.dictionary import as_markdown, dictionary
+from beambench_report.page.write import write_page
 from beambench_report.pictures import write_pictures
 from beambench_report.plots import write_plots
 from beambench_report.problem import Problem
@@ -13,23 +15,12 @@ from beambench_report.problem import Problem
 
 def main(arguments: list[str] | None = None) -> int:
     """Runs one command; returns the exit code (2 when the request was wrong)."""
-    parser = argparse.ArgumentParser(
-        prog="beambench_report", description="Plots and pictures of a beambench run."
-    )
-    commands = parser.add_subparsers(dest="command", required=True)
-    plots = commands.add_parser("plots", help="draw RUN/plots from RUN/results.csv")
-    pictures = commands.add_parser("pictures", help="render RUN/pictures of the scenes of a run")
-    for command in (plots, pictures):
-        command.add_argument("run", type=Path, metavar="RUN", help="folder of a run")
-    pictures.add_argument(
-        "--beambench", type=Path, required=True, metavar="PROGRAM", help="the built beambench"
-    )
-    options = parser.parse_args(arguments)
+    options = _parser().parse_args(arguments)
+    if options.command == "columns":
+        print(as_markdown(dictionary()), end="")
+        return 0
     try:
-        if options.command == "plots":
-            paths = write_plots(options.run)
-        else:
-            paths = write_pictures(options.run, options.beambench)
+        paths = _write(options)
     except Problem as problem:
         print(f"error: {problem}", file=sys.stderr)
         return 2
@@ -39,6 +30,37 @@ def main(arguments: list[str] | None = None) -> int:
     for path in paths:
         print(path)
     return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="beambench_report", description="Plots, pictures and the page of a beambench run."
+    )
+    commands = parser.add_subparsers(dest="command", required=True)
+    plots = commands.add_parser("plots", help="draw RUN/plots from RUN/results.csv")
+    pictures = commands.add_parser("pictures", help="render RUN/pictures of the scenes of a run")
+    page = commands.add_parser("page", help="write RUN/report.html from all that RUN holds")
+    for command in (plots, pictures, page):
+        command.add_argument("run", type=Path, metavar="RUN", help="folder of a run")
+    pictures.add_argument(
+        "--beambench", type=Path, required=True, metavar="PROGRAM", help="the built beambench"
+    )
+    page.add_argument(
+        "--reference",
+        metavar="CONTENDER",
+        help="whose times are 1 in the ratios, as the plots call it; if not given, the contender "
+        "that was right in the most views, Embree rather than others",
+    )
+    commands.add_parser("columns", help="print results/README.md: what every column means")
+    return parser
+
+
+def _write(options: argparse.Namespace) -> list[Path]:
+    if options.command == "plots":
+        return write_plots(options.run)
+    if options.command == "pictures":
+        return write_pictures(options.run, options.beambench)
+    return write_page(options.run, options.reference)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,7 @@ from beambench_report.style import Look
 BAR_HEIGHT = 0.26  # inches
 _FAR = 12  # a bar this many times the median one runs off the axis, or it would flatten the others
 _ROOM_FOR_TEXT = 1.45
+_LONG_LABEL = 24  # characters
 
 
 @dataclass(frozen=True)
@@ -49,7 +50,9 @@ def draw_bars(panel: Axes, bars: Sequence[Bar], looks: Mapping[str, Look], unit:
             fontsize=7.5,
             bbox={"boxstyle": "square,pad=0.15", "fc": "white", "ec": "none"} if off else None,
         )
-    panel.set_yticks(range(len(bars)), [bar.contender for bar in bars])
+    panel.set_yticks(
+        range(len(bars)), [in_two_lines(bar.contender) for bar in bars], linespacing=0.9
+    )
     panel.set_ylim(len(bars) - 0.4, -0.6)
     panel.set_xlim(0, end)
     panel.set_xlabel(unit)
@@ -57,12 +60,13 @@ def draw_bars(panel: Axes, bars: Sequence[Bar], looks: Mapping[str, Look], unit:
     panel.tick_params(axis="y", length=0)
 
 
-def number(value: float) -> str:
-    """Three significant digits, with thousands marked: 0.00123, 4.57, 12,300."""
-    if value == 0 or not np.isfinite(value):
-        return f"{value:g}"
-    digits = max(0, 2 - int(np.floor(np.log10(abs(value)))))
-    return f"{value:,.{min(digits, 6)}f}"
+def in_two_lines(label: str) -> str:
+    """A long label broken once, or it would take the room of the bars."""
+    words = label.split()
+    if len(label) <= _LONG_LABEL or len(words) < 2:
+        return label
+    breaks = [(" ".join(words[:at]), " ".join(words[at:])) for at in range(1, len(words))]
+    return "\n".join(min(breaks, key=lambda lines: max(map(len, lines))))
 
 
 def _axis_end(totals: np.ndarray) -> float:

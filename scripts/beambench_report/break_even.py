@@ -10,6 +10,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.ticker import EngFormatter
 
+from beambench_report.bars import in_two_lines
 from beambench_report.figure import Plot
 from beambench_report.panels import panel_per_view
 from beambench_report.records import Run
@@ -83,7 +84,7 @@ def break_even(run: Run) -> list[Plot]:
         panel.set_xscale("log")
         panel.set_xlim(*_limits([*pairs["break_even_rays"].dropna(), image]))
         panel.xaxis.set_major_formatter(EngFormatter(sep=" "))
-        panel.set_yticks(range(len(pairs)), pairs["contender"])
+        panel.set_yticks(range(len(pairs)), [in_two_lines(name) for name in pairs["contender"]])
         panel.set_ylim(len(pairs) - 0.4, -0.6)
         panel.tick_params(axis="y", length=0)
         panel.set_xlabel(f"rays until the dearer build is paid, against {baseline}")

@@ -5,9 +5,10 @@ from __future__ import annotations
 import pandas as pd
 from matplotlib.patches import Patch
 
-from beambench_report.bars import Bar, draw_bars, number
+from beambench_report.bars import Bar, draw_bars
 from beambench_report.figure import Plot
 from beambench_report.panels import panel_per_view
+from beambench_report.quantities import number
 from beambench_report.records import Run
 from beambench_report.style import looks
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import pandas as pd
 
-from beambench_report.bars import BAR_HEIGHT, Bar, draw_bars, number
+from beambench_report.bars import BAR_HEIGHT, Bar, draw_bars
+from beambench_report.dictionary import COUNTER_SUFFIX
 from beambench_report.figure import Plot, caption, new_figure
 from beambench_report.names import file_stems
 from beambench_report.panels import PANEL_MARGIN
-from beambench_report.records import COUNTER_SUFFIX, Run
+from beambench_report.quantities import number
+from beambench_report.records import Run
 from beambench_report.style import looks
 
 _COLUMNS = 2
@@ -45,7 +47,7 @@ def counters(run: Run) -> list[Plot]:
             "its work is left out.",
             times=False,
         )
-        plots.append(Plot(f"counters-{stem}", figure, f"{title}: counters a ray"))
+        plots.append(Plot(f"counters-{stem}", figure, f"{title}: counters a ray", title))
     return plots
 
 

@@ -38,6 +38,8 @@ class Plot:
     stem: str
     figure: Figure
     summary: str
+    view: str = ""
+    """The title of the view it shows; empty where it shows them all."""
 
 
 def house_style() -> AbstractContextManager[None]:

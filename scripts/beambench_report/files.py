@@ -15,3 +15,8 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
     finally:
         pending.unlink(missing_ok=True)
     return path
+
+
+def write_text(path: Path, text: str) -> Path:
+    """Writes a text whole; returns `path`."""
+    return write_whole(path, lambda pending: pending.write_text(text, "utf-8"))

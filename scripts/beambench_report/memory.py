@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pandas as pd
 
-from beambench_report.bars import Bar, draw_bars, number
+from beambench_report.bars import Bar, draw_bars
 from beambench_report.figure import Plot
 from beambench_report.panels import panel_per_view
+from beambench_report.quantities import size_in_words
 from beambench_report.records import Run
 from beambench_report.style import looks
 
@@ -29,12 +30,6 @@ def memory(run: Run) -> list[Plot]:
 
 def _bars(rows: pd.DataFrame) -> list[Bar]:
     return [
-        Bar(row.contender, (row.memory_bytes / _MIB,), _in_words(row.memory_bytes))
+        Bar(row.contender, (row.memory_bytes / _MIB,), size_in_words(row.memory_bytes))
         for row in rows.itertuples()
     ]
-
-
-def _in_words(size: float) -> str:
-    if size < 1024:
-        return f"{size:.0f} B"
-    return f"{number(size / 1024)} KiB" if size < _MIB else f"{number(size / _MIB)} MiB"

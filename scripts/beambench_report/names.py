@@ -7,27 +7,26 @@ from collections.abc import Iterable
 
 import pandas as pd
 
+# Lists the plots of a run for programs, as plots/README.md does for people.
+PLOT_INDEX = "index.json"
+
 
 def contender_labels(rows: pd.DataFrame) -> pd.Series:
     """Structure names, with those parameters that differ between rows of one structure.
 
     `samet` when the run has it once; `samet max_level=6` when it sweeps the level.
     """
-    parameters = rows["parameters"].map(_parameter_items)
+    keys = list(zip(rows["structure"], rows["parameters"], strict=True))
+    items = {key: _parameter_items(key[1]) for key in dict.fromkeys(keys)}
     varying = {
-        structure: _varying_names(group)
-        for structure, group in parameters.groupby(rows["structure"], sort=False)
+        structure: _varying_names(items[key] for key in items if key[0] == structure)
+        for structure in dict.fromkeys(key[0] for key in items)
     }
-
-    def label(structure: str, items: dict[str, str]) -> str:
-        shown = [f"{name}={items[name]}" for name in items if name in varying[structure]]
-        return " ".join([structure, *shown])
-
-    labels = [
-        label(structure, items)
-        for structure, items in zip(rows["structure"], parameters, strict=True)
-    ]
-    return pd.Series(labels, index=rows.index)
+    labels = {
+        key: " ".join([key[0], *(f"{n}={v}" for n, v in own.items() if n in varying[key[0]])])
+        for key, own in items.items()
+    }
+    return pd.Series([labels[key] for key in keys], index=rows.index)
 
 
 def view_titles(rows: pd.DataFrame) -> pd.Series:

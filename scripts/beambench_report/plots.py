@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 from beambench_report.break_even import break_even, break_even_table
 from beambench_report.build_and_trace import build_and_trace
 from beambench_report.counters import counters
 from beambench_report.figure import Plot, house_style, write_plot
-from beambench_report.files import write_whole
+from beambench_report.files import write_text, write_whole
 from beambench_report.memory import memory
+from beambench_report.names import PLOT_INDEX
 from beambench_report.records import Run, read_run
 from beambench_report.time_over_rays import time_over_rays
 
@@ -17,7 +19,7 @@ FIGURES = (time_over_rays, build_and_trace, break_even, memory, counters)
 
 
 def write_plots(directory: Path) -> list[Path]:
-    """Fills DIRECTORY/plots from DIRECTORY/results.csv: PNG, SVG, a table and a README."""
+    """Fills DIRECTORY/plots from DIRECTORY/results.csv: PNG, SVG, a table, README and index."""
     run = read_run(directory)
     folder = directory / "plots"
     folder.mkdir(exist_ok=True)
@@ -28,8 +30,8 @@ def write_plots(directory: Path) -> list[Path]:
     paths.append(
         write_whole(folder / "break-even.csv", lambda path: table.to_csv(path, index=False))
     )
-    text = _readme(run, plots)
-    paths.append(write_whole(folder / "README.md", lambda path: path.write_text(text, "utf-8")))
+    for name, text in (("README.md", _readme(run, plots)), (PLOT_INDEX, _index(plots))):
+        paths.append(write_text(folder / name, text))
     return paths
 
 
@@ -46,3 +48,8 @@ def _readme(run: Run, plots: list[Plot]) -> str:
         "",
     ]
     return "\n".join(lines)
+
+
+def _index(plots: list[Plot]) -> str:
+    entries = [{"stem": plot.stem, "summary": plot.summary, "view": plot.view} for plot in plots]
+    return json.dumps(entries, indent=2) + "\n"

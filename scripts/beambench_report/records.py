@@ -1,4 +1,4 @@
-"""Reads the results.csv of a run and checks that it holds what the plots need."""
+"""Reads the results.csv of a run and checks that it holds what plots and pages need."""
 
 from __future__ import annotations
 
@@ -6,39 +6,27 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pandas as pd
+from pandas.api.types import is_bool_dtype, is_numeric_dtype
 
+from beambench_report.dictionary import COUNTER_SUFFIX, dictionary
 from beambench_report.names import contender_labels, view_titles
 from beambench_report.problem import Problem
 
-TEXT_COLUMNS = (
-    "run_id",
-    "commit",
-    "dirty",
-    "machine_id",
-    "scene",
-    "camera",
-    "structure",
-    "parameters",
-    "ray_kind",
-    "verdict",
-)
-COUNT_COLUMNS = ("threads", "primitives", "width", "height", "samples", "rays")
-MEASURE_COLUMNS = (
-    "build_ms_median",
-    "trace_ms_median",
-    "total_ms_median",
-    "total_ms_ci_low",
-    "total_ms_ci_high",
-    "memory_bytes",
-)
-COUNTER_SUFFIX = "_per_ray"
+# The columns without which there is nothing to show.
+NEEDED_COLUMNS = (
+    "run_id commit dirty machine_id threads "
+    "scene camera primitives structure parameters width height samples ray_kind rays "
+    "build_ms_median trace_ms_median total_ms_median total_ms_ci_low total_ms_ci_high "
+    "memory_bytes verdict"
+).split()
+VERSION_COLUMN = "schema_version"
 
 TIMED_VERDICTS = ("ok", "baseline")
 
 
 @dataclass(frozen=True)
 class Run:
-    """One run: a row a cell, as in results.csv, and what the plots call things.
+    """One run: a row a cell, as in results.csv, and what plots and pages call things.
 
     Columns added to those of the file: `contender` (label of structure and parameters), `view`
     (title of what the rays see) and `timed` (do the row's times count?).
@@ -71,18 +59,9 @@ class Run:
 def read_run(directory: Path) -> Run:
     """Reads DIRECTORY/results.csv. Raises Problem naming the file, column and row at fault."""
     path = directory / "results.csv"
-    # `null` is the name of a structure, so that only an empty field means "not measured".
-    try:
-        rows = pd.read_csv(path, dtype=str, keep_default_na=False, na_values=[""])
-    except FileNotFoundError:
-        raise Problem(
-            f"{path}: there is no such file; give the folder that `beambench run` wrote"
-        ) from None
-    except (OSError, UnicodeDecodeError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
-        raise Problem(f"{path}: cannot be read as CSV: {error}") from None
-
-    wanted = TEXT_COLUMNS + COUNT_COLUMNS + MEASURE_COLUMNS
-    missing = [name for name in wanted if name not in rows]
+    rows = _read_csv(path)
+    _require_version(rows, path)
+    missing = [name for name in NEEDED_COLUMNS if name not in rows]
     if missing:
         raise Problem(
             f"{path}: the columns {', '.join(missing)} are missing; "
@@ -91,11 +70,12 @@ def read_run(directory: Path) -> Run:
     if rows.empty:
         raise Problem(f"{path}: holds no row; the run was cut off before its first cell ended")
 
-    for name in TEXT_COLUMNS:
-        rows[name] = rows[name].fillna("")
-    counters = [name for name in rows if name.endswith(COUNTER_SUFFIX)]
-    for name in (*COUNT_COLUMNS, *MEASURE_COLUMNS, *counters):
-        rows[name] = _numbers(rows[name], path)
+    for name in rows.columns:
+        column = dictionary().find(name)
+        if column and column.is_number:
+            rows[name] = _numbers(rows[name], path)
+        else:
+            rows[name] = rows[name].astype(str).where(rows[name].notna(), "")
     _require_values(rows, path, ("scene", "structure", "rays"))
 
     rows["contender"] = contender_labels(rows)
@@ -104,9 +84,44 @@ def read_run(directory: Path) -> Run:
     return Run(directory, rows)
 
 
+def _read_csv(path: Path) -> pd.DataFrame:
+    texts = {column.name: str for column in dictionary().columns if not column.is_number}
+    texts[VERSION_COLUMN] = str
+    try:
+        # `null` is the name of a structure, so that only an empty field means "not measured".
+        return pd.read_csv(
+            path, dtype=texts, keep_default_na=False, na_values=[""], low_memory=False
+        )
+    except FileNotFoundError:
+        raise Problem(
+            f"{path}: there is no such file; give the folder that `beambench run` wrote"
+        ) from None
+    except (OSError, UnicodeDecodeError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
+        raise Problem(f"{path}: cannot be read as CSV: {error}") from None
+
+
+def _require_version(rows: pd.DataFrame, path: Path) -> None:
+    """A reader that guesses what another version's columns mean would lie without a sound."""
+    known = dictionary().schema_version
+    if VERSION_COLUMN not in rows:
+        raise Problem(
+            f"{path}: there is no column {VERSION_COLUMN}, so it was written by an older beambench "
+            "or by something else; measure anew"
+        )
+    others = rows.index[rows[VERSION_COLUMN].astype(str) != str(known)]
+    if len(others) > 0:
+        raise Problem(
+            f"{path}, row {others[0] + 2}: {VERSION_COLUMN} is "
+            f"'{rows[VERSION_COLUMN][others[0]]}', and this reads version {known}; use the scripts "
+            "of the commit that the row names, or measure anew"
+        )
+
+
 def _numbers(column: pd.Series, path: Path) -> pd.Series:
-    numbers = pd.to_numeric(column, errors="coerce")
-    wrong = column[numbers.isna() & column.notna() & (column.str.lower() != "nan")]
+    if is_numeric_dtype(column) and not is_bool_dtype(column):
+        return column.astype(float)
+    numbers = pd.to_numeric(column.astype(str).where(column.notna()), errors="coerce")
+    wrong = column[numbers.isna() & column.notna() & (column.astype(str).str.lower() != "nan")]
     if not wrong.empty:
         raise Problem(
             f"{path}, row {wrong.index[0] + 2}: {column.name} is '{wrong.iloc[0]}', not a number"

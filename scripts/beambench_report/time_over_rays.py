@@ -33,9 +33,8 @@ def time_over_rays(run: Run) -> list[Plot]:
             "Both axes are logarithmic.",
             times=True,
         )
-        plots.append(
-            Plot(f"time-{stem}", figure, f"{title}: time, build included, against number of rays")
-        )
+        summary = f"{title}: time, build included, against number of rays"
+        plots.append(Plot(f"time-{stem}", figure, summary, title))
     return plots
 
 

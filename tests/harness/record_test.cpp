@@ -153,7 +153,7 @@ const RunFacts kRun{"id", "abc", true, "m", "Release", "-O3", "AVX2", 1};
 
 /// The columns that scripts and people rely on, in order.
 const char* const kContract =
-    "run_id,time_utc,commit,dirty,machine_id,build_type,flags,isa,threads,"
+    "schema_version,run_id,time_utc,commit,dirty,machine_id,build_type,flags,isa,threads,"
     "scene,camera,scene_hash,rays_hash,seed,primitives,"
     "structure,parameters,width,height,samples,ray_kind,rays,"
     "repetitions,stop_reason,"
@@ -174,6 +174,7 @@ TEST(CellRow, HasTheColumnsOfTheContract) {
 
 TEST(CellRow, SumsUpTheRepetitions) {
   const Row row = to_row(kRun, some_cell());
+  EXPECT_EQ(row.at("schema_version"), kSchemaVersion);
   EXPECT_EQ(row.at("repetitions"), 7);
   EXPECT_EQ(row.at("build_ms_median"), 4.0);
   EXPECT_EQ(row.at("trace_ms_median"), 10.0);

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import csv
+import json
 from pathlib import Path
 
+from beambench_report.plots import write_plots
+
 COLUMNS = (
-    "run_id time_utc commit dirty machine_id build_type flags isa threads "
+    "schema_version run_id time_utc commit dirty machine_id build_type flags isa threads "
     "scene camera scene_hash rays_hash seed primitives "
     "structure parameters width height samples ray_kind rays repetitions stop_reason "
     "build_ms_median build_ms_min build_ms_mad trace_ms_median trace_ms_min trace_ms_mad "
@@ -27,6 +30,13 @@ _STRUCTURES = {
 }
 _RESOLUTIONS = ((320, 200), (640, 480), (1280, 1024))
 _SCENES = ("escena1", "tetra:n=6")
+
+# What a file of a cell tells of a ray whose hit was wrong.
+EXAMPLE = (
+    "pixel (3, 4) sample 0: engine_error, another primitive\n"
+    "  engine miss\n"
+    "  replay beambench trace 'tetra:n=6' --accel samet:max_level=6 --pixel 3,4\n"
+)
 
 
 def made_up_rows() -> list[dict[str, object]]:
@@ -56,12 +66,73 @@ def without_times(row: dict[str, object], verdict: str) -> dict[str, object]:
     return {**row, **times, "verdict": verdict}
 
 
+def write_cell(
+    folder: Path,
+    row: dict[str, object],
+    total_ms: dict[int, float] | None = None,
+    message: str = "",
+    examples: tuple[str, ...] = (),
+) -> None:
+    """Writes the file of one cell, as `beambench run` does beside results.csv."""
+    cells = folder / "cells"
+    cells.mkdir(exist_ok=True)
+    repetitions = [
+        {"round": turn, "position": 0, "build_ms": 0.25 * total, "trace_ms": 0.75 * total}
+        for turn, total in (total_ms or {}).items()
+    ]
+    cell = {"row": row, "message": message, "examples": examples, "repetitions": repetitions}
+    (cells / f"{len(list(cells.iterdir())):016x}.json").write_text(json.dumps(cell))
+
+
+def write_manifest(folder: Path, **changes: object) -> None:
+    """Writes a manifest of the kinds of members that beambench writes."""
+    manifest = {
+        "run_id": "20260102T030405Z-abc1234",
+        "sweep": "made-up",
+        "time_utc": "2026-01-02T03:04:05Z",
+        "finished_utc": "2026-01-02T03:08:15Z",
+        "program": {"build_type": "Release", "dirty": False, "libraries": {"embree": "3.13.5"}},
+        "machine": {"cpu": "A Made-Up Processor", "memory_bytes": 2**34, "governor": None},
+        "scenes": [{"name": "escena1", "primitives": 430}],
+        "uncontrolled": ["The system does not tell its frequency governor."],
+        "notes": ["A note."],
+    }
+    (folder / "manifest.json").write_text(json.dumps(manifest | changes))
+
+
+def write_full_run(folder: Path) -> Path:
+    """A run with everything that scripts/run leaves, and one structure that was wrong."""
+    rows = [
+        without_times(row, "mismatch")
+        if row["parameters"] == "max_level=6,max_objects=0" and row["scene"] == "tetra:n=6"
+        else row
+        for row in made_up_rows()
+    ]
+    write_run(folder, rows)
+    for row in rows:
+        wrong = row["verdict"] == "mismatch"
+        write_cell(
+            folder,
+            row,
+            {} if wrong else {turn: float(row["total_ms_median"]) for turn in range(7)},
+            "3 of 64000 hits were wrong" if wrong else "",
+            (EXAMPLE,) if wrong else (),
+        )
+    write_manifest(folder)
+    write_plots(folder)
+    (folder / "pictures").mkdir()
+    for name in ("escena1", "tetra-n-6", "tetra-n-6-samet-traversal_steps"):
+        (folder / "pictures" / f"{name}.png").write_bytes(b"\x89PNG")
+    return folder
+
+
 def _row(scene: str, structure: str, parameters: str, width: int, height: int) -> dict[str, object]:
     build, per_ray, memory, steps = _STRUCTURES[structure, parameters]
     rays = width * height
     trace = per_ray * rays
     total = build + trace
     return {
+        "schema_version": 1,
         "run_id": "20260102T030405Z-abc1234",
         "time_utc": "2026-01-02T03:04:05Z",
         "commit": "abc1234def5678",

@@ -50,7 +50,7 @@ def test_finest_gives_the_highest_number_of_rays(run_folder: Path) -> None:
 
 def test_missing_columns_are_named(tmp_path: Path) -> None:
     folder = write_run(tmp_path, made_up_rows(), without=("verdict", "memory_bytes"))
-    with pytest.raises(Problem, match=r"results\.csv: the columns verdict, memory_bytes are miss"):
+    with pytest.raises(Problem, match=r"results\.csv: the columns memory_bytes, verdict are miss"):
         read_run(folder)
 
 
@@ -67,6 +67,32 @@ def test_a_row_without_identity_is_refused(tmp_path: Path, column: str) -> None:
     rows[0] = {**rows[0], column: ""}
     with pytest.raises(Problem, match=f"row 2: {column} is empty"):
         read_run(write_run(tmp_path, rows))
+
+
+@pytest.mark.parametrize("version", [0, 2, "", "one"])
+def test_another_version_of_the_schema_is_refused(tmp_path: Path, version: object) -> None:
+    rows = made_up_rows()
+    rows[3] = {**rows[3], "schema_version": version}
+    with pytest.raises(Problem, match=r"row 5: schema_version is '.*', and this reads version 1"):
+        read_run(write_run(tmp_path, rows))
+
+
+def test_a_table_without_a_version_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(Problem, match="there is no column schema_version"):
+        read_run(write_run(tmp_path, made_up_rows(), without=("schema_version",)))
+
+
+@pytest.mark.parametrize("text", ["true", "1e", "0x10"])
+def test_what_a_reader_could_take_for_a_number_is_refused(tmp_path: Path, text: str) -> None:
+    rows = [{**row, "memory_bytes": text} for row in made_up_rows()]
+    with pytest.raises(Problem, match=f"(?i)row 2: memory_bytes is '{text}', not a number"):
+        read_run(write_run(tmp_path, rows))
+
+
+def test_hashes_of_digits_alone_stay_texts(tmp_path: Path) -> None:
+    rows = [{**row, "scene_hash": "0000000000000012"} for row in made_up_rows()]
+    run = read_run(write_run(tmp_path, rows))
+    assert set(run.rows["scene_hash"]) == {"0000000000000012"}
 
 
 def test_a_run_without_rows_is_refused(tmp_path: Path) -> None:

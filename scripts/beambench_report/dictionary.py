@@ -1,0 +1,109 @@
+"""The data dictionary: what every column of results.csv means (columns.json is its source)."""
+
+from __future__ import annotations
+
+import json
+import textwrap
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Literal
+
+_SOURCE = Path(__file__).with_name("columns.json")
+_ANY_COUNTER = "<counter>"
+COUNTER_SUFFIX = "_per_ray"
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column: what stands in it, in which unit, and how it was found out."""
+
+    name: str
+    group: str
+    type: Literal["text", "flag", "integer", "number"]
+    unit: str
+    meaning: str
+    measured: str
+
+    @property
+    def is_number(self) -> bool:
+        """Does it hold figures?"""
+        return self.type in ("integer", "number")
+
+    @property
+    def is_pattern(self) -> bool:
+        """Does it stand for all counters that families of structures add?"""
+        return _ANY_COUNTER in self.name
+
+
+@dataclass(frozen=True)
+class Group:
+    """Columns that belong together, in their order."""
+
+    name: str
+    title: str
+    columns: tuple[Column, ...]
+
+
+@dataclass(frozen=True)
+class Dictionary:
+    """All columns of one version of results.csv."""
+
+    schema_version: int
+    groups: tuple[Group, ...]
+
+    @property
+    def columns(self) -> tuple[Column, ...]:
+        """Every column in the order of the file."""
+        return tuple(column for group in self.groups for column in group.columns)
+
+    def find(self, name: str) -> Column | None:
+        """The entry of a column of a file; a family's own counter gets that of the pattern."""
+        for column in self.columns:
+            if column.name == name:
+                return column
+        if not name.endswith(COUNTER_SUFFIX):
+            return None
+        return next(column for column in self.columns if column.is_pattern)
+
+
+@cache
+def dictionary() -> Dictionary:
+    """The dictionary of the records that this version reads."""
+    source = json.loads(_SOURCE.read_text("utf-8"))
+    columns = [Column(**entry) for entry in source["columns"]]
+    groups = tuple(
+        Group(**entry, columns=tuple(column for column in columns if column.group == entry["name"]))
+        for entry in source["groups"]
+    )
+    return Dictionary(source["schema_version"], groups)
+
+
+def as_markdown(known: Dictionary) -> str:
+    """The dictionary as the text of results/README.md."""
+    introduction = (
+        f"Schema version {known.schema_version}. A row is a cell of a sweep: one structure with "
+        "one set of parameters, asked with one set of rays. The file is UTF-8 with one header row "
+        "and quotes as in RFC 4180. An empty field was not measured; `null` is a structure's name."
+    )
+    lines = [
+        "# The columns of results.csv",
+        "",
+        "<!-- Written by `python -m beambench_report columns` from columns.json: edit that. -->",
+        "",
+        textwrap.fill(introduction, 100),
+    ]
+    for group in known.groups:
+        lines += [
+            "",
+            f"## {group.title}",
+            "",
+            "| column | type | unit | meaning | how it is measured |",
+            "|---|---|---|---|---|",
+        ]
+        lines += [
+            f"| `{column.name}` | {column.type} | {column.unit} | {column.meaning} "
+            f"| {column.measured} |"
+            for column in group.columns
+        ]
+    return "\n".join(lines) + "\n"

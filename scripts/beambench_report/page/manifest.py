@@ -1,0 +1,127 @@
+"""The manifest of a run as the page shows it, whatever a version of beambench puts into it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+
+from beambench_report.problem import Problem
+from beambench_report.quantities import size_in_words
+
+_SENTENCES = ("uncontrolled", "notes")
+
+
+@dataclass(frozen=True)
+class Facts:
+    """A titled list of names and values, or a table where there are many of a kind."""
+
+    title: str
+    pairs: list[tuple[str, str]] = field(default_factory=list)
+    table: list[dict[str, str]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """What was measured by what, and where."""
+
+    sweep: str = ""
+    begun: str = ""
+    seconds: float | None = None
+    cut_off: bool = False
+    machine: str = ""
+    uncontrolled: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    facts: list[Facts] = field(default_factory=list)
+
+
+def read_manifest(directory: Path) -> Manifest | None:
+    """DIRECTORY/manifest.json; None where there is none."""
+    source = _read_object(directory / "manifest.json")
+    if source is None:
+        return None
+    begun, finished = source.get("time_utc"), source.get("finished_utc")
+    return Manifest(
+        sweep=source.get("sweep", ""),
+        begun=begun or "",
+        seconds=_seconds_between(begun, finished),
+        cut_off="finished_utc" in source and not finished,
+        machine=_dictionary(source, "machine").get("cpu", ""),
+        uncontrolled=source.get("uncontrolled", []),
+        notes=source.get("notes", []),
+        facts=_facts(source),
+    )
+
+
+def read_description(directory: Path) -> str:
+    """What the sweep says of itself in DIRECTORY/config.json; empty where it says nothing."""
+    return str((_read_object(directory / "config.json") or {}).get("description", ""))
+
+
+def _read_object(path: Path) -> dict | None:
+    try:
+        source = json.loads(path.read_text("utf-8"))
+    except FileNotFoundError:
+        return None
+    except ValueError as error:
+        raise Problem(f"{path}: cannot be read as JSON: {error}") from None
+    if not isinstance(source, dict):
+        raise Problem(f"{path}: holds no JSON object")
+    return source
+
+
+def _facts(source: dict) -> list[Facts]:
+    """Plain members first, then a list for each group of them."""
+    plain = Facts("Run")
+    groups = [plain]
+    for name, value in source.items():
+        if name in _SENTENCES:
+            continue
+        if isinstance(value, dict):
+            groups.append(Facts(_label(name), _pairs(value)))
+        elif isinstance(value, list) and value and all(isinstance(one, dict) for one in value):
+            rows = [dict(_pairs(one)) for one in value]
+            groups.append(Facts(_label(name), table=rows))
+        else:
+            plain.pairs.append((_label(name), _text(name, value)))
+    return groups
+
+
+def _pairs(source: dict, prefix: str = "") -> list[tuple[str, str]]:
+    pairs = []
+    for name, value in source.items():
+        label = f"{prefix}{_label(name)}"
+        if isinstance(value, dict):
+            pairs += _pairs(value, f"{label}: ")
+        else:
+            pairs.append((label, _text(name, value)))
+    return pairs
+
+
+def _label(name: str) -> str:
+    return name.replace("_", " ")
+
+
+def _text(name: str, value: object) -> str:
+    if value is None:
+        return "not told"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, list):
+        return ", ".join(_text(name, one) for one in value)
+    if isinstance(value, int | float) and name.endswith("_bytes"):
+        return size_in_words(value)
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def _dictionary(source: dict, name: str) -> dict:
+    value = source.get(name)
+    return value if isinstance(value, dict) else {}
+
+
+def _seconds_between(begun: str | None, finished: str | None) -> float | None:
+    try:
+        return (datetime.fromisoformat(finished) - datetime.fromisoformat(begun)).total_seconds()
+    except (TypeError, ValueError):
+        return None

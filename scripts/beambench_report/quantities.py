@@ -1,0 +1,34 @@
+"""Figures as people read them."""
+
+from __future__ import annotations
+
+from math import floor, isfinite, log10
+
+
+def number(value: float) -> str:
+    """Three significant digits, with thousands marked: 0.00123, 4.57, 12,300."""
+    if value == 0 or not isfinite(value):
+        return f"{value:g}"
+    digits = max(0, 2 - floor(log10(abs(value))))
+    return f"{value:,.{min(digits, 6)}f}"
+
+
+def size_in_words(size: float) -> str:
+    """A number of bytes: 640 B, 12.0 KiB, 3.40 GiB."""
+    if size < 1024:
+        return f"{size:.0f} B"
+    for unit in ("KiB", "MiB"):
+        size /= 1024
+        if size < 1024:
+            return f"{number(size)} {unit}"
+    return f"{number(size / 1024)} GiB"
+
+
+def duration_in_words(seconds: float) -> str:
+    """48 s, 4 min 10 s, 2 h 5 min."""
+    whole = round(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60} s"
+    return f"{whole // 3600} h {whole % 3600 // 60} min"

@@ -1,0 +1,94 @@
+"""The data dictionary says what every column means, and knows no column that there is not."""
+
+from __future__ import annotations
+
+import csv
+import json
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from beambench_report.dictionary import as_markdown, dictionary
+from beambench_report.records import NEEDED_COLUMNS
+from made_up_run import COLUMNS
+from program import BINARY
+
+HINT = "say what it means in scripts/beambench_report/columns.json"
+
+
+@pytest.fixture(scope="module")
+def real_columns(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
+    """The header of a results.csv that beambench wrote."""
+    if not BINARY.exists():
+        pytest.skip("beambench is not built; run scripts/setup")
+    folder = tmp_path_factory.mktemp("real")
+    sweep = {
+        "name": "columns",
+        "description": "The smallest sweep there is.",
+        "scenes": ["tetra:n=1"],
+        "structures": ["null", "samet"],
+        "resolutions": ["8x8"],
+        "precision": 0.5,
+        "repetitions": {"minimum": 2, "maximum": 2},
+        "budget_seconds": 5,
+    }
+    (folder / "sweep.json").write_text(json.dumps(sweep))
+    command = [BINARY, "run", folder / "sweep.json", "-o", folder / "run"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    with (folder / "run" / "results.csv").open(newline="", encoding="utf-8") as file:
+        return next(csv.reader(file))
+
+
+def test_every_column_of_a_real_run_is_in_the_dictionary(real_columns: list[str]) -> None:
+    unknown = [name for name in real_columns if dictionary().find(name) is None]
+    assert not unknown, HINT
+
+
+def test_every_column_of_the_dictionary_is_in_a_real_run(real_columns: list[str]) -> None:
+    named = [column.name for column in dictionary().columns if not column.is_pattern]
+    assert [name for name in named if name not in real_columns] == []
+    common = [name for name in real_columns if name in named]
+    assert common == named, "the dictionary keeps the order of the file"
+
+
+def test_the_version_comes_first(real_columns: list[str]) -> None:
+    assert real_columns[0] == dictionary().columns[0].name == "schema_version"
+
+
+def test_made_up_runs_have_the_columns_of_the_dictionary() -> None:
+    assert [column.name for column in dictionary().columns if not column.is_pattern] == COLUMNS
+
+
+def test_what_plots_and_pages_need_is_known() -> None:
+    assert all(dictionary().find(name) for name in NEEDED_COLUMNS)
+
+
+@pytest.mark.parametrize("column", dictionary().columns, ids=lambda column: column.name)
+def test_each_entry_says_all_there_is_to_say(column) -> None:  # noqa: ANN001 (the id shows it)
+    assert column.meaning.endswith(".")
+    assert column.measured.endswith(".")
+    assert column.type in ("text", "flag", "integer", "number")
+    assert "|" not in column.meaning + column.measured + column.unit, "it would end a table's field"
+    if column.type == "number":
+        assert column.unit
+
+
+def test_each_column_is_there_once_and_in_a_group() -> None:
+    source = json.loads(
+        (Path(__file__).parents[2] / "scripts/beambench_report/columns.json").read_text()
+    )
+    names = [entry["name"] for entry in source["columns"]]
+    assert len(names) == len(set(names)) == len(dictionary().columns)
+
+
+def test_a_counter_of_a_family_s_own_is_covered_by_the_pattern() -> None:
+    assert dictionary().find("beams_per_ray") is dictionary().find("<counter>_per_ray")
+    assert dictionary().find("beams") is None
+
+
+def test_the_written_dictionary_is_up_to_date(repository: Path) -> None:
+    assert (repository / "results" / "README.md").read_text() == as_markdown(dictionary()), (
+        "write it again: .venv/bin/python -m beambench_report columns > results/README.md"
+    )

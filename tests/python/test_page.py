@@ -1,0 +1,177 @@
+"""The page of a run, read as a program reads it; test_page_in_browser.py reads it as people do."""
+
+from __future__ import annotations
+
+import json
+import re
+import time
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+
+from beambench_report.__main__ import main
+from beambench_report.page.all_cells import pack
+from beambench_report.page.write import render
+from beambench_report.records import read_run
+from made_up_run import made_up_rows, without_times, write_manifest, write_run
+
+VOID = {"meta", "link", "img", "input", "br", "wbr", "hr"}
+# These end where the next of their kind begins.
+OPEN_ENDED = {"option"}
+
+
+class Reader(HTMLParser):
+    """Checks that elements are closed as they were opened, and gathers what tests ask for."""
+
+    def __init__(self, text: str) -> None:
+        super().__init__()
+        self.open: list[str] = []
+        self.ids: list[str] = []
+        self.addresses: list[str] = []
+        self.words: list[str] = []
+        self.feed(text)
+        assert self.open == []
+
+    def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
+        known = dict(attributes)
+        if "id" in known:
+            self.ids.append(known["id"] or "")
+        self.addresses += [known[name] or "" for name in ("src", "href") if name in known]
+        if tag not in VOID | OPEN_ENDED:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag, f"{self.getpos()}: </{tag}> closes another element"
+
+    def handle_data(self, data: str) -> None:
+        if self.open and self.open[-1] not in ("style", "script"):
+            self.words.append(data)
+
+    @property
+    def text(self) -> str:
+        """What is written on the page."""
+        return " ".join(" ".join(self.words).split())
+
+
+def page_of(folder: Path, *options: str) -> Reader:
+    """Writes the page of a run as users do and reads it."""
+    assert main(["page", str(folder), *options]) == 0
+    return Reader((folder / "report.html").read_text("utf-8"))
+
+
+def test_a_right_run_says_so_first(run_folder: Path) -> None:
+    write_manifest(run_folder)
+    text = page_of(run_folder).text
+    assert "All 30 cells were right" in text
+    assert "Sweep made-up" in text
+    assert "measured for 4 min 10 s" in text
+    assert text.index("cells were right") < text.index("Comparison Total time")
+
+
+def test_a_wrong_cell_is_told_with_its_reason_and_the_way_to_replay_it(full_run: Path) -> None:
+    text = page_of(full_run).text
+    assert "3 of 30 cells were not right" in text
+    assert (
+        "mismatch samet max_level=6 in tetra:n=6 at 320x200, 640x480, 1280x1024: "
+        "hits were wrong 3 of 64000 hits were wrong"
+    ) in text
+    assert "pixel (3, 4) sample 0: engine_error" in text
+    replay = "beambench trace 'tetra:n=6' --accel samet:max_level=6 --pixel 3,4"
+    assert f"See this ray's way: {replay}" in text
+    assert f"replay {replay}" not in text
+
+
+def test_everything_is_on_the_page_and_nothing_is_fetched(full_run: Path) -> None:
+    reader = page_of(full_run)
+    assert all(at.startswith(("#", "data:")) for at in reader.addresses), reader.addresses
+    images = [at.split(";")[0] for at in reader.addresses if at.startswith("data:image")]
+    assert images.count("data:image/png") == 3
+    assert images.count("data:image/svg+xml") == 7
+    assert len(reader.ids) == len(set(reader.ids))
+    assert {at[1:] for at in reader.addresses if at.startswith("#")} <= set(reader.ids)
+    for part in ("result", "comparison", "view-escena1", "plots", "cells", "manifest"):
+        assert part in reader.ids
+    for words in ("samet, traversal steps", "What could not be controlled", "16.0 GiB", "not told"):
+        assert words in reader.text
+    page = (full_run / "report.html").read_text("utf-8")
+    assert "default-src 'none'" in page
+    assert not re.search(r"@import|url\((?!data:)", page)
+
+
+def test_what_is_not_there_is_left_out(run_folder: Path) -> None:
+    reader = page_of(run_folder)
+    assert not any(at.startswith("data:image") for at in reader.addresses)
+    assert not {"plots", "manifest"} & set(reader.ids)
+    assert {at[1:] for at in reader.addresses if at.startswith("#")} <= set(reader.ids)
+
+
+def test_a_run_in_which_nothing_was_right_has_a_page(tmp_path: Path) -> None:
+    rows = [without_times(row, "error") for row in made_up_rows()]
+    reader = page_of(write_run(tmp_path, rows))
+    assert "30 of 30 cells were not right" in reader.text
+    assert "comparison" not in reader.ids
+
+
+def test_one_cell_is_enough(tmp_path: Path) -> None:
+    assert "The only cell was right" in page_of(write_run(tmp_path, made_up_rows()[3:4])).text
+
+
+def test_a_run_that_was_cut_off_says_so(run_folder: Path) -> None:
+    write_manifest(run_folder, finished_utc=None)
+    assert "The run was cut off" in page_of(run_folder).text
+
+
+def test_names_from_a_record_cannot_become_part_of_the_page(tmp_path: Path) -> None:
+    evil = "</script><script>alert(1)</script>&<b>"
+    rows = [{**row, "scene": evil, "commit": evil, "rays_hash": evil} for row in made_up_rows()]
+    rows[0]["parameters"] = f"a={evil}"
+    folder = write_run(tmp_path, rows)
+    write_manifest(folder, sweep=evil, uncontrolled=[evil])
+    assert "alert(1)" in page_of(folder).text  # Reader has found every element closed
+    assert "<script>alert" not in (folder / "report.html").read_text("utf-8")
+
+
+def test_the_reference_can_be_chosen(run_folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert "multiple of that of embree" in page_of(run_folder).text
+    text = page_of(run_folder, "--reference", "samet max_level=5").text
+    assert "multiple of that of samet max_level=5" in text
+    assert main(["page", str(run_folder), "--reference", "smet"]) == 2
+    assert "no contender 'smet'" in capsys.readouterr().err
+
+
+def test_a_manifest_that_is_none_is_one_sentence_and_exit_code_2(
+    run_folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (run_folder / "manifest.json").write_text("[")
+    assert main(["page", str(run_folder)]) == 2
+    assert re.match(r"error: .*manifest\.json: cannot be read as JSON", capsys.readouterr().err)
+    assert not (run_folder / "report.html").exists()
+
+
+def test_packed_rows_say_what_the_file_says(run_folder: Path) -> None:
+    run = read_run(run_folder)
+    cells = pack(run)
+    columns = {column["name"]: column for column in json.loads(cells.packed)["columns"]}
+    assert cells.rows == 30
+    assert columns["memory_bytes"]["figures"][3] == 200_000
+    assert columns["traversal_steps_per_ray"]["figures"][9] is None, "Embree does not count"
+    trace = columns["trace_ms_median"]["figures"]
+    assert trace == [pytest.approx(t, rel=1e-4) for t in run.rows["trace_ms_median"]]
+    contender = columns["contender"]
+    assert contender["words"][contender["at"][9]] == "embree"
+    assert ("machine_id", "0123456789abcdef") in cells.same_everywhere
+    assert "machine_id" not in columns
+
+
+def test_200_000_rows_are_read_into_the_page_in_10_seconds(tmp_path: Path) -> None:
+    rows = made_up_rows()
+    lines = write_run(tmp_path, rows).joinpath("results.csv").read_text().splitlines()
+    copies = 200_000 // len(rows) + 1
+    many = [lines[0], *(lines[1:] * copies)[:200_000]]
+    (tmp_path / "results.csv").write_text("\n".join(many) + "\n")
+    begin = time.process_time()  # what others do on this machine does not count
+    page = render(read_run(tmp_path))
+    assert time.process_time() - begin < 10
+    assert "200,000 cells were right" in page
+    assert len(page) < 100e6

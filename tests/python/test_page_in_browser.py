@@ -1,0 +1,172 @@
+"""The page of a run in headless Chromium: it sorts, filters, prints, and complains of nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from beambench_report.page.write import write_page
+from browser import Browser, find_browser
+
+ENTER = ("Enter", 13, "\r")
+TAB = ("Tab", 9)
+
+COLUMN = "[...document.querySelectorAll('{} tbody tr')].map(row => row.cells[{}].innerText.trim())"
+CELLS = "#cells-table"
+
+
+@pytest.fixture(scope="module")
+def page(full_run: Path) -> Path:
+    """The page of a made-up run."""
+    return write_page(full_run)[0]
+
+
+@pytest.fixture(scope="module")
+def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    """One browser for all tests."""
+    program = find_browser()
+    if program is None:
+        pytest.skip("no Chromium on this system; scripts/setup installs it where apt has it")
+    with Browser(program, tmp_path_factory.mktemp("profile")) as browser:
+        yield browser
+
+
+@pytest.fixture
+def opened(chromium: Browser, page: Path) -> Browser:
+    """The browser with the page freshly opened."""
+    chromium.open(page)
+    return chromium
+
+
+def column(browser: Browser, table: str, place: int) -> list[str]:
+    """The texts of one column of a table, top down."""
+    return browser.evaluate(COLUMN.format(table, place))
+
+
+def type_filter(browser: Browser, text: str) -> str:
+    """Types into the filter; returns what is said of the number of rows."""
+    browser.evaluate("document.querySelector('[name=filter]').select()")
+    if text:
+        browser.call("Input.insertText", text=text)
+    else:
+        browser.press("Backspace", 8)
+    return browser.evaluate("document.getElementById('cells-count').innerText")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_nothing_is_complained_of_and_nothing_is_fetched(
+    chromium: Browser, page: Path, scheme: str
+) -> None:
+    chromium.open(page, scheme=scheme)
+    assert chromium.complaints == []
+    assert [at for at in chromium.requests if not at.startswith("data:")] == [page.as_uri()]
+    background = chromium.evaluate("getComputedStyle(document.body).backgroundColor")
+    brightness = int(background.removeprefix("rgb(").split(",")[0])
+    assert (brightness < 60) == (scheme == "dark")
+
+
+def test_complaints_and_requests_would_be_noticed(chromium: Browser, tmp_path: Path) -> None:
+    bad = tmp_path / "bad.html"
+    bad.write_text("<img src='missing.png'><script>console.error('x'); nothing.here</script>")
+    chromium.open(bad)
+    assert len(chromium.complaints) >= 2
+    assert any("missing.png" in address for address in chromium.requests)
+
+
+def test_a_heading_sorts_a_table_of_a_view(opened: Browser) -> None:
+    table = "#view-escena1 > .wide table"
+    before = column(opened, table, 0)
+    assert before == ["null", "embree", "samet max_level=6", "samet max_level=5", "exhaustive"]
+    press = f"document.querySelector('{table} th:nth-child({{}}) button').click()"
+    opened.evaluate(press.format(8))  # memory
+    assert column(opened, table, 0)[-1] == "samet max_level=6"
+    opened.evaluate(press.format(8))
+    assert column(opened, table, 0)[0] == "samet max_level=6"
+    sorts = f"document.querySelector('{table} th:nth-child(8)').getAttribute('aria-sort')"
+    assert opened.evaluate(sorts) == "descending"
+    opened.evaluate(press.format(1))
+    assert column(opened, table, 0) == sorted(before)
+
+
+def test_what_was_not_measured_stays_last(opened: Browser) -> None:
+    table = "#view-tetra-n-6 > .wide table"
+    for _ in range(2):
+        opened.evaluate(f"document.querySelector('{table} th:nth-child(3) button').click()")
+        assert column(opened, table, 0)[-1].startswith("samet max_level=6")
+
+
+def test_the_keyboard_sorts(opened: Browser) -> None:
+    opened.evaluate(f"document.querySelector('{CELLS} th:nth-child(4) button').focus()")
+    opened.press(*TAB)
+    opened.press(*ENTER)
+    sorts = f"[...document.querySelectorAll('{CELLS} th')].map(th => th.getAttribute('aria-sort'))"
+    assert opened.evaluate(sorts).count("ascending") == 1
+    assert opened.evaluate(sorts)[4] == "ascending"
+    shown = [float(text.replace(",", "")) for text in column(opened, CELLS, 4) if text[0].isdigit()]
+    assert shown == sorted(shown)
+    opened.press(*ENTER)  # the heading keeps the focus
+    assert opened.evaluate(sorts)[4] == "descending"
+
+
+@pytest.mark.parametrize(
+    ("words", "count"),
+    [
+        ("samet", "Rows 1 to 12 of 12, of 30 in all"),
+        ("SAMET escena1", "Rows 1 to 6 of 6, of 30 in all"),
+        ("max_level=5 320x200", "Rows 1 to 2 of 2, of 30 in all"),
+        ("trace_ms_median<1 null", "Rows 1 to 2 of 2, of 30 in all"),
+        ("memory_bytes=150000", "Rows 1 to 6 of 6, of 30 in all"),
+        ("nothing-of-the-sort", "No row has all of that"),
+        ("", "Rows 1 to 25 of 30"),
+    ],
+)
+def test_words_filter(opened: Browser, words: str, count: str) -> None:
+    assert type_filter(opened, words) == count
+
+
+def test_a_filter_keeps_the_order(opened: Browser) -> None:
+    opened.evaluate(f"document.querySelector('{CELLS} th:nth-child(7) button').click()")
+    type_filter(opened, "embree")
+    totals = [float(text.replace(",", "")) for text in column(opened, CELLS, 6)]
+    assert len(totals) == 6
+    assert totals == sorted(totals)
+
+
+def test_what_was_not_right_can_be_seen_alone(opened: Browser) -> None:
+    opened.evaluate("document.querySelector('[name=wrong]').click()")
+    assert column(opened, CELLS, 0) == ["samet max_level=6"] * 3
+
+
+def test_pages_turn(opened: Browser) -> None:
+    first = column(opened, CELLS, 0)
+    opened.evaluate("document.querySelector('[name=next]').click()")
+    assert len(column(opened, CELLS, 0)) == 5
+    assert opened.evaluate("document.querySelector('[name=next]').disabled")
+    opened.evaluate("document.querySelector('[name=previous]').click()")
+    assert column(opened, CELLS, 0) == first
+
+
+def test_groups_of_columns_can_be_shown(opened: Browser) -> None:
+    heads = f"[...document.querySelectorAll('{CELLS} th')].map(head => head.innerText)"
+    assert "total_ms_ci_low" not in opened.evaluate(heads)
+    opened.evaluate("document.querySelector('[name=group][value=times]').click()")
+    assert "total_ms_ci_low" in opened.evaluate(heads)
+
+
+def test_it_fits_a_narrow_screen(chromium: Browser, page: Path) -> None:
+    chromium.open(page, width=400)
+    assert chromium.evaluate("document.documentElement.scrollWidth") <= 400
+
+
+def test_it_prints_with_everything_opened(opened: Browser, tmp_path: Path) -> None:
+    opened.evaluate(
+        "addEventListener('beforeprint', () => {"
+        "  window.closed_ones = document.querySelectorAll('details:not([open])').length; })"
+    )
+    closed = opened.evaluate("document.querySelectorAll('details:not([open])').length")
+    opened.pdf(tmp_path / "page.pdf")
+    assert (tmp_path / "page.pdf").read_bytes().startswith(b"%PDF")
+    assert opened.evaluate("window.closed_ones") == 0 < closed
+    assert opened.evaluate("document.querySelectorAll('details:not([open])').length") == closed
