@@ -54,10 +54,21 @@ benchmark::BenchmarkReporter::Run base_run(const Json& cell) {
   return run;
 }
 
+/// Version 1.8 of the library gave the fields other names.
+template <class Run>
+void mark_failed(Run& run, const std::string& message) {
+  if constexpr (requires { run.error_occurred; }) {
+    run.error_occurred = true;
+    run.error_message = message;
+  } else {
+    run.skipped = decltype(run.skipped)::SkippedWithError;
+    run.skip_message = message;
+  }
+}
+
 benchmark::BenchmarkReporter::Run failed_run(const Json& cell) {
   auto run = base_run(cell);
-  run.error_occurred = true;
-  run.error_message = cell.at("message").get<std::string>();
+  mark_failed(run, cell.at("message").get<std::string>());
   return run;
 }
 
