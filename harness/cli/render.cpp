@@ -1,5 +1,6 @@
 // beambench render: a picture of what a structure sees, or of the work it does.
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -65,6 +66,15 @@ std::string share_of_hits(const HitBuffer& hits) {
   return format_share(count, hits.size()) + " of the rays hit something";
 }
 
+/// A map without any work is no mistake, but may be read as one.
+std::string remark_on(const HeatMap& map, const StructureChoice& choice) {
+  const bool dark =
+      std::all_of(map.values.begin(), map.values.end(), [](float v) { return v == 0; });
+  return dark ? fmt::format("; {} counts none of this work, or no ray causes any",
+                            choice.info().name)
+              : "";
+}
+
 /// What --difference compares with: the oracle, or what another structure finds.
 ReferenceHits find_reference(const Request& request, const Scene& scene, const PrimaryRays& rays) {
   if (request.difference == kOracleName) return {scene, rays};
@@ -106,7 +116,7 @@ void render(const Request& request) {
   if (!request.heatmap.empty()) {
     const HeatMap map = count_work(*accelerator, rays, request.heatmap, hits, progress);
     write_heat_map(request, map, hits);
-    found = share_of_hits(hits);
+    found = share_of_hits(hits) + remark_on(map, choice);
   } else {
     watched_trace(*accelerator, rays, hits, progress);
     if (request.difference.empty()) {

@@ -139,7 +139,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       "--benchmark_list_tests, --benchmark_context=KEY=VALUE, --v=N.\n"
       "Examples:\n"
       "  beambench run harness/sweeps/quick.json\n"
-      "  beambench run harness/sweeps/default.json -o my-run --benchmark_filter=tetra.*samet\n"
+      "  beambench run harness/sweeps/quick.json -o my-run --benchmark_filter=tetra.*samet\n"
       "  beambench run --resume my-run");
   command->callback([command, request, &exit_code] {
     request->benchmark_flags = command->remaining();

@@ -1,0 +1,165 @@
+"""Help, completion and the manual page: what they say works, and they say all of it."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from program import BINARY, beambench, output_of, shell
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+
+
+def commands() -> list[str]:
+    """The subcommands, as --help lists them."""
+    listed = output_of("--help").split("Subcommands:")[1].split("Examples:")[0]
+    return re.findall(r"^  (\w+) ", listed, re.MULTILINE)
+
+
+def options(command: str) -> list[str]:
+    """The options that a command's --help lists."""
+    listed = output_of(command, "--help").split("Examples:")[0]
+    return re.findall(r"^  (?:-\w,)?(--?[\w-]+)", listed, re.MULTILINE)
+
+
+def examples(*command: str) -> list[str]:
+    """The example lines of a --help."""
+    text = output_of(*command, "--help")
+    assert "Examples:" in text
+    return re.findall(r"^  (beambench .*)$", text.split("Examples:")[1], re.MULTILINE)
+
+
+COMMANDS = commands()
+
+
+def test_help_names_every_command_that_others_rely_on() -> None:
+    wanted = {"list", "scene", "export", "render", "trace", "stats", "verify", "run"}
+    assert wanted <= set(COMMANDS)
+
+
+@pytest.mark.parametrize("command", ["", *COMMANDS])
+def test_examples_work_when_they_are_pasted(tmp_path: Path, command: str) -> None:
+    (tmp_path / "harness").symlink_to(REPOSITORY / "harness")
+    lines = examples(*command.split())
+    assert any(f"beambench {command}" in line for line in lines)
+    for line in lines:
+        done = shell(line, tmp_path)
+        assert done.returncode == 0, f"{line}\n{done.stderr}"
+
+
+# Completion
+
+
+@pytest.fixture(scope="module")
+def bash_words() -> str:
+    return output_of("completion", "bash")
+
+
+def completed(script: str, *words: str) -> list[str]:
+    """What bash offers for the last of the words."""
+    line = f'{script}\nCOMP_WORDS=("$@"); COMP_CWORD=$(($# - 1)); _beambench; printf "%s\\n" '
+    done = subprocess.run(
+        ["bash", "-c", line + '"${COMPREPLY[@]}"', "bash", "beambench", *words],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    return done.stdout.split()
+
+
+def test_bash_completes_every_command(bash_words: str) -> None:
+    offered = completed(bash_words, "")
+    assert set(COMMANDS) <= set(offered)
+    assert completed(bash_words, "rend") == ["render"]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_bash_completes_every_option(bash_words: str, command: str) -> None:
+    wanted = options(command)
+    assert "--help" in wanted
+    assert set(wanted) <= set(completed(bash_words, command, "-"))
+
+
+def test_bash_completes_names_and_leaves_files_to_the_shell(bash_words: str) -> None:
+    assert "samet" in completed(bash_words, "render", "balls", "--accel", "")
+    assert completed(bash_words, "render", "balls", "--accel", "sam")[0].startswith("samet")
+    assert completed(bash_words, "scene", "tet") == ["tetra"]
+    assert completed(bash_words, "render", "balls", "--shade", "norm") == ["normals"]
+    assert completed(bash_words, "render", "balls", "-o", "") == []
+    assert completed(bash_words, "run", "") == []
+    assert "complete -o default" in bash_words
+
+
+@pytest.mark.skipif(shutil.which("fish") is None, reason="fish is not installed")
+def test_fish_completes(tmp_path: Path) -> None:
+    (tmp_path / "beambench.fish").write_text(output_of("completion", "fish"))
+
+    def offered(line: str) -> str:
+        script = f"source beambench.fish; complete -C {line!r}"
+        return shell(f'fish --no-config -c "{script}"', tmp_path).stdout
+
+    assert all(command in offered("beambench ") for command in COMMANDS)
+    assert all(option in offered("beambench trace --") for option in ["--pixel", "--json"])
+    assert "normals" in offered("beambench render --shade ")
+
+
+@pytest.mark.skipif(shutil.which("zsh") is None, reason="zsh is not installed")
+def test_zsh_reads_its_script(tmp_path: Path) -> None:
+    (tmp_path / "_beambench").write_text(output_of("completion", "zsh"))
+    line = "autoload -U compinit; compinit -u -D; source ./_beambench; print $_comps[beambench]"
+    done = shell(f"zsh -f -c '{line}'", tmp_path)
+    assert done.stderr == ""
+    assert "_beambench" in done.stdout
+
+
+# The manual page
+
+
+def test_the_manual_names_every_command_and_option() -> None:
+    page = output_of("man").replace("\\-", "-")
+    for command in COMMANDS:
+        section = page.split(f".SS beambench {command}\n")[1].split(".SS ")[0]
+        for option in options(command):
+            assert f"\\fB{option}\\fR" in section, (command, option)
+        assert "Examples:" in section
+
+
+@pytest.mark.skipif(
+    shutil.which("groff") is None or shutil.which("col") is None,
+    reason="groff or col is not installed",
+)
+def test_the_manual_is_right_roff(tmp_path: Path) -> None:
+    (tmp_path / "beambench.1").write_text(output_of("man"))
+    done = shell("groff -man -ww -Tascii -P-c -rLL=100n beambench.1 | col -b", tmp_path)
+    assert done.stderr == ""
+    assert "BEAMBENCH(1)" in done.stdout
+    for line in examples("trace"):
+        assert line in done.stdout
+
+
+def test_install_brings_the_manual_and_the_completions(tmp_path: Path) -> None:
+    build = BINARY.resolve().parents[1]
+    if shutil.which("cmake") is None or not (build / "harness/written/beambench.1").exists():
+        pytest.skip("not a build folder in which everything was built")
+    done = shell(f"cmake --install {build} --prefix {tmp_path}", tmp_path)
+    assert done.returncode == 0, done.stderr
+    assert os.access(tmp_path / "bin/beambench", os.X_OK)
+    share = tmp_path / "share"
+    assert (share / "man/man1/beambench.1").read_text() == output_of("man")
+    scripts = {
+        "bash": share / "bash-completion/completions/beambench",
+        "zsh": share / "zsh/site-functions/_beambench",
+        "fish": share / "fish/vendor_completions.d/beambench.fish",
+    }
+    for name, file in scripts.items():
+        assert file.read_text() == output_of("completion", name)
+
+
+def test_version_of_the_manual_is_that_of_the_program() -> None:
+    version = beambench("--version").stdout.strip()
+    assert version in output_of("man")
