@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -90,9 +91,33 @@ void add_times(Row& row, const CellRecord& cell) {
   }
 }
 
+/// The median count of an event; null where not every repetition has one.
+Json median_count(const CellRecord& cell, HardwareCounts Repetition::*counts, std::size_t event) {
+  std::vector<double> values;
+  for (const Repetition& repetition : cell.repetitions) {
+    const auto& count = (repetition.*counts)[event];
+    if (!count) return {};
+    values.push_back(static_cast<double>(*count));
+  }
+  return std::llround(median(values));
+}
+
+void add_hardware_counts(Row& row, const CellRecord& cell) {
+  const bool known = has_times(cell);
+  const auto add = [&](std::string_view phase, HardwareCounts Repetition::*counts) {
+    for (std::size_t event = 0; event < kHardwareEvents.size(); ++event) {
+      row[fmt::format("{}_{}", phase, kHardwareEvents[event])] =
+          known ? median_count(cell, counts, event) : Json();
+    }
+  };
+  add("build", &Repetition::build_counts);
+  add("trace", &Repetition::trace_counts);
+}
+
 /// A family without nodes (Embree does not tell, `exhaustive` has none) leaves their sizes empty.
 void add_statistics(Row& row, const CellRecord& cell) {
   row["memory_bytes"] = cell.statistics ? Json(cell.statistics->bytes) : Json();
+  row["allocated_bytes"] = cell.allocated_bytes ? Json(*cell.allocated_bytes) : Json();
   const bool has_nodes = cell.statistics && cell.statistics->nodes > 0;
   const auto size = [&](std::uint64_t Statistics::*member) {
     return has_nodes ? Json((*cell.statistics).*member) : Json();
@@ -124,13 +149,22 @@ void add_judgement(Row& row, const CellRecord& cell) {
   row["verdict"] = cell.verdict;
 }
 
+void add_counts(Json& json, std::string_view phase, const HardwareCounts& counts) {
+  for (std::size_t event = 0; event < counts.size(); ++event) {
+    if (counts[event]) json[fmt::format("{}_{}", phase, kHardwareEvents[event])] = *counts[event];
+  }
+}
+
 Json repetition_json(const Repetition& repetition) {
-  return {{"round", repetition.round},
-          {"position", repetition.position},
-          {"build_ms", repetition.build_ms},
-          {"trace_ms", repetition.trace_ms},
-          {"build_cpu_ms", repetition.build_cpu_ms},
-          {"trace_cpu_ms", repetition.trace_cpu_ms}};
+  Json json{{"round", repetition.round},
+            {"position", repetition.position},
+            {"build_ms", repetition.build_ms},
+            {"trace_ms", repetition.trace_ms},
+            {"build_cpu_ms", repetition.build_cpu_ms},
+            {"trace_cpu_ms", repetition.trace_cpu_ms}};
+  add_counts(json, "build", repetition.build_counts);
+  add_counts(json, "trace", repetition.trace_counts);
+  return json;
 }
 
 }  // namespace
@@ -151,6 +185,7 @@ Row to_row(const RunFacts& run, const CellRecord& cell) {
   add_run(row, run, cell);
   add_identity(row, cell);
   add_times(row, cell);
+  add_hardware_counts(row, cell);
   add_statistics(row, cell);
   add_counters(row, cell);
   add_judgement(row, cell);

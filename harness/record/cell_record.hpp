@@ -12,6 +12,7 @@
 #include "harness/rays/ray_kind.hpp"
 #include "harness/rays/resolution.hpp"
 #include "harness/record/csv.hpp"
+#include "harness/record/hardware_counts.hpp"
 
 namespace beambench {
 
@@ -44,6 +45,8 @@ struct Repetition {
   double trace_ms;
   double build_cpu_ms;
   double trace_cpu_ms;
+  HardwareCounts build_counts{};
+  HardwareCounts trace_counts{};
 
   double total_ms() const { return build_ms + trace_ms; }
 };
@@ -88,6 +91,8 @@ struct CellRecord {
   std::map<std::string, std::uint64_t, std::less<>> counters;
   /// Absent where the structure could not be built.
   std::optional<Statistics> statistics;
+  /// By how much the heap grew when it was built (harness/sweep/heap.hpp).
+  std::optional<std::uint64_t> allocated_bytes;
   std::vector<Repetition> repetitions;
   std::optional<StopReason> stop_reason;
   /// The judgement of the timed buffer, and its fingerprint. Absent where there is none.

@@ -12,6 +12,7 @@
 #include <sched.h>
 #include <sys/sysinfo.h>
 #include <sys/utsname.h>
+#include <unistd.h>
 
 #include "harness/record/fingerprint.hpp"
 
@@ -25,6 +26,35 @@ std::string first_line(const fs::path& path) {
   std::string line;
   std::getline(file, line);
   return line;
+}
+
+/// The chosen one of a line like `always [madvise] never`.
+std::string chosen(const std::string& line) {
+  const std::size_t begin = line.find('[');
+  const std::size_t end = line.find(']');
+  if (begin == std::string::npos || end == std::string::npos || end < begin) return "";
+  return line.substr(begin + 1, end - begin - 1);
+}
+
+std::string widest_instructions() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx512f")) return "AVX-512";
+  if (__builtin_cpu_supports("avx2")) return "AVX2";
+  if (__builtin_cpu_supports("avx")) return "AVX";
+  return __builtin_cpu_supports("sse4.2") ? "SSE4.2" : "SSE2";
+#elif defined(__aarch64__)
+  return "NEON";
+#else
+  return "unknown";
+#endif
+}
+
+bool under_hypervisor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("flags")) return line.find(" hypervisor") != std::string::npos;
+  }
+  return false;
 }
 
 std::string cpu_model() {
@@ -78,6 +108,10 @@ Machine inspect_machine() {
           usable_cores(),
           memory_size(),
           fmt::format("{} {} {}", system.sysname, system.release, system.machine),
+          widest_instructions(),
+          under_hypervisor(),
+          static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)),
+          chosen(first_line("/sys/kernel/mm/transparent_hugepage/enabled")),
           first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor"),
           turbo_state(),
           load_average(),
@@ -100,6 +134,15 @@ std::vector<std::string> disturbances(const Machine& machine) {
   if (machine.load > 0.5) {
     found.push_back(
         fmt::format("Other work was running: the load average was {:.2f}.", machine.load));
+  }
+  if (machine.virtual_machine) {
+    found.emplace_back(
+        "This is a virtual machine: others may use the same processor, and it does not say when.");
+  }
+  if (machine.huge_pages == "always") {
+    found.emplace_back(
+        "The system turns memory into huge pages when it sees fit (transparent huge pages: "
+        "always), so equal builds may get different ones.");
   }
   return found;
 }

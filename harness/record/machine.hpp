@@ -13,6 +13,10 @@ struct Machine {
   unsigned cores;  ///< that this process may use
   std::uint64_t memory_bytes;
   std::string kernel;
+  std::string instructions;  ///< the widest vector instructions it has, "AVX2"
+  bool virtual_machine;      ///< does it say that it runs under a hypervisor?
+  std::uint64_t page_bytes;
+  std::string huge_pages;         ///< "always", "madvise", "never", or empty: transparent ones
   std::string governor;           ///< of the first core; empty where the system does not tell
   std::string turbo;              ///< "on", "off", or empty where the system does not tell
   double load;                    ///< one-minute load average at the time of asking

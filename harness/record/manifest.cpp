@@ -42,6 +42,10 @@ Json machine_json(const Machine& machine) {
           {"cores", machine.cores},
           {"memory_bytes", machine.memory_bytes},
           {"kernel", machine.kernel},
+          {"instructions", machine.instructions},
+          {"virtual_machine", machine.virtual_machine},
+          {"page_bytes", machine.page_bytes},
+          {"transparent_huge_pages", text_or_null(machine.huge_pages)},
           {"governor", text_or_null(machine.governor)},
           {"turbo", text_or_null(machine.turbo)},
           {"load_average", machine.load}};
@@ -55,7 +59,11 @@ Json measurement_json(const Manifest& manifest) {
           {"denormals_are_zero", facts.flush_to_zero},
           {"pinned", facts.pinned_core >= 0},
           {"pinned_core", facts.pinned_core >= 0 ? Json(facts.pinned_core) : Json()},
+          {"mxcsr", fmt::format("0x{:04x}", facts.control_word)},
           {"warm_up_seconds", facts.warm_up_seconds},
+          {"noise", facts.noise ? Json(*facts.noise) : Json()},
+          {"hardware_counters",
+           facts.hardware_problem.empty() ? Json(kHardwareEvents) : Json(facts.hardware_problem)},
           {"wall_clock", "steady_clock"},
           {"cpu_clock", "CLOCK_THREAD_CPUTIME_ID"}};
 }
@@ -94,6 +102,7 @@ Json to_json(const Manifest& manifest) {
           {"machine", machine_json(manifest.machine)},
           {"measurement", measurement_json(manifest)},
           {"scenes", scenes_json(manifest.scenes)},
+          {"harness_overhead", manifest.overhead},
           {"uncontrolled", manifest.uncontrolled},
           {"part_begun_utc", manifest.part_begun_utc},
           {"earlier_parts", manifest.earlier_parts},

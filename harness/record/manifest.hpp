@@ -1,6 +1,7 @@
 #pragma once
 // The manifest of a run: what was measured, by what, where, and what could not be controlled.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,9 +21,12 @@ struct SceneFacts {
 
 /// How the timed code was run.
 struct MeasurementFacts {
-  bool flush_to_zero;  ///< MXCSR's FTZ and DAZ bits were set for every contender
-  int pinned_core;     ///< -1 where the thread could not be pinned
+  bool flush_to_zero;     ///< MXCSR's FTZ and DAZ bits were set for every contender
+  int pinned_core;        ///< -1 where the thread could not be pinned
+  unsigned control_word;  ///< MXCSR in the timed code
   double warm_up_seconds;
+  std::optional<double> noise;   ///< of equal work in the warm-up (harness/sweep/noise.hpp)
+  std::string hardware_problem;  ///< why the processor's counters are not read; empty: they are
 };
 
 struct Manifest {
@@ -34,6 +38,7 @@ struct Manifest {
   Machine machine;
   MeasurementFacts measurement;
   std::vector<SceneFacts> scenes;
+  nlohmann::ordered_json overhead;        ///< of the harness, by `null`; null where it is not known
   std::vector<std::string> uncontrolled;  ///< sentences
   /// The conditions of the parts that the run had before it was cut off and went on.
   nlohmann::ordered_json earlier_parts = nlohmann::ordered_json::array();

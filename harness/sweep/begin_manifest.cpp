@@ -38,7 +38,12 @@ Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes
   manifest.sweep = sweep;
   manifest.begun_utc = manifest.part_begun_utc = utc_now();
   manifest.run = facts_of(build, new_run_id(manifest.begun_utc, sweep), manifest.machine);
-  manifest.measurement = {MeasuringFloatMode::available(), core, warm_up.count()};
+  manifest.measurement = {MeasuringFloatMode::available(),
+                          core,
+                          MeasuringFloatMode::control_word(),
+                          warm_up.count(),
+                          std::nullopt,
+                          ""};
   manifest.scenes = std::move(scenes);
   manifest.uncontrolled = disturbances(manifest.machine);
   if (core < 0) manifest.uncontrolled.emplace_back("The measuring thread could not be pinned.");

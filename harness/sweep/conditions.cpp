@@ -25,6 +25,7 @@ void write_mode(unsigned) {}
 MeasuringFloatMode::MeasuringFloatMode() : previous_(read_mode()) { write_mode(kMeasuringMode); }
 MeasuringFloatMode::~MeasuringFloatMode() { write_mode(previous_); }
 bool MeasuringFloatMode::available() { return kHasMxcsr; }
+unsigned MeasuringFloatMode::control_word() { return kMeasuringMode; }
 
 int present_core() { return ::sched_getcpu(); }
 
@@ -39,14 +40,6 @@ PinnedThread::PinnedThread(int core) {
 
 PinnedThread::~PinnedThread() {
   if (pinned_) ::sched_setaffinity(0, sizeof(previous_), &previous_);
-}
-
-void warm_up(std::chrono::duration<double> duration) {
-  const auto end = std::chrono::steady_clock::now() + duration;
-  volatile double value = 1.0;
-  while (std::chrono::steady_clock::now() < end) {
-    for (int i = 0; i < 1000; ++i) value = value * 1.0000001 + 1e-9;
-  }
 }
 
 }  // namespace beambench

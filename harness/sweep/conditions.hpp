@@ -1,8 +1,6 @@
 #pragma once
 // The conditions that timed code runs under, equal for every contender.
 
-#include <chrono>
-
 #include <sched.h>
 
 namespace beambench {
@@ -19,6 +17,8 @@ class MeasuringFloatMode {
 
   /// Does this processor have such a mode that we know how to set?
   static bool available();
+  /// Its MXCSR; 0 where there is none.
+  static unsigned control_word();
 
  private:
   unsigned previous_;
@@ -42,9 +42,5 @@ class PinnedThread {
   cpu_set_t previous_;
   bool pinned_ = false;
 };
-
-/// Keeps the calling core busy, so that its clock and caches leave their idle state before the
-/// first repetition.
-void warm_up(std::chrono::duration<double> duration);
 
 }  // namespace beambench

@@ -12,6 +12,7 @@
 #include "harness/record/fingerprint.hpp"
 #include "harness/record/machine.hpp"
 #include "harness/sweep/conditions.hpp"
+#include "harness/sweep/heap.hpp"
 #include "harness/sweep/phase_timer.hpp"
 
 namespace beambench {
@@ -71,7 +72,9 @@ Contender::Contender(const PlannedCell& cell, SharedQuestion& question)
 void Contender::count() {
   try {
     const MeasuringFloatMode mode;
+    const auto heap_before = heap_in_use();
     const auto structure = cell_->structure.build(question_->scene());
+    record_.allocated_bytes = heap_growth(heap_before, heap_in_use());
     WorkCounters counters;
     poison(question_->buffer());
     structure->trace(question_->rays(), question_->buffer(), counters);
@@ -85,13 +88,13 @@ void Contender::count() {
   if (is_all_zero(record_.counters)) record_.counters.clear();
 }
 
-void Contender::repeat(const GoogleBenchmark& benchmark, int core, int round, int position) {
+void Contender::repeat(const Instruments& instruments, int round, int position) {
   try {
     Repetition repetition{};
     {
-      const PinnedThread pin(core);
+      const PinnedThread pin(instruments.core);
       poison(question_->buffer());
-      repetition = time_once(benchmark);
+      repetition = time_once(instruments);
     }
     repetition.round = round;
     repetition.position = position;
@@ -104,20 +107,26 @@ void Contender::repeat(const GoogleBenchmark& benchmark, int core, int round, in
   }
 }
 
-Repetition Contender::time_once(const GoogleBenchmark& benchmark) {
+Repetition Contender::time_once(const Instruments& instruments) {
   Repetition repetition{};
   std::exception_ptr problem;
   std::unique_ptr<Accelerator> structure;  // destroyed outside of the timed loop
-  benchmark.run_once(cell_->id.name(), [&](benchmark::State& state) {
+  instruments.benchmark.run_once(cell_->id.name(), [&](benchmark::State& state) {
     const MeasuringFloatMode mode;
     try {
       for ([[maybe_unused]] auto iteration : state) {
-        const PhaseTime build =
-            time_phase([&] { structure = cell_->structure.build(question_->scene()); });
-        const PhaseTime trace =
-            time_phase([&] { structure->trace(question_->rays(), question_->buffer()); });
+        PhaseTime build{};
+        PhaseTime trace{};
+        const HardwareCounts build_counts = instruments.counters.count([&] {
+          build = time_phase([&] { structure = cell_->structure.build(question_->scene()); });
+        });
+        const HardwareCounts trace_counts = instruments.counters.count([&] {
+          trace = time_phase([&] { structure->trace(question_->rays(), question_->buffer()); });
+        });
         state.SetIterationTime(1e-3 * (build.wall_ms + trace.wall_ms));
-        repetition = {0, 0, build.wall_ms, trace.wall_ms, build.cpu_ms, trace.cpu_ms};
+        repetition = {
+            0,           0, build.wall_ms, trace.wall_ms, build.cpu_ms, trace.cpu_ms, build_counts,
+            trace_counts};
       }
     } catch (...) {
       // The library is not made for exceptions to pass through it.

@@ -11,9 +11,17 @@
 #include "harness/differ/differ.hpp"
 #include "harness/record/cell_record.hpp"
 #include "harness/sweep/google_benchmark.hpp"
+#include "harness/sweep/hardware_counters.hpp"
 #include "harness/sweep/plan.hpp"
 
 namespace beambench {
+
+/// What a repetition is measured with.
+struct Instruments {
+  const GoogleBenchmark& benchmark;
+  const HardwareCounters& counters;
+  int core;  ///< to pin it to; -1: any
+};
 
 /// What the contenders of a group share: the rays, the oracle's answers, and one buffer, since they
 /// take turns.
@@ -48,8 +56,8 @@ class Contender {
 
   /// The untimed pass: sizes and counters.
   void count();
-  /// One timed repetition, run through Google Benchmark on `core` (-1: any).
-  void repeat(const GoogleBenchmark& benchmark, int core, int round, int position);
+  /// One timed repetition, run through Google Benchmark.
+  void repeat(const Instruments& instruments, int round, int position);
 
   bool failed() const { return failed_; }
   std::span<const double> totals_ms() const { return totals_ms_; }
@@ -58,7 +66,7 @@ class Contender {
   CellRecord finish(std::optional<StopReason> reason) &&;
 
  private:
-  Repetition time_once(const GoogleBenchmark& benchmark);
+  Repetition time_once(const Instruments& instruments);
   void examine();
   void judge_first();
   void fail(std::string verdict, std::string message);

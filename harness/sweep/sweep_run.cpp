@@ -6,8 +6,11 @@
 
 #include "harness/progress/progress.hpp"
 #include "harness/record/fingerprint.hpp"
+#include "harness/record/preflight.hpp"
 #include "harness/sweep/begin_manifest.hpp"
 #include "harness/sweep/conditions.hpp"
+#include "harness/sweep/noise.hpp"
+#include "harness/sweep/overhead.hpp"
 #include "harness/sweep/resume.hpp"
 #include "harness/sweep/turns.hpp"
 
@@ -16,6 +19,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
+
+/// Above this part of the fastest contender's time the harness's own is worth a sentence.
+constexpr double kWantedOverhead = 0.02;
 
 /// The core to pin to, or -1 where pinning does not work.
 int pinnable_core() {
@@ -49,8 +55,13 @@ class SweepRun {
   SweepOutcome run() && {
     {
       const PinnedThread pin(core_);
-      warm_up(config_.warm_up);
+      manifest_.measurement.noise = warm_up(config_.warm_up);
     }
+    if (const auto warning = noise_warning(manifest_.measurement.noise)) {
+      manifest_.uncontrolled.push_back(*warning);
+    }
+    manifest_.measurement.hardware_problem = counters_.problem();
+    for (const std::string& line : preflight(manifest_)) fmt::print(messages_, "{}\n", line);
     folder_.write_json("manifest.json", to_json(manifest_));
     if (options_.begun) options_.begun(folder_.path());
     const auto begin = Clock::now();
@@ -104,8 +115,8 @@ class SweepRun {
     const double allowance_ms = std::max(share_ms - elapsed_ms(begin) / cells, 0.0);
     const StoppingRule stopping{config_.precision, config_.minimum_repetitions,
                                 config_.maximum_repetitions};
-    const TurnRules rules{stopping, allowance_ms, core_, fingerprint(group.name())};
-    take_turns(std::move(contenders), benchmark_, rules,
+    const TurnRules rules{stopping, allowance_ms, fingerprint(group.name())};
+    take_turns(std::move(contenders), {benchmark_, counters_, core_}, rules,
                {[&](const CellRecord& cell) {
                   finish(cell, progress);
                   label();
@@ -134,6 +145,12 @@ class SweepRun {
   SweepOutcome close() {
     const std::vector<Json> cells = folder_.cells();
     manifest_.finished_utc = utc_now();
+    const std::optional<Overhead> overhead = largest_overhead(cells);
+    manifest_.overhead = to_json(overhead);
+    if (overhead) fmt::print(messages_, "{}\n", describe(*overhead));
+    if (overhead && overhead->part > kWantedOverhead) {
+      manifest_.uncontrolled.push_back(fmt::format("The {}.", describe(*overhead)));
+    }
     folder_.write_text("google-benchmark.json", google_benchmark_json(cells, benchmark_context()));
     folder_.write_json("manifest.json", to_json(manifest_));
     const auto failed = std::count_if(cells.begin(), cells.end(), [](const Json& cell) {
@@ -158,6 +175,7 @@ class SweepRun {
   const SweepOptions& options_;
   std::FILE* messages_;
   int core_;
+  HardwareCounters counters_;
   Manifest manifest_;
   RunFolder folder_;
   Plan plan_;

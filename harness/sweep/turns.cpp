@@ -48,14 +48,14 @@ double work_done(const std::vector<Contender>& racing, const TurnRules& rules) {
 
 }  // namespace
 
-void take_turns(std::vector<Contender> contenders, const GoogleBenchmark& benchmark,
+void take_turns(std::vector<Contender> contenders, const Instruments& instruments,
                 const TurnRules& rules, const TurnEvents& events) {
   Random random(rules.seed);
   retire_done(contenders, rules, events);
   for (int round = 0; !contenders.empty(); ++round) {
     shuffle(contenders, random);
     for (std::size_t i = 0; i < contenders.size(); ++i) {
-      contenders[i].repeat(benchmark, rules.core, round, static_cast<int>(i));
+      contenders[i].repeat(instruments, round, static_cast<int>(i));
       events.advanced(work_done(contenders, rules));
     }
     retire_done(contenders, rules, events);

@@ -13,7 +13,6 @@ namespace beambench {
 struct TurnRules {
   StoppingRule stopping;
   double allowance_ms;  ///< of timed work, for each contender
-  int core;             ///< to pin repetitions to; -1: any
   std::uint64_t seed;   ///< of the order in each round
 };
 
@@ -25,7 +24,7 @@ struct TurnEvents {
 /// Runs rounds of one repetition for each contender still in the race, in an order shuffled anew
 /// each round, until all are done: what slows the machine down for a while slows them all. Those
 /// that have failed already finish at once.
-void take_turns(std::vector<Contender> contenders, const GoogleBenchmark& benchmark,
+void take_turns(std::vector<Contender> contenders, const Instruments& instruments,
                 const TurnRules& rules, const TurnEvents& events);
 
 }  // namespace beambench

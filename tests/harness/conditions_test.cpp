@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <sched.h>
 
+#include "harness/sweep/noise.hpp"
 #include "harness/sweep/phase_timer.hpp"
 
 namespace beambench {

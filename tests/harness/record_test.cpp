@@ -13,6 +13,7 @@
 #include "harness/record/csv.hpp"
 #include "harness/record/fingerprint.hpp"
 #include "harness/record/machine.hpp"
+#include "harness/record/preflight.hpp"
 #include "harness/record/robust_statistics.hpp"
 #include "harness/record/run_folder.hpp"
 #include "scenes/camera.hpp"
@@ -141,10 +142,13 @@ CellRecord some_cell() {
   cell.statistics.emplace();
   cell.statistics->nodes = 9;
   cell.counters = {{"traversal_steps", 1280}, {"clips", 64}};
+  cell.allocated_bytes = 4096;
   cell.stop_reason = StopReason::kPrecision;
   cell.diff = DiffReport{};
   for (int round = 0; round < 7; ++round) {
-    cell.repetitions.push_back({round, 0, 1.0 + round, 10.0, 1.0, 9.0});
+    cell.repetitions.push_back({round, 0, 1.0 + round, 10.0, 1.0, 9.0, {}, {}});
+    cell.repetitions.back().trace_counts = {1000U + static_cast<unsigned>(round), 500,
+                                            std::nullopt};
   }
   return cell;
 }
@@ -160,7 +164,9 @@ const char* const kContract =
     "build_ms_median,build_ms_min,build_ms_mad,trace_ms_median,trace_ms_min,trace_ms_mad,"
     "total_ms_median,total_ms_min,total_ms_mad,total_ms_ci_low,total_ms_ci_high,"
     "build_cpu_ms_median,trace_cpu_ms_median,mrays_per_s,"
-    "memory_bytes,nodes,leaves,empty_leaves,references,depth,"
+    "build_instructions,build_cycles,build_cache_misses,"
+    "trace_instructions,trace_cycles,trace_cache_misses,"
+    "memory_bytes,allocated_bytes,nodes,leaves,empty_leaves,references,depth,"
     "traversal_steps_per_ray,leaves_per_ray,empty_leaves_per_ray,box_tests_per_ray,"
     "primitive_tests_per_ray,"
     "hits,agree,tie,graze,engine_error,embree_error,verdict\n";
@@ -185,6 +191,19 @@ TEST(CellRow, SumsUpTheRepetitions) {
   EXPECT_EQ(row.at("traversal_steps_per_ray"), 2.0);
   EXPECT_EQ(row.at("clips_per_ray"), 0.1);
   EXPECT_TRUE(row.at("box_tests_per_ray").is_null());
+  EXPECT_EQ(row.at("allocated_bytes"), 4096);
+}
+
+TEST(CellRow, HardwareCountsAreEmptyWhereTheMachineCountsNone) {
+  const CellRecord cell = some_cell();
+  const Row row = to_row(kRun, cell);
+  EXPECT_EQ(row.at("trace_instructions"), 1003);
+  EXPECT_EQ(row.at("trace_cycles"), 500);
+  EXPECT_TRUE(row.at("trace_cache_misses").is_null());
+  EXPECT_TRUE(row.at("build_instructions").is_null());
+  const Row repetition = to_json(kRun, cell).at("repetitions").at(0);
+  EXPECT_EQ(repetition.at("trace_instructions"), 1000);
+  EXPECT_FALSE(repetition.contains("build_instructions"));
 }
 
 TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
@@ -192,7 +211,9 @@ TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
   cell.verdict = "mismatch";
   const Row row = to_row(kRun, cell);
   for (const auto& [column, value] : row.items()) {
-    const bool is_time = column.find("_ms_") != std::string::npos || column == "mrays_per_s";
+    const bool is_time = column.find("_ms_") != std::string::npos || column == "mrays_per_s" ||
+                         column.ends_with("_cycles") || column.ends_with("_instructions") ||
+                         column.ends_with("_cache_misses");
     EXPECT_EQ(value.is_null(),
               is_time || column == "leaves_per_ray" || column == "empty_leaves_per_ray" ||
                   column == "box_tests_per_ray" || column == "primitive_tests_per_ray")
@@ -275,11 +296,44 @@ TEST(RunFolder, BelongsToOneAtATime) {
                    {"another beambench", "wait until"}));
 }
 
+TEST(Machine, WhatDisturbsIsSaidInPlainWords) {
+  Machine machine{};
+  machine.governor = "performance";
+  machine.turbo = "off";
+  EXPECT_TRUE(disturbances(machine).empty());
+  machine.governor = "powersave";
+  machine.turbo = "on";
+  machine.load = 3.0;
+  machine.virtual_machine = true;
+  machine.huge_pages = "always";
+  EXPECT_EQ(disturbances(machine).size(), 5U);
+}
+
+TEST(Preflight, ShowsTheMachineAndEachWarning) {
+  Manifest manifest;
+  manifest.machine.cpu = "Some CPU";
+  manifest.measurement.pinned_core = 3;
+  manifest.measurement.control_word = 0x9fc0;
+  manifest.measurement.noise = 0.125;
+  manifest.measurement.hardware_problem = "None.";
+  manifest.uncontrolled = {"The clock is wild."};
+  const std::vector<std::string> lines = preflight(manifest);
+  ASSERT_EQ(lines.size(), 3U);
+  EXPECT_TRUE(says(lines[0], {"Some CPU", "core 3", "MXCSR 0x9fc0"}));
+  EXPECT_TRUE(says(lines[1], {"governor unknown", "noise 12.5%", "hardware counters no"}));
+  EXPECT_EQ(lines[2], "warning: The clock is wild.");
+  EXPECT_TRUE(says(noise_warning(0.125).value_or(""), {"disturbed", "12%"}));
+  EXPECT_FALSE(noise_warning(0.01));
+  EXPECT_FALSE(noise_warning(std::nullopt));
+}
+
 TEST(Machine, TellsWhatItCan) {
   const Machine machine = inspect_machine();
   EXPECT_EQ(machine.id.size(), 16U);
   EXPECT_GE(machine.cores, 1U);
   EXPECT_GT(machine.memory_bytes, 0U);
+  EXPECT_GE(machine.page_bytes, 4096U);
+  EXPECT_NE(machine.instructions, "");
   EXPECT_NE(machine.executable_hash, fingerprint(std::string_view()));
   EXPECT_EQ(utc_now().size(), std::string_view("2024-05-31T14:07:09Z").size());
 }

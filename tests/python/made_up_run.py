@@ -6,19 +6,10 @@ import csv
 import json
 from pathlib import Path
 
+from beambench_report.dictionary import dictionary
 from beambench_report.plots import write_plots
 
-COLUMNS = (
-    "schema_version run_id time_utc commit dirty machine_id build_type flags isa threads "
-    "scene camera scene_hash rays_hash seed primitives "
-    "structure parameters width height samples ray_kind rays repetitions stop_reason "
-    "build_ms_median build_ms_min build_ms_mad trace_ms_median trace_ms_min trace_ms_mad "
-    "total_ms_median total_ms_min total_ms_mad total_ms_ci_low total_ms_ci_high "
-    "build_cpu_ms_median trace_cpu_ms_median mrays_per_s "
-    "memory_bytes nodes leaves empty_leaves references depth "
-    "traversal_steps_per_ray leaves_per_ray empty_leaves_per_ray box_tests_per_ray "
-    "primitive_tests_per_ray hits agree tie graze engine_error embree_error verdict"
-).split()
+COLUMNS = [column.name for column in dictionary().columns if not column.is_pattern]
 
 # build ms, trace ms a ray, bytes, traversal steps a ray
 _STRUCTURES = {
@@ -62,7 +53,7 @@ def write_run(folder: Path, rows: list[dict[str, object]], without: tuple[str, .
 
 def without_times(row: dict[str, object], verdict: str) -> dict[str, object]:
     """The row as beambench writes it when the hits were not right."""
-    times = {name: "" for name in COLUMNS if "_ms_" in name or name == "mrays_per_s"}
+    times = {name: "" for name in COLUMNS if dictionary().find(name).group in ("times", "hardware")}
     return {**row, **times, "verdict": verdict}
 
 
