@@ -6,18 +6,21 @@ With build times b and trace times a ray t, structure A catches up with B after
 
 from __future__ import annotations
 
+import itertools
+
 import pandas as pd
 from matplotlib.axes import Axes
+from matplotlib.patches import Rectangle
 from matplotlib.ticker import EngFormatter
 
 from beambench_report.bars import in_two_lines
 from beambench_report.figure import Plot
 from beambench_report.panels import panel_per_view
 from beambench_report.records import Run
-from beambench_report.style import looks
 
-AT_ONCE = "from the first ray"
+AT_ONCE = "at once"
 NEVER = "never"
+_FILLS = {AT_ONCE: "#bfe6d9", "from": "#d5edfb", "up to": "#fbf7cf", NEVER: "#eeeeee"}
 
 
 def break_even_rays(
@@ -36,81 +39,72 @@ def break_even_rays(
 
 
 def break_even_table(run: Run) -> pd.DataFrame:
-    """Every pair of contenders of every view, at the view's highest resolution."""
+    """Every ordered pair of contenders of every view."""
     records = []
     for title in run.views:
-        rows = _contenders(run.finest(title))
-        for one in rows.itertuples():
-            for other in rows.itertuples():
-                if one.contender == other.contender:
-                    continue
-                rays, words = break_even_rays(
-                    one.build_ms_median, one.trace_ms_per_ray,
-                    other.build_ms_median, other.trace_ms_per_ray,
-                )  # fmt: skip
-                records.append((title, one.contender, other.contender, rays, words))
+        rows = _contenders(run.view(title))
+        for one, other in itertools.permutations(rows.itertuples(), 2):
+            rays, words = break_even_rays(
+                one.build_ms_median, one.trace_ms_per_ray,
+                other.build_ms_median, other.trace_ms_per_ray,
+            )  # fmt: skip
+            records.append((title, one.contender, other.contender, rays, words))
     return pd.DataFrame(
         records, columns=["view", "contender", "baseline", "break_even_rays", "in_words"]
     )
 
 
 def break_even(run: Run) -> list[Plot]:
-    """One figure, a panel a view, against the contender that is built the quickest."""
+    """One figure, a panel a view: a table of each contender against each other."""
     table = break_even_table(run)
-    all_looks = looks(run.rows)
 
     def select(title: str) -> pd.DataFrame:
-        rows = _contenders(run.finest(title))
-        if len(rows) < 2:
-            return rows.iloc[:0]
-        baseline = rows.loc[rows["build_ms_median"].idxmin(), "contender"]
-        pairs = table[(table["view"] == title) & (table["baseline"] == baseline)]
-        return pairs.merge(rows[["contender", "width", "height", "rays"]], on="contender")
+        rows = _contenders(run.view(title))
+        return rows if len(rows) > 1 else rows.iloc[:0]
 
-    def draw(panel: Axes, pairs: pd.DataFrame) -> None:
-        baseline = pairs["baseline"].iloc[0]
-        image = pairs["rays"].iloc[0]
-        panel.axvline(image, color="#999999", linewidth=0.8, linestyle=":")
-        for place, pair in enumerate(pairs.itertuples()):
-            known = pd.notna(pair.break_even_rays)
-            at = pair.break_even_rays if known else image
-            if known:
-                look = all_looks[pair.contender]
-                panel.plot(at, place, marker=look.marker, color=look.colour, markersize=7)
-            panel.annotate(
-                pair.in_words, (at, place), xytext=(7, 0), textcoords="offset points",
-                va="center", fontsize=7.5,
-            )  # fmt: skip
-        panel.set_xscale("log")
-        panel.set_xlim(*_limits([*pairs["break_even_rays"].dropna(), image]))
-        panel.xaxis.set_major_formatter(EngFormatter(sep=" "))
-        panel.set_yticks(range(len(pairs)), [in_two_lines(name) for name in pairs["contender"]])
-        panel.set_ylim(len(pairs) - 0.4, -0.6)
-        panel.tick_params(axis="y", length=0)
-        panel.set_xlabel(f"rays until the dearer build is paid, against {baseline}")
-        panel.grid(axis="x", color="#dddddd", linewidth=0.6)
+    def draw(panel: Axes, rows: pd.DataFrame) -> None:
+        pairs = table[table["view"] == rows["view"].iloc[0]]
+        place = {contender: index for index, contender in enumerate(rows["contender"])}
+        for pair in pairs.itertuples():
+            _draw_cell(panel, place[pair.baseline], place[pair.contender], pair.in_words)
+        numbers = range(1, len(place) + 1)
+        labels = [f"{in_two_lines(name)}  {number}" for name, number in zip(place, numbers, strict=True)]
+        panel.set_yticks(range(len(place)), labels)
+        panel.set_xticks(range(len(place)), [f"against {number}" for number in numbers])
+        panel.set_xlim(-0.5, len(place) - 0.5)
+        panel.set_ylim(len(place) - 0.5, -0.5)
+        panel.tick_params(length=0, labelsize=7.5)
+        panel.tick_params(axis="x", labeltop=True, labelbottom=False)
+        panel.spines[:].set_visible(False)
 
     return panel_per_view(
         run,
         stem="break-even",
         select=select,
         draw=draw,
-        explanation="(difference of build times) / (difference of trace times a ray), against the "
-        "contender that is built the quickest; dotted: one image at the highest resolution, whose "
-        "trace times are used. Every other pair is in break-even.csv.",
+        explanation="A row tells from how many rays on a contender, build included, is ahead of "
+        "the one with the column's number: (difference of build times) / (difference of trace "
+        "times a ray), by the medians at each contender's highest resolution. 'up to': it is ahead "
+        "until then. The same in digits: break-even.csv.",
         summary="number of rays from which a dearer build pays",
         times=True,
     )
 
 
+def _draw_cell(panel: Axes, column: int, row: int, words: str) -> None:
+    kind = next(kind for kind in _FILLS if words.startswith(kind))
+    panel.add_patch(Rectangle((column - 0.47, row - 0.42), 0.94, 0.84, color=_FILLS[kind]))
+    panel.annotate(words, (column, row), ha="center", va="center", fontsize=7)
+
+
 def _contenders(rows: pd.DataFrame) -> pd.DataFrame:
-    """The rows that can be compared; `null`, which finds nothing, is no contender."""
+    """Each contender at its highest resolution; `null`, which finds nothing, is none."""
     rows = rows[rows["timed"] & (rows["verdict"] == "ok")]
     rows = rows.dropna(subset=["build_ms_median", "trace_ms_median"])
+    finest = rows.groupby("contender", sort=False)["rays"].idxmax()
+    rows = rows.loc[finest]
     return rows.assign(trace_ms_per_ray=rows["trace_ms_median"] / rows["rays"])
 
 
-def _limits(values: list[float]) -> tuple[float, float]:
-    """A decade of room for the text on the right."""
-    positive = [value for value in values if value > 0]
-    return min(positive) / 3, max(positive) * 30
+def _short(rays: float) -> str:
+    return EngFormatter(places=None if rays < 1000 else 1, sep=" ")(round(rays))

@@ -31,8 +31,8 @@ def panel_per_view(
     heights = [PANEL_MARGIN + BAR_HEIGHT * len(rows) for rows in shown.values()]
     figure, panels = new_figure(sum(heights) + 0.3, len(shown), height_ratios=heights)
     for panel, (title, rows) in zip(panels, shown.items(), strict=True):
-        first = rows.iloc[0]
-        panel.set_title(f"{title} ({first['width']:.0f}x{first['height']:.0f})")
+        finest = rows.loc[rows["rays"].idxmax()]
+        panel.set_title(f"{title} ({finest['width']:.0f}x{finest['height']:.0f})")
         draw(panel, rows)
     caption(figure, run.rows, explanation, times=times)
     return [Plot(stem, figure, summary)]

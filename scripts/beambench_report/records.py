@@ -74,7 +74,7 @@ def read_run(directory: Path) -> Run:
         column = dictionary().find(name)
         if column and column.is_number:
             rows[name] = _numbers(rows[name], path)
-        else:
+        elif column or not is_numeric_dtype(rows[name]):  # of unknown columns, figures stay figures
             rows[name] = rows[name].astype(str).where(rows[name].notna(), "")
     _require_values(rows, path, ("scene", "structure", "rays"))
 

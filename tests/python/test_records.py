@@ -48,6 +48,13 @@ def test_finest_gives_the_highest_number_of_rays(run_folder: Path) -> None:
     assert len(rows) == 5
 
 
+def test_columns_of_a_newer_beambench_are_kept_as_they_are(tmp_path: Path) -> None:
+    rows = [{**row, "new_figure": 3, "new_word": "x"} for row in made_up_rows()]
+    run = read_run(write_run(tmp_path, rows))
+    assert set(run.rows["new_figure"]) == {3}
+    assert set(run.rows["new_word"]) == {"x"}
+
+
 def test_missing_columns_are_named(tmp_path: Path) -> None:
     folder = write_run(tmp_path, made_up_rows(), without=("verdict", "memory_bytes"))
     with pytest.raises(Problem, match=r"results\.csv: the columns memory_bytes, verdict are miss"):

@@ -43,14 +43,17 @@ def test_a_wrong_request_is_one_sentence_and_exit_code_2(
     assert result.stderr.count("\n") == 1
 
 
-def test_the_list_of_packages_names_each_once(repository: Path) -> None:
-    lines = (repository / "scripts" / "packages.txt").read_text().splitlines()
+def test_the_lists_of_packages_name_each_once(repository: Path) -> None:
+    lists = [repository / "scripts" / name for name in ("packages.txt", "packages-test.txt")]
+    lines = [line for path in lists for line in path.read_text().splitlines()]
     packages = [line.split("#")[0].strip() for line in lines]
     packages = [package for package in packages if package]
     assert len(packages) == len(set(packages)) > 10
 
 
-def test_a_small_sweep_leaves_records_pictures_and_plots(repository: Path, tmp_path: Path) -> None:
+def test_a_small_sweep_leaves_records_pictures_plots_and_a_page(
+    repository: Path, tmp_path: Path
+) -> None:
     if not (repository / "build/release/bin/beambench").exists():
         pytest.skip("beambench is not built; run scripts/setup")
     sweep = tmp_path / "small.json"
@@ -82,4 +85,5 @@ def test_a_small_sweep_leaves_records_pictures_and_plots(repository: Path, tmp_p
     assert (run / "plots" / "time-stetra.png").exists()
     assert (run / "pictures" / "stetra.png").exists()
     assert (run / "pictures" / "stetra-samet-traversal_steps.png").exists()
-    assert str(run) in result.stdout
+    assert f"Look at {run}/report.html\n" in result.stdout
+    assert "All 6 cells were right" in (run / "report.html").read_text()

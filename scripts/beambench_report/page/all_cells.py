@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
+from pandas.api.types import is_numeric_dtype
 
 from beambench_report.dictionary import Column, dictionary
 from beambench_report.records import Run
@@ -44,7 +45,7 @@ def pack(run: Run) -> AllCells:
     same = []
     for name in rows.columns.drop(["contender", "view", "timed"]):
         series = rows[name]
-        entry = dictionary().find(name) or Column(name, "", "text", "", "", "")
+        entry = dictionary().find(name) or _unknown(series)
         first = series.iloc[0]
         nothing = series.isna().all() if entry.is_number else (series == "").all()
         if nothing and name != "verdict":
@@ -65,6 +66,12 @@ def pack(run: Run) -> AllCells:
         )
     packed = json.dumps({"rows": len(rows), "columns": columns}, separators=(",", ":"))
     return AllCells(len(rows), packed.replace("<", "\\u003c"), same)
+
+
+def _unknown(series: pd.Series) -> Column:
+    """A newer beambench may add columns."""
+    kind = "number" if is_numeric_dtype(series) else "text"
+    return Column(str(series.name), "", kind, "", "Not in the data dictionary.", "")
 
 
 def _named(name: str, series: pd.Series) -> dict:

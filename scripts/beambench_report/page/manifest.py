@@ -31,6 +31,8 @@ class Manifest:
     seconds: float | None = None
     cut_off: bool = False
     machine: str = ""
+    overhead: float | None = None
+    """What part of the fastest contender's trace time the harness itself takes, at most."""
     uncontrolled: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     facts: list[Facts] = field(default_factory=list)
@@ -48,6 +50,7 @@ def read_manifest(directory: Path) -> Manifest | None:
         seconds=_seconds_between(begun, finished),
         cut_off="finished_utc" in source and not finished,
         machine=_dictionary(source, "machine").get("cpu", ""),
+        overhead=_dictionary(source, "harness_overhead").get("part"),
         uncontrolled=source.get("uncontrolled", []),
         notes=source.get("notes", []),
         facts=_facts(source),
@@ -109,7 +112,7 @@ def _text(name: str, value: object) -> str:
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, list):
-        return ", ".join(_text(name, one) for one in value)
+        return ", ".join(_text(name, one) for one in value) or "none"
     if isinstance(value, int | float) and name.endswith("_bytes"):
         return size_in_words(value)
     return f"{value:.6g}" if isinstance(value, float) else str(value)

@@ -34,6 +34,7 @@ def write_page(directory: Path, reference: str | None = None) -> list[Path]:
 
 def render(run: Run, wanted_reference: str | None = None) -> str:
     """The text of the page."""
+    manifest = read_manifest(run.directory) or Manifest()
     files = read_cell_files(run.directory)
     reference = choose_reference(run, wanted_reference)
     resolutions = {view: compared(run, view, reference, files) for view in run.views}
@@ -41,11 +42,11 @@ def render(run: Run, wanted_reference: str | None = None) -> str:
     plots = read_plots(run.directory)
     pictures = read_pictures(run.directory, run.rows["scene"])
     return _template().render(
-        manifest=read_manifest(run.directory) or Manifest(),
+        manifest=manifest,
         description=read_description(run.directory),
         newest=run.rows.iloc[-1].to_dict(),
         outcome=judge_run(run, files),
-        tiles=_tiles(run),
+        tiles=_tiles(run, manifest),
         comparison=compare(reference, finest) if reference else None,
         views=make_views(resolutions, run.counters, pictures, plots),
         plots=[plot for plot in plots if not plot.subject],
@@ -54,7 +55,7 @@ def render(run: Run, wanted_reference: str | None = None) -> str:
     )
 
 
-def _tiles(run: Run) -> list[tuple[str, str]]:
+def _tiles(run: Run, manifest: Manifest) -> list[tuple[str, str]]:
     """A few figures that say how large the run was and how well it could measure."""
     timed = run.rows[run.rows["timed"]]
     tiles = [
@@ -64,6 +65,10 @@ def _tiles(run: Run) -> list[tuple[str, str]]:
     if "stop_reason" in timed and len(timed) > 0:
         precise = (timed["stop_reason"] == "precision").mean()
         tiles.append((f"{100 * precise:.0f}%", "of timed cells as precise as wanted"))
+    if manifest.overhead is not None:
+        tiles.append(
+            (f"{100 * manifest.overhead:.2g}%", "of a trace time is the harness's, at most")
+        )
     return tiles
 
 
