@@ -35,7 +35,7 @@ def break_even_rays(
         return None, NEVER
     rays = dearer / saved
     # Cheaper to build but slower a ray: ahead until then, not from then on.
-    return rays, f"{rays:,.0f} rays" if saved > 0 else f"ahead up to {rays:,.0f} rays"
+    return rays, f"{'from' if saved > 0 else 'up to'} {_short(rays)}"
 
 
 def break_even_table(run: Run) -> pd.DataFrame:
@@ -68,7 +68,9 @@ def break_even(run: Run) -> list[Plot]:
         for pair in pairs.itertuples():
             _draw_cell(panel, place[pair.baseline], place[pair.contender], pair.in_words)
         numbers = range(1, len(place) + 1)
-        labels = [f"{in_two_lines(name)}  {number}" for name, number in zip(place, numbers, strict=True)]
+        labels = [
+            f"{in_two_lines(name)}  {number}" for name, number in zip(place, numbers, strict=True)
+        ]
         panel.set_yticks(range(len(place)), labels)
         panel.set_xticks(range(len(place)), [f"against {number}" for number in numbers])
         panel.set_xlim(-0.5, len(place) - 0.5)

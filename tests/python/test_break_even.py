@@ -8,14 +8,16 @@ import pytest
 
 from beambench_report.break_even import AT_ONCE, NEVER, break_even_rays, break_even_table
 from beambench_report.records import read_run
+from made_up_run import made_up_rows, write_run
 
 
 @pytest.mark.parametrize(
     ("times", "rays", "words"),
     [
         # build, trace a ray, and the baseline's
-        ((10.0, 1e-3, 0.0, 2e-3), 10_000, "10,000 rays"),
-        ((0.0, 2e-3, 10.0, 1e-3), 10_000, "ahead up to 10,000 rays"),
+        ((10.0, 1e-3, 0.0, 2e-3), 10_000, "from 10.0 k"),
+        ((0.0, 2e-3, 10.0, 1e-3), 10_000, "up to 10.0 k"),
+        ((1.0, 1e-3, 0.5, 3e-3), 250, "from 250"),
         ((1.0, 1e-3, 2.0, 2e-3), None, AT_ONCE),
         ((1.0, 1e-3, 1.0, 2e-3), None, AT_ONCE),
         ((2.0, 2e-3, 1.0, 1e-3), None, NEVER),
@@ -33,6 +35,14 @@ def test_both_pay_the_same_at_the_break_even() -> None:
     rays, _ = break_even_rays(7.0, 3e-4, 2.0, 9e-4)
     assert rays is not None
     assert 7.0 + 3e-4 * rays == pytest.approx(2.0 + 9e-4 * rays)
+
+
+def test_each_contender_counts_at_its_own_highest_resolution(tmp_path: Path) -> None:
+    rows = [
+        row for row in made_up_rows() if row["structure"] != "exhaustive" or row["width"] == 320
+    ]
+    table = break_even_table(read_run(write_run(tmp_path, rows)))
+    assert "exhaustive" in set(table["contender"])
 
 
 def test_the_table_has_every_ordered_pair_but_none_with_null(run_folder: Path) -> None:
