@@ -142,7 +142,7 @@ def test_the_reference_can_be_chosen(run_folder: Path, capsys: pytest.CaptureFix
 
 def test_the_harness_s_own_part_is_told(run_folder: Path) -> None:
     write_manifest(run_folder, harness_overhead={"part": 0.0123})
-    assert "1.2% of a trace time is the harness's, at most" in page_of(run_folder).text
+    assert "1.2% of the fastest trace is the harness's, at most" in page_of(run_folder).text
 
 
 def test_a_manifest_that_is_none_is_one_sentence_and_exit_code_2(

@@ -67,7 +67,7 @@ def _tiles(run: Run, manifest: Manifest) -> list[tuple[str, str]]:
         tiles.append((f"{100 * precise:.0f}%", "of timed cells as precise as wanted"))
     if manifest.overhead is not None:
         tiles.append(
-            (f"{100 * manifest.overhead:.2g}%", "of a trace time is the harness's, at most")
+            (f"{100 * manifest.overhead:.2g}%", "of the fastest trace is the harness's, at most")
         )
     return tiles
 
