@@ -70,6 +70,7 @@ RunFolder RunFolder::create(const fs::path& path) {
                     path.string(), path.string()));
   }
   make_folder(path / kCells);
+  remove_left_behind(path);
   return folder;
 }
 

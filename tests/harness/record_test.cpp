@@ -250,7 +250,9 @@ TEST(RunFolder, RefusesWhatAlreadyHoldsARun) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "run";
   RunFolder::create(path);  // killed before its manifest was written: it has measured nothing
+  folder.write("run/.config.123.partial.json", "{");
   RunFolder::create(path).write_json("manifest.json", {});
+  EXPECT_FALSE(std::filesystem::exists(path / ".config.123.partial.json"));
   EXPECT_TRUE(says(thrown_message([&] { RunFolder::create(path); }), {path.string(), "--resume"}));
 }
 
