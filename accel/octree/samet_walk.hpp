@@ -47,7 +47,7 @@ void walk_leaves(const Octree& octree, const Ray& ray, Counting& counting, Visit
     if (visit(leaf, t)) return;
     glm::ivec3 step(0);
     for (int axis = 0; axis < 3; ++axis) {
-      if (exits[axis] == t) step[axis] = way.step(axis);
+      if (exits[static_cast<std::size_t>(axis)] == t) step[axis] = way.step(axis);
     }
     levels = 0;
     if (!cursor.move_to_neighbour(step, levels)) return;

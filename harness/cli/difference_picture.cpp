@@ -1,6 +1,7 @@
 #include "harness/cli/difference_picture.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 
@@ -14,13 +15,13 @@ namespace beambench {
 namespace {
 
 /// From the least grave to the gravest; the position is the category in the map, agreement aside.
-constexpr DiffClass kByGravity[] = {DiffClass::kTie, DiffClass::kGraze, DiffClass::kEmbreeError,
-                                    DiffClass::kEngineError};
+constexpr std::array kByGravity{DiffClass::kTie, DiffClass::kGraze, DiffClass::kEmbreeError,
+                                DiffClass::kEngineError};
 
 std::uint8_t category_of(DiffClass diff_class) {
-  const auto* const found = std::find(std::begin(kByGravity), std::end(kByGravity), diff_class);
-  return found == std::end(kByGravity) ? CategoryMap::kNone
-                                       : static_cast<std::uint8_t>(found - kByGravity);
+  const auto found = std::find(kByGravity.begin(), kByGravity.end(), diff_class);
+  return found == kByGravity.end() ? CategoryMap::kNone
+                                   : static_cast<std::uint8_t>(found - kByGravity.begin());
 }
 
 /// Each pixel's gravest class.
@@ -71,6 +72,7 @@ void write_difference(const std::filesystem::path& file, const ReferenceHits& re
     return;
   }
   std::vector<std::uint32_t> numbers;
+  numbers.reserve(pixels.size());
   for (const DiffClass each : pixels) numbers.push_back(static_cast<std::uint32_t>(each));
   const DataChannel channel{"class", std::move(numbers)};
   write_image(file, ground, {&channel, 1});

@@ -33,17 +33,16 @@ std::string escaped(std::string_view text) {
 /// Lines that stay as they are.
 std::string verbatim(std::string_view text) { return fmt::format(".nf\n{}\n.fi\n", escaped(text)); }
 
+std::string bold(const std::string& word) { return R"(\fB)" + escaped(word) + R"(\fR)"; }
+
 /// `\fB\-o\fR, \fB\-\-output\fR \fITEXT\fR`, and in the next lines what it is for.
 std::string option_entry(const CLI::Option& option) {
   std::string names;
   if (option.get_positional()) {
-    names = "\\fI" + escaped(option.get_name(true)) + "\\fR";
+    names = R"(\fI)" + escaped(option.get_name(true)) + R"(\fR)";
   } else {
-    for (const std::string& name : option.get_snames())
-      names += "\\fB\\-" + escaped(name) + "\\fR, ";
-    for (const std::string& name : option.get_lnames()) {
-      names += "\\fB\\-\\-" + escaped(name) + "\\fR, ";
-    }
+    for (const std::string& name : option.get_snames()) names += bold("-" + name) + ", ";
+    for (const std::string& name : option.get_lnames()) names += bold("--" + name) + ", ";
     names.resize(names.size() - 2);
     if (option.get_items_expected_max() > 0) names += " \\fIVALUE\\fR";
   }

@@ -1,6 +1,7 @@
 // A ray's way, step by step: what is told is what was done.
 
 #include <algorithm>
+#include <array>
 
 #include <gtest/gtest.h>
 
@@ -15,8 +16,8 @@ namespace {
 /// Two triangles in opposite corners of [0, 4]^3: eight leaves of size 2, six of them empty.
 Scene two_corners() {
   SceneBuilder builder("two corners");
-  const glm::dvec3 low[] = {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
-  const glm::dvec3 high[] = {{3.0, 3.0, 4.0}, {4.0, 3.0, 4.0}, {4.0, 4.0, 4.0}};
+  const std::array<glm::dvec3, 3> low{{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}};
+  const std::array<glm::dvec3, 3> high{{{3.0, 3.0, 4.0}, {4.0, 3.0, 4.0}, {4.0, 4.0, 4.0}}};
   builder.add_polygon(low);
   builder.add_polygon(high);
   return std::move(builder).build();

@@ -23,7 +23,7 @@ TEST(ShellQuoted, LeavesPlainWordsAlone) {
 TEST(ShellQuoted, GivesTheShellBackEveryCharacter) {
   const TemporaryFolder folder;
   for (const std::string word :
-       {"", "two words", "it's", "$HOME `ls` \"x\" \\ ; & | * ~ #", "''"}) {
+       {"", "two words", "it's", R"($HOME `ls` "x" \ ; & | * ~ #)", "''"}) {
     const std::string command =
         "printf %s " + shell_quoted(word) + " > '" + (folder.path() / "out").string() + "'";
     ASSERT_EQ(std::system(command.c_str()), 0) << command;
