@@ -1,5 +1,8 @@
 #include "harness/cli/ray_way.hpp"
 
+#include <algorithm>
+#include <span>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -62,9 +65,9 @@ std::string tests_text(const std::vector<TestOutcome>& outcomes) {
     }
   }
   if (missed.empty()) return out;
-  const std::size_t more = missed.size() - std::min(missed.size(), kListedMisses);
-  missed.resize(missed.size() - more);
-  return out + fmt::format("missed: {}{}\n", fmt::join(missed, " "),
+  const auto listed = std::span(missed).first(std::min(missed.size(), kListedMisses));
+  const std::size_t more = missed.size() - listed.size();
+  return out + fmt::format("missed: {}{}\n", fmt::join(listed, " "),
                            more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
