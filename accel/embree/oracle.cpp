@@ -81,8 +81,8 @@ struct Padded {
     *arguments->bounds_o = {lower.x, lower.y, lower.z, 0.0F, upper.x, upper.y, upper.z, 0.0F};
   }
 
-  // The oracle asks with single rays only, so N is 1 in both callbacks. Embree 4 reads in `valid`
-  // whether there was a hit.
+  // The oracle asks with single rays only, so N is 1 in both callbacks. Embree 4 is to be
+  // told in `valid` whether there was a hit.
   static void on_intersect(const RTCIntersectFunctionNArguments* arguments) {
     if (arguments->valid[0] == 0) return;
     const Padded& self = of(arguments->geometryUserPtr);

@@ -64,7 +64,8 @@ void UserGeometry::on_bounds(const RTCBoundsFunctionArguments* arguments) {
   *arguments->bounds_o = {lower.x, lower.y, lower.z, 0.0F, upper.x, upper.y, upper.z, 0.0F};
 }
 
-// Embree 4 reads in `valid` whether there was a hit; Embree 3 hands out a copy and reads nothing.
+// Embree 4 is to be told in `valid` which rays were hit; Embree 3 hands out a copy and reads
+// nothing.
 
 void UserGeometry::on_intersect(const RTCIntersectFunctionNArguments* arguments) {
   const auto& self = *static_cast<const UserGeometry*>(arguments->geometryUserPtr);
