@@ -29,7 +29,7 @@ constexpr const char* kExamples =
     "  beambench render balls --accel samet -o balls.png\n"
     "  beambench verify tetra:n=4 --accel all\n"
     "'beambench COMMAND --help' tells more. Exit codes: 0 fine, 1 a mismatch or regression was\n"
-    "found, 2 the request was wrong.";
+    "found, 2 the request was wrong, 130 interrupted.";
 
 /// One line, whatever the message was made of.
 int complain(std::string message, int exit_code) {
