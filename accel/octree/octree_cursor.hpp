@@ -46,16 +46,17 @@ class OctreeCursor {
   /// (a face, edge or vertex neighbour): climbs to the nearest common ancestor and goes down again,
   /// the path mirrored, as far as there are nodes (Samet, "Implementing ray tracing with octrees
   /// and neighbor finding", Computers & Graphics 13(4), 1989; thesis, section 3.5.2.2). `step`
-  /// holds -1, 0 or 1 for each axis. Returns false when the neighbour would lie outside the root.
-  /// `levels` is increased by the levels climbed and descended.
-  bool move_to_neighbour(const glm::ivec3& step, int& levels) {
+  /// holds -1, 0 or 1 for each axis. Returns the number of levels climbed and descended; 0 when the
+  /// neighbour would lie outside the root.
+  int move_to_neighbour(const glm::ivec3& step) {
     const glm::ivec3 target = corner_ + step * size_;
     std::uint32_t differing = 0;
     for (int axis = 0; axis < 3; ++axis) {
-      if (target[axis] < 0 || target[axis] >= cells_) return false;
+      if (target[axis] < 0 || target[axis] >= cells_) return 0;
       differing |= static_cast<std::uint32_t>(target[axis] ^ corner_[axis]);
     }
     const std::int32_t equal_size = size_;
+    int levels = 0;
     // Climb: the common ancestor spans the highest bit in which the coordinates differ.
     const auto ancestor_size = static_cast<std::int32_t>(std::bit_floor(differing)) * 2;
     for (; size_ < ancestor_size; ++levels) {
@@ -72,7 +73,14 @@ class OctreeCursor {
       index_ = node().first + octant;
     }
     for (int axis = 0; axis < 3; ++axis) corner_[axis] = target[axis] & -size_;
-    return true;
+    return levels;
+  }
+
+  /// Goes to a node whose place is known.
+  void jump(std::uint32_t index, const glm::ivec3& corner, std::int32_t size) {
+    index_ = index;
+    corner_ = corner;
+    size_ = size;
   }
 
  private:

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "accel/intersect.hpp"
-#include "accel/octree/samet_walk.hpp"
+#include "accel/octree/samet.hpp"
 #include "accel/traversal_accelerator.hpp"
 #include "harness/differ/differ.hpp"
 #include "scenes/catalogue.hpp"
@@ -39,14 +39,15 @@ class FaultySamet : public TraversalAccelerator<FaultySamet> {
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     ClosestHit closest(ray);
-    walk_leaves(octree_, ray, counting, [&](const OctreeNode& leaf, double exit_t) {
+    const auto test_leaf = [&](const OctreeNode& leaf, double exit_t) {
       const auto index = static_cast<std::size_t>(&leaf - octree_.nodes().data());
       const auto references = octree_.references(leaf);
       for (std::uint32_t i = 0; i < references.size() && fault_.skipped_leaf != index; ++i) {
         if (fault_.dropped_reference != leaf.first + i) closest.test(*scene_, references[i]);
       }
       return closest.ray.t_max < static_cast<float>(exit_t);
-    });
+    };
+    walk_leaves(octree_, AncestorNeighbours(octree_), ray, counting, test_leaf);
     return closest.result();
   }
   template <class Counting>
@@ -88,7 +89,7 @@ class PlantedFault : public ::testing::TestWithParam<Subject> {
       if (!hit) continue;
       int leaves = 0;
       NoCounting none;
-      walk_leaves(octree, ray, none, [&](const OctreeNode& leaf, double) {
+      const auto look_for_hit = [&](const OctreeNode& leaf, double) {
         const auto references = octree.references(leaf);
         for (std::uint32_t k = 0; k < references.size(); ++k) {
           if (references[k] != hit->primitive) continue;
@@ -97,7 +98,8 @@ class PlantedFault : public ::testing::TestWithParam<Subject> {
                              : Fault{{}, leaf.first + k};
         }
         return false;
-      });
+      };
+      walk_leaves(octree, AncestorNeighbours(octree), ray, none, look_for_hit);
       if (leaves == 1) return fault;  // no other leaf on the whole way knows the primitive
     }
     ADD_FAILURE() << "no ray finds its hit in one leaf alone";

@@ -1,5 +1,5 @@
 #include "accel/octree/samet.hpp"
-
+#include "accel/octree/samet_net.hpp"
 #include "accel/registry.hpp"
 
 namespace beambench {
@@ -11,6 +11,13 @@ void register_octree(Registry& registry) {
                 Conformance::kBitExact, OctreeOptions::parameters(),
                 [](const Scene& scene, const Parameters& parameters) {
                   return std::make_unique<Samet>(scene, OctreeOptions::from(parameters));
+                }});
+  registry.add({"samet-net",
+                "the octree and the traversal of samet, each face linked beforehand to the "
+                "neighbour of equal or larger size (Endl and Sommer 1994)",
+                Conformance::kBitExact, OctreeOptions::parameters(),
+                [](const Scene& scene, const Parameters& parameters) {
+                  return std::make_unique<SametNet>(scene, OctreeOptions::from(parameters));
                 }});
 }
 

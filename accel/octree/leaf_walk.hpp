@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <string_view>
 
 #include "accel/octree/octree.hpp"
 #include "accel/octree/octree_cursor.hpp"
@@ -12,22 +13,31 @@
 
 namespace beambench {
 
+/// What structures over an octree count beside the rest: nodes passed from a leaf to its neighbour
+/// of equal or larger size. The way down to a smaller leaf, the same for all, is not in it.
+inline constexpr std::string_view kNeighbourSteps = "neighbour_steps";
+
 /// Calls `visit(leaf, exit_t)` for the leaves that the ray passes through, from t_min on, until it
 /// returns true or the ray leaves the root (Samet, "Implementing ray tracing with octrees and
 /// neighbor finding", Computers & Graphics 13(4), 1989; thesis, sections 2.2.2 and 5.4.1): the exit
-/// point of a leaf is computed, and the neighbour behind it is found over the nearest common
-/// ancestor. A ray that leaves through an edge or a vertex goes to the edge or vertex neighbour.
-template <class Counting, class Visit>
-void walk_leaves(const Octree& octree, const Ray& ray, Counting& counting, Visit visit) {
+/// point of a leaf is computed, and the leaf behind it is found. A ray that leaves through an edge
+/// or a vertex goes to the edge or vertex neighbour.
+///
+/// `neighbours.move(cursor, step)` takes the cursor from a leaf to the node of equal or larger size
+/// behind the face, edge or vertex that `step` (-1, 0 or 1 for each axis) points at, and returns
+/// how many nodes it passed on the way, the last one included; 0 where the root ends.
+template <class Neighbours, class Counting, class Visit>
+void walk_leaves(const Octree& octree, const Neighbours& neighbours, const Ray& ray,
+                 Counting& counting, Visit visit) {
   const OctreeRay way(octree.grid(), ray);
   double t = way.enter_root(ray.t_min);
   if (!(t < kInfinity)) return;
   OctreeCursor cursor(octree);
-  int levels = 1;  // the root
+  int passed = 1;  // the root
   while (true) {
-    levels += cursor.descend(way, t);
+    passed += cursor.descend(way, t);
     const OctreeNode& leaf = cursor.node();
-    counting.add(Counter::kTraversalSteps, static_cast<std::uint64_t>(levels));
+    counting.add(Counter::kTraversalSteps, static_cast<std::uint64_t>(passed));
     counting.add(Counter::kLeaves);
     counting.add(Counter::kEmptyLeaves, leaf.count == 0 ? 1 : 0);
 
@@ -49,8 +59,9 @@ void walk_leaves(const Octree& octree, const Ray& ray, Counting& counting, Visit
     for (int axis = 0; axis < 3; ++axis) {
       if (exits[static_cast<std::size_t>(axis)] == t) step[axis] = way.step(axis);
     }
-    levels = 0;
-    if (!cursor.move_to_neighbour(step, levels)) return;
+    passed = neighbours.move(cursor, step);
+    if (passed == 0) return;
+    counting.add(kNeighbourSteps, static_cast<std::uint64_t>(passed));
   }
 }
 

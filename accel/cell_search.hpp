@@ -1,0 +1,55 @@
+#pragma once
+// Testing what the cells along a ray refer to: the part that octrees and grids have in common.
+
+#include <optional>
+#include <span>
+
+#include "accel/intersect.hpp"
+#include "accel/work_counters.hpp"
+
+namespace beambench {
+
+/// Tests every reference it meets, also when another cell on the way had it before.
+struct NoMailboxes {
+  static constexpr bool is_first(PrimitiveId) { return true; }
+};
+
+/// The closest hit in the cells along a ray. `walk(visit)` calls `visit(references, exit_t)` for
+/// the cells in order, until that returns true. A cell's references are the primitives that reach
+/// into it, widened by `overlap_tolerance`. `mailboxes.is_first(id)` is asked once for every
+/// reference; it may be false only where the primitive was tested against this ray before.
+template <class Counting, class Mailboxes, class Walk>
+std::optional<Hit> closest_in_cells(const Scene& scene, const Ray& ray, Counting& counting,
+                                    Mailboxes&& mailboxes, const Walk& walk) {
+  ClosestHit closest(ray);
+  walk([&](std::span<const PrimitiveId> references, double exit_t) {
+    for (const PrimitiveId id : references) {
+      if (!mailboxes.is_first(id)) continue;
+      counting.add(Counter::kPrimitiveTests);
+      counting.tested(id, closest.test(scene, id));
+    }
+    // Strictly: a hit at the exit's own rounded t may lie behind it and have a lower id.
+    return closest.ray.t_max < static_cast<float>(exit_t);
+  });
+  return closest.result();
+}
+
+/// Is there a hit in the cells along a ray? Parameters as of `closest_in_cells`.
+template <class Counting, class Mailboxes, class Walk>
+bool any_in_cells(const Scene& scene, const Ray& ray, Counting& counting, Mailboxes&& mailboxes,
+                  const Walk& walk) {
+  const CanonicalRay canonical(ray);
+  bool found = false;
+  walk([&](std::span<const PrimitiveId> references, double exit_t) {
+    for (const PrimitiveId id : references) {
+      if (!mailboxes.is_first(id)) continue;
+      counting.add(Counter::kPrimitiveTests);
+      found = is_hit(intersect(canonical, scene, id));
+      if (found) return true;
+    }
+    return canonical.t_max < static_cast<float>(exit_t);
+  });
+  return found;
+}
+
+}  // namespace beambench

@@ -1,0 +1,77 @@
+#pragma once
+// The net over an octree: each face linked to the node behind it.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "accel/octree/octree.hpp"
+#include "accel/octree/octree_cursor.hpp"
+
+namespace beambench {
+
+/// Links from each node through each of its six faces to the neighbour of equal or larger size: the
+/// node in which Samet's search over the common ancestor ends, one step away. Where the neighbours
+/// are smaller the link leads to their parent, from which the ray descends.
+///
+/// Faces alone are linked. Through an edge or a vertex, which few rays meet exactly, the way is
+/// Samet's.
+class OctreeNet {
+ public:
+  /// One pass over the nodes: a child's links follow from its parent's.
+  explicit OctreeNet(const Octree& octree);
+
+  /// As `walk_leaves` asks.
+  int move(OctreeCursor& cursor, const glm::ivec3& step) const {
+    const int face = face_of(step);
+    if (face == kNoFace) return cursor.move_to_neighbour(step);
+    const std::uint32_t next = places_[cursor.index()].neighbours[static_cast<std::size_t>(face)];
+    if (next == kOutside) return 0;
+    const Place& place = places_[next];
+    cursor.jump(next, {place.corner[0], place.corner[1], place.corner[2]}, place.size);
+    return 1;
+  }
+
+  /// The node behind a face, `2 * axis` (below) or `2 * axis + 1` (above); kOutside behind the
+  /// root's.
+  std::uint32_t neighbour(std::uint32_t node, int face) const {
+    return places_[node].neighbours[static_cast<std::size_t>(face)];
+  }
+  static constexpr std::uint32_t kOutside = 0xFFFFFFFFU;
+
+  /// Adds the memory of the links.
+  void describe(Statistics& statistics) const;
+
+ private:
+  /// What a step needs to know of a node: half a cache line.
+  struct Place {
+    std::array<std::uint32_t, 6> neighbours;
+    std::array<std::uint16_t, 3> corner;  ///< in finest cells
+    std::uint16_t size;
+  };
+
+  static constexpr int kNoFace = -1;
+  /// The face that a step of one axis leads through; kNoFace for more than one.
+  static int face_of(const glm::ivec3& step) {
+    switch (step.x + 3 * step.y + 9 * step.z) {
+      case -1:
+        return 0;
+      case 1:
+        return 1;
+      case -3:
+        return 2;
+      case 3:
+        return 3;
+      case -9:
+        return 4;
+      case 9:
+        return 5;
+      default:
+        return kNoFace;
+    }
+  }
+
+  std::vector<Place> places_;  ///< by node
+};
+
+}  // namespace beambench

@@ -1,0 +1,53 @@
+#pragma once
+// Individual rays through the thesis's octree.
+
+#include "accel/cell_search.hpp"
+#include "accel/octree/leaf_walk.hpp"
+#include "accel/octree/octree.hpp"
+#include "accel/traversal_accelerator.hpp"
+
+namespace beambench {
+
+/// The octree of the thesis (section 3.3) for individual rays. `Neighbours` is how the way from a
+/// leaf to the next is found (see `walk_leaves`), made from the octree; it changes no leaf, no
+/// order and no hit.
+template <class Neighbours>
+class OctreeTracer : public TraversalAccelerator<OctreeTracer<Neighbours>> {
+ public:
+  OctreeTracer(const Scene& scene, const OctreeOptions& options)
+      : scene_(&scene), octree_(scene, options), neighbours_(octree_) {}
+
+  const Octree& octree() const { return octree_; }
+  const Neighbours& neighbours() const { return neighbours_; }
+
+  Statistics statistics() const override {
+    Statistics statistics = octree_.statistics();
+    neighbours_.describe(statistics);
+    return statistics;
+  }
+
+  template <class Counting>
+  std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
+    return closest_in_cells(*scene_, ray, counting, NoMailboxes{}, walk(ray, counting));
+  }
+  template <class Counting>
+  bool find_any(const Ray& ray, Counting& counting) const {
+    return any_in_cells(*scene_, ray, counting, NoMailboxes{}, walk(ray, counting));
+  }
+
+ private:
+  template <class Counting>
+  auto walk(const Ray& ray, Counting& counting) const {
+    return [this, &ray, &counting](auto visit) {
+      walk_leaves(octree_, neighbours_, ray, counting, [&](const OctreeNode& leaf, double exit_t) {
+        return visit(octree_.references(leaf), exit_t);
+      });
+    };
+  }
+
+  const Scene* scene_;
+  Octree octree_;
+  Neighbours neighbours_;
+};
+
+}  // namespace beambench
