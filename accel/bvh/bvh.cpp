@@ -1,0 +1,19 @@
+// The hierarchies that the registry knows.
+
+#include "accel/bvh/goldsmith_salmon.hpp"
+#include "accel/registry.hpp"
+
+namespace beambench {
+
+void register_bvh(Registry& registry) {
+  registry.add({"goldsmith-salmon",
+                "the hierarchy of bounding volumes of the thesis: Goldsmith and Salmon's insertion "
+                "(1987), Kay and Kajiya's queue (1986)",
+                Conformance::kBitExact, GoldsmithSalmonOptions::parameters(),
+                [](const Scene& scene, const Parameters& parameters) {
+                  return std::make_unique<GoldsmithSalmon>(
+                      scene, GoldsmithSalmonOptions::from(parameters));
+                }});
+}
+
+}  // namespace beambench

@@ -1,0 +1,76 @@
+#include "accel/bvh/goldsmith_salmon.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+#include "accel/bvh/padded_bounds.hpp"
+#include "scenes/random.hpp"
+
+namespace beambench {
+namespace {
+
+void shuffle(std::vector<PrimitiveId>& ids, std::uint64_t seed) {
+  Random random(seed);
+  for (std::size_t left = ids.size(); left > 1; --left) {
+    std::swap(ids[left - 1], ids[random.below(left)]);
+  }
+}
+
+void sort_along_longest_axis(std::vector<PrimitiveId>& ids, const Scene& scene,
+                             const std::vector<Bounds>& boxes) {
+  const glm::vec3 extent = scene.bounds.extent();
+  int axis = extent.x >= extent.y ? 0 : 1;
+  if (extent.z > extent[axis]) axis = 2;
+  std::stable_sort(ids.begin(), ids.end(), [&](PrimitiveId a, PrimitiveId b) {
+    return boxes[a].lower[axis] + boxes[a].upper[axis] <
+           boxes[b].lower[axis] + boxes[b].upper[axis];
+  });
+}
+
+InsertionHierarchy build(const Scene& scene, const GoldsmithSalmonOptions& options) {
+  const std::vector<Bounds> boxes = padded_primitive_bounds(scene);
+  std::vector<PrimitiveId> order(boxes.size());
+  std::iota(order.begin(), order.end(), PrimitiveId{0});
+  if (options.order == GoldsmithSalmonOptions::Order::kShuffled) shuffle(order, options.seed);
+  if (options.order == GoldsmithSalmonOptions::Order::kSorted) {
+    sort_along_longest_axis(order, scene, boxes);
+  }
+  return build_by_insertion(boxes, order);
+}
+
+}  // namespace
+
+std::vector<ParameterInfo> GoldsmithSalmonOptions::parameters() {
+  return {choice_parameter("order", "given", {"given", "shuffled", "sorted"},
+                           "insertion order: the scene's, at random, or by centre along the "
+                           "scene's longest axis"),
+          integer_parameter("seed", 1, 0, 1'000'000'000, "seed of order=shuffled"),
+          choice_parameter("queue", "heap", {"heap", "stack"},
+                           "what waits for the closest hit: Kay and Kajiya's priority queue by "
+                           "distance, or a stack with each volume's children in order")};
+}
+
+GoldsmithSalmonOptions GoldsmithSalmonOptions::from(const Parameters& parameters) {
+  GoldsmithSalmonOptions options;
+  const std::string& order = parameters.choice("order");
+  if (order == "shuffled") options.order = Order::kShuffled;
+  if (order == "sorted") options.order = Order::kSorted;
+  options.seed = static_cast<std::uint64_t>(parameters.integer("seed"));
+  if (parameters.choice("queue") == "stack") options.queue = Queue::kStack;
+  return options;
+}
+
+GoldsmithSalmon::GoldsmithSalmon(const Scene& scene, const GoldsmithSalmonOptions& options)
+    : scene_(&scene), queue_(options.queue), hierarchy_(build(scene, options)) {}
+
+Statistics GoldsmithSalmon::statistics() const {
+  Statistics statistics;  // no leaves: objects hang from volumes at every level
+  statistics.nodes = hierarchy_.volumes;
+  statistics.references = hierarchy_.entries.size() - hierarchy_.volumes;
+  statistics.depth = hierarchy_.depth;
+  statistics.bytes = hierarchy_.entries.capacity() * sizeof(HierarchyEntry);
+  statistics.more = {{"cost", hierarchy_.cost}, {"widest", static_cast<double>(hierarchy_.widest)}};
+  return statistics;
+}
+
+}  // namespace beambench

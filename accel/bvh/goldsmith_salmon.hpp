@@ -1,0 +1,190 @@
+#pragma once
+// Individual rays through Goldsmith and Salmon's hierarchy of bounding volumes.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <memory_resource>
+#include <vector>
+
+#include "accel/bvh/insertion_hierarchy.hpp"
+#include "accel/bvh/slab_ray.hpp"
+#include "accel/intersect.hpp"
+#include "accel/traversal_accelerator.hpp"
+#include "scenes/parameters.hpp"
+
+namespace beambench {
+
+/// How the hierarchy is built and walked.
+struct GoldsmithSalmonOptions {
+  enum class Order { kGiven, kShuffled, kSorted };
+  enum class Queue { kHeap, kStack };
+
+  Order order = Order::kGiven;  ///< sorted: by centre along the scene's longest axis
+  std::uint64_t seed = 1;       ///< of the shuffle
+  Queue queue = Queue::kHeap;
+
+  static std::vector<ParameterInfo> parameters();
+  static GoldsmithSalmonOptions from(const Parameters& parameters);
+};
+
+/// An entry of the hierarchy that a ray meets, and where it enters its box.
+struct MetEntry {
+  float enter;
+  std::uint32_t index;
+};
+
+/// What a ray has still to look at, the nearest entry first whatever it is below: the priority
+/// queue of Kay and Kajiya (1986; thesis, graphic 4.1).
+class NearestFirstQueue {
+ public:
+  explicit NearestFirstQueue(std::pmr::memory_resource* memory) : entries_(memory) {
+    entries_.reserve(kUsual);
+  }
+
+  bool empty() const { return entries_.empty(); }
+  void push(const MetEntry& entry) {
+    entries_.push_back(entry);
+    std::push_heap(entries_.begin(), entries_.end(), farther);
+  }
+  /// All entries in the queue are at least as far as the one returned.
+  static constexpr bool kOrdered = true;
+  MetEntry pop() {
+    std::pop_heap(entries_.begin(), entries_.end(), farther);
+    const MetEntry nearest = entries_.back();
+    entries_.pop_back();
+    return nearest;
+  }
+  void end_of_siblings() {}
+
+  /// More entries than most rays ever have waiting.
+  static constexpr std::size_t kUsual = 128;
+
+ private:
+  static bool farther(const MetEntry& a, const MetEntry& b) { return a.enter > b.enter; }
+
+  std::pmr::vector<MetEntry> entries_;
+};
+
+/// The same in depth-first order: of the children of one volume the nearest first.
+class OrderedStack {
+ public:
+  explicit OrderedStack(std::pmr::memory_resource* memory) : entries_(memory) {
+    entries_.reserve(NearestFirstQueue::kUsual);
+  }
+
+  bool empty() const { return entries_.empty(); }
+  void push(const MetEntry& entry) { entries_.push_back(entry); }
+  static constexpr bool kOrdered = false;
+  MetEntry pop() {
+    const MetEntry last = entries_.back();
+    entries_.pop_back();
+    sorted_ = entries_.size();
+    return last;
+  }
+  /// Sorts the entries pushed since the last pop.
+  void end_of_siblings() {
+    const auto first = entries_.begin() + static_cast<std::ptrdiff_t>(sorted_);
+    std::sort(first, entries_.end(),
+              [](const MetEntry& a, const MetEntry& b) { return a.enter > b.enter; });
+  }
+
+ private:
+  std::pmr::vector<MetEntry> entries_;
+  std::size_t sorted_ = 0;
+};
+
+/// The hierarchy of the thesis (sections 4.3 and 5.4.2): built by Goldsmith and Salmon's insertion,
+/// walked by Kay and Kajiya's queue for the closest hit and by plain depth-first search for any
+/// hit. Volumes and objects alike have a box, which is tested before they are entered.
+class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon> {
+ public:
+  GoldsmithSalmon(const Scene& scene, const GoldsmithSalmonOptions& options);
+
+  const InsertionHierarchy& hierarchy() const { return hierarchy_; }
+  Statistics statistics() const override;
+
+  template <class Counting>
+  std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
+    return queue_ == GoldsmithSalmonOptions::Queue::kHeap
+               ? closest_through<NearestFirstQueue>(ray, counting)
+               : closest_through<OrderedStack>(ray, counting);
+  }
+
+  /// Preorder with a jump over what is missed: the recursion of the thesis's graphic 4.2 without
+  /// its stack.
+  template <class Counting>
+  bool find_any(const Ray& ray, Counting& counting) const {
+    const CanonicalRay canonical(ray);
+    const SlabRay slabs(ray);
+    const auto& entries = hierarchy_.entries;
+    for (std::uint32_t index = 0; index < entries.size();) {
+      const HierarchyEntry& entry = entries[index];
+      counting.add(Counter::kBoxTests);
+      if (slabs.interval(entry.box, ray.t_min, ray.t_max).empty()) {
+        index = entry.end;
+        continue;
+      }
+      ++index;
+      if (entry.is_volume()) {
+        counting.add(Counter::kTraversalSteps);
+        continue;
+      }
+      counting.add(Counter::kPrimitiveTests);
+      if (is_hit(intersect(canonical, *scene_, entry.primitive))) return true;
+    }
+    return false;
+  }
+
+ private:
+  template <class Queue, class Counting>
+  std::optional<Hit> closest_through(const Ray& ray, Counting& counting) const {
+    const auto& entries = hierarchy_.entries;
+    if (entries.empty()) return std::nullopt;
+    std::array<std::byte, NearestFirstQueue::kUsual * sizeof(MetEntry)> usual;
+    std::pmr::monotonic_buffer_resource memory(usual.data(), usual.size());
+    Queue queue(&memory);
+    ClosestHit closest(ray);
+    const SlabRay slabs(ray);
+    const auto push_if_met = [&](std::uint32_t index) {
+      counting.add(Counter::kBoxTests);
+      const BoxInterval met = slabs.interval(entries[index].box, ray.t_min, closest.ray.t_max);
+      if (!met.empty()) queue.push({met.enter, index});
+    };
+
+    push_if_met(0);
+    while (!queue.empty()) {
+      const MetEntry met = queue.pop();
+      // Strictly: at the same t a lower primitive may still be found.
+      if (met.enter > closest.ray.t_max) {
+        if (Queue::kOrdered) break;
+        continue;
+      }
+      const HierarchyEntry& entry = entries[met.index];
+      if (!entry.is_volume()) {
+        counting.add(Counter::kPrimitiveTests);
+        counting.tested(entry.primitive, closest.test(*scene_, entry.primitive));
+        continue;
+      }
+      counting.add(Counter::kTraversalSteps);
+      counting.enter([&] {
+        return TraceStep{.place = "volume",
+                         .index = met.index,
+                         .box = Box{glm::dvec3(entry.box.lower), glm::dvec3(entry.box.upper)},
+                         .t_enter = met.enter,
+                         .t_exit = slabs.interval(entry.box, ray.t_min, ray.t_max).exit};
+      });
+      for (std::uint32_t child = met.index + 1; child < entry.end; child = entries[child].end) {
+        push_if_met(child);
+      }
+      queue.end_of_siblings();
+    }
+    return closest.result();
+  }
+
+  const Scene* scene_;
+  GoldsmithSalmonOptions::Queue queue_;
+  InsertionHierarchy hierarchy_;
+};
+
+}  // namespace beambench

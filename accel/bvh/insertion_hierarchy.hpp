@@ -1,0 +1,53 @@
+#pragma once
+// Goldsmith and Salmon's hierarchy of bounding volumes.
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "scenes/bounds.hpp"
+#include "scenes/primitive.hpp"
+
+namespace beambench {
+
+/// One entry of a hierarchy: a bounding volume, or an object with its own box.
+struct HierarchyEntry {
+  Bounds box;
+  std::uint32_t end;      ///< index just behind this entry and all that is below it
+  PrimitiveId primitive;  ///< kNoPrimitive for a volume
+
+  bool is_volume() const { return primitive == kNoPrimitive; }
+};
+
+/// A hierarchy in preorder: an entry's children begin right behind it, the next sibling of a child
+/// stands at its `end`. The root is a volume and stands first; nothing stands in an empty one.
+struct InsertionHierarchy {
+  std::vector<HierarchyEntry> entries;
+  std::uint64_t volumes = 0;
+  std::uint64_t depth = 0;          ///< volumes on the longest way down
+  std::uint64_t widest = 0;         ///< most children of a volume
+  double cost = 0.0;                ///< see hierarchy_cost
+  std::uint64_t boxes_weighed = 0;  ///< unions of boxes whose area the build computed
+};
+
+/// The expected number of tests of a ray that meets the root: the sum over volumes of k A / A_root,
+/// k the number of direct children, A the surface area (Goldsmith and Salmon 1987; thesis, 4.3).
+double hierarchy_cost(std::span<const HierarchyEntry> entries);
+
+/// Inserts the objects one by one in the given order, each where it raises the cost least
+/// (Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing", 1987).
+/// Nothing is moved afterwards.
+///
+/// The search goes down from the root, always into the volume that would grow least, and weighs
+/// three choices on its way, k and A being a volume's children and area, A' its area with the
+/// object:
+/// - the object becomes one more child of the volume: (k + 1) A' - k A;
+/// - object and a child of the volume become the two children of a new volume in that child's
+///   place: k (A' - A) for the volume and 2 A'' for the new one;
+/// - the object goes further down: k (A' - A), and what it costs there.
+/// `boxes[i]` is the box of primitive i.
+InsertionHierarchy build_by_insertion(std::span<const Bounds> boxes,
+                                      std::span<const PrimitiveId> order);
+
+}  // namespace beambench

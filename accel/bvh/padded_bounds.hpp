@@ -1,0 +1,50 @@
+#pragma once
+// The boxes that a hierarchy is made of.
+
+#include <cmath>
+#include <vector>
+
+#include "accel/tolerance.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// The box widened by `tolerance` on every side, rounded outward to float.
+inline Bounds padded(const Bounds& bounds, double tolerance) {
+  Bounds wider;
+  for (int axis = 0; axis < 3; ++axis) {
+    // One more float outward covers the rounding of the difference and of its conversion.
+    const auto lower = static_cast<float>(bounds.lower[axis] - tolerance);
+    const auto upper = static_cast<float>(bounds.upper[axis] + tolerance);
+    constexpr float kFar = std::numeric_limits<float>::infinity();
+    wider.lower[axis] = std::nextafter(lower, -kFar);
+    wider.upper[axis] = std::nextafter(upper, kFar);
+  }
+  return wider;
+}
+
+/// For each primitive a box that holds every point at which a canonical test may hit it, before t
+/// is rounded (tolerance.hpp).
+inline std::vector<Bounds> padded_primitive_bounds(const Scene& scene) {
+  const double tolerance = overlap_tolerance(scene);
+  std::vector<Bounds> boxes;
+  boxes.reserve(scene.primitives.size());
+  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+    boxes.push_back(padded(primitive_bounds(scene, id), tolerance));
+  }
+  return boxes;
+}
+
+/// Half the surface area of a box: what the chance is proportional to that a ray which meets a box
+/// around it meets it too. 0 for an empty box.
+inline double half_area(const Bounds& bounds) {
+  const glm::dvec3 size(bounds.extent());
+  return size.x * (size.y + size.z) + size.y * size.z;
+}
+
+inline Bounds united(Bounds a, const Bounds& b) {
+  a.include(b);
+  return a;
+}
+
+}  // namespace beambench

@@ -1,0 +1,57 @@
+#pragma once
+// A ray against the closed boxes of a hierarchy, one at a time.
+
+#include <array>
+#include <cmath>
+
+#include "accel/ray.hpp"
+#include "scenes/bounds.hpp"
+
+namespace beambench {
+
+/// The part of a ray inside a box, its ends rounded to float as the t of a hit is: rounding is
+/// monotonic, so whatever is hit in the box has its rounded t in this interval. Empty
+/// (enter > exit) when the ray misses the box within its own interval.
+struct BoxInterval {
+  float enter;
+  float exit;
+
+  bool empty() const { return !(enter <= exit); }
+};
+
+/// The slab test in double (Kay and Kajiya, "Ray Tracing Complex Scenes", 1986). The rounding of
+/// its arithmetic lies far below the tolerance by which boxes are widened.
+class SlabRay {
+ public:
+  explicit SlabRay(const Ray& ray) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto slot = static_cast<std::size_t>(axis);
+      origin_[slot] = ray.origin[axis];
+      inverse_[slot] = 1.0 / static_cast<double>(ray.direction[axis]);
+      backward_[slot] = std::signbit(ray.direction[axis]);
+    }
+  }
+
+  BoxInterval interval(const Bounds& box, float t_min, float t_max) const {
+    double enter = t_min;
+    double exit = t_max;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto slot = static_cast<std::size_t>(axis);
+      const float near = backward_[slot] ? box.upper[axis] : box.lower[axis];
+      const float far = backward_[slot] ? box.lower[axis] : box.upper[axis];
+      const double t_near = (near - origin_[slot]) * inverse_[slot];
+      const double t_far = (far - origin_[slot]) * inverse_[slot];
+      // In this form a NaN is passed over: 0 x infinity, of a ray that runs in a face of the box.
+      if (t_near > enter) enter = t_near;
+      if (t_far < exit) exit = t_far;
+    }
+    return {static_cast<float>(enter), static_cast<float>(exit)};
+  }
+
+ private:
+  std::array<double, 3> origin_;
+  std::array<double, 3> inverse_;
+  std::array<bool, 3> backward_;
+};
+
+}  // namespace beambench
