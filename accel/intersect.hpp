@@ -49,11 +49,15 @@ struct ClosestHit {
   /// kMiss.
   float test(const Scene& scene, PrimitiveId id) {
     const float t = intersect(ray, scene, id);
+    keep(t, id);
+    return t;
+  }
+  /// Keeps what a canonical test with `ray` found, or kMiss, when it precedes the best.
+  void keep(float t, PrimitiveId id) {
     if (t < ray.t_max || (t == ray.t_max && id < primitive)) {
       ray.t_max = t;
       primitive = id;
     }
-    return t;
   }
   std::optional<Hit> result() const {
     if (primitive == kNoPrimitive) return std::nullopt;

@@ -1,6 +1,7 @@
 // The hierarchies that the registry knows.
 
 #include "accel/bvh/goldsmith_salmon.hpp"
+#include "accel/bvh/sah_bvh.hpp"
 #include "accel/registry.hpp"
 
 namespace beambench {
@@ -13,6 +14,13 @@ void register_bvh(Registry& registry) {
                 [](const Scene& scene, const Parameters& parameters) {
                   return std::make_unique<GoldsmithSalmon>(
                       scene, GoldsmithSalmonOptions::from(parameters));
+                }});
+  registry.add({"sah-bvh",
+                "today's baseline: a binned SAH hierarchy (Wald 2007), eight children a node, SIMD "
+                "by single rays",
+                Conformance::kBitExact, SahBvh::parameters(),
+                [](const Scene& scene, const Parameters& parameters) {
+                  return std::make_unique<SahBvh>(scene, SahBvh::options_from(parameters));
                 }});
 }
 

@@ -1,0 +1,54 @@
+#pragma once
+// A binary hierarchy of boxes by the surface area heuristic; no scene, no primitives.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "scenes/bounds.hpp"
+
+namespace beambench {
+
+/// What the builder optimises for.
+struct BvhOptions {
+  std::uint32_t max_leaf = 8;    ///< most items of a leaf
+  std::uint32_t block_size = 8;  ///< items tested at once: a leaf of n costs ceil(n / block_size)
+  float node_cost = 1.0F;        ///< of a node, the test of a block of items costing 1
+  bool parallel = false;         ///< on all cores; the result is the same
+};
+
+/// A node of a binary hierarchy: interior (its children are `first` and `first + 1`) or a leaf
+/// (`count` items from `first` on).
+struct BvhNode {
+  Bounds box;
+  std::uint32_t first;
+  std::uint32_t count;  ///< 0 for an interior node
+
+  bool is_leaf() const { return count > 0; }
+};
+
+struct BinaryBvh {
+  std::vector<BvhNode> nodes;        ///< the root first, children after their parent; may be empty
+  std::vector<std::uint32_t> items;  ///< indices of the boxes, leaf by leaf, each once
+  std::uint32_t depth = 0;           ///< nodes on the longest way down, leaf included
+};
+
+/// No more nodes than this lie on any way down, whatever the boxes are.
+inline constexpr std::uint32_t kMaxBvhDepth = 96;
+
+/// Top-down splits at the best of 32 bins along each of the three axes (Wald, "On fast construction
+/// of SAH-based bounding volume hierarchies", 2007). Boxes whose centres cannot be told apart, and
+/// those below a depth that only contrived input reaches, are split in the middle.
+BinaryBvh build_bvh(std::span<const Bounds> boxes, const BvhOptions& options);
+
+/// The expected number of node visits and block tests of a ray that meets the root, weighted as the
+/// options say: what the builder tries to make small.
+double sah_cost(const BinaryBvh& bvh, const BvhOptions& options);
+
+/// The nodes that become the children of `node` in a hierarchy of `width` children a node: its own
+/// two, of which the interior one of largest area is replaced by its children for as long as there
+/// is room. Writes to `children` (of size `width`); returns how many. `node` must be interior.
+std::size_t gather_children(const BinaryBvh& bvh, std::uint32_t node,
+                            std::span<std::uint32_t> children);
+
+}  // namespace beambench

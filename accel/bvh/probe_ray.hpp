@@ -1,0 +1,96 @@
+#pragma once
+// A ray in single precision, for tests that may only reject.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "accel/ray.hpp"
+#include "scenes/bounds.hpp"
+
+namespace beambench {
+
+/// A ray and the error bounds of the float tests made with it. What they reject, the canonical
+/// tests reject; the reverse need not hold.
+///
+/// Let e = 2^-24 (a rounding's relative error) and R = `reach`, at least the distance along any
+/// axis from the origin to any point of the scene.
+///
+/// **Boxes.** (plane - origin) * inverse has a relative error below 3 e and the right sign: t
+/// intervals are compared after one end is enlarged by kWider. A direction component of 0 has the
+/// largest float as its inverse. The product is never NaN; it is 0 only in the plane of a widened
+/// box's face, where nothing can be hit.
+///
+/// **Triangles.** Corners are moved by the origin and sheared so that the ray becomes an axis (as
+/// CanonicalRay::beside does). A sheared coordinate is wrong by at most 7 e R. Where a ray meets
+/// the box of a leaf whose longest side is s, to the tolerance of the box test, the sheared
+/// coordinates of corners in it are at most P = 2 s + 20 e R. The areas a.x b.y - a.y b.x are then
+/// wrong by at most 4 P 7eR + 2 (7eR)^2 + 4 e P^2, which 40 e R (P + 12 e R) exceeds (P <= 2 R).
+/// Depths along the main axis are wrong by 3 e R, and the canonical hit is within 2^-10 e R x 20 of
+/// its triangle: 5 e R over |direction| covers both.
+///
+/// **Spheres.** The vector from the centre to the nearest point of the line is wrong by at most
+/// 21 e R: 32 e R is added to the radius, and as much to the depth of the sphere.
+class ProbeRay {
+ public:
+  /// Factors and margins come from floats of ordinary size: of the largest component of the
+  /// direction, squares must neither vanish nor overflow.
+  static bool can_probe(const Ray& ray) {
+    const glm::vec3 size = glm::abs(ray.direction);
+    const float largest = std::max({size.x, size.y, size.z});
+    return largest > 0x1p-60F && largest < 0x1p60F;
+  }
+
+  ProbeRay(const Ray& ray, const Bounds& scene_bounds)
+      : origin(ray.origin), direction(ray.direction), t_min(ray.t_min) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto slot = static_cast<std::size_t>(axis);
+      constexpr float kLargest = std::numeric_limits<float>::max();
+      const float component = ray.direction[axis];
+      const float quotient = 1.0F / component;
+      inverse[axis] =
+          std::abs(quotient) <= kLargest ? quotient : std::copysign(kLargest, component);
+      const bool backward = std::signbit(component);
+      near_row[slot] = backward ? slot + 3 : slot;
+      far_row[slot] = backward ? slot : slot + 3;
+    }
+    const glm::vec3 size = glm::abs(ray.direction);
+    main_axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+    side_axis[0] = (main_axis + 1) % 3;
+    side_axis[1] = (main_axis + 2) % 3;
+    const auto main = static_cast<int>(main_axis);
+    shear[0] = ray.direction[static_cast<int>(side_axis[0])] / ray.direction[main];
+    shear[1] = ray.direction[static_cast<int>(side_axis[1])] / ray.direction[main];
+    const glm::vec3 far = glm::max(glm::abs(scene_bounds.lower - ray.origin),
+                                   glm::abs(scene_bounds.upper - ray.origin));
+    rounding = 0x1p-24F * std::max({far.x, far.y, far.z});
+    depth_margin = 5.0F * rounding * std::abs(inverse[main]);
+  }
+
+  /// By how much the areas of triangles may be wrong in a leaf whose box has that longest side.
+  float area_margin(float leaf_extent) const {
+    return 40.0F * rounding * (2.0F * leaf_extent + 32.0F * rounding);
+  }
+
+  /// Enlarges the far end of a t interval in box tests.
+  static constexpr float kWider = 1.0F + 0x1p-20F;
+
+  glm::vec3 origin;
+  glm::vec3 direction;
+  float t_min;
+  glm::vec3 inverse;
+  std::array<std::size_t, 3> near_row;  ///< of WideNode::planes, for each axis
+  std::array<std::size_t, 3> far_row;
+  std::size_t main_axis;
+  std::array<std::size_t, 2> side_axis;
+  std::array<float, 2> shear;
+  float rounding;      ///< e R
+  float depth_margin;  ///< of the t of triangles
+};
+
+}  // namespace beambench

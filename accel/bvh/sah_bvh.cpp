@@ -1,0 +1,35 @@
+#include "accel/bvh/sah_bvh.hpp"
+
+#include <hwy/targets.h>
+
+namespace beambench {
+
+std::vector<ParameterInfo> SahBvh::parameters() {
+  const BvhOptions defaults;
+  return {integer_parameter("max_leaf", defaults.max_leaf, 1, 32, "most primitives of a leaf"),
+          flag_parameter("parallel", defaults.parallel,
+                         "build on all cores; the hierarchy is the same")};
+}
+
+BvhOptions SahBvh::options_from(const Parameters& parameters) {
+  BvhOptions options;
+  options.max_leaf = static_cast<std::uint32_t>(parameters.integer("max_leaf"));
+  options.parallel = parameters.flag("parallel");
+  return options;
+}
+
+const char* SahBvh::instruction_set() const { return hwy::TargetName(kernels_->target); }
+
+Statistics SahBvh::statistics() const {
+  Statistics statistics;
+  statistics.nodes = bvh_.nodes.size() + bvh_.leaves;
+  statistics.leaves = bvh_.leaves;
+  statistics.references = bvh_.references;
+  statistics.depth = bvh_.depth;
+  statistics.bytes =
+      bvh_.nodes.capacity() * sizeof(WideNode) + bvh_.blocks.capacity() * sizeof(PrimitiveBlock);
+  statistics.more = {{"cost", bvh_.cost}};
+  return statistics;
+}
+
+}  // namespace beambench

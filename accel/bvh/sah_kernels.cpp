@@ -1,0 +1,320 @@
+#include "accel/bvh/sah_kernels.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include "accel/bvh/probe_ray.hpp"
+#include "accel/intersect.hpp"
+
+// Highway includes this file once more for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "accel/bvh/sah_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Eight lanes where the registers have them, otherwise several registers of fewer.
+using Tag = hn::CappedTag<float, kBvhLanes>;
+using Floats = hn::Vec<Tag>;
+using Mask = hn::Mask<Tag>;
+
+/// One bit a lane.
+using LaneBits = std::uint32_t;
+
+/// Calls `test(lane)` for the first lane of each register and joins the masks it returns.
+template <class Test>
+LaneBits for_each_register(Test test) {
+  const Tag tag;
+  LaneBits bits = 0;
+  for (std::size_t lane = 0; lane < kBvhLanes; lane += hn::Lanes(tag)) {
+    std::uint8_t stored[8] = {};
+    hn::StoreMaskBits(tag, test(lane), stored);
+    bits |= static_cast<LaneBits>(stored[0]) << lane;
+  }
+  return bits;
+}
+
+/// The children whose boxes the ray may meet before `limit`, and where it enters them.
+inline LaneBits meet_children(const WideNode& node, const ProbeRay& ray, float limit,
+                              float* enter_t) {
+  const Tag tag;
+  return for_each_register([&](std::size_t lane) {
+    const auto plane_t = [&](std::size_t row, int axis) {
+      const Floats plane = hn::Load(tag, node.planes[row].data() + lane);
+      return hn::Mul(hn::Sub(plane, hn::Set(tag, ray.origin[axis])),
+                     hn::Set(tag, ray.inverse[axis]));
+    };
+    const Floats enter = hn::Max(hn::Max(plane_t(ray.near_row[0], 0), plane_t(ray.near_row[1], 1)),
+                                 hn::Max(plane_t(ray.near_row[2], 2), hn::Set(tag, ray.t_min)));
+    const Floats exit = hn::Min(hn::Min(plane_t(ray.far_row[0], 0), plane_t(ray.far_row[1], 1)),
+                                hn::Min(plane_t(ray.far_row[2], 2), hn::Set(tag, limit)));
+    hn::Store(enter, tag, enter_t + lane);
+    return hn::Le(enter, hn::Mul(exit, hn::Set(tag, ProbeRay::kWider)));
+  });
+}
+
+/// The triangles that the ray may hit in [t_min, t_max].
+inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray, float t_max) {
+  const Tag tag;
+  const std::size_t x = ray.side_axis[0];
+  const std::size_t y = ray.side_axis[1];
+  const std::size_t z = ray.main_axis;
+  const Floats shear_x = hn::Set(tag, ray.shear[0]);
+  const Floats shear_y = hn::Set(tag, ray.shear[1]);
+  const float margin = ray.area_margin(block.leaf_extent);
+  const auto main = static_cast<int>(z);
+
+  struct Corner {
+    Floats x, y, z;
+  };
+  return for_each_register([&](std::size_t lane) {
+    const auto corner = [&](std::size_t which) -> Corner {
+      const auto from_origin = [&](std::size_t axis) {
+        return hn::Sub(hn::Load(tag, block.coordinates[3 * which + axis].data() + lane),
+                       hn::Set(tag, ray.origin[static_cast<int>(axis)]));
+      };
+      const Floats along = from_origin(z);
+      return {hn::NegMulAdd(shear_x, along, from_origin(x)),
+              hn::NegMulAdd(shear_y, along, from_origin(y)), along};
+    };
+    const Corner a = corner(0);
+    const Corner b = corner(1);
+    const Corner c = corner(2);
+    const Floats u = hn::MulSub(c.x, b.y, hn::Mul(c.y, b.x));
+    const Floats v = hn::MulSub(a.x, c.y, hn::Mul(a.y, c.x));
+    const Floats w = hn::MulSub(b.x, a.y, hn::Mul(b.y, a.x));
+    const Mask surrounds = hn::Or(hn::Ge(hn::Min(hn::Min(u, v), w), hn::Set(tag, -margin)),
+                                  hn::Le(hn::Max(hn::Max(u, v), w), hn::Set(tag, margin)));
+
+    const Floats per_t = hn::Set(tag, ray.inverse[main]);
+    const Floats ta = hn::Mul(a.z, per_t);
+    const Floats tb = hn::Mul(b.z, per_t);
+    const Floats tc = hn::Mul(c.z, per_t);
+    const Mask in_time =
+        hn::And(hn::Le(hn::Min(hn::Min(ta, tb), tc),
+                       hn::Set(tag, t_max * ProbeRay::kWider + ray.depth_margin)),
+                hn::Ge(hn::Mul(hn::Max(hn::Max(ta, tb), tc), hn::Set(tag, ProbeRay::kWider)),
+                       hn::Set(tag, ray.t_min - ray.depth_margin)));
+    return hn::And(surrounds, in_time);
+  });
+}
+
+/// The spheres that the ray may hit in [t_min, t_max].
+inline LaneBits probe_spheres(const PrimitiveBlock& block, const ProbeRay& ray, float t_max) {
+  const Tag tag;
+  const float per_square = 1.0F / glm::dot(ray.direction, ray.direction);
+  const float per_length = std::sqrt(per_square);
+  const Floats margin = hn::Set(tag, 32.0F * ray.rounding);
+  return for_each_register([&](std::size_t lane) {
+    const auto row = [&](std::size_t index) {
+      return hn::Load(tag, block.coordinates[index].data() + lane);
+    };
+    const auto direction = [&](int axis) { return hn::Set(tag, ray.direction[axis]); };
+    const Floats x = hn::Sub(row(0), hn::Set(tag, ray.origin.x));
+    const Floats y = hn::Sub(row(1), hn::Set(tag, ray.origin.y));
+    const Floats z = hn::Sub(row(2), hn::Set(tag, ray.origin.z));
+    const Floats along =
+        hn::MulAdd(x, direction(0), hn::MulAdd(y, direction(1), hn::Mul(z, direction(2))));
+    const Floats t = hn::Mul(along, hn::Set(tag, per_square));  // of the point nearest the centre
+    const Floats beside_x = hn::NegMulAdd(t, direction(0), x);
+    const Floats beside_y = hn::NegMulAdd(t, direction(1), y);
+    const Floats beside_z = hn::NegMulAdd(t, direction(2), z);
+    const Floats square =
+        hn::MulAdd(beside_x, beside_x, hn::MulAdd(beside_y, beside_y, hn::Mul(beside_z, beside_z)));
+    const Floats radius = hn::Mul(hn::Add(row(3), margin), hn::Set(tag, ProbeRay::kWider));
+    const Floats half_chord = hn::Mul(radius, hn::Set(tag, per_length * ProbeRay::kWider));
+    const Floats slack = hn::Mul(margin, hn::Set(tag, per_length));
+    const Mask in_time = hn::And(
+        hn::Le(hn::Sub(hn::Sub(t, half_chord), slack), hn::Set(tag, t_max * ProbeRay::kWider)),
+        hn::Ge(hn::Mul(hn::Add(hn::Add(t, half_chord), slack), hn::Set(tag, ProbeRay::kWider)),
+               hn::Set(tag, ray.t_min)));
+    return hn::And(hn::Le(square, hn::Mul(radius, radius)), in_time);
+  });
+}
+
+inline LaneBits probe(const PrimitiveBlock& block, const ProbeRay& ray, float t_max) {
+  const LaneBits present = (LaneBits{1} << block.count) - 1;
+  switch (block.kind) {
+    case PrimitiveKind::kPolygon:
+      return present & probe_triangles(block, ray, t_max);
+    case PrimitiveKind::kSphere:
+      return present & probe_spheres(block, ray, t_max);
+    case PrimitiveKind::kCone:
+      break;
+  }
+  return present;
+}
+
+/// The canonical test of one lane.
+inline float confirm(const CanonicalRay& ray, const Scene& scene, const PrimitiveBlock& block,
+                     std::size_t lane) {
+  if (block.kind == PrimitiveKind::kPolygon) {
+    return intersect_triangle(ray, block.corner(0, lane), block.corner(1, lane),
+                              block.corner(2, lane));
+  }
+  return intersect(ray, scene, block.primitives[lane]);
+}
+
+/// What is still to be looked at: the float bits of where the ray enters it, which order as the
+/// floats do, above the reference. The nearest is on top.
+class WaitingStack {
+ public:
+  bool empty() const { return size_ == 0; }
+  void push(float enter_t, ChildReference child) {
+    entries_[size_++] = std::uint64_t{std::bit_cast<std::uint32_t>(enter_t)} << 32U | child.bits();
+  }
+  /// Puts the nearest of the last `count` entries on top, the farthest below.
+  void sort_last(std::size_t count) {
+    std::uint64_t* first = entries_ + (size_ - count);
+    for (std::size_t i = 1; i < count; ++i) {
+      const std::uint64_t moving = first[i];
+      std::size_t hole = i;
+      for (; hole > 0 && first[hole - 1] < moving; --hole) first[hole] = first[hole - 1];
+      first[hole] = moving;
+    }
+  }
+  ChildReference pop(float& enter_t) {
+    const std::uint64_t entry = entries_[--size_];
+    enter_t = std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32U));
+    return ChildReference::from_bits(static_cast<std::uint32_t>(entry));
+  }
+
+ private:
+  std::uint64_t entries_[kMaxBvhDepth * (kBvhLanes - 1) + 1];
+  std::size_t size_ = 0;
+};
+
+inline Box box_of(const WideNode& node) {
+  Box box{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
+  for (std::size_t lane = 0; lane < node.count; ++lane) {
+    for (std::size_t row = 0; row < 3; ++row) {
+      const auto axis = static_cast<int>(row);
+      box.lower[axis] = std::min<double>(box.lower[axis], node.planes[row][lane]);
+      box.upper[axis] = std::max<double>(box.upper[axis], node.planes[row + 3][lane]);
+    }
+  }
+  return box;
+}
+
+template <class Counting>
+void count_step(Counting& counting, const WideBvh& bvh, ChildReference at, float enter_t) {
+  counting.add(Counter::kTraversalSteps);
+  if (at.is_leaf()) {
+    counting.add(Counter::kLeaves);
+    counting.enter(
+        [&] { return TraceStep{.place = "leaf", .index = at.first_block(), .t_enter = enter_t}; });
+  } else {
+    counting.add(Counter::kBoxTests, bvh.nodes[at.node_index()].count);
+    counting.enter([&] {
+      return TraceStep{.place = "node",
+                       .index = at.node_index(),
+                       .box = box_of(bvh.nodes[at.node_index()]),
+                       .t_enter = enter_t};
+    });
+  }
+}
+
+/// Walks the hierarchy, nearest child first. `visit(t, primitive)` is told each canonical hit, and
+/// returns true to end the walk; `t_max()` is how far hits are still of interest.
+template <class Counting, class FarEnd, class Visit>
+void walk(const WideBvh& bvh, const Scene& scene, const Ray& ray, const CanonicalRay& canonical,
+          Counting& counting, FarEnd t_max, Visit visit) {
+  const ProbeRay probe_ray(ray, bvh.scene_bounds);
+  WaitingStack waiting;
+  ChildReference at = bvh.root;
+  float at_t = ray.t_min;
+  while (true) {
+    count_step(counting, bvh, at, at_t);
+    if (at.is_leaf()) {
+      const PrimitiveBlock* block = bvh.blocks.data() + at.first_block();
+      for (const PrimitiveBlock* end = block + at.block_count(); block != end; ++block) {
+        counting.add(Counter::kPrimitiveTests, block->count);
+        for (LaneBits lanes = probe(*block, probe_ray, t_max()); lanes != 0; lanes &= lanes - 1) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+          counting.add("confirmed_tests");
+          const float t = confirm(canonical, scene, *block, lane);
+          counting.tested(block->primitives[lane], t);
+          if (visit(t, block->primitives[lane])) return;
+        }
+      }
+    } else {
+      const WideNode& node = bvh.nodes[at.node_index()];
+      alignas(64) float enter_t[kBvhLanes];
+      LaneBits met = meet_children(node, probe_ray, t_max(), enter_t);
+      if (met != 0) {
+        const auto nearest = static_cast<std::size_t>(std::countr_zero(met));
+        at = node.children[nearest];
+        at_t = enter_t[nearest];
+        met &= met - 1;
+        if (met == 0) continue;
+        std::size_t count = 1;
+        waiting.push(at_t, at);
+        for (; met != 0; met &= met - 1, ++count) {
+          const auto lane = static_cast<std::size_t>(std::countr_zero(met));
+          waiting.push(enter_t[lane], node.children[lane]);
+        }
+        waiting.sort_last(count);
+        at = waiting.pop(at_t);
+        continue;
+      }
+    }
+    do {
+      if (waiting.empty()) return;
+      at = waiting.pop(at_t);
+    } while (at_t > t_max() * ProbeRay::kWider);
+  }
+}
+
+template <class Counting>
+std::optional<Hit> closest(const WideBvh& bvh, const Scene& scene, const Ray& ray,
+                           Counting& counting) {
+  ClosestHit best(ray);
+  walk(
+      bvh, scene, ray, best.ray, counting, [&] { return best.ray.t_max; },
+      [&](float t, PrimitiveId primitive) {
+        best.keep(t, primitive);
+        return false;
+      });
+  return best.result();
+}
+
+template <class Counting>
+bool any(const WideBvh& bvh, const Scene& scene, const Ray& ray, Counting& counting) {
+  const CanonicalRay canonical(ray);
+  bool found = false;
+  walk(
+      bvh, scene, ray, canonical, counting, [&] { return ray.t_max; },
+      [&](float t, PrimitiveId) {
+        found = is_hit(t);
+        return found;
+      });
+  return found;
+}
+
+template <class Counting>
+constexpr SahQueries<Counting> queries() {
+  return {closest<Counting>, any<Counting>};
+}
+
+const SahKernels& kernels() {
+  static constexpr SahKernels kKernels{queries<NoCounting>(), queries<WorkCounters>(),
+                                       queries<StepRecorder>(), HWY_TARGET};
+  return kKernels;
+}
+
+}  // namespace beambench::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace beambench {
+
+HWY_EXPORT(kernels);
+
+const SahKernels& best_sah_kernels() { return HWY_DYNAMIC_DISPATCH(kernels)(); }
+
+}  // namespace beambench
+#endif

@@ -1,0 +1,34 @@
+#pragma once
+// The traversals of the wide hierarchy, compiled for several instruction sets.
+
+#include <cstdint>
+#include <optional>
+
+#include "accel/bvh/wide_bvh.hpp"
+#include "accel/ray.hpp"
+#include "accel/step_recorder.hpp"
+#include "accel/work_counters.hpp"
+
+namespace beambench {
+
+/// Both queries under one counting policy. Not for empty hierarchies.
+template <class Counting>
+struct SahQueries {
+  std::optional<Hit> (*closest)(const WideBvh&, const Scene&, const Ray&, Counting&);
+  bool (*any)(const WideBvh&, const Scene&, const Ray&, Counting&);
+};
+
+/// The queries for one instruction set.
+struct SahKernels : SahQueries<NoCounting>, SahQueries<WorkCounters>, SahQueries<StepRecorder> {
+  std::int64_t target;  ///< HWY_TARGET: hwy::TargetName gives its name
+
+  template <class Counting>
+  const SahQueries<Counting>& queries() const {
+    return *this;
+  }
+};
+
+/// Those for the best instruction set of this machine that Highway supports.
+const SahKernels& best_sah_kernels();
+
+}  // namespace beambench

@@ -1,0 +1,84 @@
+#pragma once
+// The hierarchy that SIMD walks: eight children a node, primitives in blocks of eight.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "accel/bvh/bvh_builder.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// Children of a node and primitives of a block, each a lane of a SIMD register.
+inline constexpr std::size_t kBvhLanes = 8;
+
+/// Where a child is found: a node, or a leaf, which is a run of blocks.
+class ChildReference {
+ public:
+  static constexpr std::uint32_t kMostBlocks = 15;           ///< in a leaf
+  static constexpr std::uint32_t kBlockIndices = 1U << 27U;  ///< one more than the largest
+
+  ChildReference() = default;
+  static ChildReference node(std::uint32_t index) { return ChildReference(index); }
+  static ChildReference leaf(std::uint32_t first_block, std::uint32_t block_count) {
+    return ChildReference(kLeaf | block_count << 27U | first_block);
+  }
+  static ChildReference from_bits(std::uint32_t bits) { return ChildReference(bits); }
+
+  bool is_leaf() const { return (bits_ & kLeaf) != 0; }
+  std::uint32_t node_index() const { return bits_; }
+  std::uint32_t first_block() const { return bits_ & (kBlockIndices - 1); }
+  std::uint32_t block_count() const { return bits_ >> 27U & kMostBlocks; }
+  std::uint32_t bits() const { return bits_; }
+
+ private:
+  explicit ChildReference(std::uint32_t bits) : bits_(bits) {}
+
+  static constexpr std::uint32_t kLeaf = 1U << 31U;
+  std::uint32_t bits_ = 0;
+};
+
+/// The boxes of up to eight children; those that are missing have an empty box.
+struct alignas(64) WideNode {
+  std::array<std::array<float, kBvhLanes>, 6> planes;  ///< lower x, y, z; upper x, y, z
+  std::array<ChildReference, kBvhLanes> children;
+  std::uint32_t count;
+};
+
+/// Up to eight primitives of one kind.
+struct alignas(64) PrimitiveBlock {
+  /// Triangles (kind kPolygon): the axes of three corners, corner by corner. Spheres: the axes of
+  /// the centre, the radius. Cones: nothing.
+  std::array<std::array<float, kBvhLanes>, 9> coordinates;
+  std::array<PrimitiveId, kBvhLanes> primitives;  ///< of triangles, the polygons they belong to
+  PrimitiveKind kind;
+  std::uint32_t count;
+  float leaf_extent;  ///< longest side of the box of the leaf that the block belongs to
+
+  glm::vec3 corner(std::size_t which, std::size_t lane) const {
+    const std::size_t row = 3 * which;
+    return {coordinates[row][lane], coordinates[row + 1][lane], coordinates[row + 2][lane]};
+  }
+};
+
+/// A hierarchy over a scene's triangles, spheres and cones. A polygon's triangles are apart: the
+/// nearest of them is the polygon's hit. Boxes are widened by `overlap_tolerance`.
+struct WideBvh {
+  std::vector<WideNode> nodes;
+  std::vector<PrimitiveBlock> blocks;
+  ChildReference root;
+  Bounds scene_bounds;
+  std::uint32_t depth = 0;  ///< nodes on the longest way down, leaf included
+  std::uint64_t leaves = 0;
+  std::uint64_t references = 0;  ///< triangles, spheres and cones
+  double cost = 0.0;             ///< of the binary hierarchy it was made from: see sah_cost
+
+  bool empty() const { return blocks.empty(); }
+};
+
+/// Throws InputError when the scene needs more than ChildReference::kBlockIndices blocks.
+WideBvh build_wide_bvh(const Scene& scene, const BvhOptions& options);
+
+}  // namespace beambench

@@ -1,0 +1,173 @@
+// The SAH builder by itself: what any user of it relies on.
+
+#include "accel/bvh/bvh_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "accel/bvh/padded_bounds.hpp"
+#include "scenes/random.hpp"
+
+namespace beambench {
+namespace {
+
+std::vector<Bounds> random_boxes(std::size_t count, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Bounds> boxes;
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::vec3 lower(random.unit(), random.unit(), random.unit());
+    const glm::vec3 size(random.unit(), random.unit(), random.unit());
+    boxes.push_back({lower, lower + size * 0.02F});
+  }
+  return boxes;
+}
+
+bool contains(const Bounds& outer, const Bounds& inner) {
+  return united(outer, inner).lower == outer.lower && united(outer, inner).upper == outer.upper;
+}
+
+/// Every box once, in a leaf of a size that is allowed; every node's box the union of what is
+/// below.
+void expect_valid(const BinaryBvh& bvh, const std::vector<Bounds>& boxes,
+                  const BvhOptions& options) {
+  ASSERT_EQ(bvh.items.size(), boxes.size());
+  std::vector<std::uint32_t> items = bvh.items;
+  std::sort(items.begin(), items.end());
+  for (std::uint32_t i = 0; i < items.size(); ++i) ASSERT_EQ(items[i], i);
+
+  std::vector<int> parents(bvh.nodes.size(), 0);
+  std::size_t in_leaves = 0;
+  for (std::uint32_t i = 0; i < bvh.nodes.size(); ++i) {
+    const BvhNode& node = bvh.nodes[i];
+    Bounds below;
+    if (node.is_leaf()) {
+      EXPECT_LE(node.count, options.max_leaf);
+      in_leaves += node.count;
+      for (std::uint32_t k = 0; k < node.count; ++k) {
+        below.include(boxes[bvh.items[node.first + k]]);
+      }
+    } else {
+      ASSERT_GT(node.first, i);
+      ASSERT_LT(node.first + 1, bvh.nodes.size());
+      for (const std::uint32_t child : {node.first, node.first + 1}) {
+        below.include(bvh.nodes[child].box);
+        ++parents[child];
+      }
+    }
+    EXPECT_EQ(below.lower, node.box.lower);
+    EXPECT_EQ(below.upper, node.box.upper);
+  }
+  EXPECT_EQ(in_leaves, boxes.size());
+  EXPECT_EQ(std::count(parents.begin(), parents.end(), 1),
+            static_cast<std::ptrdiff_t>(bvh.nodes.size()) - 1);
+  EXPECT_LE(bvh.depth, kMaxBvhDepth);
+}
+
+TEST(BvhBuilder, HoldsEveryBoxOnce) {
+  for (const std::size_t count : {1U, 2U, 7U, 8U, 9U, 100U, 5000U}) {
+    for (const std::uint32_t max_leaf : {1U, 4U, 8U, 32U}) {
+      SCOPED_TRACE(::testing::Message() << count << " boxes, leaves of " << max_leaf);
+      const auto boxes = random_boxes(count, count);
+      BvhOptions options;
+      options.max_leaf = max_leaf;
+      expect_valid(build_bvh(boxes, options), boxes, options);
+    }
+  }
+}
+
+TEST(BvhBuilder, NothingMakesNothing) {
+  const BinaryBvh bvh = build_bvh({}, {});
+  EXPECT_TRUE(bvh.nodes.empty());
+  EXPECT_EQ(sah_cost(bvh, {}), 0.0);
+}
+
+TEST(BvhBuilder, InParallelTheSame) {
+  const auto boxes = random_boxes(200'000, 9);
+  BvhOptions options;
+  const BinaryBvh serial = build_bvh(boxes, options);
+  options.parallel = true;
+  const BinaryBvh parallel = build_bvh(boxes, options);
+  EXPECT_EQ(serial.items, parallel.items);
+  ASSERT_EQ(serial.nodes.size(), parallel.nodes.size());
+  for (std::size_t i = 0; i < serial.nodes.size(); ++i) {
+    ASSERT_EQ(serial.nodes[i].first, parallel.nodes[i].first);
+    ASSERT_EQ(serial.nodes[i].count, parallel.nodes[i].count);
+    ASSERT_EQ(serial.nodes[i].box.lower, parallel.nodes[i].box.lower);
+    ASSERT_EQ(serial.nodes[i].box.upper, parallel.nodes[i].box.upper);
+  }
+}
+
+// One library forgot the bins of two axes for two years, with every hit correct.
+TEST(BvhBuilder, NoAxisIsPreferred) {
+  const auto boxes = random_boxes(3000, 4);
+  std::vector<double> costs;
+  for (int turn = 0; turn < 3; ++turn) {
+    std::vector<Bounds> turned;
+    for (const Bounds& box : boxes) {
+      const auto turned_point = [&](const glm::vec3& p) {
+        return glm::vec3(p[turn], p[(turn + 1) % 3], p[(turn + 2) % 3]);
+      };
+      turned.push_back({turned_point(box.lower), turned_point(box.upper)});
+    }
+    costs.push_back(sah_cost(build_bvh(turned, {}), {}));
+  }
+  EXPECT_NEAR(costs[1], costs[0], 0.01 * costs[0]);
+  EXPECT_NEAR(costs[2], costs[0], 0.01 * costs[0]);
+}
+
+TEST(BvhBuilder, SplitsByAreaAndNotByCount) {
+  // Eight boxes at one end, one far away: the middle of the items is the worst of splits.
+  std::vector<Bounds> boxes;
+  for (int i = 0; i < 8; ++i) {
+    const auto at = static_cast<float>(i) * 0.01F;
+    boxes.push_back({glm::vec3(at), glm::vec3(at + 0.01F)});
+  }
+  boxes.push_back({glm::vec3(10.0F), glm::vec3(11.0F)});
+  const BinaryBvh bvh = build_bvh(boxes, {});
+  ASSERT_EQ(bvh.nodes.size(), 3U);
+  EXPECT_EQ(bvh.nodes[1].count, 8U);
+  EXPECT_EQ(bvh.nodes[2].count, 1U);
+}
+
+TEST(BvhBuilder, AHeapInOnePlaceIsSplitInTheMiddle) {
+  const std::vector<Bounds> boxes(10'000, Bounds{glm::vec3(1.0F), glm::vec3(2.0F)});
+  const BvhOptions options;
+  const BinaryBvh bvh = build_bvh(boxes, options);
+  expect_valid(bvh, boxes, options);
+  EXPECT_LE(bvh.depth, 12U) << "1 + log2(10,000 / 8)";
+}
+
+TEST(BvhBuilder, DepthIsBoundedWhateverTheBoxes) {
+  std::vector<Bounds> boxes;  // each split takes off the largest few only
+  for (int i = 0; i < 250; ++i) {
+    const auto at = static_cast<float>(std::pow(1.7, i % 125) * 1e-28);
+    boxes.push_back({glm::vec3(at), glm::vec3(at)});
+  }
+  BvhOptions options;
+  options.max_leaf = 1;
+  expect_valid(build_bvh(boxes, options), boxes, options);
+}
+
+TEST(BvhBuilder, GatheredChildrenAreTheNode) {
+  const auto boxes = random_boxes(3000, 2);
+  const BinaryBvh bvh = build_bvh(boxes, {});
+  for (const std::size_t width : {2U, 4U, 8U, 16U}) {
+    std::vector<std::uint32_t> children(width);
+    const std::size_t count = gather_children(bvh, 0, children);
+    EXPECT_EQ(count, width);
+    Bounds together;
+    for (const std::uint32_t child : children) {
+      EXPECT_TRUE(contains(bvh.nodes[0].box, bvh.nodes[child].box));
+      together.include(bvh.nodes[child].box);
+    }
+    EXPECT_EQ(together.lower, bvh.nodes[0].box.lower);
+    EXPECT_EQ(together.upper, bvh.nodes[0].box.upper);
+    std::sort(children.begin(), children.end());
+    EXPECT_EQ(std::unique(children.begin(), children.end()), children.end());
+  }
+}
+
+}  // namespace
+}  // namespace beambench

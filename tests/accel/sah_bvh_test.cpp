@@ -1,0 +1,250 @@
+// The eight-wide hierarchy: what it must hold, and the same hits from every instruction set.
+
+#include "accel/bvh/sah_bvh.hpp"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include "accel/bvh/padded_bounds.hpp"
+#include "accel/tolerance.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/scene_builder.hpp"
+#include "tests/random_scene.hpp"
+
+namespace beambench {
+namespace {
+
+/// Makes Highway believe that the machine has one instruction set, until destroyed.
+class OnlyTarget {
+ public:
+  explicit OnlyTarget(std::int64_t target) { pretend(target); }
+  ~OnlyTarget() { pretend(0); }
+  OnlyTarget(const OnlyTarget&) = delete;
+  OnlyTarget& operator=(const OnlyTarget&) = delete;
+
+ private:
+  static void pretend(std::int64_t targets) {
+    hwy::SetSupportedTargetsForTest(targets);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+/// Hits of rays that look for trouble, and of the same rays with any_hit.
+void expect_equal_to_exhaustive(const SahBvh& structure, const Scene& scene, std::uint64_t seed,
+                                int rays) {
+  const Exhaustive exhaustive(scene);
+  Random random(seed);
+  for (int i = 0; i < rays; ++i) {
+    const Ray ray = testing::random_ray(scene, random);
+    const auto hit = exhaustive.closest_hit(ray);
+    ASSERT_EQ(structure.closest_hit(ray), hit) << "ray " << i;
+    ASSERT_EQ(structure.any_hit(ray), hit.has_value()) << "ray " << i;
+  }
+}
+
+TEST(SahBvh, EveryInstructionSetGivesTheSameHits) {
+  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  ASSERT_GE(targets.size(), 2U) << "no choice at run time was compiled in";
+  for (const std::int64_t target : targets) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    const OnlyTarget only(target);
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+      SCOPED_TRACE(seed);
+      const Scene scene = testing::random_scene(seed, 80);
+      const SahBvh structure(scene, {});
+      ASSERT_STREQ(structure.instruction_set(), hwy::TargetName(target));
+      expect_equal_to_exhaustive(structure, scene, seed, 200);
+    }
+  }
+}
+
+TEST(SahBvh, PicksTheBestInstructionSet) {
+  const Scene scene = testing::random_scene(1, 5);
+  EXPECT_STREQ(SahBvh(scene, {}).instruction_set(),
+               hwy::TargetName(hwy::SupportedAndGeneratedTargets().front()));
+}
+
+// Closed meshes, with rays aimed at their vertices and the middles of their edges.
+TEST(SahBvh, LosesNothingOnMeshes) {
+  for (const char* name : {"bumpy:triangles=3072", "tetra:n=5", "balls:n=3"}) {
+    SCOPED_TRACE(name);
+    const Scene scene = load_scene(name);
+    expect_equal_to_exhaustive(SahBvh(scene, {}), scene, 11, 1500);
+  }
+}
+
+// Slivers seen from eight scene sizes away: where float tests err most.
+TEST(SahBvh, LosesNoSliverSeenFromAfar) {
+  SceneBuilder builder("slivers");
+  Random random(7);
+  const auto point = [&] {
+    return glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  };
+  for (int i = 0; i < 400; ++i) {
+    const glm::dvec3 a = point();
+    const glm::dvec3 b = a + point() * 0.3;
+    builder.add_polygon(std::array<glm::dvec3, 3>{a, b, b + point() * 1e-5});
+    builder.add_sphere(point(), 1e-4);
+  }
+  const Scene scene = std::move(builder).build();
+  const SahBvh structure(scene, {});
+  const Exhaustive exhaustive(scene);
+  int hits = 0;
+  for (int i = 0; i < 4000; ++i) {
+    Ray ray;
+    ray.origin = glm::vec3(glm::normalize(point()) * 24.0);
+    const Primitive& primitive = scene.primitives[random.below(scene.primitives.size())];
+    glm::dvec3 target;
+    if (primitive.kind == PrimitiveKind::kSphere) {
+      // A point on the silhouette, where one ray hits and its neighbour does not.
+      const glm::dvec3 center(scene.spheres[primitive.index].center);
+      const glm::dvec3 beside = glm::cross(center - glm::dvec3(ray.origin), point());
+      target = center + glm::normalize(beside) * 1e-4 * random.uniform(0.99, 1.0);
+    } else {
+      const auto& corner = scene.triangles[scene.polygons[primitive.index].first_triangle].vertex;
+      target = glm::mix(glm::dvec3(scene.vertices[corner[0]]),
+                        glm::dvec3(scene.vertices[corner[1]]), random.unit());
+    }
+    ray.direction = glm::vec3(target - glm::dvec3(ray.origin));
+    const auto hit = exhaustive.closest_hit(ray);
+    ASSERT_EQ(structure.closest_hit(ray), hit) << i;
+    hits += hit ? 1 : 0;
+  }
+  EXPECT_GT(hits, 1000);
+}
+
+TEST(SahBvh, TakesDirectionsOfAnyLength) {
+  const Scene scene = testing::random_scene(3, 30);
+  const SahBvh structure(scene, {});
+  const Exhaustive exhaustive(scene);
+  Random random(1);
+  for (const float scale : {1e-38F, 1e-30F, 1e-19F, 1e-10F, 1e8F}) {
+    for (int i = 0; i < 100; ++i) {
+      Ray ray = testing::random_ray(scene, random);
+      ray.t_min = 0.0F;
+      ray.t_max = kInfinity;
+      ray.direction *= scale;
+      EXPECT_EQ(structure.closest_hit(ray), exhaustive.closest_hit(ray)) << scale;
+      EXPECT_EQ(structure.any_hit(ray), exhaustive.any_hit(ray)) << scale;
+    }
+  }
+}
+
+/// Checks a child's box against all that is below it and counts what is met.
+class WideBvhCheck {
+ public:
+  WideBvhCheck(const WideBvh& bvh, const Scene& scene) : bvh_(bvh), scene_(scene) {}
+
+  void visit(ChildReference at, const Bounds& box, std::uint32_t depth) {
+    deepest = std::max(deepest, depth);
+    if (at.is_leaf()) {
+      ++leaves;
+      for (std::uint32_t i = 0; i < at.block_count(); ++i) visit(at.first_block() + i, box);
+      return;
+    }
+    const WideNode& node = bvh_.nodes[at.node_index()];
+    EXPECT_GE(node.count, 2U);
+    Bounds together;
+    for (std::uint32_t lane = 0; lane < kBvhLanes; ++lane) {
+      const Bounds child = box_of(node, lane);
+      EXPECT_EQ(child.empty(), lane >= node.count);
+      if (lane >= node.count) continue;
+      together.include(child);
+      visit(node.children[lane], child, depth + 1);
+    }
+    if (depth == 1) return;
+    EXPECT_EQ(together.lower, box.lower);
+    EXPECT_EQ(together.upper, box.upper);
+  }
+
+  std::vector<std::uint32_t> triangles_of = std::vector<std::uint32_t>(1'000'000, 0);
+  std::uint64_t leaves = 0;
+  std::uint64_t pieces = 0;
+  std::uint32_t deepest = 0;
+
+ private:
+  static Bounds box_of(const WideNode& node, std::size_t lane) {
+    return {glm::vec3(node.planes[0][lane], node.planes[1][lane], node.planes[2][lane]),
+            glm::vec3(node.planes[3][lane], node.planes[4][lane], node.planes[5][lane])};
+  }
+
+  void visit(std::uint32_t index, const Bounds& box) {
+    const PrimitiveBlock& block = bvh_.blocks[index];
+    EXPECT_GE(block.count, 1U);
+    EXPECT_LE(block.count, kBvhLanes);
+    for (std::uint32_t lane = 0; lane < block.count; ++lane) {
+      const PrimitiveId id = block.primitives[lane];
+      ++pieces;
+      ++triangles_of[id];
+      EXPECT_EQ(scene_.primitives[id].kind, block.kind);
+      Bounds piece = primitive_bounds(scene_, id);
+      if (block.kind == PrimitiveKind::kPolygon) {
+        piece = Bounds{};
+        for (std::size_t corner = 0; corner < 3; ++corner)
+          piece.include(block.corner(corner, lane));
+      }
+      piece = padded(piece, overlap_tolerance(scene_));
+      Bounds both = box;
+      both.include(piece);
+      EXPECT_EQ(both.lower, box.lower);
+      EXPECT_EQ(both.upper, box.upper);
+    }
+  }
+
+  const WideBvh& bvh_;
+  const Scene& scene_;
+};
+
+TEST(SahBvh, HoldsEveryPrimitiveOnceInBoxesThatFit) {
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = testing::random_scene(seed, static_cast<int>(2 + 10 * seed));
+    const SahBvh structure(scene, {});
+    const WideBvh& bvh = structure.bvh();
+    WideBvhCheck check(bvh, scene);
+    check.visit(bvh.root, padded(scene.bounds, overlap_tolerance(scene)), 1);
+    EXPECT_EQ(check.leaves, bvh.leaves);
+    EXPECT_EQ(check.deepest, bvh.depth);
+    EXPECT_EQ(check.pieces, bvh.references);
+    for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+      const Primitive& primitive = scene.primitives[id];
+      EXPECT_EQ(check.triangles_of[id], primitive.kind == PrimitiveKind::kPolygon
+                                            ? scene.polygons[primitive.index].triangle_count
+                                            : 1U);
+    }
+  }
+}
+
+TEST(SahBvh, BuiltInParallelIsTheSame) {
+  const Scene scene = load_scene("bumpy:triangles=50000");
+  BvhOptions options;
+  const SahBvh serial(scene, options);
+  options.parallel = true;
+  const SahBvh parallel(scene, options);
+  ASSERT_EQ(serial.bvh().nodes.size(), parallel.bvh().nodes.size());
+  ASSERT_EQ(serial.bvh().blocks.size(), parallel.bvh().blocks.size());
+  for (std::size_t i = 0; i < serial.bvh().nodes.size(); ++i) {
+    ASSERT_EQ(serial.bvh().nodes[i].planes, parallel.bvh().nodes[i].planes);
+  }
+  for (std::size_t i = 0; i < serial.bvh().blocks.size(); ++i) {
+    ASSERT_EQ(serial.bvh().blocks[i].primitives, parallel.bvh().blocks[i].primitives);
+  }
+}
+
+// The float tests leave little to the canonical one.
+TEST(SahBvh, ConfirmsAboutOncePerHit) {
+  const Scene scene = load_scene("bumpy:triangles=20000");
+  const SahBvh structure(scene, {});
+  WorkCounters work;
+  HitBuffer hits(128, 128, 1);
+  structure.trace(PrimaryRays(scene.cameras.front(), 128, 128, 1), hits, work);
+  std::uint64_t hit = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) hit += hits.get(i) ? 1 : 0;
+  EXPECT_GE(work.by_name().at("confirmed_tests"), hit);
+  EXPECT_LE(work.by_name().at("confirmed_tests"), hit + hit / 10);
+}
+
+}  // namespace
+}  // namespace beambench
