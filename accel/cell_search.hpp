@@ -11,6 +11,8 @@ namespace beambench {
 
 /// Tests every reference it meets, also when another cell on the way had it before.
 struct NoMailboxes {
+  NoMailboxes() = default;
+  explicit NoMailboxes(std::size_t /*primitives*/) {}
   static constexpr bool is_first(PrimitiveId) { return true; }
 };
 

@@ -35,6 +35,29 @@ std::optional<bool> parse_flag(std::string_view text) {
   return std::nullopt;
 }
 
+constexpr std::string_view kAuto = "auto";
+
+/// One number for all axes, or three with an x between them.
+std::optional<std::array<std::int32_t, 3>> parse_cells(std::string_view text) {
+  std::array<std::int32_t, 3> cells{};
+  std::size_t count = 0;
+  while (true) {
+    const std::size_t end = std::min(text.find('x'), text.size());
+    const auto number = parse_number<std::int32_t>(text.substr(0, end));
+    if (!number || count == cells.size()) return std::nullopt;
+    cells[count++] = *number;
+    if (end == text.size()) break;
+    text.remove_prefix(end + 1);
+  }
+  if (count == 1) cells.fill(cells[0]);
+  return count == 2 ? std::nullopt : std::optional(cells);
+}
+
+std::string cells_text(const std::array<std::int32_t, 3>& cells) {
+  const bool equal = cells[0] == cells[1] && cells[1] == cells[2];
+  return equal ? fmt::format("{}", cells[0]) : fmt::format("{}", fmt::join(cells, "x"));
+}
+
 /// The value's canonical text (and number), or nothing when it is not valid.
 struct Parsed {
   std::string text;
@@ -67,6 +90,14 @@ std::optional<Parsed> parse_value(const ParameterInfo& info, const std::string& 
         return Parsed{text, 0.0};
       }
       break;
+    case Type::kCells:
+      if (text == kAuto) return Parsed{text, 0.0};
+      if (const auto cells = parse_cells(text)) {
+        if (std::all_of(cells->begin(), cells->end(), in_range)) {
+          return Parsed{cells_text(*cells), 0.0};
+        }
+      }
+      break;
   }
   return std::nullopt;
 }
@@ -79,6 +110,9 @@ std::string expectation(const ParameterInfo& info) {
       return fmt::format("a number from {} to {}", info.minimum, info.maximum);
     case Type::kFlag:
       return "true or false";
+    case Type::kCells:
+      return fmt::format("{}, a number of cells from {:.0f} to {:.0f}, or three such as 64x32x16",
+                         kAuto, info.minimum, info.maximum);
     case Type::kChoice:
       break;
   }
@@ -149,6 +183,15 @@ ParameterInfo choice_parameter(std::string name, std::string default_value,
   return info;
 }
 
+ParameterInfo cells_parameter(std::string name, std::string default_value, std::int64_t maximum,
+                              std::string description) {
+  ParameterInfo info =
+      plain_info(std::move(name), Type::kCells, std::move(default_value), std::move(description));
+  info.minimum = 1.0;
+  info.maximum = static_cast<double>(maximum);
+  return info;
+}
+
 Parameters::Parameters(std::string owner, std::span<const ParameterInfo> infos,
                        std::span<const Given> given)
     : owner_(std::move(owner)) {
@@ -195,6 +238,10 @@ bool Parameters::flag(std::string_view name) const { return find(name, Type::kFl
 
 const std::string& Parameters::choice(std::string_view name) const {
   return find(name, Type::kChoice).text;
+}
+
+std::optional<std::array<std::int32_t, 3>> Parameters::cells(std::string_view name) const {
+  return parse_cells(find(name, Type::kCells).text);  // gives nothing for `auto`
 }
 
 void Parameters::require_given_were_read() const {

@@ -1,7 +1,9 @@
 #pragma once
 // Named, typed, documented parameters: `samet:max_level=6,max_objects=0`, `balls:n=4`.
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,12 +27,12 @@ std::vector<Spec> parse_spec_list(std::string_view text);
 
 /// What a structure or a generator says of one of its parameters; printed by `beambench list`.
 struct ParameterInfo {
-  enum class Type { kInteger, kReal, kFlag, kChoice };
+  enum class Type { kInteger, kReal, kFlag, kChoice, kCells };
 
   std::string name;
   Type type;
   std::string default_value;
-  double minimum = 0.0;  ///< of a number, inclusive
+  double minimum = 0.0;  ///< of a number (of cells, too), inclusive
   double maximum = 0.0;
   std::vector<std::string> choices;  ///< of a choice
   std::string description;           ///< one sentence, units included
@@ -43,6 +45,9 @@ ParameterInfo real_parameter(std::string name, double default_value, double mini
 ParameterInfo flag_parameter(std::string name, bool default_value, std::string description);
 ParameterInfo choice_parameter(std::string name, std::string default_value,
                                std::vector<std::string> choices, std::string description);
+/// Cells along each axis: `32`, `64x32x16`, or `auto`.
+ParameterInfo cells_parameter(std::string name, std::string default_value, std::int64_t maximum,
+                              std::string description);
 
 /// The values of one owner's parameters: those given, defaults for the rest.
 class Parameters {
@@ -57,6 +62,8 @@ class Parameters {
   double real(std::string_view name) const;
   bool flag(std::string_view name) const;
   const std::string& choice(std::string_view name) const;
+  /// Nothing for `auto`.
+  std::optional<std::array<std::int32_t, 3>> cells(std::string_view name) const;
 
   /// Throws std::logic_error naming a parameter that was given and that nobody has read: its owner
   /// declares it and then ignores it.

@@ -5,9 +5,9 @@
 #include <array>
 #include <string_view>
 
+#include "accel/cell_ray.hpp"
 #include "accel/octree/octree.hpp"
 #include "accel/octree/octree_cursor.hpp"
-#include "accel/octree/octree_ray.hpp"
 #include "accel/trace_step.hpp"
 #include "accel/work_counters.hpp"
 
@@ -29,8 +29,8 @@ inline constexpr std::string_view kNeighbourSteps = "neighbour_steps";
 template <class Neighbours, class Counting, class Visit>
 void walk_leaves(const Octree& octree, const Neighbours& neighbours, const Ray& ray,
                  Counting& counting, Visit visit) {
-  const OctreeRay way(octree.grid(), ray);
-  double t = way.enter_root(ray.t_min);
+  const CellRay way(octree.grid(), ray);
+  double t = way.enter(ray.t_min);
   if (!(t < kInfinity)) return;
   OctreeCursor cursor(octree);
   int passed = 1;  // the root

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "accel/octree/octree_grid.hpp"
+#include "accel/cell_grid.hpp"
 #include "accel/statistics.hpp"
 #include "scenes/parameters.hpp"
 #include "scenes/scene.hpp"
@@ -52,7 +52,8 @@ class Octree {
   /// when the references exceed it.
   Octree(const Scene& scene, const OctreeOptions& options);
 
-  const OctreeGrid& grid() const { return grid_; }
+  /// The finest cells, as many along each axis: 2^(max_level - 1).
+  const CellGrid& grid() const { return grid_; }
   std::span<const OctreeNode> nodes() const { return nodes_; }
   std::span<const PrimitiveId> references(const OctreeNode& leaf) const {
     return {references_.data() + leaf.first, leaf.count};
@@ -63,7 +64,7 @@ class Octree {
  private:
   friend class OctreeBuilder;
 
-  OctreeGrid grid_;
+  CellGrid grid_;
   std::vector<OctreeNode> nodes_;
   std::vector<PrimitiveId> references_;
   int deepest_level_ = 1;

@@ -16,12 +16,6 @@ namespace beambench {
 
 namespace {
 
-/// The finest cells that a primitive's widened bounds reach into, both ends included.
-struct CellRange {
-  std::array<std::uint16_t, 3> first;
-  std::array<std::uint16_t, 3> last;
-};
-
 /// A node about to be split: where it is, and its primitives.
 struct Pending {
   std::uint32_t node;
@@ -30,47 +24,15 @@ struct Pending {
   std::int32_t size;  ///< in finest cells an axis
 };
 
-OctreeGrid make_grid(const Scene& scene, const OctreeOptions& options, double tolerance) {
-  OctreeGrid grid;
-  grid.cells = 1 << (options.max_level - 1);
-  if (scene.bounds.empty()) return grid;
-  const glm::dvec3 lower(scene.bounds.lower);
-  const glm::dvec3 upper(scene.bounds.upper);
-  glm::dvec3 size = upper - lower;
+CellGrid make_grid(const Scene& scene, const OctreeOptions& options, double tolerance) {
+  glm::dvec3 size(0.0);
+  if (!scene.bounds.empty()) size = glm::dvec3(scene.bounds.upper) - glm::dvec3(scene.bounds.lower);
   if (options.root == OctreeOptions::Root::kCube) {
     size = glm::dvec3(std::max({size.x, size.y, size.z}));
   }
   // Hits lie within the tolerance of the bounds: the root must hold them.
-  const glm::dvec3 pad = glm::max(size * options.pad, glm::dvec3(2.0 * tolerance));
-  const glm::dvec3 half = size * 0.5 + pad;
-  const glm::dvec3 center = lower + (upper - lower) * 0.5;
-  grid.lower = center - half;
-  grid.cell = half * (2.0 / grid.cells);
-  return grid;
-}
-
-/// The cell that holds a coordinate: the last one whose lower boundary is not above it.
-std::int32_t cell_of(const OctreeGrid& grid, int axis, double coordinate) {
-  // A guess to round-off; `plane` has the last word.
-  const double guess = (coordinate - grid.lower[axis]) / grid.cell[axis];
-  auto index = static_cast<std::int32_t>(std::clamp(guess, 0.0, grid.cells - 1.0));
-  while (index > 0 && grid.plane(axis, index) > coordinate) --index;
-  while (index < grid.cells - 1 && grid.plane(axis, index + 1) <= coordinate) ++index;
-  return index;
-}
-
-CellRange cell_range(const OctreeGrid& grid, const Bounds& bounds, double tolerance) {
-  CellRange range{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double low = bounds.lower[axis] - tolerance;
-    std::int32_t first = cell_of(grid, axis, low);
-    if (first > 0 && grid.plane(axis, first) == low) --first;  // cells are closed
-    const std::int32_t last = cell_of(grid, axis, bounds.upper[axis] + tolerance);
-    const auto slot = static_cast<std::size_t>(axis);
-    range.first[slot] = static_cast<std::uint16_t>(first);
-    range.last[slot] = static_cast<std::uint16_t>(last);
-  }
-  return range;
+  const glm::dvec3 margin = glm::max(size * options.pad, glm::dvec3(2.0 * tolerance));
+  return make_cell_grid(scene.bounds, size, margin, glm::ivec3(1 << (options.max_level - 1)));
 }
 
 }  // namespace
@@ -98,7 +60,7 @@ class OctreeBuilder {
     }
     octree_.references_.reserve(count);
     octree_.nodes_.push_back({0, 0, 0});
-    subdivide({0, 1, glm::ivec3(0), octree_.grid_.cells}, lists_[1]);
+    subdivide({0, 1, glm::ivec3(0), octree_.grid_.cells.x}, lists_[1]);
     octree_.nodes_.shrink_to_fit();
     octree_.references_.shrink_to_fit();
   }
@@ -206,7 +168,7 @@ class OctreeBuilder {
   const OctreeOptions& options_;
   Octree& octree_;
   double tolerance_;
-  std::vector<CellRange> ranges_;                   ///< by primitive
+  std::vector<CellRange> ranges_;                   ///< in finest cells, by primitive
   std::vector<std::vector<PrimitiveId>> lists_;     ///< by level
   std::vector<std::vector<std::uint8_t>> octants_;  ///< by level
 };

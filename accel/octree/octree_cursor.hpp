@@ -6,8 +6,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "accel/cell_ray.hpp"
 #include "accel/octree/octree.hpp"
-#include "accel/octree/octree_ray.hpp"
 
 namespace beambench {
 
@@ -15,7 +15,7 @@ namespace beambench {
 class OctreeCursor {
  public:
   explicit OctreeCursor(const Octree& octree)
-      : nodes_(octree.nodes().data()), size_(octree.grid().cells), cells_(octree.grid().cells) {}
+      : nodes_(octree.nodes().data()), size_(octree.grid().cells.x), cells_(size_) {}
 
   const OctreeNode& node() const { return nodes_[index_]; }
   std::uint32_t index() const { return index_; }
@@ -26,7 +26,7 @@ class OctreeCursor {
 
   /// Goes down to the leaf that the ray is in at parameter t (a point on a boundary belongs to the
   /// side the ray is going to). Returns the number of levels descended.
-  int descend(const OctreeRay& ray, double t) {
+  int descend(const CellRay& ray, double t) {
     int levels = 0;
     for (; !node().is_leaf(); ++levels) {
       const std::int32_t half = size_ / 2;

@@ -38,18 +38,24 @@ std::string_view type_name(ParameterInfo::Type type) {
       return "real";
     case ParameterInfo::Type::kFlag:
       return "flag";
+    case ParameterInfo::Type::kCells:
+      return "cells";
     case ParameterInfo::Type::kChoice:
       break;
   }
   return "choice";
 }
 
-bool is_number(const ParameterInfo& info) {
-  return info.type == ParameterInfo::Type::kInteger || info.type == ParameterInfo::Type::kReal;
+bool has_range(const ParameterInfo& info) {
+  return info.type == ParameterInfo::Type::kInteger || info.type == ParameterInfo::Type::kReal ||
+         info.type == ParameterInfo::Type::kCells;
 }
 
 std::string range_text(const ParameterInfo& info) {
-  if (is_number(info)) {
+  if (info.type == ParameterInfo::Type::kCells) {
+    return fmt::format("auto, N or NxNxN, each from {} to {}", info.minimum, info.maximum);
+  }
+  if (has_range(info)) {
     return fmt::format("{} from {} to {}", type_name(info.type), info.minimum, info.maximum);
   }
   if (info.type == ParameterInfo::Type::kFlag) return "true or false";
@@ -88,7 +94,7 @@ Json parameters_json(const std::vector<ParameterInfo>& parameters) {
   for (const ParameterInfo& info : parameters) {
     Json entry{
         {"name", info.name}, {"type", type_name(info.type)}, {"default", info.default_value}};
-    if (is_number(info)) {
+    if (has_range(info)) {
       entry["minimum"] = info.minimum;
       entry["maximum"] = info.maximum;
     }

@@ -75,7 +75,7 @@ TEST(Octree, LeavesReferToExactlyWhatOverlapsThem) {
     options.max_objects = static_cast<std::uint32_t>(seed % 3);
     const Octree octree(scene, options);
     std::uint64_t volume = 0;
-    for_each_leaf(octree, 0, glm::ivec3(0), octree.grid().cells,
+    for_each_leaf(octree, 0, glm::ivec3(0), octree.grid().cells.x,
                   [&](const OctreeNode& leaf, const glm::ivec3& corner, std::int32_t size) {
                     volume += static_cast<std::uint64_t>(size) * size * size;
                     const auto references = octree.references(leaf);
@@ -97,7 +97,7 @@ TEST(Octree, LeavesReferToExactlyWhatOverlapsThem) {
                                                    3.0 * overlap_tolerance(scene)));
                     }
                   });
-    const auto cells = static_cast<std::uint64_t>(octree.grid().cells);
+    const auto cells = static_cast<std::uint64_t>(octree.grid().cells.x);
     EXPECT_EQ(volume, cells * cells * cells) << "leaves tile the root";
   }
 }
@@ -109,7 +109,7 @@ TEST(Octree, SplitsWhileALeafHoldsMoreThanMaxObjects) {
     options.max_objects = max_objects;
     options.max_level = 6;
     const Octree octree(scene, options);
-    for_each_leaf(octree, 0, glm::ivec3(0), octree.grid().cells,
+    for_each_leaf(octree, 0, glm::ivec3(0), octree.grid().cells.x,
                   [&](const OctreeNode& leaf, const glm::ivec3&, std::int32_t size) {
                     EXPECT_TRUE(leaf.count <= max_objects || size == 1);
                   });
@@ -122,7 +122,7 @@ TEST(Octree, MaxLevelCountsTheRootAsOne) {
   options.max_level = 1;
   EXPECT_EQ(Octree(scene, options).statistics().nodes, 1U);
   options.max_level = 6;
-  EXPECT_EQ(Octree(scene, options).grid().cells, 32) << "thesis: level 6 is 32 cells an axis";
+  EXPECT_EQ(Octree(scene, options).grid().cells.x, 32) << "thesis: level 6 is 32 cells an axis";
 }
 
 TEST(Octree, CapOnReferencesIsAClearError) {

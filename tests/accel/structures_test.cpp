@@ -39,6 +39,13 @@ Parameters random_parameters(const StructureInfo& info, Random& random) {
         given.emplace_back(parameter.name,
                            parameter.choices[random.below(parameter.choices.size())]);
         break;
+      case ParameterInfo::Type::kCells:
+        if (random.below(4) != 0) {
+          given.emplace_back(parameter.name,
+                             fmt::format("{}x{}x{}", 1 + random.below(20), 1 + random.below(20),
+                                         1 + random.below(20)));
+        }
+        break;
       case ParameterInfo::Type::kReal:
         break;
     }

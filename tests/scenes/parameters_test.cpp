@@ -45,6 +45,26 @@ TEST(Parameters, EqualValuesPrintEqually) {
             (std::pair<std::string, std::string>("pad", "1.5")));
 }
 
+TEST(Parameters, CellsAreOneNumberOrThreeOrAutomatic) {
+  const std::vector<ParameterInfo> infos = {cells_parameter("cells", "auto", 64, "cells an axis")};
+  const auto given = [&](const char* text) {
+    return Parameters("grid", infos, Given{{"cells", text}});
+  };
+  using Cells = std::array<std::int32_t, 3>;
+  EXPECT_EQ(Parameters("grid", infos, Given{}).cells("cells"), std::nullopt);
+  EXPECT_EQ(given("auto").label(), "grid:cells=auto");
+  EXPECT_EQ(given("32").cells("cells"), (Cells{32, 32, 32}));
+  EXPECT_EQ(given("64x1x8").cells("cells"), (Cells{64, 1, 8}));
+  EXPECT_EQ(given("64x1x8").label(), "grid:cells=64x1x8");
+  EXPECT_EQ(given("08x8x8").label(), given("8").label()) << "equal values print equally";
+  for (const char* text : {"0", "65", "-3", "8x8", "8x8x8x8", "8x8x", "x8", "8x65x8", "8 x8x8", "",
+                           "8.5", "automatic", "8X8X8"}) {
+    EXPECT_TRUE(says(thrown_message([&] { given(text); }),
+                     {"grid", "cells", "auto, a number of cells from 1 to 64, or three"}))
+        << text;
+  }
+}
+
 TEST(Parameters, LabelIsTheBareOwnerWithoutParameters) {
   EXPECT_EQ(Parameters("null", {}, {}).label(), "null");
 }

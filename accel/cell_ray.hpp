@@ -1,12 +1,12 @@
 #pragma once
-// A ray's way through the planes of an octree.
+// A ray's way through the planes of a grid of cells.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "accel/octree/octree_grid.hpp"
+#include "accel/cell_grid.hpp"
 #include "accel/ray.hpp"
 
 namespace beambench {
@@ -14,12 +14,13 @@ namespace beambench {
 /// Answers all questions about a ray and the planes of a grid from one function, `plane_t`, so that
 /// a cell's exit and its neighbour's entry are the same number and no cell is skipped or visited
 /// twice. A ray parallel to an axis is on one side of that axis' planes for good.
-class OctreeRay {
+class CellRay {
  public:
-  OctreeRay(const OctreeGrid& grid, const Ray& ray) : grid_(&grid) {
+  CellRay(const CellGrid& grid, const Ray& ray) : grid_(&grid) {
     for (int axis = 0; axis < 3; ++axis) {
       const auto slot = static_cast<std::size_t>(axis);
       origin_[slot] = ray.origin[axis];
+      direction_[slot] = ray.direction[axis];
       inverse_[slot] = 1.0 / static_cast<double>(ray.direction[axis]);
       step_[slot] = ray.direction[axis] > 0.0F ? 1 : (ray.direction[axis] < 0.0F ? -1 : 0);
     }
@@ -60,28 +61,48 @@ class OctreeRay {
     }
   }
 
-  /// The t from which on the ray is in the root, but not before t_min (rounded down, for a hit's t
+  /// The cell along an axis that the ray is in at t, a t in the grid.
+  std::int32_t cell_at(int axis, double t) const {
+    const auto slot = static_cast<std::size_t>(axis);
+    const std::int32_t last = grid_->cells[axis] - 1;
+    // A guess to round-off; `above` has the last word.
+    const double guess =
+        (origin_[slot] + t * direction_[slot] - grid_->lower[axis]) / grid_->cell[axis];
+    auto index = static_cast<std::int32_t>(std::clamp(guess, 0.0, static_cast<double>(last)));
+    while (index > 0 && !above(axis, index, t)) --index;
+    while (index < last && above(axis, index + 1, t)) ++index;
+    return index;
+  }
+
+  /// How much t grows from one plane of an axis to the next; infinite when the ray is parallel to
+  /// them.
+  double delta_t(int axis) const {
+    return grid_->cell[axis] * std::abs(inverse_[static_cast<std::size_t>(axis)]);
+  }
+
+  /// The t from which on the ray is in the grid, but not before t_min (rounded down, for a hit's t
   /// may round up to t_min); infinite when it never is.
-  double enter_root(float t_min) const {
-    double enter = std::nextafter(t_min, -kInfinity);
-    double leave = std::numeric_limits<double>::infinity();
+  double enter(float t_min) const {
+    double first = std::nextafter(t_min, -kInfinity);
+    double last = std::numeric_limits<double>::infinity();
     for (int axis = 0; axis < 3; ++axis) {
       const double at = origin_[static_cast<std::size_t>(axis)];
       if (step(axis) == 0) {
-        if (at < grid_->plane(axis, 0) || at > grid_->plane(axis, grid_->cells)) return leave;
+        if (at < grid_->plane(axis, 0) || at > grid_->plane(axis, grid_->cells[axis])) return last;
       } else {
         const double low = plane_t(axis, 0);
-        const double high = plane_t(axis, grid_->cells);
-        enter = std::max(enter, std::min(low, high));
-        leave = std::min(leave, std::max(low, high));
+        const double high = plane_t(axis, grid_->cells[axis]);
+        first = std::max(first, std::min(low, high));
+        last = std::min(last, std::max(low, high));
       }
     }
-    return enter <= leave ? enter : std::numeric_limits<double>::infinity();
+    return first <= last ? first : std::numeric_limits<double>::infinity();
   }
 
  private:
-  const OctreeGrid* grid_;
+  const CellGrid* grid_;
   std::array<double, 3> origin_;
+  std::array<double, 3> direction_;
   std::array<double, 3> inverse_;
   std::array<int, 3> step_;
 };

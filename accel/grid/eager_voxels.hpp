@@ -1,0 +1,32 @@
+#pragma once
+// The voxels' lists, all made beforehand.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "accel/cell_grid.hpp"
+#include "accel/statistics.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// The primitives whose surface reaches into each closed voxel, widened by `overlap_tolerance`, in
+/// increasing id: one list after the other.
+class EagerVoxels {
+ public:
+  /// Throws InputError naming `max_references` when the lists exceed it.
+  EagerVoxels(const Scene& scene, const CellGrid& grid, std::uint64_t max_references);
+
+  std::span<const PrimitiveId> references(std::size_t voxel) const {
+    return {references_.data() + first_[voxel], first_[voxel + 1] - first_[voxel]};
+  }
+  /// Fills in everything but the grid itself.
+  void describe(Statistics& statistics) const;
+
+ private:
+  std::vector<std::uint32_t> first_;  ///< by voxel, and the end of the last
+  std::vector<PrimitiveId> references_;
+};
+
+}  // namespace beambench

@@ -1,0 +1,55 @@
+#pragma once
+// The voxels' lists, each made when the first ray comes by.
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "accel/cell_grid.hpp"
+#include "accel/statistics.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// The grid of the thesis: nothing is built; the first ray that enters a voxel has every primitive
+/// of the scene tested for overlap with it, its range of voxels first. The lists are those of
+/// `EagerVoxels` (that of a cone may be longer: its overlap test is conservative).
+///
+/// Several threads may ask at once. Each that finds no list makes one and publishes it by
+/// compare-exchange; who comes second discards its own, which holds the same.
+class LazyVoxels {
+ public:
+  LazyVoxels(const Scene& scene, const CellGrid& grid, std::uint64_t max_references);
+  LazyVoxels(const LazyVoxels&) = delete;
+  LazyVoxels& operator=(const LazyVoxels&) = delete;
+  ~LazyVoxels();
+
+  /// Throws InputError naming `max_references` when the lists made so far exceed it.
+  std::span<const PrimitiveId> references(std::size_t voxel) const {
+    const PrimitiveId* list = lists_[voxel].load(std::memory_order_acquire);
+    if (list == nullptr) list = publish(voxel, evaluate(voxel));
+    return {list + 1, list[0]};
+  }
+  /// Fills in what has been evaluated so far.
+  void describe(Statistics& statistics) const;
+
+ private:
+  /// The number of references, then the references.
+  using List = std::unique_ptr<const PrimitiveId[]>;
+
+  List evaluate(std::size_t voxel) const;
+  const PrimitiveId* publish(std::size_t voxel, List list) const;
+
+  const Scene& scene_;
+  CellGrid grid_;
+  double tolerance_;
+  std::uint64_t max_references_;
+  std::vector<CellRange> ranges_;  ///< by primitive
+  // Mutable: what a query adds is what any other query would have found. The lists are owned.
+  mutable std::vector<std::atomic<const PrimitiveId*>> lists_;
+  mutable std::atomic<std::uint64_t> references_made_{0};
+};
+
+}  // namespace beambench

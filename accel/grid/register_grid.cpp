@@ -1,0 +1,32 @@
+#include "accel/grid/eager_voxels.hpp"
+#include "accel/grid/lazy_voxels.hpp"
+#include "accel/grid/mailboxes.hpp"
+#include "accel/grid/voxel_grid.hpp"
+#include "accel/registry.hpp"
+
+namespace beambench {
+
+namespace {
+
+template <class Voxels>
+std::unique_ptr<Accelerator> build(const Scene& scene, const VoxelGridOptions& options) {
+  if (options.mailboxes) return std::make_unique<VoxelGrid<Voxels, Mailboxes>>(scene, options);
+  return std::make_unique<VoxelGrid<Voxels, NoMailboxes>>(scene, options);
+}
+
+}  // namespace
+
+void register_grid(Registry& registry) {
+  registry.add({"voxel-grid",
+                "a uniform grid of voxels with the incremental traversal of Amanatides and Woo "
+                "(1987), filled where rays come by, as in the thesis, or beforehand",
+                Conformance::kBitExact, VoxelGridOptions::parameters(),
+                [](const Scene& scene, const Parameters& parameters) {
+                  const auto options = VoxelGridOptions::from(parameters);
+                  return options.fill == VoxelGridOptions::Fill::kLazy
+                             ? build<LazyVoxels>(scene, options)
+                             : build<EagerVoxels>(scene, options);
+                }});
+}
+
+}  // namespace beambench

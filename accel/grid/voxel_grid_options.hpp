@@ -1,0 +1,32 @@
+#pragma once
+// How a grid of voxels is laid over a scene.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "accel/cell_grid.hpp"
+#include "scenes/parameters.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+struct VoxelGridOptions {
+  enum class Fill { kLazy, kEager };
+
+  std::optional<std::array<std::int32_t, 3>> resolution;  ///< voxels an axis; nothing: by density
+  double density = 4.0;                                   ///< voxels for each primitive
+  Fill fill = Fill::kEager;
+  bool mailboxes = false;
+  std::int64_t max_voxels = 100'000'000;
+  std::uint64_t max_references = 50'000'000;
+
+  static std::vector<ParameterInfo> parameters();
+  static VoxelGridOptions from(const Parameters& parameters);
+};
+
+/// The grid over the scene's own box. Throws InputError naming `max_voxels` when it has more.
+CellGrid make_voxel_grid(const Scene& scene, const VoxelGridOptions& options);
+
+}  // namespace beambench
