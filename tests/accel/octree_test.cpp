@@ -1,10 +1,9 @@
-// The octree: published counts, invariants, its cap, and how much work Samet's traversal does.
+// The octree: published counts, invariants, its cap.
 
 #include "accel/octree/octree.hpp"
 
 #include <gtest/gtest.h>
 
-#include "accel/octree/samet.hpp"
 #include "accel/registry.hpp"
 #include "accel/tolerance.hpp"
 #include "scenes/catalogue.hpp"
@@ -138,38 +137,6 @@ TEST(Octree, CapOnReferencesIsAClearError) {
     }
   }
 }
-
-struct Work {
-  const char* scene;
-  std::uint64_t steps, leaves, empty_leaves, primitive_tests;
-};
-
-// Work a 64x64 image of rays costs at the default level 6: a tree or a traversal that gets worse
-// fails here even when its hits stay right. Better is fine, once: then pin the new figures.
-class SametWork : public ::testing::TestWithParam<Work> {};
-
-TEST_P(SametWork, IsPinned) {
-  const Work& expected = GetParam();
-  const Scene scene = load_scene(expected.scene);
-  const Samet samet(scene, {});
-  HitBuffer buffer(64, 64, 1);
-  WorkCounters counters;
-  samet.trace(PrimaryRays(scene.cameras.front(), 64, 64, 1), buffer, counters);
-  EXPECT_EQ(counters.get(Counter::kTraversalSteps), expected.steps);
-  EXPECT_EQ(counters.get(Counter::kLeaves), expected.leaves);
-  EXPECT_EQ(counters.get(Counter::kEmptyLeaves), expected.empty_leaves);
-  EXPECT_EQ(counters.get(Counter::kPrimitiveTests), expected.primitive_tests);
-}
-
-INSTANTIATE_TEST_SUITE_P(Scenes, SametWork,
-                         ::testing::Values(Work{"tetra:n=4", 79'395, 22'163, 17'142, 10'665},
-                                           Work{"balls:n=2", 155'896, 36'819, 20'835, 85'609},
-                                           Work{"escena1", 98'455, 26'168, 16'004, 10'726}),
-                         [](const auto& info) {
-                           std::string name = info.param.scene;
-                           std::erase_if(name, [](char c) { return !std::isalnum(c); });
-                           return name;
-                         });
 
 }  // namespace
 }  // namespace beambench

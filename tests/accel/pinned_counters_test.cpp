@@ -1,0 +1,72 @@
+// The work of each structure, pinned: one that gets worse fails here even when its hits stay right.
+// Better is fine, once: then pin the new figures.
+
+#include <algorithm>
+#include <cctype>
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "accel/registry.hpp"
+#include "scenes/catalogue.hpp"
+
+namespace beambench {
+namespace {
+
+/// What 64x64 primary rays cost.
+struct Row {
+  const char* structure;
+  const char* scene;
+  std::map<std::string, std::uint64_t> work;  ///< counters that are not 0
+};
+
+class PinnedWork : public ::testing::TestWithParam<Row> {};
+
+TEST_P(PinnedWork, IsUnchanged) {
+  const Row& row = GetParam();
+  const Scene scene = load_scene(row.scene);
+  const auto structure = registry().choose(parse_spec(row.structure)).build(scene);
+  HitBuffer buffer(64, 64, 1);
+  WorkCounters counters;
+  structure->trace(PrimaryRays(scene.cameras.front(), 64, 64, 1), buffer, counters);
+  std::map<std::string, std::uint64_t> work;
+  for (const auto& [name, count] : counters.by_name()) {
+    if (count != 0) work[name] = count;
+  }
+  EXPECT_EQ(work, row.work);
+}
+
+std::string row_name(const ::testing::TestParamInfo<Row>& info) {
+  std::string name = std::string(info.param.structure) + '_' + info.param.scene;
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
+  return name;
+}
+
+// clang-format off
+INSTANTIATE_TEST_SUITE_P(Structures, PinnedWork, ::testing::Values(
+    Row{"samet", "tetra:n=4", {{"empty_leaves", 17'142}, {"leaves", 22'163}, {"neighbour_steps", 64'398}, {"primitive_tests", 10'665}, {"traversal_steps", 79'395}}},
+    Row{"samet", "balls:n=2", {{"empty_leaves", 20'835}, {"leaves", 36'819}, {"neighbour_steps", 130'031}, {"primitive_tests", 85'609}, {"traversal_steps", 155'896}}},
+    Row{"samet", "escena1", {{"empty_leaves", 16'004}, {"leaves", 26'168}, {"neighbour_steps", 82'127}, {"primitive_tests", 10'726}, {"traversal_steps", 98'455}}},
+    Row{"samet-net", "tetra:n=4", {{"empty_leaves", 17'142}, {"leaves", 22'163}, {"neighbour_steps", 19'683}, {"primitive_tests", 10'665}, {"traversal_steps", 34'680}}},
+    Row{"samet-net", "balls:n=2", {{"empty_leaves", 20'835}, {"leaves", 36'819}, {"neighbour_steps", 32'723}, {"primitive_tests", 85'609}, {"traversal_steps", 58'588}}},
+    Row{"samet-net", "escena1", {{"empty_leaves", 16'004}, {"leaves", 26'168}, {"neighbour_steps", 23'631}, {"primitive_tests", 10'726}, {"traversal_steps", 39'959}}},
+    Row{"voxel-grid", "tetra:n=4", {{"empty_leaves", 12'357}, {"leaves", 18'052}, {"primitive_tests", 26'779}, {"traversal_steps", 18'052}}},
+    Row{"voxel-grid", "balls:n=2", {{"leaves", 12'867}, {"primitive_tests", 195'217}, {"traversal_steps", 12'867}}},
+    Row{"voxel-grid", "escena1", {{"empty_leaves", 1'519}, {"leaves", 12'160}, {"primitive_tests", 18'401}, {"traversal_steps", 12'160}}},
+    Row{"voxel-grid:fill=lazy", "tetra:n=4", {{"empty_leaves", 12'357}, {"leaves", 18'052}, {"primitive_tests", 26'779}, {"traversal_steps", 18'052}}},
+    Row{"voxel-grid:fill=lazy", "balls:n=2", {{"leaves", 12'867}, {"primitive_tests", 195'217}, {"traversal_steps", 12'867}}},
+    Row{"voxel-grid:fill=lazy", "escena1", {{"empty_leaves", 1'519}, {"leaves", 12'160}, {"primitive_tests", 18'401}, {"traversal_steps", 12'160}}},
+    Row{"voxel-grid:mailboxes=true", "tetra:n=4", {{"empty_leaves", 12'357}, {"leaves", 18'052}, {"primitive_tests", 16'744}, {"traversal_steps", 18'052}}},
+    Row{"voxel-grid:mailboxes=true", "balls:n=2", {{"leaves", 12'867}, {"primitive_tests", 170'377}, {"traversal_steps", 12'867}}},
+    Row{"voxel-grid:mailboxes=true", "escena1", {{"empty_leaves", 1'519}, {"leaves", 12'160}, {"primitive_tests", 11'196}, {"traversal_steps", 12'160}}},
+    Row{"voxel-grid:resolution=32", "tetra:n=4", {{"empty_leaves", 51'687}, {"leaves", 56'708}, {"primitive_tests", 10'665}, {"traversal_steps", 56'708}}},
+    Row{"voxel-grid:resolution=32", "balls:n=2", {{"empty_leaves", 94'392}, {"leaves", 123'961}, {"primitive_tests", 92'241}, {"traversal_steps", 123'961}}},
+    Row{"voxel-grid:resolution=32", "escena1", {{"empty_leaves", 20'659}, {"leaves", 30'829}, {"primitive_tests", 10'720}, {"traversal_steps", 30'829}}}
+  ), row_name);
+// clang-format on
+
+}  // namespace
+}  // namespace beambench
