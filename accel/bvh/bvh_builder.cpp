@@ -14,6 +14,10 @@ namespace beambench {
 namespace {
 
 constexpr std::size_t kBins = 32;
+
+/// Of a few items fewer bins do: their sums would cost more than the items.
+std::size_t bins_for(std::size_t items) { return std::min(kBins, 8 + items / 16); }
+
 /// Below it nodes are split in the middle: 2^32 items then need 32 more levels.
 constexpr std::uint32_t kDeepestSahSplit = kMaxBvhDepth - 34;
 /// Where tasks would cost more than they bring.
@@ -56,23 +60,26 @@ struct Bin {
 /// Maps centres to bins, on all axes.
 class Binning {
  public:
-  explicit Binning(const Bounds& centers) : lower_(centers.lower) {
+  Binning(const Bounds& centers, std::size_t items)
+      : lower_(centers.lower), count_(bins_for(items)) {
     const glm::vec3 extent = centers.extent();
     for (int axis = 0; axis < 3; ++axis) {
-      scale_[axis] = extent[axis] > 0.0F ? kBins * (1.0F - 1e-6F) / extent[axis] : 0.0F;
+      scale_[axis] = extent[axis] > 0.0F ? static_cast<float>(count_) / extent[axis] : 0.0F;
       // An extent so small that its inverse overflows cannot be divided.
       if (!(scale_[axis] < std::numeric_limits<float>::max())) scale_[axis] = 0.0F;
     }
   }
 
+  std::size_t count() const { return count_; }
   bool divides(int axis) const { return scale_[axis] > 0.0F; }
   std::size_t bin(const glm::vec3& center, int axis) const {
     const auto bin = static_cast<std::size_t>((center[axis] - lower_[axis]) * scale_[axis]);
-    return std::min(bin, kBins - 1);
+    return std::min(bin, count_ - 1);
   }
 
  private:
   glm::vec3 lower_;
+  std::size_t count_;
   glm::vec3 scale_{};
 };
 
@@ -92,6 +99,11 @@ struct Split {
   int axis = -1;  ///< none is worth it, or possible
   std::size_t bin = 0;
 };
+
+/// Blocks that hold `count` items.
+std::uint32_t blocks_of(std::uint32_t count, const BvhOptions& options) {
+  return (count + options.block_size - 1) / options.block_size;
+}
 
 class Builder {
  public:
@@ -151,16 +163,20 @@ class Builder {
   /// Sums up items, in parallel when asked: minima, maxima and counts are the same in any order.
   template <class Sum, class Add>
   Sum sum_up(const Pending& pending, const Add& add) const {
-    const auto sum_range = [&](std::size_t begin, std::size_t end, Sum sum) {
+    const auto add_range = [&](std::size_t begin, std::size_t end, Sum& sum) {
       for (std::size_t i = begin; i < end; ++i) add(sum, items_[i]);
-      return sum;
     };
+    Sum sum;
     if (!options_.parallel || pending.count() < 8 * kParallelItems) {
-      return sum_range(pending.begin, pending.end, Sum{});
+      add_range(pending.begin, pending.end, sum);
+      return sum;
     }
     return tbb::parallel_reduce(
-        tbb::blocked_range<std::size_t>(pending.begin, pending.end, kParallelItems), Sum{},
-        [&](const auto& range, Sum sum) { return sum_range(range.begin(), range.end(), sum); },
+        tbb::blocked_range<std::size_t>(pending.begin, pending.end, kParallelItems), sum,
+        [&](const auto& range, Sum part) {
+          add_range(range.begin(), range.end(), part);
+          return part;
+        },
         [](Sum a, const Sum& b) {
           a.include(b);
           return a;
@@ -177,7 +193,7 @@ class Builder {
     const auto begin = items_.begin() + static_cast<std::ptrdiff_t>(pending.begin);
     const auto end = items_.begin() + static_cast<std::ptrdiff_t>(pending.end);
     if (pending.depth < kDeepestSahSplit) {
-      const Binning binning(extent.centers);
+      const Binning binning(extent.centers, pending.count());
       const Split split = best_split(pending, binning, half_area(extent.boxes));
       if (split.axis >= 0) {
         const auto middle = std::partition(begin, end, [&](const Item& item) {
@@ -191,7 +207,7 @@ class Builder {
   }
 
   float block_cost(std::uint32_t count) const {
-    return static_cast<float>((count + options_.block_size - 1) / options_.block_size);
+    return static_cast<float>(blocks_of(count, options_));
   }
 
   /// The cheapest split; none when a leaf is allowed and no dearer.
@@ -207,7 +223,8 @@ class Builder {
     Split best;
     for (int axis = 0; axis < 3; ++axis) {
       if (!binning.divides(axis)) continue;
-      sweep(bins.axis[static_cast<std::size_t>(axis)], axis, best);
+      sweep(std::span(bins.axis[static_cast<std::size_t>(axis)]).first(binning.count()), axis,
+            best);
     }
     const auto whole = static_cast<float>(area);
     if (pending.count() <= options_.max_leaf &&
@@ -219,17 +236,17 @@ class Builder {
   }
 
   /// The costs of all splits along one axis.
-  void sweep(const std::array<Bin, kBins>& bins, int axis, Split& best) const {
+  void sweep(std::span<const Bin> bins, int axis, Split& best) const {
     std::array<float, kBins> right_cost{};  // of the bins from i on
     std::array<std::uint32_t, kBins> right_count{};
     Bin right;
-    for (std::size_t i = kBins - 1; i > 0; --i) {
+    for (std::size_t i = bins.size() - 1; i > 0; --i) {
       right.include(bins[i]);
       right_count[i] = right.count;
       right_cost[i] = static_cast<float>(half_area(right.box)) * block_cost(right.count);
     }
     Bin left;
-    for (std::size_t i = 1; i < kBins; ++i) {
+    for (std::size_t i = 1; i < bins.size(); ++i) {
       left.include(bins[i - 1]);
       if (left.count == 0 || right_count[i] == 0) continue;
       const float cost =
@@ -275,8 +292,9 @@ BinaryBvh build_bvh(std::span<const Bounds> boxes, const BvhOptions& options) {
 double sah_cost(const BinaryBvh& bvh, const BvhOptions& options) {
   double cost = 0.0;
   for (const BvhNode& node : bvh.nodes) {
-    const double blocks = (node.count + options.block_size - 1) / options.block_size;
-    cost += half_area(node.box) * (node.is_leaf() ? blocks : double{options.node_cost});
+    const double weight =
+        node.is_leaf() ? double{blocks_of(node.count, options)} : double{options.node_cost};
+    cost += half_area(node.box) * weight;
   }
   return bvh.nodes.empty() ? 0.0 : cost / half_area(bvh.nodes.front().box);
 }

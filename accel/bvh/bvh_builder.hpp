@@ -36,9 +36,9 @@ struct BinaryBvh {
 /// No more nodes than this lie on any way down, whatever the boxes are.
 inline constexpr std::uint32_t kMaxBvhDepth = 96;
 
-/// Top-down splits at the best of 32 bins along each of the three axes (Wald, "On fast construction
-/// of SAH-based bounding volume hierarchies", 2007). Boxes whose centres cannot be told apart, and
-/// those below a depth that only contrived input reaches, are split in the middle.
+/// Top-down splits at the best of up to 32 bins along each of the three axes (Wald, "On fast
+/// construction of SAH-based bounding volume hierarchies", 2007). Boxes whose centres cannot be
+/// told apart, and those below a depth that only contrived input reaches, are split in the middle.
 BinaryBvh build_bvh(std::span<const Bounds> boxes, const BvhOptions& options);
 
 /// The expected number of node visits and block tests of a ray that meets the root, weighted as the

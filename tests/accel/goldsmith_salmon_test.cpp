@@ -3,6 +3,8 @@
 
 #include "accel/bvh/goldsmith_salmon.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -154,8 +156,8 @@ TEST(GoldsmithSalmon, TheQueueEntersNoMoreThanTheStack) {
     const Scene scene = load_scene(name);
     GoldsmithSalmonOptions stack;
     stack.queue = GoldsmithSalmonOptions::Queue::kStack;
-    HitBuffer hits[2] = {HitBuffer(64, 64, 1), HitBuffer(64, 64, 1)};
-    WorkCounters work[2];
+    std::array<HitBuffer, 2> hits{HitBuffer(64, 64, 1), HitBuffer(64, 64, 1)};
+    std::array<WorkCounters, 2> work;
     const PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
     GoldsmithSalmon(scene, {}).trace(rays, hits[0], work[0]);
     GoldsmithSalmon(scene, stack).trace(rays, hits[1], work[1]);
