@@ -100,9 +100,10 @@ struct Split {
   std::size_t bin = 0;
 };
 
-/// Blocks that hold `count` items.
-std::uint32_t blocks_of(std::uint32_t count, const BvhOptions& options) {
-  return (count + options.block_size - 1) / options.block_size;
+/// The cost of testing `count` items, block by block.
+float leaf_cost(std::uint32_t count, const BvhOptions& options) {
+  const std::uint32_t blocks = (count + options.block_size - 1) / options.block_size;
+  return static_cast<float>(blocks);
 }
 
 class Builder {
@@ -206,10 +207,6 @@ class Builder {
     return pending.begin + pending.count() / 2;
   }
 
-  float block_cost(std::uint32_t count) const {
-    return static_cast<float>(blocks_of(count, options_));
-  }
-
   /// The cheapest split; none when a leaf is allowed and no dearer.
   Split best_split(const Pending& pending, const Binning& binning, double area) const {
     const Bins bins = sum_up<Bins>(pending, [&](Bins& sums, const Item& item) {
@@ -228,7 +225,7 @@ class Builder {
     }
     const auto whole = static_cast<float>(area);
     if (pending.count() <= options_.max_leaf &&
-        whole * block_cost(static_cast<std::uint32_t>(pending.count())) <=
+        whole * leaf_cost(static_cast<std::uint32_t>(pending.count()), options_) <=
             whole * options_.node_cost + best.cost) {
       best.axis = -1;
     }
@@ -243,14 +240,14 @@ class Builder {
     for (std::size_t i = bins.size() - 1; i > 0; --i) {
       right.include(bins[i]);
       right_count[i] = right.count;
-      right_cost[i] = static_cast<float>(half_area(right.box)) * block_cost(right.count);
+      right_cost[i] = static_cast<float>(half_area(right.box)) * leaf_cost(right.count, options_);
     }
     Bin left;
     for (std::size_t i = 1; i < bins.size(); ++i) {
       left.include(bins[i - 1]);
       if (left.count == 0 || right_count[i] == 0) continue;
       const float cost =
-          static_cast<float>(half_area(left.box)) * block_cost(left.count) + right_cost[i];
+          static_cast<float>(half_area(left.box)) * leaf_cost(left.count, options_) + right_cost[i];
       if (cost < best.cost) best = {cost, axis, i};
     }
   }
@@ -292,8 +289,7 @@ BinaryBvh build_bvh(std::span<const Bounds> boxes, const BvhOptions& options) {
 double sah_cost(const BinaryBvh& bvh, const BvhOptions& options) {
   double cost = 0.0;
   for (const BvhNode& node : bvh.nodes) {
-    const double weight =
-        node.is_leaf() ? double{blocks_of(node.count, options)} : double{options.node_cost};
+    const float weight = node.is_leaf() ? leaf_cost(node.count, options) : options.node_cost;
     cost += half_area(node.box) * weight;
   }
   return bvh.nodes.empty() ? 0.0 : cost / half_area(bvh.nodes.front().box);
