@@ -64,7 +64,19 @@ INSTANTIATE_TEST_SUITE_P(Structures, PinnedWork, ::testing::Values(
     Row{"voxel-grid:mailboxes=true", "escena1", {{"empty_leaves", 1'519}, {"leaves", 12'160}, {"primitive_tests", 11'196}, {"traversal_steps", 12'160}}},
     Row{"voxel-grid:resolution=32", "tetra:n=4", {{"empty_leaves", 51'687}, {"leaves", 56'708}, {"primitive_tests", 10'665}, {"traversal_steps", 56'708}}},
     Row{"voxel-grid:resolution=32", "balls:n=2", {{"empty_leaves", 94'392}, {"leaves", 123'961}, {"primitive_tests", 92'241}, {"traversal_steps", 123'961}}},
-    Row{"voxel-grid:resolution=32", "escena1", {{"empty_leaves", 20'659}, {"leaves", 30'829}, {"primitive_tests", 10'720}, {"traversal_steps", 30'829}}}
+    Row{"voxel-grid:resolution=32", "escena1", {{"empty_leaves", 20'659}, {"leaves", 30'829}, {"primitive_tests", 10'720}, {"traversal_steps", 30'829}}},
+    Row{"goldsmith-salmon", "tetra:n=6", {{"box_tests", 103'576}, {"primitive_tests", 6'184}, {"traversal_steps", 32'328}}},
+    Row{"goldsmith-salmon", "balls:n=4", {{"box_tests", 84'360}, {"primitive_tests", 5'392}, {"traversal_steps", 29'864}}},
+    Row{"goldsmith-salmon", "escena1", {{"box_tests", 81'281}, {"primitive_tests", 3'579}, {"traversal_steps", 29'116}}},
+    Row{"goldsmith-salmon:order=shuffled", "tetra:n=6", {{"box_tests", 76'474}, {"primitive_tests", 6'184}, {"traversal_steps", 29'080}}},
+    Row{"goldsmith-salmon:order=shuffled", "balls:n=4", {{"box_tests", 101'060}, {"primitive_tests", 5'392}, {"traversal_steps", 39'021}}},
+    Row{"goldsmith-salmon:order=shuffled", "escena1", {{"box_tests", 88'921}, {"primitive_tests", 3'579}, {"traversal_steps", 30'569}}},
+    Row{"goldsmith-salmon:queue=stack", "tetra:n=6", {{"box_tests", 104'116}, {"primitive_tests", 6'304}, {"traversal_steps", 32'532}}},
+    Row{"goldsmith-salmon:queue=stack", "balls:n=4", {{"box_tests", 86'577}, {"primitive_tests", 5'589}, {"traversal_steps", 30'636}}},
+    Row{"goldsmith-salmon:queue=stack", "escena1", {{"box_tests", 81'941}, {"primitive_tests", 3'693}, {"traversal_steps", 29'368}}},
+    Row{"sah-bvh", "tetra:n=6", {{"box_tests", 68'080}, {"confirmed_tests", 1'622}, {"leaves", 1'976}, {"primitive_tests", 15'808}, {"traversal_steps", 10'486}}},
+    Row{"sah-bvh", "balls:n=4", {{"box_tests", 100'175}, {"confirmed_tests", 4'263}, {"leaves", 6'586}, {"primitive_tests", 27'963}, {"traversal_steps", 20'028}}},
+    Row{"sah-bvh", "escena1", {{"box_tests", 58'338}, {"confirmed_tests", 2'084}, {"leaves", 5'503}, {"primitive_tests", 42'366}, {"traversal_steps", 13'234}}}
   ), row_name);
 // clang-format on
 
