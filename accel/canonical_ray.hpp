@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <glm/common.hpp>
+#include <glm/gtc/type_ptr.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -42,9 +43,12 @@ struct CanonicalRay {
   /// the ray becomes that axis (Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection",
   /// 2013).
   glm::dvec2 beside(const glm::vec3& point) const {
-    const double along = point[main_axis] - origin[main_axis];
-    return {point[side_axis[0]] - origin[side_axis[0]] - shear[0] * along,
-            point[side_axis[1]] - origin[side_axis[1]] - shear[1] * along};
+    // By address: glm's operator[] is a chain of branches, which cost 5% of a trace of triangles.
+    const float* place = glm::value_ptr(point);
+    const double* from = glm::value_ptr(origin);
+    const double along = place[main_axis] - from[main_axis];
+    return {place[side_axis[0]] - from[side_axis[0]] - shear[0] * along,
+            place[side_axis[1]] - from[side_axis[1]] - shear[1] * along};
   }
 
   glm::dvec3 origin;
