@@ -1,7 +1,9 @@
 // What must be true of every structure in the registry: a new one is tested by being registered.
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -155,6 +157,87 @@ TEST_P(BitExact, TakesAnEmptyScene) {
   const auto structure = registry().choose({GetParam(), {}}).build(scene);
   EXPECT_EQ(structure->closest_hit(Ray{}), std::nullopt);
   EXPECT_FALSE(structure->any_hit(Ray{}));
+}
+
+TEST_P(BitExact, TakesOneObject) {
+  for (int kind = 0; kind < 3; ++kind) {
+    SceneBuilder builder("one");
+    if (kind == 0) builder.add_sphere({0.5, -0.25, 2.0}, 0.75);
+    if (kind == 1) builder.add_cone({0.0, 0.0, 0.0}, 0.5, {0.0, 1.0, 0.0}, 0.25);
+    if (kind == 2) {  // flat along an axis: bounds without a volume
+      const std::vector<glm::dvec3> corners{{0.0, 0.0, 1.0}, {2.0, 0.0, 1.0}, {0.0, 1.0, 1.0}};
+      builder.add_polygon(corners);
+    }
+    const Scene scene = std::move(builder).build();
+    SCOPED_TRACE(kind);
+    const auto structure = registry().choose({GetParam(), {}}).build(scene);
+    Random random(1);
+    for (int i = 0; i < 300; ++i) {
+      expect_same_bits(Exhaustive(scene), *structure, random_ray(scene, random));
+    }
+  }
+}
+
+// Cubes on a lattice whose planes are those of cells: rays along axes and diagonals, from outside
+// and inside, run in faces and through edges and vertices.
+TEST_P(BitExact, TakesRaysThroughFacesEdgesAndVertices) {
+  SceneBuilder builder("cubes");
+  for (int cube = 0; cube < 8; ++cube) {
+    const glm::dvec3 lower(2.0 * (cube & 1), 2.0 * (cube >> 1 & 1), 2.0 * (cube >> 2));
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const double side : {0.0, 1.0}) {
+        glm::dvec3 corner = lower;
+        corner[axis] += side;
+        std::vector<glm::dvec3> corners(4, corner);
+        corners[1][(axis + 1) % 3] += 1.0;
+        corners[2][(axis + 1) % 3] += 1.0;
+        corners[2][(axis + 2) % 3] += 1.0;
+        corners[3][(axis + 2) % 3] += 1.0;
+        builder.add_polygon(corners);
+      }
+    }
+  }
+  const Scene scene = std::move(builder).build();
+  const Exhaustive exhaustive(scene);
+  const auto structure = registry().choose({GetParam(), {}}).build(scene);
+  const auto digit = [](int number, int place) { return number / place % 3 - 1; };
+  for (int from = 0; from < 9 * 9 * 9; ++from) {
+    const glm::ivec3 place(from % 9, from / 9 % 9, from / 81);
+    for (int way = 0; way < 27; ++way) {
+      if (way == 13) continue;
+      Ray ray;
+      ray.origin = glm::vec3(place) * 0.75F - 1.5F;
+      ray.direction = {digit(way, 1), digit(way, 3), digit(way, 9)};
+      expect_same_bits(exhaustive, *structure, ray);
+    }
+    if (HasFailure()) return;
+  }
+}
+
+TEST_P(BitExact, AnswersSeveralThreadsAtOnce) {
+  const Scene scene = random_scene(11, 60);
+  const Exhaustive exhaustive(scene);
+  Random random(11);
+  std::vector<Ray> rays;
+  std::vector<std::optional<Hit>> expected;
+  for (int i = 0; i < 1000; ++i) {
+    rays.push_back(random_ray(scene, random));
+    expected.push_back(exhaustive.closest_hit(rays.back()));
+  }
+  const auto structure = registry().choose({GetParam(), {}}).build(scene);
+  std::array<int, 4> wrong{};
+  {
+    std::vector<std::jthread> threads;
+    for (int& mine : wrong) {
+      threads.emplace_back([&] {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+          if (structure->closest_hit(rays[i]) != expected[i]) ++mine;
+          if (structure->any_hit(rays[i]) != expected[i].has_value()) ++mine;
+        }
+      });
+    }
+  }
+  EXPECT_EQ(wrong, (std::array<int, 4>{}));
 }
 
 TEST_P(BitExact, TakesManyPrimitivesInOnePlace) {
