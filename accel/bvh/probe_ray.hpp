@@ -46,30 +46,30 @@ class ProbeRay {
     return largest > 0x1p-60F && largest < 0x1p60F;
   }
 
-  ProbeRay(const Ray& ray, const Bounds& scene_bounds)
-      : origin(ray.origin), direction(ray.direction), t_min(ray.t_min) {
+  ProbeRay(const Ray& ray, const Bounds& scene_bounds) : t_min(ray.t_min) {
+    float reach = 0.0F;
     for (int axis = 0; axis < 3; ++axis) {
       const auto slot = static_cast<std::size_t>(axis);
+      origin[slot] = ray.origin[axis];
+      direction[slot] = ray.direction[axis];
       constexpr float kLargest = std::numeric_limits<float>::max();
-      const float component = ray.direction[axis];
-      const float quotient = 1.0F / component;
-      inverse[axis] =
-          std::abs(quotient) <= kLargest ? quotient : std::copysign(kLargest, component);
-      const bool backward = std::signbit(component);
+      const float quotient = 1.0F / direction[slot];
+      inverse[slot] =
+          std::abs(quotient) <= kLargest ? quotient : std::copysign(kLargest, direction[slot]);
+      const bool backward = std::signbit(direction[slot]);
       near_row[slot] = backward ? slot + 3 : slot;
       far_row[slot] = backward ? slot : slot + 3;
+      reach = std::max({reach, std::abs(scene_bounds.lower[axis] - origin[slot]),
+                        std::abs(scene_bounds.upper[axis] - origin[slot])});
     }
     const glm::vec3 size = glm::abs(ray.direction);
     main_axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
     side_axis[0] = (main_axis + 1) % 3;
     side_axis[1] = (main_axis + 2) % 3;
-    const auto main = static_cast<int>(main_axis);
-    shear[0] = ray.direction[static_cast<int>(side_axis[0])] / ray.direction[main];
-    shear[1] = ray.direction[static_cast<int>(side_axis[1])] / ray.direction[main];
-    const glm::vec3 far = glm::max(glm::abs(scene_bounds.lower - ray.origin),
-                                   glm::abs(scene_bounds.upper - ray.origin));
-    rounding = 0x1p-24F * std::max({far.x, far.y, far.z});
-    depth_margin = 5.0F * rounding * std::abs(inverse[main]);
+    shear[0] = direction[side_axis[0]] / direction[main_axis];
+    shear[1] = direction[side_axis[1]] / direction[main_axis];
+    rounding = 0x1p-24F * reach;
+    depth_margin = 5.0F * rounding * std::abs(inverse[main_axis]);
   }
 
   /// By how much the areas of triangles may be wrong in a leaf whose box has that longest side.
@@ -80,10 +80,11 @@ class ProbeRay {
   /// Enlarges the far end of a t interval in box tests.
   static constexpr float kWider = 1.0F + 0x1p-20F;
 
-  glm::vec3 origin;
-  glm::vec3 direction;
+  // Arrays, for an axis picked at run time is a chain of branches in a glm vector.
+  std::array<float, 3> origin;
+  std::array<float, 3> direction;
   float t_min;
-  glm::vec3 inverse;
+  std::array<float, 3> inverse;
   std::array<std::size_t, 3> near_row;  ///< of WideNode::planes, for each axis
   std::array<std::size_t, 3> far_row;
   std::size_t main_axis;

@@ -45,7 +45,7 @@ inline LaneBits meet_children(const WideNode& node, const ProbeRay& ray, float l
                               float* enter_t) {
   const Tag tag;
   return for_each_register([&](std::size_t lane) {
-    const auto plane_t = [&](std::size_t row, int axis) {
+    const auto plane_t = [&](std::size_t row, std::size_t axis) {
       const Floats plane = hn::Load(tag, node.planes[row].data() + lane);
       return hn::Mul(hn::Sub(plane, hn::Set(tag, ray.origin[axis])),
                      hn::Set(tag, ray.inverse[axis]));
@@ -68,7 +68,6 @@ inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray
   const Floats shear_x = hn::Set(tag, ray.shear[0]);
   const Floats shear_y = hn::Set(tag, ray.shear[1]);
   const float margin = ray.area_margin(block.leaf_extent);
-  const auto main = static_cast<int>(z);
 
   struct Corner {
     Floats x, y, z;
@@ -77,7 +76,7 @@ inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray
     const auto corner = [&](std::size_t which) -> Corner {
       const auto from_origin = [&](std::size_t axis) {
         return hn::Sub(hn::Load(tag, block.coordinates[3 * which + axis].data() + lane),
-                       hn::Set(tag, ray.origin[static_cast<int>(axis)]));
+                       hn::Set(tag, ray.origin[axis]));
       };
       const Floats along = from_origin(z);
       return {hn::NegMulAdd(shear_x, along, from_origin(x)),
@@ -92,7 +91,7 @@ inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray
     const Mask surrounds = hn::Or(hn::Ge(hn::Min(hn::Min(u, v), w), hn::Set(tag, -margin)),
                                   hn::Le(hn::Max(hn::Max(u, v), w), hn::Set(tag, margin)));
 
-    const Floats per_t = hn::Set(tag, ray.inverse[main]);
+    const Floats per_t = hn::Set(tag, ray.inverse[z]);
     const Floats ta = hn::Mul(a.z, per_t);
     const Floats tb = hn::Mul(b.z, per_t);
     const Floats tc = hn::Mul(c.z, per_t);
@@ -108,17 +107,19 @@ inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray
 /// The spheres that the ray may hit in [t_min, t_max].
 inline LaneBits probe_spheres(const PrimitiveBlock& block, const ProbeRay& ray, float t_max) {
   const Tag tag;
-  const float per_square = 1.0F / glm::dot(ray.direction, ray.direction);
+  const float per_square =
+      1.0F / (ray.direction[0] * ray.direction[0] + ray.direction[1] * ray.direction[1] +
+              ray.direction[2] * ray.direction[2]);
   const float per_length = std::sqrt(per_square);
   const Floats margin = hn::Set(tag, 32.0F * ray.rounding);
   return for_each_register([&](std::size_t lane) {
     const auto row = [&](std::size_t index) {
       return hn::Load(tag, block.coordinates[index].data() + lane);
     };
-    const auto direction = [&](int axis) { return hn::Set(tag, ray.direction[axis]); };
-    const Floats x = hn::Sub(row(0), hn::Set(tag, ray.origin.x));
-    const Floats y = hn::Sub(row(1), hn::Set(tag, ray.origin.y));
-    const Floats z = hn::Sub(row(2), hn::Set(tag, ray.origin.z));
+    const auto direction = [&](std::size_t axis) { return hn::Set(tag, ray.direction[axis]); };
+    const Floats x = hn::Sub(row(0), hn::Set(tag, ray.origin[0]));
+    const Floats y = hn::Sub(row(1), hn::Set(tag, ray.origin[1]));
+    const Floats z = hn::Sub(row(2), hn::Set(tag, ray.origin[2]));
     const Floats along =
         hn::MulAdd(x, direction(0), hn::MulAdd(y, direction(1), hn::Mul(z, direction(2))));
     const Floats t = hn::Mul(along, hn::Set(tag, per_square));  // of the point nearest the centre
