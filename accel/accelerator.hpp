@@ -1,7 +1,9 @@
 #pragma once
 // The contract of a structure.
 
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "accel/hit_buffer.hpp"
@@ -16,8 +18,8 @@ namespace beambench {
 /// A structure built over a scene, ready to be asked. Queries are const and safe from several
 /// threads. The scene must outlive it. Rays must pass `require_valid`.
 ///
-/// Each query comes twice: as timed code, and counting the work it does. Structures get both,
-/// `trace` and `explain` by deriving from `TraversalAccelerator` (traversal_accelerator.hpp).
+/// Each query comes twice: as timed code, and counting the work it does. Structures get both, those
+/// of many rays and `explain` by deriving from `TraversalAccelerator` (traversal_accelerator.hpp).
 class Accelerator {
  public:
   Accelerator() = default;
@@ -31,10 +33,18 @@ class Accelerator {
   virtual bool any_hit(const Ray& ray) const = 0;
   /// The closest hits of a whole image. `buffer` has the size of `rays`.
   virtual void trace(const PrimaryRays& rays, HitBuffer& buffer) const = 0;
+  /// The closest hits of a list of rays. `buffer` has its size.
+  virtual void closest_hits(std::span<const Ray> rays, HitBuffer& buffer) const = 0;
+  /// For each ray of a list: is there a hit (1) or none (0)? `answers` has its size.
+  virtual void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers) const = 0;
 
   virtual std::optional<Hit> closest_hit(const Ray& ray, WorkCounters& counters) const = 0;
   virtual bool any_hit(const Ray& ray, WorkCounters& counters) const = 0;
   virtual void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const = 0;
+  virtual void closest_hits(std::span<const Ray> rays, HitBuffer& buffer,
+                            WorkCounters& counters) const = 0;
+  virtual void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers,
+                        WorkCounters& counters) const = 0;
 
   /// The way of `closest_hit`, step by step; empty where the structure cannot tell it.
   virtual std::vector<TraceStep> explain(const Ray&) const { return {}; }

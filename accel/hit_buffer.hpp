@@ -1,5 +1,5 @@
 #pragma once
-// A whole image of hits: what `Accelerator::trace` writes and the differ judges.
+// The hits of an image or of a list of rays: what structures write and the differ judges.
 
 #include <cstddef>
 #include <optional>
@@ -11,6 +11,7 @@ namespace beambench {
 
 /// For each sample of each pixel the t of its hit and the primitive hit; a miss is t = infinity
 /// and kNoPrimitive. Samples of one pixel are neighbours; pixels go row by row from the top left.
+/// The hits of a list of rays are an image of one row.
 class HitBuffer {
  public:
   HitBuffer(int width, int height, int samples);

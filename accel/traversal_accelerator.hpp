@@ -1,7 +1,10 @@
 #pragma once
 // From one traversal, written once, to the whole contract of a structure.
 
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -32,6 +35,14 @@ class TraversalAccelerator : public Accelerator {
     NoCounting none;
     trace_each(rays, buffer, none);
   }
+  void closest_hits(std::span<const Ray> rays, HitBuffer& buffer) const override {
+    NoCounting none;
+    find_each_closest(rays, buffer, none);
+  }
+  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers) const override {
+    NoCounting none;
+    find_each_any(rays, answers, none);
+  }
 
   std::optional<Hit> closest_hit(const Ray& ray, WorkCounters& counters) const override {
     return self().find_closest(ray, counters);
@@ -42,6 +53,14 @@ class TraversalAccelerator : public Accelerator {
   void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const override {
     trace_each(rays, buffer, counters);
   }
+  void closest_hits(std::span<const Ray> rays, HitBuffer& buffer,
+                    WorkCounters& counters) const override {
+    find_each_closest(rays, buffer, counters);
+  }
+  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers,
+                WorkCounters& counters) const override {
+    find_each_any(rays, answers, counters);
+  }
 
   std::vector<TraceStep> explain(const Ray& ray) const override {
     StepRecorder recorder;
@@ -51,6 +70,21 @@ class TraversalAccelerator : public Accelerator {
 
  private:
   const Structure& self() const { return static_cast<const Structure&>(*this); }
+
+  template <class Counting>
+  void find_each_closest(std::span<const Ray> rays, HitBuffer& buffer, Counting& counting) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      buffer.set(i, self().find_closest(rays[i], counting));
+    }
+  }
+
+  template <class Counting>
+  void find_each_any(std::span<const Ray> rays, std::span<std::uint8_t> answers,
+                     Counting& counting) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      answers[i] = self().find_any(rays[i], counting) ? 1 : 0;
+    }
+  }
 
   template <class Counting>
   void trace_each(const PrimaryRays& rays, HitBuffer& buffer, Counting& counting) const {

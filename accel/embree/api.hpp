@@ -50,18 +50,21 @@ struct Packet;
 template <>
 struct Packet<4> {
   using Query = RTCRayHit4;
+  using Rays = RTCRay4;
   static constexpr int kWidth = 2;
 };
 
 template <>
 struct Packet<8> {
   using Query = RTCRayHit8;
+  using Rays = RTCRay8;
   static constexpr int kWidth = 4;
 };
 
 template <>
 struct Packet<16> {
   using Query = RTCRayHit16;
+  using Rays = RTCRay16;
   static constexpr int kWidth = 4;
 };
 

@@ -30,6 +30,15 @@ inline void intersect(const int* valid, RTCScene scene, Context& context, RTCRay
 inline void look_for_any_hit(RTCScene scene, Context& context, RTCRay& ray) {
   rtcOccluded1(scene, &context, &ray);
 }
+inline void look_for_any_hit(const int* valid, RTCScene scene, Context& context, RTCRay4& rays) {
+  rtcOccluded4(valid, scene, &context, &rays);
+}
+inline void look_for_any_hit(const int* valid, RTCScene scene, Context& context, RTCRay8& rays) {
+  rtcOccluded8(valid, scene, &context, &rays);
+}
+inline void look_for_any_hit(const int* valid, RTCScene scene, Context& context, RTCRay16& rays) {
+  rtcOccluded16(valid, scene, &context, &rays);
+}
 
 /// A stream of packets of 16 in one go; rays with tfar < tnear are left out.
 inline void intersect_stream(RTCScene scene, Context& context, RTCRayHit16* queries,

@@ -41,5 +41,14 @@ inline void intersect(const int* valid, RTCScene scene, Context& context, RTCRay
 inline void look_for_any_hit(RTCScene scene, Context& context, RTCRay& ray) {
   rtcOccluded1(scene, &ray, &context.any);
 }
+inline void look_for_any_hit(const int* valid, RTCScene scene, Context& context, RTCRay4& rays) {
+  rtcOccluded4(valid, scene, &rays, &context.any);
+}
+inline void look_for_any_hit(const int* valid, RTCScene scene, Context& context, RTCRay8& rays) {
+  rtcOccluded8(valid, scene, &rays, &context.any);
+}
+inline void look_for_any_hit(const int* valid, RTCScene scene, Context& context, RTCRay16& rays) {
+  rtcOccluded16(valid, scene, &rays, &context.any);
+}
 
 }  // namespace beambench::embree

@@ -36,6 +36,14 @@ class EmbreeContender : public Accelerator {
     embree::Context context(coherent_);
     mode_.trace(scene_, context, rays, buffer);
   }
+  void closest_hits(std::span<const Ray> rays, HitBuffer& buffer) const override {
+    embree::Context context(coherent_);
+    mode_.closest_hits(scene_, context, rays, buffer);
+  }
+  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers) const override {
+    embree::Context context(coherent_);
+    mode_.any_hits(scene_, context, rays, answers);
+  }
 
   // Embree does not let its work be counted.
   std::optional<Hit> closest_hit(const Ray& ray, WorkCounters&) const override {
@@ -44,6 +52,13 @@ class EmbreeContender : public Accelerator {
   bool any_hit(const Ray& ray, WorkCounters&) const override { return any_hit(ray); }
   void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters&) const override {
     trace(rays, buffer);
+  }
+  void closest_hits(std::span<const Ray> rays, HitBuffer& buffer, WorkCounters&) const override {
+    closest_hits(rays, buffer);
+  }
+  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers,
+                WorkCounters&) const override {
+    any_hits(rays, answers);
   }
 
   Statistics statistics() const override {

@@ -4,6 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "accel/embree/trace_list.hpp"
+
 namespace beambench::embree {
 namespace {
 
@@ -123,10 +125,13 @@ void trace_stream(const NativeScene& scene, Context& context, const PrimaryRays&
 #endif
 
 constexpr TraceMode kModes[] = {
-    {"single", trace_single},      {"packet4", trace_packets<4>},
-    {"packet8", trace_packets<8>}, {"packet16", trace_packets<16>},
+    {"single", trace_single, closest_hits_single, any_hits_single},
+    {"packet4", trace_packets<4>, closest_hits_by_packets<4>, any_hits_by_packets<4>},
+    {"packet8", trace_packets<8>, closest_hits_by_packets<8>, any_hits_by_packets<8>},
+    {"packet16", trace_packets<16>, closest_hits_by_packets<16>, any_hits_by_packets<16>},
 #if BEAMBENCH_EMBREE_MAJOR == 3
-    {"stream", trace_stream},
+    // Of a list there is no tile to make a stream of.
+    {"stream", trace_stream, closest_hits_by_packets<16>, any_hits_by_packets<16>},
 #endif
 };
 

@@ -1,6 +1,7 @@
 #pragma once
-// A whole image through Embree, in each of the ways it takes rays.
+// A whole image or a list of rays through Embree, in each of the ways it takes rays.
 
+#include <cstdint>
 #include <span>
 
 #include "accel/embree/native_scene.hpp"
@@ -9,11 +10,16 @@
 
 namespace beambench::embree {
 
-/// A way to trace the closest hits of an image, by exactly the rays of `PrimaryRays::ray`.
+/// A way to ask Embree: for the closest hits of an image, by exactly the rays of
+/// `PrimaryRays::ray`, and for closest or any hits of a list of rays.
 struct TraceMode {
   const char* name;
   void (*trace)(const NativeScene& scene, Context& context, const PrimaryRays& rays,
                 HitBuffer& buffer);
+  void (*closest_hits)(const NativeScene& scene, Context& context, std::span<const Ray> rays,
+                       HitBuffer& buffer);
+  void (*any_hits)(const NativeScene& scene, Context& context, std::span<const Ray> rays,
+                   std::span<std::uint8_t> answers);
 };
 
 /// The ways that the Embree we were built with has, the simplest first.

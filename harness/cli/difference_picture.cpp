@@ -51,7 +51,7 @@ CategoryMap map_of(const std::vector<DiffClass>& pixels, const Comparison& compa
 }
 
 Image preview_of(const ReferenceHits& reference) {
-  const PrimaryRays& rays = reference.rays();
+  const PrimaryRays& rays = *reference.question().image();
   HitBuffer hits(rays.width(), rays.height(), rays.samples());
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const std::optional<ExactHit>& hit = reference.hits()[i];
@@ -65,7 +65,7 @@ Image preview_of(const ReferenceHits& reference) {
 void write_difference(const std::filesystem::path& file, const ReferenceHits& reference,
                       std::span<const DiffClass> classes, const Comparison& comparison) {
   const std::vector<DiffClass> pixels =
-      gravest(classes, static_cast<std::size_t>(reference.rays().samples()));
+      gravest(classes, static_cast<std::size_t>(reference.question().image()->samples()));
   const Image ground = preview_of(reference);
   if (image_format(file) == ImageFormat::kPng) {
     write_image(file, draw_category_map(map_of(pixels, comparison), ground));
@@ -78,15 +78,15 @@ void write_difference(const std::filesystem::path& file, const ReferenceHits& re
   write_image(file, ground, {&channel, 1});
 }
 
-ReferenceHits reference_from(const Scene& scene, const PrimaryRays& rays, const HitBuffer& hits) {
-  std::vector<std::optional<ExactHit>> answers(hits.size());
+ReferenceHits reference_from(const Scene& scene, const Question& question, const Answers& answers) {
+  std::vector<std::optional<ExactHit>> hits(question.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const Mismatch asked = ask_again(rays, hits, i, std::nullopt);
+    const Mismatch asked = ask_again(question, answers, i, std::nullopt);
     if (asked.engine && !is_nonsense(scene, asked.ray, *asked.engine)) {
-      answers[i] = ExactHit{asked.engine->t, asked.engine->primitive};
+      hits[i] = ExactHit{asked.engine->t, asked.engine->primitive};
     }
   }
-  return {scene, rays, std::move(answers)};
+  return {scene, question, std::move(hits)};
 }
 
 }  // namespace beambench

@@ -18,13 +18,14 @@ struct Comparison {
 /// `kOracleName` as a reference stands for the oracle itself.
 inline constexpr const char* kOracleName = "oracle";
 
-/// Writes the classes of an image's rays over a grey preview of what the reference sees; a pixel
-/// shows the gravest class of its samples. A .png gets a legend; an .exr the preview in colours and
-/// the classes as numbers (0 agree, 1 tie, 2 graze, 3 the judged is wrong, 4 the reference is).
+/// Writes the classes of the rays of an image (the question's rays are primary) over a grey preview
+/// of what the reference sees; a pixel shows the gravest class of its samples. A .png gets a
+/// legend; an .exr the preview in colours and the classes as numbers (0 agree, 1 tie, 2 graze, 3
+/// the judged is wrong, 4 the reference is).
 void write_difference(const std::filesystem::path& file, const ReferenceHits& reference,
                       std::span<const DiffClass> classes, const Comparison& comparison);
 
 /// A structure's hits as reference; answers that are none count as misses.
-ReferenceHits reference_from(const Scene& scene, const PrimaryRays& rays, const HitBuffer& hits);
+ReferenceHits reference_from(const Scene& scene, const Question& question, const Answers& answers);
 
 }  // namespace beambench

@@ -37,13 +37,18 @@ StructureChoice choose_one(std::string_view option, std::string_view text) {
                                option, text, choices.size()));
 }
 
-PrimaryRays choose_rays(const Scene& scene, const ImageRequest& request) {
+ImageOfRays choose_image(const Scene& scene, const ImageRequest& request) {
   const Camera& camera = choose_camera(scene, request.camera);
   const Resolution resolution = request.resolution.empty() ? Resolution{camera.width, camera.height}
                                                            : parse_resolution(request.resolution);
   const auto samples = sample_offsets(request.samples).size();
   require_ray_count(resolution, static_cast<int>(samples));
-  return {camera, resolution.width, resolution.height, request.samples};
+  return {camera, resolution, request.samples};
+}
+
+PrimaryRays choose_rays(const Scene& scene, const ImageRequest& request) {
+  const ImageOfRays image = choose_image(scene, request);
+  return {image.camera, image.resolution.width, image.resolution.height, image.samples};
 }
 
 void add_image_options(CLI::App& command, ImageRequest& request) {

@@ -7,8 +7,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "accel/primary_rays.hpp"
 #include "accel/registry.hpp"
+#include "harness/rays/question.hpp"
 #include "scenes/nff_reader.hpp"
 #include "scenes/scene.hpp"
 
@@ -30,7 +30,8 @@ struct ImageRequest {
   std::string camera;      ///< empty: the scene's first
   int samples = 1;
 };
-/// Throws InputError for a wrong resolution, camera or number of samples.
+/// Throws InputError for a wrong resolution, camera or number of samples. The scene outlives it.
+ImageOfRays choose_image(const Scene& scene, const ImageRequest& request);
 PrimaryRays choose_rays(const Scene& scene, const ImageRequest& request);
 /// Adds --resolution, --samples and --camera.
 void add_image_options(CLI::App& command, ImageRequest& request);

@@ -85,8 +85,11 @@ void print_text() {
     fmt::print("\n  {}\n{}", info.name, wrap(info.summary, 6));
     print_parameters(info.parameters);
   }
-  fmt::print("\nKinds of rays, for --rays:\n\n");
-  for (const RayKindInfo& info : ray_kinds()) fmt::print("  {}  {}\n", info.name, info.summary);
+  fmt::print("\nKinds of rays, for --rays (or the path of a .rays file, see 'beambench rays'):\n");
+  for (const RayKindInfo& info : ray_kinds()) {
+    fmt::print("\n  {}\n{}", info.name, wrap(info.summary, 6));
+    print_parameters(info.parameters);
+  }
 }
 
 Json parameters_json(const std::vector<ParameterInfo>& parameters) {
@@ -119,7 +122,10 @@ void print_json() {
                              {"parameters", parameters_json(info.parameters)}});
   }
   for (const RayKindInfo& info : ray_kinds()) {
-    all["rays"].push_back({{"name", info.name}, {"summary", info.summary}});
+    all["rays"].push_back({{"name", info.name},
+                           {"summary", info.summary},
+                           {"query", to_string(info.query)},
+                           {"parameters", parameters_json(info.parameters)}});
   }
   fmt::print("{}\n", all.dump(2));
 }

@@ -41,6 +41,10 @@ int complain(std::string message, int exit_code) {
   return exit_code;
 }
 
+int complain_of_output() {
+  return complain("cannot write to the standard output; make room where it goes", kWrongRequest);
+}
+
 /// CLI11 would only say that a subcommand is required, or that an argument was not expected.
 void require_known_command(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> names;
@@ -66,7 +70,7 @@ int parse_and_run(int argc, char** argv) {
   app.require_subcommand(1);
   for (const auto add :
        {add_list_command, add_scene_command, add_export_command, add_render_command,
-        add_stats_command, add_verify_command, add_trace_command, add_run_command,
+        add_rays_command, add_stats_command, add_verify_command, add_trace_command, add_run_command,
         add_completion_command, add_man_command}) {
     add(app, exit_code);
   }
@@ -81,9 +85,7 @@ int parse_and_run(int argc, char** argv) {
     return complain(fmt::format("{}; see 'beambench {}--help'", error.what(), command),
                     kWrongRequest);
   }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
-    return complain("cannot write to the standard output; make room where it goes", kWrongRequest);
-  }
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return complain_of_output();
   return exit_code;
 }
 
@@ -100,6 +102,7 @@ int run_command_line(int argc, char** argv) {
   } catch (const std::filesystem::filesystem_error& error) {
     return complain(error.what(), kWrongRequest);
   } catch (const std::exception& error) {
+    if (std::ferror(stdout) != 0) return complain_of_output();  // thrown while printing
     return complain(
         fmt::format("internal error, please report it with the command line: {}", error.what()),
         kInternalError);

@@ -1,6 +1,7 @@
 #include "harness/cli/ray_way.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <span>
 
 #include <fmt/format.h>
@@ -105,9 +106,9 @@ bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
 }
 
 std::string alone_text(const RayWay& way) {
-  if (!way.in_image) return "";
+  if (!way.asked_all || way.judgement.query == Query::kAnyHit) return "";
   if (same(way.alone, way.judgement.engine)) return "";
-  return fmt::format("  alone  {}: asked without the other rays of the image\n",
+  return fmt::format("  alone  {}: asked without the other rays\n",
                      way.alone
                          ? fmt::format("primitive {} at t = {}", way.alone->primitive, way.alone->t)
                          : "miss");
@@ -123,6 +124,9 @@ template <class Vector>
 Json vector_json(const Vector& v) {
   return Json::array({v.x, v.y, v.z});
 }
+
+/// What is infinite has no number in JSON.
+Json number_json(float value) { return std::isinf(value) ? Json() : Json(value); }
 
 Json step_json(const TraceStep& step, Account& account) {
   Json out{{"place", step.place}};
@@ -146,9 +150,11 @@ Json step_json(const TraceStep& step, Account& account) {
 }  // namespace
 
 std::string to_text(const Scene& scene, const RayWay& way) {
+  const int samples = way.image.samples;
   std::string out =
-      fmt::format("{} by {}, {}x{} pixels with {} {} each\n\n", scene.name, way.structure,
-                  way.width, way.height, way.samples, way.samples == 1 ? "sample" : "samples");
+      fmt::format("{} by {}, {} rays, {} pixels with {} {} each\n\n", scene.name, way.structure,
+                  way.question.label(), to_string(way.image.resolution), samples,
+                  samples == 1 ? "sample" : "samples");
   Account account(scene, way.judgement.ray);
   for (std::size_t i = 0; i < way.steps.size(); ++i) {
     out += step_text(i + 1, way.steps[i], account);
@@ -156,7 +162,8 @@ std::string to_text(const Scene& scene, const RayWay& way) {
   if (way.steps.empty()) {
     out += fmt::format("{} tells no steps: it entered nothing, or cannot tell\n", way.structure);
   }
-  return out + '\n' + describe(scene, way.judgement) + alone_text(way) + counters_text(way);
+  return out + '\n' + describe(scene, way.question, way.judgement) + alone_text(way) +
+         counters_text(way);
 }
 
 nlohmann::ordered_json to_json(const Scene& scene, const RayWay& way) {
@@ -164,22 +171,30 @@ nlohmann::ordered_json to_json(const Scene& scene, const RayWay& way) {
   const Ray& ray = judgement.ray;
   Json out{{"scene", scene.name},
            {"structure", way.structure},
-           {"width", way.width},
-           {"height", way.height},
-           {"samples", way.samples},
-           {"pixel", {judgement.x, judgement.y}},
-           {"sample", judgement.sample},
-           {"ray",
-            {{"origin", vector_json(ray.origin)},
-             {"direction", vector_json(ray.direction)},
-             {"t_min", ray.t_min},
-             {"t_max", ray.t_max}}},
-           {"steps", Json::array()},
-           {"counters", way.counters},
-           {"hit", hit_json(judgement.engine)},
-           {"hit_alone", hit_json(way.alone)},
-           {"traced_image", way.in_image},
-           {"oracle", hit_json(judgement.oracle)}};
+           {"width", way.image.resolution.width},
+           {"height", way.image.resolution.height},
+           {"samples", way.image.samples},
+           {"ray_kind", way.question.label()},
+           {"query", to_string(judgement.query)},
+           {"index", judgement.index}};
+  if (const auto pixel = way.question.pixel(judgement.index)) {
+    out["pixel"] = {pixel->x, pixel->y};
+    out["sample"] = pixel->sample;
+  }
+  out["ray"] = {{"origin", vector_json(ray.origin)},
+                {"direction", vector_json(ray.direction)},
+                {"t_min", ray.t_min},
+                {"t_max", number_json(ray.t_max)}};
+  out["steps"] = Json::array();
+  out["counters"] = way.counters;
+  if (judgement.query == Query::kAnyHit) {
+    out["any_hit"] = judgement.engine_any_hit;
+  } else {
+    out["hit"] = hit_json(judgement.engine);
+  }
+  out["hit_alone"] = hit_json(way.alone);
+  out["asked_all"] = way.asked_all;
+  out["oracle"] = hit_json(judgement.oracle);
   Account account(scene, ray);
   for (const TraceStep& step : way.steps) out["steps"].push_back(step_json(step, account));
   if (judgement.adjudicated) out["exact"] = hit_json(judgement.exact);

@@ -16,14 +16,15 @@ namespace beambench {
 /// What is known of one ray.
 struct RayWay {
   std::string structure;  ///< its short label
-  int width, height, samples;
+  ImageOfRays image;      ///< that the rays are of, or come from
+  const Question& question;
   std::vector<TraceStep> steps;  ///< empty where the structure cannot tell them
   std::map<std::string, std::uint64_t, std::less<>> counters;
-  /// The ray, its answer in the image (or, unless `in_image`, asked alone), the oracle's, the
+  /// The ray, its answer among all rays (or, unless `asked_all`, alone), the oracle's, the
   /// class.
   Mismatch judgement;
-  std::optional<Hit> alone;  ///< the answer to the ray asked alone
-  bool in_image = true;      ///< was the whole image traced?
+  std::optional<Hit> alone;  ///< its closest hit, asked alone
+  bool asked_all = true;     ///< were all rays of the question asked?
 };
 
 /// For people: one paragraph for each step.

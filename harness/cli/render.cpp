@@ -11,7 +11,7 @@
 #include "harness/cli/difference_picture.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
-#include "harness/cli/watched_trace.hpp"
+#include "harness/cli/watched_ask.hpp"
 #include "harness/cli/work_picture.hpp"
 #include "harness/files/pending_file.hpp"
 #include "harness/picture/image_file.hpp"
@@ -79,17 +79,17 @@ std::string remark_on(const HeatMap& map, const StructureChoice& choice) {
 ReferenceHits find_reference(const Request& request, const Scene& scene, const PrimaryRays& rays) {
   if (request.difference == kOracleName) return {scene, rays};
   const StructureChoice other = choose_one("--difference", request.difference);
-  HitBuffer hits(rays.width(), rays.height(), rays.samples());
-  other.build(scene)->trace(rays, hits);
-  return reference_from(scene, rays, hits);
+  Answers answers = room_for(rays);
+  ask(*other.build(scene), rays, answers);
+  return reference_from(scene, rays, answers);
 }
 
 /// Writes the picture of differences; returns how many there are.
 std::string compare(const Request& request, const StructureChoice& choice, const Scene& scene,
-                    const PrimaryRays& rays, const HitBuffer& hits) {
+                    const PrimaryRays& rays, const Answers& answers) {
   const ReferenceHits reference = find_reference(request, scene, rays);
-  std::vector<DiffClass> classes(hits.size());
-  const DiffReport report = judge(reference, hits, Conformance::kTolerance, classes);
+  std::vector<DiffClass> classes(rays.count());
+  const DiffReport report = judge(reference, answers, Conformance::kTolerance, classes);
   write_difference(request.file, reference, classes, {choice.short_label(), request.difference});
   return fmt::format("{} of {} rays differ from {}: {} ties, {} grazes, {} wrong, {} wrong there",
                      report.rays - report.count(DiffClass::kAgree), report.rays, request.difference,
@@ -111,19 +111,20 @@ void render(const Request& request) {
   Progress progress(1);
   progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
   const auto accelerator = choice.build(scene);
-  HitBuffer hits(rays.width(), rays.height(), rays.samples());
+  Answers answers = room_for(rays);
+  auto& hits = std::get<HitBuffer>(answers);
   std::string found;
   if (!request.heatmap.empty()) {
     const HeatMap map = count_work(*accelerator, rays, request.heatmap, hits, progress);
     write_heat_map(request, map, hits);
     found = share_of_hits(hits) + remark_on(map, choice);
   } else {
-    watched_trace(*accelerator, rays, hits, progress);
+    watched_ask(*accelerator, rays, answers, progress);
     if (request.difference.empty()) {
       write_image(request.file, shade(scene, rays, hits, shading), hit_channels(hits));
       found = share_of_hits(hits);
     } else {
-      found = compare(request, choice, scene, rays, hits);
+      found = compare(request, choice, scene, rays, answers);
     }
   }
   progress.say(fmt::format("{}: {} by {}, {}x{}, {}", request.file, scene.name,

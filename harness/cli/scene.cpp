@@ -13,7 +13,7 @@
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
-#include "harness/record/fingerprint.hpp"
+#include "harness/rays/fingerprint.hpp"
 
 namespace beambench {
 namespace {

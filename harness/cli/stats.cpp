@@ -15,8 +15,8 @@
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/progress/progress.hpp"
-#include "harness/rays/ray_kind.hpp"
-#include "harness/rays/resolution.hpp"
+#include "harness/rays/answers.hpp"
+#include "harness/rays/fingerprint.hpp"
 #include "scenes/error.hpp"
 
 namespace beambench {
@@ -42,17 +42,17 @@ struct Finding {
   std::map<std::string, std::uint64_t, std::less<>> counters;
 };
 
-Finding examine(const StructureChoice& choice, const Scene& scene, const PrimaryRays& rays) {
+Finding examine(const StructureChoice& choice, const Scene& scene, const Question& question) {
   const auto begin = std::chrono::steady_clock::now();
   const auto accelerator = choice.build(scene);
   const std::chrono::duration<double, std::milli> building =
       std::chrono::steady_clock::now() - begin;
 
-  HitBuffer hits(rays.width(), rays.height(), rays.samples());
+  Answers answers = room_for(question);
   WorkCounters counters;
-  accelerator->trace(rays, hits, counters);
+  ask(*accelerator, question, answers, counters);
   Finding finding{choice, accelerator->statistics(), building.count(), 0, counters.by_name()};
-  for (std::size_t i = 0; i < hits.size(); ++i) finding.hits += hits.get(i).has_value();
+  for (std::size_t i = 0; i < question.size(); ++i) finding.hits += is_hit_at(answers, i);
   return finding;
 }
 
@@ -124,12 +124,14 @@ void add_work(StatisticsTable& table, const std::vector<Finding>& findings, std:
   }
 }
 
-void print_text(const Scene& scene, const PrimaryRays& rays, const std::vector<Finding>& findings) {
-  fmt::print("{}: {} primitives, {} primary rays ({}x{})\n\n", scene.name, scene.primitives.size(),
-             rays.count(), rays.width(), rays.height());
+void print_text(const Scene& scene, const ImageOfRays& image, const Question& question,
+                const std::vector<Finding>& findings) {
+  fmt::print("{}: {} primitives, {} {} rays ({}), coherence {:.3f}\n\n", scene.name,
+             scene.primitives.size(), question.size(), question.label(),
+             to_string(image.resolution), coherence(question));
   StatisticsTable table(findings);
   add_sizes(table, findings);
-  add_work(table, findings, rays.count());
+  add_work(table, findings, question.size());
   fmt::print("{}\n(1) of this one build, for information; 'beambench run' measures\n",
              table.text());
 }
@@ -157,13 +159,20 @@ Json to_json(const Finding& finding, std::size_t rays) {
   return out;
 }
 
-void print_json(const Scene& scene, const PrimaryRays& rays, const std::vector<Finding>& findings) {
-  Json out{{"scene", scene.name},        {"primitives", scene.primitives.size()},
-           {"width", rays.width()},      {"height", rays.height()},
-           {"ray_kind", "primary"},      {"rays", rays.count()},
+void print_json(const Scene& scene, const ImageOfRays& image, const Question& question,
+                const std::vector<Finding>& findings) {
+  Json out{{"scene", scene.name},
+           {"primitives", scene.primitives.size()},
+           {"width", image.resolution.width},
+           {"height", image.resolution.height},
+           {"ray_kind", question.label()},
+           {"query", to_string(question.query())},
+           {"rays", question.size()},
+           {"rays_hash", hex_digits(fingerprint(question))},
+           {"coherence", coherence(question)},
            {"structures", Json::array()}};
   for (const Finding& finding : findings) {
-    out["structures"].push_back(to_json(finding, rays.count()));
+    out["structures"].push_back(to_json(finding, question.size()));
   }
   fmt::print("{}\n", out.dump(2));
 }
@@ -171,12 +180,12 @@ void print_json(const Scene& scene, const PrimaryRays& rays, const std::vector<F
 /// A structure that cannot be built over the scene does not keep the others from being shown.
 int show_statistics(const Request& request) {
   const Resolution resolution = parse_resolution(request.resolution);
-  parse_ray_kinds(request.rays);
+  const RayChoice kind = parse_ray_choice(request.rays);
   registry().choose_list(request.structures);  // refuses a wrong name before a scene is generated
   const Scene scene = open_scene(request.scene);
-  const PrimaryRays rays(choose_camera(scene, request.camera), resolution.width, resolution.height,
-                         1);
   require_ray_count(resolution, 1);
+  const ImageOfRays image{choose_camera(scene, request.camera), resolution, 1};
+  const Question question = make_question(scene, image, kind);
   const Contenders contenders = choose_contenders(request.structures, scene);
 
   Progress progress(contenders.choices.size());
@@ -185,7 +194,7 @@ int show_statistics(const Request& request) {
   for (const StructureChoice& choice : contenders.choices) {
     progress.start(choice.info().name);
     try {
-      findings.push_back(examine(choice, scene, rays));
+      findings.push_back(examine(choice, scene, question));
       progress.finish(fmt::format("built in {:.3g} ms", findings.back().build_ms));
     } catch (const InputError& error) {
       if (contenders.choices.size() == 1) throw;
@@ -193,7 +202,8 @@ int show_statistics(const Request& request) {
     }
   }
   progress.clear();
-  request.json ? print_json(scene, rays, findings) : print_text(scene, rays, findings);
+  request.json ? print_json(scene, image, question, findings)
+               : print_text(scene, image, question, findings);
   return findings.size() == contenders.choices.size() ? kSuccess : kWrongRequest;
 }
 
@@ -207,13 +217,16 @@ void add_stats_command(CLI::App& app, int& exit_code) {
   command->add_option("--accel", request->structures, "Structures: NAME:parameter=value,... or all")
       ->required();
   command->add_option("--resolution", request->resolution, "WxH")->capture_default_str();
-  command->add_option("--rays", request->rays, "Kind of rays")->capture_default_str();
+  command
+      ->add_option("--rays", request->rays, "Kind of rays (see 'beambench list') or a .rays file")
+      ->capture_default_str();
   command->add_option("--camera", request->camera, "By name (default: the scene's first)");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "Examples:\n"
       "  beambench stats escena1 --accel all\n"
       "  beambench stats tetra:n=5 --accel samet:max_level=5,samet:max_level=7\n"
+      "  beambench stats escena1 --accel all --rays shadow\n"
       "  beambench stats balls --accel samet --resolution 640x480 --json");
   command->callback([request, &exit_code] { exit_code = show_statistics(*request); });
 }

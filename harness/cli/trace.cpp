@@ -7,12 +7,11 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/ray_way.hpp"
-#include "harness/cli/watched_trace.hpp"
+#include "harness/cli/watched_ask.hpp"
 #include "harness/differ/judge_ray.hpp"
 #include "scenes/error.hpp"
 
@@ -23,6 +22,8 @@ struct Request {
   std::string scene;
   std::string structure;
   std::string pixel;
+  std::string rays = "primary";
+  std::optional<std::size_t> ray;
   ImageRequest image;
   int sample = 0;
   bool alone = false;
@@ -53,7 +54,11 @@ Pixel parse_pixel(std::string_view text) {
       text));
 }
 
-std::size_t sample_index(const Request& request, const PrimaryRays& rays, const HitBuffer& hits) {
+std::size_t index_in_image(const Request& request, const PrimaryRays& rays) {
+  if (request.pixel.empty()) {
+    throw InputError("a primary ray is named by its pixel; give --pixel X,Y");
+  }
+  if (request.ray) throw InputError("a primary ray is named by --pixel; leave --ray out");
   const Pixel pixel = parse_pixel(request.pixel);
   if (pixel.x < 0 || pixel.x >= rays.width() || pixel.y < 0 || pixel.y >= rays.height()) {
     throw InputError(fmt::format(
@@ -65,35 +70,66 @@ std::size_t sample_index(const Request& request, const PrimaryRays& rays, const 
     throw InputError(fmt::format("sample {} does not exist; with --samples {} they are 0 to {}",
                                  request.sample, rays.samples(), rays.samples() - 1));
   }
-  return hits.index(pixel.x, pixel.y, request.sample);
+  const auto at = static_cast<std::size_t>(pixel.y * rays.width() + pixel.x);
+  return at * static_cast<std::size_t>(rays.samples()) + static_cast<std::size_t>(request.sample);
+}
+
+std::size_t index_in_list(const Request& request, const Question& question) {
+  if (!request.pixel.empty()) {
+    throw InputError(fmt::format(
+        "{} rays are numbered; give --ray N, as mismatches name them, in place of --pixel",
+        question.label()));
+  }
+  if (!request.ray || *request.ray >= question.size()) {
+    throw InputError(fmt::format("--ray must be a whole number from 0 to {}: there are {} {} rays",
+                                 question.size() - 1, question.size(), question.label()));
+  }
+  return *request.ray;
+}
+
+std::size_t chosen_index(const Request& request, const Question& question) {
+  const PrimaryRays* image = question.image();
+  return image != nullptr ? index_in_image(request, *image) : index_in_list(request, question);
+}
+
+/// Puts the answer to one ray in its place.
+void answer_alone(const Accelerator& structure, const Ray& ray, std::size_t index,
+                  Answers& answers) {
+  if (auto* any = std::get_if<AnyHits>(&answers)) {
+    (*any)[index] = structure.any_hit(ray) ? 1 : 0;
+  } else {
+    std::get<HitBuffer>(answers).set(index, structure.closest_hit(ray));
+  }
 }
 
 int trace(const Request& request) {
-  parse_pixel(request.pixel);
+  if (!request.pixel.empty()) parse_pixel(request.pixel);
+  const RayChoice kind = parse_ray_choice(request.rays);
   const StructureChoice choice = choose_one("--accel", request.structure);
   const Scene scene = open_scene(request.scene);
-  const PrimaryRays rays = choose_rays(scene, request.image);
-  HitBuffer hits(rays.width(), rays.height(), rays.samples());
-  const std::size_t index = sample_index(request, rays, hits);
+  const ImageOfRays image = choose_image(scene, request.image);
+  const Question question = make_question(scene, image, kind);
+  const std::size_t index = chosen_index(request, question);
+  const Ray ray = question.ray(index);
 
   const auto accelerator = choice.build(scene);
-  const EmbreeOracle oracle(scene, glm::length(glm::dvec3(rays.eye())));
-  RayWay way{choice.short_label(), rays.width(), rays.height(), rays.samples(), {}, {}, {}, {}};
-  way.in_image = !request.alone;
-  const Ray ray = ask_again(rays, hits, index, std::nullopt).ray;
+  const EmbreeOracle oracle(scene, question.reach());
+  RayWay way{choice.short_label(), image, question, {}, {}, {}, {}};
+  way.asked_all = !request.alone;
   WorkCounters counters;
   accelerator->closest_hit(ray, counters);
   way.counters = counters.by_name();
   way.steps = accelerator->explain(ray);
   way.alone = accelerator->closest_hit(ray);
+  Answers answers = room_for(question);
   if (request.alone) {
-    hits.set(index, way.alone);
+    answer_alone(*accelerator, ray, index, answers);
   } else {
     Progress progress(1);
     progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
-    watched_trace(*accelerator, rays, hits, progress);
+    watched_ask(*accelerator, question, answers, progress);
   }
-  way.judgement = ask_again(rays, hits, index, oracle.closest_hit(ray));
+  way.judgement = ask_again(question, answers, index, oracle.closest_hit(ray));
   judge_ray(scene, choice.info().conformance, way.judgement);
 
   fmt::print("{}", request.json ? to_json(scene, way).dump(2) + '\n' : to_text(scene, way));
@@ -109,24 +145,31 @@ void add_trace_command(CLI::App& app, int& exit_code) {
   command->add_option("SCENE", request->scene, "Catalogue name or path of an NFF file")->required();
   command->add_option("--accel", request->structure, "Structure: NAME:parameter=value,...")
       ->required();
-  command->add_option("--pixel", request->pixel, "X,Y, counted from 0,0 at the top left")
-      ->required();
+  command->add_option("--pixel", request->pixel,
+                      "Which primary ray: X,Y, counted from 0,0 at the top left");
   add_image_options(*command, request->image);
   command->add_option("--sample", request->sample, "Which of the pixel's samples, from 0")
       ->capture_default_str();
+  command
+      ->add_option("--rays", request->rays, "Kind of rays (see 'beambench list') or a .rays file")
+      ->capture_default_str();
+  command->add_option("--ray", request->ray, "Which of the rays that are not primary, from 0");
   command->add_flag("--alone", request->alone,
-                    "Do not trace the rest of the image: quicker, but packets and beams may answer "
+                    "Do not ask the other rays: quicker, but packets and beams may answer "
                     "otherwise");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "Tells the cells or nodes that the ray enters, in which interval of t, the primitives that\n"
       "are tested there, the hit, and what the oracle says of it, by the classes that 'beambench\n"
-      "verify --help' tells. t is view depth. Exits with 1 where the structure is wrong.\n"
+      "verify --help' tells. Of primary rays t is view depth. Of shadow rays the way to the "
+      "closest\n"
+      "hit is told, though any would do. Exits with 1 where the structure is wrong.\n"
       "Examples:\n"
       "  beambench trace escena1 --accel samet --pixel 160,100 --resolution 320x200\n"
       "  beambench trace tetra:n=4 --accel samet:max_level=4 --pixel 256,300 --json\n"
       "  beambench trace balls --accel embree --pixel 8,9 --resolution 64x64 --samples 4 --sample "
-      "3");
+      "3\n"
+      "  beambench trace escena1 --accel samet --rays shadow --ray 100 --resolution 64x64");
   command->callback([request, &exit_code] { exit_code = trace(*request); });
 }
 

@@ -8,19 +8,22 @@
 #include <fmt/format.h>
 
 #include "harness/cli/difference_picture.hpp"
-#include "harness/cli/watched_trace.hpp"
+#include "harness/cli/watched_ask.hpp"
+#include "harness/rays/share_warning.hpp"
 #include "scenes/error.hpp"
 
 namespace beambench {
 namespace {
 
-/// The buffer that further bit-exact structures must repeat.
+/// The answers that further bit-exact structures must repeat.
 struct BitsReference {
   std::string label;
-  HitBuffer hits;
+  Answers answers;
 };
 
-std::string show(const std::optional<Hit>& hit) {
+std::string show(const Answers& answers, std::size_t i) {
+  if (std::holds_alternative<AnyHits>(answers)) return is_hit_at(answers, i) ? "a hit" : "no hit";
+  const auto hit = std::get<HitBuffer>(answers).get(i);
   return hit ? fmt::format("primitive {} at t = {}", hit->primitive, hit->t) : "a miss";
 }
 
@@ -30,37 +33,34 @@ bool same_bits(const std::optional<Hit>& a, const std::optional<Hit>& b) {
                 std::bit_cast<std::uint32_t>(a->t) == std::bit_cast<std::uint32_t>(b->t));
 }
 
-void compare_bits(const HitBuffer& hits, const BitsReference& reference,
+bool same_bits(const Answers& a, const Answers& b, std::size_t i) {
+  if (std::holds_alternative<AnyHits>(a)) return is_hit_at(a, i) == is_hit_at(b, i);
+  return same_bits(std::get<HitBuffer>(a).get(i), std::get<HitBuffer>(b).get(i));
+}
+
+void compare_bits(const Question& question, const Answers& answers, const BitsReference& reference,
                   const ReplayCommand& replay, std::span<DiffClass> classes, VerifiedCell& cell) {
   cell.bits_reference = reference.label;
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    const auto ours = hits.get(i);
-    const auto theirs = reference.hits.get(i);
-    if (same_bits(ours, theirs)) continue;
+  for (std::size_t i = 0; i < question.size(); ++i) {
+    if (same_bits(answers, reference.answers, i)) continue;
     classes[i] = DiffClass::kEngineError;
     if (cell.different_bits++ > 0) continue;
-    const auto samples = static_cast<std::size_t>(hits.samples());
-    const auto width = static_cast<std::size_t>(hits.width());
-    const auto x = static_cast<int>(i / samples % width);
-    const auto y = static_cast<int>(i / samples / width);
-    const auto sample = static_cast<int>(i % samples);
     cell.disputes.push_back(fmt::format(
-        "pixel ({}, {}) sample {}: {} found {}, {} found {}; a bit-exact structure must find the "
-        "same\n  replay {}\n",
-        x, y, sample, cell.label, show(ours), reference.label, show(theirs),
-        replay.of(x, y, sample)));
+        "{}: {} found {}, {} found {}; a bit-exact structure must find the same\n  replay {}\n",
+        place_text(question, i), cell.label, show(answers, i), reference.label,
+        show(reference.answers, i), replay.of(i)));
   }
   if (cell.different_bits > 0) cell.verdict = to_string(Verdict::kMismatch);
 }
 
 /// Ties are no dispute, and grazes only where there are too many of them.
-std::vector<std::string> describe_disputes(const Scene& scene, const DiffReport& report,
+std::vector<std::string> describe_disputes(const VerifiedView& view, const DiffReport& report,
                                            const ReplayCommand& replay) {
   std::vector<std::string> texts;
   for (const Mismatch& example : report.examples) {
     if (example.diff_class == DiffClass::kTie) continue;
     if (example.diff_class == DiffClass::kGraze && report.verdict != Verdict::kGrazes) continue;
-    texts.push_back(describe(scene, example, replay));
+    texts.push_back(describe(view.scene, view.question, example, replay));
   }
   return texts;
 }
@@ -77,21 +77,24 @@ std::string picture_name(const VerifiedCell& cell, std::string_view camera) {
 class SceneVerifier {
  public:
   SceneVerifier(const VerifiedView& view, const std::filesystem::path& pictures, Progress& progress)
-      : scene_(view.scene),
-        camera_(view.camera.name),
-        rays_(view.rays),
-        reference_(scene_, rays_),
+      : view_(view),
+        reference_(view.scene, view.question),
         pictures_(pictures),
-        progress_(progress) {}
+        progress_(progress) {
+    if (const auto warning = share_warning(view.question, reference_.hit_count())) {
+      progress_.say(fmt::format("warning: {}: {}", view.scene.name, *warning));
+    }
+  }
 
   VerifiedCell verify(const StructureChoice& choice) {
     VerifiedCell cell;
-    cell.scene = scene_.name;
-    cell.primitives = scene_.primitives.size();
+    cell.scene = view_.scene.name;
+    cell.rays = view_.question.label();
+    cell.primitives = view_.scene.primitives.size();
     cell.structure = choice.info().name;
     cell.parameters = choice.parameters().canonical();
     cell.label = choice.short_label();
-    progress_.start(fmt::format("{} over {}", cell.label, cell.scene));
+    progress_.start(fmt::format("{} over {}, {} rays", cell.label, cell.scene, cell.rays));
     try {
       judge_into(choice, cell);
     } catch (const InputError& error) {  // a cap was exceeded: this cell fails, the others go on
@@ -105,30 +108,28 @@ class SceneVerifier {
 
  private:
   void judge_into(const StructureChoice& choice, VerifiedCell& cell) {
-    const auto accelerator = choice.build(scene_);
-    HitBuffer hits(rays_.width(), rays_.height(), rays_.samples());
-    watched_trace(*accelerator, rays_, hits, progress_);
-    const ReplayCommand replay(scene_, camera_, choice, rays_);
-    std::vector<DiffClass> classes(hits.size());
-    cell.report = judge(reference_, hits, choice.info().conformance, classes);
+    const auto accelerator = choice.build(view_.scene);
+    Answers answers = room_for(view_.question);
+    watched_ask(*accelerator, view_.question, answers, progress_);
+    const ReplayCommand replay(view_.scene, view_.image, choice, view_.question);
+    std::vector<DiffClass> classes(view_.question.size());
+    cell.report = judge(reference_, answers, choice.info().conformance, classes);
     cell.verdict = to_string(cell.report->verdict);
-    cell.disputes = describe_disputes(scene_, *cell.report, replay);
+    cell.disputes = describe_disputes(view_, *cell.report, replay);
     if (choice.info().conformance == Conformance::kBitExact) {
       if (bits_) {
-        compare_bits(hits, *bits_, replay, classes, cell);
+        compare_bits(view_.question, answers, *bits_, replay, classes, cell);
       } else {
-        bits_ = BitsReference{cell.label, std::move(hits)};
+        bits_ = BitsReference{cell.label, std::move(answers)};
       }
     }
-    if (!pictures_.empty() && !cell.passed()) {
-      cell.picture = pictures_ / picture_name(cell, camera_);
+    if (!pictures_.empty() && !cell.passed() && view_.question.image() != nullptr) {
+      cell.picture = pictures_ / picture_name(cell, view_.image.camera.name);
       write_difference(cell.picture, reference_, classes, {cell.label, kOracleName});
     }
   }
 
-  const Scene& scene_;
-  std::string_view camera_;
-  const PrimaryRays& rays_;
+  const VerifiedView& view_;
   ReferenceHits reference_;
   const std::filesystem::path& pictures_;
   Progress& progress_;
@@ -151,11 +152,9 @@ std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
 }
 
 nlohmann::ordered_json to_json(const VerifiedCell& cell) {
-  nlohmann::ordered_json out{{"scene", cell.scene},
-                             {"primitives", cell.primitives},
-                             {"structure", cell.structure},
-                             {"parameters", cell.parameters},
-                             {"verdict", cell.verdict}};
+  nlohmann::ordered_json out{{"scene", cell.scene},           {"ray_kind", cell.rays},
+                             {"primitives", cell.primitives}, {"structure", cell.structure},
+                             {"parameters", cell.parameters}, {"verdict", cell.verdict}};
   if (!cell.message.empty()) out["message"] = cell.message;
   if (cell.report) {
     out["rays"] = cell.report->rays;

@@ -17,6 +17,7 @@ namespace beambench {
 /// The judgement of one structure over one scene.
 struct VerifiedCell {
   std::string scene;
+  std::string rays;  ///< as `RayChoice::label`
   std::uint64_t primitives = 0;
   std::string structure;   ///< the bare name
   std::string parameters;  ///< all of them, canonical
@@ -36,13 +37,14 @@ struct VerifiedCell {
 /// What the contenders over a scene are asked. The scene outlives it.
 struct VerifiedView {
   const Scene& scene;
-  const Camera& camera;
-  PrimaryRays rays;
+  ImageOfRays image;
+  Question question;
 };
 
 /// Judges each contender, the exhaustive search first where it is among them: the bit-exact ones
 /// are compared with it, or with the first of them. `progress` gets one cell for each contender.
-/// Unless `pictures` is empty, each cell with wrong answers leaves a picture in that folder.
+/// Unless `pictures` is empty, each cell with wrong answers to primary rays leaves a picture in
+/// that folder.
 std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
                                        std::vector<StructureChoice> contenders,
                                        const std::filesystem::path& pictures, Progress& progress);

@@ -15,7 +15,7 @@
 #include "harness/cli/text.hpp"
 #include "harness/cli/verification.hpp"
 #include "harness/files/pending_file.hpp"
-#include "harness/rays/ray_kind.hpp"
+#include "harness/rays/ray_choice.hpp"
 #include "harness/rays/resolution.hpp"
 #include "harness/record/build_info.hpp"
 #include "scenes/catalogue.hpp"
@@ -43,11 +43,11 @@ std::string bits_text(const VerifiedCell& cell) {
 }
 
 std::string table_text(const std::vector<VerifiedCell>& cells) {
-  TextTable table({"scene", "structure", "rays", "hits", "agree", "tie", "graze", "engine error",
-                   "embree error", "bits", "verdict"},
-                  2);
+  TextTable table({"scene", "ray kind", "structure", "rays", "hits", "agree", "tie", "graze",
+                   "engine error", "embree error", "bits", "verdict"},
+                  3);
   for (const VerifiedCell& cell : cells) {
-    std::vector<std::string> row{cell.scene, cell.label};
+    std::vector<std::string> row{cell.scene, cell.rays, cell.label};
     if (cell.report) {
       row.push_back(fmt::format("{}", cell.report->rays));
       row.push_back(fmt::format("{}", cell.report->hits));
@@ -65,7 +65,7 @@ std::string table_text(const std::vector<VerifiedCell>& cells) {
 void print_disputes(const VerifiedCell& cell) {
   if (!cell.message.empty()) fmt::print("\n{} over {}: {}\n", cell.label, cell.scene, cell.message);
   if (cell.disputes.empty() && cell.picture.empty()) return;
-  fmt::print("\n{} over {}:\n", cell.label, cell.scene);
+  fmt::print("\n{} over {}, {} rays:\n", cell.label, cell.scene, cell.rays);
   const std::size_t shown = std::min(cell.disputes.size(), kPrintedDisputes);
   for (std::size_t i = 0; i < shown; ++i) fmt::print("{}\n", cell.disputes[i]);
   if (shown < cell.disputes.size()) {
@@ -78,7 +78,7 @@ void write_json(const Request& request, const std::vector<VerifiedCell>& cells, 
   nlohmann::ordered_json out{{"beambench", build_info().version},
                              {"resolution", request.resolution},
                              {"samples", request.samples},
-                             {"ray_kind", "primary"},
+                             {"ray_kinds", request.rays},
                              {"passed", passed},
                              {"cells", nlohmann::ordered_json::array()}};
   for (const VerifiedCell& cell : cells) out["cells"].push_back(to_json(cell));
@@ -104,7 +104,7 @@ void make_folder(const std::filesystem::path& folder) {
 
 int verify(const Request& request) {
   const Resolution resolution = parse_resolution(request.resolution);
-  parse_ray_kinds(request.rays);
+  const std::vector<RayChoice> kinds = parse_ray_choices(request.rays);
   require_ray_count(resolution, static_cast<int>(sample_offsets(request.samples).size()));
   if (!request.json.empty()) require_writable(request.json);
   const std::size_t structures = registry().choose_list(request.structures).size();
@@ -112,18 +112,19 @@ int verify(const Request& request) {
   for (const Scene& scene : scenes) choose_camera(scene, request.camera);
   if (!request.pictures.empty()) make_folder(request.pictures);
 
-  Progress progress(scenes.size() * structures);
+  Progress progress(scenes.size() * kinds.size() * structures);
   std::vector<VerifiedCell> cells;
   for (const Scene& scene : scenes) {
-    const Camera& camera = choose_camera(scene, request.camera);
-    const VerifiedView view{
-        scene, camera, {camera, resolution.width, resolution.height, request.samples}};
-    Contenders contenders = choose_contenders(request.structures, scene);
+    const ImageOfRays image{choose_camera(scene, request.camera), resolution, request.samples};
+    const Contenders contenders = choose_contenders(request.structures, scene);
     if (!contenders.note.empty()) progress.say(contenders.note);
-    progress.skip(structures - contenders.choices.size());
-    for (VerifiedCell& cell :
-         verify_scene(view, std::move(contenders.choices), request.pictures, progress)) {
-      cells.push_back(std::move(cell));
+    for (const RayChoice& kind : kinds) {
+      progress.skip(structures - contenders.choices.size());
+      const VerifiedView view{scene, image, make_question(scene, image, kind)};
+      for (VerifiedCell& cell :
+           verify_scene(view, contenders.choices, request.pictures, progress)) {
+        cells.push_back(std::move(cell));
+      }
     }
   }
   progress.clear();
@@ -147,7 +148,9 @@ void add_verify_command(CLI::App& app, int& exit_code) {
   command->add_option("--accel", request->structures, "Structures: NAME:parameter=value,... or all")
       ->capture_default_str();
   command->add_option("--resolution", request->resolution, "WxH")->capture_default_str();
-  command->add_option("--rays", request->rays, "Kinds of rays")->capture_default_str();
+  command
+      ->add_option("--rays", request->rays, "Kinds of rays (see 'beambench list'), or .rays files")
+      ->capture_default_str();
   command->add_option("--samples", request->samples, "Rays a pixel: 1, 4, 5, 9, 16, ...")
       ->capture_default_str();
   command->add_option("--camera", request->camera, "By name (default: each scene's first)");
@@ -167,6 +170,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  beambench verify\n"
       "  beambench verify escena1 tetra:n=4 --accel all\n"
+      "  beambench verify balls --rays shadow,reflection,diffuse,random\n"
       "  beambench verify balls --accel samet:max_level=5,embree --resolution 640x480 --json "
       "v.json");
   command->callback([request, &exit_code] { exit_code = verify(*request); });

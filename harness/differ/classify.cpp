@@ -24,8 +24,6 @@ struct Measure {
   }
   Contact contact_of(const ExactHit& hit) const { return contact(scene, ray, hit, tolerance); }
 
-  /// Could a little change of the numbers have made this hit or unmade it? Its primitive's boundary
-  /// is that near, or an end of the ray is.
   bool grazes(const ExactHit& hit) const {
     const double cosine = contact_of(hit).cosine;
     return gap(hit.t, ray.t_min) * cosine <= tolerance ||
@@ -75,6 +73,10 @@ std::optional<DiffClass> classify(const Scene& scene, const Ray& ray,
   const bool extra = claim && (!reference || claim->t < reference->t);
   if (measure.grazes(extra ? *claim : *reference)) return DiffClass::kGraze;
   return std::nullopt;
+}
+
+bool grazes(const Scene& scene, const Ray& ray, const ExactHit& hit, double tolerance) {
+  return Measure{scene, ray, tolerance}.grazes(hit);
 }
 
 bool is_nonsense(const Scene& scene, const Ray& ray, const Hit& answer) {

@@ -18,6 +18,10 @@ std::optional<DiffClass> classify(const Scene& scene, const Ray& ray,
                                   const std::optional<Hit>& answer,
                                   const std::optional<ExactHit>& reference, double tolerance);
 
+/// Could a little change of the numbers have made this hit or unmade it: is its primitive's
+/// boundary within `tolerance` of the ray, or an end of the ray within it of the surface?
+bool grazes(const Scene& scene, const Ray& ray, const ExactHit& hit, double tolerance);
+
 /// Is the answer none at all: a primitive the scene does not have, or a t that is not a number in
 /// the ray's interval? `t` of a miss is infinity.
 bool is_nonsense(const Scene& scene, const Ray& ray, const Hit& answer);

@@ -31,26 +31,33 @@ std::string text(const glm::vec3& vector) {
   return fmt::format("({}, {}, {})", vector.x, vector.y, vector.z);
 }
 
+std::string engine_text(const Scene& scene, const Mismatch& mismatch) {
+  if (mismatch.query == Query::kClosestHit) return text(scene, mismatch.engine);
+  if (mismatch.engine_any_hit > 1) return "neither yes nor no";
+  return mismatch.engine_any_hit == 1 ? "some hit" : "no hit";
+}
+
 }  // namespace
 
-std::string describe(const Scene& scene, const Mismatch& mismatch) {
+std::string describe(const Scene& scene, const Question& question, const Mismatch& mismatch) {
   return fmt::format(
-      "pixel ({}, {}) sample {}: {}{}{}\n"
+      "{}: {}{}{}\n"
       "  ray    from {} along {}, t in [{}, {}]\n"
       "  engine {}\n"
       "  oracle {}\n"
       "  exact  {}\n",
-      mismatch.x, mismatch.y, mismatch.sample,
+      place_text(question, mismatch.index),
       kDiffClassNames[static_cast<std::size_t>(mismatch.diff_class)],
       mismatch.reason.empty() ? "" : ", ", mismatch.reason, text(mismatch.ray.origin),
       text(mismatch.ray.direction), mismatch.ray.t_min, mismatch.ray.t_max,
-      text(scene, mismatch.engine), text(scene, mismatch.oracle),
+      engine_text(scene, mismatch), text(scene, mismatch.oracle),
       mismatch.adjudicated ? text(scene, mismatch.exact) : "not asked");
 }
 
-std::string describe(const Scene& scene, const Mismatch& mismatch, const ReplayCommand& replay) {
-  return fmt::format("{}  replay {}\n", describe(scene, mismatch),
-                     replay.of(mismatch.x, mismatch.y, mismatch.sample));
+std::string describe(const Scene& scene, const Question& question, const Mismatch& mismatch,
+                     const ReplayCommand& replay) {
+  return fmt::format("{}  replay {}\n", describe(scene, question, mismatch),
+                     replay.of(mismatch.index));
 }
 
 }  // namespace beambench

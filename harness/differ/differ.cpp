@@ -20,28 +20,26 @@ constexpr std::size_t kBatch = 64;                    // rays searched at once, 
 
 double graze_budget(std::uint64_t rays) { return std::max(2.0, 1e-4 * static_cast<double>(rays)); }
 
-/// The judging of one buffer.
+/// The judging of one structure's answers.
 class Judge {
  public:
-  Judge(const ReferenceHits& reference, const HitBuffer& buffer, std::span<DiffClass> classes)
+  Judge(const ReferenceHits& reference, const Answers& answers, std::span<DiffClass> classes)
       : scene_(reference.scene()),
-        rays_(reference.rays()),
+        question_(reference.question()),
         hits_(reference.hits()),
-        buffer_(buffer),
-        classes_(classes),
-        tolerance_(tolerance(scene_, rays_.eye())) {
-    report_.rays = buffer.size();
+        answers_(answers),
+        classes_(classes) {
+    report_.rays = question_.size();
+    report_.hits = reference.hit_count();
     std::fill(classes_.begin(), classes_.end(), DiffClass::kAgree);
-    report_.hits = static_cast<std::uint64_t>(
-        std::count_if(hits_.begin(), hits_.end(), [](const auto& hit) { return hit.has_value(); }));
   }
 
   DiffReport against_oracle() {
     std::vector<std::size_t> disputed;
-    for (std::size_t i = 0; i < buffer_.size(); ++i) {
+    for (std::size_t i = 0; i < question_.size(); ++i) {
       if (agrees_at_once(i)) continue;
       Mismatch found = mismatch(i);
-      if (settle_by_rules(scene_, tolerance_, found)) {
+      if (settle_by_rules(scene_, tolerance_of(found), found)) {
         record(found);
       } else {
         disputed.push_back(i);
@@ -53,8 +51,8 @@ class Judge {
   }
 
   DiffReport as_baseline() {
-    for (std::size_t i = 0; i < buffer_.size(); ++i) {
-      if (is_miss(i)) continue;
+    for (std::size_t i = 0; i < question_.size(); ++i) {
+      if (is_silent(i)) continue;
       Mismatch found = mismatch(i);
       settle_as_baseline(found);
       record(found);
@@ -64,29 +62,36 @@ class Judge {
   }
 
  private:
-  Hit answer(std::size_t i) const { return {buffer_.t()[i], buffer_.primitive()[i]}; }
-  bool is_miss(std::size_t i) const { return answer(i) == Hit{kInfinity, kNoPrimitive}; }
+  double tolerance_of(const Mismatch& found) const { return tolerance(scene_, found.ray.origin); }
 
-  Ray ray(std::size_t i) const {
-    const auto samples = static_cast<std::size_t>(rays_.samples());
-    const auto width = static_cast<std::size_t>(rays_.width());
-    return rays_.ray(static_cast<int>(i / samples % width), static_cast<int>(i / samples / width),
-                     static_cast<int>(i % samples));
+  static Hit answer(const HitBuffer& hits, std::size_t i) {
+    return {hits.t()[i], hits.primitive()[i]};
+  }
+  static bool is_miss(const Hit& hit) { return hit == Hit{kInfinity, kNoPrimitive}; }
+
+  bool is_silent(std::size_t i) const {
+    if (const auto* any = std::get_if<AnyHits>(&answers_)) return (*any)[i] == 0;
+    return is_miss(answer(std::get<HitBuffer>(answers_), i));
   }
 
   /// Nearly every ray of a right structure ends here: the same primitive, and so near that the
   /// angle of incidence does not matter.
   bool agrees_at_once(std::size_t i) const {
-    const Hit hit = answer(i);
-    if (!hits_[i]) return is_miss(i);
+    if (const auto* any = std::get_if<AnyHits>(&answers_)) {
+      return (*any)[i] == (hits_[i] ? 1 : 0);
+    }
+    const Hit hit = answer(std::get<HitBuffer>(answers_), i);
+    if (!hits_[i]) return is_miss(hit);
     if (hit.primitive != hits_[i]->primitive) return false;
     const double apart = std::abs(static_cast<double>(hit.t) - hits_[i]->t);
-    const glm::dvec3 direction(ray(i).direction);
-    return hit.t >= 0.0F &&
-           apart * apart * glm::dot(direction, direction) <= tolerance_ * tolerance_;
+    const Ray ray = question_.ray(i);
+    const double near = tolerance(scene_, ray.origin);
+    const glm::dvec3 direction(ray.direction);
+    return hit.t >= ray.t_min && hit.t <= ray.t_max &&
+           apart * apart * glm::dot(direction, direction) <= near * near;
   }
 
-  Mismatch mismatch(std::size_t i) const { return ask_again(rays_, buffer_, i, hits_[i]); }
+  Mismatch mismatch(std::size_t i) const { return ask_again(question_, answers_, i, hits_[i]); }
 
   void agree_with_the_rest(std::size_t disputed) {
     std::uint64_t others = disputed;
@@ -104,7 +109,7 @@ class Judge {
       for (std::size_t i = first; i < last; ++i) batch.push_back(mismatch(disputed[i]));
       if (report_.count(DiffClass::kEngineError) < kEnoughErrors && tests < kSearchBudget) {
         tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
-          beambench::adjudicate(scene_, tolerance_, batch[i]);
+          beambench::adjudicate(scene_, tolerance_of(batch[i]), batch[i]);
         });
         tests += batch.size() * (scene_.triangles.size() + scene_.primitives.size());
       } else {
@@ -146,13 +151,35 @@ class Judge {
   }
 
   const Scene& scene_;
-  const PrimaryRays& rays_;
+  const Question& question_;
   std::span<const std::optional<ExactHit>> hits_;
-  const HitBuffer& buffer_;
+  const Answers& answers_;
   std::span<DiffClass> classes_;
-  double tolerance_;
   DiffReport report_;
 };
+
+std::array<std::size_t, 3> shape_of(const Answers& answers) {
+  if (const auto* any = std::get_if<AnyHits>(&answers)) return {any->size(), 1, 0};
+  const auto& hits = std::get<HitBuffer>(answers);
+  return {static_cast<std::size_t>(hits.width()), static_cast<std::size_t>(hits.height()),
+          static_cast<std::size_t>(hits.samples())};
+}
+
+std::array<std::size_t, 3> shape_of(const Question& question) {
+  if (question.query() == Query::kAnyHit) return {question.size(), 1, 0};
+  const PrimaryRays* image = question.image();
+  if (image == nullptr) return {question.size(), 1, 1};
+  return {static_cast<std::size_t>(image->width()), static_cast<std::size_t>(image->height()),
+          static_cast<std::size_t>(image->samples())};
+}
+
+void require_shape(const Question& question, const Answers& answers) {
+  const auto given = shape_of(answers);
+  const auto expected = shape_of(question);
+  if (given == expected) return;
+  throw std::logic_error(fmt::format("answers of {}x{}x{} are judged by rays of {}x{}x{}", given[0],
+                                     given[1], given[2], expected[0], expected[1], expected[2]));
+}
 
 }  // namespace
 
@@ -170,19 +197,13 @@ std::string_view to_string(Verdict verdict) {
   return "unknown";
 }
 
-DiffReport judge(const ReferenceHits& reference, const HitBuffer& buffer, Conformance conformance,
+DiffReport judge(const ReferenceHits& reference, const Answers& answers, Conformance conformance,
                  std::span<DiffClass> classes) {
-  if (buffer.width() != reference.rays().width() || buffer.height() != reference.rays().height() ||
-      buffer.samples() != reference.rays().samples()) {
-    throw std::logic_error(fmt::format("a buffer of {}x{}x{} is judged by rays of {}x{}x{}",
-                                       buffer.width(), buffer.height(), buffer.samples(),
-                                       reference.rays().width(), reference.rays().height(),
-                                       reference.rays().samples()));
+  require_shape(reference.question(), answers);
+  if (!classes.empty() && classes.size() != reference.question().size()) {
+    throw std::logic_error("the classes need one place for each ray");
   }
-  if (!classes.empty() && classes.size() != buffer.size()) {
-    throw std::logic_error("the classes of an image need one place for each ray");
-  }
-  Judge judging(reference, buffer, classes);
+  Judge judging(reference, answers, classes);
   return conformance == Conformance::kBaseline ? judging.as_baseline() : judging.against_oracle();
 }
 

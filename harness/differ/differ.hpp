@@ -11,17 +11,19 @@
 #include <vector>
 
 #include "accel/embree/oracle.hpp"
-#include "accel/hit_buffer.hpp"
-#include "accel/primary_rays.hpp"
 #include "accel/registry.hpp"
 #include "harness/differ/replay_command.hpp"
+#include "harness/rays/answers.hpp"
+#include "harness/rays/question.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench {
 
 /// How one answer compares (reference/embree.md, "A differ that can be defended"). u is
 /// 2^-24 x (largest |coordinate| + distance of the ray's origin), K is 16. The first three need a
-/// sound answer: its point lies within K u of the primitive it names.
+/// sound answer: its point lies within K u of the primitive it names. An answer to an any-hit query
+/// names no place, so it never ties: it agrees, or it grazes where every hit that is in dispute
+/// does.
 enum class DiffClass : std::size_t {
   kAgree,        ///< same primitive, |dt| x |cos theta| <= K u (a sphere or cone: the point is
                  ///< within K u of the surface, where the ray enters or leaves as the oracle's)
@@ -35,7 +37,7 @@ enum class DiffClass : std::size_t {
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(DiffClass::kCount)>
     kDiffClassNames{"agree", "tie", "graze", "engine_error", "embree_error"};
 
-/// The sentence over a whole image.
+/// The sentence over all answers.
 enum class Verdict {
   kOk,        ///< no engine error, grazes within the budget
   kMismatch,  ///< at least one engine error
@@ -46,12 +48,13 @@ std::string_view to_string(Verdict verdict);  // "ok", "mismatch", "grazes", "ba
 
 /// One ray that did not agree, with all that is needed to look at it.
 struct Mismatch {
-  std::size_t index;  ///< into the buffer
-  int x, y, sample;
+  std::size_t index;  ///< of the ray
   Ray ray;
+  Query query;
   DiffClass diff_class;
-  std::optional<Hit> engine;
-  std::optional<ExactHit> oracle;
+  std::optional<Hit> engine;       ///< of a closest-hit query
+  std::uint8_t engine_any_hit;     ///< of an any-hit query: 0, 1, or what the structure wrote
+  std::optional<ExactHit> oracle;  ///< the closest hit, whatever the query
   /// The long-double answer; absent where the class was settled without it, or for an exact miss.
   std::optional<ExactHit> exact;
   bool adjudicated;         ///< was the long-double search asked?
@@ -72,36 +75,40 @@ struct DiffReport {
   }
 };
 
-/// The oracle's answer to each primary ray of an image, computed once (on all cores) and used for
-/// every contender. Scene and rays must outlive it.
+/// The oracle's closest hit of each ray of a question, computed once (on all cores) and used for
+/// every contender. The scene must outlive it.
 class ReferenceHits {
  public:
-  ReferenceHits(const Scene& scene, const PrimaryRays& rays);
-  /// The same with answers from elsewhere, in the order of a `HitBuffer`.
-  ReferenceHits(const Scene& scene, const PrimaryRays& rays,
-                std::vector<std::optional<ExactHit>> hits);
+  ReferenceHits(const Scene& scene, Question question);
+  /// The same with hits from elsewhere.
+  ReferenceHits(const Scene& scene, Question question, std::vector<std::optional<ExactHit>> hits);
 
   const Scene& scene() const { return *scene_; }
-  const PrimaryRays& rays() const { return *rays_; }
+  const Question& question() const { return question_; }
   std::span<const std::optional<ExactHit>> hits() const { return hits_; }
+  /// How many rays hit.
+  std::uint64_t hit_count() const;
 
  private:
   const Scene* scene_;
-  const PrimaryRays* rays_;
+  Question question_;
   std::vector<std::optional<ExactHit>> hits_;
 };
 
-/// Judges a buffer. Disputed rays are searched in long double until their number is hopeless (64
-/// errors are proven, or the search has made 4e8 primitive tests); what is disputed beyond that
-/// counts as engine error, unproven. For Conformance::kBaseline the only question is whether all
-/// answers are misses; others are engine errors. `classes`, unless empty, gets that of each ray.
-/// Throws std::logic_error when the buffer's size is not that of the rays.
-DiffReport judge(const ReferenceHits& reference, const HitBuffer& buffer, Conformance conformance,
+/// Judges a structure's answers. Disputed rays are searched in long double until their number is
+/// hopeless (64 errors are proven, or the search has made 4e8 primitive tests); what is disputed
+/// beyond that counts as engine error, unproven. For Conformance::kBaseline the only question is
+/// whether all answers are misses; others are engine errors. `classes`, unless empty, gets that of
+/// each ray. Throws std::logic_error when the answers have not the shape that the question asks
+/// for.
+DiffReport judge(const ReferenceHits& reference, const Answers& answers, Conformance conformance,
                  std::span<DiffClass> classes = {});
 
-/// One mismatch as text: pixel, ray, both hits, the exact answer, and why it was classed so.
-std::string describe(const Scene& scene, const Mismatch& mismatch);
+/// One mismatch as text: its place in the question, ray, both answers, the exact one, and why it
+/// was classed so.
+std::string describe(const Scene& scene, const Question& question, const Mismatch& mismatch);
 /// The same, and the command that shows this ray's way (`ReplayCommand`).
-std::string describe(const Scene& scene, const Mismatch& mismatch, const ReplayCommand& replay);
+std::string describe(const Scene& scene, const Question& question, const Mismatch& mismatch,
+                     const ReplayCommand& replay);
 
 }  // namespace beambench

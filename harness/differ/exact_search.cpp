@@ -10,18 +10,19 @@ namespace {
 using Real = long double;
 using Vector = glm::vec<3, Real>;
 
-/// Gathers the nearest hit of all tests of one ray.
+/// Tests one ray against primitives and tells `offer_(id, t)` where its line meets them, in
+/// whatever interval: primitives in ascending order, t in any order, NaN where nothing is met.
+template <class Offer>
 class Search {
  public:
-  Search(const Scene& scene, const Ray& ray)
+  Search(const Scene& scene, const Ray& ray, Offer offer)
       : scene_(scene),
         origin_(ray.origin),
         direction_(ray.direction),
-        t_min_(ray.t_min),
-        best_t_(ray.t_max),
-        length_2_(glm::dot(direction_, direction_)) {}
+        length_2_(glm::dot(direction_, direction_)),
+        offer_(offer) {}
 
-  std::optional<ExactHit> run() {
+  void run() {
     for (PrimitiveId id = 0; id < scene_.primitives.size(); ++id) {
       const Primitive& primitive = scene_.primitives[id];
       switch (primitive.kind) {
@@ -36,18 +37,9 @@ class Search {
           break;
       }
     }
-    if (best_ == kNoPrimitive) return std::nullopt;
-    return ExactHit{static_cast<double>(best_t_), best_};
   }
 
  private:
-  // Ids come in ascending order, so of equal hits the first stays. NaN is never in range.
-  void offer(PrimitiveId id, Real t) {
-    if (!(t_min_ <= t) || !(best_ == kNoPrimitive ? t <= best_t_ : t < best_t_)) return;
-    best_t_ = t;
-    best_ = id;
-  }
-
   void test(PrimitiveId id, const Sphere& sphere) {
     const Vector offset = origin_ - Vector(sphere.center);
     const Real b = glm::dot(offset, direction_);
@@ -57,8 +49,8 @@ class Search {
     const Real discriminant = length_2_ * radius * radius - off_line;
     if (discriminant < 0.0L) return;
     const Real root = std::sqrt(discriminant);
-    if (!sphere.inside_only) offer(id, (-b - root) / length_2_);
-    offer(id, (-b + root) / length_2_);
+    if (!sphere.inside_only) offer_(id, (-b - root) / length_2_);
+    offer_(id, (-b + root) / length_2_);
   }
 
   void test(PrimitiveId id, const Polygon& polygon) {
@@ -83,7 +75,7 @@ class Search {
     const Vector q = glm::cross(from_a, ab);
     const Real w = glm::dot(direction_, q) / determinant;
     if (!(0.0L <= w && v + w <= 1.0L)) return;
-    offer(id, glm::dot(ac, q) / determinant);
+    offer_(id, glm::dot(ac, q) / determinant);
   }
 
   void test(PrimitiveId id, const Cone& cone) {
@@ -107,7 +99,7 @@ class Search {
     const auto consider = [&](Real t) {
       const Real s = s0 + t * s1;
       const bool leaves = a * t + b > 0.0L;
-      if (0.0L <= s && s <= 1.0L && (leaves || !cone.inside_only)) offer(id, t);
+      if (0.0L <= s && s <= 1.0L && (leaves || !cone.inside_only)) offer_(id, t);
     };
     const Real discriminant = b * b - a * c;
     if (discriminant < 0.0L) return;
@@ -120,16 +112,31 @@ class Search {
   const Scene& scene_;
   Vector origin_;
   Vector direction_;
-  Real t_min_;
-  Real best_t_;
   Real length_2_;
-  PrimitiveId best_ = kNoPrimitive;
+  Offer offer_;
 };
 
 }  // namespace
 
 std::optional<ExactHit> exact_closest_hit(const Scene& scene, const Ray& ray) {
-  return Search(scene, ray).run();
+  PrimitiveId best = kNoPrimitive;
+  Real best_t = ray.t_max;
+  // Ids come in ascending order, so of equal hits the first stays. NaN is never in range.
+  Search(scene, ray, [&](PrimitiveId id, Real t) {
+    if (!(ray.t_min <= t) || !(best == kNoPrimitive ? t <= best_t : t < best_t)) return;
+    best_t = t;
+    best = id;
+  }).run();
+  if (best == kNoPrimitive) return std::nullopt;
+  return ExactHit{static_cast<double>(best_t), best};
+}
+
+std::vector<ExactHit> exact_hits(const Scene& scene, const Ray& ray) {
+  std::vector<ExactHit> hits;
+  Search(scene, ray, [&](PrimitiveId id, Real t) {
+    if (ray.t_min <= t && t <= ray.t_max) hits.push_back({static_cast<double>(t), id});
+  }).run();
+  return hits;
 }
 
 }  // namespace beambench

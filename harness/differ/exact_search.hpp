@@ -2,6 +2,7 @@
 // The last instance: a search through all primitives in long double.
 
 #include <optional>
+#include <vector>
 
 #include "accel/embree/oracle.hpp"
 #include "accel/ray.hpp"
@@ -13,5 +14,8 @@ namespace beambench {
 /// primitive in long double (64-bit mantissa on x86) with code that neither the structures nor the
 /// oracle share. Slow: some 20 ns a primitive.
 std::optional<ExactHit> exact_closest_hit(const Scene& scene, const Ray& ray);
+
+/// All hits in the interval, in the order of primitives, by the same tests.
+std::vector<ExactHit> exact_hits(const Scene& scene, const Ray& ray);
 
 }  // namespace beambench

@@ -3,6 +3,7 @@
 #include "harness/differ/classify.hpp"
 #include "harness/differ/contact.hpp"
 #include "harness/differ/exact_search.hpp"
+#include "harness/differ/judge_any_hit.hpp"
 
 namespace beambench {
 namespace {
@@ -19,23 +20,25 @@ std::string_view why_wrong(const Scene& scene, double tolerance, const Mismatch&
 
 }  // namespace
 
-Mismatch ask_again(const PrimaryRays& rays, const HitBuffer& buffer, std::size_t index,
+Mismatch ask_again(const Question& question, const Answers& answers, std::size_t index,
                    const std::optional<ExactHit>& oracle) {
-  const auto samples = static_cast<std::size_t>(rays.samples());
-  const auto width = static_cast<std::size_t>(rays.width());
   Mismatch found{};
   found.index = index;
-  found.x = static_cast<int>(index / samples % width);
-  found.y = static_cast<int>(index / samples / width);
-  found.sample = static_cast<int>(index % samples);
-  found.ray = rays.ray(found.x, found.y, found.sample);
-  const Hit answer{buffer.t()[index], buffer.primitive()[index]};
-  if (answer != Hit{kInfinity, kNoPrimitive}) found.engine = answer;
+  found.ray = question.ray(index);
+  found.query = question.query();
   found.oracle = oracle;
+  if (const auto* any = std::get_if<AnyHits>(&answers)) {
+    found.engine_any_hit = (*any)[index];
+  } else {
+    const auto& hits = std::get<HitBuffer>(answers);
+    const Hit answer{hits.t()[index], hits.primitive()[index]};
+    if (answer != Hit{kInfinity, kNoPrimitive}) found.engine = answer;
+  }
   return found;
 }
 
 bool settle_by_rules(const Scene& scene, double tolerance, Mismatch& found) {
+  if (found.query == Query::kAnyHit) return settle_any_hit_by_rules(found);
   if (found.engine && is_nonsense(scene, found.ray, *found.engine)) {
     found.diff_class = DiffClass::kEngineError;
     found.reason = "no such answer exists: the primitive or t is out of range";
@@ -52,6 +55,7 @@ bool settle_by_rules(const Scene& scene, double tolerance, Mismatch& found) {
 }
 
 void adjudicate(const Scene& scene, double tolerance, Mismatch& found) {
+  if (found.query == Query::kAnyHit) return adjudicate_any_hit(scene, tolerance, found);
   found.adjudicated = true;
   found.exact = exact_closest_hit(scene, found.ray);
   const bool right = classify(scene, found.ray, found.engine, found.exact, tolerance).has_value();
@@ -61,8 +65,9 @@ void adjudicate(const Scene& scene, double tolerance, Mismatch& found) {
 }
 
 void settle_as_baseline(Mismatch& found) {
-  found.diff_class = found.engine ? DiffClass::kEngineError : DiffClass::kAgree;
-  if (found.engine) found.reason = "this structure answers nothing by design, and here it did";
+  const bool silent = !found.engine && found.engine_any_hit == 0;
+  found.diff_class = silent ? DiffClass::kAgree : DiffClass::kEngineError;
+  if (!silent) found.reason = "this structure answers nothing by design, and here it did";
 }
 
 void judge_ray(const Scene& scene, Conformance conformance, Mismatch& found) {

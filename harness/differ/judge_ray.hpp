@@ -8,9 +8,9 @@
 
 namespace beambench {
 
-/// The sample of the image that stands at an index of a `HitBuffer`, its answer, and the oracle's,
-/// not yet judged. An answer that is neither hit nor miss is kept as it stands.
-Mismatch ask_again(const PrimaryRays& rays, const HitBuffer& buffer, std::size_t index,
+/// The ray at an index of a question, the structure's answer, and the oracle's, not yet judged. An
+/// answer that is neither hit nor miss is kept as it stands.
+Mismatch ask_again(const Question& question, const Answers& answers, std::size_t index,
                    const std::optional<ExactHit>& oracle);
 
 /// Sets class and reason by the first three rules, or where the answer is none at all; false where
@@ -23,7 +23,8 @@ void adjudicate(const Scene& scene, double tolerance, Mismatch& found);
 /// A baseline's answer: only a miss is right.
 void settle_as_baseline(Mismatch& found);
 
-/// All of it for one ray: `found` as `ask_again` returns it.
+/// The class by the rules, where they suffice, otherwise by the search: all of it for one ray:
+/// `found` as `ask_again` returns it.
 void judge_ray(const Scene& scene, Conformance conformance, Mismatch& found);
 
 }  // namespace beambench

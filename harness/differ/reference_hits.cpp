@@ -1,36 +1,38 @@
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
 #include "harness/differ/differ.hpp"
 
 namespace beambench {
 
-ReferenceHits::ReferenceHits(const Scene& scene, const PrimaryRays& rays)
-    : scene_(&scene), rays_(&rays), hits_(rays.count()) {
-  const EmbreeOracle oracle(scene, glm::length(glm::dvec3(rays.eye())));
-  const auto samples = static_cast<std::size_t>(rays.samples());
-  const std::size_t row_length = static_cast<std::size_t>(rays.width()) * samples;
-  tbb::parallel_for(0, rays.height(), [&](int y) {
-    std::size_t index = static_cast<std::size_t>(y) * row_length;
-    for (int x = 0; x < rays.width(); ++x) {
-      for (int sample = 0; sample < rays.samples(); ++sample) {
-        hits_[index++] = oracle.closest_hit(rays.ray(x, y, sample));
-      }
-    }
-  });
+ReferenceHits::ReferenceHits(const Scene& scene, Question question)
+    : scene_(&scene), question_(std::move(question)), hits_(question_.size()) {
+  const EmbreeOracle oracle(scene, question_.reach());
+  tbb::parallel_for(tbb::blocked_range(std::size_t{0}, hits_.size(), 1024),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        hits_[i] = oracle.closest_hit(question_.ray(i));
+                      }
+                    });
 }
 
-ReferenceHits::ReferenceHits(const Scene& scene, const PrimaryRays& rays,
+ReferenceHits::ReferenceHits(const Scene& scene, Question question,
                              std::vector<std::optional<ExactHit>> hits)
-    : scene_(&scene), rays_(&rays), hits_(std::move(hits)) {
-  if (hits_.size() != rays.count()) {
+    : scene_(&scene), question_(std::move(question)), hits_(std::move(hits)) {
+  if (hits_.size() != question_.size()) {
     throw std::logic_error(
-        fmt::format("{} reference hits are given for {} rays", hits_.size(), rays.count()));
+        fmt::format("{} reference hits are given for {} rays", hits_.size(), question_.size()));
   }
+}
+
+std::uint64_t ReferenceHits::hit_count() const {
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(hits_, [](const auto& hit) { return hit.has_value(); }));
 }
 
 }  // namespace beambench

@@ -22,19 +22,27 @@ std::string shell_quoted(std::string_view word) {
   return quoted + '\'';
 }
 
-ReplayCommand::ReplayCommand(const Scene& scene, std::string_view camera,
-                             const StructureChoice& structure, const PrimaryRays& rays)
-    : question_(fmt::format("beambench trace {} --accel {}", shell_quoted(scene.name),
-                            shell_quoted(structure.short_label()))),
-      image_(fmt::format("--resolution {}x{}", rays.width(), rays.height())),
-      sampled_(rays.samples() > 1) {
-  if (sampled_) image_ += fmt::format(" --samples {}", rays.samples());
-  if (camera != scene.cameras.front().name) image_ += " --camera " + shell_quoted(camera);
+ReplayCommand::ReplayCommand(const Scene& scene, const ImageOfRays& image,
+                             const StructureChoice& structure, const Question& question)
+    : question_(question),
+      subject_(fmt::format("beambench trace {} --accel {}", shell_quoted(scene.name),
+                           shell_quoted(structure.short_label()))),
+      image_(fmt::format("--resolution {}", to_string(image.resolution))) {
+  if (image.samples > 1) image_ += fmt::format(" --samples {}", image.samples);
+  if (image.camera.name != scene.cameras.front().name) {
+    image_ += " --camera " + shell_quoted(image.camera.name);
+  }
 }
 
-std::string ReplayCommand::of(int x, int y, int sample) const {
-  const std::string which = sampled_ ? fmt::format(" --sample {}", sample) : "";
-  return fmt::format("{} --pixel {},{} {}{}", question_, x, y, image_, which);
+std::string ReplayCommand::of(std::size_t index) const {
+  const auto pixel = question_.pixel(index);
+  if (!pixel) {
+    return fmt::format("{} --rays {} --ray {} {}", subject_, shell_quoted(question_.label()), index,
+                       image_);
+  }
+  const std::string which =
+      question_.image()->samples() > 1 ? fmt::format(" --sample {}", pixel->sample) : "";
+  return fmt::format("{} --pixel {},{} {}{}", subject_, pixel->x, pixel->y, image_, which);
 }
 
 }  // namespace beambench

@@ -4,8 +4,8 @@
 #include <string>
 #include <string_view>
 
-#include "accel/primary_rays.hpp"
 #include "accel/registry.hpp"
+#include "harness/rays/question.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench {
@@ -13,19 +13,21 @@ namespace beambench {
 /// A word as a shell must be given it: as it is where that is safe, otherwise in single quotes.
 std::string shell_quoted(std::string_view word);
 
-/// `beambench trace SCENE --accel A --pixel X,Y ...` for the rays of an image, to be pasted into a
-/// shell. Scenes from files are named by their path as it was typed.
+/// `beambench trace SCENE --accel A --pixel X,Y ...` for the rays of an image,
+/// `... --rays KIND --ray N ...` for those of a list, to be pasted into a shell. Scenes from files
+/// are named by their path as it was typed.
 class ReplayCommand {
  public:
-  ReplayCommand(const Scene& scene, std::string_view camera, const StructureChoice& structure,
-                const PrimaryRays& rays);
+  /// `image` is what the rays come from, be they primary or not.
+  ReplayCommand(const Scene& scene, const ImageOfRays& image, const StructureChoice& structure,
+                const Question& question);
 
-  std::string of(int x, int y, int sample) const;
+  std::string of(std::size_t index) const;
 
  private:
-  std::string question_;  ///< scene and structure
-  std::string image_;     ///< resolution, samples, camera
-  bool sampled_;          ///< more than one sample a pixel
+  Question question_;
+  std::string subject_;  ///< scene and structure
+  std::string image_;    ///< resolution, samples, camera
 };
 
 }  // namespace beambench

@@ -1,46 +1,52 @@
 #include "harness/rays/ray_kind.hpp"
 
-#include <algorithm>
-#include <array>
-#include <string>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include "scenes/error.hpp"
+#include <cstdint>
 
 namespace beambench {
 namespace {
 
-constexpr std::array<RayKindInfo, 1> kRayKinds{
-    {{RayKind::kPrimary, "primary", "from the camera through every sample of every pixel"}}};
+ParameterInfo seed_parameter() {
+  return integer_parameter("seed", 1, 0, std::int64_t{1} << 53, "of the random numbers");
+}
+
+const std::vector<RayKindInfo>& all_kinds() {
+  static const std::vector<RayKindInfo> kinds{
+      {RayKind::kPrimary,
+       "primary",
+       "from the camera through every sample of every pixel",
+       Query::kClosestHit,
+       {}},
+      {RayKind::kShadow,
+       "shadow",
+       "from where primary rays hit to each light that the surface faces; any hit",
+       Query::kAnyHit,
+       {}},
+      {RayKind::kReflection,
+       "reflection",
+       "mirrored at the surface where primary rays hit, as if all were mirrors",
+       Query::kClosestHit,
+       {}},
+      {RayKind::kDiffuse,
+       "diffuse",
+       "one from each primary hit, its direction random by the cosine with the surface's normal",
+       Query::kClosestHit,
+       {seed_parameter()}},
+      {RayKind::kRandom,
+       "random",
+       "as many as the image has samples, uniform among all lines through the scene's box",
+       Query::kClosestHit,
+       {seed_parameter()}}};
+  return kinds;
+}
 
 }  // namespace
 
-std::span<const RayKindInfo> ray_kinds() { return kRayKinds; }
+std::string_view to_string(Query query) { return query == Query::kClosestHit ? "closest" : "any"; }
 
-std::string_view to_string(RayKind kind) { return kRayKinds[static_cast<std::size_t>(kind)].name; }
+std::span<const RayKindInfo> ray_kinds() { return all_kinds(); }
 
-RayKind parse_ray_kind(std::string_view name) {
-  for (const RayKindInfo& info : kRayKinds) {
-    if (info.name == name) return info.kind;
-  }
-  std::vector<std::string_view> names;
-  names.reserve(kRayKinds.size());
-  for (const RayKindInfo& info : kRayKinds) names.push_back(info.name);
-  throw InputError(
-      fmt::format("unknown ray kind '{}'; choose from: {}", name, fmt::join(names, ", ")));
-}
+const RayKindInfo& info_of(RayKind kind) { return all_kinds()[static_cast<std::size_t>(kind)]; }
 
-std::vector<RayKind> parse_ray_kinds(std::string_view list) {
-  std::vector<RayKind> kinds;
-  for (std::size_t start = 0; start <= list.size();) {
-    const std::size_t comma = std::min(list.find(',', start), list.size());
-    const RayKind kind = parse_ray_kind(list.substr(start, comma - start));
-    if (std::find(kinds.begin(), kinds.end(), kind) == kinds.end()) kinds.push_back(kind);
-    start = comma + 1;
-  }
-  return kinds;
-}
+std::string_view to_string(RayKind kind) { return info_of(kind).name; }
 
 }  // namespace beambench

@@ -2,30 +2,42 @@
 // The kinds of rays that structures are asked with.
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
+
+#include "scenes/parameters.hpp"
 
 namespace beambench {
 
 enum class RayKind {
-  kPrimary  ///< from the camera through the pixels
+  kPrimary,     ///< from the camera through the pixels
+  kShadow,      ///< from where primary rays hit to the lights
+  kReflection,  ///< mirrored where primary rays hit
+  kDiffuse,     ///< scattered where primary rays hit
+  kRandom       ///< lines through the scene's box
 };
+
+/// What is asked about a ray.
+enum class Query {
+  kClosestHit,
+  kAnyHit  ///< is there a hit at all?
+};
+std::string_view to_string(Query query);  // "closest", "any"
 
 /// A kind as the user sees it in `beambench list`.
 struct RayKindInfo {
   RayKind kind;
-  std::string_view name;
-  std::string_view summary;
+  std::string name;
+  std::string summary;
+  Query query;
+  std::vector<ParameterInfo> parameters;
 };
 
-/// All kinds.
+/// All kinds, in the order of the enumeration.
 std::span<const RayKindInfo> ray_kinds();
 
+const RayKindInfo& info_of(RayKind kind);
 std::string_view to_string(RayKind kind);
-
-/// A kind by its name. Throws InputError listing the valid names.
-RayKind parse_ray_kind(std::string_view name);
-/// A comma-separated list of names, each once. Throws as parse_ray_kind.
-std::vector<RayKind> parse_ray_kinds(std::string_view list);
 
 }  // namespace beambench

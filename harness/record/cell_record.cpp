@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "accel/work_counters.hpp"
-#include "harness/record/fingerprint.hpp"
+#include "harness/rays/fingerprint.hpp"
 #include "harness/record/robust_statistics.hpp"
 
 namespace beambench {
@@ -54,8 +54,14 @@ void add_identity(Row& row, const CellRecord& cell) {
   row["width"] = cell.id.resolution.width;
   row["height"] = cell.id.resolution.height;
   row["samples"] = cell.id.samples;
-  row["ray_kind"] = to_string(cell.id.ray_kind);
+  row["ray_kind"] = cell.id.rays;
+  row["query"] = to_string(cell.rays.query);
   row["rays"] = cell.rays.rays;
+  const bool any = cell.rays.query == Query::kAnyHit;
+  const Json share = cell.rays.rays > 0 ? Json(cell.rays.hit_share) : Json();
+  row["hit_share"] = any ? Json() : share;
+  row["occluded_share"] = any ? share : Json();
+  row["coherence"] = cell.rays.rays > 0 ? Json(cell.rays.coherence) : Json();
 }
 
 void add_wall_time(Row& row, const std::string& phase, const std::vector<double>& samples) {
@@ -63,6 +69,20 @@ void add_wall_time(Row& row, const std::string& phase, const std::vector<double>
   row[phase + "_ms_median"] = known ? Json(median(samples)) : Json();
   row[phase + "_ms_min"] = known ? Json(minimum(samples)) : Json();
   row[phase + "_ms_mad"] = known ? Json(median_absolute_deviation(samples)) : Json();
+}
+
+Json median_warm_trace(const CellRecord& cell) {
+  std::vector<double> warm;
+  for (const Repetition& repetition : cell.repetitions) {
+    if (repetition.warm_trace_ms) warm.push_back(*repetition.warm_trace_ms);
+  }
+  return warm.empty() ? Json() : Json(median(warm));
+}
+
+/// Nothing where nothing is left: such a structure does not make the rays that `null` makes.
+Json net_of_harness(const CellRecord& cell) {
+  const double net = median(collect(cell, &Repetition::trace_ms)) - cell.rays.harness_ms;
+  return net > 0.0 && cell.verdict != "baseline" ? Json(net) : Json();
 }
 
 void add_times(Row& row, const CellRecord& cell) {
@@ -77,6 +97,9 @@ void add_times(Row& row, const CellRecord& cell) {
   row["stop_reason"] = cell.stop_reason ? Json(to_string(*cell.stop_reason)) : Json();
   add_wall_time(row, "build", samples(&Repetition::build_ms));
   add_wall_time(row, "trace", samples(&Repetition::trace_ms));
+  row["trace_warm_ms_median"] = known ? median_warm_trace(cell) : Json();
+  row["harness_ms"] = known ? Json(cell.rays.harness_ms) : Json();
+  row["trace_net_ms_median"] = known ? net_of_harness(cell) : Json();
   const std::vector<double> totals = samples(&Repetition::total_ms);
   add_wall_time(row, "total", totals);
   const std::optional<Interval> interval = median_interval(totals);
@@ -162,6 +185,7 @@ Json repetition_json(const Repetition& repetition) {
             {"trace_ms", repetition.trace_ms},
             {"build_cpu_ms", repetition.build_cpu_ms},
             {"trace_cpu_ms", repetition.trace_cpu_ms}};
+  if (repetition.warm_trace_ms) json["warm_trace_ms"] = *repetition.warm_trace_ms;
   add_counts(json, "build", repetition.build_counts);
   add_counts(json, "trace", repetition.trace_counts);
   return json;
@@ -170,8 +194,8 @@ Json repetition_json(const Repetition& repetition) {
 }  // namespace
 
 std::string CellId::name() const {
-  return fmt::format("{}/{}/{}/{}/{}/{}{}{}", scene, camera, to_string(resolution), samples,
-                     to_string(ray_kind), structure, parameters.empty() ? "" : ":", parameters);
+  return fmt::format("{}/{}/{}/{}/{}/{}{}{}", scene, camera, to_string(resolution), samples, rays,
+                     structure, parameters.empty() ? "" : ":", parameters);
 }
 
 std::string CellId::key() const { return hex_digits(fingerprint(name())); }

@@ -9,7 +9,6 @@
 
 #include "accel/statistics.hpp"
 #include "harness/differ/differ.hpp"
-#include "harness/rays/ray_kind.hpp"
 #include "harness/rays/resolution.hpp"
 #include "harness/record/csv.hpp"
 #include "harness/record/hardware_counts.hpp"
@@ -29,7 +28,7 @@ struct CellId {
   std::string parameters;  ///< all of them, canonical
   Resolution resolution;
   int samples;
-  RayKind ray_kind;
+  std::string rays;  ///< as `RayChoice::label`
 
   /// `escena1/default/320x200/1/primary/samet:max_level=6,max_objects=0`.
   std::string name() const;
@@ -47,6 +46,8 @@ struct Repetition {
   double trace_cpu_ms;
   HardwareCounts build_counts{};
   HardwareCounts trace_counts{};
+  /// A second trace of the same structure, which may have kept something of the first.
+  std::optional<double> warm_trace_ms{};
 
   double total_ms() const { return build_ms + trace_ms; }
 };
@@ -73,11 +74,16 @@ struct RunFacts {
 
 /// What every cell of a group has in common.
 struct RaySetFacts {
-  std::uint64_t scene_hash;
-  std::uint64_t rays_hash;
-  std::uint64_t seed;  ///< of a random set of rays; 0 where nothing is random
-  std::uint64_t primitives;
-  std::uint64_t rays;
+  std::uint64_t scene_hash = 0;
+  std::uint64_t rays_hash = 0;
+  std::uint64_t seed = 0;  ///< of a random set of rays; 0 where nothing is random
+  std::uint64_t primitives = 0;
+  std::uint64_t rays = 0;  ///< 0 where they could not be made
+  Query query = Query::kClosestHit;
+  double hit_share = 0.0;  ///< by the oracle; of an any-hit query: the share that is occluded
+  double coherence = 1.0;  ///< between neighbours
+  /// The harness's own part of a trace: what `null` needs for these rays.
+  double harness_ms = 0.0;
 };
 
 /// A cell and all that was found out about it.

@@ -14,7 +14,7 @@
 #include <sys/utsname.h>
 #include <unistd.h>
 
-#include "harness/record/fingerprint.hpp"
+#include "harness/rays/fingerprint.hpp"
 
 namespace beambench {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/rays/fingerprint.hpp"
 #include "harness/record/build_info.hpp"
-#include "harness/record/fingerprint.hpp"
 
 namespace beambench {
 namespace {

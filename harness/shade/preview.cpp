@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "harness/picture/srgb.hpp"
-#include "harness/shade/normal.hpp"
+#include "harness/rays/normal.hpp"
 
 namespace beambench {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "harness/picture/color_map.hpp"
 #include "harness/picture/srgb.hpp"
-#include "harness/shade/normal.hpp"
+#include "harness/rays/normal.hpp"
 #include "harness/shade/preview.hpp"
 #include "scenes/error.hpp"
 

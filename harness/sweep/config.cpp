@@ -106,6 +106,15 @@ void read_structures(const JsonNode& list, const Registry& structures, SweepConf
   }
 }
 
+/// Refuses a file of rays that is not there before hours are spent on other cells.
+RayChoice existing(RayChoice choice) {
+  if (!choice.file.empty() && !std::filesystem::is_regular_file(choice.file)) {
+    throw InputError(fmt::format("there is no ray file '{}'; 'beambench rays' writes one",
+                                 choice.file.string()));
+  }
+  return choice;
+}
+
 void read_rays(const JsonNode& root, SweepConfig& config) {
   for (const JsonNode& node : root.require("resolutions").elements()) {
     const std::string text = node.text();
@@ -121,12 +130,12 @@ void read_rays(const JsonNode& root, SweepConfig& config) {
       root.checked([&] { require_ray_count(resolution, samples); });
     }
   }
-  config.rays = {RayKind::kPrimary};
+  config.rays = {RayChoice()};
   if (const auto rays = root.find("rays")) {
     config.rays.clear();
     for (const JsonNode& node : rays->elements()) {
       const std::string name = node.text();
-      config.rays.push_back(node.checked([&] { return parse_ray_kind(name); }));
+      config.rays.push_back(node.checked([&] { return existing(parse_ray_choice(name)); }));
     }
   }
 }

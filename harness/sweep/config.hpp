@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accel/registry.hpp"
-#include "harness/rays/ray_kind.hpp"
+#include "harness/rays/ray_choice.hpp"
 #include "harness/rays/resolution.hpp"
 
 namespace beambench {
@@ -38,7 +38,7 @@ struct SweepConfig {
   std::vector<StructureChoice> structures;  ///< lists of parameters multiplied out
   std::vector<Resolution> resolutions;
   std::vector<int> samples;
-  std::vector<RayKind> rays;
+  std::vector<RayChoice> rays;
   double precision;  ///< wanted half-width of the median's 95% interval, relative to the median
   int minimum_repetitions;
   int maximum_repetitions;

@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <exception>
-#include <limits>
 #include <memory>
 #include <new>
 
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "harness/record/fingerprint.hpp"
+#include "harness/rays/fingerprint.hpp"
 #include "harness/record/machine.hpp"
 #include "harness/sweep/conditions.hpp"
+#include "harness/sweep/harness_time.hpp"
 #include "harness/sweep/heap.hpp"
 #include "harness/sweep/phase_timer.hpp"
 
@@ -20,15 +20,18 @@ namespace {
 
 constexpr const char* kError = "error";
 
-/// Fills the buffer with answers that cannot be: the differ finds every sample left unwritten.
-void poison(HitBuffer& buffer) {
-  std::fill_n(buffer.t(), buffer.size(), std::numeric_limits<float>::quiet_NaN());
-  std::fill_n(buffer.primitive(), buffer.size(), kNoPrimitive - 1);
-}
-
-RaySetFacts facts_of(const Scene& scene, std::uint64_t scene_hash, const PrimaryRays& rays) {
-  constexpr std::uint64_t kNothingRandom = 0;
-  return {scene_hash, fingerprint(rays), kNothingRandom, scene.primitives.size(), rays.count()};
+RaySetFacts facts_of(const ReferenceHits& reference, std::uint64_t scene_hash) {
+  const Question& question = reference.question();
+  const double hits = static_cast<double>(reference.hit_count());
+  return {scene_hash,
+          fingerprint(question),
+          question.seed(),
+          reference.scene().primitives.size(),
+          question.size(),
+          question.query(),
+          hits / static_cast<double>(question.size()),
+          coherence(question),
+          0.0};
 }
 
 std::string mismatch_message(const DiffReport& report) {
@@ -55,12 +58,13 @@ bool is_all_zero(const std::map<std::string, std::uint64_t, std::less<>>& counte
 
 }  // namespace
 
-SharedQuestion::SharedQuestion(const CellGroup& group, std::uint64_t scene_hash)
-    : scene_(group.scene.get()),
-      rays_(group.camera, group.resolution.width, group.resolution.height, group.samples),
-      reference_(*scene_, rays_),
-      facts_(facts_of(*scene_, scene_hash, rays_)),
-      buffer_(rays_.width(), rays_.height(), rays_.samples()) {}
+SharedQuestion::SharedQuestion(const CellGroup& group, std::uint64_t scene_hash, int core)
+    : group_(&group),
+      reference_(*group.scene, make_question(*group.scene, group.image(), group.rays)),
+      facts_(facts_of(reference_, scene_hash)),
+      answers_(room_for(question())) {
+  facts_.harness_ms = harness_ms(scene(), question(), answers_, core);
+}
 
 Contender::Contender(const PlannedCell& cell, SharedQuestion& question)
     : cell_(&cell), question_(&question) {
@@ -76,9 +80,9 @@ void Contender::count() {
     const auto structure = cell_->structure.build(question_->scene());
     record_.allocated_bytes = heap_growth(heap_before, heap_in_use());
     WorkCounters counters;
-    poison(question_->buffer());
-    structure->trace(question_->rays(), question_->buffer(), counters);
-    counted_hits_ = fingerprint(question_->buffer());
+    poison(question_->answers());
+    ask(*structure, question_->question(), question_->answers(), counters);
+    counted_hits_ = fingerprint(question_->answers());
     record_.statistics = structure->statistics();
     record_.counters = counters.by_name();
   } catch (const std::exception& error) {
@@ -90,27 +94,26 @@ void Contender::count() {
 
 void Contender::repeat(const Instruments& instruments, int round, int position) {
   try {
-    Repetition repetition{};
-    {
-      const PinnedThread pin(instruments.core);
-      poison(question_->buffer());
-      repetition = time_once(instruments);
-    }
+    const PinnedThread pin(instruments.core);
+    poison(question_->answers());
+    std::unique_ptr<Accelerator> structure;
+    Repetition repetition = time_once(instruments, structure);
     repetition.round = round;
     repetition.position = position;
     record_.repetitions.push_back(repetition);
     totals_ms_.push_back(repetition.total_ms());
     spent_ms_ += repetition.total_ms();
     examine();
+    if (!failed_ && record_.repetitions.size() <= kWarmTraces) trace_warm(*structure);
   } catch (const std::exception& error) {
     fail(kError, message_of(error));
   }
 }
 
-Repetition Contender::time_once(const Instruments& instruments) {
+Repetition Contender::time_once(const Instruments& instruments,
+                                std::unique_ptr<Accelerator>& structure) {
   Repetition repetition{};
   std::exception_ptr problem;
-  std::unique_ptr<Accelerator> structure;  // destroyed outside of the timed loop
   instruments.benchmark.run_once(cell_->id.name(), [&](benchmark::State& state) {
     const MeasuringFloatMode mode;
     try {
@@ -121,12 +124,18 @@ Repetition Contender::time_once(const Instruments& instruments) {
           build = time_phase([&] { structure = cell_->structure.build(question_->scene()); });
         });
         const HardwareCounts trace_counts = instruments.counters.count([&] {
-          trace = time_phase([&] { structure->trace(question_->rays(), question_->buffer()); });
+          trace = time_phase([&] { ask(*structure, question_->question(), question_->answers()); });
         });
         state.SetIterationTime(1e-3 * (build.wall_ms + trace.wall_ms));
-        repetition = {
-            0,           0, build.wall_ms, trace.wall_ms, build.cpu_ms, trace.cpu_ms, build_counts,
-            trace_counts};
+        repetition = {0,
+                      0,
+                      build.wall_ms,
+                      trace.wall_ms,
+                      build.cpu_ms,
+                      trace.cpu_ms,
+                      build_counts,
+                      trace_counts,
+                      {}};
       }
     } catch (...) {
       // The library is not made for exceptions to pass through it.
@@ -141,23 +150,36 @@ Repetition Contender::time_once(const Instruments& instruments) {
 void Contender::examine() {
   const bool first = record_.repetitions.size() == 1;
   if (first) return judge_first();
-  if (fingerprint(question_->buffer()) == record_.hits_hash) return;
+  if (fingerprint(question_->answers()) == record_.hits_hash) return;
   fail(std::string(to_string(Verdict::kMismatch)),
        fmt::format("repetition {} wrote other hits than the first: the structure's answers depend "
                    "on more than scene and rays",
                    record_.repetitions.size()));
 }
 
+void Contender::trace_warm(const Accelerator& structure) {
+  const MeasuringFloatMode mode;
+  poison(question_->answers());
+  const PhaseTime again =
+      time_phase([&] { ask(structure, question_->question(), question_->answers()); });
+  record_.repetitions.back().warm_trace_ms = again.wall_ms;
+  spent_ms_ += again.wall_ms;
+  if (fingerprint(question_->answers()) == record_.hits_hash) return;
+  fail(std::string(to_string(Verdict::kMismatch)),
+       "a second trace of the same structure wrote other hits than its first");
+}
+
 void Contender::judge_first() {
-  const HitBuffer& buffer = question_->buffer();
-  record_.hits_hash = fingerprint(buffer);
-  record_.diff = judge(question_->reference(), buffer, cell_->structure.info().conformance);
+  const Answers& answers = question_->answers();
+  record_.hits_hash = fingerprint(answers);
+  record_.diff = judge(question_->reference(), answers, cell_->structure.info().conformance);
   record_.verdict = to_string(record_.diff->verdict);
   if (!record_.keeps_times()) {
-    const ReplayCommand replay(question_->scene(), cell_->id.camera, cell_->structure,
-                               question_->rays());
+    const ReplayCommand replay(question_->scene(), question_->image(), cell_->structure,
+                               question_->question());
     for (const Mismatch& example : record_.diff->examples) {
-      record_.examples.push_back(describe(question_->scene(), example, replay));
+      record_.examples.push_back(
+          describe(question_->scene(), question_->question(), example, replay));
     }
     return fail(record_.verdict, mismatch_message(*record_.diff));
   }

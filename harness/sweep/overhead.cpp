@@ -1,7 +1,5 @@
 #include "harness/sweep/overhead.hpp"
 
-#include <map>
-
 #include <fmt/format.h>
 
 namespace beambench {
@@ -9,54 +7,36 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// The trace times of the cells that share their rays.
-struct View {
-  std::optional<double> null_ms;
-  std::optional<double> fastest_ms;
-  std::string fastest;
-};
-
-std::string view_of(const Json& row) {
-  return fmt::format("{}/{}/{}x{}/{}/{}", row.at("scene").get<std::string>(),
-                     row.at("camera").get<std::string>(), row.at("width").get<int>(),
-                     row.at("height").get<int>(), row.at("samples").get<int>(),
-                     row.at("ray_kind").get<std::string>());
-}
-
-void add(View& view, const Json& row) {
-  if (row.at("trace_ms_median").is_null()) return;
+std::optional<double> part_of(const Json& row) {
+  if (row.at("verdict") != "ok" || row.at("trace_ms_median").is_null()) return std::nullopt;
   const double trace_ms = row.at("trace_ms_median").get<double>();
-  if (row.at("verdict") == "baseline") {
-    view.null_ms = trace_ms;
-  } else if (!view.fastest_ms || trace_ms < *view.fastest_ms) {
-    view.fastest_ms = trace_ms;
-    view.fastest = row.at("structure").get<std::string>();
-  }
+  if (trace_ms <= 0.0) return std::nullopt;
+  return row.at("harness_ms").get<double>() / trace_ms;
 }
 
 }  // namespace
 
 std::optional<Overhead> largest_overhead(std::span<const Json> cells) {
-  std::map<std::string, View> views;
-  for (const Json& cell : cells) add(views[view_of(cell.at("row"))], cell.at("row"));
   std::optional<Overhead> largest;
-  for (const auto& [name, view] : views) {
-    if (!view.null_ms || !view.fastest_ms || *view.fastest_ms <= 0.0) continue;
-    const double part = *view.null_ms / *view.fastest_ms;
-    if (!largest || part > largest->part) largest = Overhead{name, view.fastest, part};
+  for (const Json& cell : cells) {
+    const std::optional<double> part = part_of(cell.at("row"));
+    if (part && (!largest || *part > largest->part)) {
+      largest = Overhead{cell.at("name").get<std::string>(), *part};
+    }
   }
   return largest;
 }
 
 std::string describe(const Overhead& overhead) {
   return fmt::format(
-      "harness overhead (null): at most {:.2g}% of the fastest contender's trace time ({} on {})",
-      100.0 * overhead.part, overhead.fastest, overhead.view);
+      "harness overhead: at most {:.2g}% of a contender's trace time ({}); trace_net_ms_median in "
+      "results.csv is without it",
+      100.0 * overhead.part, overhead.cell);
 }
 
 Json to_json(const std::optional<Overhead>& overhead) {
   if (!overhead) return {};
-  return {{"part", overhead->part}, {"fastest", overhead->fastest}, {"rays", overhead->view}};
+  return {{"part", overhead->part}, {"cell", overhead->cell}};
 }
 
 }  // namespace beambench

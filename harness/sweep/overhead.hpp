@@ -9,20 +9,19 @@
 
 namespace beambench {
 
-/// `null` makes every ray and writes every answer, but looks for none: its trace time beside that
-/// of the fastest contender of the same rays.
+/// The harness's own time (harness_time.hpp) beside the contender's whose trace is the quickest in
+/// comparison.
 struct Overhead {
-  std::string view;     ///< `tetra:n=6/default/320x200/1/primary`
-  std::string fastest;  ///< the contender
-  double part;          ///< of the fastest contender's median trace time
+  std::string cell;  ///< its name
+  double part;       ///< of its median trace time
 };
 
-/// The rays where that part is largest, among finished cells (their JSON files); nothing where
-/// `null` was not measured beside anything else.
+/// The cell where that part is largest, among finished cells with right answers (their JSON files);
+/// nothing where there is none.
 std::optional<Overhead> largest_overhead(std::span<const nlohmann::ordered_json> cells);
 
-/// `harness overhead (null): at most 1.2% of the fastest contender's trace time (embree,
-/// tetra...)`.
+/// `harness overhead: at most 1.2% of a contender's trace time (tetra.../embree); ...`, saying
+/// where the times without it stand.
 std::string describe(const Overhead& overhead);
 
 nlohmann::ordered_json to_json(const std::optional<Overhead>& overhead);

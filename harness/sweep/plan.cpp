@@ -76,12 +76,20 @@ class Planner {
     for (const Camera& camera : cameras_of(*scene, entry)) {
       for (const Resolution& resolution : config_.resolutions) {
         for (const int samples : config_.samples) {
-          for (const RayKind kind : config_.rays) {
-            add_group({scene, camera, resolution, samples, kind, {}}, entry);
+          for (const RayChoice& rays : config_.rays) {
+            if (!rays.file.empty() && !is_first(*scene, camera, resolution, samples)) continue;
+            add_group({scene, camera, resolution, samples, rays, {}}, entry);
           }
         }
       }
     }
+  }
+
+  /// The rays of a file are the same in every view: they are asked once.
+  bool is_first(const Scene& scene, const Camera& camera, const Resolution& resolution,
+                int samples) const {
+    return camera.name == scene.cameras.front().name && resolution == config_.resolutions.front() &&
+           samples == config_.samples.front();
   }
 
   void add_group(CellGroup group, const SceneEntry& entry) {
@@ -93,7 +101,7 @@ class Planner {
       CellId id{group.scene->name,     group.camera.name,
                 structure.info().name, structure.parameters().canonical(),
                 group.resolution,      group.samples,
-                group.ray_kind};
+                group.rays.label};
       if (names_.insert(id.name()).second) {
         group.cells.push_back({names_.size() - 1, std::move(id), structure});
       } else {
@@ -112,7 +120,7 @@ class Planner {
 
 std::string CellGroup::name() const {
   return fmt::format("{}/{}/{}/{}/{}", scene->name, camera.name, to_string(resolution), samples,
-                     to_string(ray_kind));
+                     rays.label);
 }
 
 std::size_t Plan::cell_count() const {

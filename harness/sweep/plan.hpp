@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "harness/rays/question.hpp"
 #include "harness/record/cell_record.hpp"
 #include "harness/record/manifest.hpp"
 #include "harness/sweep/config.hpp"
@@ -26,11 +27,12 @@ struct CellGroup {
   Camera camera;
   Resolution resolution;
   int samples;
-  RayKind ray_kind;
+  RayChoice rays;
   std::vector<PlannedCell> cells;
 
   /// `escena1/default/320x200/1/primary`.
   std::string name() const;
+  ImageOfRays image() const { return {camera, resolution, samples}; }
 };
 
 struct Plan {

@@ -5,7 +5,8 @@
 #include <fmt/format.h>
 
 #include "harness/progress/progress.hpp"
-#include "harness/record/fingerprint.hpp"
+#include "harness/rays/fingerprint.hpp"
+#include "harness/rays/share_warning.hpp"
 #include "harness/record/preflight.hpp"
 #include "harness/sweep/begin_manifest.hpp"
 #include "harness/sweep/conditions.hpp"
@@ -13,6 +14,7 @@
 #include "harness/sweep/overhead.hpp"
 #include "harness/sweep/resume.hpp"
 #include "harness/sweep/turns.hpp"
+#include "scenes/error.hpp"
 
 namespace beambench {
 namespace {
@@ -104,10 +106,38 @@ class SweepRun {
   }
 
   void run_group(const CellGroup& group, double share_ms, Progress& progress) {
-    const auto begin = Clock::now();
+    progress.start(group.name());
+    try {
+      const auto begin = Clock::now();
+      SharedQuestion question(group, hash_of(*group.scene), core_);
+      if (const auto warning =
+              share_warning(question.question(), question.reference().hit_count())) {
+        warn(fmt::format("{}: {}.", group.name(), *warning), progress);
+      }
+      measure(group, question, begin, share_ms, progress);
+    } catch (const InputError& error) {  // there are no rays to ask: the other groups go on
+      for (const PlannedCell& cell : group.cells) finish(failed_cell(cell, error.what()), progress);
+    }
+  }
+
+  void warn(std::string sentence, Progress& progress) {
+    progress.say("warning: " + sentence);
+    manifest_.uncontrolled.push_back(std::move(sentence));
+  }
+
+  static CellRecord failed_cell(const PlannedCell& cell, std::string message) {
+    CellRecord record{};
+    record.index = cell.index;
+    record.id = cell.id;
+    record.time_utc = utc_now();
+    record.verdict = "error";
+    record.message = std::move(message);
+    return record;
+  }
+
+  void measure(const CellGroup& group, SharedQuestion& question, Clock::time_point begin,
+               double share_ms, Progress& progress) {
     const auto label = [&] { progress.start(group.name()); };
-    label();
-    SharedQuestion question(group, hash_of(*group.scene));
     std::vector<Contender> contenders;
     for (const PlannedCell& cell : group.cells) contenders.emplace_back(cell, question).count();
     // The oracle's and the counting passes' time is the group's own.

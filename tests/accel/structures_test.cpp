@@ -89,6 +89,12 @@ std::vector<std::string> names_with(Conformance conformance) {
   return names;
 }
 
+std::vector<std::string> all_names() {
+  std::vector<std::string> names;
+  for (const auto& info : registry().structures()) names.push_back(info.name);
+  return names;
+}
+
 std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   std::replace(name.begin(), name.end(), '-', '_');
@@ -228,6 +234,7 @@ TEST_P(BitExact, AnswersSeveralThreadsAtOnce) {
   std::array<int, 4> wrong{};
   {
     std::vector<std::jthread> threads;
+    threads.reserve(wrong.size());
     for (int& mine : wrong) {
       threads.emplace_back([&] {
         for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -267,6 +274,39 @@ TEST(Registry, NamesTheValidStructures) {
     EXPECT_NE(message.find("exhaustive"), std::string::npos) << message;
   }
 }
+
+class EveryStructure : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(EveryStructure, AnswersListsAsItAnswersSingleRays) {
+  const Scene scene = random_scene(11, 40);
+  Random random(11);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 203; ++i) {  // no multiple of a packet's size
+    rays.push_back(random_ray(scene, random));
+    if (i % 3 == 0) rays.back().t_max = 0.5F * static_cast<float>(i);
+  }
+  const auto structure = registry().choose({GetParam(), {}}).build(scene);
+  HitBuffer closest(static_cast<int>(rays.size()), 1, 1);
+  HitBuffer counted = closest;
+  std::vector<std::uint8_t> any(rays.size(), 0xFF);
+  std::vector<std::uint8_t> counted_any(rays.size(), 0xFF);
+  WorkCounters counters;
+  structure->closest_hits(rays, closest);
+  structure->closest_hits(rays, counted, counters);
+  structure->any_hits(rays, any);
+  structure->any_hits(rays, counted_any, counters);
+  EXPECT_EQ(counted, closest);
+  EXPECT_EQ(counted_any, any);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    EXPECT_EQ(closest.get(i), structure->closest_hit(rays[i])) << show(rays[i]);
+    if (!closest.get(i)) {
+      EXPECT_EQ(closest.t()[i], kInfinity);
+    }
+    EXPECT_EQ(any[i], structure->any_hit(rays[i]) ? 1 : 0) << show(rays[i]);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryStructure, ::testing::ValuesIn(all_names()), test_name);
 
 TEST(Registry, EveryStructureExplainsItself) {
   for (const auto& info : registry().structures()) {

@@ -31,8 +31,10 @@ HitBuffer traced(const std::string& structure, const Scene& scene, const Primary
   return buffer;
 }
 
-std::string first_example(const Scene& scene, const DiffReport& report) {
-  return report.examples.empty() ? "" : describe(scene, report.examples.front());
+std::string first_example(const ReferenceHits& reference, const DiffReport& report) {
+  return report.examples.empty()
+             ? ""
+             : describe(reference.scene(), reference.question(), report.examples.front());
 }
 
 TEST(Oracle, GivesTheLongDoubleAnswer) {
@@ -71,8 +73,8 @@ TEST(Judge, FindsNoErrorInExhaustiveSearchOnRandomScenes) {
     const ReferenceHits reference(scene, rays);
     const DiffReport report =
         judge(reference, traced("exhaustive", scene, rays), Conformance::kBitExact);
-    ASSERT_EQ(report.verdict, Verdict::kOk) << first_example(scene, report);
-    ASSERT_EQ(report.count(DiffClass::kEmbreeError), 0U) << first_example(scene, report);
+    ASSERT_EQ(report.verdict, Verdict::kOk) << first_example(reference, report);
+    ASSERT_EQ(report.count(DiffClass::kEmbreeError), 0U) << first_example(reference, report);
     ASSERT_EQ(report.rays, rays.count());
   }
 }
@@ -90,7 +92,7 @@ TEST(Judge, AcceptsEveryModeOfEmbree) {
       const DiffReport report =
           judge(reference, traced(structure, scene, rays), Conformance::kTolerance);
       EXPECT_EQ(report.verdict, Verdict::kOk) << name << " " << structure << "\n"
-                                              << first_example(scene, report);
+                                              << first_example(reference, report);
       EXPECT_GT(report.hits, 0U);
     }
   }
@@ -105,7 +107,8 @@ TEST(Judge, AcceptsEmbreesOwnConesAndInsideSpheres) {
       const std::string structure = "embree:mode=" + mode;
       const DiffReport report =
           judge(reference, traced(structure, scene, rays), Conformance::kTolerance);
-      ASSERT_EQ(report.verdict, Verdict::kOk) << structure << "\n" << first_example(scene, report);
+      ASSERT_EQ(report.verdict, Verdict::kOk) << structure << "\n"
+                                              << first_example(reference, report);
     }
   }
 }
@@ -153,7 +156,8 @@ class FaultyBuffer : public ::testing::Test {
     const DiffReport report = judged();
     EXPECT_EQ(report.verdict, Verdict::kMismatch);
     EXPECT_EQ(report.count(DiffClass::kEngineError), 1U);
-    EXPECT_EQ(report.count(DiffClass::kAgree), report.rays - 1) << first_example(scene_, report);
+    EXPECT_EQ(report.count(DiffClass::kAgree), report.rays - 1)
+        << first_example(reference_, report);
     ASSERT_EQ(report.examples.size(), 1U);
     EXPECT_EQ(report.examples.front().diff_class, DiffClass::kEngineError);
   }
@@ -244,7 +248,7 @@ TEST_F(FaultyBuffer, AnswersThatAreNone) {
     buffer_.t()[on_tile()] = answer.t;
     buffer_.primitive()[on_tile()] = answer.primitive;
     expect_engine_error();
-    EXPECT_FALSE(describe(scene_, judged().examples.front()).empty());
+    EXPECT_FALSE(describe(scene_, rays_, judged().examples.front()).empty());
   }
   buffer_.set(on_tile(), before);
   EXPECT_EQ(judged().verdict, Verdict::kOk);
@@ -264,9 +268,9 @@ TEST_F(FaultyBuffer, DescriptionNamesPixelRayBothHitsAndTheExactAnswer) {
   buffer_.set(on_tile(), std::nullopt);
   const DiffReport report = judged();
   const Mismatch& mismatch = report.examples.at(0);
-  EXPECT_EQ(buffer_.index(mismatch.x, mismatch.y, mismatch.sample), on_tile());
-  const std::string text = describe(scene_, mismatch);
-  EXPECT_NE(text.find("pixel (" + std::to_string(mismatch.x) + ", "), std::string::npos) << text;
+  EXPECT_EQ(mismatch.index, on_tile());
+  const std::string text = describe(scene_, rays_, mismatch);
+  EXPECT_NE(text.find("pixel ("), std::string::npos) << text;
   EXPECT_NE(text.find("from (0, 0, 4) along ("), std::string::npos) << text;
   EXPECT_NE(text.find("engine miss"), std::string::npos) << text;
   EXPECT_NE(text.find("oracle primitive 1 (polygon) at t = 4"), std::string::npos) << text;

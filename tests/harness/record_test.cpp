@@ -9,9 +9,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "harness/rays/fingerprint.hpp"
 #include "harness/record/cell_record.hpp"
 #include "harness/record/csv.hpp"
-#include "harness/record/fingerprint.hpp"
 #include "harness/record/machine.hpp"
 #include "harness/record/preflight.hpp"
 #include "harness/record/robust_statistics.hpp"
@@ -136,7 +136,7 @@ TEST(Csv, ColumnsAreTheUnionInOrder) {
 
 CellRecord some_cell() {
   CellRecord cell{};
-  cell.id = {"tetra:n=2", "default", "samet", "max_level=6", {32, 20}, 1, RayKind::kPrimary};
+  cell.id = {"tetra:n=2", "default", "samet", "max_level=6", {32, 20}, 1, "primary"};
   cell.rays = {1, 2, 0, 16, 640};
   cell.verdict = "ok";
   cell.statistics.emplace();
@@ -159,9 +159,11 @@ const RunFacts kRun{"id", "abc", true, "m", "Release", "-O3", "AVX2", 1};
 const char* const kContract =
     "schema_version,run_id,time_utc,commit,dirty,machine_id,build_type,flags,isa,threads,"
     "scene,camera,scene_hash,rays_hash,seed,primitives,"
-    "structure,parameters,width,height,samples,ray_kind,rays,"
+    "structure,parameters,width,height,samples,ray_kind,query,rays,hit_share,occluded_share,"
+    "coherence,"
     "repetitions,stop_reason,"
     "build_ms_median,build_ms_min,build_ms_mad,trace_ms_median,trace_ms_min,trace_ms_mad,"
+    "trace_warm_ms_median,harness_ms,trace_net_ms_median,"
     "total_ms_median,total_ms_min,total_ms_mad,total_ms_ci_low,total_ms_ci_high,"
     "build_cpu_ms_median,trace_cpu_ms_median,mrays_per_s,"
     "build_instructions,build_cycles,build_cache_misses,"
@@ -211,12 +213,13 @@ TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
   cell.verdict = "mismatch";
   const Row row = to_row(kRun, cell);
   for (const auto& [column, value] : row.items()) {
-    const bool is_time = column.find("_ms_") != std::string::npos || column == "mrays_per_s" ||
-                         column.ends_with("_cycles") || column.ends_with("_instructions") ||
-                         column.ends_with("_cache_misses");
+    const bool is_time = column.find("_ms_") != std::string::npos || column == "harness_ms" ||
+                         column == "mrays_per_s" || column.ends_with("_cycles") ||
+                         column.ends_with("_instructions") || column.ends_with("_cache_misses");
     EXPECT_EQ(value.is_null(),
               is_time || column == "leaves_per_ray" || column == "empty_leaves_per_ray" ||
-                  column == "box_tests_per_ray" || column == "primitive_tests_per_ray")
+                  column == "box_tests_per_ray" || column == "primitive_tests_per_ray" ||
+                  column == "occluded_share")
         << column;
   }
   EXPECT_TRUE(to_json(kRun, cell).at("repetitions").empty());

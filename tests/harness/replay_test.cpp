@@ -36,13 +36,19 @@ TEST(ReplayCommand, NamesWhatIsNotTheDefault) {
   scene.cameras.push_back(scene.cameras.front());
   scene.cameras.back().name = "from the side";
   const StructureChoice samet = registry().choose(parse_spec("samet:max_level=3"));
-  const PrimaryRays one(scene.cameras.front(), 32, 20, 1);
-  EXPECT_EQ(ReplayCommand(scene, scene.cameras.front().name, samet, one).of(3, 4, 0),
+  const ImageOfRays front{scene.cameras.front(), {32, 20}, 1};
+  const PrimaryRays one(front.camera, 32, 20, 1);
+  EXPECT_EQ(ReplayCommand(scene, front, samet, one).of(4 * 32 + 3),
             "beambench trace tetra:n=1 --accel samet:max_level=3 --pixel 3,4 --resolution 32x20");
   const PrimaryRays four(scene.cameras.back(), 32, 20, 4);
-  EXPECT_EQ(ReplayCommand(scene, "from the side", samet, four).of(3, 4, 2),
+  const ImageOfRays side{scene.cameras.back(), {32, 20}, 4};
+  EXPECT_EQ(ReplayCommand(scene, side, samet, four).of((4 * 32 + 3) * 4 + 2),
             "beambench trace tetra:n=1 --accel samet:max_level=3 --pixel 3,4 --resolution 32x20 "
             "--samples 4 --camera 'from the side' --sample 2");
+  const Question diffuse = make_question(scene, front, parse_ray_choice("diffuse:seed=2"));
+  EXPECT_EQ(ReplayCommand(scene, front, samet, diffuse).of(7),
+            "beambench trace tetra:n=1 --accel samet:max_level=3 --rays diffuse:seed=2 --ray 7 "
+            "--resolution 32x20");
 }
 
 /// The line of a text that begins with `beginning`.
@@ -98,14 +104,39 @@ TEST_F(PlantedMismatch, IsReplayedByThePastedCommand) {
   EXPECT_EQ(std::count(classes.begin(), classes.end(), DiffClass::kAgree),
             static_cast<std::ptrdiff_t>(classes.size()) - 1);
 
-  const ReplayCommand replay(scene_, scene_.cameras.front().name, samet, rays);
-  const std::string described = describe(scene_, report.examples[0], replay);
+  const ReplayCommand replay(scene_, {scene_.cameras.front(), {33, 21}, kSamples}, samet, rays);
+  const std::string described = describe(scene_, rays, report.examples[0], replay);
   const std::string pasted = line_of(described, "  replay ").substr(9);
   const std::string shown = paste(pasted, 0);  // the program's own samet does not lose the hit
   EXPECT_EQ(line_of(shown, "  ray "), line_of(described, "  ray "));
   EXPECT_EQ(line_of(shown, "  oracle "), line_of(described, "  oracle "));
   EXPECT_NE(shown.find("pixel (16, 10) sample 3: agree"), std::string::npos) << shown;
   EXPECT_NE(shown.find("leaf"), std::string::npos) << shown;
+}
+
+TEST_F(PlantedMismatch, OfASecondaryRayIsReplayedByThePastedCommand) {
+  const ImageOfRays image{scene_.cameras.front(), {33, 21}, 1};
+  const StructureChoice samet = registry().choose(parse_spec("samet:max_level=3"));
+  for (const char* kind : {"random:seed=4", "reflection"}) {
+    const ReferenceHits reference(scene_, make_question(scene_, image, parse_ray_choice(kind)));
+    Answers answers = room_for(reference.question());
+    ask(*samet.build(scene_), reference.question(), answers);
+    auto& hits = std::get<HitBuffer>(answers);
+    std::size_t at = 0;
+    while (!hits.get(at) && at + 1 < hits.size()) ++at;
+    const auto found = hits.get(at);
+    hits.set(at, found ? std::nullopt : std::optional(Hit{1.0F, 0}));
+    const DiffReport report = judge(reference, answers, Conformance::kBitExact);
+    ASSERT_EQ(report.examples.size(), 1U) << kind;
+
+    const ReplayCommand replay(scene_, image, samet, reference.question());
+    const std::string described =
+        describe(scene_, reference.question(), report.examples[0], replay);
+    const std::string shown = paste(line_of(described, "  replay ").substr(9), 0);
+    EXPECT_EQ(line_of(shown, "  ray "), line_of(described, "  ray "));
+    EXPECT_EQ(line_of(shown, "  oracle "), line_of(described, "  oracle "));
+    EXPECT_NE(shown.find("ray " + std::to_string(at) + ": agree"), std::string::npos) << shown;
+  }
 }
 
 TEST_F(PlantedMismatch, OneRayIsJudgedAsInItsImage) {

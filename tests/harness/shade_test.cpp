@@ -7,7 +7,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "accel/registry.hpp"
-#include "harness/shade/normal.hpp"
+#include "harness/rays/normal.hpp"
 #include "harness/shade/shading.hpp"
 #include "scenes/error.hpp"
 #include "scenes/scene_builder.hpp"

@@ -10,7 +10,7 @@
 
 #include "harness/files/pending_file.hpp"
 #include "harness/progress/progress.hpp"
-#include "harness/rays/ray_kind.hpp"
+#include "harness/rays/ray_choice.hpp"
 #include "harness/rays/resolution.hpp"
 #include "scenes/error.hpp"
 #include "tests/harness/temporary_folder.hpp"
@@ -39,9 +39,16 @@ TEST(RayCount, IsLimitedByPixelsTimesSamples) {
 }
 
 TEST(RayKinds, AreReadFromAListEachOnce) {
-  EXPECT_EQ(parse_ray_kinds("primary,primary"), std::vector{RayKind::kPrimary});
-  for (const char* text : {"", "primary,", ",primary", "Primary", "shadows"}) {
-    EXPECT_THROW(parse_ray_kinds(text), InputError) << text;
+  EXPECT_EQ(parse_ray_choices("primary,primary"), std::vector{RayChoice()});
+  const auto choices = parse_ray_choices("shadow,diffuse:seed=7,diffuse,a/b.rays,diffuse:seed=1");
+  ASSERT_EQ(choices.size(), 4U);
+  EXPECT_EQ(choices[1].label, "diffuse:seed=7");
+  EXPECT_EQ(choices[1].seed, 7U);
+  EXPECT_EQ(choices[2].label, "diffuse");
+  EXPECT_EQ(choices[3].file, "a/b.rays");
+  for (const char* text : {"", "primary,", ",primary", "Primary", "shadows", "shadow:seed=1",
+                           "diffuse:seed=x", "diffuse:seed=-1"}) {
+    EXPECT_THROW(parse_ray_choices(text), InputError) << text;
   }
 }
 

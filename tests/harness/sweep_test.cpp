@@ -26,7 +26,7 @@ using nlohmann::json;
 struct Traced {
   HitBuffer& buffer;        ///< with the right hits
   const HitBuffer& before;  ///< what was in it before
-  int pass;                 ///< counts the traces, the counting one included
+  int pass;  ///< counts the traces: the counting one is 0, the two of repetition n 2n - 1 and 2n
 };
 using Fault = std::function<void(const Traced&)>;
 
@@ -55,6 +55,22 @@ class FaultyAccelerator : public Accelerator {
     const HitBuffer before = buffer;
     right_->trace(rays, buffer, counters);
     fault_({buffer, before, (*passes_)++});
+  }
+  void closest_hits(std::span<const Ray> rays, HitBuffer& buffer) const override {
+    right_->closest_hits(rays, buffer);
+  }
+  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers) const override {
+    right_->any_hits(rays, answers);
+    answers.front() = answers.front() == 0 ? 1 : 0;  // its fault with any-hit queries
+  }
+  void closest_hits(std::span<const Ray> rays, HitBuffer& buffer,
+                    WorkCounters& counters) const override {
+    right_->closest_hits(rays, buffer, counters);
+  }
+  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers,
+                WorkCounters& counters) const override {
+    right_->any_hits(rays, answers, counters);
+    answers.front() = answers.front() == 0 ? 1 : 0;
   }
   Statistics statistics() const override { return right_->statistics(); }
 
@@ -118,9 +134,11 @@ class Sweep : public testing::Test {
   TemporaryFolder folder_;
 };
 
-/// Intervals aside: four repetitions have none.
+/// Intervals aside: four repetitions have none. A quick trace may have nothing beyond the
+/// harness's.
 bool is_time(const std::string& column) {
-  return column.find("_ms_") != std::string::npos && column.find("_ci_") == std::string::npos;
+  return column.find("_ms_") != std::string::npos && column.find("_ci_") == std::string::npos &&
+         column != "trace_net_ms_median";
 }
 
 void expect_times(const json& cell, bool has_times) {
@@ -147,6 +165,16 @@ TEST_F(Sweep, RightStructuresKeepTheirTimes) {
   EXPECT_GT(cells()["samet"]["row"]["nodes"], 1);
   EXPECT_TRUE(cells()["embree"]["row"]["nodes"].is_null());
   EXPECT_EQ(cells()["samet"]["hits_hash"], cells()["exhaustive"]["hits_hash"]);
+}
+
+TEST_F(Sweep, TheHarnessesOwnTimeIsTold) {
+  run(config({"null", "exhaustive"}));
+  const json row = cells()["exhaustive"]["row"];
+  EXPECT_GT(row["harness_ms"], 0.0);
+  EXPECT_EQ(row["trace_net_ms_median"],
+            row["trace_ms_median"].get<double>() - row["harness_ms"].get<double>());
+  EXPECT_TRUE(cells()["null"]["row"]["trace_net_ms_median"].is_null());
+  EXPECT_TRUE(says(messages(), {"harness overhead: at most"}));
 }
 
 TEST_F(Sweep, TheFolderHoldsTheWholeRecord) {
@@ -226,15 +254,75 @@ INSTANTIATE_TEST_SUITE_P(
                             "1 of 640 rays got a wrong hit"},
                     Planted{"AnotherAnswerInTheThirdRepetition",
                             [](const Traced& traced) {
-                              if (traced.pass == 3) drop_one_hit(traced.buffer);
+                              if (traced.pass == 5) drop_one_hit(traced.buffer);
                             },
                             "repetition 3 wrote other hits"},
+                    Planted{"AnotherAnswerInASecondTrace",
+                            [](const Traced& traced) {
+                              if (traced.pass == 4) drop_one_hit(traced.buffer);
+                            },
+                            "a second trace of the same structure"},
                     Planted{"AnotherAnswerWhileCounting",
                             [](const Traced& traced) {
                               if (traced.pass == 0) drop_one_hit(traced.buffer);
                             },
                             "the counting pass found other hits"}),
     [](const auto& planted) { return planted.param.name; });
+
+TEST_F(Sweep, AsksEveryKindOfRays) {
+  json all = config({"exhaustive", "samet:max_level=4", "embree"});
+  all["rays"] = {"primary", "shadow", "reflection", "diffuse:seed=3", "random"};
+  EXPECT_EQ(run(all).failed, 0U);
+  std::map<std::string, std::set<json>> hashes;
+  for (const auto& entry : std::filesystem::directory_iterator(results() / "cells")) {
+    const json row = json::parse(read_text(entry.path()))["row"];
+    const std::string kind = row["ray_kind"];
+    hashes[kind].insert(row["rays_hash"]);
+    EXPECT_EQ(row["query"], kind == "shadow" ? "any" : "closest");
+    EXPECT_EQ(row["hit_share"].is_null(), kind == "shadow");
+    EXPECT_EQ(row["occluded_share"].is_null(), kind != "shadow");
+    const json share = kind == "shadow" ? row["occluded_share"] : row["hit_share"];
+    EXPECT_EQ(share.get<double>(), row["hits"].get<double>() / row["rays"].get<double>());
+    EXPECT_EQ(row["seed"], kind == "diffuse:seed=3" ? 3 : kind == "random" ? 1 : 0);
+    EXPECT_LE(row["coherence"].get<double>(), 1.0);
+  }
+  EXPECT_EQ(hashes.size(), 5U);
+  for (const auto& [kind, of_kind] : hashes) EXPECT_EQ(of_kind.size(), 1U) << kind;
+}
+
+TEST_F(Sweep, AWrongAnyHitLosesItsTimes) {
+  add_faulty([](const Traced&) {});
+  json shadow = config({"faulty", "exhaustive"});
+  shadow["rays"] = {"shadow"};
+  EXPECT_EQ(run(shadow).failed, 1U);
+  const json faulty = cells()["faulty"];
+  EXPECT_EQ(faulty["row"]["verdict"], "mismatch");
+  EXPECT_EQ(faulty["row"]["engine_error"], 1);
+  expect_times(faulty, false);
+  EXPECT_TRUE(says(faulty["examples"][0].get<std::string>(), {"ray 0", "--rays shadow --ray 0"}));
+}
+
+TEST_F(Sweep, RaysThatCannotBeMadeAreAnErrorAndTheRunGoesOn) {
+  const auto dark = folder_.write("dark.nff",
+                                  "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0.1\n"
+                                  "resolution 8 8\nf 1 0 0 1 0 0 0 0\ns 0 0 0 1\n");
+  json config = this->config({"exhaustive"});
+  config["scenes"] = {dark.string()};
+  config["rays"] = {"shadow", "primary"};
+  EXPECT_EQ(run(config).failed, 1U);
+  EXPECT_TRUE(says(messages(), {"has no lights"}));
+  EXPECT_EQ(cells().size(), 1U);  // by structure: one is over the other
+  EXPECT_TRUE(says(messages(), {"primary/exhaustive: build"}));
+}
+
+TEST_F(Sweep, WarnsOfRaysThatNeverHit) {
+  json config = this->config({"exhaustive"});
+  config["scenes"] = {"escena2"};
+  config["rays"] = {"reflection"};
+  EXPECT_EQ(run(config).failed, 0U);
+  EXPECT_TRUE(says(messages(), {"warning: escena2/default/32x20/1/reflection", "hit something"}));
+  EXPECT_TRUE(says(read_json("manifest.json")["uncontrolled"].dump(), {"reflection"}));
+}
 
 TEST_F(Sweep, AWrongHitIsDescribed) {
   add_faulty([](const Traced& traced) { drop_one_hit(traced.buffer); });
@@ -257,7 +345,7 @@ TEST_F(Sweep, AStructureThatCannotBeBuiltIsAnErrorAndTheRunGoesOn) {
 
 TEST_F(Sweep, AnExceptionInATimedRepetitionEndsThatCellOnly) {
   add_faulty([](const Traced& traced) {
-    if (traced.pass == 2) throw std::runtime_error("worn out");
+    if (traced.pass == 3) throw std::runtime_error("worn out");
   });
   run(config({"faulty", "exhaustive"}));
   EXPECT_EQ(cells()["faulty"]["row"]["verdict"], "error");
@@ -279,7 +367,7 @@ TEST_F(Resume, RepeatsNoFinishedCell) {
   run(config_);
   const std::string table = read_text(results() / "results.csv");
   const int traces = std::exchange(traces_, 0);
-  EXPECT_EQ(traces, 5);  // the counting pass and four repetitions
+  EXPECT_EQ(traces, 9);  // the counting pass and four repetitions of two traces
   EXPECT_EQ(run(config_, true).cells, 2U);
   EXPECT_EQ(traces_, 0);
   EXPECT_EQ(read_text(results() / "results.csv"), table);
@@ -293,7 +381,7 @@ TEST_F(Resume, MakesUpForTheCellThatIsMissing) {
   std::filesystem::remove(results() / "cells" / missing);
   traces_ = 0;
   EXPECT_EQ(run(config_, true).cells, 2U);
-  EXPECT_EQ(traces_, 5);
+  EXPECT_EQ(traces_, 9);
   EXPECT_EQ(cells()["exhaustive"], exhaustive);
   EXPECT_EQ(cells()["faulty"]["row"]["run_id"], run_id);
   EXPECT_EQ(read_json("google-benchmark.json")["benchmarks"].size(), 8U);

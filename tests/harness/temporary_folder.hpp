@@ -14,12 +14,12 @@ namespace beambench {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
     std::string name = std::string(test->test_suite_name()) + '.' + test->name();
     for (char& c : name) {
       if (c == '/') c = '_';
     }
-    path_ = std::filesystem::path(testing::TempDir()) / (name + '.' + std::to_string(::getpid()));
+    path_ = std::filesystem::path(::testing::TempDir()) / (name + '.' + std::to_string(::getpid()));
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

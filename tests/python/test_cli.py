@@ -14,7 +14,16 @@ from PIL import Image
 from program import BINARY, beambench, output_of, refused
 
 VIEW = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0.1\nresolution 8 8\n"
-STRUCTURES = ["exhaustive", "samet", "embree", "null"]
+STRUCTURES = [
+    "exhaustive",
+    "samet",
+    "samet-net",
+    "voxel-grid",
+    "goldsmith-salmon",
+    "sah-bvh",
+    "embree",
+    "null",
+]
 
 
 def count_colors(picture: Image.Image) -> int:
@@ -56,10 +65,18 @@ def test_list_as_json_says_all_of_each_parameter() -> None:
     assert {"balls", "bumpy", "escena1", "escena2", "stetra", "tetra"} <= {
         scene["name"] for scene in everything["scenes"]
     }
-    assert [kind["name"] for kind in everything["rays"]] == ["primary"]
+    assert [kind["name"] for kind in everything["rays"]] == [
+        "primary",
+        "shadow",
+        "reflection",
+        "diffuse",
+        "random",
+    ]
 
 
-@pytest.mark.parametrize("command", ["list", "scene", "export", "render", "stats", "verify", "run"])
+@pytest.mark.parametrize(
+    "command", ["list", "scene", "export", "render", "rays", "stats", "verify", "run"]
+)
 def test_help_of_each_command_has_examples(command: str) -> None:
     text = output_of(command, "--help")
     assert "Examples:" in text

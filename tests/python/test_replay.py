@@ -91,7 +91,7 @@ def test_each_sample_has_its_own_ray() -> None:
 
 def test_alone_does_not_trace_the_image() -> None:
     way = way_of("--accel", "exhaustive", "--alone")
-    assert way["traced_image"] is False
+    assert way["asked_all"] is False
     assert way["hit"] == way_of("--accel", "exhaustive")["hit"]
 
 

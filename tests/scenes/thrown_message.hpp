@@ -22,14 +22,14 @@ std::string thrown_message(Call call) {
 }
 
 /// Whether the message contains each of the words.
-inline testing::AssertionResult says(std::string_view message,
-                                     std::initializer_list<std::string_view> words) {
+inline ::testing::AssertionResult says(std::string_view message,
+                                       std::initializer_list<std::string_view> words) {
   for (const std::string_view word : words) {
     if (message.find(word) == std::string_view::npos) {
-      return testing::AssertionFailure() << "no '" << word << "' in: " << message;
+      return ::testing::AssertionFailure() << "no '" << word << "' in: " << message;
     }
   }
-  return testing::AssertionSuccess();
+  return ::testing::AssertionSuccess();
 }
 
 }  // namespace beambench

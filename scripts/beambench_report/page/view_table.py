@@ -27,6 +27,7 @@ def view_table(
         Heading("total", "ms", "total_ms_median"),
         Heading("build", "ms", "build_ms_median"),
         Heading("trace", "ms", "trace_ms_median"),
+        Heading("trace, net", "ms", "trace_net_ms_median"),
         Heading("ratio", "to reference"),
         Heading("speed", "Mrays/s", "mrays_per_s"),
         Heading("memory", "", "memory_bytes"),
@@ -64,6 +65,7 @@ def _line(row: pd.Series, counters: list[str], ratio: Ratio | None, scale: float
         fields=(
             total,
             *times,
+            _figure(row.get("trace_net_ms_median") if timed else None),
             ratio_field(ratio),
             _figure(row.get("mrays_per_s") if timed else None),
             MISSING if pd.isna(memory) else Field(size_in_words(memory), memory),

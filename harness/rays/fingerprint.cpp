@@ -1,4 +1,4 @@
-#include "harness/record/fingerprint.hpp"
+#include "harness/rays/fingerprint.hpp"
 
 #include <vector>
 
@@ -11,6 +11,10 @@ static_assert(sizeof(Ray) == 8 * sizeof(float), "rays are hashed as bytes: no pa
 
 std::uint64_t fingerprint(std::string_view bytes) {
   return XXH3_64bits(bytes.data(), bytes.size());
+}
+
+std::uint64_t fingerprint(std::span<const Ray> rays) {
+  return XXH3_64bits(rays.data(), rays.size_bytes());
 }
 
 std::uint64_t fingerprint(const PrimaryRays& rays) {
@@ -30,6 +34,17 @@ std::uint64_t fingerprint(const PrimaryRays& rays) {
 std::uint64_t fingerprint(const HitBuffer& buffer) {
   const std::uint64_t distances = XXH3_64bits(buffer.t(), buffer.size() * sizeof(float));
   return XXH3_64bits_withSeed(buffer.primitive(), buffer.size() * sizeof(PrimitiveId), distances);
+}
+
+std::uint64_t fingerprint(const Question& question) {
+  return question.list() != nullptr ? fingerprint(question.list()->rays)
+                                    : fingerprint(*question.image());
+}
+
+std::uint64_t fingerprint(const Answers& answers) {
+  if (const auto* any = std::get_if<AnyHits>(&answers))
+    return XXH3_64bits(any->data(), any->size());
+  return fingerprint(std::get<HitBuffer>(answers));
 }
 
 std::string hex_digits(std::uint64_t value) { return fmt::format("{:016x}", value); }

@@ -1,4 +1,4 @@
-#include "harness/shade/normal.hpp"
+#include "harness/rays/normal.hpp"
 
 #include <algorithm>
 #include <array>

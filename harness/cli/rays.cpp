@@ -1,0 +1,118 @@
+// beambench rays: the rays that structures are asked with, looked at and saved.
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/cli/commands.hpp"
+#include "harness/cli/inputs.hpp"
+#include "harness/cli/text.hpp"
+#include "harness/differ/differ.hpp"
+#include "harness/files/pending_file.hpp"
+#include "harness/rays/fingerprint.hpp"
+#include "harness/rays/ray_set_file.hpp"
+#include "harness/rays/share_warning.hpp"
+#include "scenes/error.hpp"
+
+namespace beambench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Request {
+  std::string scene;
+  std::string rays = "primary";
+  ImageRequest image;
+  std::string file;
+  bool json = false;
+};
+
+/// An image's rays are saved as a list, too.
+RaySet as_list(const Scene& scene, const Question& question) {
+  if (question.list() != nullptr) return *question.list();
+  RaySet set{question.label(), question.query(), question.seed(), scene_hash(scene), {}};
+  set.rays.reserve(question.size());
+  for (std::size_t i = 0; i < question.size(); ++i) set.rays.push_back(question.ray(i));
+  return set;
+}
+
+Json note_of(const Scene& scene, const ImageOfRays& image, const Question& question) {
+  return {{"scene", scene.name},
+          {"ray_kind", question.label()},
+          {"camera", image.camera.name},
+          {"resolution", to_string(image.resolution)},
+          {"samples", image.samples}};
+}
+
+void print_facts(const Request& request, const Scene& scene, const ImageOfRays& image,
+                 const Question& question) {
+  const std::uint64_t hits = ReferenceHits(scene, question).hit_count();
+  const bool any = question.query() == Query::kAnyHit;
+  if (request.json) {
+    Json out = note_of(scene, image, question);
+    out["query"] = to_string(question.query());
+    out["rays"] = question.size();
+    out["seed"] = question.seed();
+    out["hash"] = hex_digits(fingerprint(question));
+    out[any ? "occluded_share" : "hit_share"] =
+        static_cast<double>(hits) / static_cast<double>(question.size());
+    out["coherence"] = coherence(question);
+    fmt::print("{}\n", out.dump(2));
+  } else {
+    fmt::print("{} {} rays over {}, {}\n", question.size(), question.label(), scene.name,
+               to_string(image.resolution));
+    fmt::print("  {}  {}\n", any ? "occluded " : "that hit ", format_share(hits, question.size()));
+    fmt::print("  coherence  {:.4f}\n", coherence(question));
+    fmt::print("  hash       {}\n", hex_digits(fingerprint(question)));
+  }
+  if (const auto warning = share_warning(question, hits)) {
+    fmt::print(stderr, "beambench: warning: {}\n", *warning);
+  }
+}
+
+void show_rays(const Request& request) {
+  const RayChoice kind = parse_ray_choice(request.rays);
+  if (!request.file.empty()) {
+    if (!request.file.ends_with(kRayFileEnding)) {
+      throw InputError(fmt::format("'{}' does not end in {}, by which files of rays are known",
+                                   request.file, kRayFileEnding));
+    }
+    require_writable(request.file);
+  }
+  const Scene scene = open_scene(request.scene);
+  const ImageOfRays image = choose_image(scene, request.image);
+  const Question question = make_question(scene, image, kind);
+  print_facts(request, scene, image, question);
+  if (request.file.empty()) return;
+  write_ray_file(request.file, as_list(scene, question), note_of(scene, image, question));
+}
+
+}  // namespace
+
+void add_rays_command(CLI::App& app, int&) {
+  CLI::App* command =
+      app.add_subcommand("rays", "Makes a set of rays, says what it is like, and saves it");
+  const auto request = std::make_shared<Request>();
+  command->add_option("SCENE", request->scene, "Catalogue name or path of an NFF file")->required();
+  command
+      ->add_option("--rays", request->rays, "Kind of rays (see 'beambench list') or a .rays file")
+      ->capture_default_str();
+  add_image_options(*command, request->image);
+  command->add_option("-o", request->file, "Save them to this file, which must end in .rays");
+  command->add_flag("--json", request->json, "Print JSON instead of text");
+  command->footer(
+      "Coherence is the mean cosine of the angle between the directions of a ray and the next. A\n"
+      "saved file can be given wherever a kind of rays can, in --rays and in sweeps; it holds a\n"
+      "line 'beambench-rays 1', a line of JSON, then eight little-endian 32-bit floats a ray:\n"
+      "origin, t_min, direction, t_max.\n"
+      "Examples:\n"
+      "  beambench rays escena1 --rays shadow --resolution 320x200\n"
+      "  beambench rays balls --rays diffuse:seed=7 -o balls-diffuse.rays\n"
+      "  beambench rays tetra --rays random --json");
+  command->callback([request] { show_rays(*request); });
+}
+
+}  // namespace beambench

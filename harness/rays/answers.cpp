@@ -1,0 +1,58 @@
+#include "harness/rays/answers.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace beambench {
+namespace {
+
+constexpr std::uint8_t kNoAnswer = 0xFF;
+
+/// Both forms of every query: `counters` is empty or a WorkCounters.
+template <class... Counters>
+void ask_with(const Accelerator& structure, const Question& question, Answers& answers,
+              Counters&... counters) {
+  if (auto* any = std::get_if<AnyHits>(&answers)) {
+    structure.any_hits(question.list()->rays, *any, counters...);
+  } else if (question.image() != nullptr) {
+    structure.trace(*question.image(), std::get<HitBuffer>(answers), counters...);
+  } else {
+    structure.closest_hits(question.list()->rays, std::get<HitBuffer>(answers), counters...);
+  }
+}
+
+}  // namespace
+
+Answers room_for(const Question& question) {
+  if (question.query() == Query::kAnyHit) return AnyHits(question.size(), 0);
+  if (const PrimaryRays* image = question.image()) {
+    return HitBuffer(image->width(), image->height(), image->samples());
+  }
+  return HitBuffer(static_cast<int>(question.size()), 1, 1);
+}
+
+void poison(Answers& answers) {
+  if (auto* any = std::get_if<AnyHits>(&answers)) {
+    std::ranges::fill(*any, kNoAnswer);
+  } else {
+    auto& hits = std::get<HitBuffer>(answers);
+    std::fill_n(hits.t(), hits.size(), std::numeric_limits<float>::quiet_NaN());
+    std::fill_n(hits.primitive(), hits.size(), kNoPrimitive - 1);
+  }
+}
+
+bool is_hit_at(const Answers& answers, std::size_t index) {
+  if (const auto* any = std::get_if<AnyHits>(&answers)) return (*any)[index] != 0;
+  return std::get<HitBuffer>(answers).get(index).has_value();
+}
+
+void ask(const Accelerator& structure, const Question& question, Answers& answers) {
+  ask_with(structure, question, answers);
+}
+
+void ask(const Accelerator& structure, const Question& question, Answers& answers,
+         WorkCounters& counters) {
+  ask_with(structure, question, answers, counters);
+}
+
+}  // namespace beambench

@@ -1,0 +1,31 @@
+#pragma once
+// What structures answer to a question.
+
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "accel/accelerator.hpp"
+#include "harness/rays/question.hpp"
+
+namespace beambench {
+
+/// For each ray of an any-hit question: 1 where there is a hit, 0 where there is none.
+using AnyHits = std::vector<std::uint8_t>;
+using Answers = std::variant<HitBuffer, AnyHits>;
+
+/// Room for the answers to a question: all misses.
+Answers room_for(const Question& question);
+
+/// Overwrites all of them with answers that cannot be: the differ finds every one left unwritten.
+void poison(Answers& answers);
+
+/// Is the answer at an index a hit? Poison counts as one.
+bool is_hit_at(const Answers& answers, std::size_t index);
+
+/// Asks a structure. `answers` has the shape that `room_for` gives.
+void ask(const Accelerator& structure, const Question& question, Answers& answers);
+void ask(const Accelerator& structure, const Question& question, Answers& answers,
+         WorkCounters& counters);
+
+}  // namespace beambench

@@ -1,0 +1,130 @@
+#include "harness/rays/question.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "harness/rays/fingerprint.hpp"
+#include "harness/rays/random_rays.hpp"
+#include "harness/rays/ray_set_file.hpp"
+#include "harness/rays/secondary_rays.hpp"
+#include "scenes/error.hpp"
+
+namespace beambench {
+namespace {
+
+std::vector<Ray> made_rays(const Scene& scene, const PrimaryRays& primary,
+                           const RayChoice& choice) {
+  if (choice.kind == RayKind::kRandom) {
+    return random_rays(scene.bounds, primary.count(), choice.seed);
+  }
+  if (choice.kind == RayKind::kShadow && scene.lights.empty()) {
+    throw InputError(fmt::format(
+        "scene '{}' has no lights, so it has no shadow rays; add an 'l' line to its file or ask "
+        "for rays of another kind",
+        scene.name));
+  }
+  const std::vector<SurfacePoint> points = surface_points(scene, primary);
+  switch (choice.kind) {
+    case RayKind::kShadow:
+      return shadow_rays(scene, points);
+    case RayKind::kReflection:
+      return reflection_rays(scene, points);
+    case RayKind::kDiffuse:
+      return diffuse_rays(scene, points, choice.seed);
+    case RayKind::kPrimary:
+    case RayKind::kRandom:
+      break;
+  }
+  return {};
+}
+
+RaySet made_set(const Scene& scene, const PrimaryRays& primary, const RayChoice& choice) {
+  RaySet set{choice.label, info_of(choice.kind).query, choice.seed, scene_hash(scene),
+             made_rays(scene, primary, choice)};
+  if (set.rays.empty()) {
+    throw InputError(fmt::format(
+        "there are no {} rays over scene '{}' at {}x{}: no primary ray hits a surface for them to "
+        "start from; choose another camera or resolution",
+        choice.label, scene.name, primary.width(), primary.height()));
+  }
+  return set;
+}
+
+RaySet read_for(const Scene& scene, const RayChoice& choice) {
+  RaySet set = read_ray_file(choice.file);
+  if (set.scene_hash && *set.scene_hash != scene_hash(scene)) {
+    throw InputError(fmt::format(
+        "{}: these rays were made for a scene with hash {}, but '{}' has {}; make them again with "
+        "'beambench rays'",
+        choice.label, hex_digits(*set.scene_hash), scene.name, hex_digits(scene_hash(scene))));
+  }
+  return set;
+}
+
+}  // namespace
+
+Question::Question(PrimaryRays rays) : image_(std::move(rays)) {}
+
+Question::Question(RaySet rays) : list_(std::make_shared<const RaySet>(std::move(rays))) {}
+
+std::size_t Question::size() const { return list_ ? list_->rays.size() : image_->count(); }
+
+Ray Question::ray(std::size_t index) const {
+  if (list_) return list_->rays[index];
+  const PixelSample at = *pixel(index);
+  return image_->ray(at.x, at.y, at.sample);
+}
+
+const std::string& Question::label() const {
+  return list_ ? list_->label : info_of(RayKind::kPrimary).name;
+}
+
+std::optional<PixelSample> Question::pixel(std::size_t index) const {
+  if (!image_) return std::nullopt;
+  const auto samples = static_cast<std::size_t>(image_->samples());
+  const auto width = static_cast<std::size_t>(image_->width());
+  return PixelSample{static_cast<int>(index / samples % width),
+                     static_cast<int>(index / samples / width), static_cast<int>(index % samples)};
+}
+
+double Question::reach() const {
+  if (image_) return glm::length(glm::dvec3(image_->eye()));
+  double farthest = 0.0;
+  for (const Ray& ray : list_->rays) {
+    farthest = std::max(farthest, glm::length(glm::dvec3(ray.origin)));
+  }
+  return farthest;
+}
+
+std::string place_text(const Question& question, std::size_t index) {
+  const auto at = question.pixel(index);
+  return at ? fmt::format("pixel ({}, {}) sample {}", at->x, at->y, at->sample)
+            : fmt::format("ray {}", index);
+}
+
+double coherence(const Question& question) {
+  if (question.list() != nullptr) return coherence(question.list()->rays);
+  // Row by row, so that the rays of a large image are never all in memory.
+  const PrimaryRays& image = *question.image();
+  const std::size_t row_length = question.size() / static_cast<std::size_t>(image.height());
+  double sum = 0.0;
+  std::vector<Ray> row;
+  for (std::size_t first = 0; first < question.size(); first += row_length) {
+    if (!row.empty()) row.erase(row.begin(), row.end() - 1);  // the step from row to row
+    for (std::size_t i = 0; i < row_length; ++i) row.push_back(question.ray(first + i));
+    sum += coherence(row) * static_cast<double>(row.size() - 1);
+  }
+  return question.size() < 2 ? 1.0 : sum / static_cast<double>(question.size() - 1);
+}
+
+Question make_question(const Scene& scene, const ImageOfRays& image, const RayChoice& choice) {
+  if (!choice.file.empty()) return Question(read_for(scene, choice));
+  PrimaryRays primary(image.camera, image.resolution.width, image.resolution.height, image.samples);
+  if (choice.kind == RayKind::kPrimary) return {std::move(primary)};
+  return Question(made_set(scene, primary, choice));
+}
+
+}  // namespace beambench

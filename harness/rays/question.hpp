@@ -1,0 +1,72 @@
+#pragma once
+// What structures are asked: the rays of an image or of a list.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "accel/primary_rays.hpp"
+#include "harness/rays/ray_choice.hpp"
+#include "harness/rays/ray_set.hpp"
+#include "harness/rays/resolution.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// The place of a primary ray in its image.
+struct PixelSample {
+  int x, y, sample;
+
+  friend bool operator==(const PixelSample&, const PixelSample&) = default;
+};
+
+/// Rays by their index, and what is asked about each. A small value: lists are shared.
+class Question {
+ public:
+  /// The closest hits of an image.
+  Question(PrimaryRays rays);  // NOLINT(google-explicit-constructor): an image is a question
+  explicit Question(RaySet rays);
+
+  std::size_t size() const;
+  Ray ray(std::size_t index) const;
+  Query query() const { return list_ ? list_->query : Query::kClosestHit; }
+  /// As `RayChoice::label`.
+  const std::string& label() const;
+  std::uint64_t seed() const { return list_ ? list_->seed : 0; }
+
+  /// The image; nothing for a list.
+  const PrimaryRays* image() const { return image_ ? &*image_ : nullptr; }
+  /// The list; nothing for an image.
+  const RaySet* list() const { return list_.get(); }
+  /// Where in the image the ray is; nothing for a list.
+  std::optional<PixelSample> pixel(std::size_t index) const;
+
+  /// The largest distance of an origin from the origin of the coordinates.
+  double reach() const;
+
+ private:
+  std::optional<PrimaryRays> image_;
+  std::shared_ptr<const RaySet> list_;
+};
+
+/// `pixel (3, 4) sample 0`, `ray 17`.
+std::string place_text(const Question& question, std::size_t index);
+
+/// `coherence` of a list, or of an image's rays in their order.
+double coherence(const Question& question);
+
+/// The image that primary rays ask for and other rays start from.
+struct ImageOfRays {
+  const Camera& camera;
+  Resolution resolution;
+  int samples;
+};
+
+/// Makes the rays of a choice, or reads them. Throws InputError where the scene has no lights for
+/// shadow rays, where no primary ray hits anything for rays to start from, and as `read_ray_file`;
+/// for a file also when it was made for another scene.
+Question make_question(const Scene& scene, const ImageOfRays& image, const RayChoice& choice);
+
+}  // namespace beambench

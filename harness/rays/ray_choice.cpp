@@ -1,0 +1,58 @@
+#include "harness/rays/ray_choice.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scenes/error.hpp"
+
+namespace beambench {
+namespace {
+
+RayChoice choose(const Spec& spec) {
+  const auto kinds = ray_kinds();
+  const auto info = std::ranges::find(kinds, spec.name, &RayKindInfo::name);
+  if (info == kinds.end()) {
+    std::vector<std::string> names;
+    for (const RayKindInfo& known : kinds) names.push_back(known.name);
+    throw InputError(
+        fmt::format("unknown ray kind '{}'; choose from: {}, or a file of saved rays (*{})",
+                    spec.name, fmt::join(names, ", "), kRayFileEnding));
+  }
+  const Parameters parameters(info->name, info->parameters, spec.parameters);
+  RayChoice choice{info->kind, 0, {}, info->name};
+  if (!info->parameters.empty()) {
+    choice.seed = static_cast<std::uint64_t>(parameters.integer("seed"));
+    if (parameters.canonical() != Parameters(info->name, info->parameters, {}).canonical()) {
+      choice.label = parameters.label();
+    }
+  }
+  return choice;
+}
+
+RayChoice choose_file(std::string_view path) {
+  RayChoice choice;
+  choice.file = path;
+  choice.label = path;
+  return choice;
+}
+
+}  // namespace
+
+RayChoice parse_ray_choice(std::string_view text) {
+  return text.ends_with(kRayFileEnding) ? choose_file(text) : choose(parse_spec(text));
+}
+
+std::vector<RayChoice> parse_ray_choices(std::string_view list) {
+  std::vector<RayChoice> choices;
+  for (std::size_t start = 0; start <= list.size();) {
+    const std::size_t comma = std::min(list.find(',', start), list.size());
+    RayChoice choice = parse_ray_choice(list.substr(start, comma - start));
+    if (std::ranges::find(choices, choice) == choices.end()) choices.push_back(std::move(choice));
+    start = comma + 1;
+  }
+  return choices;
+}
+
+}  // namespace beambench

@@ -1,0 +1,90 @@
+#include "harness/rays/secondary_rays.hpp"
+
+#include <optional>
+
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include "accel/embree/oracle.hpp"
+#include "harness/rays/cosine_direction.hpp"
+#include "harness/rays/normal.hpp"
+#include "scenes/random.hpp"
+
+namespace beambench {
+namespace {
+
+using glm::dvec3;
+
+SurfacePoint point_of(const Scene& scene, const Ray& ray, const ExactHit& hit) {
+  const dvec3 direction(ray.direction);
+  return {dvec3(ray.origin) + hit.t * direction,
+          geometric_normal(scene, ray, {static_cast<float>(hit.t), hit.primitive}),
+          glm::normalize(direction)};
+}
+
+dvec3 above(const Scene& scene, const SurfacePoint& at) {
+  const double size = scene.bounds.largest_coordinate() + glm::length(at.point);
+  return at.point + at.normal * (64.0 * 0x1p-24 * size);
+}
+
+Ray ray_from(const Scene& scene, const SurfacePoint& at, const dvec3& direction) {
+  Ray ray;
+  ray.origin = glm::vec3(above(scene, at));
+  ray.direction = glm::vec3(direction);
+  return ray;
+}
+
+}  // namespace
+
+std::vector<SurfacePoint> surface_points(const Scene& scene, const PrimaryRays& rays) {
+  const EmbreeOracle oracle(scene, glm::length(dvec3(rays.eye())));
+  std::vector<std::vector<SurfacePoint>> rows(static_cast<std::size_t>(rays.height()));
+  tbb::parallel_for(0, rays.height(), [&](int y) {
+    for (int x = 0; x < rays.width(); ++x) {
+      for (int sample = 0; sample < rays.samples(); ++sample) {
+        const Ray ray = rays.ray(x, y, sample);
+        const std::optional<ExactHit> hit = oracle.closest_hit(ray);
+        if (hit) rows[static_cast<std::size_t>(y)].push_back(point_of(scene, ray, *hit));
+      }
+    }
+  });
+  std::vector<SurfacePoint> points;
+  for (const auto& row : rows) points.insert(points.end(), row.begin(), row.end());
+  return points;
+}
+
+std::vector<Ray> shadow_rays(const Scene& scene, const std::vector<SurfacePoint>& points) {
+  std::vector<Ray> rays;
+  for (const SurfacePoint& at : points) {
+    for (const Light& light : scene.lights) {
+      const dvec3 to_light = dvec3(light.position) - above(scene, at);
+      if (glm::dot(to_light, at.normal) <= 0.0) continue;
+      rays.push_back(ray_from(scene, at, to_light));
+      rays.back().t_max = 1.0F;
+    }
+  }
+  return rays;
+}
+
+std::vector<Ray> reflection_rays(const Scene& scene, const std::vector<SurfacePoint>& points) {
+  std::vector<Ray> rays;
+  rays.reserve(points.size());
+  for (const SurfacePoint& at : points) {
+    rays.push_back(
+        ray_from(scene, at, at.incoming - 2.0 * glm::dot(at.incoming, at.normal) * at.normal));
+  }
+  return rays;
+}
+
+std::vector<Ray> diffuse_rays(const Scene& scene, const std::vector<SurfacePoint>& points,
+                              std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Ray> rays;
+  rays.reserve(points.size());
+  for (const SurfacePoint& at : points) {
+    rays.push_back(ray_from(scene, at, cosine_direction(at.normal, random)));
+  }
+  return rays;
+}
+
+}  // namespace beambench

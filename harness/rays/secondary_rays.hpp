@@ -1,0 +1,40 @@
+#pragma once
+// Rays that start where primary rays hit.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "accel/primary_rays.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// Where a primary ray meets a surface.
+struct SurfacePoint {
+  glm::dvec3 point;
+  glm::dvec3 normal;    ///< unit length, geometric, on the side that the ray comes from
+  glm::dvec3 incoming;  ///< the ray's direction, unit length
+};
+
+/// Where the primary rays hit, in their order, by the oracle (on all cores): so the rays that start
+/// here are the same whatever structure is asked.
+std::vector<SurfacePoint> surface_points(const Scene& scene, const PrimaryRays& rays);
+
+/// All secondary rays start a little above the surface, on the side of the primary ray: 64 x 2^-24
+/// x (largest |coordinate| + |point|) along the normal, four times the length within which the
+/// differ cannot tell places apart. Nothing but geometry then decides whether the surface itself is
+/// met again, and rays need no t_min.
+///
+/// To each light that the surface faces, point by point: t in [0, 1], the light being at 1.
+std::vector<Ray> shadow_rays(const Scene& scene, const std::vector<SurfacePoint>& points);
+
+/// The mirror direction of the incoming ray, of unit length.
+std::vector<Ray> reflection_rays(const Scene& scene, const std::vector<SurfacePoint>& points);
+
+/// One direction a point with density cos / pi about the normal, of unit length.
+std::vector<Ray> diffuse_rays(const Scene& scene, const std::vector<SurfacePoint>& points,
+                              std::uint64_t seed);
+
+}  // namespace beambench
