@@ -28,27 +28,30 @@ class LazyVoxels {
 
   /// Throws InputError naming `max_references` when the lists made so far exceed it.
   std::span<const PrimitiveId> references(std::size_t voxel) const {
-    const PrimitiveId* list = lists_[voxel].load(std::memory_order_acquire);
-    if (list == nullptr) list = publish(voxel, evaluate(voxel));
-    return {list + 1, list[0]};
+    const List* list = lists_[voxel].load(std::memory_order_acquire);
+    if (list == nullptr) list = &publish(voxel, evaluate(voxel));
+    return *list;
   }
   /// Fills in what has been evaluated so far.
   void describe(Statistics& statistics) const;
 
  private:
-  /// The number of references, then the references.
-  using List = std::unique_ptr<const PrimitiveId[]>;
+  using List = std::vector<PrimitiveId>;
 
-  List evaluate(std::size_t voxel) const;
-  const PrimitiveId* publish(std::size_t voxel, List list) const;
+  /// Nothing where nothing reaches into the voxel.
+  std::unique_ptr<const List> evaluate(std::size_t voxel) const;
+  /// The list that all threads see from now on: this one or an earlier one.
+  const List& publish(std::size_t voxel, std::unique_ptr<const List> list) const;
 
   const Scene& scene_;
   CellGrid grid_;
   double tolerance_;
   std::uint64_t max_references_;
   std::vector<CellRange> ranges_;  ///< by primitive
+  /// What all empty voxels point to: most are empty, and none needs memory of its own.
+  const List empty_;
   // Mutable: what a query adds is what any other query would have found. The lists are owned.
-  mutable std::vector<std::atomic<const PrimitiveId*>> lists_;
+  mutable std::vector<std::atomic<const List*>> lists_;
   mutable std::atomic<std::uint64_t> references_made_{0};
 };
 

@@ -140,6 +140,7 @@ TEST(VoxelGrid, LazyLivesThroughManyThreadsAtOnce) {
     std::vector<std::vector<std::optional<Hit>>> found(4);
     {
       std::vector<std::jthread> threads;
+      threads.reserve(found.size());
       for (auto& mine : found) {
         threads.emplace_back([&] {
           for (const Ray& ray : rays) mine.push_back(grid.closest_hit(ray));
