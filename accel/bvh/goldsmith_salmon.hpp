@@ -34,6 +34,10 @@ struct MetEntry {
   std::uint32_t index;
 };
 
+struct Farther {
+  bool operator()(const MetEntry& a, const MetEntry& b) const { return a.enter > b.enter; }
+};
+
 /// What a ray has still to look at, the nearest entry first whatever it is below: the priority
 /// queue of Kay and Kajiya (1986; thesis, graphic 4.1).
 class NearestFirstQueue {
@@ -45,12 +49,12 @@ class NearestFirstQueue {
   bool empty() const { return entries_.empty(); }
   void push(const MetEntry& entry) {
     entries_.push_back(entry);
-    std::push_heap(entries_.begin(), entries_.end(), farther);
+    std::push_heap(entries_.begin(), entries_.end(), Farther{});
   }
   /// All entries in the queue are at least as far as the one returned.
   static constexpr bool kOrdered = true;
   MetEntry pop() {
-    std::pop_heap(entries_.begin(), entries_.end(), farther);
+    std::pop_heap(entries_.begin(), entries_.end(), Farther{});
     const MetEntry nearest = entries_.back();
     entries_.pop_back();
     return nearest;
@@ -61,8 +65,6 @@ class NearestFirstQueue {
   static constexpr std::size_t kUsual = 128;
 
  private:
-  static bool farther(const MetEntry& a, const MetEntry& b) { return a.enter > b.enter; }
-
   std::pmr::vector<MetEntry> entries_;
 };
 
@@ -85,8 +87,7 @@ class OrderedStack {
   /// Sorts the entries pushed since the last pop.
   void end_of_siblings() {
     const auto first = entries_.begin() + static_cast<std::ptrdiff_t>(sorted_);
-    std::sort(first, entries_.end(),
-              [](const MetEntry& a, const MetEntry& b) { return a.enter > b.enter; });
+    std::sort(first, entries_.end(), Farther{});
   }
 
  private:
