@@ -1,4 +1,4 @@
-"""Command line: python -m beambench_report plots|pictures|page|columns ..."""
+"""Command line: python -m beambench_report plots|pictures|page|repeated|columns ..."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from beambench_report.page.write import write_page
 from beambench_report.pictures import write_pictures
 from beambench_report.plots import write_plots
 from beambench_report.problem import Problem
+from beambench_report.records import read_run
+from beambench_report.repeatability import repeatability
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -20,6 +22,9 @@ def main(arguments: list[str] | None = None) -> int:
         print(as_markdown(dictionary()), end="")
         return 0
     try:
+        if options.command == "repeated":
+            print(repeatability(read_run(options.run), read_run(options.second)).summary())
+            return 0
         paths = _write(options)
     except Problem as problem:
         print(f"error: {problem}", file=sys.stderr)
@@ -40,8 +45,12 @@ def _parser() -> argparse.ArgumentParser:
     plots = commands.add_parser("plots", help="draw RUN/plots from RUN/results.csv")
     pictures = commands.add_parser("pictures", help="render RUN/pictures of the scenes of a run")
     page = commands.add_parser("page", help="write RUN/report.html from all that RUN holds")
-    for command in (plots, pictures, page):
+    repeated = commands.add_parser(
+        "repeated", help="say how many medians of SECOND lie within the intervals of RUN"
+    )
+    for command in (plots, pictures, page, repeated):
         command.add_argument("run", type=Path, metavar="RUN", help="folder of a run")
+    repeated.add_argument("second", type=Path, metavar="SECOND", help="the same sweep, run again")
     pictures.add_argument(
         "--beambench", type=Path, required=True, metavar="PROGRAM", help="the built beambench"
     )
