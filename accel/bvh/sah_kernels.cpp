@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "accel/bvh/probe_ray.hpp"
+#include "accel/bvh/slab_ray.hpp"
 #include "accel/intersect.hpp"
 
 // Highway includes this file once more for each instruction set.
@@ -191,33 +192,68 @@ class WaitingStack {
   std::size_t size_ = 0;
 };
 
-inline Box box_of(const WideNode& node) {
-  Box box{glm::dvec3(kInfinity), glm::dvec3(-kInfinity)};
+inline Bounds bounds_of(const WideNode& node) {
+  Bounds bounds;
   for (std::size_t lane = 0; lane < node.count; ++lane) {
-    for (std::size_t row = 0; row < 3; ++row) {
-      const auto axis = static_cast<int>(row);
-      box.lower[axis] = std::min<double>(box.lower[axis], node.planes[row][lane]);
-      box.upper[axis] = std::max<double>(box.upper[axis], node.planes[row + 3][lane]);
+    const auto& plane = node.planes;
+    bounds.include(glm::vec3(plane[0][lane], plane[1][lane], plane[2][lane]));
+    bounds.include(glm::vec3(plane[3][lane], plane[4][lane], plane[5][lane]));
+  }
+  return bounds;
+}
+
+inline Bounds bounds_of(const PrimitiveBlock& block, const Scene& scene) {
+  Bounds bounds;
+  for (std::size_t lane = 0; lane < block.count; ++lane) {
+    if (block.kind == PrimitiveKind::kPolygon) {
+      for (std::size_t i = 0; i < 3; ++i) bounds.include(block.corner(i, lane));
+    } else {
+      bounds.include(primitive_bounds(scene, block.primitives[lane]));
     }
   }
-  return box;
+  return bounds;
+}
+
+/// A step for people to read.
+inline TraceStep describe(const WideBvh& bvh, const Scene& scene, const Ray& ray,
+                          ChildReference at) {
+  TraceStep step{.place = at.is_leaf() ? "leaf" : "node"};
+  Bounds bounds;
+  if (at.is_leaf()) {
+    step.index = at.first_block();
+    for (std::uint32_t i = 0; i < at.block_count(); ++i) {
+      bounds.include(bounds_of(bvh.blocks[at.first_block() + i], scene));
+    }
+  } else {
+    step.index = at.node_index();
+    bounds = bounds_of(bvh.nodes[at.node_index()]);
+  }
+  step.box = Box{glm::dvec3(bounds.lower), glm::dvec3(bounds.upper)};
+  const BoxInterval inside = SlabRay(ray).interval(bounds, ray.t_min, ray.t_max);
+  step.t_enter = inside.enter;
+  step.t_exit = inside.exit;
+  return step;
 }
 
 template <class Counting>
-void count_step(Counting& counting, const WideBvh& bvh, ChildReference at, float enter_t) {
+void count_step(Counting& counting, const WideBvh& bvh, const Scene& scene, const Ray& ray,
+                ChildReference at) {
   counting.add(Counter::kTraversalSteps);
+  counting.enter([&] { return describe(bvh, scene, ray, at); });
   if (at.is_leaf()) {
     counting.add(Counter::kLeaves);
-    counting.enter(
-        [&] { return TraceStep{.place = "leaf", .index = at.first_block(), .t_enter = enter_t}; });
   } else {
     counting.add(Counter::kBoxTests, bvh.nodes[at.node_index()].count);
-    counting.enter([&] {
-      return TraceStep{.place = "node",
-                       .index = at.node_index(),
-                       .box = box_of(bvh.nodes[at.node_index()]),
-                       .t_enter = enter_t};
-    });
+  }
+}
+
+/// What the probe left out was tested, and missed.
+template <class Counting>
+void count_probes(Counting& counting, const PrimitiveBlock& block, LaneBits passed) {
+  counting.add(Counter::kPrimitiveTests, block.count);
+  counting.add("confirmed_tests", static_cast<std::uint64_t>(std::popcount(passed)));
+  for (std::size_t lane = 0; lane < block.count; ++lane) {
+    if ((passed >> lane & 1U) == 0) counting.tested(block.primitives[lane], kMiss);
   }
 }
 
@@ -234,14 +270,14 @@ HWY_FLATTEN void walk(const WideBvh& bvh, const Scene& scene, const Ray& ray,
   ChildReference at = bvh.root;
   float at_t = ray.t_min;
   while (true) {
-    count_step(counting, bvh, at, at_t);
+    count_step(counting, bvh, scene, ray, at);
     if (at.is_leaf()) {
       const PrimitiveBlock* block = bvh.blocks.data() + at.first_block();
       for (const PrimitiveBlock* end = block + at.block_count(); block != end; ++block) {
-        counting.add(Counter::kPrimitiveTests, block->count);
-        for (LaneBits lanes = probe(*block, probe_ray, t_max()); lanes != 0; lanes &= lanes - 1) {
+        LaneBits lanes = probe(*block, probe_ray, t_max());
+        count_probes(counting, *block, lanes);
+        for (; lanes != 0; lanes &= lanes - 1) {
           const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-          counting.add("confirmed_tests");
           const float t = confirm(canonical, scene, *block, lane);
           counting.tested(block->primitives[lane], t);
           if (visit(t, block->primitives[lane])) return;

@@ -233,6 +233,28 @@ TEST(SahBvh, BuiltInParallelIsTheSame) {
   }
 }
 
+TEST(SahBvh, TellsWhatItDid) {
+  const Scene scene = load_scene("tetra:n=3");
+  const SahBvh structure(scene, {});
+  const Ray ray = PrimaryRays(scene.cameras.front(), 64, 64, 1).ray(31, 32, 0);
+  WorkCounters work;
+  const auto hit = structure.closest_hit(ray, work);
+  ASSERT_TRUE(hit);
+  const std::vector<TraceStep> steps = structure.explain(ray);
+  EXPECT_EQ(steps.size(), work.get(Counter::kTraversalSteps));
+  std::uint64_t tests = 0;
+  bool found = false;
+  for (const TraceStep& step : steps) {
+    EXPECT_LE(step.t_enter, step.t_exit);
+    tests += step.tests.size();
+    for (const TestedPrimitive& test : step.tests) {
+      found = found || (test.primitive == hit->primitive && test.t == hit->t);
+    }
+  }
+  EXPECT_EQ(tests, work.get(Counter::kPrimitiveTests));
+  EXPECT_TRUE(found);
+}
+
 // The float tests leave little to the canonical one.
 TEST(SahBvh, ConfirmsAboutOncePerHit) {
   const Scene scene = load_scene("bumpy:triangles=20000");
