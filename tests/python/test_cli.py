@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import array
 import json
 import os
 import re
@@ -337,6 +338,48 @@ def test_verify_goes_on_past_a_structure_that_cannot_be_built(tmp_path: Path) ->
     assert "max_references" in done.stdout
 
 
+def test_rays_are_saved_and_asked_again(tmp_path: Path) -> None:
+    file = tmp_path / "some.rays"
+    rays = ("rays", "escena1:spheres=40", "--rays", "shadow", "--resolution", "40x30", "--json")
+    made = json.loads(output_of(*rays, "-o", file))
+    assert made["ray_kind"] == "shadow"
+    assert made["query"] == "any"
+    assert 0.01 < made["occluded_share"] < 0.99
+    assert -1.0 <= made["coherence"] <= 1.0
+    with file.open("rb") as lines:
+        assert lines.readline() == b"beambench-rays 1\n"
+        header = json.loads(lines.readline())
+        floats = array.array("f", lines.read())
+    assert header["hash"] == made["hash"]
+    assert len(floats) == 8 * made["rays"] == 8 * header["rays"]
+    assert set(floats[7::8]) == {1.0}  # the light is at t = 1
+
+    read = json.loads(output_of("rays", "escena1:spheres=40", "--rays", file, "--json"))
+    assert {**read, "ray_kind": "", "resolution": ""} == {**made, "ray_kind": "", "resolution": ""}
+    stats = ("stats", "escena1:spheres=40", "--accel", "samet", "--resolution", "40x30", "--json")
+    by_kind = json.loads(output_of(*stats, "--rays", "shadow"))
+    by_file = json.loads(output_of(*stats, "--rays", file))
+    assert by_kind["structures"][0]["per_ray"] == by_file["structures"][0]["per_ray"]
+    verdict = beambench("verify", "escena1:spheres=40", "--accel", "samet,embree", "--rays", file)
+    assert verdict.returncode == 0, verdict.stderr
+    refused(beambench("rays", "tetra:n=1", "--rays", file), ["some.rays", "hash", "tetra:n=1"])
+
+
+def test_verify_judges_every_kind_of_rays(tmp_path: Path) -> None:
+    file = tmp_path / "v.json"
+    done = beambench(
+        *("verify", "escena1:spheres=40", "--accel", "exhaustive,samet,embree:mode=packet8"),
+        *("--rays", "primary,shadow,reflection,diffuse:seed=5,random", "--resolution", "40x30"),
+        *("--json", file),
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    cells = json.loads(file.read_text())["cells"]
+    assert len(cells) == 5 * 3
+    assert {cell["ray_kind"] for cell in cells} == {
+        "primary", "shadow", "reflection", "diffuse:seed=5", "random",
+    }  # fmt: skip
+
+
 def test_verify_leaves_exhaustive_out_of_all_over_many_primitives() -> None:
     done = beambench("verify", "bumpy:triangles=21168", "--resolution", "8x8")
     assert done.returncode == 0, done.stdout + done.stderr
@@ -439,6 +482,17 @@ WRONG_REQUESTS = [
         ]
     ),
     ([*STATS, "null", "--rays", "shadowy"], ["shadowy", "primary"]),
+    ([*STATS, "null", "--rays", "diffuse:sed=1"], ["sed", "seed"]),
+    ([*STATS, "null", "--rays", "no.rays"], ["no.rays"]),
+    (["rays", "tetra:n=1", "-o", "rays.txt"], ["rays.txt", ".rays"]),
+    (["rays", "tetra:n=1", "-o", "missing/a.rays"], ["missing"]),
+    (["trace", "tetra:n=1", "--accel", "null"], ["--pixel"]),
+    (["trace", "tetra:n=1", "--accel", "null", "--pixel", "1,1", "--ray", "2"], ["--ray"]),
+    (["trace", "tetra:n=1", "--accel", "null", "--rays", "random"], ["--ray", "262143"]),
+    (
+        ["trace", "tetra:n=1", "--accel", "null", "--rays", "random", "--pixel", "1,1"],
+        ["--ray N", "--pixel"],
+    ),
     ([*STATS, "null", "--camera", "side"], ["side", "default"]),
     ([*RENDER, "null", "-o", "a.png", "--samples", "3"], ["3 samples"]),
     ([*RENDER, "null", "-o", "a.png", "--samples", "many"], ["many"]),
