@@ -260,25 +260,6 @@ TEST_P(BitExact, TakesManyPrimitivesInOnePlace) {
   EXPECT_EQ(hit->t, 3.625F);
 }
 
-TEST_P(BitExact, TakesOnePrimitiveOfAnyKind) {
-  for (int kind = 0; kind < 3; ++kind) {
-    SceneBuilder builder("one");
-    if (kind == 0) builder.add_sphere({0.0, 0.0, 0.0}, 1.0);
-    if (kind == 1) builder.add_cone({0.0, -1.0, 0.0}, 1.0, {0.0, 1.0, 0.0}, 0.5);
-    if (kind == 2) {
-      const std::array<glm::dvec3, 4> square{
-          {{-1.0, -1.0, 0.0}, {1.0, -1.0, 0.0}, {1.0, 1.0, 0.0}, {-1.0, 1.0, 0.0}}};
-      builder.add_polygon(square);
-    }
-    const Scene scene = std::move(builder).build();
-    const Exhaustive exhaustive(scene);
-    const auto structure = registry().choose({GetParam(), {}}).build(scene);
-    Random random(1);
-    for (int i = 0; i < 500; ++i)
-      expect_same_bits(exhaustive, *structure, random_ray(scene, random));
-  }
-}
-
 // Rays within the faces and along the edges of every box there is.
 TEST_P(BitExact, TakesRaysAlongTheEdgesOfABlock) {
   SceneBuilder builder("block");
@@ -316,22 +297,6 @@ TEST_P(BitExact, TakesRaysAlongTheEdgesOfABlock) {
       }
     }
   }
-}
-
-TEST_P(BitExact, AnswersSeveralThreadsAtOnce) {
-  const Scene scene = load_scene("tetra:n=4");
-  const auto structure = registry().choose({GetParam(), {}}).build(scene);
-  const PrimaryRays rays(scene.cameras.front(), 48, 48, 1);
-  HitBuffer alone(48, 48, 1);
-  structure->trace(rays, alone);
-  std::vector<HitBuffer> together(4, HitBuffer(48, 48, 1));
-  const auto fresh = registry().choose({GetParam(), {}}).build(scene);
-  std::vector<std::thread> threads;
-  for (HitBuffer& buffer : together) {
-    threads.emplace_back([&fresh, &rays, &buffer] { fresh->trace(rays, buffer); });
-  }
-  for (std::thread& thread : threads) thread.join();
-  for (const HitBuffer& buffer : together) EXPECT_EQ(buffer, alone);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BitExact, ::testing::ValuesIn(names_with(Conformance::kBitExact)),
