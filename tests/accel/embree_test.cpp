@@ -1,5 +1,6 @@
 // Embree as oracle and as contender: what the adapter must get right on top of Embree.
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>

@@ -2,6 +2,7 @@
 
 #include "accel/intersect.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 

@@ -2,6 +2,8 @@
 
 #include "accel/octree/octree.hpp"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "accel/registry.hpp"

@@ -2,6 +2,7 @@
 
 #include "accel/bvh/sah_bvh.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

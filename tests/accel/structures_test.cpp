@@ -1,5 +1,6 @@
 // What must be true of every structure in the registry: a new one is tested by being registered.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
