@@ -106,18 +106,20 @@ class SweepRun {
   }
 
   void run_group(const CellGroup& group, double share_ms, Progress& progress) {
+    const auto begin = Clock::now();
     progress.start(group.name());
+    std::optional<SharedQuestion> question;
     try {
-      const auto begin = Clock::now();
-      SharedQuestion question(group, hash_of(*group.scene), core_);
-      if (const auto warning =
-              share_warning(question.question(), question.reference().hit_count())) {
-        warn(fmt::format("{}: {}.", group.name(), *warning), progress);
-      }
-      measure(group, question, begin, share_ms, progress);
+      question.emplace(group, hash_of(*group.scene), core_);
     } catch (const InputError& error) {  // there are no rays to ask: the other groups go on
       for (const PlannedCell& cell : group.cells) finish(failed_cell(cell, error.what()), progress);
+      return;
     }
+    if (const auto warning =
+            share_warning(question->question(), question->reference().hit_count())) {
+      warn(fmt::format("{}: {}.", group.name(), *warning), progress);
+    }
+    measure(group, *question, begin, share_ms, progress);
   }
 
   void warn(std::string sentence, Progress& progress) {
