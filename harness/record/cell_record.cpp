@@ -105,6 +105,12 @@ void add_times(Row& row, const CellRecord& cell) {
   const std::optional<Interval> interval = median_interval(totals);
   row["total_ms_ci_low"] = interval ? Json(interval->low) : Json();
   row["total_ms_ci_high"] = interval ? Json(interval->high) : Json();
+  const std::vector<double> cycles = samples(&Repetition::total_mcycles);
+  const std::optional<Interval> repeat = repeat_interval(cycles);
+  row["clock_ghz_median"] = median_of(&Repetition::clock_ghz);
+  row["total_mcycles_median"] = median_of(&Repetition::total_mcycles);
+  row["total_mcycles_repeat_low"] = repeat ? Json(repeat->low * (1.0 - kBetweenRuns)) : Json();
+  row["total_mcycles_repeat_high"] = repeat ? Json(repeat->high * (1.0 + kBetweenRuns)) : Json();
   row["build_cpu_ms_median"] = median_of(&Repetition::build_cpu_ms);
   row["trace_cpu_ms_median"] = median_of(&Repetition::trace_cpu_ms);
   row["mrays_per_s"] = Json();
@@ -184,7 +190,8 @@ Json repetition_json(const Repetition& repetition) {
             {"build_ms", repetition.build_ms},
             {"trace_ms", repetition.trace_ms},
             {"build_cpu_ms", repetition.build_cpu_ms},
-            {"trace_cpu_ms", repetition.trace_cpu_ms}};
+            {"trace_cpu_ms", repetition.trace_cpu_ms},
+            {"clock_ghz", repetition.clock_ghz}};
   if (repetition.warm_trace_ms) json["warm_trace_ms"] = *repetition.warm_trace_ms;
   add_counts(json, "build", repetition.build_counts);
   add_counts(json, "trace", repetition.trace_counts);

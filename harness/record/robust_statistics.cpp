@@ -33,6 +33,35 @@ std::size_t samples_outside(std::size_t n) {
   return k;
 }
 
+double log_choose(double n, double k) {
+  return std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0);
+}
+
+/// The same for the interval of a repeat: the largest r with P(Y < X_r) <= kTail, where Y is the
+/// (lower) median of n further samples and X_r the r-th smallest of the first n.
+std::size_t samples_outside_repeat(std::size_t n) {
+  const auto count = static_cast<double>(n);
+  const auto middle = static_cast<double>((n + 1) / 2);
+  double cumulative = 0.0;
+  std::size_t r = 0;
+  while (r < n) {
+    const auto below = static_cast<double>(r);  // of the first samples, below Y
+    cumulative += std::exp(log_choose(middle - 1.0 + below, below) +
+                           log_choose(2.0 * count - middle - below, count - below) -
+                           log_choose(2.0 * count, count));
+    if (cumulative > kTail) break;
+    ++r;
+  }
+  return r;
+}
+
+std::optional<Interval> between_order_statistics(std::span<const double> samples,
+                                                 std::size_t outside) {
+  if (outside == 0) return std::nullopt;
+  const std::vector<double> values = sorted(samples);
+  return Interval{values[outside - 1], values[values.size() - outside]};
+}
+
 }  // namespace
 
 double median(std::span<const double> samples) {
@@ -55,10 +84,11 @@ double median_absolute_deviation(std::span<const double> samples) {
 }
 
 std::optional<Interval> median_interval(std::span<const double> samples) {
-  const std::size_t outside = samples_outside(samples.size());
-  if (outside == 0) return std::nullopt;
-  const std::vector<double> values = sorted(samples);
-  return Interval{values[outside - 1], values[values.size() - outside]};
+  return between_order_statistics(samples, samples_outside(samples.size()));
+}
+
+std::optional<Interval> repeat_interval(std::span<const double> samples) {
+  return between_order_statistics(samples, samples_outside_repeat(samples.size()));
 }
 
 }  // namespace beambench

@@ -26,4 +26,11 @@ double median_absolute_deviation(std::span<const double> samples);
 /// less.
 std::optional<Interval> median_interval(std::span<const double> samples);
 
+/// An interval that the median of as many further samples falls into with at least 95%, whatever
+/// the distribution: wider than median_interval, since both medians vary. Two order statistics,
+/// whose ranks follow from the negative hypergeometric distribution of how many of the first
+/// samples lie below an order statistic of the second (David and Nagaraja, Order Statistics, 3rd
+/// ed., section 7.3). None for fewer than nine samples, whose extremes cover less.
+std::optional<Interval> repeat_interval(std::span<const double> samples);
+
 }  // namespace beambench

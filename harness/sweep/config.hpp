@@ -39,7 +39,7 @@ struct SweepConfig {
   std::vector<Resolution> resolutions;
   std::vector<int> samples;
   std::vector<RayChoice> rays;
-  double precision;  ///< wanted half-width of the median's 95% interval, relative to the median
+  double precision;  ///< wanted half-width of the interval of a repeat, relative to the median
   int minimum_repetitions;
   int maximum_repetitions;
   double budget_seconds;  ///< for the whole run; the least repetitions are made all the same

@@ -10,6 +10,7 @@
 
 #include "harness/rays/fingerprint.hpp"
 #include "harness/record/machine.hpp"
+#include "harness/sweep/clock_rate.hpp"
 #include "harness/sweep/conditions.hpp"
 #include "harness/sweep/harness_time.hpp"
 #include "harness/sweep/heap.hpp"
@@ -97,11 +98,13 @@ void Contender::repeat(const Instruments& instruments, int round, int position) 
     const PinnedThread pin(instruments.core);
     poison(question_->answers());
     std::unique_ptr<Accelerator> structure;
+    const double clock_before = clock_ghz();
     Repetition repetition = time_once(instruments, structure);
+    repetition.clock_ghz = 0.5 * (clock_before + clock_ghz());
     repetition.round = round;
     repetition.position = position;
     record_.repetitions.push_back(repetition);
-    totals_ms_.push_back(repetition.total_ms());
+    cycles_.push_back(repetition.total_mcycles());
     spent_ms_ += repetition.total_ms();
     examine();
     if (!failed_ && record_.repetitions.size() <= kWarmTraces) trace_warm(*structure);

@@ -65,7 +65,9 @@ class Contender {
   static constexpr std::size_t kWarmTraces = 5;
 
   bool failed() const { return failed_; }
-  std::span<const double> totals_ms() const { return totals_ms_; }
+  /// Total cycles of each repetition, in millions.
+  std::span<const double> cycles() const { return cycles_; }
+  /// Warm traces included.
   double spent_ms() const { return spent_ms_; }
   /// The finished cell.
   CellRecord finish(std::optional<StopReason> reason) &&;
@@ -81,7 +83,7 @@ class Contender {
   const PlannedCell* cell_;
   SharedQuestion* question_;
   CellRecord record_;
-  std::vector<double> totals_ms_;
+  std::vector<double> cycles_;
   double spent_ms_ = 0.0;
   std::uint64_t counted_hits_ = 0;  ///< fingerprint of the counting pass's answers
   bool failed_ = false;

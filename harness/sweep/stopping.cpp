@@ -1,22 +1,30 @@
 #include "harness/sweep/stopping.hpp"
 
-#include <numeric>
+#include <algorithm>
 
 #include "harness/record/robust_statistics.hpp"
 
 namespace beambench {
 
-bool is_precise(std::span<const double> totals_ms, double precision) {
-  const std::optional<Interval> interval = median_interval(totals_ms);
-  return interval && 0.5 * (interval->high - interval->low) <= precision * median(totals_ms);
+bool is_precise(std::span<const double> samples, double precision) {
+  const std::optional<Interval> interval = repeat_interval(samples);
+  return interval && 0.5 * (interval->high - interval->low) <= precision * median(samples);
 }
 
-std::optional<StopReason> reason_to_stop(std::span<const double> totals_ms, double allowance_ms,
-                                         const StoppingRule& rule) {
-  if (totals_ms.size() < static_cast<std::size_t>(rule.minimum)) return std::nullopt;
-  if (is_precise(totals_ms, rule.precision)) return StopReason::kPrecision;
-  if (totals_ms.size() >= static_cast<std::size_t>(rule.maximum)) return StopReason::kRepetitions;
-  const double spent_ms = std::accumulate(totals_ms.begin(), totals_ms.end(), 0.0);
+bool is_look(int repetitions, int minimum) {
+  int look = minimum;
+  while (look < repetitions) look += std::max(1, look / 4);
+  return look == repetitions;
+}
+
+std::optional<StopReason> reason_to_stop(std::span<const double> cycles, double spent_ms,
+                                         double allowance_ms, const StoppingRule& rule) {
+  const auto repetitions = static_cast<int>(cycles.size());
+  if (repetitions < rule.minimum) return std::nullopt;
+  if (is_look(repetitions, rule.minimum) && is_precise(cycles, rule.precision)) {
+    return StopReason::kPrecision;
+  }
+  if (repetitions >= rule.maximum) return StopReason::kRepetitions;
   if (spent_ms >= allowance_ms) return StopReason::kBudget;
   return std::nullopt;
 }

@@ -21,7 +21,8 @@ void retire_done(std::vector<Contender>& racing, const TurnRules& rules, const T
   for (Contender& contender : racing) {
     std::optional<StopReason> reason;
     if (!contender.failed()) {
-      reason = reason_to_stop(contender.totals_ms(), rules.allowance_ms, rules.stopping);
+      reason = reason_to_stop(contender.cycles(), contender.spent_ms(), rules.allowance_ms,
+                              rules.stopping);
     }
     if (reason || contender.failed()) {
       events.finished(std::move(contender).finish(reason));
@@ -38,7 +39,7 @@ double work_done(const std::vector<Contender>& racing, const TurnRules& rules) {
   double done = 0.0;
   for (const Contender& contender : racing) {
     const double time = contender.spent_ms() / std::max(rules.allowance_ms, 1.0);
-    const double repetitions = static_cast<double>(contender.totals_ms().size());
+    const double repetitions = static_cast<double>(contender.cycles().size());
     const double least = repetitions / rules.stopping.minimum;
     const double most = repetitions / rules.stopping.maximum;
     done += std::clamp(std::max(std::min(time, least), most), 0.0, 1.0);

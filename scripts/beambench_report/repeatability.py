@@ -15,7 +15,7 @@ from beambench_report.records import Run
 class Repeatability:
     """The cells that two runs have in common, with times and an interval in the first."""
 
-    cells: pd.DataFrame  # identity, total_ms_median of both, the interval of the first, `within`
+    cells: pd.DataFrame  # identity, total_mcycles_median of both, the interval of the first, `within`
 
     @property
     def share(self) -> float:
@@ -26,15 +26,16 @@ class Repeatability:
         """A sentence, then the cells that were not found again, the farthest off first."""
         within, count = int(self.cells["within"].sum()), len(self.cells)
         lines = [
-            f"{within} of {count} medians ({100 * self.share:.1f}%) of the second run lie within "
-            "the intervals that the first one states."
+            f"{within} of {count} medians ({100 * self.share:.1f}%, in clock cycles) of the second "
+            "run lie within the intervals that the first one states for a repeat."
         ]
         missed = self.cells[~self.cells["within"]].sort_values("change", key=abs, ascending=False)
         for _, cell in missed.iterrows():
             lines.append(
                 f"{cell['change']:+.1%}  {cell['view']}, {cell['width']:.0f}x{cell['height']:.0f}, "
-                f"{cell['contender']}: {cell['total_ms_median_b']:.4g} ms is not in "
-                f"{cell['total_ms_ci_low']:.4g} to {cell['total_ms_ci_high']:.4g} ms"
+                f"{cell['contender']}: {cell['total_mcycles_median_b']:.4g} million cycles are "
+                f"not in {cell['total_mcycles_repeat_low']:.4g} to "
+                f"{cell['total_mcycles_repeat_high']:.4g}"
             )
         return "\n".join(lines)
 
@@ -42,15 +43,17 @@ class Repeatability:
 def repeatability(first: Run, second: Run) -> Repeatability:
     """Compares cell by cell. Raises Problem when no cell can be compared."""
     keys = list(IDENTITY)
-    again = second.rows[second.rows["timed"]][[*keys, "total_ms_median"]]
-    known = first.rows[first.rows["timed"] & first.rows["total_ms_ci_low"].notna()]
+    again = second.rows[second.rows["timed"]][[*keys, "total_mcycles_median"]]
+    known = first.rows[first.rows["timed"] & first.rows["total_mcycles_repeat_low"].notna()]
     cells = known.merge(again, on=keys, suffixes=("", "_b"), validate="one_to_one")
     if cells.empty:
         raise Problem(
             f"{first.directory} and {second.directory} have no cell in common that has times and "
             "an interval; give two runs of one sweep"
         )
-    repeated = cells["total_ms_median_b"]
-    cells["change"] = repeated / cells["total_ms_median"] - 1.0
-    cells["within"] = repeated.between(cells["total_ms_ci_low"], cells["total_ms_ci_high"])
+    repeated = cells["total_mcycles_median_b"]
+    cells["change"] = repeated / cells["total_mcycles_median"] - 1.0
+    cells["within"] = repeated.between(
+        cells["total_mcycles_repeat_low"], cells["total_mcycles_repeat_high"]
+    )
     return Repeatability(cells)

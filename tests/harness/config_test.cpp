@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/sweep/benchmark_flags.hpp"
+#include "harness/sweep/clock_rate.hpp"
 #include "harness/sweep/google_benchmark.hpp"
 #include "harness/sweep/plan.hpp"
 #include "harness/sweep/stopping.hpp"
@@ -247,15 +248,32 @@ TEST(BenchmarkFlags, TheFilterSelectsByGoogleBenchmarksRules) {
 }
 
 TEST(Stopping, GoesOnUntilOneReasonHolds) {
-  const StoppingRule rule{0.05, 6, 20};
-  const std::vector<double> steady(6, 100.0);
-  std::vector<double> wild{100, 200, 50, 300, 20, 150};
-  EXPECT_EQ(reason_to_stop(std::span(steady).first(5), 0.0, rule), std::nullopt);
-  EXPECT_EQ(reason_to_stop(steady, 1e9, rule), StopReason::kPrecision);
-  EXPECT_EQ(reason_to_stop(wild, 1e9, rule), std::nullopt);
-  EXPECT_EQ(reason_to_stop(wild, 800.0, rule), StopReason::kBudget);
-  wild.insert(wild.end(), {10, 400, 30, 500, 20, 600, 10, 700, 10, 800, 20, 900, 10, 1000});
-  EXPECT_EQ(reason_to_stop(wild, 1e9, rule), StopReason::kRepetitions);
+  const StoppingRule rule{0.05, 9, 20};
+  const std::vector<double> steady(12, 100.0);
+  std::vector<double> wild{100, 200, 50, 300, 20, 150, 90, 180, 10};
+  EXPECT_EQ(reason_to_stop(std::span(steady).first(8), 900.0, 0.0, rule), std::nullopt);
+  EXPECT_EQ(reason_to_stop(std::span(steady).first(9), 900.0, 1e9, rule), StopReason::kPrecision);
+  EXPECT_EQ(reason_to_stop(std::span(steady).first(10), 900.0, 1e9, rule), std::nullopt);
+  EXPECT_EQ(reason_to_stop(wild, 900.0, 1e9, rule), std::nullopt);
+  EXPECT_EQ(reason_to_stop(wild, 900.0, 800.0, rule), StopReason::kBudget);
+  wild.insert(wild.end(), {10, 400, 30, 500, 20, 600, 10, 700, 10, 800, 20});
+  EXPECT_EQ(reason_to_stop(wild, 900.0, 1e9, rule), StopReason::kRepetitions);
+}
+
+TEST(Stopping, LooksAtThePrecisionAgainAfterAQuarterMore) {
+  std::vector<int> looks;
+  for (int n = 1; n <= 40; ++n) {
+    if (is_look(n, 9)) looks.push_back(n);
+  }
+  EXPECT_EQ(looks, (std::vector<int>{9, 11, 13, 16, 20, 25, 31, 38}));
+  EXPECT_TRUE(is_look(1, 1));
+  EXPECT_TRUE(is_look(2, 1));
+}
+
+TEST(ClockRate, IsThatOfAProcessor) {
+  const double before = clock_ghz();
+  EXPECT_GT(before, 0.2);
+  EXPECT_LT(before, 20.0);
 }
 
 }  // namespace

@@ -103,6 +103,40 @@ TEST(Statistics, IntervalCoversTheMedianOfASkewedDistribution) {
   EXPECT_LT(covered, kTrials * 99 / 100);  // an interval of everything would say nothing
 }
 
+TEST(Statistics, FewerThanNineSamplesHaveNoIntervalOfARepeat) {
+  std::vector<double> samples{1, 2, 3, 4, 5, 6, 7, 8};
+  EXPECT_FALSE(repeat_interval(samples));
+  EXPECT_FALSE(repeat_interval({}));
+  samples.push_back(9);
+  ASSERT_TRUE(repeat_interval(samples));
+  EXPECT_EQ(repeat_interval(samples)->low, 1.0);
+  EXPECT_EQ(repeat_interval(samples)->high, 9.0);
+}
+
+TEST(Statistics, IntervalOfARepeatCoversTheNextMedian) {
+  std::mt19937_64 engine(2);
+  std::exponential_distribution<double> distribution(1.0);
+  constexpr int kTrials = 4000;
+  for (const std::size_t n : {9U, 10U, 21U, 60U}) {
+    int covered = 0;
+    int covered_by_the_narrower = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      std::vector<double> samples(n);
+      std::vector<double> again(n);
+      std::generate(samples.begin(), samples.end(), [&] { return distribution(engine); });
+      std::generate(again.begin(), again.end(), [&] { return distribution(engine); });
+      const auto within = [&](const Interval& interval) {
+        return interval.low <= median(again) && median(again) <= interval.high ? 1 : 0;
+      };
+      covered += within(*repeat_interval(samples));
+      covered_by_the_narrower += within(*median_interval(samples));
+    }
+    EXPECT_GT(covered, kTrials * 94 / 100) << n;
+    EXPECT_LT(covered, kTrials * 995 / 1000) << n;
+    EXPECT_LT(covered_by_the_narrower, kTrials * 94 / 100) << n;
+  }
+}
+
 TEST(Csv, QuotesOnlyWhatNeedsIt) {
   EXPECT_EQ(csv_field("tetra"), "tetra");
   EXPECT_EQ(csv_field(""), "");
@@ -165,6 +199,7 @@ const char* const kContract =
     "build_ms_median,build_ms_min,build_ms_mad,trace_ms_median,trace_ms_min,trace_ms_mad,"
     "trace_warm_ms_median,harness_ms,trace_net_ms_median,"
     "total_ms_median,total_ms_min,total_ms_mad,total_ms_ci_low,total_ms_ci_high,"
+    "clock_ghz_median,total_mcycles_median,total_mcycles_repeat_low,total_mcycles_repeat_high,"
     "build_cpu_ms_median,trace_cpu_ms_median,mrays_per_s,"
     "build_instructions,build_cycles,build_cache_misses,"
     "trace_instructions,trace_cycles,trace_cache_misses,"
@@ -214,8 +249,10 @@ TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
   const Row row = to_row(kRun, cell);
   for (const auto& [column, value] : row.items()) {
     const bool is_time = column.find("_ms_") != std::string::npos || column == "harness_ms" ||
-                         column == "mrays_per_s" || column.ends_with("_cycles") ||
-                         column.ends_with("_instructions") || column.ends_with("_cache_misses");
+                         column.find("mcycles") != std::string::npos ||
+                         column == "clock_ghz_median" || column == "mrays_per_s" ||
+                         column.ends_with("_cycles") || column.ends_with("_instructions") ||
+                         column.ends_with("_cache_misses");
     EXPECT_EQ(value.is_null(),
               is_time || column == "leaves_per_ray" || column == "empty_leaves_per_ray" ||
                   column == "box_tests_per_ray" || column == "primitive_tests_per_ray" ||
