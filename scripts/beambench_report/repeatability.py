@@ -15,7 +15,9 @@ from beambench_report.records import Run
 class Repeatability:
     """The cells that two runs have in common, with times and an interval in the first."""
 
-    cells: pd.DataFrame  # identity, total_mcycles_median of both, the interval of the first, `within`
+    cells: (
+        pd.DataFrame
+    )  # identity, total_mcycles_median of both, the interval of the first, `within`
 
     @property
     def share(self) -> float:

@@ -5,13 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 from xml.etree import ElementTree
 
+import matplotlib.pyplot as plt
 import pandas as pd
 import pytest
 
 from beambench_report.__main__ import main
+from beambench_report.bars import Bar, draw_bars
 from beambench_report.figure import untimed
 from beambench_report.quantities import number
 from beambench_report.records import read_run
+from beambench_report.style import Look
 from beambench_report.time_over_rays import time_over_rays
 from made_up_run import made_up_rows, without_times, write_run
 
@@ -110,3 +113,11 @@ def test_an_unwritable_folder_is_one_sentence_and_exit_code_2(
 )
 def test_numbers_keep_three_significant_digits(value: float, text: str) -> None:
     assert number(value) == text
+
+
+def test_a_bar_beside_bars_of_no_length_is_on_the_axis() -> None:
+    figure, panel = plt.subplots()
+    bars = [Bar(name, [value], "") for name, value in (("a", 0.0), ("b", 0.0), ("c", 14.3))]
+    draw_bars(panel, bars, {name: Look("black", "o", "-") for name in "abc"}, "a ray")
+    assert panel.get_xlim()[1] > 14.3
+    plt.close(figure)
