@@ -1,0 +1,30 @@
+#pragma once
+// A flat shape drawn out along z.
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "scenes/modelling/polygon_mesh.hpp"
+
+namespace beambench {
+
+/// A shape in the plane z = 0: polygons over shared points, counter-clockwise seen from +z. A shape
+/// with a hole is several polygons around it; the seams between them are edges of two polygons.
+struct FlatShape {
+  std::vector<glm::dvec2> points;
+  std::vector<PolygonMesh::Corners> polygons;
+};
+
+/// One polygon.
+FlatShape flat_polygon(std::vector<glm::dvec2> points);
+
+/// The ends of an extrusion that are there.
+enum class Ends : std::uint8_t { kBoth, kFront, kNone };
+
+/// The shape from z = 0 (back) to z = depth (front), with a wall on every edge of the outline and
+/// of holes, and none on the seams.
+PolygonMesh extruded(const FlatShape& shape, double depth, Ends ends = Ends::kBoth);
+
+}  // namespace beambench

@@ -1,0 +1,26 @@
+#pragma once
+// Extruded capital letters.
+
+#include <string_view>
+
+#include "scenes/modelling/extrusion.hpp"
+
+namespace beambench {
+
+/// The outline of a capital letter, 1 high from the baseline y = 0, its left edge at x = 0; `width`
+/// is where it ends. Straight strokes 0.22 wide with cut corners; A, B and O are two concave
+/// polygons around their holes. There are A, B, E, G, I, L, O and T; any other letter throws
+/// std::invalid_argument.
+struct Letter {
+  FlatShape shape;
+  double width;
+};
+Letter letter(char name);
+
+/// A line of letters and blanks, `height` high from y = 0, starting at x = 0, from z = 0 to depth.
+PolygonMesh extruded_text(std::string_view text, double height, double depth,
+                          Ends ends = Ends::kBoth);
+/// How wide that line is.
+double text_width(std::string_view text, double height);
+
+}  // namespace beambench

@@ -1,0 +1,22 @@
+#pragma once
+// Finer meshes: triangles only, or an exact number of polygons.
+
+#include <cstddef>
+
+#include "scenes/modelling/polygon_mesh.hpp"
+
+namespace beambench {
+
+/// Every polygon in triangles, quads along their shorter diagonal. The surface of flat polygons
+/// stays the same.
+PolygonMesh triangulated(const PolygonMesh& mesh);
+
+/// The mesh with exactly `count` polygons: while there are fewer, the largest is split, one of more
+/// than three corners along a diagonal, a triangle at the middle of its longest edge together with
+/// its neighbours there, so that no vertex lies inside an edge. Only where a last polygon is
+/// wanting and every split adds two, a neighbour keeps the new vertex as a corner. Concave polygons
+/// are left whole. Throws std::invalid_argument when the mesh has more polygons than `count`, or
+/// none that can be split.
+PolygonMesh subdivided_to(PolygonMesh mesh, std::size_t count);
+
+}  // namespace beambench

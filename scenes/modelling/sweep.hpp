@@ -1,0 +1,33 @@
+#pragma once
+// An outline drawn along a path.
+
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "scenes/modelling/polygon_mesh.hpp"
+
+namespace beambench {
+
+/// Which ends of a sweep are closed by a polygon. An end of size 0 is a tip and needs none.
+enum class Caps : std::uint8_t { kNone, kStart, kEnd, kBoth };
+
+/// A regular polygon of radius 1, counter-clockwise.
+std::vector<glm::dvec2> circle(int sides);
+
+/// The outline (counter-clockwise, its x along `side` at the start) carried along the path without
+/// twist (rotation-minimising frames by double reflection: Wang, Juettler, Zheng and Liu 2008) and
+/// scaled by `scales`, one a path point. Gives a ring of quads between two path points, triangles
+/// at a tip. `side` is made perpendicular to the path; it must not be parallel to its start.
+PolygonMesh sweep(std::span<const glm::dvec2> outline, std::span<const glm::dvec3> path,
+                  std::span<const double> scales, const glm::dvec3& side, Caps caps);
+
+/// A round tube: the circle of `sides` with a radius at each path point.
+PolygonMesh tube(std::span<const glm::dvec3> path, std::span<const double> radii, int sides,
+                 Caps caps = Caps::kNone);
+
+/// Points on a Catmull-Rom spline through `knots`, `steps` pieces from knot to knot.
+std::vector<glm::dvec3> spline(std::span<const glm::dvec3> knots, int steps);
+
+}  // namespace beambench
