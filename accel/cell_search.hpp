@@ -16,6 +16,20 @@ struct NoMailboxes {
   static constexpr bool is_first(PrimitiveId) { return true; }
 };
 
+/// Tests the references of a cell for hits nearer than the closest so far. Is the closest hit before
+/// the ray leaves the cell? Strictly: a hit at the exit's own rounded t may lie behind it and have a
+/// lower id.
+template <class Counting, class Mailboxes = const NoMailboxes&>
+bool test_references(const Scene& scene, std::span<const PrimitiveId> references, double exit_t,
+                     Counting& counting, ClosestHit& closest, Mailboxes&& mailboxes = {}) {
+  for (const PrimitiveId id : references) {
+    if (!mailboxes.is_first(id)) continue;
+    counting.add(Counter::kPrimitiveTests);
+    counting.tested(id, closest.test(scene, id));
+  }
+  return closest.ray.t_max < static_cast<float>(exit_t);
+}
+
 /// The closest hit in the cells along a ray. `walk(visit)` calls `visit(references, exit_t)` for
 /// the cells in order, until that returns true. A cell's references are the primitives that reach
 /// into it, widened by `overlap_tolerance`. `mailboxes.is_first(id)` is asked once for every
@@ -25,13 +39,7 @@ std::optional<Hit> closest_in_cells(const Scene& scene, const Ray& ray, Counting
                                     Mailboxes&& mailboxes, const Walk& walk) {
   ClosestHit closest(ray);
   walk([&](std::span<const PrimitiveId> references, double exit_t) {
-    for (const PrimitiveId id : references) {
-      if (!mailboxes.is_first(id)) continue;
-      counting.add(Counter::kPrimitiveTests);
-      counting.tested(id, closest.test(scene, id));
-    }
-    // Strictly: a hit at the exit's own rounded t may lie behind it and have a lower id.
-    return closest.ray.t_max < static_cast<float>(exit_t);
+    return test_references(scene, references, exit_t, counting, closest, mailboxes);
   });
   return closest.result();
 }

@@ -17,6 +17,53 @@ namespace beambench {
 /// of equal or larger size. The way down to a smaller leaf, the same for all, is not in it.
 inline constexpr std::string_view kNeighbourSteps = "neighbour_steps";
 
+/// Where a ray leaves a leaf: at t, over the face, edge or vertex that `step` (-1, 0 or 1 for each
+/// axis) points at.
+struct LeafExit {
+  double t;
+  glm::ivec3 step;
+};
+inline LeafExit leaf_exit(const CellRay& way, const OctreeCursor& cursor) {
+  const std::array<double, 3> exits{way.exit_t(0, cursor.corner(), cursor.size()),
+                                    way.exit_t(1, cursor.corner(), cursor.size()),
+                                    way.exit_t(2, cursor.corner(), cursor.size())};
+  LeafExit exit{std::min({exits[0], exits[1], exits[2]}), glm::ivec3(0)};
+  for (int axis = 0; axis < 3; ++axis) {
+    if (exits[static_cast<std::size_t>(axis)] == exit.t) exit.step[axis] = way.step(axis);
+  }
+  return exit;
+}
+
+/// Walks from a node that the ray enters at t, as `walk_leaves` does from the root. `passed` is the
+/// number of nodes already passed on the way to it.
+template <class Neighbours, class Counting, class Visit>
+void walk_leaves_from(OctreeCursor cursor, double t, int passed, const Octree& octree,
+                      const Neighbours& neighbours, const Ray& ray, const CellRay& way,
+                      Counting& counting, Visit visit) {
+  while (true) {
+    passed += cursor.descend(way, t);
+    const OctreeNode& leaf = cursor.node();
+    counting.add(Counter::kTraversalSteps, static_cast<std::uint64_t>(passed));
+    counting.add(Counter::kLeaves);
+    counting.add(Counter::kEmptyLeaves, leaf.count == 0 ? 1 : 0);
+
+    const LeafExit exit = leaf_exit(way, cursor);
+    counting.enter([&] {
+      return TraceStep{.place = "leaf",
+                       .index = cursor.index(),
+                       .level = cursor.level(),
+                       .box = octree.grid().box(cursor.corner(), cursor.size()),
+                       .t_enter = std::max(t, static_cast<double>(ray.t_min)),
+                       .t_exit = exit.t};
+    });
+    if (visit(leaf, exit.t)) return;
+    t = exit.t;
+    passed = neighbours.move(cursor, exit.step);
+    if (passed == 0) return;
+    counting.add(kNeighbourSteps, static_cast<std::uint64_t>(passed));
+  }
+}
+
 /// Calls `visit(leaf, exit_t)` for the leaves that the ray passes through, from t_min on, until it
 /// returns true or the ray leaves the root (Samet, "Implementing ray tracing with octrees and
 /// neighbor finding", Computers & Graphics 13(4), 1989; thesis, sections 2.2.2 and 5.4.1): the exit
@@ -30,39 +77,20 @@ template <class Neighbours, class Counting, class Visit>
 void walk_leaves(const Octree& octree, const Neighbours& neighbours, const Ray& ray,
                  Counting& counting, Visit visit) {
   const CellRay way(octree.grid(), ray);
-  double t = way.enter(ray.t_min);
+  const double t = way.enter(ray.t_min);
   if (!(t < kInfinity)) return;
-  OctreeCursor cursor(octree);
-  int passed = 1;  // the root
-  while (true) {
-    passed += cursor.descend(way, t);
-    const OctreeNode& leaf = cursor.node();
-    counting.add(Counter::kTraversalSteps, static_cast<std::uint64_t>(passed));
-    counting.add(Counter::kLeaves);
-    counting.add(Counter::kEmptyLeaves, leaf.count == 0 ? 1 : 0);
+  walk_leaves_from(OctreeCursor(octree), t, 1, octree, neighbours, ray, way, counting, visit);
+}
 
-    const std::array<double, 3> exits{way.exit_t(0, cursor.corner(), cursor.size()),
-                                      way.exit_t(1, cursor.corner(), cursor.size()),
-                                      way.exit_t(2, cursor.corner(), cursor.size())};
-    const double enter_t = t;
-    t = std::min({exits[0], exits[1], exits[2]});
-    counting.enter([&] {
-      return TraceStep{.place = "leaf",
-                       .index = cursor.index(),
-                       .level = cursor.level(),
-                       .box = octree.grid().box(cursor.corner(), cursor.size()),
-                       .t_enter = std::max(enter_t, static_cast<double>(ray.t_min)),
-                       .t_exit = t};
-    });
-    if (visit(leaf, t)) return;
-    glm::ivec3 step(0);
-    for (int axis = 0; axis < 3; ++axis) {
-      if (exits[static_cast<std::size_t>(axis)] == t) step[axis] = way.step(axis);
-    }
-    passed = neighbours.move(cursor, step);
-    if (passed == 0) return;
-    counting.add(kNeighbourSteps, static_cast<std::uint64_t>(passed));
-  }
+/// Goes on from a leaf that was seen to already: the leaves behind it, in order.
+template <class Neighbours, class Counting, class Visit>
+void walk_leaves_behind(OctreeCursor cursor, const Octree& octree, const Neighbours& neighbours,
+                        const Ray& ray, const CellRay& way, Counting& counting, Visit visit) {
+  const LeafExit exit = leaf_exit(way, cursor);
+  const int passed = neighbours.move(cursor, exit.step);
+  if (passed == 0) return;
+  counting.add(kNeighbourSteps, static_cast<std::uint64_t>(passed));
+  walk_leaves_from(cursor, exit.t, passed, octree, neighbours, ray, way, counting, visit);
 }
 
 }  // namespace beambench

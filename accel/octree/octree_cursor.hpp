@@ -42,6 +42,17 @@ class OctreeCursor {
     return levels;
   }
 
+  /// Goes down to the child whose lowest finest cell is `corner`. Not from a leaf.
+  void enter_child(const glm::ivec3& corner) {
+    size_ /= 2;
+    std::uint32_t octant = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((corner[axis] & size_) != 0) octant |= 1U << static_cast<unsigned>(axis);
+    }
+    index_ = node().first + octant;
+    corner_ = corner;
+  }
+
   /// Samet's search for the neighbour of equal or larger size across the faces of one or more axes
   /// (a face, edge or vertex neighbour): climbs to the nearest common ancestor and goes down again,
   /// the path mirrored, as far as there are nodes (Samet, "Implementing ray tracing with octrees

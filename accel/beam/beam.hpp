@@ -1,0 +1,60 @@
+#pragma once
+// A beam: a bundle of primary rays on their common way through the octree.
+
+#include <cstddef>
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include "accel/beam/crossing.hpp"
+#include "accel/beam/fixed_vector.hpp"
+#include "accel/beam/image_polygon.hpp"
+
+namespace beambench {
+
+/// Rays of the beam cross `first` before `second`. `line` is its image, negative inside.
+struct BeamCut {
+  Crossing first;
+  Crossing second;
+  ImageLine line;
+};
+
+/// A piece narrower than this (in the units of `ImageLine`) is none: the rays in it go where its
+/// neighbours go. They stray by 10 scene diagonals x 2^-39 at most from where they should be, far
+/// less than references are widened by (`tolerance.hpp`), so no hit is lost; rays that run exactly
+/// in a cell's face do not tear beams into slivers.
+inline constexpr double kSliver = 0x1p-39;
+
+/// The pyramid from the eye through a convex polygon (thesis, section 3.2), where it enters a leaf.
+///
+/// Which samples belong to the beam is decided by the cuts alone, by one comparison of numbers
+/// that every beam computes alike for a ray (`crosses_before`). `outline` covers them all. Cuts that
+/// do not come near the outline are true of all its samples and are dropped, so that there are
+/// about as many as the outline has edges, and as in the thesis a beam costs the same at every
+/// resolution.
+struct Beam {
+  std::uint32_t node;  ///< the leaf, its index in the octree
+  std::int32_t size;   ///< finest cells along the leaf's edges
+  glm::ivec3 corner;   ///< its lowest finest cell
+  ImagePolygon outline;
+  FixedVector<BeamCut, 56> cuts;
+
+  /// More cuts than one more division has room for: 5 for the exit, 2 a level for the neighbours.
+  bool crowded() const { return cuts.size() > 20; }
+};
+
+/// What a beam meets (thesis, section 3.2).
+enum class BeamKind {
+  kNonTerminal,  ///< an empty leaf: it goes on
+  kOccupied,     ///< a leaf with references: its samples become rays
+  kLeaving       ///< the end of the root: its samples show the background
+};
+
+/// The part of a beam where `inner` is crossed before `outer`: its outline clipped, the cut kept.
+/// `line` is `line_before(inner, outer)`.
+void cut(Beam& beam, const Crossing& inner, const Crossing& outer, const ImageLine& line);
+
+/// Forgets the cuts that hold for the whole outline.
+void drop_needless_cuts(Beam& beam);
+
+}  // namespace beambench

@@ -1,0 +1,33 @@
+#pragma once
+// The ways of beams through the octree: where they begin, and how they go on behind an empty leaf.
+
+#include <vector>
+
+#include "accel/beam/beam.hpp"
+#include "accel/octree/octree.hpp"
+
+namespace beambench {
+
+/// A beam and what it meets.
+struct BeamStep {
+  BeamKind kind;
+  Beam beam;
+};
+
+/// Beams that wait to be traced, and what finding them took.
+struct BeamQueue {
+  std::vector<BeamStep> steps;  ///< the last one is traced next
+  std::uint64_t clips = 0;
+  std::uint64_t neighbour_searches = 0;
+};
+
+/// Appends the beams at which tracing begins (thesis, section 3.4). From outside: for each face of
+/// the root that the eye sees, the screen clipped to it, divided among the leaves behind it. From
+/// inside: the whole screen in the eye's leaf. Samples of no beam miss the root.
+void begin_beams(const Octree& octree, const EyeView& view, BeamQueue& queue);
+
+/// Appends the beams that leave a leaf (thesis, section 3.5): divided among the faces by which its
+/// rays leave, then among the leaves behind each face.
+void continue_beam(const Octree& octree, const EyeView& view, const Beam& beam, BeamQueue& queue);
+
+}  // namespace beambench

@@ -1,0 +1,151 @@
+#pragma once
+// The samples of a beam: scanline filling, exact at the edges.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "accel/beam/beam.hpp"
+#include "accel/beam/sample_lattice.hpp"
+#include "accel/cell_ray.hpp"
+
+namespace beambench {
+
+/// From points of the image to samples of a lattice.
+class SampleScan {
+ public:
+  SampleScan(const EyeView& view, const PrimaryRays& rays)
+      : view_(&view),
+        rays_(&rays),
+        row_slack_(2.0 * view.rounding() / glm::length(rays.down()) + 1e-6) {}
+
+  /// Calls `visit(y, first_x, last_x)` for runs of samples, such that each sample of the beam is in
+  /// one run, and no other sample is. As scanline filling (thesis, section 3.6.1), with the beam's
+  /// cuts for edges. A sample whose direction, rounded to float, may lie on either side of a cut is
+  /// decided by `crosses_before`, as it is in every other beam: the thesis lets some pixels be
+  /// treated twice, here each sample belongs to one beam.
+  template <class Visit>
+  void for_each_run(const Beam& beam, const SampleLattice& lattice, Visit visit) const {
+    double top = beam.outline[0].y;
+    double bottom = top;
+    for (const glm::dvec2& corner : beam.outline) {
+      top = std::min(top, corner.y);
+      bottom = std::max(bottom, corner.y);
+    }
+    const int first_y = first_at_or_after(top * rays_->height() - lattice.offset.y - row_slack_);
+    const int last_y = last_at_or_before(bottom * rays_->height() - lattice.offset.y + row_slack_,
+                                         lattice.height);
+    const Edges edges(*this, beam, lattice);
+    for (int y = first_y; y <= last_y; ++y) {
+      const Row row = edges.row(y, lattice.width);
+      if (row.first > row.last) continue;
+      // From the ends inward to where no cut comes near.
+      int first = row.first;
+      int last = row.last;
+      const int sure_first = std::max(first, row.sure_first);
+      const int sure_last = std::min(last, row.sure_last);
+      if (sure_first > sure_last) {
+        for (int x = first; x <= last; ++x) {
+          if (belongs(beam, lattice, x, y)) visit(y, x, x);
+        }
+        continue;
+      }
+      for (; first < sure_first; ++first) {
+        if (belongs(beam, lattice, first, y)) visit(y, first, first);
+      }
+      visit(y, sure_first, sure_last);
+      for (int x = sure_last + 1; x <= last; ++x) {
+        if (belongs(beam, lattice, x, y)) visit(y, x, x);
+      }
+    }
+  }
+
+  Ray ray(const SampleLattice& lattice, int x, int y) const {
+    return rays_->ray_at(x + lattice.offset.x, y + lattice.offset.y);
+  }
+
+ private:
+  /// Samples of a row: those that may belong to the beam, and those that surely do.
+  struct Row {
+    int first;
+    int last;
+    int sure_first;
+    int sure_last;
+  };
+
+  /// The cuts of a beam as edges on a lattice, in steps of samples.
+  class Edges {
+   public:
+    Edges(const SampleScan& scan, const Beam& beam, const SampleLattice& lattice) {
+      for (const BeamCut& each : beam.cuts) {
+        const double x = each.line.x / scan.rays_->width();
+        const double y = each.line.y / scan.rays_->height();
+        const double constant = each.line.constant + x * lattice.offset.x + y * lattice.offset.y;
+        edges_.push_back({x, y, constant, 1.0 / x});
+      }
+      margin_ = scan.view_->rounding();
+    }
+
+    Row row(int y, int width) const {
+      double first = 0.0;
+      double last = width - 1;
+      double sure_first = first;
+      double sure_last = last;
+      for (const Edge& edge : edges_) {
+        const double value = edge.y * y + edge.constant;  // at x = 0
+        if (std::abs(edge.x) * width < margin_) {         // along the row: the same for all
+          if (value > 2.0 * margin_) last = -1.0;
+          if (value > -2.0 * margin_) sure_last = -1.0;
+          continue;
+        }
+        const double may = (margin_ - value) * edge.inverse_x;
+        const double sure = (-margin_ - value) * edge.inverse_x;
+        if (edge.x > 0.0) {
+          last = std::min(last, may + kColumnSlack);
+          sure_last = std::min(sure_last, sure - kColumnSlack);
+        } else {
+          first = std::max(first, may - kColumnSlack);
+          sure_first = std::max(sure_first, sure + kColumnSlack);
+        }
+      }
+      const auto bounded = [&](double x) {
+        return static_cast<int>(std::clamp(x, -2.0, static_cast<double>(width) + 1.0));
+      };
+      return {bounded(std::ceil(first)), bounded(std::floor(last)), bounded(std::ceil(sure_first)),
+              bounded(std::floor(sure_last))};
+    }
+
+   private:
+    /// For the rounding of the division.
+    static constexpr double kColumnSlack = 1e-6;
+    struct Edge {
+      double x;
+      double y;
+      double constant;
+      double inverse_x;
+    };
+    FixedVector<Edge, 56> edges_;
+    double margin_;
+  };
+
+  bool belongs(const Beam& beam, const SampleLattice& lattice, int x, int y) const {
+    const CellRay way(view_->grid(), ray(lattice, x, y));
+    return std::all_of(beam.cuts.begin(), beam.cuts.end(), [&](const BeamCut& each) {
+      return crosses_before(way, each.first, each.second);
+    });
+  }
+
+  static int first_at_or_after(double y) {
+    return static_cast<int>(std::max(0.0, std::ceil(y)));
+  }
+  static int last_at_or_before(double y, int height) {
+    return static_cast<int>(std::min(static_cast<double>(height - 1), std::floor(y)));
+  }
+
+  const EyeView* view_;
+  const PrimaryRays* rays_;
+  /// In rows: enough for the rounding of directions, for no row is chosen by it alone.
+  double row_slack_;
+};
+
+}  // namespace beambench

@@ -1,0 +1,90 @@
+#pragma once
+// Watching a beam tracer work: a compile-time policy beside that of the rays.
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "accel/beam/beam.hpp"
+#include "accel/work_counters.hpp"
+
+namespace beambench {
+
+/// Why a sample became a ray of its own.
+enum class RayReason {
+  kOccupied,  ///< it found nothing nearer than the exit of the occupied leaf its beam ended at
+  kHandover,  ///< its beam had fewer samples than `handover`
+  kCrowded    ///< its beam had too many cuts to be divided (never seen)
+};
+
+/// The policy of timed code. A tracer tells its policy
+/// - each beam and what it meets, before it is seen to (`met`),
+/// - each sample when its beam has decided it or made it a ray (`painted`: its places in the hit
+///   buffer; samples of leaving beams only if `kPaintsLeaving`, for the buffer holds the background
+///   already),
+/// - each sample tested in a leaf (`tested`) and each that goes on as a ray (`handed_over`),
+/// - clips and neighbour searches as they were counted at the end of a beam (`divided`),
+/// and takes from it the policy of individual rays (`rays`).
+struct NoBeamWatch {
+  static constexpr bool kPaintsLeaving = false;
+  static constexpr void met(BeamKind, const Beam&) {}
+  static constexpr void painted(std::size_t) {}
+  static constexpr void left(std::uint64_t) {}
+  static constexpr void tested(std::uint64_t) {}
+  static constexpr void handed_over(RayReason) {}
+  static constexpr void divided(std::uint64_t, std::uint64_t) {}
+  static constexpr void finished() {}
+  NoCounting rays() const { return {}; }
+};
+
+/// Counts beams, their edges, divisions and samples, and the time spent on each kind of beam
+/// (thesis, section 5.3.3).
+class CountingBeamWatch {
+ public:
+  static constexpr bool kPaintsLeaving = true;
+
+  explicit CountingBeamWatch(WorkCounters& counters) : counters_(&counters) {}
+
+  void met(BeamKind kind, const Beam& beam) {
+    stop_clock();
+    task_ = &times_[static_cast<std::size_t>(kind)];
+    ++kinds_[static_cast<std::size_t>(kind)];
+    edges_ += beam.outline.size();
+  }
+  static constexpr void painted(std::size_t) {}
+  /// A leaving beam had so many samples.
+  void left(std::uint64_t samples) { left_ += samples; }
+  void tested(std::uint64_t samples) { tested_ += samples; }
+  void handed_over(RayReason reason) { ++reasons_[static_cast<std::size_t>(reason)]; }
+  void divided(std::uint64_t clips, std::uint64_t neighbour_searches) {
+    clips_ += clips;
+    neighbour_searches_ += neighbour_searches;
+  }
+  /// The image is done: the sums go to the counters.
+  void finished();
+  WorkCounters& rays() const { return *counters_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void stop_clock() {
+    const auto now = Clock::now();
+    if (task_ != nullptr) *task_ += now - since_;
+    since_ = now;
+  }
+
+  WorkCounters* counters_;
+  std::array<std::uint64_t, 3> kinds_{};
+  std::array<Clock::duration, 3> times_{};
+  std::array<std::uint64_t, 3> reasons_{};
+  std::uint64_t edges_ = 0;
+  std::uint64_t clips_ = 0;
+  std::uint64_t neighbour_searches_ = 0;
+  std::uint64_t left_ = 0;
+  std::uint64_t tested_ = 0;
+  Clock::duration* task_ = nullptr;
+  Clock::time_point since_;
+};
+
+}  // namespace beambench

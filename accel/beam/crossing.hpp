@@ -1,0 +1,94 @@
+#pragma once
+// Which plane of the cell grid a ray from the eye crosses first: the one question by which beams
+// are divided.
+
+#include <cstdint>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "accel/beam/image_polygon.hpp"
+#include "accel/cell_ray.hpp"
+#include "accel/primary_rays.hpp"
+
+namespace beambench {
+
+/// A plane of the cell grid, crossed in the direction of `side` (+1 or -1 along the axis).
+struct Crossing {
+  std::int32_t index;
+  std::int8_t axis;
+  std::int8_t side;
+};
+
+/// The same question, asked of one ray. A crossing that the ray does not make comes last. At the
+/// same t the lower axis is first, so that the crossings of a ray have one order and every division
+/// of beams by them is a partition, however close to an edge or a vertex a ray passes.
+inline bool crosses_before(const CellRay& way, const Crossing& a, const Crossing& b) {
+  const auto t = [&](const Crossing& crossing) {
+    return way.step(crossing.axis) == crossing.side
+               ? way.plane_t(crossing.axis, crossing.index)
+               : std::numeric_limits<double>::infinity();
+  };
+  const double t_a = t(a);
+  const double t_b = t(b);
+  if (t_a != t_b) return t_a < t_b;
+  return a.axis != b.axis ? a.axis < b.axis : a.side < b.side;
+}
+
+/// What an eye sees of the planes of a grid.
+class EyeView {
+ public:
+  EyeView(const CellGrid& grid, const PrimaryRays& rays);
+
+  const CellGrid& grid() const { return *grid_; }
+  const glm::dvec3& eye() const { return eye_; }
+  /// The direction through a point of the image, at view depth 1.
+  glm::dvec3 direction(const glm::dvec2& point) const {
+    return top_left_ + right_ * point.x + down_ * point.y;
+  }
+
+  /// How far rounding a ray's direction to float may move it on the image, in the units of
+  /// `ImageLine`.
+  double rounding() const { return rounding_; }
+  /// The whole image as a polygon, wider on all sides by what rounding may do to a border sample.
+  ImagePolygon screen() const;
+
+  /// How far the plane lies before the eye in the direction of `side`; negative behind it.
+  double distance(const Crossing& crossing) const {
+    return crossing.side * (grid_->plane(crossing.axis, crossing.index) - eye_[crossing.axis]);
+  }
+  /// The crossing of a plane by the rays that do cross it.
+  Crossing crossing_of(int axis, std::int32_t index) const {
+    const bool beyond = grid_->plane(axis, index) >= eye_[axis];
+    return {index, static_cast<std::int8_t>(axis), static_cast<std::int8_t>(beyond ? 1 : -1)};
+  }
+
+  /// The line on the image between the rays that cross `a` first (negative) and those that cross
+  /// `b` first: the image of the edge that the two planes share, as a plane through it and the eye.
+  /// Where a ray crosses neither the sign means nothing. Distances of both are not negative.
+  ImageLine line_before(const Crossing& a, const Crossing& b) const {
+    const double distance_a = distance(a);
+    const double distance_b = distance(b);
+    glm::dvec3 normal(0.0);
+    if (distance_a == 0.0 && distance_b == 0.0) {  // who is first at t = 0 is the lower axis
+      const Crossing& lower = a.axis < b.axis ? a : b;
+      normal[lower.axis] = &lower == &a ? -lower.side : lower.side;
+    } else {
+      // t_a < t_b with t = distance / (side * direction), multiplied out.
+      normal[b.axis] += distance_a * b.side;
+      normal[a.axis] -= distance_b * a.side;
+      normal /= glm::length(normal);
+    }
+    return {glm::dot(normal, right_), glm::dot(normal, down_), glm::dot(normal, top_left_)};
+  }
+
+ private:
+  const CellGrid* grid_;
+  glm::dvec3 eye_;
+  glm::dvec3 top_left_;
+  glm::dvec3 right_;
+  glm::dvec3 down_;
+  double rounding_ = 0.0;
+};
+
+}  // namespace beambench

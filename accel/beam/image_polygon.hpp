@@ -1,0 +1,80 @@
+#pragma once
+// A beam's cross-section: a convex polygon on the image plane, cut by lines.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <glm/vec2.hpp>
+
+#include "accel/beam/fixed_vector.hpp"
+
+namespace beambench {
+
+/// A line of the image plane, negative on its inner side. The image is [0, 1] x [0, 1], (0, 0) its
+/// top left corner; values are distances between unit planes through the eye and points at view
+/// depth 1.
+struct ImageLine {
+  double x = 0.0;
+  double y = 0.0;
+  double constant = 0.0;
+
+  double at(const glm::dvec2& point) const { return x * point.x + y * point.y + constant; }
+  ImageLine turned() const { return {-x, -y, -constant}; }
+};
+
+/// A convex polygon on the image plane. The edges of a beam's pyramid are the directions from the
+/// eye through its corners (thesis, section 3.2, keeps these as unit vectors).
+using ImagePolygon = FixedVector<glm::dvec2, 24>;
+
+/// The smallest and the largest value of a line over a polygon's corners.
+struct LineRange {
+  double low;
+  double high;
+};
+inline LineRange range_over(const ImagePolygon& polygon, const ImageLine& line) {
+  LineRange range{line.at(polygon[0]), 0.0};
+  range.high = range.low;
+  for (std::size_t i = 1; i < polygon.size(); ++i) {
+    const double value = line.at(polygon[i]);
+    range.low = std::min(range.low, value);
+    range.high = std::max(range.high, value);
+  }
+  return range;
+}
+
+/// The part of a polygon where the line is at most `slack` (Sutherland and Hodgman, "Reentrant
+/// polygon clipping", CACM 17(1), 1974; one line a call). When there is no room for another corner
+/// the polygon is returned whole: it then covers more than it has to.
+inline ImagePolygon clip(const ImagePolygon& polygon, const ImageLine& line, double slack) {
+  ImagePolygon part;
+  glm::dvec2 last = polygon[polygon.size() - 1];
+  double last_value = line.at(last) - slack;
+  for (const glm::dvec2& corner : polygon) {
+    const double value = line.at(corner) - slack;
+    if ((value > 0.0) != (last_value > 0.0)) {
+      if (part.full()) return polygon;
+      part.push_back(last + (corner - last) * (last_value / (last_value - value)));
+    }
+    if (value <= 0.0) {
+      if (part.full()) return polygon;
+      part.push_back(corner);
+    }
+    last = corner;
+    last_value = value;
+  }
+  return part;
+}
+
+/// The area of a polygon, 1 being the whole image.
+inline double area(const ImagePolygon& polygon) {
+  double twice = 0.0;
+  for (std::size_t i = 2; i < polygon.size(); ++i) {
+    const glm::dvec2 a = polygon[i - 1] - polygon[0];
+    const glm::dvec2 b = polygon[i] - polygon[0];
+    twice += a.x * b.y - a.y * b.x;
+  }
+  return 0.5 * std::abs(twice);
+}
+
+}  // namespace beambench

@@ -1,0 +1,47 @@
+#pragma once
+// The samples of an image as regular lattices, one for each place within a pixel.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "accel/hit_buffer.hpp"
+#include "accel/primary_rays.hpp"
+
+namespace beambench {
+
+/// One sample of every pixel: those at (x, y) + `offset`, x < width, y < height. A sample's hit
+/// belongs to one place of a hit buffer, or to several when pixels share it.
+struct SampleLattice {
+  /// The sample of pixel (x - left, y - up).
+  struct Place {
+    int left;
+    int up;
+    int sample;
+  };
+
+  glm::dvec2 offset;
+  int width;
+  int height;
+  std::vector<Place> places;
+
+  /// Calls `visit(index)` for the places in a buffer that the sample (x, y) belongs to.
+  template <class Visit>
+  void for_each_index(const HitBuffer& buffer, int x, int y, Visit visit) const {
+    for (const Place& place : places) {
+      const int px = x - place.left;
+      const int py = y - place.up;
+      if (px < 0 || py < 0 || px >= buffer.width() || py >= buffer.height()) continue;
+      visit(buffer.index(px, py, place.sample));
+    }
+  }
+};
+
+/// A lattice for each sample of a pixel. `share_corners`: samples in the corners of pixels that are
+/// the same point are one sample.
+std::vector<SampleLattice> sample_lattices(const PrimaryRays& rays, bool share_corners);
+
+}  // namespace beambench
