@@ -10,7 +10,16 @@
 #include "scenes/generators/bumpy.hpp"
 #include "scenes/generators/escena1.hpp"
 #include "scenes/generators/escena2.hpp"
+#include "scenes/generators/gears.hpp"
+#include "scenes/generators/jacks.hpp"
+#include "scenes/generators/lattice.hpp"
+#include "scenes/generators/mount.hpp"
+#include "scenes/generators/rings.hpp"
+#include "scenes/generators/shells.hpp"
+#include "scenes/generators/sombrero.hpp"
+#include "scenes/generators/teapot.hpp"
 #include "scenes/generators/tetra.hpp"
+#include "scenes/generators/tree.hpp"
 #include "scenes/nearest_name.hpp"
 
 namespace beambench {
@@ -32,8 +41,10 @@ bool is_path(std::string_view spec) {
 }  // namespace
 
 std::span<const SceneInfo> scene_catalogue() {
-  static const std::vector<SceneInfo> catalogue = {balls_scene(),   bumpy_scene(),  escena1_scene(),
-                                                   escena2_scene(), stetra_scene(), tetra_scene()};
+  static const std::vector<SceneInfo> catalogue = {
+      balls_scene(),    bumpy_scene(),   escena1_scene(), escena2_scene(), gears_scene(),
+      jacks_scene(),    lattice_scene(), mount_scene(),   rings_scene(),   shells_scene(),
+      sombrero_scene(), stetra_scene(),  teapot_scene(),  tetra_scene(),   tree_scene()};
   return catalogue;
 }
 

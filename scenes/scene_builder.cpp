@@ -166,6 +166,7 @@ void SceneBuilder::set_surface(const Surface& surface) {
     *factor = rounded(*factor, subject, "factor");
   }
   surface_ = checked;
+  surface_index_.reset();
 }
 
 void SceneBuilder::set_background(const glm::dvec3& color) {
@@ -314,10 +315,16 @@ void SceneBuilder::add_polygon(std::span<const glm::dvec3> vertices,
 }
 
 std::uint32_t SceneBuilder::current_surface() {
-  if (scene_.surfaces.empty() || scene_.surfaces.back() != surface_) {
-    scene_.surfaces.push_back(surface_);
-  }
-  return static_cast<std::uint32_t>(scene_.surfaces.size() - 1);
+  if (surface_index_) return *surface_index_;
+  // Generators go round a few surfaces, millions of times; one that is older comes again.
+  constexpr std::size_t kRemembered = 64;
+  auto& surfaces = scene_.surfaces;
+  const auto oldest =
+      surfaces.end() - static_cast<std::ptrdiff_t>(std::min(surfaces.size(), kRemembered));
+  auto found = std::find(oldest, surfaces.end(), surface_);
+  if (found == surfaces.end()) found = surfaces.insert(found, surface_);
+  surface_index_ = static_cast<std::uint32_t>(found - surfaces.begin());
+  return *surface_index_;
 }
 
 void SceneBuilder::add_primitive(PrimitiveKind kind, std::size_t index) {

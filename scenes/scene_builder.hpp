@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
@@ -69,6 +70,7 @@ class SceneBuilder {
 
   Scene scene_;
   Surface surface_;
+  std::optional<std::uint32_t> surface_index_;  ///< of surface_, once a primitive has it
   Repairs repairs_;
 };
 

@@ -21,6 +21,7 @@ Scene generate(const Parameters& parameters) {
   camera.from = {2.1F, 1.3F, 1.7F};
   camera.at = {0.0F, 0.0F, 0.0F};
   camera.up = {0.0F, 0.0F, 1.0F};
+  camera.hither = 0.01F;
   builder.add_camera(camera);
   builder.set_background({0.078, 0.361, 0.753});
   builder.add_light({4.0, 3.0, 2.0});
@@ -39,7 +40,7 @@ Scene generate(const Parameters& parameters) {
 SceneInfo balls_scene() {
   return {"balls",
           "Sphereflake of (9^(n+1) - 1) / 8 spheres over one floor polygon (Haines's SPD)",
-          {integer_parameter("n", 4, 0, 7, "levels of smaller spheres around the first")},
+          {integer_parameter("n", 4, 0, 8, "levels of smaller spheres around the first")},
           generate};
 }
 

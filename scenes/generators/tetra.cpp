@@ -41,6 +41,7 @@ Scene generate(const std::string& name, std::int64_t n) {
   camera.from = {1.022846F, -3.177154F, -2.174512F};
   camera.at = {-0.004103F, -0.004103F, 0.216539F};
   camera.up = {-0.816497F, -0.816497F, 0.816497F};
+  camera.hither = 1.0F;
   builder.add_camera(camera);
   builder.set_background({0.078, 0.361, 0.753});
   builder.add_light({2.0, -18.0, -5.0});
