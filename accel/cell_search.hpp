@@ -16,9 +16,9 @@ struct NoMailboxes {
   static constexpr bool is_first(PrimitiveId) { return true; }
 };
 
-/// Tests the references of a cell for hits nearer than the closest so far. Is the closest hit before
-/// the ray leaves the cell? Strictly: a hit at the exit's own rounded t may lie behind it and have a
-/// lower id.
+/// Tests the references of a cell for hits nearer than the closest so far. Is the closest hit
+/// before the ray leaves the cell? Strictly: a hit at the exit's own rounded t may lie behind it
+/// and have a lower id.
 template <class Counting, class Mailboxes = const NoMailboxes&>
 bool test_references(const Scene& scene, std::span<const PrimitiveId> references, double exit_t,
                      Counting& counting, ClosestHit& closest, Mailboxes&& mailboxes = {}) {

@@ -7,19 +7,31 @@ namespace {
 /// may put on either side of the outline's edge, stays covered. Far less than a sliver.
 constexpr double kOverlap = 0x1p-43;
 
-}  // namespace
-
-void cut(Beam& beam, const Crossing& inner, const Crossing& outer, const ImageLine& line) {
-  beam.outline = clip(beam.outline, line, kOverlap);
-  beam.cuts.push_back({inner, outer, line});
+void keep_near(std::span<const BeamCut> cuts, Beam& beam) {
+  for (const BeamCut& each : cuts) {
+    for (const glm::dvec2& corner : beam.outline) {
+      if (each.line.at(corner) < -kSliver) continue;
+      beam.cuts.push_back(each);
+      break;
+    }
+  }
 }
 
-void drop_needless_cuts(Beam& beam) {
-  std::size_t kept = 0;
-  for (const BeamCut& each : beam.cuts) {
-    if (range_over(beam.outline, each.line).high >= -kSliver) beam.cuts[kept++] = each;
+}  // namespace
+
+Beam part_of(const Beam& beam, std::span<const BeamCut> cuts) {
+  Beam part;
+  part.node = beam.node;
+  part.size = beam.size;
+  part.corner = beam.corner;
+  part.outline = beam.outline;
+  for (const BeamCut& each : cuts) {
+    part.outline = clip(part.outline, each.line, kOverlap);
+    if (part.outline.empty()) return part;
   }
-  beam.cuts.resize(kept);
+  keep_near({beam.cuts.begin(), beam.cuts.size()}, part);
+  keep_near(cuts, part);
+  return part;
 }
 
 }  // namespace beambench

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include <glm/vec3.hpp>
 
@@ -28,8 +29,8 @@ inline constexpr double kSliver = 0x1p-39;
 /// The pyramid from the eye through a convex polygon (thesis, section 3.2), where it enters a leaf.
 ///
 /// Which samples belong to the beam is decided by the cuts alone, by one comparison of numbers
-/// that every beam computes alike for a ray (`crosses_before`). `outline` covers them all. Cuts that
-/// do not come near the outline are true of all its samples and are dropped, so that there are
+/// that every beam computes alike for a ray (`crosses_before`). `outline` covers them all. Cuts
+/// that do not come near the outline are true of all its samples and are dropped, so that there are
 /// about as many as the outline has edges, and as in the thesis a beam costs the same at every
 /// resolution.
 struct Beam {
@@ -50,11 +51,9 @@ enum class BeamKind {
   kLeaving       ///< the end of the root: its samples show the background
 };
 
-/// The part of a beam where `inner` is crossed before `outer`: its outline clipped, the cut kept.
-/// `line` is `line_before(inner, outer)`.
-void cut(Beam& beam, const Crossing& inner, const Crossing& outer, const ImageLine& line);
-
-/// Forgets the cuts that hold for the whole outline.
-void drop_needless_cuts(Beam& beam);
+/// The part of a beam on the inner side of all `cuts`: its outline clipped, those cuts kept, its
+/// own and the new ones, that come near the new outline. The outline is empty when there is no
+/// part.
+Beam part_of(const Beam& beam, std::span<const BeamCut> cuts);
 
 }  // namespace beambench

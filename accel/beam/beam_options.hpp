@@ -11,9 +11,9 @@ namespace beambench {
 
 struct BeamOptions {
   OctreeOptions octree;
-  std::int64_t handover = 0;        ///< beams of fewer samples become individual rays
-  bool share_corners = false;       ///< samples in the corners of pixels are shared between pixels
-  bool continue_with_rays = true;   ///< behind an occupied leaf: rays (thesis), or the beam again
+  std::int64_t handover = 0;       ///< beams of fewer samples become individual rays
+  bool share_corners = false;      ///< samples in the corners of pixels are shared between pixels
+  bool continue_with_rays = true;  ///< behind an occupied leaf: rays (thesis), or the beam again
 
   static std::vector<ParameterInfo> parameters();
   static BeamOptions from(const Parameters& parameters);

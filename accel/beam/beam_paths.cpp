@@ -1,5 +1,7 @@
 #include "accel/beam/beam_paths.hpp"
 
+#include <array>
+
 #include "accel/octree/octree_cursor.hpp"
 
 namespace beambench {
@@ -50,14 +52,10 @@ class Entry {
       visit(beam, !far_is_above);
     } else {
       queue_->clips += 2;
-      Beam far_part = beam;
-      cut(far_part, middle, face_, line);
-      drop_needless_cuts(far_part);
-      visit(far_part, far_is_above);
-      Beam near_part = beam;
-      cut(near_part, face_, middle, line.turned());
-      drop_needless_cuts(near_part);
-      visit(near_part, !far_is_above);
+      const std::array<BeamCut, 2> sides{BeamCut{middle, face_, line},
+                                         BeamCut{face_, middle, line.turned()}};
+      visit(part_of(beam, {&sides[0], 1}), far_is_above);
+      visit(part_of(beam, {&sides[1], 1}), !far_is_above);
     }
   }
 
@@ -76,65 +74,95 @@ class Entry {
   BeamQueue* queue_;
 };
 
-/// Keeps of a beam what crosses `inner` before `outer`, unless all of it does.
-void keep(const EyeView& view, const Crossing& inner, const Crossing& outer, Beam& beam,
-          BeamQueue& queue) {
-  if (beam.outline.empty()) return;
-  const ImageLine line = view.line_before(inner, outer);
-  if (range_over(beam.outline, line).high < -kSliver) return;
-  ++queue.clips;
-  cut(beam, inner, outer, line);
+/// A cut between what crosses `inner` first and what crosses `outer` first.
+BeamCut cut_between(const EyeView& view, const Crossing& inner, const Crossing& outer) {
+  return {inner, outer, view.line_before(inner, outer)};
 }
 
-void enter_root(const Octree& octree, const EyeView& view, const Crossing& face,
-                BeamQueue& queue) {
-  Beam beam{};
-  beam.outline = view.screen();
+void enter_root(const Octree& octree, const EyeView& view, const Crossing& face, BeamQueue& queue) {
+  Beam screen;
+  screen.outline = view.screen();
+  FixedVector<BeamCut, 4> borders;
   for (int other = 1; other <= 2; ++other) {
     const int axis = (face.axis + other) % 3;
     const Crossing lower = view.crossing_of(axis, 0);
     const Crossing upper = view.crossing_of(axis, octree.grid().cells[axis]);
     // When crossing the face, a ray is beyond the planes that it crossed before.
-    lower.side > 0 ? keep(view, lower, face, beam, queue) : keep(view, face, lower, beam, queue);
-    upper.side > 0 ? keep(view, face, upper, beam, queue) : keep(view, upper, face, beam, queue);
+    borders.push_back(lower.side > 0 ? cut_between(view, lower, face)
+                                     : cut_between(view, face, lower));
+    borders.push_back(upper.side > 0 ? cut_between(view, face, upper)
+                                     : cut_between(view, upper, face));
   }
-  if (beam.outline.empty()) return;
-  drop_needless_cuts(beam);
-  Entry(view, face, queue).divide(OctreeCursor(octree), beam);
+  queue.clips += borders.size();
+  const Beam beam = part_of(screen, {borders.begin(), borders.size()});
+  if (!beam.outline.empty()) Entry(view, face, queue).divide(OctreeCursor(octree), beam);
 }
 
-/// The planes by which rays can leave a leaf: those of its faces that the eye is not beyond.
-FixedVector<Crossing, 6> exits(const EyeView& view, const Beam& beam) {
-  FixedVector<Crossing, 6> found;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const int side : {-1, 1}) {
-      const Crossing face{beam.corner[axis] + (side > 0 ? beam.size : 0),
-                          static_cast<std::int8_t>(axis), static_cast<std::int8_t>(side)};
-      if (view.distance(face) >= 0.0) found.push_back(face);
-    }
-  }
-  return found;
-}
-
-/// Leaves out the exits that get no more than a sliver of the beam. The exits that are left divide
-/// all samples among them, for of two exits that are compared one always stays.
-void drop_slivers(const EyeView& view, const Beam& beam, FixedVector<Crossing, 6>& exits) {
-  for (std::size_t i = 0; i < exits.size(); ++i) {
-    for (std::size_t j = i + 1; j < exits.size();) {
-      const LineRange range = range_over(beam.outline, view.line_before(exits[i], exits[j]));
-      const bool drop_i = range.low >= -kSliver;
-      const bool drop_j = !drop_i && range.high <= kSliver;
-      if (!drop_i && !drop_j) {
-        ++j;
-        continue;
+/// The faces by which a beam leaves its leaf, and the lines on the image between them.
+///
+/// The thesis finds the exit directions by the zones of the main face's plane and, in its conflict
+/// corners, by a second plane (section 3.5.1). Comparing the faces two by two is the same for all
+/// zones. Each line is made once and serves the faces on both of its sides.
+class Exits {
+ public:
+  Exits(const EyeView& view, const Beam& beam) {
+    for (int axis = 0; axis < 3; ++axis) {
+      for (const int side : {-1, 1}) {
+        const Crossing face{beam.corner[axis] + (side > 0 ? beam.size : 0),
+                            static_cast<std::int8_t>(axis), static_cast<std::int8_t>(side)};
+        // Rays cannot leave through a face that the eye is beyond.
+        if (view.distance(face) >= 0.0) add(view, beam, face);
       }
-      const std::size_t dropped = drop_i ? i : j;
-      for (std::size_t k = dropped + 1; k < exits.size(); ++k) exits[k - 1] = exits[k];
-      exits.resize(exits.size() - 1);
-      if (drop_i) j = i + 1;  // another exit stands at i now
     }
   }
-}
+
+  std::size_t count() const { return faces_.size(); }
+  const Crossing& face(std::size_t i) const { return faces_[i]; }
+
+  /// What bounds the part of the beam that leaves by face i.
+  FixedVector<BeamCut, 5> cuts(std::size_t i) const {
+    FixedVector<BeamCut, 5> cuts;
+    for (std::size_t j = 0; j < faces_.size(); ++j) {
+      if (j < i) cuts.push_back({faces_[i], faces_[j], lines_[j][i].turned()});
+      if (j > i) cuts.push_back({faces_[i], faces_[j], lines_[i][j]});
+    }
+    return cuts;
+  }
+
+ private:
+  /// Adds a face unless it gets no more than a sliver of the beam beside one of the others, and
+  /// takes those away that get no more beside it. One of two that are compared always stays, so
+  /// those that are left at the end divide all samples among them.
+  void add(const EyeView& view, const Beam& beam, const Crossing& face) {
+    std::array<ImageLine, 6> lines{};
+    for (std::size_t i = 0; i < faces_.size();) {
+      lines[i] = view.line_before(faces_[i], face);
+      const LineRange range = range_over(beam.outline, lines[i]);
+      if (range.high <= kSliver) return;
+      if (range.low >= -kSliver) {
+        take_away(i);
+      } else {
+        ++i;
+      }
+    }
+    for (std::size_t i = 0; i < faces_.size(); ++i) lines_[i][faces_.size()] = lines[i];
+    faces_.push_back(face);
+  }
+
+  void take_away(std::size_t gone) {
+    for (std::size_t i = gone + 1; i < faces_.size(); ++i) {
+      faces_[i - 1] = faces_[i];
+      for (std::size_t j = 0; j < faces_.size(); ++j) {
+        if (j < gone) lines_[j][i - 1] = lines_[j][i];
+        if (j > i) lines_[i - 1][j - 1] = lines_[i][j];
+      }
+    }
+    faces_.resize(faces_.size() - 1);
+  }
+
+  FixedVector<Crossing, 6> faces_;
+  std::array<std::array<ImageLine, 6>, 6> lines_;  ///< [i][j]: between faces i and j, i < j
+};
 
 }  // namespace
 
@@ -142,7 +170,7 @@ void begin_beams(const Octree& octree, const EyeView& view, BeamQueue& queue) {
   bool inside = true;
   for (int axis = 0; axis < 3; ++axis) {
     const std::int32_t cells = octree.grid().cells[axis];
-    const double at = view.eye()[axis];
+    const double at = view.eye(axis);
     const bool below = at < octree.grid().plane(axis, 0);
     const bool above = at > octree.grid().plane(axis, cells);
     if (!below && !above) continue;
@@ -157,11 +185,11 @@ void begin_beams(const Octree& octree, const EyeView& view, BeamQueue& queue) {
     glm::ivec3 corner = cursor.corner();
     for (int axis = 0; axis < 3; ++axis) {
       const std::int32_t middle = corner[axis] + cursor.size() / 2;
-      if (octree.grid().plane(axis, middle) <= view.eye()[axis]) corner[axis] = middle;
+      if (octree.grid().plane(axis, middle) <= view.eye(axis)) corner[axis] = middle;
     }
     cursor.enter_child(corner);
   }
-  Beam beam{};
+  Beam beam;
   beam.outline = view.screen();
   beam.node = cursor.index();
   beam.corner = cursor.corner();
@@ -171,18 +199,14 @@ void begin_beams(const Octree& octree, const EyeView& view, BeamQueue& queue) {
 }
 
 void continue_beam(const Octree& octree, const EyeView& view, const Beam& beam, BeamQueue& queue) {
-  auto faces = exits(view, beam);
-  drop_slivers(view, beam, faces);
-  for (const Crossing& face : faces) {
-    Beam part = beam;
-    for (const Crossing& other : faces) {
-      if (&other == &face || part.outline.empty()) continue;
-      ++queue.clips;
-      cut(part, face, other, view.line_before(face, other));
-    }
+  const Exits exits(view, beam);
+  for (std::size_t i = 0; i < exits.count(); ++i) {
+    const auto cuts = exits.cuts(i);
+    queue.clips += cuts.size();
+    const Beam part = part_of(beam, {cuts.begin(), cuts.size()});
     if (part.outline.empty()) continue;
-    if (faces.size() > 1) drop_needless_cuts(part);
 
+    const Crossing& face = exits.face(i);
     OctreeCursor cursor(octree);
     cursor.jump(beam.node, beam.corner, beam.size);
     glm::ivec3 step(0);

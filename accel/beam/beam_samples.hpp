@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include <glm/geometric.hpp>
+
 #include "accel/beam/beam.hpp"
 #include "accel/beam/sample_lattice.hpp"
 #include "accel/cell_ray.hpp"
@@ -33,8 +35,8 @@ class SampleScan {
       bottom = std::max(bottom, corner.y);
     }
     const int first_y = first_at_or_after(top * rays_->height() - lattice.offset.y - row_slack_);
-    const int last_y = last_at_or_before(bottom * rays_->height() - lattice.offset.y + row_slack_,
-                                         lattice.height);
+    const int last_y =
+        last_at_or_before(bottom * rays_->height() - lattice.offset.y + row_slack_, lattice.height);
     const Edges edges(*this, beam, lattice);
     for (int y = first_y; y <= last_y; ++y) {
       const Row row = edges.row(y, lattice.width);
@@ -135,9 +137,7 @@ class SampleScan {
     });
   }
 
-  static int first_at_or_after(double y) {
-    return static_cast<int>(std::max(0.0, std::ceil(y)));
-  }
+  static int first_at_or_after(double y) { return static_cast<int>(std::max(0.0, std::ceil(y))); }
   static int last_at_or_before(double y, int height) {
     return static_cast<int>(std::min(static_cast<double>(height - 1), std::floor(y)));
   }

@@ -143,8 +143,8 @@ class BeamTracer::Run {
   void follow(const OctreeCursor& place, const Ray& ray, const CellRay& way, ClosestHit& closest) {
     walk_leaves_behind(place, octree(), tracer_->neighbours(), ray, way, counting_,
                        [&](const OctreeNode& leaf, double exit_t) {
-                         return test_references(*tracer_->scene_, octree().references(leaf),
-                                                exit_t, counting_, closest);
+                         return test_references(*tracer_->scene_, octree().references(leaf), exit_t,
+                                                counting_, closest);
                        });
   }
 

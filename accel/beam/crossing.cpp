@@ -2,31 +2,34 @@
 
 #include <algorithm>
 
+#include <glm/geometric.hpp>
+
 namespace beambench {
 
-EyeView::EyeView(const CellGrid& grid, const PrimaryRays& rays)
-    : grid_(&grid),
-      eye_(rays.eye()),
-      top_left_(rays.top_left()),
-      right_(rays.right() * static_cast<double>(rays.width())),
-      down_(rays.down() * static_cast<double>(rays.height())) {
+EyeView::EyeView(const CellGrid& grid, const PrimaryRays& rays) : grid_(&grid) {
+  const glm::dvec3 right = rays.right() * static_cast<double>(rays.width());
+  const glm::dvec3 down = rays.down() * static_cast<double>(rays.height());
+  const glm::dvec3& top_left = rays.top_left();
+  for (int axis = 0; axis < 3; ++axis) {
+    eye_[static_cast<std::size_t>(axis)] = rays.eye()[axis];
+    direction_[static_cast<std::size_t>(axis)] = {right[axis], down[axis], top_left[axis]};
+  }
   double longest = 0.0;
   for (const glm::dvec2 corner :
        {glm::dvec2(0.0, 0.0), glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0), glm::dvec2(1.0, 1.0)}) {
-    longest = std::max(longest, glm::length(direction(corner)));
+    longest = std::max(longest, glm::length(top_left + right * corner.x + down * corner.y));
   }
   // Each component is off by half a unit in the last place: sqrt(3) x 2^-25 of the length at most.
   rounding_ = 0x1p-23 * longest;
+  border_ = 2.0 * rounding_ / glm::dvec2(glm::length(right), glm::length(down));
 }
 
 ImagePolygon EyeView::screen() const {
-  const double x = 2.0 * rounding_ / glm::length(right_);
-  const double y = 2.0 * rounding_ / glm::length(down_);
   ImagePolygon screen;
-  screen.push_back({-x, -y});
-  screen.push_back({1.0 + x, -y});
-  screen.push_back({1.0 + x, 1.0 + y});
-  screen.push_back({-x, 1.0 + y});
+  screen.push_back({-border_.x, -border_.y});
+  screen.push_back({1.0 + border_.x, -border_.y});
+  screen.push_back({1.0 + border_.x, 1.0 + border_.y});
+  screen.push_back({-border_.x, 1.0 + border_.y});
   return screen;
 }
 

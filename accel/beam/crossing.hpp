@@ -2,9 +2,10 @@
 // Which plane of the cell grid a ray from the eye crosses first: the one question by which beams
 // are divided.
 
+#include <array>
 #include <cstdint>
+#include <limits>
 
-#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "accel/beam/image_polygon.hpp"
@@ -25,9 +26,8 @@ struct Crossing {
 /// of beams by them is a partition, however close to an edge or a vertex a ray passes.
 inline bool crosses_before(const CellRay& way, const Crossing& a, const Crossing& b) {
   const auto t = [&](const Crossing& crossing) {
-    return way.step(crossing.axis) == crossing.side
-               ? way.plane_t(crossing.axis, crossing.index)
-               : std::numeric_limits<double>::infinity();
+    return way.step(crossing.axis) == crossing.side ? way.plane_t(crossing.axis, crossing.index)
+                                                    : std::numeric_limits<double>::infinity();
   };
   const double t_a = t(a);
   const double t_b = t(b);
@@ -41,11 +41,7 @@ class EyeView {
   EyeView(const CellGrid& grid, const PrimaryRays& rays);
 
   const CellGrid& grid() const { return *grid_; }
-  const glm::dvec3& eye() const { return eye_; }
-  /// The direction through a point of the image, at view depth 1.
-  glm::dvec3 direction(const glm::dvec2& point) const {
-    return top_left_ + right_ * point.x + down_ * point.y;
-  }
+  double eye(int axis) const { return eye_[static_cast<std::size_t>(axis)]; }
 
   /// How far rounding a ray's direction to float may move it on the image, in the units of
   /// `ImageLine`.
@@ -55,11 +51,11 @@ class EyeView {
 
   /// How far the plane lies before the eye in the direction of `side`; negative behind it.
   double distance(const Crossing& crossing) const {
-    return crossing.side * (grid_->plane(crossing.axis, crossing.index) - eye_[crossing.axis]);
+    return crossing.side * (grid_->plane(crossing.axis, crossing.index) - eye(crossing.axis));
   }
   /// The crossing of a plane by the rays that do cross it.
   Crossing crossing_of(int axis, std::int32_t index) const {
-    const bool beyond = grid_->plane(axis, index) >= eye_[axis];
+    const bool beyond = grid_->plane(axis, index) >= eye(axis);
     return {index, static_cast<std::int8_t>(axis), static_cast<std::int8_t>(beyond ? 1 : -1)};
   }
 
@@ -69,26 +65,30 @@ class EyeView {
   ImageLine line_before(const Crossing& a, const Crossing& b) const {
     const double distance_a = distance(a);
     const double distance_b = distance(b);
-    glm::dvec3 normal(0.0);
-    if (distance_a == 0.0 && distance_b == 0.0) {  // who is first at t = 0 is the lower axis
-      const Crossing& lower = a.axis < b.axis ? a : b;
-      normal[lower.axis] = &lower == &a ? -lower.side : lower.side;
-    } else {
-      // t_a < t_b with t = distance / (side * direction), multiplied out.
-      normal[b.axis] += distance_a * b.side;
-      normal[a.axis] -= distance_b * a.side;
-      normal /= glm::length(normal);
-    }
-    return {glm::dot(normal, right_), glm::dot(normal, down_), glm::dot(normal, top_left_)};
+    const double size = distance_a + distance_b;
+    // At t = 0, with the eye in both planes, the lower axis is first.
+    if (size == 0.0) return a.axis < b.axis ? along(a, -1.0) : along(b, 1.0);
+    // t_a < t_b with t = distance / (side * direction), multiplied out.
+    const ImageLine to_b = along(b, distance_a / size);
+    const ImageLine to_a = along(a, distance_b / size);
+    return {to_b.x - to_a.x, to_b.y - to_a.y, to_b.constant - to_a.constant};
   }
 
  private:
+  /// `factor` x how fast rays move in the direction of a crossing.
+  ImageLine along(const Crossing& crossing, double factor) const {
+    const ImageLine& direction = direction_[static_cast<std::size_t>(crossing.axis)];
+    const double signed_factor = crossing.side * factor;
+    return {signed_factor * direction.x, signed_factor * direction.y,
+            signed_factor * direction.constant};
+  }
+
   const CellGrid* grid_;
-  glm::dvec3 eye_;
-  glm::dvec3 top_left_;
-  glm::dvec3 right_;
-  glm::dvec3 down_;
+  std::array<double, 3> eye_;
+  /// Each component of the direction through a point of the image, at view depth 1.
+  std::array<ImageLine, 3> direction_;
   double rounding_ = 0.0;
+  glm::dvec2 border_{0.0};
 };
 
 }  // namespace beambench

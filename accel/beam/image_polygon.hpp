@@ -12,12 +12,12 @@
 namespace beambench {
 
 /// A line of the image plane, negative on its inner side. The image is [0, 1] x [0, 1], (0, 0) its
-/// top left corner; values are distances between unit planes through the eye and points at view
-/// depth 1.
+/// top left corner; values are distances of a plane through the eye from points at view depth 1,
+/// within a factor of sqrt(2).
 struct ImageLine {
-  double x = 0.0;
-  double y = 0.0;
-  double constant = 0.0;
+  double x;
+  double y;
+  double constant;
 
   double at(const glm::dvec2& point) const { return x * point.x + y * point.y + constant; }
   ImageLine turned() const { return {-x, -y, -constant}; }
