@@ -243,6 +243,12 @@ TEST(Escena1, FillsItsVolumeEvenlyWithSpheresThatDoNotMeet) {
   EXPECT_GT(largest->radius, 2.0F * least->radius);
 }
 
+// As the plain search for the nearest of all balls placed them, before a grid did.
+TEST(Escena1, StandsWhereItStoodBeforeItsGrid) {
+  EXPECT_EQ(scene_hash(load_scene("escena1:spheres=7")), 0x2a7353dd7127c1eaU);
+  EXPECT_EQ(scene_hash(load_scene("escena1:spheres=2000")), 0xc0a046104b83e4feU);
+}
+
 TEST(Escena1, FollowsItsSeed) {
   EXPECT_EQ(scene_hash(load_scene("escena1:seed=5")), scene_hash(load_scene("escena1:seed=5")));
   EXPECT_NE(scene_hash(load_scene("escena1:seed=5")), scene_hash(load_scene("escena1:seed=6")));

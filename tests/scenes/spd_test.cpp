@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -125,6 +126,10 @@ TEST(Spd, EveryGeneratorGrowsToTenMillionPrimitives) {
   for (const auto& [name, formula] : formulae()) {
     const auto largest = static_cast<std::int64_t>(info_of(name).parameters.at(0).maximum);
     EXPECT_GE(formula(largest).total(), 10'000'000) << name << ":n=" << largest;
+  }
+  for (const auto& [name, parameter] : {std::pair{"bumpy", 0}, std::pair{"escena1", 1}}) {
+    EXPECT_GE(info_of(name).parameters.at(static_cast<std::size_t>(parameter)).maximum, 1e7)
+        << name;
   }
 }
 
