@@ -6,7 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "accel/beam_outline.hpp"
 #include "accel/hit_buffer.hpp"
+#include "accel/overlap.hpp"
 #include "accel/primary_rays.hpp"
 #include "accel/ray.hpp"
 #include "accel/statistics.hpp"
@@ -48,6 +50,12 @@ class Accelerator {
 
   /// The way of `closest_hit`, step by step; empty where the structure cannot tell it.
   virtual std::vector<TraceStep> explain(const Ray&) const { return {}; }
+
+  /// The beams of an image in the order in which they are traced; empty where the structure knows
+  /// none.
+  virtual std::vector<BeamOutline> beam_outlines(const PrimaryRays&) const { return {}; }
+  /// The cells that hold references, in scene units; empty where the structure has no cells.
+  virtual std::vector<Box> occupied_cells() const { return {}; }
 
   virtual Statistics statistics() const = 0;
 };

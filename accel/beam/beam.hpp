@@ -10,6 +10,7 @@
 #include "accel/beam/crossing.hpp"
 #include "accel/beam/fixed_vector.hpp"
 #include "accel/beam/image_polygon.hpp"
+#include "accel/beam_outline.hpp"
 
 namespace beambench {
 
@@ -42,13 +43,6 @@ struct Beam {
 
   /// More cuts than one more division has room for: 5 for the exit, 2 a level for the neighbours.
   bool crowded() const { return cuts.size() > 20; }
-};
-
-/// What a beam meets (thesis, section 3.2).
-enum class BeamKind {
-  kNonTerminal,  ///< an empty leaf: it goes on
-  kOccupied,     ///< a leaf with references: its samples become rays
-  kLeaving       ///< the end of the root: its samples show the background
 };
 
 /// The part of a beam on the inner side of all `cuts`: its outline clipped, those cuts kept, its

@@ -31,6 +31,13 @@ class BeamTracer : public Samet {
     trace_watched(rays, buffer, watch);
   }
 
+  std::vector<BeamOutline> beam_outlines(const PrimaryRays& rays) const override {
+    OutlineBeamWatch watch(rays.width(), rays.height());
+    HitBuffer buffer(rays.width(), rays.height(), rays.samples());
+    trace_watched(rays, buffer, watch);
+    return std::move(watch).take();
+  }
+
   /// `trace`, told to a policy (see NoBeamWatch).
   template <class Watch>
   void trace_watched(const PrimaryRays& rays, HitBuffer& buffer, Watch& watch) const;

@@ -1,10 +1,13 @@
 #pragma once
 // Watching a beam tracer work: a compile-time policy beside that of the rays.
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "accel/beam/beam.hpp"
 #include "accel/work_counters.hpp"
@@ -23,8 +26,9 @@ enum class RayReason {
 /// - each sample when its beam has decided it or made it a ray (`painted`: its places in the hit
 ///   buffer; samples of leaving beams only if `kPaintsLeaving`, for the buffer holds the background
 ///   already),
-/// - each sample tested in a leaf (`tested`) and each that goes on as a ray (`handed_over`),
-/// - clips and neighbour searches as they were counted at the end of a beam (`divided`),
+/// - how many samples left the root (`left`) or were tested in a leaf (`tested`) with a beam, and
+///   each that goes on as a ray (`handed_over`),
+/// - at the end, the clips and neighbour searches (`divided`), and that it is the end (`finished`),
 /// and takes from it the policy of individual rays (`rays`).
 struct NoBeamWatch {
   static constexpr bool kPaintsLeaving = false;
@@ -36,6 +40,22 @@ struct NoBeamWatch {
   static constexpr void divided(std::uint64_t, std::uint64_t) {}
   static constexpr void finished() {}
   NoCounting rays() const { return {}; }
+};
+
+/// Keeps the outline of each beam, in pixels.
+class OutlineBeamWatch : public NoBeamWatch {
+ public:
+  OutlineBeamWatch(int width, int height) : pixels_(width, height) {}
+
+  void met(BeamKind kind, const Beam& beam) {
+    BeamOutline& outline = outlines_.emplace_back(BeamOutline{kind, {}});
+    for (const glm::dvec2& corner : beam.outline) outline.corners.push_back(corner * pixels_);
+  }
+  std::vector<BeamOutline> take() && { return std::move(outlines_); }
+
+ private:
+  glm::dvec2 pixels_;
+  std::vector<BeamOutline> outlines_;
 };
 
 /// Counts beams, their edges, divisions and samples, and the time spent on each kind of beam

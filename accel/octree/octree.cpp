@@ -1,5 +1,7 @@
 #include "accel/octree/octree.hpp"
 
+#include "accel/octree/octree_cursor.hpp"
+
 namespace beambench {
 
 namespace {
@@ -52,6 +54,27 @@ Statistics Octree::statistics() const {
   statistics.bytes = sizeof(*this) + nodes_.capacity() * sizeof(OctreeNode) +
                      references_.capacity() * sizeof(PrimitiveId);
   return statistics;
+}
+
+std::vector<Box> Octree::occupied_cells() const {
+  std::vector<Box> cells;
+  std::vector<OctreeCursor> open{OctreeCursor(*this)};
+  while (!open.empty()) {
+    const OctreeCursor place = open.back();
+    open.pop_back();
+    if (place.node().is_leaf()) {
+      if (place.node().count > 0) cells.push_back(grid_.box(place.corner(), place.size()));
+      continue;
+    }
+    const std::int32_t half = place.size() / 2;
+    for (int octant = 0; octant < 8; ++octant) {
+      OctreeCursor child = place;
+      child.enter_child(place.corner() +
+                        half * glm::ivec3(octant & 1, (octant >> 1) & 1, octant >> 2));
+      open.push_back(child);
+    }
+  }
+  return cells;
 }
 
 }  // namespace beambench

@@ -60,6 +60,8 @@ class Octree {
   }
 
   Statistics statistics() const;
+  /// The leaves that hold references, in scene units.
+  std::vector<Box> occupied_cells() const;
 
  private:
   friend class OctreeBuilder;

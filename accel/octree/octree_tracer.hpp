@@ -26,6 +26,8 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Neighbours>> {
     return statistics;
   }
 
+  std::vector<Box> occupied_cells() const override { return octree_.occupied_cells(); }
+
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     return closest_in_cells(*scene_, ray, counting, NoMailboxes{}, walk(ray, counting));
