@@ -20,13 +20,17 @@
 #include "scenes/generators/teapot.hpp"
 #include "scenes/generators/tetra.hpp"
 #include "scenes/generators/tree.hpp"
+#include "scenes/meshes/mesh_format.hpp"
+#include "scenes/meshes/mesh_registry.hpp"
+#include "scenes/meshes/mesh_scene.hpp"
 #include "scenes/nearest_name.hpp"
 
 namespace beambench {
 namespace {
 
 bool is_path(std::string_view spec) {
-  return spec.find('/') != std::string_view::npos || spec.ends_with(".nff");
+  return spec.find('/') != std::string_view::npos || spec.ends_with(".nff") ||
+         !mesh_ending(spec).empty();
 }
 
 [[noreturn]] void refuse_name(const std::string& name) {
@@ -34,7 +38,7 @@ bool is_path(std::string_view spec) {
   for (const SceneInfo& info : scene_catalogue()) names.push_back(info.name);
   throw InputError(fmt::format(
       "there is no scene '{}'; did you mean '{}'? The scenes are {}; a file is given as "
-      "a path with a slash or the ending .nff",
+      "a path with a slash or the ending .nff or of a mesh, an installed mesh as mesh:NAME",
       name, nearest_name(name, names), fmt::join(names, ", ")));
 }
 
@@ -49,7 +53,16 @@ std::span<const SceneInfo> scene_catalogue() {
 }
 
 Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, NffOptions options) {
+  if (spec.starts_with(kMeshPrefix)) {
+    const RegisteredMesh mesh = find_registered_mesh(spec.substr(kMeshPrefix.size()));
+    return load_mesh({mesh.path, std::string(spec), mesh.orientation, options.strict}, warnings);
+  }
   if (is_path(spec)) {
+    if (const std::string ending = mesh_ending(spec); !ending.empty()) {
+      return load_mesh({spec, std::string(spec), usual_orientation(ending), options.strict},
+                       warnings);
+    }
+    refuse_foreign_format(spec);
     NffResult result = read_nff(spec, options);
     if (warnings != nullptr) {
       warnings->insert(warnings->end(), result.warnings.begin(), result.warnings.end());

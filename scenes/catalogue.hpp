@@ -24,11 +24,12 @@ struct SceneInfo {
 /// All generated scenes, sorted by name.
 std::span<const SceneInfo> scene_catalogue();
 
-/// A scene by what the user typed: a catalogue name with parameters (`balls:n=4`) or a path to an
-/// NFF file (anything with a slash or the ending .nff). `Scene::name` is the canonical label of the
-/// former, the path of the latter. Throws InputError: unknown name (with the nearest and all valid
-/// ones), parameter out of range, file missing or malformed. What a file's reader noticed on the
-/// way (`NffResult::warnings`) is appended to `warnings` when given; the options are for files.
+/// A scene by what the user typed: a catalogue name with parameters (`balls:n=4`), a registered
+/// mesh (`mesh:dragon`), or a path to a mesh (by its ending, see mesh_endings()) or an NFF file
+/// (anything else with a slash, or the ending .nff). `Scene::name` is the canonical label of a
+/// catalogue's scene, the text itself of all others. Throws InputError: unknown name (with the
+/// nearest and all valid ones), parameter out of range, file missing or malformed. What a file's
+/// reader noticed on the way is appended to `warnings` when given; the options are for files.
 Scene load_scene(std::string_view spec, std::vector<std::string>* warnings = nullptr,
                  NffOptions options = {});
 

@@ -1,6 +1,7 @@
 #include "scenes/scene_builder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -252,6 +253,7 @@ std::uint32_t SceneBuilder::add_vertex(const glm::dvec3& position) {
 
 void SceneBuilder::add_polygon(std::span<const std::uint32_t> vertices,
                                std::span<const glm::dvec3> normals) {
+  if (vertices.size() == 3 && normals.empty() && add_flat_triangle(vertices)) return;
   const Subject subject{"polygon (primitive {})", primitive_count()};
   if (vertices.size() < 3) {
     refuse(subject, fmt::format("it has {} corners, but must have at least 3", vertices.size()));
@@ -293,6 +295,25 @@ void SceneBuilder::add_polygon(std::span<const std::uint32_t> vertices,
     scene_.triangles.push_back(
         {{corners.vertices[a], corners.vertices[b], corners.vertices[c]}, id});
   }
+}
+
+bool SceneBuilder::add_flat_triangle(std::span<const std::uint32_t> vertices) {
+  const std::array<std::uint32_t, 3> corners{vertices[0], vertices[1], vertices[2]};
+  if (*std::max_element(corners.begin(), corners.end()) >= scene_.vertices.size()) return false;
+  // Three corners of which two are at the same place have no area, either.
+  const auto at = [&](std::size_t i) { return scene_.vertices[corners[i]]; };
+  if (!has_area(at(0), at(1), at(2))) return false;
+  const std::size_t first_corner = scene_.corners.size();
+  if (first_corner + 3 >= std::numeric_limits<std::uint32_t>::max()) return false;
+
+  const auto id = static_cast<PrimitiveId>(primitive_count());
+  const auto first_triangle = static_cast<std::uint32_t>(scene_.triangles.size());
+  add_primitive(PrimitiveKind::kPolygon, scene_.polygons.size());
+  scene_.polygons.push_back(
+      {static_cast<std::uint32_t>(first_corner), 3, first_triangle, 1, Polygon::kFlat});
+  scene_.corners.insert(scene_.corners.end(), corners.begin(), corners.end());
+  scene_.triangles.push_back({corners, id});
+  return true;
 }
 
 void SceneBuilder::add_polygon(std::span<const glm::dvec3> vertices,

@@ -67,6 +67,9 @@ class SceneBuilder {
  private:
   std::uint32_t current_surface();
   void add_primitive(PrimitiveKind kind, std::size_t index);
+  /// The way of nearly all polygons of large scenes, without allocations. False, and nothing
+  /// happens, when something is wrong with the triangle.
+  bool add_flat_triangle(std::span<const std::uint32_t> vertices);
 
   Scene scene_;
   Surface surface_;

@@ -122,6 +122,11 @@ std::optional<std::uint32_t> next_to_clip(const Ring& ring, std::uint32_t start)
 
 }  // namespace
 
+bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  const glm::dvec3 origin(a);
+  return glm::cross(glm::dvec3(b) - origin, glm::dvec3(c) - origin) != glm::dvec3(0.0);
+}
+
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const glm::vec3> corners) {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   if (corners.size() < 3) return triangles;

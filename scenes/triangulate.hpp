@@ -10,6 +10,9 @@
 
 namespace beambench {
 
+/// Whether `triangulate` makes a triangle of these three corners. Then it is {0, 1, 2}.
+bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+
 /// Splits a simple polygon, convex or concave, into triangles by ear clipping (Meisters 1975) in
 /// the coordinate plane in which its area (Newell's normal) is largest, computed in double from the
 /// float corners. Deterministic: the same corners give the same triangles on every machine. Ears

@@ -1,0 +1,28 @@
+#pragma once
+// One tetrahedron, in the words of several formats.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace beambench {
+
+/// Corners (0,0,0), (1,0,0), (0,2,0), (0,0,3).
+std::string tetrahedron_obj();
+std::string tetrahedron_off();
+std::string tetrahedron_ply();
+std::string tetrahedron_binary_ply();
+std::string tetrahedron_stl();
+std::string tetrahedron_binary_stl();
+std::string tetrahedron_gltf();
+std::string tetrahedron_ac();
+
+/// All of them, with file names.
+std::vector<std::pair<std::string, std::string>> tetrahedron_files();
+
+/// The text with another first coordinate in the place of the corner (1, 0, 0).
+std::string with_coordinate(std::string text, const std::string& number);
+/// The text with its first `old` replaced.
+std::string with_count(std::string text, const std::string& old, const std::string& by);
+
+}  // namespace beambench
