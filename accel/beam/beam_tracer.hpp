@@ -8,6 +8,7 @@
 #include "accel/beam/beam_paths.hpp"
 #include "accel/beam/beam_samples.hpp"
 #include "accel/beam/beam_watch.hpp"
+#include "accel/beam/leaf_batch.hpp"
 #include "accel/octree/samet.hpp"
 
 namespace beambench {
@@ -59,7 +60,9 @@ class BeamTracer::Run {
         view_(tracer.octree().grid(), rays),
         scan_(view_, rays),
         lattices_(sample_lattices(rays, tracer.options_.share_corners)),
-        pixels_(static_cast<double>(rays.count())),
+        images_(*tracer.scene_, rays),
+        finished_(tracer.options_.continue_with_rays ? 0 : buffer.size(), 0),
+        samples_(static_cast<double>(rays.count())),
         buffer_(&buffer),
         watch_(&watch),
         counting_(watch.rays()) {}
@@ -93,12 +96,12 @@ class BeamTracer::Run {
 
   void leave(const Beam& beam) {
     if constexpr (Watch::kPaintsLeaving) {
-      std::uint64_t samples = 0;
-      for_each_sample(beam, [&](const SampleLattice& lattice, int x, int y) {
-        lattice.for_each_index(*buffer_, x, y, [&](std::size_t index) { watch_->painted(index); });
-        ++samples;
+      std::uint64_t left = 0;
+      for_each_sample(beam, [&](const LeafBatch::Sample& sample) {
+        for_each_index(sample, [&](std::size_t index) { watch_->painted(index); });
+        ++left;
       });
-      watch_->left(samples);
+      watch_->left(left);
     }
   }
 
@@ -106,7 +109,7 @@ class BeamTracer::Run {
     if (beam.crowded()) {
       hand_over(beam, RayReason::kCrowded);
     } else if (tracer_->options_.handover > 0 &&
-               area(beam.outline) * pixels_ < static_cast<double>(tracer_->options_.handover)) {
+               area(beam.outline) * samples_ < static_cast<double>(tracer_->options_.handover)) {
       hand_over(beam, RayReason::kHandover);
     } else {
       continue_beam(octree(), view_, beam, queue_);
@@ -115,60 +118,94 @@ class BeamTracer::Run {
 
   void hand_over(const Beam& beam, RayReason reason) {
     const OctreeCursor place = cursor_at(beam);
-    for_each_sample(beam, [&](const SampleLattice& lattice, int x, int y) {
-      const Ray ray = scan_.ray(lattice, x, y);
-      ClosestHit closest(ray);
-      follow(place, ray, CellRay(octree().grid(), ray), closest);
+    for_each_sample(beam, [&](LeafBatch::Sample sample) {
+      follow(place, CellRay(octree().grid(), sample.ray), sample);
       watch_->handed_over(reason);
-      paint(lattice, x, y, closest);
+      finish(sample);
     });
   }
 
   void test_leaf(const Beam& beam) {
     const OctreeCursor place = cursor_at(beam);
-    const auto references = octree().references(place.node());
-    std::uint64_t tested = 0;
-    for_each_sample(beam, [&](const SampleLattice& lattice, int x, int y) {
-      const Ray ray = scan_.ray(lattice, x, y);
-      ClosestHit closest(ray);
-      for (const PrimitiveId id : references) {
-        counting_.add(Counter::kPrimitiveTests);
-        closest.test(*tracer_->scene_, id);
+    bool unfinished = false;
+    const auto test_batch = [&] {
+      batch_.test(*tracer_->scene_, octree().references(place.node()), images_, counting_);
+      watch_->tested(batch_.samples().size());
+      for (LeafBatch::Sample& sample : batch_.samples()) {
+        if (!settle(place, sample)) unfinished = true;
       }
-      ++tested;
-      const CellRay way(octree().grid(), ray);
-      if (!(closest.ray.t_max < static_cast<float>(leaf_exit(way, place).t))) {
-        watch_->handed_over(RayReason::kOccupied);
-        follow(place, ray, way, closest);
-      }
-      paint(lattice, x, y, closest);
+      batch_.clear();
+    };
+    for_each_sample(beam, [&](const LeafBatch::Sample& sample) {
+      batch_.add(sample);
+      if (batch_.full()) test_batch();
     });
-    watch_->tested(tested);
+    test_batch();
+    if (unfinished) go_on(beam);
+  }
+
+  /// What becomes of a sample that was tested in an occupied leaf. Returns false when it goes on
+  /// with its beam.
+  bool settle(const OctreeCursor& place, LeafBatch::Sample& sample) {
+    const CellRay way(octree().grid(), sample.ray);
+    if (!(sample.closest.ray.t_max < static_cast<float>(leaf_exit(way, place).t))) {
+      if (!tracer_->options_.continue_with_rays) {
+        for_each_index(sample,
+                       [&](std::size_t index) { buffer_->set(index, sample.closest.result()); });
+        return false;
+      }
+      watch_->handed_over(RayReason::kOccupied);
+      follow(place, way, sample);
+    }
+    finish(sample);
+    return true;
   }
 
   /// A ray goes on alone behind a leaf (thesis, section 3.6.2).
-  void follow(const OctreeCursor& place, const Ray& ray, const CellRay& way, ClosestHit& closest) {
-    walk_leaves_behind(place, octree(), tracer_->neighbours(), ray, way, counting_,
+  void follow(const OctreeCursor& place, const CellRay& way, LeafBatch::Sample& sample) {
+    walk_leaves_behind(place, octree(), tracer_->neighbours(), sample.ray, way, counting_,
                        [&](const OctreeNode& leaf, double exit_t) {
                          return test_references(*tracer_->scene_, octree().references(leaf), exit_t,
-                                                counting_, closest);
+                                                counting_, sample.closest);
                        });
   }
 
-  void paint(const SampleLattice& lattice, int x, int y, const ClosestHit& closest) {
-    lattice.for_each_index(*buffer_, x, y, [&](std::size_t index) {
-      buffer_->set(index, closest.result());
+  void finish(const LeafBatch::Sample& sample) {
+    for_each_index(sample, [&](std::size_t index) {
+      buffer_->set(index, sample.closest.result());
+      if (!finished_.empty()) finished_[index] = 1;
       watch_->painted(index);
     });
   }
 
+  /// Calls `visit(sample)` for the beam's samples that are not finished, with what they hit so far.
   template <class Visit>
   void for_each_sample(const Beam& beam, Visit visit) {
     for (const SampleLattice& lattice : lattices_) {
       scan_.for_each_run(beam, lattice, [&](int y, int first, int last) {
-        for (int x = first; x <= last; ++x) visit(lattice, x, y);
+        for (int x = first; x <= last; ++x) {
+          const Ray ray = scan_.ray(lattice, x, y);
+          LeafBatch::Sample sample{&lattice, x, y, ray, ClosestHit(ray)};
+          if (finished_.empty() || resume(sample)) visit(sample);
+        }
       });
     }
+  }
+
+  /// Recalls what a sample hit in leaves that its beam passed. Returns false when it is finished.
+  bool resume(LeafBatch::Sample& sample) const {
+    bool open = false;
+    for_each_index(sample, [&](std::size_t index) {
+      open = finished_[index] == 0;
+      if (const auto hit = buffer_->get(index)) sample.closest.keep(hit->t, hit->primitive);
+    });
+    return open;
+  }
+
+  /// Calls `visit(index)` for a sample's places in the hit buffer.
+  template <class Visit>
+  void for_each_index(const LeafBatch::Sample& sample, Visit visit) const {
+    sample.lattice->for_each_index(*buffer_, sample.x, sample.y, visit);
   }
 
   OctreeCursor cursor_at(const Beam& beam) const {
@@ -181,7 +218,11 @@ class BeamTracer::Run {
   EyeView view_;
   SampleScan scan_;
   std::vector<SampleLattice> lattices_;
-  double pixels_;
+  PrimitiveImages images_;
+  LeafBatch batch_;
+  /// For beams that go on behind occupied leaves: which samples need no more.
+  std::vector<std::uint8_t> finished_;
+  double samples_;
   HitBuffer* buffer_;
   Watch* watch_;
   decltype(std::declval<Watch>().rays()) counting_;

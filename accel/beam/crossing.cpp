@@ -6,6 +6,19 @@
 
 namespace beambench {
 
+double direction_rounding(const PrimaryRays& rays) {
+  double longest = 0.0;
+  for (const int x : {0, rays.width()}) {
+    for (const int y : {0, rays.height()}) {
+      const glm::dvec3 corner = rays.top_left() + rays.right() * static_cast<double>(x) +
+                                rays.down() * static_cast<double>(y);
+      longest = std::max(longest, glm::length(corner));
+    }
+  }
+  // Each component is off by half a unit in the last place: sqrt(3) x 2^-25 of the length at most.
+  return 0x1p-23 * longest;
+}
+
 EyeView::EyeView(const CellGrid& grid, const PrimaryRays& rays) : grid_(&grid) {
   const glm::dvec3 right = rays.right() * static_cast<double>(rays.width());
   const glm::dvec3 down = rays.down() * static_cast<double>(rays.height());
@@ -14,13 +27,7 @@ EyeView::EyeView(const CellGrid& grid, const PrimaryRays& rays) : grid_(&grid) {
     eye_[static_cast<std::size_t>(axis)] = rays.eye()[axis];
     direction_[static_cast<std::size_t>(axis)] = {right[axis], down[axis], top_left[axis]};
   }
-  double longest = 0.0;
-  for (const glm::dvec2 corner :
-       {glm::dvec2(0.0, 0.0), glm::dvec2(1.0, 0.0), glm::dvec2(0.0, 1.0), glm::dvec2(1.0, 1.0)}) {
-    longest = std::max(longest, glm::length(top_left + right * corner.x + down * corner.y));
-  }
-  // Each component is off by half a unit in the last place: sqrt(3) x 2^-25 of the length at most.
-  rounding_ = 0x1p-23 * longest;
+  rounding_ = direction_rounding(rays);
   border_ = 2.0 * rounding_ / glm::dvec2(glm::length(right), glm::length(down));
 }
 

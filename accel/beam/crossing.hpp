@@ -35,6 +35,9 @@ inline bool crosses_before(const CellRay& way, const Crossing& a, const Crossing
   return a.axis != b.axis ? a.axis < b.axis : a.side < b.side;
 }
 
+/// How far rounding a ray's direction to float may move it, in units of view depth 1.
+double direction_rounding(const PrimaryRays& rays);
+
 /// What an eye sees of the planes of a grid.
 class EyeView {
  public:
@@ -43,8 +46,7 @@ class EyeView {
   const CellGrid& grid() const { return *grid_; }
   double eye(int axis) const { return eye_[static_cast<std::size_t>(axis)]; }
 
-  /// How far rounding a ray's direction to float may move it on the image, in the units of
-  /// `ImageLine`.
+  /// `direction_rounding` of the image's rays.
   double rounding() const { return rounding_; }
   /// The whole image as a polygon, wider on all sides by what rounding may do to a border sample.
   ImagePolygon screen() const;

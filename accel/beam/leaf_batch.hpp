@@ -1,0 +1,69 @@
+#pragma once
+// Samples that are tested together against the references of a leaf.
+
+#include <bit>
+#include <span>
+#include <vector>
+
+#include "accel/beam/primitive_image.hpp"
+#include "accel/beam/sample_lattice.hpp"
+#include "accel/intersect.hpp"
+
+namespace beambench {
+
+/// Up to `SampleBatch::kCapacity` samples with their rays and what they hit so far.
+class LeafBatch {
+ public:
+  struct Sample {
+    const SampleLattice* lattice;
+    int x;
+    int y;
+    Ray ray;
+    ClosestHit closest;
+  };
+
+  LeafBatch() { samples_.reserve(SampleBatch::kCapacity); }
+
+  bool full() const { return samples_.size() == SampleBatch::kCapacity; }
+  std::span<Sample> samples() { return samples_; }
+
+  void add(const Sample& sample) {
+    const std::size_t i = samples_.size();
+    places_.x[i] = static_cast<float>(sample.x + sample.lattice->offset.x);
+    places_.y[i] = static_cast<float>(sample.y + sample.lattice->offset.y);
+    places_.inverse_t[i] = limit(sample.closest);
+    samples_.push_back(sample);
+    places_.size = samples_.size();
+  }
+  void clear() {
+    samples_.clear();
+    places_.size = 0;
+  }
+
+  /// Tests all samples against the references: by the primitives' images first, which only reject,
+  /// then by the canonical test.
+  template <class Counting>
+  void test(const Scene& scene, std::span<const PrimitiveId> references, PrimitiveImages& images,
+            Counting& counting) {
+    for (const PrimitiveId id : references) {
+      for (SampleMask left = images.may_hit(id, places_); left != 0; left &= left - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(left));
+        ClosestHit& closest = samples_[i].closest;
+        counting.add(Counter::kPrimitiveTests);
+        if (is_hit(closest.test(scene, id))) places_.inverse_t[i] = limit(closest);
+      }
+    }
+  }
+
+ private:
+  /// Hits that are not farther have a larger 1/t than this.
+  static float limit(const ClosestHit& closest) {
+    constexpr float kLess = 1.0F - 0x1p-20F;
+    return kLess / closest.ray.t_max;
+  }
+
+  std::vector<Sample> samples_;
+  SampleBatch places_;
+};
+
+}  // namespace beambench

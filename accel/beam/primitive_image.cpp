@@ -1,0 +1,132 @@
+#include "accel/beam/primitive_image.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "accel/beam/crossing.hpp"
+#include "accel/beam/probe_kernels.hpp"
+
+namespace beambench {
+namespace {
+
+/// What the sum of three products loses in float, relative to the sum of their sizes: coefficients
+/// and places rounded once each, three more roundings.
+constexpr double kFloatLoss = 0x1p-21;
+
+/// An image that no sample fails.
+constexpr TriangleImage kAnywhere{{{{0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 1.0F}}},
+                                  {0.0F, 0.0F, std::numeric_limits<float>::infinity()}};
+constexpr SphereImage kAnywhereRound{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 1.0F};
+
+}  // namespace
+
+PrimitiveImages::PrimitiveImages(const Scene& scene, const PrimaryRays& rays)
+    : scene_(&scene),
+      eye_(rays.eye()),
+      forward_(rays.forward()),
+      top_left_(rays.top_left()),
+      right_(rays.right()),
+      down_(rays.down()),
+      size_(rays.width(), rays.height()),
+      rounding_(direction_rounding(rays)),
+      made_(scene.primitives.size(), 0),
+      triangles_(std::make_unique_for_overwrite<TriangleImage[]>(scene.triangles.size())),
+      spheres_(std::make_unique_for_overwrite<SphereImage[]>(scene.spheres.size())) {}
+
+SampleMask PrimitiveImages::may_hit(PrimitiveId id, const SampleBatch& batch) {
+  const Primitive& primitive = scene_->primitives[id];
+  const bool made = std::exchange(made_[id], std::uint8_t{1}) != 0;
+  switch (primitive.kind) {
+    case PrimitiveKind::kPolygon: {
+      const Polygon& polygon = scene_->polygons[primitive.index];
+      const std::span<TriangleImage> images(&triangles_[polygon.first_triangle],
+                                            polygon.triangle_count);
+      for (std::size_t i = 0; !made && i < images.size(); ++i) {
+        images[i] = image_of_triangle(scene_->triangles[polygon.first_triangle + i].vertex);
+      }
+      return best_probe_kernels().triangles(images, batch);
+    }
+    case PrimitiveKind::kSphere: {
+      SphereImage& image = spheres_[primitive.index];
+      if (!made) image = image_of_sphere(scene_->spheres[primitive.index]);
+      return best_probe_kernels().sphere(image, batch);
+    }
+    case PrimitiveKind::kCone:
+      break;
+  }
+  return ~SampleMask{0} >> (SampleBatch::kCapacity - batch.size);
+}
+
+TriangleImage PrimitiveImages::image_of_triangle(
+    const std::array<std::uint32_t, 3>& vertices) const {
+  std::array<glm::dvec3, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    corners[i] = glm::dvec3(scene_->vertices[vertices[i]]) - eye_;
+  }
+  const double volume = glm::dot(corners[0], glm::cross(corners[1], corners[2]));
+  const double reach = glm::length(corners[0]) * glm::length(corners[1]) * glm::length(corners[2]);
+  // The eye is in the triangle's plane, or so near to it that the signs are not sure.
+  if (!(std::abs(volume) > 1e-9 * reach)) return kAnywhere;
+
+  // A plane through the eye, or 1/t of a plane, as a line on the image.
+  const auto widened_line = [&](const glm::dvec3& normal) {
+    const double x = glm::dot(normal, right_);
+    const double y = glm::dot(normal, down_);
+    const double constant = glm::dot(normal, top_left_);
+    const double loss =
+        rounding_ * glm::length(normal) +
+        kFloatLoss * (std::abs(x) * size_.x + std::abs(y) * size_.y + std::abs(constant));
+    return PixelLine{static_cast<float>(x), static_cast<float>(y),
+                     static_cast<float>(constant + loss)};
+  };
+  const double inward = (volume > 0.0 ? 1.0 : -1.0);
+  TriangleImage image{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const glm::dvec3 normal = glm::cross(corners[i], corners[(i + 1) % 3]);
+    image.edges[i] = widened_line(normal * (inward / glm::length(normal)));
+  }
+  const glm::dvec3 plane = glm::cross(corners[1] - corners[0], corners[2] - corners[0]) / volume;
+  if (!(glm::length(plane) < 1e30)) return kAnywhere;  // too near for float
+  image.inverse_t = widened_line(plane);
+  return image;
+}
+
+SphereImage PrimitiveImages::image_of_sphere(const Sphere& sphere) const {
+  const glm::dvec3 center = glm::dvec3(sphere.center) - eye_;
+  const double depth = glm::dot(center, forward_);
+  const double distance = glm::length(center);
+  const double radius = std::abs(static_cast<double>(sphere.radius));
+  // Around the eye, beside or behind it: its outline is no ellipse, or a very long one.
+  if (!(depth > 0.1 * distance) || !(radius < 0.9 * distance)) return kAnywhereRound;
+
+  const glm::dvec3 middle = center / depth;  // view depth 1, as all directions
+  const glm::dvec2 place(glm::dot(middle - top_left_, right_) / glm::dot(right_, right_),
+                         glm::dot(middle - top_left_, down_) / glm::dot(down_, down_));
+  // A sample's place relative to the centre's is rounded in float, its direction as well: see the
+  // sphere by so much larger.
+  const double slip = rounding_ + 0x1p-22 * ((std::abs(place.x) + size_.x) * glm::length(right_) +
+                                             (std::abs(place.y) + size_.y) * glm::length(down_));
+  const double shift = 4.0 * slip * distance;
+  if (!(shift < radius)) return kAnywhereRound;
+  const double wider = radius * (1.0 + 0x1p-7) + 2.0 * shift;
+  const double squared = wider * wider;
+
+  // (d . c)^2 - |d|^2 (|c|^2 - r^2) >= 0 with d = middle + u right + v down.
+  const auto product = [&](const glm::dvec3& a, const glm::dvec3& b) {
+    return glm::dot(a, center) * glm::dot(b, center) -
+           glm::dot(a, b) * (distance * distance - squared);
+  };
+  const double scale = 1.0 / (glm::dot(middle, middle) * squared);
+  const auto scaled = [&](double value) { return static_cast<float>(value * scale); };
+  return {static_cast<float>(place.x), static_cast<float>(place.y), scaled(product(right_, right_)),
+          scaled(2.0 * product(right_, down_)), scaled(product(down_, down_)),
+          // middle is parallel to the centre, so the large terms cancel exactly.
+          scaled(2.0 * glm::dot(middle, right_) * squared),
+          scaled(2.0 * glm::dot(middle, down_) * squared), 1.0F};
+}
+
+}  // namespace beambench

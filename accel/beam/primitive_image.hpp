@@ -1,0 +1,89 @@
+#pragma once
+// Primitives as the eye sees them: what a sample must fulfil to hit one.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "accel/primary_rays.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// x * px + y * py + constant of a sample's place in pixels, in float.
+struct PixelLine {
+  float x;
+  float y;
+  float constant;
+};
+
+/// A triangle's edges, each not negative for the samples that may hit it, and 1/t of its plane,
+/// not less than that of a hit. All are widened by what float arithmetic and the rounding of
+/// directions can do to them, so that they reject no hit of the canonical test.
+struct TriangleImage {
+  std::array<PixelLine, 3> edges;
+  PixelLine inverse_t;
+};
+
+/// A sphere's outline: xx u^2 + xy u v + yy v^2 + x u + y v + constant, not negative for the
+/// samples that may hit it; (u, v) is a sample's place relative to the centre's, in pixels. Widened
+/// as above.
+struct SphereImage {
+  float center_x;
+  float center_y;
+  float xx;
+  float xy;
+  float yy;
+  float x;
+  float y;
+  float constant;
+};
+
+/// Up to 64 samples of an image.
+struct SampleBatch {
+  static constexpr std::size_t kCapacity = 64;
+
+  alignas(64) std::array<float, kCapacity> x;  ///< place in pixels
+  alignas(64) std::array<float, kCapacity> y;
+  /// A little less than 1/t of the closest hit; 0 before there is one.
+  alignas(64) std::array<float, kCapacity> inverse_t;
+  std::size_t size = 0;
+};
+
+/// Bit i: may sample i of the batch hit the primitive, no farther than its closest hit?
+using SampleMask = std::uint64_t;
+
+/// The images of a scene's primitives for one camera and resolution, each made when first asked
+/// for.
+class PrimitiveImages {
+ public:
+  PrimitiveImages(const Scene& scene, const PrimaryRays& rays);
+
+  SampleMask may_hit(PrimitiveId id, const SampleBatch& batch);
+
+ private:
+  TriangleImage image_of_triangle(const std::array<std::uint32_t, 3>& vertices) const;
+  SphereImage image_of_sphere(const Sphere& sphere) const;
+
+  const Scene* scene_;
+  glm::dvec3 eye_;
+  glm::dvec3 forward_;
+  /// direction(px, py) = top_left + right * px + down * py.
+  glm::dvec3 top_left_;
+  glm::dvec3 right_;
+  glm::dvec3 down_;
+  glm::dvec2 size_;  ///< of the image, in pixels
+  double rounding_;  ///< how far a direction's rounding may move it
+  std::vector<std::uint8_t> made_;
+  // Not initialised: large scenes have many primitives that no beam comes to.
+  std::unique_ptr<TriangleImage[]> triangles_;
+  std::unique_ptr<SphereImage[]> spheres_;
+};
+
+}  // namespace beambench

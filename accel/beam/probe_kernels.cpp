@@ -1,0 +1,82 @@
+#include "accel/beam/probe_kernels.hpp"
+
+#include <array>
+
+// Highway includes this file once more for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "accel/beam/probe_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using Tag = hn::CappedTag<float, 16>;
+using Floats = hn::Vec<Tag>;
+
+/// Joins what `test(x, y, inverse_t)` says of each register of samples.
+template <class Test>
+SampleMask for_each_register(const SampleBatch& batch, Test test) {
+  const Tag tag;
+  SampleMask bits = 0;
+  for (std::size_t i = 0; i < batch.size; i += hn::Lanes(tag)) {
+    const auto mask = test(hn::Load(tag, &batch.x[i]), hn::Load(tag, &batch.y[i]),
+                           hn::Load(tag, &batch.inverse_t[i]));
+    std::array<std::uint8_t, 8> stored{};
+    hn::StoreMaskBits(tag, mask, stored.data());
+    bits |= (static_cast<SampleMask>(stored[0]) | static_cast<SampleMask>(stored[1]) << 8U) << i;
+  }
+  return bits & (~SampleMask{0} >> (SampleBatch::kCapacity - batch.size));
+}
+
+inline Floats at(const PixelLine& line, Floats x, Floats y) {
+  const Tag tag;
+  return hn::MulAdd(hn::Set(tag, line.x), x,
+                    hn::MulAdd(hn::Set(tag, line.y), y, hn::Set(tag, line.constant)));
+}
+
+SampleMask probe_triangles(std::span<const TriangleImage> images, const SampleBatch& batch) {
+  SampleMask bits = 0;
+  for (const TriangleImage& image : images) {
+    bits |= for_each_register(batch, [&](Floats x, Floats y, Floats inverse_t) {
+      const Floats nearest_edge = hn::Min(
+          at(image.edges[0], x, y), hn::Min(at(image.edges[1], x, y), at(image.edges[2], x, y)));
+      return hn::And(hn::Ge(nearest_edge, hn::Zero(Tag())),
+                     hn::Ge(at(image.inverse_t, x, y), inverse_t));
+    });
+  }
+  return bits;
+}
+
+SampleMask probe_sphere(const SphereImage& image, const SampleBatch& batch) {
+  return for_each_register(batch, [&](Floats x, Floats y, Floats) {
+    const Tag tag;
+    const Floats u = hn::Sub(x, hn::Set(tag, image.center_x));
+    const Floats v = hn::Sub(y, hn::Set(tag, image.center_y));
+    const Floats by_u = hn::MulAdd(hn::Set(tag, image.xx), u,
+                                   hn::MulAdd(hn::Set(tag, image.xy), v, hn::Set(tag, image.x)));
+    const Floats by_v = hn::MulAdd(hn::Set(tag, image.yy), v, hn::Set(tag, image.y));
+    const Floats value = hn::MulAdd(by_u, u, hn::MulAdd(by_v, v, hn::Set(tag, image.constant)));
+    return hn::Ge(value, hn::Zero(tag));
+  });
+}
+
+const ProbeKernels& probe_kernels() {
+  static constexpr ProbeKernels kKernels{probe_triangles, probe_sphere};
+  return kKernels;
+}
+
+}  // namespace beambench::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace beambench {
+
+HWY_EXPORT(probe_kernels);
+
+const ProbeKernels& best_probe_kernels() { return HWY_DYNAMIC_DISPATCH(probe_kernels)(); }
+
+}  // namespace beambench
+#endif
