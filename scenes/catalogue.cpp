@@ -7,17 +7,23 @@
 
 #include "scenes/error.hpp"
 #include "scenes/generators/balls.hpp"
+#include "scenes/generators/bola_espacial.hpp"
 #include "scenes/generators/bumpy.hpp"
+#include "scenes/generators/caracol.hpp"
+#include "scenes/generators/delfines.hpp"
 #include "scenes/generators/escena1.hpp"
 #include "scenes/generators/escena2.hpp"
 #include "scenes/generators/gears.hpp"
 #include "scenes/generators/jacks.hpp"
 #include "scenes/generators/lattice.hpp"
+#include "scenes/generators/maceta.hpp"
+#include "scenes/generators/misil.hpp"
 #include "scenes/generators/mount.hpp"
 #include "scenes/generators/rings.hpp"
 #include "scenes/generators/shells.hpp"
 #include "scenes/generators/sombrero.hpp"
 #include "scenes/generators/teapot.hpp"
+#include "scenes/generators/tetera.hpp"
 #include "scenes/generators/tetra.hpp"
 #include "scenes/generators/tree.hpp"
 #include "scenes/meshes/mesh_format.hpp"
@@ -46,9 +52,11 @@ bool is_path(std::string_view spec) {
 
 std::span<const SceneInfo> scene_catalogue() {
   static const std::vector<SceneInfo> catalogue = {
-      balls_scene(),    bumpy_scene(),   escena1_scene(), escena2_scene(), gears_scene(),
-      jacks_scene(),    lattice_scene(), mount_scene(),   rings_scene(),   shells_scene(),
-      sombrero_scene(), stetra_scene(),  teapot_scene(),  tetra_scene(),   tree_scene()};
+      balls_scene(),    bola_espacial_scene(), bumpy_scene(),  caracol_scene(), delfines_scene(),
+      escena1_scene(),  escena2_scene(),       gears_scene(),  jacks_scene(),   lattice_scene(),
+      maceta_scene(),   misil_scene(),         mount_scene(),  rings_scene(),   shells_scene(),
+      sombrero_scene(), stetra_scene(),        teapot_scene(), tetera_scene(),  tetra_scene(),
+      tree_scene()};
   return catalogue;
 }
 

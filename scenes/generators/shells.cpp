@@ -9,20 +9,6 @@
 namespace beambench {
 namespace {
 
-/// Pickover's shell (IEEE CG&A 9(6), 1989): spheres as large as their distance from the axis, along
-/// a spiral that grows by e^(0.15 theta); six turns below theta = 0 and three above.
-void add_shell(SceneBuilder& builder, std::int64_t steps) {
-  constexpr double kTurns = 9.0;
-  constexpr double kGrowth = 0.15;
-  constexpr double kPitch = -2.0;
-  for (std::int64_t i = -2 * steps / 3; i <= steps / 3; ++i) {
-    const double theta =
-        kTurns * 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(steps);
-    const double rho = portable_exp(kGrowth * theta);
-    builder.add_sphere({rho * portable_sin(theta), rho * portable_cos(theta), kPitch * rho}, rho);
-  }
-}
-
 Scene generate(const Parameters& parameters) {
   SceneBuilder builder(parameters.label());
   builder.add_camera({.from = {-6.0F, -60.0F, 35.0F},
@@ -38,6 +24,20 @@ Scene generate(const Parameters& parameters) {
 }
 
 }  // namespace
+
+/// Pickover's shell (IEEE CG&A 9(6), 1989): spheres as large as their distance from the axis, along
+/// a spiral that grows by e^(0.15 theta); six turns below theta = 0 and three above.
+void add_shell(SceneBuilder& builder, std::int64_t steps, std::int64_t left_out) {
+  constexpr double kTurns = 9.0;
+  constexpr double kGrowth = 0.15;
+  constexpr double kPitch = -2.0;
+  for (std::int64_t i = left_out - 2 * steps / 3; i <= steps / 3; ++i) {
+    const double theta =
+        kTurns * 2.0 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(steps);
+    const double rho = portable_exp(kGrowth * theta);
+    builder.add_sphere({rho * portable_sin(theta), rho * portable_cos(theta), kPitch * rho}, rho);
+  }
+}
 
 SceneInfo shells_scene() {
   return {"shells",

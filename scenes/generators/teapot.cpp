@@ -103,13 +103,17 @@ Scene generate(const Parameters& parameters) {
   add_squares(builder, n, 0);
   builder.set_surface(
       {.color = {1.0F, 0.5F, 0.1F}, .diffuse = 0.75F, .specular = 0.25F, .shine = 3.0827F});
-  for (const BezierPatch& patch : teapot_patches()) {
-    PatchMesh(builder, patch, n).add_triangles();
-  }
+  add_teapot(builder, n);
   return std::move(builder).build();
 }
 
 }  // namespace
+
+void add_teapot(SceneBuilder& builder, std::int64_t n) {
+  for (const BezierPatch& patch : teapot_patches()) {
+    PatchMesh(builder, patch, n).add_triangles();
+  }
+}
 
 SceneInfo teapot_scene() {
   return {"teapot",

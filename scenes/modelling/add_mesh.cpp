@@ -28,7 +28,7 @@ void add_flat(SceneBuilder& builder, const PolygonMesh& mesh) {
   for (const auto& corners : mesh.polygons) builder.add_polygon(renumbered(corners, index));
 }
 
-void add_smooth(SceneBuilder& builder, const PolygonMesh& mesh, double crease) {
+void add_smooth(SceneBuilder& builder, const PolygonMesh& mesh, const SmoothOptions& options) {
   const std::vector<std::uint32_t> index = add_vertices(builder, mesh);
   std::vector<glm::dvec3> areas;
   std::vector<std::vector<std::uint32_t>> around(mesh.vertices.size());
@@ -38,7 +38,7 @@ void add_smooth(SceneBuilder& builder, const PolygonMesh& mesh, double crease) {
     }
     areas.push_back(area_normal(mesh, corners));
   }
-  const double least_cosine = std::cos(glm::radians(crease));
+  const double least_cosine = std::cos(glm::radians(options.crease));
   std::vector<glm::dvec3> normals;
   for (std::size_t i = 0; i < mesh.size(); ++i) {
     const glm::dvec3 own = glm::normalize(areas[i]);
@@ -50,6 +50,7 @@ void add_smooth(SceneBuilder& builder, const PolygonMesh& mesh, double crease) {
       }
       normals.push_back(glm::normalize(sum));
     }
+    if (options.paint) builder.set_surface(options.paint(i));
     builder.add_polygon(renumbered(mesh.polygons[i], index), normals);
   }
 }

@@ -1,6 +1,9 @@
 #pragma once
 // A mesh into the scene.
 
+#include <cstddef>
+#include <functional>
+
 #include "scenes/modelling/polygon_mesh.hpp"
 #include "scenes/scene_builder.hpp"
 
@@ -9,9 +12,14 @@ namespace beambench {
 /// Adds every polygon, over shared vertices, with the builder's current surface.
 void add_flat(SceneBuilder& builder, const PolygonMesh& mesh);
 
+/// How polygons are smoothed and coloured.
+struct SmoothOptions {
+  double crease = 50.0;                               ///< degrees; sharper edges stay sharp
+  std::function<Surface(std::size_t polygon)> paint;  ///< if any: the surface of each polygon
+};
+
 /// The same as smooth polygons: a corner's normal is the mean, weighted by area, of the polygons at
-/// that vertex whose own normals differ by less than `crease` degrees from this polygon's; sharper
-/// edges stay sharp.
-void add_smooth(SceneBuilder& builder, const PolygonMesh& mesh, double crease = 50.0);
+/// that vertex whose own normals differ by less than the crease angle from this polygon's.
+void add_smooth(SceneBuilder& builder, const PolygonMesh& mesh, const SmoothOptions& options = {});
 
 }  // namespace beambench

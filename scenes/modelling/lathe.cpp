@@ -1,7 +1,8 @@
 #include "scenes/modelling/lathe.hpp"
 
-#include <cmath>
 #include <numbers>
+
+#include "scenes/portable_math.hpp"
 
 namespace beambench {
 
@@ -13,7 +14,8 @@ PolygonMesh lathe(std::span<const glm::dvec2> profile, int sides, double first_t
     const int copies = point.x == 0.0 ? 1 : sides;
     for (int i = 0; i < copies; ++i) {
       const double angle = 2.0 * std::numbers::pi * (first_turn + static_cast<double>(i) / sides);
-      mesh.vertices.emplace_back(point.x * std::cos(angle), point.x * std::sin(angle), point.y);
+      mesh.vertices.emplace_back(point.x * portable_cos(angle), point.x * portable_sin(angle),
+                                 point.y);
     }
   }
   const auto steps = static_cast<std::uint32_t>(sides);

@@ -1,11 +1,11 @@
 #include "scenes/modelling/parametric_surface.hpp"
 
-#include <cmath>
 #include <numbers>
 #include <vector>
 
 #include "scenes/modelling/lathe.hpp"
 #include "scenes/modelling/weld.hpp"
+#include "scenes/portable_math.hpp"
 
 namespace beambench {
 
@@ -31,7 +31,7 @@ PolygonMesh ellipsoid(const glm::dvec3& half_axes, int slices, int stacks) {
   std::vector<glm::dvec2> profile = {{0.0, -1.0}};
   for (int i = 1; i < stacks; ++i) {
     const double angle = std::numbers::pi * i / stacks;
-    profile.emplace_back(std::sin(angle), -std::cos(angle));
+    profile.emplace_back(portable_sin(angle), -portable_cos(angle));
   }
   profile.emplace_back(0.0, 1.0);
   PolygonMesh mesh = lathe(profile, slices);

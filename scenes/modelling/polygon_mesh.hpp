@@ -11,6 +11,7 @@
 //   parametric_surface.hpp  a grid of quads over a function of two parameters; ellipsoid
 //   weld.hpp                coincident vertices made one
 //   subdivide.hpp           triangulated; subdivided_to: exactly n polygons
+//   rotation.hpp            for `transformed`, with the same bits everywhere
 //   add_mesh.hpp            into the scene, flat or smooth
 // Pieces take and return values, look outward (counter-clockwise seen from outside) and hold only
 // surfaces that can be seen: caps and bottoms are left out where the caller says so. A scene counts

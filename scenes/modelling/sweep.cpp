@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "scenes/portable_math.hpp"
+
 namespace beambench {
 namespace {
 
@@ -32,7 +34,7 @@ std::vector<glm::dvec2> circle(int sides) {
   std::vector<glm::dvec2> points;
   for (int i = 0; i < sides; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / sides;
-    points.emplace_back(std::cos(angle), std::sin(angle));
+    points.emplace_back(portable_cos(angle), portable_sin(angle));
   }
   return points;
 }
