@@ -30,14 +30,14 @@ class CellRay {
   int step(int axis) const { return step_[static_cast<std::size_t>(axis)]; }
 
   /// Where the ray crosses a plane; monotonic in `index`. Not for axes with step 0.
-  double plane_t(int axis, std::int32_t index) const {
+  [[gnu::always_inline]] double plane_t(int axis, std::int32_t index) const {
     const auto slot = static_cast<std::size_t>(axis);
     return (grid_->plane(axis, index) - origin_[slot]) * inverse_[slot];
   }
 
   /// At parameter t, is the ray on the upper side of a plane? On the plane itself it is on the side
   /// it is going to.
-  bool above(int axis, std::int32_t index, double t) const {
+  [[gnu::always_inline]] bool above(int axis, std::int32_t index, double t) const {
     switch (step(axis)) {
       case 1:
         return plane_t(axis, index) <= t;
@@ -50,7 +50,7 @@ class CellRay {
 
   /// The t at which the ray leaves the cube of `size` cells at `corner` through an axis' planes;
   /// infinite when it is parallel to them.
-  double exit_t(int axis, const glm::ivec3& corner, std::int32_t size) const {
+  [[gnu::always_inline]] double exit_t(int axis, const glm::ivec3& corner, std::int32_t size) const {
     switch (step(axis)) {
       case 1:
         return plane_t(axis, corner[axis] + size);

@@ -96,12 +96,12 @@ class BeamTracer::Run {
 
   void leave(const Beam& beam) {
     if constexpr (Watch::kPaintsLeaving) {
-      std::uint64_t left = 0;
-      for_each_sample(beam, [&](const LeafBatch::Sample& sample) {
-        for_each_index(sample, [&](std::size_t index) { watch_->painted(index); });
-        ++left;
+      for_each_batch(beam, [&] {
+        for (const LeafBatch::Sample& sample : batch_.samples()) {
+          for_each_index(sample, [&](std::size_t index) { watch_->painted(index); });
+        }
+        watch_->left(batch_.samples().size());
       });
-      watch_->left(left);
     }
   }
 
@@ -118,29 +118,25 @@ class BeamTracer::Run {
 
   void hand_over(const Beam& beam, RayReason reason) {
     const OctreeCursor place = cursor_at(beam);
-    for_each_sample(beam, [&](LeafBatch::Sample sample) {
-      follow(place, CellRay(octree().grid(), sample.ray), sample);
-      watch_->handed_over(reason);
-      finish(sample);
+    for_each_batch(beam, [&] {
+      for (LeafBatch::Sample& sample : batch_.samples()) {
+        follow(place, CellRay(octree().grid(), sample.ray), sample);
+        watch_->handed_over(reason);
+        finish(sample);
+      }
     });
   }
 
   void test_leaf(const Beam& beam) {
     const OctreeCursor place = cursor_at(beam);
     bool unfinished = false;
-    const auto test_batch = [&] {
+    for_each_batch(beam, [&] {
       batch_.test(*tracer_->scene_, octree().references(place.node()), images_, counting_);
       watch_->tested(batch_.samples().size());
       for (LeafBatch::Sample& sample : batch_.samples()) {
         if (!settle(place, sample)) unfinished = true;
       }
-      batch_.clear();
-    };
-    for_each_sample(beam, [&](const LeafBatch::Sample& sample) {
-      batch_.add(sample);
-      if (batch_.full()) test_batch();
     });
-    test_batch();
     if (unfinished) go_on(beam);
   }
 
@@ -163,11 +159,13 @@ class BeamTracer::Run {
 
   /// A ray goes on alone behind a leaf (thesis, section 3.6.2).
   void follow(const OctreeCursor& place, const CellRay& way, LeafBatch::Sample& sample) {
+    ClosestHit closest = sample.closest;  // nobody else's: it can stay in registers
     walk_leaves_behind(place, octree(), tracer_->neighbours(), sample.ray, way, counting_,
                        [&](const OctreeNode& leaf, double exit_t) {
                          return test_references(*tracer_->scene_, octree().references(leaf), exit_t,
-                                                counting_, sample.closest);
+                                                counting_, closest);
                        });
+    sample.closest = closest;
   }
 
   void finish(const LeafBatch::Sample& sample) {
@@ -178,18 +176,23 @@ class BeamTracer::Run {
     });
   }
 
-  /// Calls `visit(sample)` for the beam's samples that are not finished, with what they hit so far.
+  /// Fills the batch with the beam's samples that are not finished and calls `visit()`, until all
+  /// were in it.
   template <class Visit>
-  void for_each_sample(const Beam& beam, Visit visit) {
+  void for_each_batch(const Beam& beam, Visit visit) {
+    batch_.clear();
     for (const SampleLattice& lattice : lattices_) {
       scan_.for_each_run(beam, lattice, [&](int y, int first, int last) {
         for (int x = first; x <= last; ++x) {
-          const Ray ray = scan_.ray(lattice, x, y);
-          LeafBatch::Sample sample{&lattice, x, y, ray, ClosestHit(ray)};
-          if (finished_.empty() || resume(sample)) visit(sample);
+          LeafBatch::Sample& sample = batch_.add(lattice, x, y, scan_.ray(lattice, x, y));
+          if (!finished_.empty() && !resume(sample)) batch_.drop_last();
+          if (!batch_.full()) continue;
+          visit();
+          batch_.clear();
         }
       });
     }
+    if (!batch_.samples().empty()) visit();
   }
 
   /// Recalls what a sample hit in leaves that its beam passed. Returns false when it is finished.

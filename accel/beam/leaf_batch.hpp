@@ -15,6 +15,9 @@ namespace beambench {
 class LeafBatch {
  public:
   struct Sample {
+    Sample(const SampleLattice& in, int at_x, int at_y, const Ray& through)
+        : lattice(&in), x(at_x), y(at_y), ray(through), closest(through) {}
+
     const SampleLattice* lattice;
     int x;
     int y;
@@ -27,24 +30,25 @@ class LeafBatch {
   bool full() const { return samples_.size() == SampleBatch::kCapacity; }
   std::span<Sample> samples() { return samples_; }
 
-  void add(const Sample& sample) {
+  /// Not when full.
+  Sample& add(const SampleLattice& lattice, int x, int y, const Ray& ray) {
     const std::size_t i = samples_.size();
-    places_.x[i] = static_cast<float>(sample.x + sample.lattice->offset.x);
-    places_.y[i] = static_cast<float>(sample.y + sample.lattice->offset.y);
-    places_.inverse_t[i] = limit(sample.closest);
-    samples_.push_back(sample);
-    places_.size = samples_.size();
+    places_.x[i] = static_cast<float>(x + lattice.offset.x);
+    places_.y[i] = static_cast<float>(y + lattice.offset.y);
+    return samples_.emplace_back(lattice, x, y, ray);
   }
-  void clear() {
-    samples_.clear();
-    places_.size = 0;
-  }
+  void drop_last() { samples_.pop_back(); }
+  void clear() { samples_.clear(); }
 
   /// Tests all samples against the references: by the primitives' images first, which only reject,
   /// then by the canonical test.
   template <class Counting>
   void test(const Scene& scene, std::span<const PrimitiveId> references, PrimitiveImages& images,
             Counting& counting) {
+    places_.size = samples_.size();
+    for (std::size_t i = 0; i < places_.size; ++i) {
+      places_.inverse_t[i] = limit(samples_[i].closest);
+    }
     for (const PrimitiveId id : references) {
       for (SampleMask left = images.may_hit(id, places_); left != 0; left &= left - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(left));

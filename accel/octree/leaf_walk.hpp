@@ -23,7 +23,7 @@ struct LeafExit {
   double t;
   glm::ivec3 step;
 };
-inline LeafExit leaf_exit(const CellRay& way, const OctreeCursor& cursor) {
+[[gnu::always_inline]] inline LeafExit leaf_exit(const CellRay& way, const OctreeCursor& cursor) {
   const std::array<double, 3> exits{way.exit_t(0, cursor.corner(), cursor.size()),
                                     way.exit_t(1, cursor.corner(), cursor.size()),
                                     way.exit_t(2, cursor.corner(), cursor.size())};

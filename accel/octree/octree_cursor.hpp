@@ -26,7 +26,7 @@ class OctreeCursor {
 
   /// Goes down to the leaf that the ray is in at parameter t (a point on a boundary belongs to the
   /// side the ray is going to). Returns the number of levels descended.
-  int descend(const CellRay& ray, double t) {
+  [[gnu::always_inline]] int descend(const CellRay& ray, double t) {
     int levels = 0;
     for (; !node().is_leaf(); ++levels) {
       const std::int32_t half = size_ / 2;
@@ -59,7 +59,7 @@ class OctreeCursor {
   /// and neighbor finding", Computers & Graphics 13(4), 1989; thesis, section 3.5.2.2). `step`
   /// holds -1, 0 or 1 for each axis. Returns the number of levels climbed and descended; 0 when the
   /// neighbour would lie outside the root.
-  int move_to_neighbour(const glm::ivec3& step) {
+  [[gnu::always_inline]] int move_to_neighbour(const glm::ivec3& step) {
     const glm::ivec3 target = corner_ + step * size_;
     std::uint32_t differing = 0;
     for (int axis = 0; axis < 3; ++axis) {
