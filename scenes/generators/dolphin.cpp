@@ -48,7 +48,7 @@ PolygonMesh body() {
     for (std::uint32_t i = 0; i < kSides; ++i) {
       const std::uint32_t next = (i + 1) % kSides;
       mesh.polygons.push_back(
-          {k * kSides + i, (k + 1) * kSides + i, (k + 1) * kSides + next, k * kSides + next});
+          {k * kSides + next, (k + 1) * kSides + next, (k + 1) * kSides + i, k * kSides + i});
     }
   }
   return welded(mesh);
@@ -136,7 +136,7 @@ bool is_pale(const PolygonMesh& mesh, const PolygonMesh::Corners& corners) {
   for (const std::uint32_t corner : corners) {
     height += mesh.vertices[corner].z / static_cast<double>(corners.size());
   }
-  return normal.z < -0.3 && height < -0.012;
+  return normal.z < -0.1 && height < 0.02;
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "scenes/modelling/lathe.hpp"
 #include "scenes/modelling/letters.hpp"
 #include "scenes/modelling/parametric_surface.hpp"
+#include "scenes/modelling/rotation.hpp"
 #include "scenes/modelling/subdivide.hpp"
 #include "scenes/modelling/sweep.hpp"
 #include "scenes/modelling/weld.hpp"
@@ -165,6 +166,27 @@ TEST(Transformed, TurnsWindingsWhereItMirrors) {
   const glm::dmat4 mirror = glm::scale(glm::dmat4(1.0), glm::dvec3(-2.0, 1.0, 1.0));
   EXPECT_NEAR(volume(transformed(mesh, mirror)), 2.0, 1e-12);
   EXPECT_NEAR(volume(turned_inside_out(mesh)), -1.0, 1e-12);
+}
+
+TEST(Rotation, TurnsCounterClockwiseAboutEachAxis) {
+  for (int axis = 0; axis < 3; ++axis) {
+    glm::dvec4 next(0.0);
+    next[(axis + 1) % 3] = 1.0;
+    const glm::dvec4 turned = rotation(axis, 90.0) * next;
+    EXPECT_NEAR(turned[(axis + 2) % 3], 1.0, 1e-15);
+    EXPECT_NEAR(turned[(axis + 1) % 3], 0.0, 1e-15);
+  }
+}
+
+TEST(AddSmooth, PaintsEachPolygon) {
+  SceneBuilder builder("two colours");
+  add_smooth(builder, box({0, 0, 0}, {1, 1, 1}), {.paint = [](std::size_t polygon) {
+               return Surface{.color = glm::vec3(polygon < 3 ? 0.25F : 0.75F)};
+             }});
+  const Scene scene = std::move(builder).build();
+  for (std::size_t id = 0; id < 6; ++id) {
+    EXPECT_EQ(scene.surfaces[scene.primitives[id].surface].color.x, id < 3 ? 0.25F : 0.75F);
+  }
 }
 
 TEST(Welded, DropsWhatShrinksToNothing) {
