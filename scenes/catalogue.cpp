@@ -60,6 +60,14 @@ std::span<const SceneInfo> scene_catalogue() {
   return catalogue;
 }
 
+const SceneInfo& find_scene(const std::string& name) {
+  const auto catalogue = scene_catalogue();
+  const auto info = std::find_if(catalogue.begin(), catalogue.end(),
+                                 [&](const SceneInfo& i) { return i.name == name; });
+  if (info == catalogue.end()) refuse_name(name);
+  return *info;
+}
+
 Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, NffOptions options) {
   if (spec.starts_with(kMeshPrefix)) {
     const RegisteredMesh mesh = find_registered_mesh(spec.substr(kMeshPrefix.size()));
@@ -79,12 +87,9 @@ Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, NffO
   }
 
   const Spec parsed = parse_spec(spec);
-  const auto catalogue = scene_catalogue();
-  const auto info = std::find_if(catalogue.begin(), catalogue.end(),
-                                 [&](const SceneInfo& i) { return i.name == parsed.name; });
-  if (info == catalogue.end()) refuse_name(parsed.name);
-  const Parameters parameters(info->name, info->parameters, parsed.parameters);
-  Scene scene = info->generate(parameters);
+  const SceneInfo& info = find_scene(parsed.name);
+  const Parameters parameters(info.name, info.parameters, parsed.parameters);
+  Scene scene = info.generate(parameters);
   parameters.require_given_were_read();
   return scene;
 }

@@ -19,10 +19,14 @@ struct SceneInfo {
   std::string summary;  ///< one sentence
   std::vector<ParameterInfo> parameters;
   std::function<Scene(const Parameters&)> generate;
+  std::string size_parameter{};  ///< the integer that it grows with; empty where none does that
 };
 
 /// All generated scenes, sorted by name.
 std::span<const SceneInfo> scene_catalogue();
+
+/// The scene of the catalogue with that name; throws InputError naming the nearest and all of them.
+const SceneInfo& find_scene(const std::string& name);
 
 /// A scene by what the user typed: a catalogue name with parameters (`balls:n=4`), a registered
 /// mesh (`mesh:dragon`), or a path to a mesh (by its ending, see mesh_endings()) or an NFF file

@@ -1,6 +1,7 @@
 #pragma once
 // The scene: what every structure is built over and every ray is shot at.
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -45,6 +46,9 @@ struct Scene {
 /// The tight bounds of one primitive, rounded outward to float (a sphere's c + r may not be
 /// representable). For a cone: the box of its two end discs.
 Bounds primitive_bounds(const Scene& scene, PrimitiveId id);
+
+/// What the scene's arrays hold, room for more primitives included.
+std::size_t memory_bytes(const Scene& scene);
 
 /// A 64-bit fingerprint of all that rays can see: primitives, their coordinates and order
 /// (XXH3 over the bits; not surfaces, lights or cameras). Equal on every machine.

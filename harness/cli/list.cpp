@@ -12,6 +12,8 @@
 #include "harness/cli/text.hpp"
 #include "harness/rays/ray_kind.hpp"
 #include "scenes/catalogue.hpp"
+#include "scenes/error.hpp"
+#include "scenes/meshes/mesh_registry.hpp"
 
 namespace beambench {
 namespace {
@@ -62,10 +64,29 @@ std::string range_text(const ParameterInfo& info) {
   return fmt::format("{}", fmt::join(info.choices, " | "));
 }
 
+std::string about_mesh(const std::string& name) {
+  try {
+    const RegisteredMesh mesh = find_registered_mesh(name);
+    return mesh.about.empty() ? mesh.path.string() : mesh.about;
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
 void print_parameters(const std::vector<ParameterInfo>& parameters) {
   for (const ParameterInfo& info : parameters) {
     fmt::print("      {}={}  ({})\n", info.name, info.default_value, range_text(info));
     fmt::print("{}", wrap(info.description, 10));
+  }
+}
+
+/// An entry that cannot be read is shown with the reason.
+void print_meshes() {
+  fmt::print("\nMeshes, as mesh:NAME (scripts/meshes registers some):\n\n");
+  const std::vector<std::string> names = registered_mesh_names();
+  if (names.empty()) fmt::print("  none\n");
+  for (const std::string& name : names) {
+    fmt::print("  {}{}\n{}", kMeshPrefix, name, wrap(about_mesh(name), 6));
   }
 }
 
@@ -80,11 +101,12 @@ void print_text() {
                           "its own, judged by the differ's classes; baseline: answers nothing by "
                           "design.",
                           2));
-  fmt::print("\nScenes, as NAME:parameter=value,... (or the path of an NFF file):\n");
+  fmt::print("\nScenes, as NAME:parameter=value,... (or the path of a mesh or of an NFF file):\n");
   for (const SceneInfo& info : scene_catalogue()) {
     fmt::print("\n  {}\n{}", info.name, wrap(info.summary, 6));
     print_parameters(info.parameters);
   }
+  print_meshes();
   fmt::print("\nKinds of rays, for --rays (or the path of a .rays file, see 'beambench rays'):\n");
   for (const RayKindInfo& info : ray_kinds()) {
     fmt::print("\n  {}\n{}", info.name, wrap(info.summary, 6));
@@ -120,6 +142,11 @@ void print_json() {
     all["scenes"].push_back({{"name", info.name},
                              {"summary", info.summary},
                              {"parameters", parameters_json(info.parameters)}});
+  }
+  all["meshes"] = Json::array();
+  for (const std::string& name : registered_mesh_names()) {
+    all["meshes"].push_back(
+        {{"name", fmt::format("{}{}", kMeshPrefix, name)}, {"about", about_mesh(name)}});
   }
   for (const RayKindInfo& info : ray_kinds()) {
     all["rays"].push_back({{"name", info.name},

@@ -13,6 +13,7 @@
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
+#include "harness/cli/scene_growth.hpp"
 #include "harness/rays/fingerprint.hpp"
 
 namespace beambench {
@@ -108,26 +109,57 @@ void print_json(const Scene& scene) {
 struct Request {
   std::string scene;
   bool json = false;
+  bool csv = false;
+  bool growth = false;
+  std::size_t growth_limit = 1000000;
   NffOptions options;
 };
+
+void show(const Request& request) {
+  if (request.growth) {
+    const auto form = request.csv    ? GrowthForm::kCsv
+                      : request.json ? GrowthForm::kJson
+                                     : GrowthForm::kText;
+    show_growth(request.scene, request.growth_limit, form);
+    return;
+  }
+  const Scene scene = open_scene(request.scene, request.options);
+  request.json ? print_json(scene) : print_text(scene);
+}
 
 }  // namespace
 
 void add_scene_command(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("scene", "A scene's counts, bounds, cameras and hash");
   const auto request = std::make_shared<Request>();
-  command->add_option("SCENE", request->scene, "Catalogue name or path of an NFF file")->required();
-  command->add_flag("--json", request->json, "Print JSON instead of text");
+  command
+      ->add_option("SCENE", request->scene,
+                   "Catalogue name, mesh:NAME, or path of an NFF or mesh file")
+      ->required();
+  CLI::Option* json = command->add_flag("--json", request->json, "Print JSON instead of text");
   command->add_flag("--strict", request->options.strict,
-                    "Refuse a file with unknown words, ignored fields or polygons to repair");
+                    "Refuse a file with unknown words, ignored fields, polygons to repair or "
+                    "triangles without area");
+  CLI::Option* growth =
+      command->add_flag("--growth", request->growth,
+                        "Generate it in growing sizes: primitives, bytes and seconds of each");
+  command
+      ->add_option("--growth-limit", request->growth_limit,
+                   "No size with more primitives than this")
+      ->check(CLI::Range(std::size_t{1}, kLargestGrowth))
+      ->capture_default_str()
+      ->needs(growth);
+  command->add_flag("--csv", request->csv, "Print the growth as CSV")
+      ->needs(growth)
+      ->excludes(json);
   command->footer(
+      "Bytes are what the scene's arrays hold, room for more included; seconds are wall time.\n"
       "Examples:\n"
       "  beambench scene escena1\n"
-      "  beambench scene balls:n=3 --json");
-  command->callback([request] {
-    const Scene scene = open_scene(request->scene, request->options);
-    request->json ? print_json(scene) : print_text(scene);
-  });
+      "  beambench scene balls:n=3 --json\n"
+      "  beambench scene bunny.obj\n"
+      "  beambench scene tetra --growth --growth-limit 10000000 --csv > tetra.csv");
+  command->callback([request] { show(*request); });
 }
 
 }  // namespace beambench

@@ -41,7 +41,8 @@ SceneInfo balls_scene() {
   return {"balls",
           "Sphereflake of (9^(n+1) - 1) / 8 spheres over one floor polygon (Haines's SPD)",
           {integer_parameter("n", 4, 0, 8, "levels of smaller spheres around the first")},
-          generate};
+          generate,
+          "n"};
 }
 
 }  // namespace beambench

@@ -138,7 +138,8 @@ SceneInfo bumpy_scene() {
           "A closed bumpy sphere of 12 k^2 triangles (15,552 by default)",
           {integer_parameter("triangles", 15680, 12, 20000000,
                              "wanted number of triangles; 12 k^2 for the nearest k come")},
-          generate};
+          generate,
+          "triangles"};
 }
 
 }  // namespace beambench

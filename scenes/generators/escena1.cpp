@@ -174,7 +174,8 @@ SceneInfo escena1_scene() {
           "volume",
           {integer_parameter("seed", 1999, 0, 0xFFFFFFFF, "seed of the random numbers"),
            integer_parameter("spheres", 430, 1, 10000000, "number of spheres")},
-          generate};
+          generate,
+          "spheres"};
 }
 
 }  // namespace beambench

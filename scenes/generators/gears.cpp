@@ -124,7 +124,8 @@ SceneInfo gears_scene() {
   return {"gears",
           "Meshing gears of 2 n^3 concave 144-gons and 144 n^3 quads over a square (Haines's SPD)",
           {integer_parameter("n", 4, 1, 45, "gears along each axis")},
-          generate};
+          generate,
+          "n"};
 }
 
 }  // namespace beambench

@@ -75,7 +75,8 @@ SceneInfo jacks_scene() {
   return {"jacks",
           "Recursive jacks of 6 (8^n - 1) / 7 spheres and half as many cylinders (SPD)",
           {integer_parameter("n", 1, 1, 8, "generations, each of half the size")},
-          generate};
+          generate,
+          "n"};
 }
 
 }  // namespace beambench

@@ -73,7 +73,8 @@ SceneInfo lattice_scene() {
   return {"lattice",
           "Cubic lattice of (n+1)^3 spheres and 3 n (n+1)^2 cylinders, seen from within (SPD)",
           {integer_parameter("n", 12, 1, 150, "cells along each axis")},
-          generate};
+          generate,
+          "n"};
 }
 
 }  // namespace beambench

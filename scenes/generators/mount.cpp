@@ -162,7 +162,8 @@ SceneInfo mount_scene() {
   return {"mount",
           "Fractal mountain of 2 * 4^n triangles and four glass spheres (Haines's SPD)",
           {integer_parameter("n", 6, 1, 12, "each halves the cells of the grid")},
-          generate};
+          generate,
+          "n"};
 }
 
 }  // namespace beambench

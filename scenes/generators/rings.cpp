@@ -109,7 +109,8 @@ SceneInfo rings_scene() {
           "Pyramid of pentagonal rings: 5 n (n+1) (2n+1) spheres and as many cylinders before a "
           "wall (Haines's SPD)",
           {integer_parameter("n", 7, 1, 90, "layers of the pyramid")},
-          generate};
+          generate,
+          "n"};
 }
 
 }  // namespace beambench

@@ -43,7 +43,8 @@ SceneInfo shells_scene() {
   return {"shells",
           "Seashell of 180 * 2^n + 1 nearly concentric spheres (Haines's SPD)",
           {integer_parameter("n", 5, 0, 16, "each doubles the spheres of the same shell")},
-          generate};
+          generate,
+          "n"};
 }
 
 }  // namespace beambench

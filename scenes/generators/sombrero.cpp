@@ -62,7 +62,8 @@ SceneInfo sombrero_scene() {
   return {"sombrero",
           "Height field of 2 (32 * 2^(n-1) - 1)^2 triangles (SPD)",
           {integer_parameter("n", 1, 1, 8, "each doubles the points along both sides")},
-          generate};
+          generate,
+          "n"};
 }
 
 }  // namespace beambench

@@ -120,7 +120,8 @@ SceneInfo teapot_scene() {
           "Newell's teapot of 64 n^2 - 8 n smooth triangles on a board of n^2 squares (Haines's "
           "SPD)",
           {integer_parameter("n", 12, 2, 400, "quads along each side of a patch")},
-          generate};
+          generate,
+          "n"};
 }
 
 }  // namespace beambench

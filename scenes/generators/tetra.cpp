@@ -56,7 +56,8 @@ SceneInfo tetra_scene() {
   return {"tetra",
           "Recursive tetrahedra of 4^n triangles (Haines's SPD)",
           {integer_parameter("n", 6, 1, 12, "levels; each quadruples the triangles")},
-          [](const Parameters& p) { return generate(p.label(), p.integer("n")); }};
+          [](const Parameters& p) { return generate(p.label(), p.integer("n")); },
+          "n"};
 }
 
 SceneInfo stetra_scene() {

@@ -80,7 +80,8 @@ SceneInfo tree_scene() {
   return {"tree",
           "Tree of 2^(n+1) - 1 cones and as many spheres on a field (Haines's SPD)",
           {integer_parameter("n", 11, 0, 22, "generations of branches out of the trunk")},
-          generate};
+          generate,
+          "n"};
 }
 
 }  // namespace beambench

@@ -1,4 +1,4 @@
-"""Command line: python -m beambench_report plots|pictures|page|repeated|columns ..."""
+"""Command line: python -m beambench_report plots|pictures|page|repeated|growth|columns ..."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from beambench_report.dictionary import as_markdown, dictionary
+from beambench_report.growth import write_growth
 from beambench_report.page.write import write_page
 from beambench_report.pictures import write_pictures
 from beambench_report.plots import write_plots
@@ -60,11 +61,24 @@ def _parser() -> argparse.ArgumentParser:
         help="whose times are 1 in the ratios, as the plots call it; if not given, the contender "
         "that was right in the most views, Embree rather than others",
     )
+    growth = commands.add_parser(
+        "growth", help="draw what beambench scene NAME --growth --csv wrote"
+    )
+    growth.add_argument("files", type=Path, nargs="+", metavar="FILE.csv")
+    growth.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE.png",
+        help="if not given, beside the first file; an SVG comes beside it",
+    )
     commands.add_parser("columns", help="print results/README.md: what every column means")
     return parser
 
 
 def _write(options: argparse.Namespace) -> list[Path]:
+    if options.command == "growth":
+        return write_growth(options.files, options.output)
     if options.command == "plots":
         return write_plots(options.run)
     if options.command == "pictures":
