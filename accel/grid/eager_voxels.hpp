@@ -21,6 +21,7 @@ class EagerVoxels {
   std::span<const PrimitiveId> references(std::size_t voxel) const {
     return {references_.data() + first_[voxel], first_[voxel + 1] - first_[voxel]};
   }
+  bool holds_references(std::size_t voxel) const { return !references(voxel).empty(); }
   /// Fills in everything but the grid itself.
   void describe(Statistics& statistics) const;
 

@@ -32,6 +32,11 @@ class LazyVoxels {
     if (list == nullptr) list = &publish(voxel, evaluate(voxel));
     return *list;
   }
+  /// Has it been evaluated, and references were found? Evaluates nothing.
+  bool holds_references(std::size_t voxel) const {
+    const List* list = lists_[voxel].load(std::memory_order_acquire);
+    return list != nullptr && list != &empty_;
+  }
   /// Fills in what has been evaluated so far.
   void describe(Statistics& statistics) const;
 

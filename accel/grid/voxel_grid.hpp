@@ -31,6 +31,14 @@ class VoxelGrid : public TraversalAccelerator<VoxelGrid<Voxels, Boxes>> {
     return statistics;
   }
 
+  std::vector<Box> occupied_cells() const override {
+    std::vector<Box> cells;
+    for (std::size_t voxel = 0; voxel < voxel_count(grid_); ++voxel) {
+      if (voxels_.holds_references(voxel)) cells.push_back(grid_.box(voxel_at(grid_, voxel), 1));
+    }
+    return cells;
+  }
+
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     return closest_in_cells(*scene_, ray, counting, Boxes(scene_->primitives.size()),
