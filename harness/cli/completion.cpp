@@ -12,6 +12,7 @@
 #include "accel/registry.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/difference_picture.hpp"
+#include "harness/cli/overlay_picture.hpp"
 #include "harness/rays/ray_kind.hpp"
 #include "harness/shade/shading.hpp"
 #include "scenes/catalogue.hpp"
@@ -47,6 +48,7 @@ const std::map<std::string, Words>& known_values() {
       {"--accel", structure_names("all")},
       {"--difference", structure_names(kOracleName)},
       {"--heatmap", {kCounterNames.begin(), kCounterNames.end()}},
+      {"--overlay", {overlay_names().begin(), overlay_names().end()}},
       {"--rays", ray_kind_names()},
       {"--shade", {shading_names().begin(), shading_names().end()}}};
   return values;

@@ -7,6 +7,7 @@
 
 #include "harness/differ/classify.hpp"
 #include "harness/differ/judge_ray.hpp"
+#include "harness/picture/category_legend.hpp"
 #include "harness/picture/category_map.hpp"
 #include "harness/picture/image_file.hpp"
 #include "harness/shade/shading.hpp"

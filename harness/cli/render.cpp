@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/difference_picture.hpp"
 #include "harness/cli/inputs.hpp"
+#include "harness/cli/overlay_picture.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/cli/watched_ask.hpp"
 #include "harness/cli/work_picture.hpp"
@@ -28,6 +31,7 @@ struct Request {
   std::string heatmap;
   std::string difference;
   std::string shading = "preview";
+  std::string overlay;
 };
 
 /// Depth and id of each pixel, those of its nearest sample.
@@ -58,6 +62,30 @@ void write_heat_map(const Request& request, const HeatMap& map, const HitBuffer&
   std::vector<DataChannel> channels = hit_channels(hits);
   channels.push_back({request.heatmap, map.values});
   write_image(request.file, draw_heat_map(map), channels);
+}
+
+std::string describe(const std::vector<LegendEntry>& legend) {
+  std::string text;
+  for (const LegendEntry& entry : legend) text += fmt::format("; {}: {}", entry.name, entry.count);
+  return text;
+}
+
+/// Shades the hits and draws over them what is asked for; returns what the picture tells of it. A
+/// PNG gets its legend.
+std::string write_shaded(const Request& request, const StructureChoice& choice,
+                         std::optional<Overlay> overlay, const Accelerator& accelerator,
+                         const Scene& scene, const PrimaryRays& rays, const HitBuffer& hits) {
+  Image image = shade(scene, rays, hits, parse_shading(request.shading));
+  std::vector<LegendEntry> legend;
+  if (overlay) legend = draw_overlay(*overlay, image, accelerator, rays);
+  if (overlay && image_format(request.file) == ImageFormat::kPng) {
+    const std::string title =
+        fmt::format("{} of {}, {}", request.overlay, choice.short_label(), scene.name);
+    write_image(request.file, with_legend(image, title, legend));
+  } else {
+    write_image(request.file, image, hit_channels(hits));
+  }
+  return describe(legend);
 }
 
 std::string share_of_hits(const HitBuffer& hits) {
@@ -98,13 +126,15 @@ std::string compare(const Request& request, const StructureChoice& choice, const
 }
 
 void render(const Request& request) {
-  const Shading shading = parse_shading(request.shading);
+  parse_shading(request.shading);
   image_format(request.file);
   require_writable(request.file);
   if (!request.difference.empty() && request.difference != kOracleName) {
     choose_one("--difference", request.difference);
   }
   const StructureChoice choice = choose_one("--accel", request.structure);
+  std::optional<Overlay> overlay;
+  if (!request.overlay.empty()) overlay = parse_overlay(request.overlay, choice.info());
   const Scene scene = open_scene(request.scene);
   const PrimaryRays rays = choose_rays(scene, request.image);
 
@@ -121,8 +151,8 @@ void render(const Request& request) {
   } else {
     watched_ask(*accelerator, rays, answers, progress);
     if (request.difference.empty()) {
-      write_image(request.file, shade(scene, rays, hits, shading), hit_channels(hits));
-      found = share_of_hits(hits);
+      found = share_of_hits(hits) +
+              write_shaded(request, choice, overlay, *accelerator, scene, rays, hits);
     } else {
       found = compare(request, choice, scene, rays, answers);
     }
@@ -146,22 +176,31 @@ void add_render_command(CLI::App& app, int&) {
       ->capture_default_str();
   CLI::Option* heatmap = command->add_option("--heatmap", request->heatmap,
                                              "Instead of shading: a work counter in colours");
+  CLI::Option* difference =
+      command
+          ->add_option("--difference", request->difference,
+                       "Instead of shading: where the hits differ from those of another structure, "
+                       "or of the 'oracle' of verify")
+          ->excludes(heatmap);
   command
-      ->add_option("--difference", request->difference,
-                   "Instead of shading: where the hits differ from those of another structure, or "
-                   "of the 'oracle' of verify")
-      ->excludes(heatmap);
+      ->add_option("--overlay", request->overlay,
+                   "Over the shading, dimmed: 'beams', their outlines, or 'cells', the occupied "
+                   "ones in perspective")
+      ->excludes(heatmap)
+      ->excludes(difference);
   command->footer(
       "Counters for --heatmap: traversal_steps, leaves, empty_leaves, box_tests, primitive_tests,\n"
       "and a structure's own. A .png gets a legend; an .exr holds the counts beside linear float\n"
       "R, G, B, the depth Z and the primitive id (4294967295 for a miss). --difference colours\n"
       "pixels by the classes that 'beambench verify --help' tells; who is wrong, the search of "
       "all\n"
-      "primitives says.\n"
+      "primitives says. --overlay beams colours those that end at occupied leaves, those that go\n"
+      "on and those that leave the scene; --overlay cells leaves out what cells before them hide.\n"
       "Examples:\n"
       "  beambench render escena1 --accel samet -o escena1.png\n"
       "  beambench render balls:n=3 --accel samet -o work.png --heatmap primitive_tests\n"
       "  beambench render tetra --accel embree:robust=false -o wrong.png --difference oracle\n"
+      "  beambench render escena2 --accel beam:max_level=5 -o beams.png --overlay beams\n"
       "  beambench render tetra --accel embree -o tetra.exr --resolution 640x480 --samples 4");
   command->callback([request] { render(*request); });
 }

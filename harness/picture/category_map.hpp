@@ -2,7 +2,6 @@
 // A picture of kinds: each pixel is left grey or gets the colour of its category, with a legend.
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -26,15 +25,6 @@ struct CategoryMap {
   std::vector<Category> categories;
   std::vector<std::uint8_t> pixels;  ///< index into `categories`, or kNone
 };
-
-/// Colours that people with any kind of colour vision tell apart, and from grey: four of Okabe and
-/// Ito, "Color Universal Design", 2008. Linear light.
-namespace okabe_ito {
-extern const glm::vec3 kSkyBlue;
-extern const glm::vec3 kYellow;
-extern const glm::vec3 kBluishGreen;
-extern const glm::vec3 kVermillion;
-}  // namespace okabe_ito
 
 /// The map over `ground`, an image of its size that is shown in dimmed grey, above a legend with
 /// the number of pixels of each category. Pixels of a category that has only a few are framed, or

@@ -243,6 +243,49 @@ def test_a_heat_map_of_exhaustive_is_even_and_has_a_legend(tmp_path: Path) -> No
         assert count_colors(picture.crop((0, 30, 400, height))) > 50
 
 
+@pytest.mark.parametrize(
+    ("overlay", "names"),
+    [("beams", ["occupied", "non-terminal", "leaving"]), ("cells", ["occupied cells"])],
+)
+@pytest.mark.parametrize("shading", ["preview", "depth"])
+def test_an_overlay_has_lines_in_colour_and_a_legend(
+    tmp_path: Path, overlay: str, names: list[str], shading: str
+) -> None:
+    done = beambench(
+        *("render", "tetra:n=2", "--accel", "beam:max_level=4", "--overlay", overlay),
+        *("--shade", shading, "-o", "over.png", "--resolution", "300x240"),
+        cwd=tmp_path,
+    )
+    assert done.returncode == 0, done.stderr
+    assert all(re.search(rf"; {name}: [1-9]", done.stderr) for name in names), done.stderr
+    with Image.open(tmp_path / "over.png") as picture:
+        assert picture.width == 300
+        assert picture.height > 240
+        colors = picture.crop((0, 0, 300, 240)).getcolors(300 * 240)
+        legend = picture.crop((0, 240, 300, picture.height)).getcolors(300 * 240)
+    assert any(red > blue + 100 for _, (red, _, blue) in colors)
+    assert (240, 228, 66) in {color for _, color in legend}
+
+
+def test_an_overlay_as_exr_has_no_legend(tmp_path: Path) -> None:
+    file = tmp_path / "cells.exr"
+    output_of(
+        *("render", "tetra:n=2", "--accel", "samet", "--overlay", "cells", "-o", file),
+        *("--resolution", "16x16"),
+    )
+    assert b"\0Z\0" in file.read_bytes()[:2000]
+
+
+def test_a_view_past_the_scene_has_no_beams_and_is_no_mistake(tmp_path: Path) -> None:
+    scene = tmp_path / "past.nff"
+    scene.write_text(VIEW + "s 0 0 900 1\n")
+    done = beambench(
+        *("render", scene, "--accel", "beam", "--overlay", "beams", "-o", "past.png"), cwd=tmp_path
+    )
+    assert done.returncode == 0, done.stderr
+    assert "; leaving: 0" in done.stderr
+
+
 def test_render_writes_an_exr(tmp_path: Path) -> None:
     file = tmp_path / "hits.exr"
     output_of("render", "tetra:n=2", "--accel", "embree", "-o", file, "--resolution", "16x16")
@@ -439,6 +482,17 @@ WRONG_REQUESTS = [
     (["rendr"], ["rendr", "render"]),
     (["render"], ["SCENE", "render --help"]),
     (["render", "balls:n=1"], ["--accel"]),
+    ([*RENDER, "embree", "-o", "a.png", "--overlay", "beams"], ["embree", "beams", "beam"]),
+    ([*RENDER, "embree", "-o", "a.png", "--overlay", "cells"], ["cells", "samet", "voxel-grid"]),
+    ([*RENDER, "beam", "-o", "a.png", "--overlay", "rays"], ["rays", "beams, cells"]),
+    (
+        [*RENDER, "beam", "-o", "a.png", "--overlay", "beams", "--heatmap", "leaves"],
+        ["--heatmap", "--overlay"],
+    ),
+    (
+        [*RENDER, "beam", "-o", "a.png", "--overlay", "beams", "--difference", "oracle"],
+        ["--difference", "--overlay"],
+    ),
     (["list", "--colour"], ["--colour", "list --help"]),
     (["verify", "--resolution"], ["--resolution"]),
     # scenes

@@ -1,0 +1,29 @@
+#pragma once
+// What a structure can draw over a picture: its beams, its cells.
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "accel/registry.hpp"
+#include "harness/picture/category_legend.hpp"
+
+namespace beambench {
+
+enum class Overlay {
+  kBeams,  ///< `Accelerator::beam_outlines`
+  kCells   ///< `Accelerator::occupied_cells`
+};
+
+/// The names after --overlay, in the order of `Overlay`.
+std::span<const std::string_view> overlay_names();
+/// Throws InputError listing the valid names, or naming the structures that show such a thing when
+/// this one does not. Who does is found by asking each over a small scene, not by its name.
+Overlay parse_overlay(std::string_view name, const StructureInfo& structure);
+
+/// Draws over the picture that `rays` show, once they have been asked for: a grid that is filled by
+/// rays shows what they filled. Returns the legend.
+std::vector<LegendEntry> draw_overlay(Overlay overlay, Image& image, const Accelerator& accelerator,
+                                      const PrimaryRays& rays);
+
+}  // namespace beambench
