@@ -60,7 +60,7 @@ RegisteredMesh read_entry(const std::string& name, const fs::path& entry) {
   if (!json.is_object()) refuse_entry(entry, "it is not a JSON object");
   RegisteredMesh mesh;
   mesh.name = name;
-  mesh.path = entry.parent_path() / text_of(json, "path", "", entry);
+  mesh.path = (entry.parent_path() / text_of(json, "path", "", entry)).lexically_normal();
   const std::string ending = mesh_ending(mesh.path.string());
   if (ending.empty()) refuse_entry(entry, "'path' must be the path of a mesh file");
   mesh.orientation = usual_orientation(ending);

@@ -30,7 +30,7 @@ def sizes_of(*arguments: str) -> list[dict]:
         ("tetra", 20000, 4, 16384),
         ("balls", 20000, 2, 7382),
         ("bumpy", 20000, 12, 10000),
-        ("escena1", 3000, 1, 2940),
+        ("escena1", 3000, 1, 2900),
         ("lattice", 20000, 20, 17000),
     ],
 )

@@ -16,7 +16,7 @@ def call(*command: str | Path, directory: Path) -> subprocess.CompletedProcess[s
     )
 
 
-@pytest.mark.parametrize("script", ["run", "test"])
+@pytest.mark.parametrize("script", ["run", "test", "meshes"])
 def test_help_is_given(script: str, repository: Path) -> None:
     result = call(repository / "scripts" / script, "--help", directory=repository)
     assert result.returncode == 0
@@ -30,6 +30,8 @@ def test_help_is_given(script: str, repository: Path) -> None:
         ("run", ["--sweep"], "--sweep needs a file"),
         ("run", ["--sweep", "no/such.json"], "no/such.json is not a file that can be read"),
         ("test", ["--quick"], "takes no argument"),
+        ("meshes", ["--all"], "unknown argument '--all'"),
+        ("meshes", ["--beambench", "no/such"], "no/such is not a program"),
     ],
 )
 def test_a_wrong_request_is_one_sentence_and_exit_code_2(

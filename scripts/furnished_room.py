@@ -1,0 +1,243 @@
+"""Furnishes a room with pieces of Debian's sweethome3d-furniture and writes it as OBJ and MTL.
+
+usage: python3 scripts/furnished_room.py FURNITURE_FOLDER OUTPUT.obj
+
+The room has a floor and two walls, so that it can be looked into. Metres, y up. The pieces have the
+sizes that their catalogues give them. Needs nothing but Python.
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+import zipfile
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+
+_WIDTH, _DEPTH, _HEIGHT, _THICKNESS = 6.4, 5.0, 2.7, 0.1
+_ROOM_COLOURS = {"room-floor": (0.55, 0.40, 0.28), "room-wall": (0.86, 0.83, 0.76)}
+
+
+class Problem(Exception):  # noqa: N818 (as in beambench_report)
+    """One sentence for the user."""
+
+
+@dataclass(frozen=True)
+class Place:
+    """Where a piece stands: its middle, turned about the vertical, its bottom at an elevation."""
+
+    catalogue: str
+    model: str
+    x: float
+    z: float
+    degrees: float = 0.0
+    elevation: float = 0.0
+
+
+_PLACES = (
+    Place("KatorLegaz", "oriental-rug", 0.1, 0.2),
+    Place("KatorLegaz", "mid-century-sofa", 0.0, -2.0),
+    Place("KatorLegaz", "mid-century-chair", -1.6, 0.3, 70),
+    Place("BlendSwap-CC-BY", "coffeeTable", 0.0, -0.5),
+    Place("BlendSwap-CC-BY", "laptop", 0.1, -0.5, 20, 0.45),
+    Place("KatorLegaz", "full-bookcase", 2.3, -2.25),
+    Place("BlendSwap-CC-BY", "piano", -2.75, -0.3, 90),
+    Place("KatorLegaz", "office-chair", -1.8, -0.75, 200),
+    Place("BlendSwap-CC-BY", "lamp", -0.4, -0.45, 0, 0.45),
+    Place("BlendSwap-CC-BY", "arbolito", 1.9, 1.2, 0, 0.70),
+    Place("KatorLegaz", "cafe-table", 1.9, 1.2),
+    Place("KatorLegaz", "dining-chair", 1.9, 2.0, 180),
+    Place("KatorLegaz", "dining-chair", 2.75, 1.2, 270),
+    Place("KatorLegaz", "dining-chair", 1.05, 1.2, 90),
+    Place("BlendSwap-CC-BY", "siameseCat", -0.4, 1.2, 30),
+)
+
+
+@dataclass
+class Mesh:
+    """Triangles and polygons by surface, vertices as they will be written."""
+
+    vertices: list[tuple[float, float, float]]
+    faces: list[tuple[str, list[int]]]
+    colours: dict[str, tuple[float, float, float]]
+
+
+class Catalogue:
+    """One of the package's files: a ZIP with models and a list of their sizes."""
+
+    def __init__(self, file: Path) -> None:
+        """Reads the list; raises Problem where the file is not there or is another."""
+        try:
+            self._zip = zipfile.ZipFile(file)
+            listed = self._zip.read("PluginFurnitureCatalog.properties").decode("latin-1")
+        except (OSError, KeyError, zipfile.BadZipFile) as error:
+            raise Problem(f"{file}: it cannot be read ({error})") from None
+        self._file = file
+        self._entries: dict[str, dict[str, str]] = {}
+        numbered: dict[str, dict[str, str]] = {}
+        for line in listed.splitlines():
+            key, equals, value = line.partition("=")
+            name, hash_sign, number = key.partition("#")
+            if equals and hash_sign:
+                numbered.setdefault(number, {})[name] = value.strip()
+        for entry in numbered.values():
+            if "model" in entry:
+                self._entries[PurePosixPath(entry["model"]).stem] = entry
+
+    def piece(self, model: str) -> tuple[dict[str, str], Mesh]:
+        """An entry of the list and its model."""
+        if model not in self._entries:
+            raise Problem(f"{self._file}: it has no model '{model}'; is the package another one?")
+        entry = self._entries[model]
+        path = PurePosixPath(entry["model"].lstrip("/"))
+        mesh = Mesh([], [], {})
+        material = "room-wall"
+        for words in self._lines(path):
+            if words[0] == "mtllib":
+                mesh.colours |= self._colours(path.parent / words[1], model)
+            elif words[0] == "v":
+                mesh.vertices.append((float(words[1]), float(words[2]), float(words[3])))
+            elif words[0] == "usemtl":
+                material = f"{model}-{words[1]}"
+            elif words[0] == "f":
+                mesh.faces.append((material, _indices(words[1:], len(mesh.vertices))))
+        return entry, mesh
+
+    def _lines(self, path: PurePosixPath) -> Iterator[list[str]]:
+        for line in self._zip.read(str(path)).decode("latin-1").splitlines():
+            words = line.split()
+            if words and not words[0].startswith("#"):
+                yield words
+
+    def _colours(self, path: PurePosixPath, model: str) -> dict[str, tuple[float, float, float]]:
+        colours: dict[str, tuple[float, float, float]] = {}
+        name = ""
+        for words in self._lines(path):
+            if words[0] == "newmtl":
+                name = f"{model}-{words[1]}"
+                colours[name] = (0.7, 0.7, 0.7)
+            elif words[0] == "Kd":
+                colours[name] = (float(words[1]), float(words[2]), float(words[3]))
+            elif words[0] == "map_Kd" and sum(colours[name]) == 0:
+                colours[name] = (0.5, 0.5, 0.5)
+        return colours
+
+
+def _indices(corners: list[str], vertices: int) -> list[int]:
+    """Positions of a face's corners in the list of vertices, from 0."""
+    numbers = [int(corner.split("/")[0]) for corner in corners]
+    return [number - 1 if number > 0 else vertices + number for number in numbers]
+
+
+def _turned_model(
+    entry: dict[str, str], vertices: list[tuple[float, float, float]]
+) -> list[tuple[float, float, float]]:
+    """The vertices by the rotation that a catalogue may give a model before it is scaled."""
+    if "modelRotation" not in entry:
+        return vertices
+    m = [float(number) for number in entry["modelRotation"].split()]
+    return [
+        (
+            m[0] * x + m[1] * y + m[2] * z,
+            m[3] * x + m[4] * y + m[5] * z,
+            m[6] * x + m[7] * y + m[8] * z,
+        )
+        for x, y, z in vertices
+    ]
+
+
+def _placed(entry: dict[str, str], mesh: Mesh, place: Place) -> list[tuple[float, float, float]]:
+    """The vertices, scaled to the catalogue's centimetres and put in their place."""
+    vertices = _turned_model(entry, mesh.vertices)
+    low = [min(v[axis] for v in vertices) for axis in range(3)]
+    high = [max(v[axis] for v in vertices) for axis in range(3)]
+    size = [float(entry[key]) / 100 for key in ("width", "height", "depth")]
+    scale = [s / (h - b) if h > b else 1.0 for s, h, b in zip(size, high, low, strict=True)]
+    sine, cosine = math.sin(math.radians(place.degrees)), math.cos(math.radians(place.degrees))
+    result = []
+    for vertex in vertices:
+        x = (vertex[0] - (low[0] + high[0]) / 2) * scale[0]
+        y = (vertex[1] - low[1]) * scale[1]
+        z = (vertex[2] - (low[2] + high[2]) / 2) * scale[2]
+        result.append(
+            (
+                place.x + cosine * x + sine * z,
+                place.elevation + y,
+                place.z - sine * x + cosine * z,
+            )
+        )
+    return result
+
+
+def _box(low: tuple[float, float, float], high: tuple[float, float, float], name: str) -> Mesh:
+    corners = [
+        (high[0] if i & 1 else low[0], high[1] if i & 2 else low[1], high[2] if i & 4 else low[2])
+        for i in range(8)
+    ]
+    sides = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]]
+    return Mesh(corners, [(name, side) for side in sides], {name: _ROOM_COLOURS[name]})
+
+
+def _shell() -> list[Mesh]:
+    x, z, t = _WIDTH / 2, _DEPTH / 2, _THICKNESS
+    return [
+        _box((-x - t, -t, -z - t), (x, 0.0, z), "room-floor"),
+        _box((-x - t, 0.0, -z - t), (-x, _HEIGHT, z), "room-wall"),
+        _box((-x, 0.0, -z - t), (x, _HEIGHT, -z), "room-wall"),
+    ]
+
+
+def furnish(folder: Path) -> list[Mesh]:
+    """The room and its furniture."""
+    catalogues: dict[str, Catalogue] = {}
+    meshes = _shell()
+    for place in _PLACES:
+        if place.catalogue not in catalogues:
+            catalogues[place.catalogue] = Catalogue(folder / f"{place.catalogue}.sh3f")
+        entry, mesh = catalogues[place.catalogue].piece(place.model)
+        meshes.append(Mesh(_placed(entry, mesh, place), mesh.faces, mesh.colours))
+    return meshes
+
+
+def write(meshes: list[Mesh], output: Path) -> None:
+    """Writes OUTPUT.obj and OUTPUT.mtl; the OBJ last, whole or not at all."""
+    library = output.with_suffix(".mtl")
+    colours = {name: colour for mesh in meshes for name, colour in mesh.colours.items()}
+    library.write_text(
+        "".join(
+            f"newmtl {name}\nKd {' '.join(f'{part:g}' for part in colour)}\n"
+            for name, colour in colours.items()
+        )
+    )
+    lines = [f"mtllib {library.name}"]
+    first = 1
+    for mesh in meshes:
+        lines += [f"v {x:.6f} {y:.6f} {z:.6f}" for x, y, z in mesh.vertices]
+        material = None
+        for name, corners in mesh.faces:
+            if name != material:
+                lines.append(f"usemtl {name}")
+                material = name
+            lines.append("f " + " ".join(str(first + corner) for corner in corners))
+        first += len(mesh.vertices)
+    pending = output.with_name(f".pending-{output.name}")
+    pending.write_text("\n".join(lines) + "\n")
+    pending.replace(output)
+
+
+def main(arguments: list[str]) -> int:
+    """Returns the exit code."""
+    if len(arguments) != 2:
+        print("usage: furnished_room.py FURNITURE_FOLDER OUTPUT.obj", file=sys.stderr)
+        return 2
+    try:
+        write(furnish(Path(arguments[0])), Path(arguments[1]))
+    except (Problem, OSError) as problem:
+        print(f"error: {problem}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
