@@ -50,7 +50,8 @@ class CellRay {
 
   /// The t at which the ray leaves the cube of `size` cells at `corner` through an axis' planes;
   /// infinite when it is parallel to them.
-  [[gnu::always_inline]] double exit_t(int axis, const glm::ivec3& corner, std::int32_t size) const {
+  [[gnu::always_inline]] double exit_t(int axis, const glm::ivec3& corner,
+                                       std::int32_t size) const {
     switch (step(axis)) {
       case 1:
         return plane_t(axis, corner[axis] + size);
@@ -84,11 +85,13 @@ class CellRay {
   /// may round up to t_min); infinite when it never is.
   double enter(float t_min) const {
     double first = std::nextafter(t_min, -kInfinity);
-    double last = std::numeric_limits<double>::infinity();
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    double last = kNever;
     for (int axis = 0; axis < 3; ++axis) {
       const double at = origin_[static_cast<std::size_t>(axis)];
       if (step(axis) == 0) {
-        if (at < grid_->plane(axis, 0) || at > grid_->plane(axis, grid_->cells[axis])) return last;
+        if (at < grid_->plane(axis, 0) || at > grid_->plane(axis, grid_->cells[axis]))
+          return kNever;
       } else {
         const double low = plane_t(axis, 0);
         const double high = plane_t(axis, grid_->cells[axis]);
@@ -96,7 +99,7 @@ class CellRay {
         last = std::min(last, std::max(low, high));
       }
     }
-    return first <= last ? first : std::numeric_limits<double>::infinity();
+    return first <= last ? first : kNever;
   }
 
  private:

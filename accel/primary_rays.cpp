@@ -48,6 +48,8 @@ PrimaryRays::PrimaryRays(const Camera& camera, int width, int height, int sample
   const double half_width = half_height * camera.aspect;
   right_ = right * (2.0 * half_width / width);
   down_ = -up * (2.0 * half_height / height);
+  across_ = right * (2.0 * half_width);
+  all_down_ = -up * (2.0 * half_height);
   top_left_ = forward_ - right * half_width + up * half_height;
 }
 

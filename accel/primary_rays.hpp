@@ -51,6 +51,9 @@ class PrimaryRays {
   const glm::dvec3& top_left() const { return top_left_; }
   const glm::dvec3& right() const { return right_; }
   const glm::dvec3& down() const { return down_; }
+  /// From one side of the image to the other, the same at every resolution.
+  const glm::dvec3& across() const { return across_; }
+  const glm::dvec3& all_down() const { return all_down_; }
   const std::vector<glm::dvec2>& offsets() const { return offsets_; }
 
  private:
@@ -62,6 +65,8 @@ class PrimaryRays {
   glm::dvec3 top_left_;
   glm::dvec3 right_;
   glm::dvec3 down_;
+  glm::dvec3 across_;
+  glm::dvec3 all_down_;
 };
 
 }  // namespace beambench

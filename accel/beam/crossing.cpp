@@ -8,11 +8,10 @@ namespace beambench {
 
 double direction_rounding(const PrimaryRays& rays) {
   double longest = 0.0;
-  for (const int x : {0, rays.width()}) {
-    for (const int y : {0, rays.height()}) {
-      const glm::dvec3 corner = rays.top_left() + rays.right() * static_cast<double>(x) +
-                                rays.down() * static_cast<double>(y);
-      longest = std::max(longest, glm::length(corner));
+  for (const double x : {0.0, 1.0}) {
+    for (const double y : {0.0, 1.0}) {
+      longest =
+          std::max(longest, glm::length(rays.top_left() + rays.across() * x + rays.all_down() * y));
     }
   }
   // Each component is off by half a unit in the last place: sqrt(3) x 2^-25 of the length at most.
@@ -20,8 +19,8 @@ double direction_rounding(const PrimaryRays& rays) {
 }
 
 EyeView::EyeView(const CellGrid& grid, const PrimaryRays& rays) : grid_(&grid) {
-  const glm::dvec3 right = rays.right() * static_cast<double>(rays.width());
-  const glm::dvec3 down = rays.down() * static_cast<double>(rays.height());
+  const glm::dvec3& right = rays.across();
+  const glm::dvec3& down = rays.all_down();
   const glm::dvec3& top_left = rays.top_left();
   for (int axis = 0; axis < 3; ++axis) {
     eye_[static_cast<std::size_t>(axis)] = rays.eye()[axis];

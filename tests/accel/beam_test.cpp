@@ -1,0 +1,296 @@
+// What must be true of beams: every sample belongs to one of them, whatever they are cut by.
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "accel/beam/beam_tracer.hpp"
+#include "accel/exhaustive/exhaustive.hpp"
+#include "accel/registry.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/random.hpp"
+#include "scenes/scene_builder.hpp"
+#include "tests/random_scene.hpp"
+
+namespace beambench {
+namespace {
+
+using testing::random_scene;
+
+/// How often each place of the hit buffer was painted, and what became of samples.
+class PaintWatch : public NoBeamWatch {
+ public:
+  static constexpr bool kPaintsLeaving = true;
+
+  explicit PaintWatch(std::size_t places) : painted_(places, 0) {}
+  void painted(std::size_t index) { ++painted_[index]; }
+  void handed_over(RayReason reason) { ++reasons_[static_cast<std::size_t>(reason)]; }
+
+  std::uint8_t times(std::size_t index) const { return painted_[index]; }
+  std::uint64_t rays_by(RayReason reason) const {
+    return reasons_[static_cast<std::size_t>(reason)];
+  }
+
+ private:
+  std::vector<std::uint8_t> painted_;
+  std::array<std::uint64_t, 3> reasons_{};
+};
+
+/// Does the ray of a sample pass through the root cell?
+bool meets_root(const BeamTracer& tracer, const Ray& ray) {
+  return CellRay(tracer.octree().grid(), ray).enter(0.0F) < std::numeric_limits<double>::infinity();
+}
+
+/// Traces an image and checks that each sample that meets the root is painted once, every other
+/// never, and that hits are those of `exhaustive`, of all samples or of one in `stride`.
+void expect_painted_once(const Scene& scene, const BeamOptions& options, const PrimaryRays& rays,
+                         std::size_t stride = 1) {
+  const BeamTracer tracer(scene, options);
+  const Exhaustive exhaustive(scene);
+  HitBuffer buffer(rays.width(), rays.height(), rays.samples());
+  PaintWatch watch(buffer.size());
+  tracer.trace_watched(rays, buffer, watch);
+  std::size_t wrong_paint = 0;
+  std::size_t wrong_hits = 0;
+  std::string first;
+  for (int y = 0; y < rays.height(); ++y) {
+    for (int x = 0; x < rays.width(); ++x) {
+      for (int sample = 0; sample < rays.samples(); ++sample) {
+        const std::size_t index = buffer.index(x, y, sample);
+        const Ray ray = rays.ray(x, y, sample);
+        const int expected = meets_root(tracer, ray) ? 1 : 0;
+        const bool paint_is_wrong = watch.times(index) != expected;
+        const bool hit_is_wrong =
+            index % stride == 0 && buffer.get(index) != exhaustive.closest_hit(ray);
+        if (paint_is_wrong) ++wrong_paint;
+        if (hit_is_wrong) ++wrong_hits;
+        if ((paint_is_wrong || hit_is_wrong) && first.empty()) {
+          first = fmt::format("first at ({}, {}) sample {}, painted {} times, expected {}", x, y,
+                              sample, watch.times(index), expected);
+        }
+      }
+    }
+  }
+  EXPECT_EQ(wrong_paint, 0U) << first;
+  EXPECT_EQ(wrong_hits, 0U) << first;
+  EXPECT_EQ(watch.rays_by(RayReason::kCrowded), 0U);
+  if (options.handover == 0) {
+    EXPECT_EQ(watch.rays_by(RayReason::kHandover), 0U);
+  }
+}
+
+BeamOptions options_with(int max_level, std::uint32_t max_objects = 0) {
+  BeamOptions options;
+  options.octree.max_level = max_level;
+  options.octree.max_objects = max_objects;
+  return options;
+}
+
+BeamOptions random_options(Random& random) {
+  BeamOptions options = options_with(1 + static_cast<int>(random.below(6)),
+                                     static_cast<std::uint32_t>(random.below(3)));
+  options.octree.root =
+      random.below(2) == 0 ? OctreeOptions::Root::kCube : OctreeOptions::Root::kBox;
+  if (random.below(3) == 0) options.handover = static_cast<std::int64_t>(random.below(40));
+  options.continue_with_rays = random.below(3) != 0;
+  options.share_corners = random.below(2) == 0;
+  return options;
+}
+
+/// An eye outside, inside or in the middle planes of the scene's box, looking somewhere.
+Camera random_camera(const Scene& scene, Random& random) {
+  const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
+  const glm::vec3 size = scene.bounds.upper - scene.bounds.lower;
+  const float reach = std::max({size.x, size.y, size.z, 1e-3F});
+  const float spread = random.below(2) == 0 ? 0.4F : 2.5F;
+  Camera camera;
+  for (int axis = 0; axis < 3; ++axis) {
+    camera.from[axis] = middle[axis];
+    if (random.below(4) != 0) {
+      camera.from[axis] += reach * static_cast<float>(random.uniform(-spread, spread));
+    }
+    camera.at[axis] = middle[axis];
+    if (random.below(4) != 0) {
+      camera.at[axis] += reach * static_cast<float>(random.uniform(-0.5, 0.5));
+    }
+  }
+  if (camera.from == camera.at) camera.at.x += reach;
+  const glm::vec3 way = camera.at - camera.from;
+  camera.up = {0.0F, 1.0F, 0.0F};
+  if (std::abs(way.x) + std::abs(way.z) < 1e-3F * std::abs(way.y)) camera.up = {0.0F, 0.0F, 1.0F};
+  camera.angle = std::array{5.0F, 45.0F, 90.0F, 170.0F}[random.below(4)];
+  camera.aspect = std::array{1.0F, 1.6F, 0.4F}[random.below(3)];
+  return camera;
+}
+
+TEST(Beam, PaintsEverySampleOfRandomScenesOnce) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    Random random(seed);
+    const Scene scene = random_scene(seed, static_cast<int>(1 + random.below(60)));
+    const BeamOptions options = random_options(random);
+    const PrimaryRays rays(random_camera(scene, random), 1 + static_cast<int>(random.below(40)),
+                           1 + static_cast<int>(random.below(40)),
+                           std::array{1, 4, 5}[random.below(3)]);
+    SCOPED_TRACE(fmt::format("seed {}", seed));
+    expect_painted_once(scene, options, rays);
+    if (HasFailure()) return;
+  }
+}
+
+/// A block of 4x4x4 cubes' faces over [0, 8]^3. With a margin of an eighth the root is [-1, 9]^3
+/// and the planes of its cells are floats, on which eyes can be put.
+Scene lattice_scene() {
+  SceneBuilder builder("lattice");
+  for (int cell = 0; cell < 64; ++cell) {
+    const glm::dvec3 lower(2 * (cell & 3), 2 * (cell >> 2 & 3), 2 * (cell >> 4));
+    if ((cell * 7) % 5 > 1) continue;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<glm::dvec3> corners(4, lower);
+      corners[1][(axis + 1) % 3] += 2.0;
+      corners[2][(axis + 1) % 3] += 2.0;
+      corners[2][(axis + 2) % 3] += 2.0;
+      corners[3][(axis + 2) % 3] += 2.0;
+      builder.add_polygon(corners);
+    }
+  }
+  builder.add_sphere({0.0, 0.0, 0.0}, 0.001);
+  builder.add_sphere({8.0, 8.0, 8.0}, 0.001);
+  return std::move(builder).build();
+}
+
+class EyeOnPlanes : public ::testing::TestWithParam<double> {};  // the root's margin
+
+TEST_P(EyeOnPlanes, LosesNoSampleAtFacesEdgesAndCorners) {
+  const Scene scene = lattice_scene();
+  BeamOptions options = options_with(5);
+  options.octree.pad = GetParam();
+  // Faces, edges and corners of cells of all sizes, outside and inside, and places beside them.
+  constexpr std::array kPlaces{-6.0F, -1.0F, 0.25F, 1.5F, 4.0F, 4.625F, 6.3F, 9.0F, 14.0F};
+  const std::array<glm::vec3, 7> ways{
+      {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {1, 1, 1}, {-1, 1, 0}, {-1, -1, -1}, {0.3F, -0.7F, 0.2F}}};
+  Random random(5);
+  for (int i = 0; i < 350; ++i) {
+    Camera camera;
+    for (int axis = 0; axis < 3; ++axis) camera.from[axis] = kPlaces[random.below(9)];
+    const glm::vec3 way = ways[static_cast<std::size_t>(i) % ways.size()];
+    camera.at = random.below(3) == 0 ? glm::vec3(4.0F) : camera.from + way;
+    if (camera.at == camera.from) camera.at = camera.from + way;
+    camera.up = {0.0F, 0.0F, 1.0F};
+    const glm::vec3 look = camera.at - camera.from;
+    if (look.x == 0.0F && look.y == 0.0F) camera.up = {0.0F, 1.0F, 0.0F};
+    camera.angle = std::array{45.0F, 90.0F, 170.0F}[random.below(3)];
+    camera.aspect = std::array{1.0F, 2.0F}[random.below(2)];
+    // Odd sizes have samples on the axis of view; five samples a pixel lie on its borders too.
+    const int size = std::array{1, 16, 17}[random.below(3)];
+    SCOPED_TRACE(fmt::format("camera {}: from ({}, {}, {}) at ({}, {}, {}), {} degrees, {}", i,
+                             camera.from.x, camera.from.y, camera.from.z, camera.at.x, camera.at.y,
+                             camera.at.z, camera.angle, size));
+    expect_painted_once(scene, options, PrimaryRays(camera, size, size, i % 2 == 0 ? 1 : 5));
+    if (HasFailure()) return;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Margins, EyeOnPlanes, ::testing::Values(0.125, 1e-6));
+
+TEST(Beam, PaintsLargeImagesOnce) {
+  const Scene scene = load_scene("escena2");
+  expect_painted_once(scene, options_with(6), PrimaryRays(scene.cameras.front(), 4096, 4096, 1),
+                      100'003);
+  const Scene tetra = load_scene("tetra:n=4");
+  expect_painted_once(tetra, options_with(6), PrimaryRays(tetra.cameras.front(), 1920, 333, 5),
+                      10'007);
+}
+
+std::map<std::string, std::uint64_t, std::less<>> counters_of(const Scene& scene,
+                                                              const BeamOptions& options,
+                                                              const PrimaryRays& rays) {
+  const BeamTracer tracer(scene, options);
+  HitBuffer buffer(rays.width(), rays.height(), rays.samples());
+  WorkCounters counters;
+  tracer.trace(rays, buffer, counters);
+  return counters.by_name();
+}
+
+TEST(Beam, MakesTheSameBeamsAtEveryResolution) {
+  for (const char* name : {"tetra:n=5", "escena1", "escena2", "bumpy:triangles=768"}) {
+    SCOPED_TRACE(name);
+    const Scene scene = load_scene(name);
+    const Camera& camera = scene.cameras.front();
+    const auto expected = counters_of(scene, options_with(6), PrimaryRays(camera, 320, 200, 1));
+    for (const auto& rays : {PrimaryRays(camera, 1, 1, 1), PrimaryRays(camera, 77, 1024, 1),
+                             PrimaryRays(camera, 640, 480, 5)}) {
+      const auto counters = counters_of(scene, options_with(6), rays);
+      for (const char* counter : {"beams", "beams_nonterminal", "beams_occupied", "beams_leaving",
+                                  "beam_edges", "beam_clips", "neighbour_searches"}) {
+        EXPECT_EQ(counters.at(counter), expected.at(counter)) << counter;
+        EXPECT_GT(counters.at(counter), 0U) << counter;
+      }
+    }
+  }
+}
+
+TEST(Beam, MakesRaysOnlyBehindOccupiedLeaves) {
+  const Scene scene = load_scene("escena1");
+  const PrimaryRays rays(scene.cameras.front(), 160, 100, 1);
+  const auto counters = counters_of(scene, options_with(6), rays);
+  EXPECT_EQ(counters.at("rays_by_handover"), 0U);
+  EXPECT_EQ(counters.at("rays_by_crowding"), 0U);
+  EXPECT_GT(counters.at("rays_after_leaf"), 0U);
+  EXPECT_LE(counters.at("rays_after_leaf"), counters.at("samples_in_leaves"));
+  // What leaves with a beam costs no ray and no test.
+  EXPECT_GT(counters.at("samples_leaving"), 0U);
+  EXPECT_LE(counters.at("samples_leaving") + counters.at("samples_in_leaves"), rays.count());
+
+  BeamOptions handing = options_with(6);
+  handing.handover = 30;
+  const auto handed = counters_of(scene, handing, rays);
+  EXPECT_GT(handed.at("rays_by_handover"), 0U);
+  EXPECT_LT(handed.at("beams"), counters.at("beams"));
+}
+
+TEST(Beam, SharesCornersBetweenPixels) {
+  const Scene scene = load_scene("tetra:n=4");
+  const PrimaryRays rays(scene.cameras.front(), 64, 48, 5);
+  BeamOptions shared = options_with(5);
+  shared.share_corners = true;
+  const auto apart = counters_of(scene, options_with(5), rays);
+  const auto together = counters_of(scene, shared, rays);
+  // (w + 1)(h + 1) corners in place of 4 w h.
+  EXPECT_LT(together.at("samples_in_leaves") * 2, apart.at("samples_in_leaves"));
+  expect_painted_once(scene, shared, rays);
+}
+
+TEST(Beam, GoesOnBehindOccupiedLeavesWhenAsked) {
+  const Scene scene = load_scene("escena1");
+  const PrimaryRays rays(scene.cameras.front(), 160, 100, 1);
+  BeamOptions beams = options_with(6);
+  beams.continue_with_rays = false;
+  const auto counters = counters_of(scene, beams, rays);
+  EXPECT_EQ(counters.at("rays_after_leaf"), 0U);
+  EXPECT_GT(counters.at("beams"), counters_of(scene, options_with(6), rays).at("beams"));
+}
+
+TEST(Beam, ShowsTheOutlinesOfItsBeams) {
+  const Scene scene = load_scene("escena2");
+  const PrimaryRays rays(scene.cameras.front(), 64, 48, 1);
+  const BeamTracer tracer(scene, options_with(5));
+  const auto outlines = tracer.beam_outlines(rays);
+  EXPECT_EQ(outlines.size(), counters_of(scene, options_with(5), rays).at("beams"));
+  for (const BeamOutline& outline : outlines) {
+    ASSERT_GE(outline.corners.size(), 1U);
+    for (const glm::dvec2& corner : outline.corners) {
+      EXPECT_GE(corner.x, -0.01);
+      EXPECT_LE(corner.x, 64.01);
+      EXPECT_GE(corner.y, -0.01);
+      EXPECT_LE(corner.y, 48.01);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace beambench
