@@ -83,7 +83,10 @@ class Pipe {
   const rlimit time{seconds_allowed(bytes), seconds_allowed(bytes) + 1};
   ::setrlimit(RLIMIT_CPU, &time);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  ::dup2(nowhere, STDERR_FILENO);  // what Assimp says at its end is for Assimp's developers
+  // What Assimp says at its end is for Assimp's developers, and what stands in a buffer of stdout
+  // is the parent's to write.
+  ::dup2(nowhere, STDERR_FILENO);
+  ::dup2(nowhere, STDOUT_FILENO);
   std::string told;
   try {
     told = kMesh + encode(import_mesh(bytes, ending, path));
