@@ -7,6 +7,14 @@
 namespace beambench {
 namespace {
 
+/// A beam that enters a leaf.
+void push_at(const OctreeCursor& leaf, Beam beam, BeamQueue& queue) {
+  beam.node = leaf.index();
+  beam.corner = leaf.corner();
+  beam.size = leaf.size();
+  queue.waiting.push(leaf.node().count == 0 ? BeamKind::kNonTerminal : BeamKind::kOccupied, beam);
+}
+
 /// A beam on its way into what lies behind a face that all its rays cross.
 class Entry {
  public:
@@ -60,13 +68,7 @@ class Entry {
   }
 
   void append(const OctreeCursor& leaf, const Beam& beam) const {
-    if (beam.outline.empty()) return;
-    queue_->steps.push_back(
-        {leaf.node().count == 0 ? BeamKind::kNonTerminal : BeamKind::kOccupied, beam});
-    Beam& entered = queue_->steps.back().beam;
-    entered.node = leaf.index();
-    entered.corner = leaf.corner();
-    entered.size = leaf.size();
+    if (!beam.outline.empty()) push_at(leaf, beam, *queue_);
   }
 
   const EyeView* view_;
@@ -191,11 +193,7 @@ void begin_beams(const Octree& octree, const EyeView& view, BeamQueue& queue) {
   }
   Beam beam;
   beam.outline = view.screen();
-  beam.node = cursor.index();
-  beam.corner = cursor.corner();
-  beam.size = cursor.size();
-  queue.steps.push_back(
-      {cursor.node().count == 0 ? BeamKind::kNonTerminal : BeamKind::kOccupied, beam});
+  push_at(cursor, beam, queue);
 }
 
 void continue_beam(const Octree& octree, const EyeView& view, const Beam& beam, BeamQueue& queue) {
@@ -213,8 +211,9 @@ void continue_beam(const Octree& octree, const EyeView& view, const Beam& beam, 
     step[face.axis] = face.side;
     ++queue.neighbour_searches;
     if (cursor.move_to_neighbour(step) == 0) {
-      queue.steps.push_back({BeamKind::kLeaving, part});
+      queue.waiting.push(BeamKind::kLeaving, part);
     } else {
+      if (exits.count() == 1 && cursor.node().is_leaf()) ++queue.passed_whole;
       Entry(view, face, queue).divide(cursor, part);
     }
   }

@@ -1,24 +1,20 @@
 #pragma once
 // The ways of beams through the octree: where they begin, and how they go on behind an empty leaf.
 
-#include <vector>
+#include <cstdint>
 
 #include "accel/beam/beam.hpp"
+#include "accel/beam/beam_stack.hpp"
 #include "accel/octree/octree.hpp"
 
 namespace beambench {
 
-/// A beam and what it meets.
-struct BeamStep {
-  BeamKind kind;
-  Beam beam;
-};
-
 /// Beams that wait to be traced, and what finding them took.
 struct BeamQueue {
-  std::vector<BeamStep> steps;  ///< the last one is traced next
+  BeamStack waiting;
   std::uint64_t clips = 0;
   std::uint64_t neighbour_searches = 0;
+  std::uint64_t passed_whole = 0;  ///< beams that went on into one leaf, undivided
 };
 
 /// Appends the beams at which tracing begins (thesis, section 3.4). From outside: for each face of

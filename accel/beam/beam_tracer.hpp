@@ -71,9 +71,9 @@ class BeamTracer::Run {
     std::fill_n(buffer_->t(), buffer_->size(), kInfinity);
     std::fill_n(buffer_->primitive(), buffer_->size(), kNoPrimitive);
     begin_beams(octree(), view_, queue_);
-    while (!queue_.steps.empty()) {
-      const BeamStep step = queue_.steps.back();
-      queue_.steps.pop_back();
+    BeamStep step;
+    while (!queue_.waiting.empty()) {
+      queue_.waiting.pop(step);
       watch_->met(step.kind, step.beam);
       switch (step.kind) {
         case BeamKind::kLeaving:
@@ -87,7 +87,7 @@ class BeamTracer::Run {
           break;
       }
     }
-    watch_->divided(queue_.clips, queue_.neighbour_searches);
+    watch_->divided(queue_);
     watch_->finished();
   }
 

@@ -25,6 +25,7 @@ void CountingBeamWatch::finished() {
   counters_->add("beams", beams);
   counters_->add("beam_edges", edges_);
   counters_->add("beam_clips", clips_);
+  counters_->add("beams_passed_whole", passed_whole_);
   counters_->add("neighbour_searches", neighbour_searches_);
   counters_->add("samples_leaving", left_);
   counters_->add("samples_in_leaves", tested_);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "accel/beam/beam.hpp"
+#include "accel/beam/beam_paths.hpp"
 #include "accel/work_counters.hpp"
 
 namespace beambench {
@@ -28,7 +29,7 @@ enum class RayReason {
 ///   already),
 /// - how many samples left the root (`left`) or were tested in a leaf (`tested`) with a beam, and
 ///   each that goes on as a ray (`handed_over`),
-/// - at the end, the clips and neighbour searches (`divided`), and that it is the end (`finished`),
+/// - at the end, what dividing beams took (`divided`), and that it is the end (`finished`),
 /// and takes from it the policy of individual rays (`rays`).
 struct NoBeamWatch {
   static constexpr bool kPaintsLeaving = false;
@@ -37,7 +38,7 @@ struct NoBeamWatch {
   static constexpr void left(std::uint64_t) {}
   static constexpr void tested(std::uint64_t) {}
   static constexpr void handed_over(RayReason) {}
-  static constexpr void divided(std::uint64_t, std::uint64_t) {}
+  static constexpr void divided(const BeamQueue&) {}
   static constexpr void finished() {}
   NoCounting rays() const { return {}; }
 };
@@ -77,9 +78,10 @@ class CountingBeamWatch {
   void left(std::uint64_t samples) { left_ += samples; }
   void tested(std::uint64_t samples) { tested_ += samples; }
   void handed_over(RayReason reason) { ++reasons_[static_cast<std::size_t>(reason)]; }
-  void divided(std::uint64_t clips, std::uint64_t neighbour_searches) {
-    clips_ += clips;
-    neighbour_searches_ += neighbour_searches;
+  void divided(const BeamQueue& queue) {
+    clips_ += queue.clips;
+    neighbour_searches_ += queue.neighbour_searches;
+    passed_whole_ += queue.passed_whole;
   }
   /// The image is done: the sums go to the counters.
   void finished();
@@ -101,6 +103,7 @@ class CountingBeamWatch {
   std::uint64_t edges_ = 0;
   std::uint64_t clips_ = 0;
   std::uint64_t neighbour_searches_ = 0;
+  std::uint64_t passed_whole_ = 0;
   std::uint64_t left_ = 0;
   std::uint64_t tested_ = 0;
   Clock::duration* task_ = nullptr;

@@ -11,7 +11,7 @@ class AncestorNeighbours {
  public:
   explicit AncestorNeighbours(const Octree&) {}
 
-  static int move(OctreeCursor& cursor, const glm::ivec3& step) {
+  [[gnu::always_inline]] static int move(OctreeCursor& cursor, const glm::ivec3& step) {
     return cursor.move_to_neighbour(step);
   }
   static void describe(Statistics&) {}
