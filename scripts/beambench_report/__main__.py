@@ -1,4 +1,4 @@
-"""Command line: python -m beambench_report plots|pictures|page|repeated|growth|columns ..."""
+"""Command line: python -m beambench_report plots|pictures|page|repeated|growth|... ..."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from beambench_report.contact_sheet import write_contact_sheet
 from beambench_report.dictionary import as_markdown, dictionary
 from beambench_report.growth import write_growth
 from beambench_report.page.write import write_page
@@ -14,6 +15,8 @@ from beambench_report.plots import write_plots
 from beambench_report.problem import Problem
 from beambench_report.records import read_run
 from beambench_report.repeatability import repeatability
+
+_BUILT = Path(__file__).resolve().parents[2] / "build/release/bin/beambench"
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -72,6 +75,21 @@ def _parser() -> argparse.ArgumentParser:
         metavar="FILE.png",
         help="if not given, beside the first file; an SVG comes beside it",
     )
+    sheet = commands.add_parser("contact-sheet", help="render scenes, side by side on one picture")
+    sheet.add_argument("-o", "--output", type=Path, required=True, metavar="FILE.png")
+    sheet.add_argument(
+        "--scenes",
+        nargs="+",
+        metavar="SCENE",
+        help="if not given, the fifteen of the thesis and the Standard Procedural Databases",
+    )
+    sheet.add_argument(
+        "--beambench",
+        type=Path,
+        default=_BUILT,
+        metavar="PROGRAM",
+        help="the built beambench; if not given, build/release/bin/beambench",
+    )
     commands.add_parser("columns", help="print results/README.md: what every column means")
     return parser
 
@@ -79,6 +97,8 @@ def _parser() -> argparse.ArgumentParser:
 def _write(options: argparse.Namespace) -> list[Path]:
     if options.command == "growth":
         return write_growth(options.files, options.output)
+    if options.command == "contact-sheet":
+        return [write_contact_sheet(options.output, options.beambench, options.scenes)]
     if options.command == "plots":
         return write_plots(options.run)
     if options.command == "pictures":

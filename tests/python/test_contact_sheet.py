@@ -1,0 +1,95 @@
+"""The contact sheet: which scenes stand on it, how they look, and what happens when one fails."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+from beambench_report.__main__ import main
+from beambench_report.contact_sheet import DEFAULT_GROUPS
+from program import BINARY
+
+WIDE = """v
+from 0 -5 0
+at 0 0 0
+up 0 0 1
+angle 40
+hither 0.1
+resolution 64 32
+#beambench aspect 2
+b 0 0 1
+l 0 -5 5
+f 1 0 0 1 0 0 0 1
+s 0 0 0 1
+"""
+
+
+def sheet(output: Path, *scenes: str | Path, program: Path = BINARY) -> int:
+    command = ["contact-sheet", "-o", output, "--beambench", program, "--scenes", *scenes]
+    return main([str(part) for part in command])
+
+
+def test_two_scenes_stand_side_by_side(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    output = tmp_path / "sheet.png"
+    assert sheet(output, "tetra:n=1", "balls:n=1") == 0
+    said = capsys.readouterr()
+    assert said.out.split() == [str(output)]
+    assert said.err.splitlines() == [
+        "rendering tetra:n=1 (1 of 2)",
+        "rendering balls:n=1 (2 of 2)",
+    ]
+    assert list(tmp_path.iterdir()) == [output]
+    pixels = imread(output)[..., :3]
+    height, width, _ = pixels.shape
+    assert width == 1400
+    assert 340 < height < 460
+    # The sky of tetra is a square: as wide as high.
+    sky = np.abs(pixels - (0.078, 0.361, 0.753)).max(axis=2) < 0.01
+    rows, columns = np.nonzero(sky)
+    assert np.ptp(columns) == pytest.approx(np.ptp(rows), abs=2)
+    # Beside it the yellow floor of balls, and nothing beyond.
+    assert not np.array_equal(pixels[200, np.max(columns) + 50], (1, 1, 1))
+    assert (pixels[:, 2 * np.max(columns) + 50 :] == 1).all()
+
+
+def test_a_wide_picture_keeps_its_aspect(tmp_path: Path) -> None:
+    scene = tmp_path / "wide.nff"
+    scene.write_text(WIDE)
+    output = tmp_path / "sheet.png"
+    assert sheet(output, scene) == 0
+    pixels = imread(output)[..., :3]
+    rows, columns = np.nonzero((pixels == (0, 0, 1)).all(axis=2))
+    assert np.ptp(columns) == pytest.approx(2 * np.ptp(rows), abs=3)
+
+
+def test_a_scene_that_cannot_be_rendered_is_named_and_the_sheet_is_left(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    output = tmp_path / "sheet.png"
+    output.write_text("the last one")
+    assert sheet(output, "tetra:n=1", "nosuch") == 2
+    error = capsys.readouterr().err
+    assert error.startswith("error: scene 'nosuch' cannot be rendered: there is no scene 'nosuch'")
+    assert error.count("\n") == 1
+    assert list(tmp_path.iterdir()) == [output]
+    assert output.read_text() == "the last one"
+
+
+def test_wrong_requests_are_one_sentence(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert sheet(tmp_path / "sheet.jpg", "tetra") == 2
+    assert "a contact sheet is a .png" in capsys.readouterr().err
+    assert sheet(tmp_path / "nowhere/sheet.png", "tetra") == 2
+    assert "there is no folder" in capsys.readouterr().err
+    assert sheet(tmp_path / "sheet.png", "tetra", program=tmp_path / "beambench") == 2
+    assert "cannot be run" in capsys.readouterr().err
+
+
+def test_the_fifteen_scenes_of_the_thesis_come_first(repository: Path) -> None:
+    with (repository / "results/thesis/scenes.csv").open() as file:
+        assert list(DEFAULT_GROUPS[0].scenes) == [row["scene"] for row in csv.DictReader(file)]
