@@ -174,7 +174,7 @@ TEST_P(EyeOnPlanes, LosesNoSampleAtFacesEdgesAndCorners) {
   const std::array<glm::vec3, 7> ways{
       {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {1, 1, 1}, {-1, 1, 0}, {-1, -1, -1}, {0.3F, -0.7F, 0.2F}}};
   Random random(5);
-  for (int i = 0; i < 350; ++i) {
+  for (int i = 0; i < 200; ++i) {
     Camera camera;
     for (int axis = 0; axis < 3; ++axis) camera.from[axis] = kPlaces[random.below(9)];
     const glm::vec3 way = ways[static_cast<std::size_t>(i) % ways.size()];
@@ -195,7 +195,7 @@ TEST_P(EyeOnPlanes, LosesNoSampleAtFacesEdgesAndCorners) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Margins, EyeOnPlanes, ::testing::Values(0.125, 1e-6));
+INSTANTIATE_TEST_SUITE_P(Margins, EyeOnPlanes, ::testing::Values(0.125, 1e-6, 0.0));
 
 TEST(Beam, PaintsLargeImagesOnce) {
   const Scene scene = load_scene("escena2");
