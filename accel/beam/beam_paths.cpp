@@ -111,7 +111,7 @@ class Exits {
     for (int axis = 0; axis < 3; ++axis) {
       for (const int side : {-1, 1}) {
         const Crossing face{beam.corner[axis] + (side > 0 ? beam.size : 0),
-                            static_cast<std::int8_t>(axis), static_cast<std::int8_t>(side)};
+                            static_cast<std::int16_t>(axis), static_cast<std::int16_t>(side)};
         // Rays cannot leave through a face that the eye is beyond.
         if (view.distance(face) >= 0.0) add(view, beam, face);
       }
@@ -177,8 +177,8 @@ void begin_beams(const Octree& octree, const EyeView& view, BeamQueue& queue) {
     const bool above = at > octree.grid().plane(axis, cells);
     if (!below && !above) continue;
     inside = false;
-    const Crossing face{below ? 0 : cells, static_cast<std::int8_t>(axis),
-                        static_cast<std::int8_t>(below ? 1 : -1)};
+    const Crossing face{below ? 0 : cells, static_cast<std::int16_t>(axis),
+                        static_cast<std::int16_t>(below ? 1 : -1)};
     enter_root(octree, view, face, queue);
   }
   if (!inside) return;

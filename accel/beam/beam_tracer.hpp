@@ -217,12 +217,12 @@ class BeamTracer::Run {
     return cursor;
   }
 
+  LeafBatch batch_;
   const BeamTracer* tracer_;
   EyeView view_;
   SampleScan scan_;
   std::vector<SampleLattice> lattices_;
   PrimitiveImages images_;
-  LeafBatch batch_;
   /// For beams that go on behind occupied leaves: which samples need no more.
   std::vector<std::uint8_t> finished_;
   double samples_;

@@ -17,8 +17,8 @@ namespace beambench {
 /// A plane of the cell grid, crossed in the direction of `side` (+1 or -1 along the axis).
 struct Crossing {
   std::int32_t index;
-  std::int8_t axis;
-  std::int8_t side;
+  std::int16_t axis;
+  std::int16_t side;
 };
 
 /// The same question, asked of one ray. A crossing that the ray does not make comes last. At the
@@ -58,7 +58,7 @@ class EyeView {
   /// The crossing of a plane by the rays that do cross it.
   Crossing crossing_of(int axis, std::int32_t index) const {
     const bool beyond = grid_->plane(axis, index) >= eye(axis);
-    return {index, static_cast<std::int8_t>(axis), static_cast<std::int8_t>(beyond ? 1 : -1)};
+    return {index, static_cast<std::int16_t>(axis), static_cast<std::int16_t>(beyond ? 1 : -1)};
   }
 
   /// The line on the image between the rays that cross `a` first (negative) and those that cross

@@ -12,7 +12,13 @@ template <class T, std::size_t Capacity>
 class FixedVector {
  public:
   FixedVector() = default;
+  ~FixedVector() = default;
   FixedVector(const FixedVector& other) { *this = other; }
+  FixedVector(FixedVector&& other) noexcept { *this = other; }
+  FixedVector& operator=(FixedVector&& other) noexcept {
+    *this = other;
+    return *this;
+  }
   FixedVector& operator=(const FixedVector& other) {
     size_ = other.size_;
     std::copy_n(other.values_.begin(), size_, values_.begin());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -16,6 +15,8 @@ namespace {
 /// What the sum of three products loses in float, relative to the sum of their sizes: coefficients
 /// and places rounded once each, three more roundings.
 constexpr double kFloatLoss = 0x1p-21;
+
+constexpr std::uint32_t kNotMade = std::numeric_limits<std::uint32_t>::max();
 
 /// An image that no sample fails.
 constexpr TriangleImage kAnywhere{{{{0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 1.0F}}},
@@ -33,32 +34,33 @@ PrimitiveImages::PrimitiveImages(const Scene& scene, const PrimaryRays& rays)
       down_(rays.down()),
       size_(rays.width(), rays.height()),
       rounding_(direction_rounding(rays)),
-      made_(scene.primitives.size(), 0),
-      triangles_(std::make_unique_for_overwrite<TriangleImage[]>(scene.triangles.size())),
-      spheres_(std::make_unique_for_overwrite<SphereImage[]>(scene.spheres.size())) {}
+      place_(scene.primitives.size(), kNotMade) {}
 
 SampleMask PrimitiveImages::may_hit(PrimitiveId id, const SampleBatch& batch) {
   const Primitive& primitive = scene_->primitives[id];
-  const bool made = std::exchange(made_[id], std::uint8_t{1}) != 0;
+  std::uint32_t& place = place_[id];
   switch (primitive.kind) {
     case PrimitiveKind::kPolygon: {
       const Polygon& polygon = scene_->polygons[primitive.index];
-      const std::span<TriangleImage> images(&triangles_[polygon.first_triangle],
-                                            polygon.triangle_count);
-      for (std::size_t i = 0; !made && i < images.size(); ++i) {
-        images[i] = image_of_triangle(scene_->triangles[polygon.first_triangle + i].vertex);
+      if (place == kNotMade) {
+        place = static_cast<std::uint32_t>(triangles_.size());
+        for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
+          triangles_.push_back(
+              image_of_triangle(scene_->triangles[polygon.first_triangle + i].vertex));
+        }
       }
-      return best_probe_kernels().triangles(images, batch);
+      return best_probe_kernels().triangles({&triangles_[place], polygon.triangle_count}, batch);
     }
-    case PrimitiveKind::kSphere: {
-      SphereImage& image = spheres_[primitive.index];
-      if (!made) image = image_of_sphere(scene_->spheres[primitive.index]);
-      return best_probe_kernels().sphere(image, batch);
-    }
+    case PrimitiveKind::kSphere:
+      if (place == kNotMade) {
+        place = static_cast<std::uint32_t>(spheres_.size());
+        spheres_.push_back(image_of_sphere(scene_->spheres[primitive.index]));
+      }
+      return best_probe_kernels().sphere(spheres_[place], batch);
     case PrimitiveKind::kCone:
       break;
   }
-  return ~SampleMask{0} >> (SampleBatch::kCapacity - batch.size);
+  return all_samples(batch);
 }
 
 TriangleImage PrimitiveImages::image_of_triangle(

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -59,6 +58,11 @@ struct SampleBatch {
 /// Bit i: may sample i of the batch hit the primitive, no farther than its closest hit?
 using SampleMask = std::uint64_t;
 
+/// The mask of all samples of a batch.
+inline SampleMask all_samples(const SampleBatch& batch) {
+  return batch.size == SampleBatch::kCapacity ? ~SampleMask{0} : (SampleMask{1} << batch.size) - 1;
+}
+
 /// The images of a scene's primitives for one camera and resolution, each made when first asked
 /// for.
 class PrimitiveImages {
@@ -80,10 +84,10 @@ class PrimitiveImages {
   glm::dvec3 down_;
   glm::dvec2 size_;  ///< of the image, in pixels
   double rounding_;  ///< how far a direction's rounding may move it
-  std::vector<std::uint8_t> made_;
-  // Not initialised: large scenes have many primitives that no beam comes to.
-  std::unique_ptr<TriangleImage[]> triangles_;
-  std::unique_ptr<SphereImage[]> spheres_;
+  /// Where a primitive's first image stands in the array of its kind; kNotMade before it is made.
+  std::vector<std::uint32_t> place_;
+  std::vector<TriangleImage> triangles_;
+  std::vector<SphereImage> spheres_;
 };
 
 }  // namespace beambench

@@ -28,7 +28,7 @@ SampleMask for_each_register(const SampleBatch& batch, Test test) {
     hn::StoreMaskBits(tag, mask, stored.data());
     bits |= (static_cast<SampleMask>(stored[0]) | static_cast<SampleMask>(stored[1]) << 8U) << i;
   }
-  return bits & (~SampleMask{0} >> (SampleBatch::kCapacity - batch.size));
+  return bits & all_samples(batch);
 }
 
 inline Floats at(const PixelLine& line, Floats x, Floats y) {
