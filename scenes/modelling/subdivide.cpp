@@ -213,6 +213,14 @@ PolygonMesh triangulated(const PolygonMesh& mesh) {
 }
 
 PolygonMesh subdivided_to(PolygonMesh mesh, std::size_t count) {
+  // A difference below zero arrives as a huge number.
+  constexpr std::size_t kMostPolygons = 100'000'000;
+  if (count > kMostPolygons) {
+    throw std::invalid_argument(
+        fmt::format("{} polygons are wanted, more than {}: were there too "
+                    "many before?",
+                    count, kMostPolygons));
+  }
   if (mesh.size() > count) {
     throw std::invalid_argument(
         fmt::format("the mesh has {} polygons, more than the {} wanted", mesh.size(), count));

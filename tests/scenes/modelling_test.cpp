@@ -230,6 +230,8 @@ TEST(Subdivided, AddsOneEvenToAClosedMeshOfTriangles) {
 TEST(Subdivided, RefusesFewerThanThereAre) {
   EXPECT_THROW(subdivided_to(box({0, 0, 0}, {1, 1, 1}), 5), std::invalid_argument);
   EXPECT_THROW(subdivided_to(PolygonMesh{}, 1), std::invalid_argument);
+  // What a difference below zero becomes.
+  EXPECT_THROW(subdivided_to(box({0, 0, 0}, {1, 1, 1}), std::size_t{0} - 1), std::invalid_argument);
 }
 
 TEST(Triangulated, KeepsTheSurfaceOfConcavePolygons) {
