@@ -1,4 +1,4 @@
-"""Command line: python -m beambench_report plots|pictures|page|repeated|growth|... ..."""
+"""Command line: python -m beambench_report plots|pictures|page|ledger|repeated|... ..."""
 
 from __future__ import annotations
 
@@ -8,7 +8,10 @@ from pathlib import Path
 
 from beambench_report.contact_sheet import write_contact_sheet
 from beambench_report.dictionary import as_markdown, dictionary
+from beambench_report.files import write_text
 from beambench_report.growth import write_growth
+from beambench_report.ledger.book import ledger
+from beambench_report.ledger.markdown import as_markdown as ledger_as_markdown
 from beambench_report.page.write import write_page
 from beambench_report.pictures import write_pictures
 from beambench_report.plots import write_plots
@@ -28,6 +31,9 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         if options.command == "repeated":
             print(repeatability(read_run(options.run), read_run(options.second)).summary())
+            return 0
+        if options.command == "ledger" and options.output is None:
+            print(_ledger(options), end="")
             return 0
         paths = _write(options)
     except Problem as problem:
@@ -90,6 +96,14 @@ def _parser() -> argparse.ArgumentParser:
         metavar="PROGRAM",
         help="the built beambench; if not given, build/release/bin/beambench",
     )
+    claims = commands.add_parser(
+        "ledger", help="say whether the claims of the thesis hold, by its figures and ours"
+    )
+    claims.add_argument("runs", type=Path, nargs="*", metavar="RUN", help="folder of a run")
+    claims.add_argument("--cells", action="store_true", help="list every cell, too")
+    claims.add_argument(
+        "-o", "--output", type=Path, metavar="FILE.md", help="if not given, it is printed"
+    )
     commands.add_parser("columns", help="print results/README.md: what every column means")
     return parser
 
@@ -99,11 +113,17 @@ def _write(options: argparse.Namespace) -> list[Path]:
         return write_growth(options.files, options.output)
     if options.command == "contact-sheet":
         return [write_contact_sheet(options.output, options.beambench, options.scenes)]
+    if options.command == "ledger":
+        return [write_text(options.output, _ledger(options))]
     if options.command == "plots":
         return write_plots(options.run)
     if options.command == "pictures":
         return write_pictures(options.run, options.beambench)
     return write_page(options.run, options.reference)
+
+
+def _ledger(options: argparse.Namespace) -> str:
+    return ledger_as_markdown(ledger(options.runs), cells=options.cells)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,90 @@
+"""The thesis's own figures, as results/thesis/ has them."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import pandas as pd
+
+from beambench_report.ledger.evidence import CELLS, OCTREES, TIMES, WORK, Evidence
+from beambench_report.problem import Problem
+
+FOLDER = Path(__file__).resolve().parents[3] / "results/thesis"
+_OCTREE_STRUCTURES = ("beam", "samet", "samet-net")
+
+
+@cache
+def published_evidence(folder: Path = FOLDER) -> Evidence:
+    """Tables 5.2 to 5.8 and the figures that stand in the text.
+
+    The thesis gives no intervals: what it prints counts as exact.
+    """
+    times = _times(_read(folder / "times.csv"))
+    return Evidence(
+        times[list(TIMES)],
+        _work(_read(folder / "figures_in_text.csv"), times),
+        _octrees(_read(folder / "octree_counts.csv")),
+    )
+
+
+@cache
+def primitives_by_scene(folder: Path = FOLDER) -> dict[str, int]:
+    """Table 5.1: polygons and spheres of each scene."""
+    scenes = _read(folder / "scenes.csv")
+    return dict(zip(scenes["scene"], scenes["polygons"] + scenes["spheres"], strict=True))
+
+
+def _read(path: Path) -> pd.DataFrame:
+    try:
+        return pd.read_csv(path)
+    except FileNotFoundError:
+        raise Problem(f"{path}: there is no such file; restore it with git") from None
+
+
+def _times(rows: pd.DataFrame) -> pd.DataFrame:
+    """Tables 5.4 to 5.8 do not repeat that a leaf is split as soon as it holds anything."""
+    rows["contender"] = rows["algorithm"]
+    rows["level"] = rows["max_level"].fillna(0).astype(int)
+    rows["objects"] = rows["max_objects"].fillna(0).astype(int)
+    rows["cells"] = rows["contender"].eq("voxel-grid") * CELLS
+    rows["resolution"] = _resolution(rows)
+    rows["samples"] = 1
+    rows["low"] = rows["high"] = rows["seconds"]
+    return rows
+
+
+def _work(text: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
+    text["contender"] = text["structure"]
+    text["level"] = text["max_level"].fillna(0).astype(int)
+    text["objects"] = text["cells"] = 0
+    text["samples"] = 1
+    text["resolution"] = _resolution(text)
+    text["low"] = text["high"] = text["value"]
+    rows = text[list(WORK)]
+    return pd.concat([rows, _seconds_of_shares(rows, times)], ignore_index=True)
+
+
+def _seconds_of_shares(work: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
+    """A share of a time that is printed is a time: what C09 needs, where the thesis tells it."""
+    setting = ["scene", "contender", "level", "objects", "resolution"]
+    known = times.drop_duplicates(setting)[[*setting, "seconds"]]
+    shares = work[work["quantity"].eq("share_nonterminal")].merge(known, on=setting)
+    seconds = shares["value"] * shares["seconds"]
+    shares = shares.assign(quantity="seconds_nonterminal", value=seconds, low=seconds, high=seconds)
+    return shares[list(WORK)]
+
+
+def _octrees(rows: pd.DataFrame) -> pd.DataFrame:
+    names = {
+        "max_level": "level",
+        "max_objects": "objects",
+        "exit_beam_pixels_1280x1024": "exit_pixels",
+    }
+    return rows.rename(columns=names)[list(OCTREES)].drop_duplicates()
+
+
+def _resolution(rows: pd.DataFrame) -> pd.Series:
+    """`320x200`, or nothing where a figure is of no resolution."""
+    width, height = (rows[side].astype("Int64").astype(str) for side in ("width", "height"))
+    return (width + "x" + height).where(rows["width"].notna(), "")
