@@ -1,0 +1,137 @@
+"""Figures that nobody measured, by which every claim of the ledger holds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pandas as pd
+
+from beambench_report.ledger.evidence import RESOLUTIONS, TIMES, WORK, Evidence
+from beambench_report.ledger.published import primitives_by_scene, published_evidence
+
+Row = dict[str, object]
+
+RAYS = dict(zip(RESOLUTIONS, (64000, 307200, 480000, 786432, 1310720), strict=True))
+SCENES = tuple(primitives_by_scene())
+
+# Seconds that do not grow with the rays, and those for each 10,000 rays, by level.
+_BASE = {4: 0.5, 5: 0.6, 6: 1.0, 7: 60.0}
+_SLOPE = {4: 0.8, 5: 0.4, 6: 0.2, 7: 0.15}
+_SCENE_BASE = {"escena2": 1.5, "bola-espacial": 0.5, "caracol": 0.5, "tetera": 2, "torre-eiffel": 2}
+_HIERARCHY = {
+    "tetera": 100,
+    "bola-espacial": 300,
+    "flamenco": 1000,
+    "ajedrez": 3000,
+    "habitacion": 9000,
+}
+_GRIDS = {
+    "flamenco": {6: 200, 10: 120, 13: 93, 20: 150, 32: 500},
+    "ajedrez": {6: 400, 10: 150, 15: 90, 22: 120, 32: 200},
+}
+
+
+def holding(
+    spoil: Callable[[Row], Row] = dict, only: Callable[[Row], bool] = lambda row: True
+) -> Evidence:
+    """Evidence for every claim, but for the rows that `spoil` changes: those that `only` names."""
+    rows = (_times(), _work(), published_evidence().octrees.to_dict("records"))
+    tables = [[spoil(dict(row)) if only(row) else row for row in table] for table in rows]
+    return _evidence(*tables)
+
+
+def without(only: Callable[[Row], bool]) -> Evidence:
+    """Evidence for every claim, but for the rows that are named."""
+    rows = (_times(), _work(), published_evidence().octrees.to_dict("records"))
+    return _evidence(*([row for row in table if not only(row)] for table in rows))
+
+
+def _evidence(times: list[Row], work: list[Row], octrees: list[Row]) -> Evidence:
+    columns = published_evidence().octrees.columns
+    return Evidence(
+        pd.DataFrame(times, columns=list(TIMES)),
+        pd.DataFrame(work, columns=list(WORK)),
+        pd.DataFrame(octrees, columns=columns),
+    )
+
+
+def _times() -> list[Row]:
+    rows = []
+    for scene in SCENES:
+        for resolution, rays in RAYS.items():
+            size = rays / 1e4
+            for level in _BASE:
+                rows += [
+                    _time(scene, "beam", resolution, _beam(scene, level, objects, samples, size))
+                    | {"level": level, "objects": objects, "samples": samples}
+                    for objects in (0, 10, 20, 40)
+                    for samples in (1, 5)
+                ]
+                net = 0.3 * size * (1.2 if level < 6 else 1.0)
+                rows += [
+                    _time(scene, contender, resolution, seconds) | {"level": level}
+                    for contender, seconds in (("samet-net", net), ("samet", 1.1 * net))
+                ]
+            grids = _GRIDS.get(scene, {32: 7 + 0.4 * size})
+            rows += [
+                _time(scene, "voxel-grid", resolution, seconds) | {"cells": cells}
+                for cells, seconds in grids.items()
+            ]
+            rows.append(_time(scene, "goldsmith-salmon", resolution, _hierarchy(scene, size)))
+    return rows
+
+
+def _beam(scene: str, level: int, objects: int, samples: int, size: float) -> float:
+    more = 1.2 if scene in ("tetera", "torre-eiffel") else 5.0
+    slope = _SLOPE[level] * (1 + objects / 10) * (more if samples == 5 else 1)
+    return _BASE[level] * _SCENE_BASE.get(scene, 1) + slope * size
+
+
+def _hierarchy(scene: str, size: float) -> float:
+    if scene == "escena1":
+        return 20 + 2 * size
+    return _HIERARCHY[scene] * size / 131 if scene in _HIERARCHY else 4 + 0.35 * size
+
+
+def _time(scene: str, contender: str, resolution: str, seconds: float) -> Row:
+    setting = {"scene": scene, "contender": contender, "resolution": resolution}
+    numbers = {"level": 0, "objects": 0, "cells": 0, "samples": 1}
+    figures = {"seconds": seconds, "low": 0.99 * seconds, "high": 1.01 * seconds}
+    return {"table": ""} | setting | numbers | figures
+
+
+def _work() -> list[Row]:
+    printed = published_evidence().work
+    rows = printed[~printed["quantity"].str.contains("seconds|share")].to_dict("records")
+    for index, scene in enumerate(SCENES):
+        for level in (6, 7) if scene == "maceta" else (6,):
+            beams = {6: 8701, 7: 37718}[level] + (0 if scene == "maceta" else 100 * index)
+            inner = {6: 4071, 7: 17751}[level]
+            seconds = {6: 1.5, 7: 38.0}[level] if scene == "maceta" else 0.5 + 0.02 * index
+            rows += [
+                _count(scene, level, "", "beams", beams),
+                _count(scene, level, "", "beams_occupied", 0.63 * beams),
+            ]
+            for resolution, rays in RAYS.items():
+                each = {6: 0.275, 7: 0.187}[level] * rays / 1e4
+                figures = {
+                    "seconds_nonterminal": seconds,
+                    "seconds_occupied": each,
+                    "seconds_leaving": 1e-3,
+                    "seconds_build": 1e-3,
+                    "beams_nonterminal": inner,
+                    "beam_clips": (seconds - 1e-6 * inner) / 1e-5,
+                    "neighbour_searches": 1,
+                    "beams_occupied": 0.63 * beams,
+                    "samples_in_leaves": each * 1e5,
+                    "primitive_tests": 10 * rays,
+                    "traversal_steps": 30 * rays,
+                }
+                rows += [_count(scene, level, resolution, *figure) for figure in figures.items()]
+    return rows
+
+
+def _count(scene: str, level: int, resolution: str, quantity: str, value: float) -> Row:
+    setting = {"scene": scene, "contender": "beam", "level": level, "resolution": resolution}
+    figures = {"quantity": quantity, "value": value, "low": value, "high": value}
+    return setting | {"objects": 0, "cells": 0, "samples": 1} | figures
