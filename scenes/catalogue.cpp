@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "scenes/error.hpp"
+#include "scenes/generators/ajedrez.hpp"
 #include "scenes/generators/balls.hpp"
 #include "scenes/generators/bola_espacial.hpp"
 #include "scenes/generators/bumpy.hpp"
@@ -13,6 +14,7 @@
 #include "scenes/generators/delfines.hpp"
 #include "scenes/generators/escena1.hpp"
 #include "scenes/generators/escena2.hpp"
+#include "scenes/generators/gato_bill.hpp"
 #include "scenes/generators/gears.hpp"
 #include "scenes/generators/jacks.hpp"
 #include "scenes/generators/lattice.hpp"
@@ -25,6 +27,7 @@
 #include "scenes/generators/teapot.hpp"
 #include "scenes/generators/tetera.hpp"
 #include "scenes/generators/tetra.hpp"
+#include "scenes/generators/torre_eiffel.hpp"
 #include "scenes/generators/tree.hpp"
 #include "scenes/meshes/mesh_format.hpp"
 #include "scenes/meshes/mesh_registry.hpp"
@@ -52,11 +55,11 @@ bool is_path(std::string_view spec) {
 
 std::span<const SceneInfo> scene_catalogue() {
   static const std::vector<SceneInfo> catalogue = {
-      balls_scene(),    bola_espacial_scene(), bumpy_scene(),  caracol_scene(), delfines_scene(),
-      escena1_scene(),  escena2_scene(),       gears_scene(),  jacks_scene(),   lattice_scene(),
-      maceta_scene(),   misil_scene(),         mount_scene(),  rings_scene(),   shells_scene(),
-      sombrero_scene(), stetra_scene(),        teapot_scene(), tetera_scene(),  tetra_scene(),
-      tree_scene()};
+      ajedrez_scene(),  balls_scene(),   bola_espacial_scene(), bumpy_scene(),     caracol_scene(),
+      delfines_scene(), escena1_scene(), escena2_scene(),       gato_bill_scene(), gears_scene(),
+      jacks_scene(),    lattice_scene(), maceta_scene(),        misil_scene(),     mount_scene(),
+      rings_scene(),    shells_scene(),  sombrero_scene(),      stetra_scene(),    teapot_scene(),
+      tetera_scene(),   tetra_scene(),   torre_eiffel_scene(),  tree_scene()};
   return catalogue;
 }
 

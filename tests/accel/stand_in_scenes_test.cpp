@@ -26,15 +26,18 @@ struct StandIn {
 
 void PrintTo(const StandIn& scene, std::ostream* stream) { *stream << scene.name; }
 
-constexpr std::array<StandIn, 9> kStandIns = {{{"bola-espacial", 1536, 0},
-                                               {"caracol", 0, 5671},
-                                               {"delfines", 1692, 0},
-                                               {"escena1", 0, 430},
-                                               {"escena2", 1, 91},
-                                               {"maceta", 1284, 0},
-                                               {"misil", 956, 0},
-                                               {"stetra", 256, 0},
-                                               {"tetera", 1004, 0}}};
+constexpr std::array<StandIn, 12> kStandIns = {{{"ajedrez", 19734, 0},
+                                                {"bola-espacial", 1536, 0},
+                                                {"caracol", 0, 5671},
+                                                {"delfines", 1692, 0},
+                                                {"escena1", 0, 430},
+                                                {"escena2", 1, 91},
+                                                {"gato-bill", 15128, 0},
+                                                {"maceta", 1284, 0},
+                                                {"misil", 956, 0},
+                                                {"stetra", 256, 0},
+                                                {"tetera", 1004, 0},
+                                                {"torre-eiffel", 16648, 0}}};
 
 class StandIns : public testing::TestWithParam<StandIn> {};
 

@@ -1,0 +1,46 @@
+#pragma once
+// Rounded bodies that grow into one another: the surface where a field is zero.
+
+#include <functional>
+
+#include "scenes/modelling/polygon_mesh.hpp"
+
+namespace beambench {
+
+/// About the distance to a body, negative inside.
+using Field = std::function<double(const glm::dvec3&)>;
+
+/// The field of an ellipsoid along the axes, exact on its surface.
+double ellipsoid_field(const glm::dvec3& place, const glm::dvec3& center,
+                       const glm::dvec3& half_axes);
+/// A limb: the balls of radii between `from_radius` and `to_radius` along a line.
+struct Limb {
+  glm::dvec3 from;
+  double from_radius;
+  glm::dvec3 to;
+  double to_radius;
+};
+double limb_field(const glm::dvec3& place, const Limb& limb);
+/// Two bodies in one, their seam filled in over a distance of about `blend`.
+double joined(double a, double b, double blend);
+
+/// The surface of the field inside a box, of quads whose corners lie on it, one a cube of side
+/// `cell` that it crosses (surface nets: Gibson 1998), looking to where the field is positive. The
+/// body must end inside the box and be thicker than a cell.
+PolygonMesh implicit_surface(const Field& field, const glm::dvec3& lower, const glm::dvec3& upper,
+                             double cell);
+
+/// Which of several colours a place of the surface has.
+using Region = std::function<int(const glm::dvec3&)>;
+
+/// Moves vertices of triangles over the surface onto the borders between regions, so that a border
+/// is a line of edges wherever that turns no triangle over.
+PolygonMesh drawn_to_borders(PolygonMesh mesh, const Field& surface, const Region& region);
+
+/// Without the polygons that have all corners inside the body: for what grows out of it.
+PolygonMesh outside(const PolygonMesh& mesh, const Field& body);
+
+/// The mean of a polygon's corners.
+glm::dvec3 middle(const PolygonMesh& mesh, std::size_t polygon);
+
+}  // namespace beambench
