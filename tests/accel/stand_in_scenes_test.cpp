@@ -26,12 +26,13 @@ struct StandIn {
 
 void PrintTo(const StandIn& scene, std::ostream* stream) { *stream << scene.name; }
 
-constexpr std::array<StandIn, 12> kStandIns = {{{"ajedrez", 19734, 0},
+constexpr std::array<StandIn, 13> kStandIns = {{{"ajedrez", 19734, 0},
                                                 {"bola-espacial", 1536, 0},
                                                 {"caracol", 0, 5671},
                                                 {"delfines", 1692, 0},
                                                 {"escena1", 0, 430},
                                                 {"escena2", 1, 91},
+                                                {"flamenco", 12874, 0},
                                                 {"gato-bill", 15128, 0},
                                                 {"maceta", 1284, 0},
                                                 {"misil", 956, 0},
