@@ -157,7 +157,6 @@ void add_scene_command(CLI::App& app, int&) {
       "Examples:\n"
       "  beambench scene escena1\n"
       "  beambench scene balls:n=3 --json\n"
-      "  beambench scene bunny.obj\n"
       "  beambench scene tetra --growth --growth-limit 10000000 --csv > tetra.csv");
   command->callback([request] { show(*request); });
 }

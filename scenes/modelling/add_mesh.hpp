@@ -14,7 +14,7 @@ void add_flat(SceneBuilder& builder, const PolygonMesh& mesh);
 
 /// How polygons are smoothed and coloured.
 struct SmoothOptions {
-  double crease = 50.0;                               ///< degrees; sharper edges stay sharp
+  double crease = 50.0;                                 ///< degrees; sharper edges stay sharp
   std::function<Surface(std::size_t polygon)> paint{};  ///< if any: the surface of each polygon
 };
 

@@ -22,6 +22,7 @@ STRUCTURES = [
     "voxel-grid",
     "goldsmith-salmon",
     "sah-bvh",
+    "beam",
     "embree",
     "null",
 ]
@@ -501,7 +502,7 @@ WRONG_REQUESTS = [
     (["scene", "."], ["."]),
     (["scene", "./"], ["./", "folder"]),
     (["scene", "teapott"], ["teapott", "balls", "tetra"]),
-    (["scene", "balls:n=1000000000"], ["balls", "n", "1000000000", "7"]),
+    (["scene", "balls:n=1000000000"], ["balls", "n", "1000000000", "8"]),
     (["scene", "balls:n=99999999999999999999"], ["balls", "n"]),
     (["scene", "balls:n=-1"], ["balls", "n", "-1"]),
     (["scene", "balls:n=nan"], ["nan"]),

@@ -88,7 +88,7 @@ def test_bash_completes_every_option(bash_words: str, command: str) -> None:
 def test_bash_completes_names_and_leaves_files_to_the_shell(bash_words: str) -> None:
     assert "samet" in completed(bash_words, "render", "balls", "--accel", "")
     assert completed(bash_words, "render", "balls", "--accel", "sam")[0].startswith("samet")
-    assert completed(bash_words, "scene", "tet") == ["tetra"]
+    assert completed(bash_words, "scene", "tet") == ["tetera", "tetra"]
     assert completed(bash_words, "render", "balls", "--shade", "norm") == ["normals"]
     assert completed(bash_words, "render", "balls", "--overlay", "") == ["beams", "cells"]
     assert completed(bash_words, "render", "balls", "-o", "") == []
