@@ -11,6 +11,7 @@
 #include "scenes/generators/bola_espacial.hpp"
 #include "scenes/generators/bumpy.hpp"
 #include "scenes/generators/caracol.hpp"
+#include "scenes/generators/casa_de_campo.hpp"
 #include "scenes/generators/delfines.hpp"
 #include "scenes/generators/escena1.hpp"
 #include "scenes/generators/escena2.hpp"
@@ -56,13 +57,13 @@ bool is_path(std::string_view spec) {
 
 std::span<const SceneInfo> scene_catalogue() {
   static const std::vector<SceneInfo> catalogue = {
-      ajedrez_scene(),  balls_scene(),     bola_espacial_scene(), bumpy_scene(),
-      caracol_scene(),  delfines_scene(),  escena1_scene(),       escena2_scene(),
-      flamenco_scene(), gato_bill_scene(), gears_scene(),         jacks_scene(),
-      lattice_scene(),  maceta_scene(),    misil_scene(),         mount_scene(),
-      rings_scene(),    shells_scene(),    sombrero_scene(),      stetra_scene(),
-      teapot_scene(),   tetera_scene(),    tetra_scene(),         torre_eiffel_scene(),
-      tree_scene()};
+      ajedrez_scene(),      balls_scene(),         bola_espacial_scene(), bumpy_scene(),
+      caracol_scene(),      casa_de_campo_scene(), delfines_scene(),      escena1_scene(),
+      escena2_scene(),      flamenco_scene(),      gato_bill_scene(),     gears_scene(),
+      jacks_scene(),        lattice_scene(),       maceta_scene(),        misil_scene(),
+      mount_scene(),        rings_scene(),         shells_scene(),        sombrero_scene(),
+      stetra_scene(),       teapot_scene(),        tetera_scene(),        tetra_scene(),
+      torre_eiffel_scene(), tree_scene()};
   return catalogue;
 }
 

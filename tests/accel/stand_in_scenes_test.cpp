@@ -26,9 +26,10 @@ struct StandIn {
 
 void PrintTo(const StandIn& scene, std::ostream* stream) { *stream << scene.name; }
 
-constexpr std::array<StandIn, 13> kStandIns = {{{"ajedrez", 19734, 0},
+constexpr std::array<StandIn, 14> kStandIns = {{{"ajedrez", 19734, 0},
                                                 {"bola-espacial", 1536, 0},
                                                 {"caracol", 0, 5671},
+                                                {"casa-de-campo", 12172, 0},
                                                 {"delfines", 1692, 0},
                                                 {"escena1", 0, 430},
                                                 {"escena2", 1, 91},
