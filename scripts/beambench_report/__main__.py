@@ -18,6 +18,7 @@ from beambench_report.plots import write_plots
 from beambench_report.problem import Problem
 from beambench_report.records import read_run
 from beambench_report.repeatability import repeatability
+from beambench_report.thesis.command import add_thesis_command, thesis
 
 _BUILT = Path(__file__).resolve().parents[2] / "build/release/bin/beambench"
 
@@ -35,6 +36,8 @@ def main(arguments: list[str] | None = None) -> int:
         if options.command == "ledger" and options.output is None:
             print(_ledger(options), end="")
             return 0
+        if options.command == "thesis":
+            return thesis(options)
         paths = _write(options)
     except Problem as problem:
         print(f"error: {problem}", file=sys.stderr)
@@ -104,6 +107,7 @@ def _parser() -> argparse.ArgumentParser:
     claims.add_argument(
         "-o", "--output", type=Path, metavar="FILE.md", help="if not given, it is printed"
     )
+    add_thesis_command(commands, _BUILT)
     commands.add_parser("columns", help="print results/README.md: what every column means")
     return parser
 

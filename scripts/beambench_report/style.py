@@ -47,9 +47,14 @@ def looks(rows: pd.DataFrame) -> dict[str, Look]:
     result = {}
     for structure, group in rows.groupby("structure", sort=False):
         for index, contender in enumerate(dict.fromkeys(group["contender"])):
-            result[contender] = Look(
-                structure_colour(structure),
-                _MARKERS[index % len(_MARKERS)],
-                _DASHES[index % len(_DASHES)],
-            )
+            result[contender] = variant_look(structure, index)
     return result
+
+
+def variant_look(structure: str, index: int) -> Look:
+    """The look of one of several variants of a structure, counted from 0."""
+    return Look(
+        structure_colour(structure),
+        _MARKERS[index % len(_MARKERS)],
+        _DASHES[index % len(_DASHES)],
+    )

@@ -57,10 +57,10 @@ def _evidence_of(directory: Path) -> Evidence:
     work: list[dict[str, object]] = []
     octrees: list[dict[str, object]] = []
     for row in rows.to_dict("records"):
-        setting = _setting(row)
+        setting = setting_of(row)
         if setting is None:
             continue
-        times.append({"table": ""} | setting | _seconds(row))
+        times.append({"table": ""} | setting | seconds_of(row))
         work += [setting | entry for entry in _work(row, costs)]
         if setting["contender"] == "beam" and setting["samples"] == 1:
             octrees += _octree(row, setting)
@@ -71,7 +71,7 @@ def _evidence_of(directory: Path) -> Evidence:
     )
 
 
-def _setting(row: dict[str, object]) -> dict[str, object] | None:
+def setting_of(row: dict[str, object]) -> dict[str, object] | None:
     """What the row is about; nothing if it is of no scene or contender of the thesis."""
     contender = str(row["structure"])
     scene = str(row["scene"]).split(":")[0]
@@ -103,7 +103,7 @@ def _cells_an_axis(resolution: str) -> str:
     return sides.pop() if len(sides) == 1 else resolution
 
 
-def _seconds(row: dict[str, object]) -> dict[str, float]:
+def seconds_of(row: dict[str, object]) -> dict[str, float]:
     """Building included, as in the thesis.
 
     The interval is the wider of two: that of the median, and the one which in clock cycles holds

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Table:
-    """A table of the thesis; `best` are the sweeps in which its contenders look for their own best."""
+    """A table of the thesis; in the `best` sweeps its contenders look for their own best."""
 
     number: str
     title: str

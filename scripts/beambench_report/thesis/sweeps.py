@@ -1,4 +1,4 @@
-"""The sweep files of harness/sweeps/thesis: reading them, counting their cells, making them quick."""
+"""The sweeps of harness/sweeps/thesis: reading them, counting cells, making them quick."""
 
 from __future__ import annotations
 

@@ -1,0 +1,153 @@
+"""Draws a figure of the thesis beside ours: one axis for both, shapes compared."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import chain
+
+from matplotlib.axes import Axes
+from matplotlib.ticker import FuncFormatter, NullFormatter, NullLocator
+
+from beambench_report.figure import Plot, new_figure
+from beambench_report.ledger.measured import Measured
+from beambench_report.style import variant_look
+
+_ROW_HEIGHT = 2.5  # inches
+_LEGEND_HEIGHT = 0.22
+
+
+@dataclass(frozen=True)
+class Points:
+    """One line: places along the axis and figures with their intervals."""
+
+    label: str
+    structure: str
+    variant: int
+    at: Sequence[tuple[float, Measured]]
+
+
+@dataclass(frozen=True)
+class Side:
+    """The lines of one panel, and what its figures are multiples of."""
+
+    lines: tuple[Points, ...]
+    title: str
+    nothing: str = ""
+    """What to say where there are no lines."""
+
+
+@dataclass(frozen=True)
+class Panel:
+    """Two sides with one vertical axis: the thesis's left, ours right."""
+
+    title: str
+    unit: str
+    left: Side
+    right: Side
+
+
+@dataclass(frozen=True)
+class FigureData:
+    """All that is drawn, and the caption that stands under it."""
+
+    number: str
+    title: str
+    panels: tuple[Panel, ...]
+    across: str
+    """What the horizontal axis says."""
+    caption: str
+    ticks: tuple[float, ...] = ()
+    is_log: bool = False
+    is_log_across: bool = False
+
+    @property
+    def is_empty(self) -> bool:
+        """Was nothing of ours measured?"""
+        return not any(panel.right.lines for panel in self.panels)
+
+
+def draw(data: FigureData) -> Plot:
+    """The figure; a row a panel."""
+    names = _names(data)
+    legend = _LEGEND_HEIGHT * (1 + len(names) // 3)
+    figure, axes = new_figure(_ROW_HEIGHT * len(data.panels) + 0.3 + legend, len(data.panels), 2)
+    for row, panel in enumerate(data.panels):
+        left, right = axes[2 * row], axes[2 * row + 1]
+        right.sharey(left)
+        for axis, side in ((left, panel.left), (right, panel.right)):
+            _draw_side(axis, side)
+            axis.set_title(f"{panel.title}, {side.title}" if side.title else panel.title)
+            _label(axis, data, is_last=row == len(data.panels) - 1)
+        left.set_ylabel(panel.unit)
+        right.tick_params(labelleft=False)
+        if not data.is_log:
+            left.set_ylim(bottom=min(0.0, left.get_ylim()[0]))
+    handles = {}
+    for axis in axes:
+        for handle, label in zip(*axis.get_legend_handles_labels(), strict=True):
+            handles.setdefault(label, handle)
+    figure.legend(
+        handles.values(),
+        handles.keys(),
+        loc="outside lower center",
+        ncols=min(3, max(1, len(handles))),
+        frameon=False,
+        fontsize=8,
+    )
+    return Plot(f"figure-{data.number}", figure, data.title)
+
+
+def _names(data: FigureData) -> set[str]:
+    sides = chain.from_iterable((panel.left, panel.right) for panel in data.panels)
+    return {line.label for side in sides for line in side.lines}
+
+
+def _draw_side(axis: Axes, side: Side) -> None:
+    for line in side.lines:
+        look = variant_look(line.structure, line.variant)
+        figures = [figure for _, figure in line.at]
+        below = [max(0.0, figure.value - figure.low) for figure in figures]
+        above = [max(0.0, figure.high - figure.value) for figure in figures]
+        axis.errorbar(
+            [place for place, _ in line.at],
+            [figure.value for figure in figures],
+            yerr=[below, above],
+            label=line.label,
+            color=look.colour,
+            marker=look.marker,
+            linestyle=look.dashes,
+            markersize=4.5,
+            capsize=2.5,
+            linewidth=1.3,
+        )
+    if not side.lines:
+        axis.text(
+            0.5,
+            0.5,
+            side.nothing or "not measured",
+            transform=axis.transAxes,
+            ha="center",
+            va="center",
+            color="#555555",
+            fontsize=8,
+        )
+
+
+def _label(axis: Axes, data: FigureData, *, is_last: bool) -> None:
+    if data.is_log:
+        axis.set_yscale("log")
+        axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
+        axis.yaxis.set_minor_formatter(NullFormatter())
+    else:
+        axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
+    if data.is_log_across:
+        axis.set_xscale("log")
+    if data.ticks:
+        axis.set_xticks(data.ticks, [f"{tick:g}" for tick in data.ticks])
+        axis.xaxis.set_minor_locator(NullLocator())
+    axis.tick_params(labelsize=8)
+    axis.title.set_fontsize(8.5)
+    axis.grid(axis="y", which="major", color="#dddddd", linewidth=0.6)
+    if is_last:
+        axis.set_xlabel(data.across)
