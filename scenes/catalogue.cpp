@@ -18,6 +18,7 @@
 #include "scenes/generators/flamenco.hpp"
 #include "scenes/generators/gato_bill.hpp"
 #include "scenes/generators/gears.hpp"
+#include "scenes/generators/habitacion.hpp"
 #include "scenes/generators/jacks.hpp"
 #include "scenes/generators/lattice.hpp"
 #include "scenes/generators/maceta.hpp"
@@ -57,13 +58,13 @@ bool is_path(std::string_view spec) {
 
 std::span<const SceneInfo> scene_catalogue() {
   static const std::vector<SceneInfo> catalogue = {
-      ajedrez_scene(),      balls_scene(),         bola_espacial_scene(), bumpy_scene(),
-      caracol_scene(),      casa_de_campo_scene(), delfines_scene(),      escena1_scene(),
-      escena2_scene(),      flamenco_scene(),      gato_bill_scene(),     gears_scene(),
-      jacks_scene(),        lattice_scene(),       maceta_scene(),        misil_scene(),
-      mount_scene(),        rings_scene(),         shells_scene(),        sombrero_scene(),
-      stetra_scene(),       teapot_scene(),        tetera_scene(),        tetra_scene(),
-      torre_eiffel_scene(), tree_scene()};
+      ajedrez_scene(),    balls_scene(),         bola_espacial_scene(), bumpy_scene(),
+      caracol_scene(),    casa_de_campo_scene(), delfines_scene(),      escena1_scene(),
+      escena2_scene(),    flamenco_scene(),      gato_bill_scene(),     gears_scene(),
+      habitacion_scene(), jacks_scene(),         lattice_scene(),       maceta_scene(),
+      misil_scene(),      mount_scene(),         rings_scene(),         shells_scene(),
+      sombrero_scene(),   stetra_scene(),        teapot_scene(),        tetera_scene(),
+      tetra_scene(),      torre_eiffel_scene(),  tree_scene()};
   return catalogue;
 }
 

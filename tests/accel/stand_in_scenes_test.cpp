@@ -26,7 +26,7 @@ struct StandIn {
 
 void PrintTo(const StandIn& scene, std::ostream* stream) { *stream << scene.name; }
 
-constexpr std::array<StandIn, 14> kStandIns = {{{"ajedrez", 19734, 0},
+constexpr std::array<StandIn, 15> kStandIns = {{{"ajedrez", 19734, 0},
                                                 {"bola-espacial", 1536, 0},
                                                 {"caracol", 0, 5671},
                                                 {"casa-de-campo", 12172, 0},
@@ -35,6 +35,7 @@ constexpr std::array<StandIn, 14> kStandIns = {{{"ajedrez", 19734, 0},
                                                 {"escena2", 1, 91},
                                                 {"flamenco", 12874, 0},
                                                 {"gato-bill", 15128, 0},
+                                                {"habitacion", 34110, 0, true},
                                                 {"maceta", 1284, 0},
                                                 {"misil", 956, 0},
                                                 {"stetra", 256, 0},
@@ -184,6 +185,19 @@ TEST(Onlooker, SeesNothingOfABoxInABoxButFromInside) {
   for (std::size_t id = 0; id < scene.polygons.size(); ++id) {
     EXPECT_EQ(outside.sees(scene.polygons[id]), id < 6) << id;
     EXPECT_EQ(inside.sees(scene.polygons[id]), id < 12) << id;
+  }
+}
+
+TEST(Habitacion, IsClosed) {
+  const Scene scene = load_scene("habitacion");
+  const auto structure = registry().choose(Spec{"sah-bvh", {}}).build(scene);
+  Random random(1);
+  for (int i = 0; i < 20000; ++i) {
+    Ray ray;
+    ray.origin = scene.cameras[0].from;
+    ray.direction =
+        glm::vec3(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
+    ASSERT_TRUE(structure->any_hit(ray)) << "ray " << i;
   }
 }
 
