@@ -75,6 +75,7 @@ def draw(data: FigureData) -> Plot:
     for row, panel in enumerate(data.panels):
         left, right = axes[2 * row], axes[2 * row + 1]
         right.sharey(left)
+        right.sharex(left)
         for axis, side in ((left, panel.left), (right, panel.right)):
             _draw_side(axis, side)
             axis.set_title(f"{panel.title}, {side.title}" if side.title else panel.title)
@@ -112,7 +113,7 @@ def _draw_side(axis: Axes, side: Side) -> None:
         axis.errorbar(
             [place for place, _ in line.at],
             [figure.value for figure in figures],
-            yerr=[below, above],
+            yerr=[below, above] if any(below) or any(above) else None,
             label=line.label,
             color=look.colour,
             marker=look.marker,

@@ -11,7 +11,7 @@ from beambench_report.thesis.best import BestTable, Choice
 from beambench_report.thesis.report import Part, Report, RunSummary
 from beambench_report.thesis.tables import Entry, Line, PartTable
 from beambench_report.thesis.texts import DASH, interval, milliseconds, thesis_seconds
-from beambench_report.thesis.words import BEST_WORDS, TABLE_WORDS, headline, verdict_counts
+from beambench_report.thesis.words import BEST_WORDS, TABLE_WORDS, headline, notice, verdict_counts
 from beambench_report.thesis.work import WorkTable
 
 _STATES = {"finished": "", "begun": "cut off", "waiting": "not run"}
@@ -19,7 +19,12 @@ _STATES = {"finished": "", "begun": "cut off", "waiting": "not run"}
 
 def as_markdown(report: Report) -> str:
     """The whole report."""
-    lines = ["# Chapter 5 of the thesis, measured again", "", headline(report), ""]
+    lines = [
+        "# Chapter 5 of the thesis, measured again",
+        "",
+        f"{headline(report)} {notice(report)}".strip(),
+    ]
+    lines += [""]
     lines += ["## The ledger: what the thesis claims", "", verdict_counts(report), ""]
     lines += [ledger_as_markdown(report.ledger)]
     if report.tables:

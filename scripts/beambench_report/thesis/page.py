@@ -24,7 +24,7 @@ from beambench_report.thesis.texts import (
     origin,
     thesis_seconds,
 )
-from beambench_report.thesis.words import BEST_WORDS, TABLE_WORDS, headline, verdict_counts
+from beambench_report.thesis.words import BEST_WORDS, TABLE_WORDS, headline, notice, verdict_counts
 
 _OWN = Path(__file__).with_name("templates")
 _SHARED = Path(page.__file__).with_name("templates")
@@ -62,6 +62,7 @@ def as_page(report: Report) -> str:
     return environment.get_template("thesis.html.j2").render(
         report=report,
         headline=headline(report),
+        notice=notice(report),
         verdict_counts=verdict_counts(report),
         images={
             data.number: _image(report.directory / "figures" / f"figure-{data.number}.svg")

@@ -96,7 +96,7 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
         directory,
         plan,
         cells,
-        tuple((table, _parts(table, cells)) for table in shown),
+        tuple((table, _parts(table, cells, directory, plan)) for table in shown),
         tuple(make_figures(plan.figures, cells)),
         pictures,
         tuple(ledger(cells.runs)),
@@ -124,9 +124,18 @@ def write_report(directory: Path, plan: Plan, beambench: Path | None = None) -> 
     return Written(paths, len(report.cells.cells), len(report.cells.wrong))
 
 
-def _parts(table: Table, cells: Cells) -> tuple[Part, ...]:
+def _parts(table: Table, cells: Cells, directory: Path, plan: Plan) -> tuple[Part, ...]:
+    sweeps = [sweep for sweep in plan.sweeps if sweep.name in table.first]
+
+    def why(resolution: str) -> str:
+        asked = [sweep for sweep in sweeps if resolution in sweep.source["resolutions"]]
+        if not asked:
+            return "quick run" if plan.is_quick else "not asked for"
+        states = {state_of(directory / sweep.name) for sweep in asked}
+        return {"waiting": "not run", "begun": "run cut off"}.get(states.pop(), "not measured")
+
     return tuple(
-        Part(fill(part, cells), best_table(part, cells)) for part in parts_of(table.number)
+        Part(fill(part, cells, why), best_table(part, cells)) for part in parts_of(table.number)
     )
 
 

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 from beambench_report.ledger.evidence import FINEST, RESOLUTIONS
 from beambench_report.ledger.measured import Measured
 from beambench_report.ledger.published import published_evidence
 from beambench_report.thesis.cells import Cell, Cells
 from beambench_report.thesis.printed import PrintedPart, PrintedRow
+
+Reasons = Callable[[str], str]
+"""Why there is nothing at a resolution, if there is nothing."""
 
 REFERENCES = ("sah-bvh", "embree")
 """Contenders of today, which the thesis's tables do not have."""
@@ -20,8 +24,8 @@ class Entry:
 
     thesis: float | None
     thesis_shape: float | None
-    ours: Cell | None
-    shape: Measured | None
+    ours: Cell | None = None
+    shape: Measured | None = None
     missing: str = ""
     """Why there is no time of ours."""
 
@@ -58,46 +62,45 @@ class PartTable:
         return [entry.ours for line in self.lines for entry in line.entries if entry.ours]
 
 
-def fill(part: PrintedPart, cells: Cells) -> PartTable:
+def fill(part: PrintedPart, cells: Cells, why: Reasons) -> PartTable:
     """Puts what was measured into a part."""
-    base = cells.at(part.rows[0].setting(part.scene, RESOLUTIONS[0]))
-    lines = [_line(part, row, cells, base) for row in part.rows]
-    lines += [_reference(part, structure, cells, base) for structure in REFERENCES]
+    lines = [_line(part, row, cells, why) for row in part.rows]
+    lines += [_reference(part, structure, cells, why) for structure in REFERENCES]
     lines = [line for line in lines if not line.is_reference or any(e.ours for e in line.entries)]
-    return PartTable(part, RESOLUTIONS, tuple(lines), base)
+    return PartTable(part, RESOLUTIONS, tuple(lines), _base(part, cells))
 
 
-def _line(part: PrintedPart, row: PrintedRow, cells: Cells, base: Cell | None) -> Line:
-    entries = tuple(
-        _entry(
-            cells.at(row.setting(part.scene, resolution)),
-            base,
-            row.seconds.get(resolution),
-            part.base,
-        )
-        for resolution in RESOLUTIONS
-    )
-    return Line(row.label, row.structure, entries, counts=_counts(part, row, entries[-1].ours))
+def _line(part: PrintedPart, row: PrintedRow, cells: Cells, why: Reasons) -> Line:
+    base = _base(part, cells)
+    entries = []
+    for resolution in RESOLUTIONS:
+        ours = cells.at(row.setting(part.scene, resolution))
+        thesis = row.seconds.get(resolution)
+        shape = thesis / part.base if thesis and part.base else None
+        entries.append(_entry(ours, base, Entry(thesis, shape, missing=why(resolution))))
+    return Line(row.label, row.structure, tuple(entries), counts=_counts(part, row, ours))
 
 
-def _reference(part: PrintedPart, structure: str, cells: Cells, base: Cell | None) -> Line:
-    entries = tuple(
-        _entry(next(iter(cells.of(part.scene, structure, resolution)), None), base, None, None)
-        for resolution in RESOLUTIONS
-    )
-    return Line(f"{structure} (of today)", structure, entries, is_reference=True)
+def _reference(part: PrintedPart, structure: str, cells: Cells, why: Reasons) -> Line:
+    base = _base(part, cells)
+    entries = []
+    for resolution in RESOLUTIONS:
+        ours = next(iter(cells.of(part.scene, structure, resolution)), None)
+        entries.append(_entry(ours, base, Entry(None, None, missing=why(resolution))))
+    return Line(f"{structure} (of today)", structure, tuple(entries), is_reference=True)
 
 
-def _entry(
-    ours: Cell | None, base: Cell | None, thesis: float | None, thesis_base: float | None
-) -> Entry:
-    thesis_shape = thesis / thesis_base if thesis and thesis_base else None
+def _base(part: PrintedPart, cells: Cells) -> Cell | None:
+    return cells.at(part.rows[0].setting(part.scene, RESOLUTIONS[0]))
+
+
+def _entry(ours: Cell | None, base: Cell | None, told: Entry) -> Entry:
     if ours is None:
-        return Entry(thesis, thesis_shape, None, None, "not measured")
+        return told
     if ours.time is None:
-        return Entry(thesis, thesis_shape, ours, None, f"no time: {ours.verdict}")
+        return replace(told, ours=ours, missing=f"no time: {ours.verdict}")
     shape = ours.time / base.time if base and base.time else None
-    return Entry(thesis, thesis_shape, ours, shape)
+    return replace(told, ours=ours, shape=shape, missing="")
 
 
 def _counts(

@@ -26,18 +26,27 @@ BEST_WORDS = (
 
 
 def headline(report: Report) -> str:
-    """What was measured, and whether it was right."""
+    """How much was measured, and whether it was right."""
     cells, wrong = len(report.cells.cells), len(report.cells.wrong)
     if not cells:
         return "Nothing was measured yet."
     right = "all of them right" if not wrong else f"{wrong} of them not right, and without times"
-    rest = "" if report.is_complete else " Not everything that was planned is there (see Runs)."
-    quick = (
-        " This was a quick run: low resolutions and few repetitions, for a look, not for a verdict."
-        if report.plan.is_quick
-        else ""
-    )
-    return f"{cells:,} cells in {len(report.cells.runs)} runs, {right}.{rest}{quick}"
+    return f"{cells:,} cells in {len(report.cells.runs)} runs, {right}."
+
+
+def notice(report: Report) -> str:
+    """What a reader must know before reading on; nothing where all was measured in full."""
+    sentences = []
+    if not report.is_complete:
+        sentences.append("Not everything that was planned is there (see Runs).")
+    if report.plan.is_quick:
+        sentences.append(
+            "This was a quick run: low resolutions and few repetitions, for a look, not for "
+            "verdicts."
+        )
+    elif not report.plan.is_everything:
+        sentences.append("Only some tables and figures were asked for.")
+    return " ".join(sentences)
 
 
 def verdict_counts(report: Report) -> str:
