@@ -94,7 +94,7 @@ def test_the_best_levels_of_figure_5_14_and_the_grids_of_5_17_are_swept() -> Non
                 for cell in cells_of("octree", "best-octree")
                 if (cell.scene, cell.structure, cell.resolution) == (scene, structure, "1280x1024")
             }
-            assert levels == set("45678")
+            assert levels >= set("45678")
     for scene, best in (("flamenco", "13"), ("ajedrez", "15")):
         grids = {
             dict(cell.parameters)["resolution"]

@@ -126,7 +126,9 @@ def seconds_of(row: dict[str, object]) -> dict[str, float]:
 def _work(row: dict[str, object], costs: dict[tuple[str, str], float]) -> list[dict[str, object]]:
     """Counts of the whole image, times of its tasks in the counting pass; sizes of a hierarchy."""
     if row["structure"] == "goldsmith-salmon":
-        cost = row.get("cost", costs.get((str(row["scene"]), str(row["parameters"]))))
+        cost = row.get("tree_cost")
+        if cost is None or pd.isna(cost):
+            cost = costs.get((str(row["scene"]), str(row["parameters"])))
         sizes = {"boxes": row["nodes"], "cost": cost}
         return [
             _entry(name, float(str(size))) | {"resolution": ""}
@@ -175,7 +177,7 @@ def _octree(row: dict[str, object], setting: dict[str, object]) -> list[dict[str
 
 
 def _hierarchy_costs(directory: Path) -> dict[tuple[str, str], float]:
-    """Goldsmith and Salmon's cost by scene and parameters: results.csv has no column for it."""
+    """Goldsmith and Salmon's cost by scene and parameters, where results.csv does not tell it."""
     costs = {}
     for path in sorted(directory.glob("cells/*.json")):
         text = path.read_text("utf-8")

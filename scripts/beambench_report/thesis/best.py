@@ -145,4 +145,4 @@ def _with_ratios(lines: Sequence[BestLine]) -> list[BestLine]:
 def _ratio(cell: Cell | None, base: Cell | None) -> Measured | None:
     if cell is None or base is None or cell.time is None or base.time is None:
         return None
-    return cell.time / base.time
+    return Measured.exact(1.0) if cell is base else cell.time / base.time

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from itertools import chain
 
 from matplotlib.axes import Axes
-from matplotlib.ticker import FuncFormatter, NullFormatter, NullLocator
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter, NullLocator
 
 from beambench_report.figure import Plot, new_figure
 from beambench_report.ledger.measured import Measured
@@ -15,6 +15,8 @@ from beambench_report.style import variant_look
 
 _ROW_HEIGHT = 2.5  # inches
 _LEGEND_HEIGHT = 0.22
+_LEGEND_COLUMNS = 95  # characters that fit beside each other
+_MARGIN = 1.06
 
 
 @dataclass(frozen=True)
@@ -25,6 +27,8 @@ class Points:
     structure: str
     variant: int
     at: Sequence[tuple[float, Measured]]
+    is_joined: bool = True
+    """Is a line drawn through the points?"""
 
 
 @dataclass(frozen=True)
@@ -60,17 +64,22 @@ class FigureData:
     ticks: tuple[float, ...] = ()
     is_log: bool = False
     is_log_across: bool = False
+    is_all_ours: bool = False
+    """Are both sides of our data?"""
 
     @property
     def is_empty(self) -> bool:
         """Was nothing of ours measured?"""
-        return not any(panel.right.lines for panel in self.panels)
+        ours = [panel.right for panel in self.panels]
+        ours += [panel.left for panel in self.panels] if self.is_all_ours else []
+        return not any(side.lines for side in ours)
 
 
 def draw(data: FigureData) -> Plot:
     """The figure; a row a panel."""
     names = _names(data)
-    legend = _LEGEND_HEIGHT * (1 + len(names) // 3)
+    columns = max(1, min(len(names), _LEGEND_COLUMNS // (4 + max(map(len, names), default=1))))
+    legend = _LEGEND_HEIGHT * (1 + len(names) // columns)
     figure, axes = new_figure(_ROW_HEIGHT * len(data.panels) + 0.3 + legend, len(data.panels), 2)
     for row, panel in enumerate(data.panels):
         left, right = axes[2 * row], axes[2 * row + 1]
@@ -92,7 +101,7 @@ def draw(data: FigureData) -> Plot:
         handles.values(),
         handles.keys(),
         loc="outside lower center",
-        ncols=min(3, max(1, len(handles))),
+        ncols=columns,
         frameon=False,
         fontsize=8,
     )
@@ -117,7 +126,7 @@ def _draw_side(axis: Axes, side: Side) -> None:
             label=line.label,
             color=look.colour,
             marker=look.marker,
-            linestyle=look.dashes,
+            linestyle=look.dashes if line.is_joined else "none",
             markersize=4.5,
             capsize=2.5,
             linewidth=1.3,
@@ -135,9 +144,19 @@ def _draw_side(axis: Axes, side: Side) -> None:
         )
 
 
+def _ends(data: FigureData) -> tuple[float, float]:
+    """Of the horizontal axis: the same whatever was measured."""
+    first, last = data.ticks[0], data.ticks[-1]
+    if data.is_log_across:
+        return first / _MARGIN, last * _MARGIN
+    more = (_MARGIN - 1) * (last - first)
+    return first - more, last + more
+
+
 def _label(axis: Axes, data: FigureData, *, is_last: bool) -> None:
     if data.is_log:
         axis.set_yscale("log")
+        axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
         axis.yaxis.set_minor_formatter(NullFormatter())
     else:
@@ -147,6 +166,7 @@ def _label(axis: Axes, data: FigureData, *, is_last: bool) -> None:
     if data.ticks:
         axis.set_xticks(data.ticks, [f"{tick:g}" for tick in data.ticks])
         axis.xaxis.set_minor_locator(NullLocator())
+        axis.set_xlim(*_ends(data))
     axis.tick_params(labelsize=8)
     axis.title.set_fontsize(8.5)
     axis.grid(axis="y", which="major", color="#dddddd", linewidth=0.6)

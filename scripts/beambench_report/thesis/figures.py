@@ -129,6 +129,7 @@ def _samples(cells: Cells) -> FigureData:
         "thesis's points are lost; it says that the lines lie farther apart with five samples "
         "(right) than with one (left, figure 5.10 b). Bars are intervals.",
         TICKS,
+        is_all_ours=True,
     )
 
 

@@ -127,7 +127,9 @@ def _choice(choice: Choice) -> tuple[str, str]:
         return f"{DASH} not measured", ""
     ratio = ""
     if choice.ratio:
-        ratio = f" ({number(choice.ratio.value)}; {interval(choice.ratio, 1, '')})"
+        known = choice.ratio.low < choice.ratio.high
+        told = f"; {interval(choice.ratio, 1, '')}" if known else ""
+        ratio = f" ({number(choice.ratio.value)}{told})"
     told = f"{choice.parameters} (best of {choice.tried})" if choice.parameters else ""
     edge = ", at the end of what was tried" if choice.is_edge else ""
     return f"{milliseconds(cell.time.value)}{ratio}, #{cell.number}", told + edge
