@@ -48,7 +48,7 @@ def run_thesis(*arguments: str | Path) -> int:
 def test_a_dry_run_lists_sweeps_cells_and_time(capsys: pytest.CaptureFixture[str]) -> None:
     assert run_thesis("--dry-run") == 0
     lines = capsys.readouterr().out.splitlines()
-    assert len(lines) == 14
+    assert len(lines) == 15
     assert lines[0].split() == ["synthetic", "70", "cells", "1", "min", "30", "s"]
     assert lines[-1].startswith("in all")
     assert run_thesis("--dry-run", "--table", "5.4", "--quick") == 0
@@ -169,6 +169,7 @@ def test_the_script_helps_lists_and_refuses_before_it_builds(repository: Path) -
     assert [line.split()[0] for line in listed.stdout.splitlines()] == [
         "octree",
         "best-octree",
+        "shallow",
         "in",
     ]
     refused = call("--table", "6.1", repository=repository)

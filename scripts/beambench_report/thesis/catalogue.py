@@ -52,7 +52,7 @@ TABLES = (
         "5.5",
         "Total time: beams and single rays on the same octree, real scenes",
         ("octree",),
-        ("best-octree",),
+        ("best-octree", "shallow"),
     ),
     Table(
         "5.6",
@@ -91,7 +91,9 @@ FIGURES = (
     ),
     Figure("5.12", "Time in the scenes of table 5.4", ("synthetic",)),
     Figure("5.13", "Time in the scenes of table 5.5", ("octree",)),
-    Figure("5.14", "Time by the level that each contender has", ("octree", "best-octree")),
+    Figure(
+        "5.14", "Time by the level that each contender has", ("octree", "best-octree", "shallow")
+    ),
     Figure("5.15", "Time in the scenes of table 5.6", ("synthetic",)),
     Figure("5.16", "Time in the scenes of table 5.7", ("others-small",)),
     Figure("5.17", "Time of the grid by its cells an axis", ("others-large", "best-others-large")),
@@ -114,6 +116,7 @@ SWEEPS = (
     "best-synthetic",
     "best-division",
     "best-octree",
+    "shallow",
     "best-others-small",
     "best-others-large",
     "grids",

@@ -9,6 +9,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+from beambench_report.ledger.comparisons import rays
 from beambench_report.problem import Problem
 
 FOLDER = Path(__file__).resolve().parents[3] / "harness/sweeps/thesis"
@@ -47,7 +48,7 @@ class Sweep:
         return self.source["budget_seconds"]
 
     def cells(self) -> list[PlannedCell]:
-        """Every cell, in no order that means anything. The thesis's sweeps exclude none."""
+        """Every cell, in no order that means anything."""
         contenders = list(dict.fromkeys(self._contenders()))
         views = product(
             self.source["scenes"], self.source["resolutions"], self.source.get("samples", [1])
@@ -56,7 +57,17 @@ class Sweep:
             PlannedCell(scene, *contender, resolution, samples)
             for scene, resolution, samples in views
             for contender in contenders
+            if not self._is_excluded(scene, contender[0], resolution, samples)
         ]
+
+    def _is_excluded(self, scene: str, structure: str, resolution: str, samples: int) -> bool:
+        """By the conditions that the thesis's sweeps use; `primitives_above` is none of them."""
+        own = {"scene": scene, "structure": structure}
+        return any(
+            all(entry.get(name, value) == value for name, value in own.items())
+            and rays(resolution) * samples > entry.get("rays_above", -1)
+            for entry in self.source.get("exclude", [])
+        )
 
     def _contenders(self) -> Iterator[tuple[str, tuple[tuple[str, str], ...]]]:
         for entry in self.source["structures"]:
