@@ -13,10 +13,15 @@ namespace beambench {
 // Defined by the build from its list of families (register_families.cpp.in).
 void register_families(Registry& registry);
 
-std::unique_ptr<Accelerator> StructureChoice::build(const Scene& scene) const {
-  auto accelerator = info_->build(scene, parameters_);
+std::unique_ptr<Accelerator> StructureChoice::build(const Scene& scene,
+                                                    const Workload& workload) const {
+  auto accelerator = info_->build(scene, parameters_, workload);
   parameters_.require_given_were_read();
   return accelerator;
+}
+
+std::unique_ptr<Accelerator> StructureChoice::build(const Scene& scene) const {
+  return build(scene, usual_workload(scene));
 }
 
 std::string StructureChoice::short_label() const {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "accel/accelerator.hpp"
+#include "accel/workload.hpp"
 #include "scenes/parameters.hpp"
 #include "scenes/scene.hpp"
 
@@ -27,9 +28,11 @@ struct StructureInfo {
   std::string summary;  ///< one sentence with the source in the literature
   Conformance conformance;
   std::vector<ParameterInfo> parameters;
-  /// Builds it over a scene that outlives it. Throws InputError when the scene and the parameters
-  /// do not go together (a cap is exceeded); the message names the parameter to change.
-  std::function<std::unique_ptr<Accelerator>(const Scene&, const Parameters&)> build;
+  /// Builds it over a scene that outlives it, for a workload. Throws InputError when the scene and
+  /// the parameters do not go together (a cap is exceeded); the message names the parameter to
+  /// change.
+  std::function<std::unique_ptr<Accelerator>(const Scene&, const Parameters&, const Workload&)>
+      build;
 };
 
 /// A structure picked by the user, its parameters checked: `samet:max_level=6`.
@@ -46,6 +49,8 @@ class StructureChoice {
   std::string short_label() const;
 
   /// Builds the structure; also throws std::logic_error when it ignores a parameter it was given.
+  std::unique_ptr<Accelerator> build(const Scene& scene, const Workload& workload) const;
+  /// For the usual workload.
   std::unique_ptr<Accelerator> build(const Scene& scene) const;
 
  private:

@@ -69,6 +69,9 @@ std::optional<Parsed> parse_value(const ParameterInfo& info, const std::string& 
     return number >= info.minimum && number <= info.maximum;  // false for NaN
   };
   switch (info.type) {
+    case Type::kIntegerOrAuto:
+      if (text == kAuto) return Parsed{text, 0.0};
+      [[fallthrough]];
     case Type::kInteger:
       if (const auto number = parse_number<std::int64_t>(text)) {
         const auto real = static_cast<double>(*number);
@@ -106,6 +109,9 @@ std::string expectation(const ParameterInfo& info) {
   switch (info.type) {
     case Type::kInteger:
       return fmt::format("an integer from {:.0f} to {:.0f}", info.minimum, info.maximum);
+    case Type::kIntegerOrAuto:
+      return fmt::format("{}, or an integer from {:.0f} to {:.0f}", kAuto, info.minimum,
+                         info.maximum);
     case Type::kReal:
       return fmt::format("a number from {} to {}", info.minimum, info.maximum);
     case Type::kFlag:
@@ -158,6 +164,15 @@ ParameterInfo integer_parameter(std::string name, std::int64_t default_value, st
   if (info.minimum < -kLargestInteger || info.maximum > kLargestInteger) {
     throw std::logic_error("parameter " + info.name + " has a range beyond +-2^53");
   }
+  return info;
+}
+
+ParameterInfo integer_or_auto_parameter(std::string name, std::int64_t default_value,
+                                        std::int64_t minimum, std::int64_t maximum,
+                                        std::string description) {
+  ParameterInfo info =
+      integer_parameter(std::move(name), default_value, minimum, maximum, std::move(description));
+  info.type = Type::kIntegerOrAuto;
   return info;
 }
 
@@ -230,6 +245,12 @@ const Parameters::Value& Parameters::find(std::string_view name, Type type) cons
 
 std::int64_t Parameters::integer(std::string_view name) const {
   return static_cast<std::int64_t>(find(name, Type::kInteger).number);
+}
+
+std::optional<std::int64_t> Parameters::integer_or_auto(std::string_view name) const {
+  const Value& value = find(name, Type::kIntegerOrAuto);
+  if (value.text == kAuto) return std::nullopt;
+  return static_cast<std::int64_t>(value.number);
 }
 
 double Parameters::real(std::string_view name) const { return find(name, Type::kReal).number; }

@@ -27,7 +27,7 @@ std::vector<Spec> parse_spec_list(std::string_view text);
 
 /// What a structure or a generator says of one of its parameters; printed by `beambench list`.
 struct ParameterInfo {
-  enum class Type { kInteger, kReal, kFlag, kChoice, kCells };
+  enum class Type { kInteger, kIntegerOrAuto, kReal, kFlag, kChoice, kCells };
 
   std::string name;
   Type type;
@@ -40,6 +40,10 @@ struct ParameterInfo {
 
 ParameterInfo integer_parameter(std::string name, std::int64_t default_value, std::int64_t minimum,
                                 std::int64_t maximum, std::string description);
+/// A whole number, or `auto`: the structure chooses.
+ParameterInfo integer_or_auto_parameter(std::string name, std::int64_t default_value,
+                                        std::int64_t minimum, std::int64_t maximum,
+                                        std::string description);
 ParameterInfo real_parameter(std::string name, double default_value, double minimum, double maximum,
                              std::string description);
 ParameterInfo flag_parameter(std::string name, bool default_value, std::string description);
@@ -59,6 +63,8 @@ class Parameters {
 
   /// Each throws std::logic_error when the owner declared no such parameter of that type.
   std::int64_t integer(std::string_view name) const;
+  /// Nothing for `auto`.
+  std::optional<std::int64_t> integer_or_auto(std::string_view name) const;
   double real(std::string_view name) const;
   bool flag(std::string_view name) const;
   const std::string& choice(std::string_view name) const;

@@ -21,7 +21,10 @@ namespace beambench {
 class BeamTracer : public Samet {
  public:
   BeamTracer(const Scene& scene, const BeamOptions& options)
-      : Samet(scene, options.octree), scene_(&scene), options_(options) {}
+      : BeamTracer(scene, Octree(scene, options.octree), options) {}
+  /// Over an octree that was made already.
+  BeamTracer(const Scene& scene, Octree octree, const BeamOptions& options)
+      : Samet(scene, std::move(octree)), scene_(&scene), options_(options) {}
 
   void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
     NoBeamWatch watch;
@@ -181,7 +184,7 @@ class BeamTracer::Run {
   template <class Visit>
   void for_each_batch(const Beam& beam, Visit visit) {
     batch_.clear();
-    for (const SampleLattice& lattice : lattices_) {
+    for (const SampleLattice& lattice : watch_->chosen(lattices_)) {
       scan_.for_each_run(beam, lattice, [&](int y, int first, int last) {
         for (int x = first; x <= last; ++x) {
           LeafBatch::Sample& sample = batch_.add(lattice, x, y, scan_.ray(lattice, x, y));

@@ -5,12 +5,14 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "accel/beam/beam.hpp"
 #include "accel/beam/beam_paths.hpp"
+#include "accel/beam/sample_lattice.hpp"
 #include "accel/work_counters.hpp"
 
 namespace beambench {
@@ -30,9 +32,11 @@ enum class RayReason {
 /// - how many samples left the root (`left`) or were tested in a leaf (`tested`) with a beam, and
 ///   each that goes on as a ray (`handed_over`),
 /// - at the end, what dividing beams took (`divided`), and that it is the end (`finished`),
-/// and takes from it the policy of individual rays (`rays`).
+/// and takes from it the policy of individual rays (`rays`) and which of the image's samples the
+/// beam that was met last shall have (`chosen`).
 struct NoBeamWatch {
   static constexpr bool kPaintsLeaving = false;
+  static std::span<const SampleLattice> chosen(std::span<const SampleLattice> all) { return all; }
   static constexpr void met(BeamKind, const Beam&) {}
   static constexpr void painted(std::size_t) {}
   static constexpr void left(std::uint64_t) {}
@@ -64,6 +68,7 @@ class OutlineBeamWatch : public NoBeamWatch {
 class CountingBeamWatch {
  public:
   static constexpr bool kPaintsLeaving = true;
+  static std::span<const SampleLattice> chosen(std::span<const SampleLattice> all) { return all; }
 
   explicit CountingBeamWatch(WorkCounters& counters) : counters_(&counters) {}
 

@@ -11,7 +11,7 @@ void register_bvh(Registry& registry) {
                 "the hierarchy of bounding volumes of the thesis: Goldsmith and Salmon's insertion "
                 "(1987), Kay and Kajiya's queue (1986)",
                 Conformance::kBitExact, GoldsmithSalmonOptions::parameters(),
-                [](const Scene& scene, const Parameters& parameters) {
+                [](const Scene& scene, const Parameters& parameters, const Workload&) {
                   return std::make_unique<GoldsmithSalmon>(
                       scene, GoldsmithSalmonOptions::from(parameters));
                 }});
@@ -19,7 +19,7 @@ void register_bvh(Registry& registry) {
                 "today's baseline: a binned SAH hierarchy (Wald 2007), eight children a node, SIMD "
                 "by single rays",
                 Conformance::kBitExact, SahBvh::parameters(),
-                [](const Scene& scene, const Parameters& parameters) {
+                [](const Scene& scene, const Parameters& parameters, const Workload&) {
                   return std::make_unique<SahBvh>(scene, SahBvh::options_from(parameters));
                 }});
 }

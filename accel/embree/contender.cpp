@@ -112,7 +112,7 @@ void register_embree(Registry& registry) {
                        "which costs the verdict where they matter"),
         flag_parameter("coherent", true,
                        "tells Embree that neighbouring rays are alike, which packets need")},
-       [](const Scene& scene, const Parameters& parameters) {
+       [](const Scene& scene, const Parameters& parameters, const Workload&) {
          return std::make_unique<EmbreeContender>(
              scene, parse_quality(parameters.choice("quality")), parameters.flag("robust"),
              find_mode(parameters.choice("mode")), parameters.flag("coherent"));

@@ -5,12 +5,13 @@
 namespace beambench {
 
 void register_exhaustive(Registry& registry) {
-  registry.add(
-      {"exhaustive",
-       "tests every primitive against every ray: the definition of the right answer",
-       Conformance::kBitExact,
-       {},
-       [](const Scene& scene, const Parameters&) { return std::make_unique<Exhaustive>(scene); }});
+  registry.add({"exhaustive",
+                "tests every primitive against every ray: the definition of the right answer",
+                Conformance::kBitExact,
+                {},
+                [](const Scene& scene, const Parameters&, const Workload&) {
+                  return std::make_unique<Exhaustive>(scene);
+                }});
 }
 
 }  // namespace beambench

@@ -21,7 +21,7 @@ void register_grid(Registry& registry) {
                 "a uniform grid of voxels with the incremental traversal of Amanatides and Woo "
                 "(1987), filled where rays come by, as in the thesis, or beforehand",
                 Conformance::kBitExact, VoxelGridOptions::parameters(),
-                [](const Scene& scene, const Parameters& parameters) {
+                [](const Scene& scene, const Parameters& parameters, const Workload&) {
                   const auto options = VoxelGridOptions::from(parameters);
                   return options.fill == VoxelGridOptions::Fill::kLazy
                              ? build<LazyVoxels>(scene, options)

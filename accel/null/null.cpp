@@ -30,11 +30,12 @@ class Null : public TraversalAccelerator<Null> {
 }  // namespace
 
 void register_null(Registry& registry) {
-  registry.add({"null",
-                "returns a miss at once: measures the harness's own overhead",
-                Conformance::kBaseline,
-                {},
-                [](const Scene&, const Parameters&) { return std::make_unique<Null>(); }});
+  registry.add(
+      {"null",
+       "returns a miss at once: measures the harness's own overhead",
+       Conformance::kBaseline,
+       {},
+       [](const Scene&, const Parameters&, const Workload&) { return std::make_unique<Null>(); }});
 }
 
 }  // namespace beambench

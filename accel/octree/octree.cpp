@@ -13,9 +13,10 @@ constexpr int kDeepestLevel = 16;
 std::vector<ParameterInfo> OctreeOptions::parameters() {
   const OctreeOptions defaults;
   return {
-      integer_parameter("max_level", defaults.max_level, 1, kDeepestLevel,
-                        "deepest level of the octree, the root being level 1 as in the thesis: "
-                        "2^(max_level-1) cells an axis"),
+      integer_or_auto_parameter(
+          "max_level", defaults.max_level, 1, kDeepestLevel,
+          "deepest level of the octree, the root being level 1 as in the thesis: 2^(max_level-1) "
+          "cells an axis; auto: the level that is expected to be the fastest for the rays to come"),
       integer_parameter("max_objects", defaults.max_objects, 0, 1'000'000,
                         "a node with more primitives than this is split"),
       choice_parameter("root", "cube", {"cube", "box"},
@@ -32,7 +33,8 @@ std::vector<ParameterInfo> OctreeOptions::parameters() {
 
 OctreeOptions OctreeOptions::from(const Parameters& parameters) {
   OctreeOptions options;
-  options.max_level = static_cast<int>(parameters.integer("max_level"));
+  options.max_level =
+      static_cast<int>(parameters.integer_or_auto("max_level").value_or(kAutomatic));
   options.max_objects = static_cast<std::uint32_t>(parameters.integer("max_objects"));
   options.root = parameters.choice("root") == "cube" ? Root::kCube : Root::kBox;
   options.assign = parameters.choice("assign") == "surface" ? Assign::kSurface : Assign::kBounds;

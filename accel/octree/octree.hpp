@@ -17,6 +17,9 @@ struct OctreeOptions {
   enum class Root { kCube, kBox };          ///< a cube around the scene (thesis), or its own box
   enum class Assign { kSurface, kBounds };  ///< a reference where the surface, or its box, reaches
 
+  /// In `max_level`: `choose_octree` finds it.
+  static constexpr int kAutomatic = 0;
+
   int max_level = 6;              ///< the root is level 1 (the thesis's counting)
   std::uint32_t max_objects = 0;  ///< a leaf with more is split while its level allows
   Root root = Root::kCube;
@@ -52,8 +55,13 @@ class Octree {
   /// when the references exceed it.
   Octree(const Scene& scene, const OctreeOptions& options);
 
+  /// The same as `Octree(scene, options)`, made faster from the octree of a lower `max_level` and
+  /// otherwise equal options.
+  Octree(const Scene& scene, const OctreeOptions& options, const Octree& coarser);
+
   /// The finest cells, as many along each axis: 2^(max_level - 1).
   const CellGrid& grid() const { return grid_; }
+  int deepest_level() const { return deepest_level_; }
   std::span<const OctreeNode> nodes() const { return nodes_; }
   std::span<const PrimitiveId> references(const OctreeNode& leaf) const {
     return {references_.data() + leaf.first, leaf.count};

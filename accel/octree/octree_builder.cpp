@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -50,40 +51,77 @@ class OctreeBuilder {
         octants_(static_cast<std::size_t>(options.max_level) + 1) {}
 
   void build() {
+    begin();
+    auto& all = lists_[1];
+    all.resize(scene_.primitives.size());
+    std::iota(all.begin(), all.end(), PrimitiveId{0});
+    subdivide(root(), all);
+    finish();
+  }
+
+  void deepen(const Octree& coarser) {
+    begin();
+    subdivide_below(root(), coarser, 0);
+    finish();
+  }
+
+ private:
+  void begin() {
     octree_.grid_ = make_grid(scene_, options_, tolerance_);
     const auto count = static_cast<PrimitiveId>(scene_.primitives.size());
     ranges_.reserve(count);
-    lists_[1].reserve(count);
     for (PrimitiveId id = 0; id < count; ++id) {
       ranges_.push_back(cell_range(octree_.grid_, primitive_bounds(scene_, id), tolerance_));
-      lists_[1].push_back(id);
     }
     octree_.references_.reserve(count);
     octree_.nodes_.push_back({0, 0, 0});
-    subdivide({0, 1, glm::ivec3(0), octree_.grid_.cells.x}, lists_[1]);
+  }
+  Pending root() const { return {0, 1, glm::ivec3(0), octree_.grid_.cells.x}; }
+  void finish() {
     octree_.nodes_.shrink_to_fit();
     octree_.references_.shrink_to_fit();
   }
 
- private:
+  /// Where the coarser octree has a leaf `subdivide` goes on, with its references.
+  void subdivide_below(const Pending& pending, const Octree& coarser, std::uint32_t node) {
+    const OctreeNode& there = coarser.nodes()[node];
+    if (there.is_leaf()) {
+      subdivide(pending, coarser.references(there));
+      return;
+    }
+    const std::uint32_t first_child = split(pending.node);
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+      subdivide_below(child_of(pending, first_child, octant), coarser, there.first + octant);
+    }
+  }
+
+  /// Makes a node interior; returns its first child.
+  std::uint32_t split(std::uint32_t node) {
+    const auto first_child = static_cast<std::uint32_t>(octree_.nodes_.size());
+    octree_.nodes_.insert(octree_.nodes_.end(), 8, OctreeNode{node, 0, 0});
+    octree_.nodes_[node].first = first_child;
+    octree_.nodes_[node].count = OctreeNode::kInterior;
+    return first_child;
+  }
+
+  static Pending child_of(const Pending& pending, std::uint32_t first_child, std::uint32_t octant) {
+    const std::int32_t half = pending.size / 2;
+    const glm::ivec3 offset(octant & 1U, (octant >> 1U) & 1U, octant >> 2U);
+    return {first_child + octant, pending.level + 1, pending.corner + offset * half, half};
+  }
+
   void subdivide(const Pending& pending, std::span<const PrimitiveId> primitives) {
     octree_.deepest_level_ = std::max(octree_.deepest_level_, pending.level);
     if (primitives.size() <= options_.max_objects || pending.level >= options_.max_level) {
       make_leaf(pending.node, primitives);
       return;
     }
-    const auto first_child = static_cast<std::uint32_t>(octree_.nodes_.size());
-    octree_.nodes_.insert(octree_.nodes_.end(), 8, OctreeNode{pending.node, 0, 0});
-    octree_.nodes_[pending.node].first = first_child;
-    octree_.nodes_[pending.node].count = OctreeNode::kInterior;
-
+    const std::uint32_t first_child = split(pending.node);
     const auto ends = distribute(pending, primitives);
     const auto& list = lists_[static_cast<std::size_t>(pending.level) + 1];
-    const std::int32_t half = pending.size / 2;
     for (std::uint32_t octant = 0; octant < 8; ++octant) {
-      const glm::ivec3 offset(octant & 1U, (octant >> 1U) & 1U, octant >> 2U);
       const std::size_t begin = octant == 0 ? 0 : ends[octant - 1];
-      subdivide({first_child + octant, pending.level + 1, pending.corner + offset * half, half},
+      subdivide(child_of(pending, first_child, octant),
                 std::span(list).subspan(begin, ends[octant] - begin));
     }
   }
@@ -175,6 +213,10 @@ class OctreeBuilder {
 
 Octree::Octree(const Scene& scene, const OctreeOptions& options) {
   OctreeBuilder(scene, options, *this).build();
+}
+
+Octree::Octree(const Scene& scene, const OctreeOptions& options, const Octree& coarser) {
+  OctreeBuilder(scene, options, *this).deepen(coarser);
 }
 
 }  // namespace beambench

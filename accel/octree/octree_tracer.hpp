@@ -15,7 +15,9 @@ template <class Neighbours>
 class OctreeTracer : public TraversalAccelerator<OctreeTracer<Neighbours>> {
  public:
   OctreeTracer(const Scene& scene, const OctreeOptions& options)
-      : scene_(&scene), octree_(scene, options), neighbours_(octree_) {}
+      : OctreeTracer(scene, Octree(scene, options)) {}
+  OctreeTracer(const Scene& scene, Octree octree)
+      : scene_(&scene), octree_(std::move(octree)), neighbours_(octree_) {}
 
   const Octree& octree() const { return octree_; }
   const Neighbours& neighbours() const { return neighbours_; }

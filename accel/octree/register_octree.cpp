@@ -1,3 +1,4 @@
+#include "accel/octree/choose_octree.hpp"
 #include "accel/octree/samet.hpp"
 #include "accel/octree/samet_net.hpp"
 #include "accel/registry.hpp"
@@ -9,15 +10,19 @@ void register_octree(Registry& registry) {
                 "the octree of the thesis with Samet's 1989 traversal: explicit exit point, "
                 "neighbours found over the nearest common ancestor",
                 Conformance::kBitExact, OctreeOptions::parameters(),
-                [](const Scene& scene, const Parameters& parameters) {
-                  return std::make_unique<Samet>(scene, OctreeOptions::from(parameters));
+                [](const Scene& scene, const Parameters& parameters, const Workload& workload) {
+                  return std::make_unique<Samet>(
+                      scene,
+                      choose_octree(scene, OctreeOptions::from(parameters), workload, samet_cost));
                 }});
   registry.add({"samet-net",
                 "the octree and the traversal of samet, each face linked beforehand to the "
                 "neighbour of equal or larger size (Endl and Sommer 1994)",
                 Conformance::kBitExact, OctreeOptions::parameters(),
-                [](const Scene& scene, const Parameters& parameters) {
-                  return std::make_unique<SametNet>(scene, OctreeOptions::from(parameters));
+                [](const Scene& scene, const Parameters& parameters, const Workload& workload) {
+                  return std::make_unique<SametNet>(
+                      scene,
+                      choose_octree(scene, OctreeOptions::from(parameters), workload, samet_cost));
                 }});
 }
 

@@ -36,6 +36,8 @@ std::string_view type_name(ParameterInfo::Type type) {
   switch (type) {
     case ParameterInfo::Type::kInteger:
       return "integer";
+    case ParameterInfo::Type::kIntegerOrAuto:
+      return "integer or auto";
     case ParameterInfo::Type::kReal:
       return "real";
     case ParameterInfo::Type::kFlag:
@@ -49,8 +51,7 @@ std::string_view type_name(ParameterInfo::Type type) {
 }
 
 bool has_range(const ParameterInfo& info) {
-  return info.type == ParameterInfo::Type::kInteger || info.type == ParameterInfo::Type::kReal ||
-         info.type == ParameterInfo::Type::kCells;
+  return info.type != ParameterInfo::Type::kFlag && info.type != ParameterInfo::Type::kChoice;
 }
 
 std::string range_text(const ParameterInfo& info) {

@@ -42,9 +42,10 @@ struct Finding {
   std::map<std::string, std::uint64_t, std::less<>> counters;
 };
 
-Finding examine(const StructureChoice& choice, const Scene& scene, const Question& question) {
+Finding examine(const StructureChoice& choice, const Scene& scene, const ImageOfRays& image,
+                const Question& question) {
   const auto begin = std::chrono::steady_clock::now();
-  const auto accelerator = choice.build(scene);
+  const auto accelerator = choice.build(scene, workload_of(image, question));
   const std::chrono::duration<double, std::milli> building =
       std::chrono::steady_clock::now() - begin;
 
@@ -194,7 +195,7 @@ int show_statistics(const Request& request) {
   for (const StructureChoice& choice : contenders.choices) {
     progress.start(choice.info().name);
     try {
-      findings.push_back(examine(choice, scene, question));
+      findings.push_back(examine(choice, scene, image, question));
       progress.finish(fmt::format("built in {:.3g} ms", findings.back().build_ms));
     } catch (const InputError& error) {
       if (contenders.choices.size() == 1) throw;

@@ -112,7 +112,7 @@ int trace(const Request& request) {
   const std::size_t index = chosen_index(request, question);
   const Ray ray = question.ray(index);
 
-  const auto accelerator = choice.build(scene);
+  const auto accelerator = choice.build(scene, workload_of(image, question));
   const EmbreeOracle oracle(scene, question.reach());
   RayWay way{choice.short_label(), image, question, {}, {}, {}, {}};
   way.asked_all = !request.alone;

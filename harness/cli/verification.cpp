@@ -108,7 +108,7 @@ class SceneVerifier {
 
  private:
   void judge_into(const StructureChoice& choice, VerifiedCell& cell) {
-    const auto accelerator = choice.build(view_.scene);
+    const auto accelerator = choice.build(view_.scene, workload_of(view_.image, view_.question));
     Answers answers = room_for(view_.question);
     watched_ask(*accelerator, view_.question, answers, progress_);
     const ReplayCommand replay(view_.scene, view_.image, choice, view_.question);

@@ -144,7 +144,8 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("verify", "Judges structures, ray by ray, against an exact oracle");
   const auto request = std::make_shared<Request>();
   command->add_option("SCENE", request->scenes,
-                      "Catalogue names or paths of NFF files (default: the whole catalogue)");
+                      "Catalogue names or paths of files (default: the whole catalogue, which takes "
+                      "some minutes)");
   command->add_option("--accel", request->structures, "Structures: NAME:parameter=value,... or all")
       ->capture_default_str();
   command->add_option("--resolution", request->resolution, "WxH")->capture_default_str();
@@ -168,7 +169,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       "the first of them? Exits with 1 unless every verdict is ok (baseline for 'null').\n"
       "Each error is printed with the command that replays it, a 'beambench trace'.\n"
       "Examples:\n"
-      "  beambench verify\n"
+      "  beambench verify tetera\n"
       "  beambench verify escena1 tetra:n=4 --accel all\n"
       "  beambench verify balls --rays shadow,reflection,diffuse,random\n"
       "  beambench verify balls --accel samet:max_level=5,embree --resolution 640x480 --json "

@@ -120,6 +120,10 @@ double coherence(const Question& question) {
   return question.size() < 2 ? 1.0 : sum / static_cast<double>(question.size() - 1);
 }
 
+Workload workload_of(const ImageOfRays& image, const Question& question) {
+  return {image.camera, question.size()};
+}
+
 Question make_question(const Scene& scene, const ImageOfRays& image, const RayChoice& choice) {
   if (!choice.file.empty()) return Question(read_for(scene, choice));
   PrimaryRays primary(image.camera, image.resolution.width, image.resolution.height, image.samples);

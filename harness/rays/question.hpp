@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "accel/primary_rays.hpp"
+#include "accel/workload.hpp"
 #include "harness/rays/ray_choice.hpp"
 #include "harness/rays/ray_set.hpp"
 #include "harness/rays/resolution.hpp"
@@ -63,6 +64,9 @@ struct ImageOfRays {
   Resolution resolution;
   int samples;
 };
+
+/// What a structure is built for: the question, and the camera behind it.
+Workload workload_of(const ImageOfRays& image, const Question& question);
 
 /// Makes the rays of a choice, or reads them. Throws InputError where the scene has no lights for
 /// shadow rays, where no primary ray hits anything for rays to start from, and as `read_ray_file`;

@@ -78,7 +78,7 @@ void Contender::count() {
   try {
     const MeasuringFloatMode mode;
     const auto heap_before = heap_in_use();
-    const auto structure = cell_->structure.build(question_->scene());
+    const auto structure = cell_->structure.build(question_->scene(), question_->workload());
     record_.allocated_bytes = heap_growth(heap_before, heap_in_use());
     WorkCounters counters;
     poison(question_->answers());
@@ -124,7 +124,9 @@ Repetition Contender::time_once(const Instruments& instruments,
         PhaseTime build{};
         PhaseTime trace{};
         const HardwareCounts build_counts = instruments.counters.count([&] {
-          build = time_phase([&] { structure = cell_->structure.build(question_->scene()); });
+          build = time_phase([&] {
+            structure = cell_->structure.build(question_->scene(), question_->workload());
+          });
         });
         const HardwareCounts trace_counts = instruments.counters.count([&] {
           trace = time_phase([&] { ask(*structure, question_->question(), question_->answers()); });

@@ -37,6 +37,7 @@ class SharedQuestion {
   const Scene& scene() const { return reference_.scene(); }
   ImageOfRays image() const { return group_->image(); }
   const Question& question() const { return reference_.question(); }
+  Workload workload() const { return workload_of(image(), question()); }
   const ReferenceHits& reference() const { return reference_; }
   const RaySetFacts& facts() const { return facts_; }
   Answers& answers() { return answers_; }

@@ -28,6 +28,12 @@ Parameters random_parameters(const StructureInfo& info, Random& random) {
   std::vector<std::pair<std::string, std::string>> given;
   for (const ParameterInfo& parameter : info.parameters) {
     switch (parameter.type) {
+      case ParameterInfo::Type::kIntegerOrAuto:
+        if (random.below(4) == 0) {
+          given.emplace_back(parameter.name, "auto");
+          break;
+        }
+        [[fallthrough]];
       case ParameterInfo::Type::kInteger:
         if (std::stod(parameter.default_value) <= 1000.0) {
           const auto low = static_cast<std::uint64_t>(parameter.minimum);

@@ -94,7 +94,7 @@ class Sweep : public testing::Test {
                      "A broken structure.",
                      Conformance::kBitExact,
                      {},
-                     [fault, passes](const Scene& scene, const Parameters&) {
+                     [fault, passes](const Scene& scene, const Parameters&, const Workload&) {
                        return std::make_unique<FaultyAccelerator>(scene, fault, passes);
                      }});
   }

@@ -58,7 +58,7 @@ def test_list_as_json_says_all_of_each_parameter() -> None:
     assert structures["embree"]["conformance"] == "tolerance"
     assert structures["null"]["conformance"] == "baseline"
     level = next(p for p in structures["samet"]["parameters"] if p["name"] == "max_level")
-    assert level["type"] == "integer"
+    assert level["type"] == "integer or auto"
     assert level["minimum"] <= int(level["default"]) <= level["maximum"]
     assert level["description"]
     mode = next(p for p in structures["embree"]["parameters"] if p["name"] == "mode")
@@ -313,6 +313,33 @@ def test_stats_compare_structures() -> None:
     assert by_name["samet"]["hits"] == by_name["exhaustive"]["hits"] > 0
     assert by_name["null"]["hits"] == 0
     assert by_name["samet"]["leaves"] > by_name["samet"]["empty_leaves"]
+
+
+def test_stats_choose_a_level_for_the_rays() -> None:
+    def depth(resolution: str) -> int:
+        text = output_of(
+            *("stats", "delfines", "--accel", "samet:max_level=auto", "--json"),
+            *("--resolution", resolution),
+        )
+        return int(json.loads(text)["structures"][0]["depth"])
+
+    assert depth("16x12") < depth("640x480")
+
+
+def test_sampling_compares_methods(tmp_path: Path) -> None:
+    picture = tmp_path / "samples.png"
+    arguments = ("sampling", "delfines", "--resolution", "64x48", "--repetitions", "1")
+    text = output_of(*arguments, "--picture", picture)
+    for word in ["uniform", "object-space", "image-space", "rays a pixel", "error"]:
+        assert word in text
+    assert count_colors(Image.open(picture)) > 2
+
+    results = json.loads(output_of(*arguments, "--json"))["results"]
+    uniform = {row["setting"]: row for row in results if row["method"] == "uniform"}
+    assert uniform["25"]["error"] < uniform["1"]["error"]
+    assert uniform["25"]["rays_per_pixel"] == pytest.approx(
+        25 * uniform["1"]["rays_per_pixel"], rel=0.05
+    )
 
 
 def test_stats_tell_parameters_apart() -> None:
@@ -581,6 +608,10 @@ WRONG_REQUESTS = [
     (["verify", "tetra:n=1", "--camera", "side"], ["side", "default"]),
     (["verify", "tetra:n=1", "--samples", "3"], ["3 samples"]),
     (["completion", "tcsh"], ["tcsh", "bash"]),
+    (["sampling", "tetra:n=1", "--accel", "samet"], ["samet", "--accel beam"]),
+    (["sampling", "tetra:n=1", "--resolution", "9000x9000"], ["9000x9000"]),
+    (["sampling", "tetra:n=1", "--repetitions", "0"], ["--repetitions"]),
+    (["stats", "tetra:n=1", "--accel", "samet:max_level=deep"], ["deep", "auto", "1 to 16"]),
     # files to write
     ([*RENDER, "null", "-o", "a.png", "--difference", "smet"], ["smet", "samet"]),
     ([*RENDER, "null", "-o", "a.png", "--difference", "all"], ["--difference", "one"]),

@@ -65,6 +65,26 @@ TEST(Parameters, CellsAreOneNumberOrThreeOrAutomatic) {
   }
 }
 
+TEST(Parameters, IntegersMayBeAutomatic) {
+  const std::vector<ParameterInfo> infos{integer_or_auto_parameter("level", 6, 1, 16, "a level")};
+  EXPECT_EQ(Parameters("tree", infos, {}).integer_or_auto("level"), 6);
+  const std::vector<std::pair<std::string, std::string>> automatic{{"level", "auto"}};
+  const Parameters chosen("tree", infos, automatic);
+  EXPECT_EQ(chosen.integer_or_auto("level"), std::nullopt);
+  EXPECT_EQ(chosen.label(), "tree:level=auto");
+  for (const char* wrong : {"17", "0", "automatic", "", "6.5"}) {
+    const std::vector<std::pair<std::string, std::string>> given{{"level", wrong}};
+    try {
+      Parameters("tree", infos, given);
+      FAIL() << wrong;
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find("auto, or an integer from 1 to 16"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(Parameters, LabelIsTheBareOwnerWithoutParameters) {
   EXPECT_EQ(Parameters("null", {}, {}).label(), "null");
 }

@@ -1,0 +1,88 @@
+#include "accel/octree/choose_octree.hpp"
+
+#include <utility>
+
+namespace beambench {
+namespace {
+
+constexpr int kFirstLevel = 4;
+constexpr int kLastLevel = 12;
+
+/// An octree with its work.
+struct Trial {
+  Octree octree;
+  OctreeWork work;
+};
+
+/// The work of the level before the first, at which nothing was counted: what is usual.
+OctreeWork usual_work_before(const OctreeWork& first) {
+  OctreeWork before = first;
+  before.nodes /= 4.0;
+  before.references /= 1.7;
+  before.steps -= 7.0;
+  before.tests *= 2.5;
+  before.nonterminal /= 8.0;
+  before.occupied /= 5.0;
+  return before;
+}
+
+class LevelSearch {
+ public:
+  LevelSearch(const Scene& scene, const OctreeOptions& options, const Workload& workload,
+              const Cost& cost, const CountMore& count_more)
+      : scene_(&scene),
+        options_(options),
+        workload_(&workload),
+        cost_(&cost),
+        count_more_(&count_more) {}
+
+  Octree find() {
+    options_.max_level = kFirstLevel;
+    Trial best = tried(Octree(*scene_, options_));
+    OctreeWork next = extrapolate(usual_work_before(best.work), best.work);
+    while (promises(next, best)) {
+      ++options_.max_level;
+      Trial deeper = tried(Octree(*scene_, options_, best.octree));
+      if ((*cost_)(deeper.work) >= (*cost_)(best.work)) break;
+      next = extrapolate(best.work, deeper.work);
+      best = std::move(deeper);
+    }
+    return std::move(best.octree);
+  }
+
+ private:
+  Trial tried(Octree octree) const {
+    OctreeWork work = count_work(*scene_, octree, *workload_);
+    if (*count_more_) (*count_more_)(octree, work);
+    return {std::move(octree), work};
+  }
+
+  bool promises(const OctreeWork& next, const Trial& best) const {
+    constexpr double kRoom = 0.5;  // the extrapolated number may be wrong
+    return options_.max_level < kLastLevel &&
+           best.octree.deepest_level() == options_.max_level &&  // or nothing is left to split
+           next.references < kRoom * static_cast<double>(options_.max_references) &&
+           (*cost_)(next) < (*cost_)(best.work);
+  }
+
+  const Scene* scene_;
+  OctreeOptions options_;
+  const Workload* workload_;
+  const Cost* cost_;
+  const CountMore* count_more_;
+};
+
+}  // namespace
+
+double samet_cost(const OctreeWork& work) {
+  const double build = 80.0 * work.nodes + 180.0 * work.references;
+  return build + work.rays * (9.0 * work.steps + 13.0 * work.tests);
+}
+
+Octree choose_octree(const Scene& scene, const OctreeOptions& options, const Workload& workload,
+                     const Cost& cost, const CountMore& count_more) {
+  if (options.max_level != OctreeOptions::kAutomatic) return {scene, options};
+  return LevelSearch(scene, options, workload, cost, count_more).find();
+}
+
+}  // namespace beambench

@@ -1,0 +1,27 @@
+#pragma once
+// The work that an octree makes, counted on a few rays.
+
+#include "accel/octree/octree.hpp"
+#include "accel/workload.hpp"
+
+namespace beambench {
+
+/// What building an octree and tracing a workload through it takes.
+struct OctreeWork {
+  double rays;               ///< of the workload
+  double nodes;              ///< of the octree
+  double references;         ///< of the octree
+  double steps;              ///< traversal steps a ray
+  double tests;              ///< ray-primitive tests a ray
+  double hit_share;          ///< rays that come to an occupied leaf, of all
+  double nonterminal = 0.0;  ///< beams of the image (not a ray) that meet an empty leaf
+  double occupied = 0.0;     ///< beams that end at an occupied leaf
+};
+
+/// Counts for individual rays, on a grid of 16 x 8 rays over the camera's image.
+OctreeWork count_work(const Scene& scene, const Octree& octree, const Workload& workload);
+
+/// The work of the next level, from this one's and the one before: each number goes on as it went.
+OctreeWork extrapolate(const OctreeWork& before, const OctreeWork& now);
+
+}  // namespace beambench

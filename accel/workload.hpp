@@ -1,0 +1,22 @@
+#pragma once
+// What a structure will be asked, as far as it is known when it is built.
+
+#include <cstddef>
+
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// Structures that choose their own parameters (`auto`) do it for this; it changes no hit.
+struct Workload {
+  Camera camera;     ///< where primary rays come from, and the first of secondary ones
+  std::size_t rays;  ///< how many there will be, about
+};
+
+/// Where nothing is known: 640x480 rays from the scene's first camera.
+inline Workload usual_workload(const Scene& scene) {
+  constexpr std::size_t kUsual = 640UL * 480UL;
+  return {scene.cameras.front(), kUsual};
+}
+
+}  // namespace beambench

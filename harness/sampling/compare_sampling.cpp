@@ -1,0 +1,156 @@
+#include "harness/sampling/compare_sampling.hpp"
+
+#include <array>
+#include <chrono>
+#include <functional>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "harness/record/robust_statistics.hpp"
+#include "harness/sampling/image_error.hpp"
+#include "harness/sampling/image_space_sampling.hpp"
+#include "harness/sampling/sparse_image.hpp"
+#include "harness/shade/shading.hpp"
+
+namespace beambench {
+namespace {
+
+constexpr int kReferenceSamples = 64;
+constexpr std::array<int, 4> kUniform{1, 5, 9, 25};
+constexpr std::array<SamplingDensity, 3> kDensities{{{0.30, 1.20}, {0.15, 0.60}, {0.05, 0.20}}};
+constexpr std::array<SamplingContrast, 3> kContrasts{{{0.10, 0.50}, {0.05, 0.30}, {0.02, 0.10}}};
+
+/// One way of sampling, done once.
+struct Attempt {
+  double ms;
+  double rays;  ///< in all
+  Image image;
+};
+
+class Sampler {
+ public:
+  Sampler(const BeamTracer& tracer, const Scene& scene, const ImageOfRays& image)
+      : tracer_(&tracer), scene_(&scene), image_(&image) {}
+
+  Attempt uniform(int samples) const {
+    const PrimaryRays rays = primary(samples);
+    HitBuffer hits(rays.width(), rays.height(), samples);
+    const double ms = timed([&] { tracer_->trace(rays, hits); });
+    const double traced = static_cast<double>(rays.count()) - leaving(rays);
+    return {ms, traced, shade(*scene_, rays, hits, Shading::kPreview)};
+  }
+
+  Attempt object_space(const SamplingDensity& density) const {
+    return sparse(
+        [&](const PrimaryRays& rays) { return trace_object_space(*tracer_, rays, density); }, 0.0);
+  }
+
+  Attempt image_space(const SamplingContrast& contrast) const {
+    return sparse(
+        [&](const PrimaryRays& rays) {
+          return trace_image_space(*tracer_, *scene_, image_->camera, rays, contrast);
+        },
+        leaving(primary(1)));
+  }
+
+ private:
+  PrimaryRays primary(int samples) const {
+    return {image_->camera, image_->resolution.width, image_->resolution.height, samples};
+  }
+
+  template <class Trace>
+  Attempt sparse(Trace trace, double without_ray) const {
+    const PrimaryRays rays = primary(kSampleNumbers.back());
+    std::optional<SparseSamples> samples;
+    const double ms = timed([&] { samples = trace(rays); });
+    return {ms, static_cast<double>(samples->taken()) - without_ray,
+            sparse_image(*scene_, rays, *samples)};
+  }
+
+  /// Samples that leave the scene with their beam.
+  double leaving(const PrimaryRays& rays) const {
+    HitBuffer hits(rays.width(), rays.height(), rays.samples());
+    WorkCounters counters;
+    tracer_->trace(rays, hits, counters);
+    return static_cast<double>(counters.by_name().at("samples_leaving"));
+  }
+
+  template <class Work>
+  static double timed(Work work) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+        .count();
+  }
+
+  const BeamTracer* tracer_;
+  const Scene* scene_;
+  const ImageOfRays* image_;
+};
+
+struct Way {
+  std::string method;
+  std::string setting;
+  std::function<Attempt(const Sampler&)> attempt;
+};
+
+std::vector<Way> ways() {
+  std::vector<Way> all;
+  for (const int samples : kUniform) {
+    all.push_back({"uniform", fmt::format("{}", samples),
+                   [samples](const Sampler& sampler) { return sampler.uniform(samples); }});
+  }
+  for (const SamplingDensity& density : kDensities) {
+    all.push_back({"object-space", fmt::format("{} {}", density.few, density.many),
+                   [density](const Sampler& sampler) { return sampler.object_space(density); }});
+  }
+  for (const SamplingContrast& contrast : kContrasts) {
+    all.push_back({"image-space", fmt::format("{} {}", contrast.few, contrast.many),
+                   [contrast](const Sampler& sampler) { return sampler.image_space(contrast); }});
+  }
+  return all;
+}
+
+SamplingResult measure(const Way& way, const Sampler& sampler, const Image& reference,
+                       int repetitions) {
+  const Attempt first = way.attempt(sampler);
+  std::vector<double> ms{first.ms};
+  while (static_cast<int>(ms.size()) < repetitions) ms.push_back(way.attempt(sampler).ms);
+  const double pixels = static_cast<double>(reference.width()) * reference.height();
+  return {way.method, way.setting, first.rays / pixels, median(ms),
+          root_mean_square_error(first.image, reference)};
+}
+
+}  // namespace
+
+std::size_t sampling_steps() { return 1 + ways().size(); }
+
+std::vector<SamplingResult> compare_sampling(const BeamTracer& tracer, const Scene& scene,
+                                             const ImageOfRays& image, int repetitions,
+                                             Progress& progress) {
+  require_ray_count(image.resolution, kReferenceSamples);
+  const Sampler sampler(tracer, scene, image);
+  progress.start("64 samples a pixel, the reference");
+  const Image reference = sampler.uniform(kReferenceSamples).image;
+  progress.finish("done");
+  std::vector<SamplingResult> results;
+  for (const Way& way : ways()) {
+    progress.start(way.method + ' ' + way.setting);
+    results.push_back(measure(way, sampler, reference, repetitions));
+    progress.finish(
+        fmt::format("error {:.3g}, {:.4g} ms", results.back().error, results.back().trace_ms));
+  }
+  return results;
+}
+
+std::vector<float> samples_by_pixel(const SparseSamples& samples) {
+  const auto a_pixel = static_cast<std::size_t>(samples.hits.samples());
+  std::vector<float> counts(samples.hits.size() / a_pixel, 0.0F);
+  for (std::size_t i = 0; i < samples.number.size(); ++i) {
+    if (samples.number[i] != 0) counts[i / a_pixel] += 1.0F;
+  }
+  return counts;
+}
+
+}  // namespace beambench
