@@ -143,9 +143,10 @@ void add_verify_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("verify", "Judges structures, ray by ray, against an exact oracle");
   const auto request = std::make_shared<Request>();
-  command->add_option("SCENE", request->scenes,
-                      "Catalogue names or paths of files (default: the whole catalogue, which takes "
-                      "some minutes)");
+  command->add_option(
+      "SCENE", request->scenes,
+      "Catalogue names or paths of files (default: the whole catalogue, which takes "
+      "some minutes)");
   command->add_option("--accel", request->structures, "Structures: NAME:parameter=value,... or all")
       ->capture_default_str();
   command->add_option("--resolution", request->resolution, "WxH")->capture_default_str();
