@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -143,6 +145,13 @@ void add_hardware_counts(Row& row, const CellRecord& cell) {
   add("trace", &Repetition::trace_counts);
 }
 
+/// A figure that a family adds to its statistics; null where it does not.
+Json own_figure(const Statistics& statistics, std::string_view name) {
+  const auto found =
+      std::ranges::find(statistics.more, name, &std::pair<std::string, double>::first);
+  return found == statistics.more.end() ? Json() : Json(found->second);
+}
+
 /// A family without nodes (Embree does not tell, `exhaustive` has none) leaves their sizes empty.
 void add_statistics(Row& row, const CellRecord& cell) {
   row["memory_bytes"] = cell.statistics ? Json(cell.statistics->bytes) : Json();
@@ -156,6 +165,7 @@ void add_statistics(Row& row, const CellRecord& cell) {
   row["empty_leaves"] = size(&Statistics::empty_leaves);
   row["references"] = size(&Statistics::references);
   row["depth"] = size(&Statistics::depth);
+  row["tree_cost"] = cell.statistics ? own_figure(*cell.statistics, "cost") : Json();
 }
 
 void add_counters(Row& row, const CellRecord& cell) {

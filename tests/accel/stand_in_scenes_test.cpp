@@ -188,6 +188,26 @@ TEST(Onlooker, SeesNothingOfABoxInABoxButFromInside) {
   }
 }
 
+// Whole images are judged by `beambench verify`; this holds for scenes too large for that, too.
+TEST_P(StandIns, GiveASampleOfRaysTheHitsOfExhaustiveSearch) {
+  const Scene scene = load_scene(GetParam().name);
+  const auto exhaustive = registry().choose({"exhaustive", {}}).build(scene);
+  const auto sah = registry().choose({"sah-bvh", {}}).build(scene);
+  const auto samet = registry().choose({"samet", {}}).build(scene);
+  const PrimaryRays rays(scene.cameras.front(), 1280, 1024, 1);
+  Random random(1999);
+  int hits = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Ray ray =
+        rays.ray(static_cast<int>(random.below(1280)), static_cast<int>(random.below(1024)), 0);
+    const auto expected = exhaustive->closest_hit(ray);
+    ASSERT_EQ(sah->closest_hit(ray), expected) << i;
+    ASSERT_EQ(samet->closest_hit(ray), expected) << i;
+    hits += expected ? 1 : 0;
+  }
+  EXPECT_GT(hits, 0);
+}
+
 TEST(Habitacion, IsClosed) {
   const Scene scene = load_scene("habitacion");
   const auto structure = registry().choose(Spec{"sah-bvh", {}}).build(scene);

@@ -203,7 +203,7 @@ const char* const kContract =
     "build_cpu_ms_median,trace_cpu_ms_median,mrays_per_s,"
     "build_instructions,build_cycles,build_cache_misses,"
     "trace_instructions,trace_cycles,trace_cache_misses,"
-    "memory_bytes,allocated_bytes,nodes,leaves,empty_leaves,references,depth,"
+    "memory_bytes,allocated_bytes,nodes,leaves,empty_leaves,references,depth,tree_cost,"
     "traversal_steps_per_ray,leaves_per_ray,empty_leaves_per_ray,box_tests_per_ray,"
     "primitive_tests_per_ray,"
     "hits,agree,tie,graze,engine_error,embree_error,verdict\n";
@@ -256,7 +256,7 @@ TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
     EXPECT_EQ(value.is_null(),
               is_time || column == "leaves_per_ray" || column == "empty_leaves_per_ray" ||
                   column == "box_tests_per_ray" || column == "primitive_tests_per_ray" ||
-                  column == "occluded_share")
+                  column == "occluded_share" || column == "tree_cost")
         << column;
   }
   EXPECT_TRUE(to_json(kRun, cell).at("repetitions").empty());

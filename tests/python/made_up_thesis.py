@@ -52,7 +52,7 @@ def write_runs(
             write_manifest(folder, sweep=sweep.source["name"])
             for number, row in enumerate(rows):
                 path = folder / "cells" / f"{number:016x}.json"
-                path.write_text(json.dumps({"row": row, "family_statistics": {"cost": 4.5}}))
+                path.write_text(json.dumps({"row": row}))
     return directory
 
 
@@ -113,6 +113,7 @@ def row_of(cell: PlannedCell) -> Row:
         "nodes": 900,
         "leaves": 1000,
         "empty_leaves": 400,
+        "tree_cost": 4.5 if cell.structure == "goldsmith-salmon" else "",
         "traversal_steps_per_ray": 12.5,
         "primitive_tests_per_ray": 3.25,
         **(beams if cell.structure == "beam" else dict.fromkeys(beams, "")),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import pytest
@@ -268,12 +267,9 @@ def test_the_work_of_beams_is_that_of_the_whole_image(tmp_path: Path) -> None:
     assert occupied.low < occupied.value < occupied.high
 
 
-def test_the_cost_of_a_hierarchy_is_in_the_file_of_its_cell(tmp_path: Path) -> None:
-    row = row_of("goldsmith-salmon", "order=given,seed=1,queue=heap", nodes=296)
-    write_run(tmp_path, [row])
-    (tmp_path / "cells").mkdir()
-    cell = {"row": row, "family_statistics": {"cost": 56.2, "widest": 4}}
-    (tmp_path / "cells/1.json").write_text(json.dumps(cell))
+def test_the_size_and_the_cost_of_a_hierarchy_are_read(tmp_path: Path) -> None:
+    settings = "order=given,seed=1,queue=heap"
+    write_run(tmp_path, [row_of("goldsmith-salmon", settings, nodes=296, tree_cost=56.2)])
     found = measured_evidence([tmp_path])
     asked = {"contender": "goldsmith-salmon"}
     assert found.worked("boxes", "escena1", **asked) == Measured.exact(296)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -52,7 +51,6 @@ def _evidence_of(directory: Path) -> Evidence:
     rows = read_run(directory).rows
     rows = rows[rows["timed"] & rows["ray_kind"].eq("primary")]
     rows = rows[rows["camera"].eq(rows.groupby("scene")["camera"].transform("first"))]
-    costs = _hierarchy_costs(directory)
     times: list[dict[str, object]] = []
     work: list[dict[str, object]] = []
     octrees: list[dict[str, object]] = []
@@ -61,7 +59,7 @@ def _evidence_of(directory: Path) -> Evidence:
         if setting is None:
             continue
         times.append({"table": ""} | setting | seconds_of(row))
-        work += [setting | entry for entry in _work(row, costs)]
+        work += [setting | entry for entry in _work(row)]
         if setting["contender"] == "beam" and setting["samples"] == 1:
             octrees += _octree(row, setting)
     return Evidence(
@@ -123,15 +121,12 @@ def seconds_of(row: dict[str, object]) -> dict[str, float]:
     }
 
 
-def _work(row: dict[str, object], costs: dict[tuple[str, str], float]) -> list[dict[str, object]]:
+def _work(row: dict[str, object]) -> list[dict[str, object]]:
     """Counts of the whole image, times of its tasks in the counting pass; sizes of a hierarchy."""
     if row["structure"] == "goldsmith-salmon":
-        cost = row.get("tree_cost")
-        if cost is None or pd.isna(cost):
-            cost = costs.get((str(row["scene"]), str(row["parameters"])))
-        sizes = {"boxes": row["nodes"], "cost": cost}
+        sizes = {"boxes": _number(row, "nodes"), "cost": _number(row, "tree_cost")}
         return [
-            _entry(name, float(str(size))) | {"resolution": ""}
+            _entry(name, size) | {"resolution": ""}
             for name, size in sizes.items()
             if pd.notna(size)
         ]
@@ -174,20 +169,6 @@ def _octree(row: dict[str, object], setting: dict[str, object]) -> list[dict[str
         return []
     counts = {"occupied_leaves": round(leaves), "exit_pixels": round(pixels)}
     return [{name: setting[name] for name in ("scene", "level", "objects")} | counts]
-
-
-def _hierarchy_costs(directory: Path) -> dict[tuple[str, str], float]:
-    """Goldsmith and Salmon's cost by scene and parameters, where results.csv does not tell it."""
-    costs = {}
-    for path in sorted(directory.glob("cells/*.json")):
-        text = path.read_text("utf-8")
-        if '"goldsmith-salmon"' not in text:
-            continue
-        cell = json.loads(text)
-        cost = cell.get("family_statistics", {}).get("cost")
-        if cost is not None:
-            costs[cell["row"]["scene"], cell["row"]["parameters"]] = float(cost)
-    return costs
 
 
 def _number(row: dict[str, object], name: str) -> float:
