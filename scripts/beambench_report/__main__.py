@@ -19,6 +19,8 @@ from beambench_report.problem import Problem
 from beambench_report.records import read_run
 from beambench_report.repeatability import repeatability
 from beambench_report.thesis.command import add_thesis_command, thesis
+from beambench_report.thesis.levels.command import levels_text, write_levels
+from beambench_report.thesis.sampling.section import write_sampling
 
 _BUILT = Path(__file__).resolve().parents[2] / "build/release/bin/beambench"
 
@@ -35,6 +37,9 @@ def main(arguments: list[str] | None = None) -> int:
             return 0
         if options.command == "ledger" and options.output is None:
             print(_ledger(options), end="")
+            return 0
+        if options.command == "levels" and options.output is None:
+            print(levels_text(options.runs), end="")
             return 0
         if options.command == "thesis":
             return thesis(options)
@@ -107,6 +112,22 @@ def _parser() -> argparse.ArgumentParser:
     claims.add_argument(
         "-o", "--output", type=Path, metavar="FILE.md", help="if not given, it is printed"
     )
+    levels = commands.add_parser(
+        "levels", help="say how well max_level=auto chooses, beside the best of fixed levels"
+    )
+    levels.add_argument("runs", type=Path, nargs="+", metavar="RUN", help="folder of a run")
+    levels.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE.md",
+        help="if not given, it is printed; a plot comes beside it",
+    )
+    sampling = commands.add_parser(
+        "sampling", help="draw what beambench sampling SCENE --json printed, beside each other"
+    )
+    sampling.add_argument("files", type=Path, nargs="+", metavar="FILE.json")
+    sampling.add_argument("-o", "--output", type=Path, required=True, metavar="DIR")
     add_thesis_command(commands, _BUILT)
     commands.add_parser("columns", help="print results/README.md: what every column means")
     return parser
@@ -119,6 +140,10 @@ def _write(options: argparse.Namespace) -> list[Path]:
         return [write_contact_sheet(options.output, options.beambench, options.scenes)]
     if options.command == "ledger":
         return [write_text(options.output, _ledger(options))]
+    if options.command == "levels":
+        return write_levels(options.runs, options.output)
+    if options.command == "sampling":
+        return write_sampling(options.files, options.output)
     if options.command == "plots":
         return write_plots(options.run)
     if options.command == "pictures":

@@ -39,7 +39,7 @@ def fit_line(places: Sequence[float], heights: Sequence[Measured]) -> Line:
     return Line(
         slope,
         intercept,
-        _r_squared(value, fitted),
+        r_squared(value, fitted),
         bool(np.all((low < high) & (low <= fitted) & (fitted <= high))),
     )
 
@@ -62,9 +62,10 @@ def fit_costs(counts: Sequence[Sequence[float]], seconds: Sequence[float]) -> Co
     costs = np.linalg.lstsq(scaled / measured[:, None], np.ones_like(measured), rcond=None)[0]
     told = scaled @ costs
     error = float(np.median(np.abs(told - measured) / measured))
-    return CostFit(_r_squared(measured, told), error, len(measured))
+    return CostFit(r_squared(measured, told), error, len(measured))
 
 
-def _r_squared(measured: np.ndarray, told: np.ndarray) -> float:
+def r_squared(measured: np.ndarray, told: np.ndarray) -> float:
+    """The part of the spread of what was measured that what is told explains."""
     spread = float(np.sum((measured - measured.mean()) ** 2))
     return 1.0 - float(np.sum((measured - told) ** 2)) / spread if spread > 0 else 1.0

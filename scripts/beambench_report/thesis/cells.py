@@ -17,6 +17,8 @@ from beambench_report.ledger.published import primitives_by_scene
 from beambench_report.problem import Problem
 from beambench_report.records import read_run
 
+_SIZES = ("nodes", "leaves", "empty_leaves", "references", "depth", "hit_share")
+
 Setting = tuple[str | int, ...]
 """In the order of `evidence.SETTING`."""
 
@@ -45,10 +47,15 @@ class Cell:
     """Seconds, the building included; nothing where the verdict took the times away."""
     build: float
     """Seconds, too."""
+    trace: float
     megacycles: float
     memory: float
+    nodes: float
     leaves: float
     empty_leaves: float
+    references: float
+    depth: float
+    hit_share: float
     counters: dict[str, float]
     """Work a ray, by the counter's name."""
 
@@ -75,6 +82,15 @@ class Cells:
     def of(self, scene: str, structure: str, resolution: str, samples: int = 1) -> list[Cell]:
         """All cells of a structure, whatever its parameters."""
         return self._by_view.get((scene, structure, resolution, samples), [])
+
+    def without(self, run: str) -> Cells:
+        """All but those of one run."""
+        return Cells(
+            self.directory,
+            tuple(path for path in self.runs if path.name != run),
+            tuple(cell for cell in self.cells if cell.run != run),
+            self.unread,
+        )
 
     @cached_property
     def _by_setting(self) -> dict[Setting, Cell]:
@@ -156,16 +172,21 @@ def _cell(number: int, run: str, line: int, row: dict) -> Cell:
         tuple(known[name] for name in SETTING) if known else None,
         Measured(time["seconds"], time["low"], time["high"]) if time else None,
         row["build_ms_median"] / 1e3,
+        row["trace_ms_median"] / 1e3,
         row["total_mcycles_median"],
         row["memory_bytes"],
-        row["leaves"],
-        row["empty_leaves"],
+        *(_known(row, name) for name in _SIZES),
         {
             name.removesuffix(COUNTER_SUFFIX): value
             for name, value in row.items()
             if name.endswith(COUNTER_SUFFIX) and pd.notna(value)
         },
     )
+
+
+def _known(row: dict, name: str) -> float:
+    """What the row says; not a number where it says nothing."""
+    return float(row.get(name, float("nan")))
 
 
 def _plain_scene(scene: str, primitives: float) -> str:

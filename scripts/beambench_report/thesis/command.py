@@ -18,6 +18,7 @@ _EXAMPLES = """examples:
   scripts/thesis --quick                    the two lowest resolutions, within five minutes
   scripts/thesis --table 5.4 --table 5.6    what two tables need
   scripts/thesis --figure 5.11 -o samples   what a figure needs, in a folder of your choice
+  scripts/thesis --levels                   and how well max_level=auto chooses the level
   scripts/thesis --dry-run                  what would be run, and how long
   scripts/thesis --resume samples           go on with a run that was cut off
 """
@@ -35,6 +36,7 @@ def add_thesis_command(commands: argparse._SubParsersAction, built: Path) -> Non
     add("--table", action="append", default=[], metavar="5.4", help="only what this table needs")
     add("--figure", action="append", default=[], metavar="5.8", help="only what this figure needs")
     add("--quick", action="store_true", help="320x200 and 640x480 only, few repetitions")
+    add("--levels", action="store_true", help="also how well max_level=auto chooses: 8 min more")
     add("--dry-run", action="store_true", help="list the sweeps, their cells and their time; stop")
     add("--report-only", action="store_true", help="measure nothing; write the report anew")
     add(
@@ -76,7 +78,7 @@ def _request(options: argparse.Namespace) -> tuple[Plan, Path]:
     if options.resume is None:
         if options.report_only:
             raise Problem("--report-only needs the folder of a run: give it with --resume DIR")
-        plan = make_plan(options.table, options.figure, options.quick)
+        plan = make_plan(options.table, options.figure, options.quick, with_levels=options.levels)
         time = datetime.now(UTC).strftime("%Y%m%dT%H%M%SZ")
         directory = options.output or _ROOT / "results/runs" / f"{time}-thesis"
         if (directory / "thesis.json").exists() and not options.dry_run:
@@ -84,7 +86,7 @@ def _request(options: argparse.Namespace) -> tuple[Plan, Path]:
                 f"{directory}: holds a run already; go on with it by --resume, or choose another"
             )
         return plan, directory
-    others = (options.table, options.figure, options.quick, options.output)
+    others = (options.table, options.figure, options.quick, options.levels, options.output)
     if any(others):
         raise Problem("--resume goes on with what was begun: give no other choice with it")
     return read_plan(options.resume), options.resume

@@ -9,6 +9,7 @@ from beambench_report.ledger.markdown import as_markdown as ledger_as_markdown
 from beambench_report.quantities import number
 from beambench_report.thesis.best import BestTable, Choice
 from beambench_report.thesis.report import Part, Report, RunSummary
+from beambench_report.thesis.section import section_as_markdown
 from beambench_report.thesis.tables import Entry, Line, PartTable
 from beambench_report.thesis.texts import DASH, interval, milliseconds, thesis_seconds
 from beambench_report.thesis.words import BEST_WORDS, TABLE_WORDS, headline, notice, verdict_counts
@@ -44,6 +45,7 @@ def as_markdown(report: Report) -> str:
         for picture in report.pictures:
             image = f"![{picture.caption}](pictures/{picture.path.name})" if picture.path else ""
             lines += [f"{image} {picture.caption}".strip(), ""]
+    lines += [section_as_markdown(section) for section in report.sections]
     lines += ["## Runs", "", *_runs(report), "", "## Every cell of the ledger", ""]
     lines += [ledger_as_markdown(report.ledger, cells=True).split("\n\n", 1)[-1]]
     return "\n".join(lines)

@@ -68,6 +68,11 @@ def as_page(report: Report) -> str:
             data.number: _image(report.directory / "figures" / f"figure-{data.number}.svg")
             for data in report.figures
         },
+        plots={
+            figure.stem: _image(report.directory / "figures" / f"{figure.stem}.svg")
+            for section in report.sections
+            for figure in section.figures
+        },
         pictures=[
             (_image(picture.path) if picture.path else "", picture.caption)
             for picture in report.pictures

@@ -11,7 +11,7 @@ from beambench_report.files import write_text
 from beambench_report.problem import Problem
 from beambench_report.thesis import sweeps as sweep_files
 from beambench_report.thesis.catalogue import FIGURES, SWEEPS, TABLES
-from beambench_report.thesis.sweeps import Sweep, quick, read_sweep
+from beambench_report.thesis.sweeps import LEVELS, Sweep, quick, read_sweep
 
 _PLAN = "thesis.json"
 
@@ -32,9 +32,17 @@ class Plan:
 
 
 def make_plan(
-    tables: Sequence[str], figures: Sequence[str], is_quick: bool, folder: Path | None = None
+    tables: Sequence[str],
+    figures: Sequence[str],
+    is_quick: bool,
+    folder: Path | None = None,
+    *,
+    with_levels: bool = False,
 ) -> Plan:
-    """The sweeps for some tables and figures, or for all. Raises Problem for one there is not."""
+    """The sweeps for some tables and figures, or for all. Raises Problem for one there is not.
+
+    `with_levels` adds the sweep that max_level=auto is judged by.
+    """
     known_tables, known_figures = [t.number for t in TABLES], [f.number for f in FIGURES]
     _require_known("table", tables, known_tables)
     _require_known("figure", figures, known_figures)
@@ -46,6 +54,8 @@ def make_plan(
     # A figure that a table's sweeps are enough for costs nothing more.
     shown = [figure.number for figure in FIGURES if wanted.issuperset(figure.sweeps)]
     read = [read_sweep(name, folder or sweep_files.FOLDER) for name in SWEEPS if name in wanted]
+    if with_levels:
+        read.append(read_sweep(LEVELS, (folder or sweep_files.FOLDER).parent))
     made = [quick(sweep) if is_quick else sweep for sweep in read]
     return Plan(
         tuple(table.number for table in chosen_tables),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -21,6 +22,9 @@ from beambench_report.thesis.pictures import Picture, octree_pictures
 from beambench_report.thesis.plan import Plan
 from beambench_report.thesis.printed import parts_of
 from beambench_report.thesis.runner import state_of
+from beambench_report.thesis.section import Section
+from beambench_report.thesis.sections import extra_sweeps, sections_of
+from beambench_report.thesis.sweeps import LEVELS, Sweep
 from beambench_report.thesis.tables import PartTable, fill
 from beambench_report.thesis.work import WorkTable, work_of_lines
 
@@ -68,6 +72,8 @@ class Report:
     figures: tuple[FigureData, ...]
     pictures: tuple[Picture, ...]
     ledger: tuple[LedgerEntry, ...]
+    sections: tuple[Section, ...]
+    """What goes beyond the thesis's own tables and figures."""
     runs: tuple[RunSummary, ...]
 
     @property
@@ -87,7 +93,10 @@ class Written:
 
 def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report:
     """Reads the runs; what was not measured is left out and told so."""
-    cells = read_cells(directory, (sweep.name for sweep in plan.sweeps))
+    sweeps = [*plan.sweeps, *extra_sweeps(directory, plan)]
+    every = read_cells(directory, (sweep.name for sweep in sweeps))
+    # Tables, figures and ledger have one sweep for each of their cells, and none of them is LEVELS.
+    cells = every.without(LEVELS)
     shown = [table for table in TABLES if table.number in plan.tables]
     pictures = ()
     if _PICTURES in plan.figures and beambench is not None and cells.cells:
@@ -95,12 +104,13 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
     return Report(
         directory,
         plan,
-        cells,
+        every,
         tuple((table, _parts(table, cells, directory, plan)) for table in shown),
         tuple(make_figures(plan.figures, cells)),
         pictures,
         tuple(ledger(cells.runs)),
-        tuple(_summary(directory, plan, cells)),
+        tuple(sections_of(directory, every)),
+        tuple(_summary(directory, sweeps, every)),
     )
 
 
@@ -116,6 +126,8 @@ def write_report(directory: Path, plan: Plan, beambench: Path | None = None) -> 
     with house_style():
         for data in report.figures:
             write_plot(draw(data), folder)
+        for figure in (one for section in report.sections for one in section.figures):
+            write_plot(figure.draw(), folder)
     paths = (
         write_text(directory / "report.html", as_page(report)),
         write_text(directory / "report.md", as_markdown(report)),
@@ -139,7 +151,7 @@ def _parts(table: Table, cells: Cells, directory: Path, plan: Plan) -> tuple[Par
     )
 
 
-def _summary(directory: Path, plan: Plan, cells: Cells) -> list[RunSummary]:
+def _summary(directory: Path, sweeps: Iterable[Sweep], cells: Cells) -> list[RunSummary]:
     return [
         RunSummary(
             sweep.name,
@@ -149,7 +161,7 @@ def _summary(directory: Path, plan: Plan, cells: Cells) -> list[RunSummary]:
             tuple(cell for cell in cells.cells if cell.run == sweep.name),
             read_manifest(directory / sweep.name) or Manifest(),
         )
-        for sweep in plan.sweeps
+        for sweep in sweeps
     ]
 
 

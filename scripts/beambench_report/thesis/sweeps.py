@@ -14,6 +14,9 @@ from beambench_report.problem import Problem
 
 FOLDER = Path(__file__).resolve().parents[3] / "harness/sweeps/thesis"
 
+LEVELS = "levels"
+"""The sweep that max_level=auto is judged by; its file lies in the folder above FOLDER."""
+
 _QUICK_RESOLUTIONS = ("320x200", "640x480")
 _QUICK_REPETITIONS = {"minimum": 1, "maximum": 3}
 _QUICK_SECONDS_A_CELL = 0.25

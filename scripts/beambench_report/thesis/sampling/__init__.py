@@ -1,0 +1,1 @@
+"""Object-space sampling, the thesis's future work: `beambench sampling SCENE --json`, shown."""

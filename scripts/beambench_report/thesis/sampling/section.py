@@ -1,0 +1,166 @@
+"""The ways of sampling as a part of the report, and as files of their own."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from functools import partial
+from pathlib import Path
+from statistics import median
+
+from beambench_report.figure import house_style, write_plot
+from beambench_report.files import write_text
+from beambench_report.names import file_stems
+from beambench_report.problem import Problem
+from beambench_report.quantities import number
+from beambench_report.thesis.printed import scene_title
+from beambench_report.thesis.sampling.plot import draw_comparison
+from beambench_report.thesis.sampling.read import UNIFORM, Comparison, read_comparison
+from beambench_report.thesis.section import (
+    Column,
+    Field,
+    Section,
+    SectionFigure,
+    SectionTable,
+    section_as_markdown,
+)
+from beambench_report.thesis.texts import DASH, milliseconds
+
+_WORDS = (
+    "The thesis takes five samples in every pixel of a beam that ends at an occupied leaf, and "
+    "leaves it to future work to let the leaf choose how many. Here it does: 1, 5 or 25 by the "
+    "primitives of the leaf over its width in pixels (object-space). Beside it stand the same "
+    "number in every such pixel (uniform) and more where a pixel differs from its neighbours "
+    "(image-space). An error is the root mean square difference, of 255, to the picture of 64 "
+    "samples a pixel in preview shading; a time is that of tracing and of choosing. Two numbers as "
+    "a setting are the values from which on a pixel gets 5 and 25 samples.",
+)
+_CAPTION = (
+    "Every point is a setting. Further left is quicker, further down is better; ringed is what "
+    "the thesis did."
+)
+
+
+def sampling_section(comparisons: Sequence[Comparison]) -> Section | None:
+    """Scene by scene; None where there is nothing."""
+    if not comparisons:
+        return None
+    stems = file_stems(f"sampling {_title(comparison)}" for comparison in comparisons)
+    figures = []
+    for comparison, stem in zip(comparisons, stems.values(), strict=True):
+        title = _title(comparison)
+        draw = partial(draw_comparison, comparison, stem, title)
+        figures.append(SectionFigure(stem, f"{title}: error over time", _CAPTION, draw))
+    return Section(
+        "sampling",
+        "Samples chosen in object space",
+        _WORDS,
+        (_against_thesis(comparisons), *map(_ways, comparisons)),
+        tuple(figures),
+        tuple(_findings(comparisons)),
+    )
+
+
+def read_comparisons(files: Iterable[Path]) -> list[Comparison]:
+    """One file a view. Raises Problem where a file cannot be read, or is of a view again."""
+    seen: dict[str, Path] = {}
+    found = []
+    for path in files:
+        comparison = read_comparison(path)
+        title = _title(comparison)
+        if title in seen:
+            raise Problem(f"{path} and {seen[title]} are both of {title}; give one of them")
+        seen[title] = path
+        found.append(comparison)
+    return found
+
+
+def write_sampling(files: Iterable[Path], directory: Path) -> list[Path]:
+    """Writes DIRECTORY/sampling.md and a plot a file. Raises Problem where one cannot be read."""
+    section = sampling_section(read_comparisons(files))
+    if section is None:
+        raise Problem("there is no file; write one with `beambench sampling SCENE --json`")
+    directory.mkdir(parents=True, exist_ok=True)
+    text = section_as_markdown(section, level=1, folder="")
+    paths = [write_text(directory / "sampling.md", text)]
+    with house_style():
+        for figure in section.figures:
+            paths += write_plot(figure.draw(), directory)
+    return paths
+
+
+def _title(comparison: Comparison) -> str:
+    plain = comparison.scene.split(":")[0]
+    name = scene_title(plain)
+    own = "" if comparison.structure == "beam" else f", {comparison.structure}"
+    return f"{comparison.scene if name == plain else name}, {comparison.resolution}{own}"
+
+
+def _against_thesis(comparisons: Sequence[Comparison]) -> SectionTable:
+    heads = ("time", "error", "same error in", "of its time", "error in its time")
+    columns = (Column("scene", False), Column("method", False), *(Column(head) for head in heads))
+    rows = []
+    for comparison in comparisons:
+        thesis = comparison.thesis
+        if thesis is None:
+            continue
+        own = (_milliseconds(thesis.milliseconds), number(thesis.error), DASH, DASH, DASH)
+        rows.append((_title(comparison), "uniform, 5 samples (thesis)", *own))
+        for method in comparison.methods:
+            if method == UNIFORM:
+                continue
+            time = comparison.time_at_error(method, thesis.error)
+            error = comparison.error_at_time(method, thesis.milliseconds)
+            texts = (
+                DASH if time is None else _milliseconds(time),
+                DASH if time is None else f"{time / thesis.milliseconds:.0%}",
+                DASH if error is None else number(error),
+            )
+            rows.append(("", method, DASH, DASH, *texts))
+    fields = tuple(tuple(Field(text) for text in row) for row in rows)
+    title = f"Against the thesis's five samples ({DASH}: outside of the settings that were tried)"
+    return SectionTable(title, columns, fields)
+
+
+def _ways(comparison: Comparison) -> SectionTable:
+    heads = ("rays a pixel", "trace", "error")
+    columns = (Column("method", False), Column("setting", False), *(Column(h) for h in heads))
+    rows = tuple(
+        tuple(
+            Field(text)
+            for text in (
+                way.method,
+                way.setting.replace(" ", ", "),
+                f"{way.rays:.3f}",
+                _milliseconds(way.milliseconds),
+                f"{way.error:.3f}",
+            )
+        )
+        for way in comparison.ways
+    )
+    title = f"{_title(comparison)} ({comparison.repetitions} repetitions)"
+    return SectionTable(title, columns, rows, is_long=True)
+
+
+def _findings(comparisons: Sequence[Comparison]) -> Iterable[str]:
+    """Of each other method: in how many scenes it is quicker to the thesis's error."""
+    compared = [comparison for comparison in comparisons if comparison.thesis]
+    for method in dict.fromkeys(name for one in compared for name in one.methods):
+        if method == UNIFORM:
+            continue
+        shares = []
+        for one in compared:
+            time = one.time_at_error(method, one.thesis.error)
+            if time is not None:
+                shares.append(time / one.thesis.milliseconds)
+        if not shares:
+            yield f"{method}: no setting that was tried comes near the error of five samples."
+            continue
+        quicker = sum(share < 1 for share in shares)
+        yield (
+            f"{method} reaches the error of the thesis's five samples in less time in {quicker} of "
+            f"{len(shares)} scenes, in the middle in {median(shares):.0%} of it."
+        )
+
+
+def _milliseconds(value: float) -> str:
+    return milliseconds(value / 1e3)
