@@ -36,7 +36,7 @@ def add_thesis_command(commands: argparse._SubParsersAction, built: Path) -> Non
     add("--table", action="append", default=[], metavar="5.4", help="only what this table needs")
     add("--figure", action="append", default=[], metavar="5.8", help="only what this figure needs")
     add("--quick", action="store_true", help="320x200 and 640x480 only, few repetitions")
-    add("--levels", action="store_true", help="also how well max_level=auto chooses: 8 min more")
+    add("--levels", action="store_true", help="also how well max_level=auto chooses: 8 min or more")
     add("--dry-run", action="store_true", help="list the sweeps, their cells and their time; stop")
     add("--report-only", action="store_true", help="measure nothing; write the report anew")
     add(

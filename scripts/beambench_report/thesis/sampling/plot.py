@@ -10,10 +10,11 @@ from beambench_report.style import Look
 from beambench_report.thesis.sampling.read import UNIFORM, Comparison
 
 _HEIGHT = 3.6  # inches
+_OBJECT_SPACE = "object-space"
 # All are the beams': object space, which only they can choose in, has their colour.
 _LOOKS = {
     UNIFORM: Look("#777777", "o", "--"),
-    "object-space": Look("#d55e00", "s", "-"),
+    _OBJECT_SPACE: Look("#d55e00", "s", "-"),
     "image-space": Look("#000000", "D", "-."),
 }
 _OTHER = Look("#0072b2", "^", ":")
@@ -24,6 +25,7 @@ def draw_comparison(comparison: Comparison, stem: str, title: str) -> Plot:
     figure, (panel,) = new_figure(_HEIGHT)
     for method in comparison.methods:
         look = _LOOKS.get(method, _OTHER)
+        is_left = method == _OBJECT_SPACE  # lines run close to each other
         ways = [way for way in comparison.of(method) if way.error > 0]
         panel.plot(
             [way.milliseconds for way in ways],
@@ -39,7 +41,8 @@ def draw_comparison(comparison: Comparison, stem: str, title: str) -> Plot:
             panel.annotate(
                 way.setting.replace(" ", ", "),
                 (way.milliseconds, way.error),
-                xytext=(5, 4),
+                xytext=(-5, -10) if is_left else (5, 4),
+                ha="right" if is_left else "left",
                 textcoords="offset points",
                 fontsize=7,
                 color=look.colour,

@@ -137,7 +137,7 @@ def _ways(comparison: Comparison) -> SectionTable:
         )
         for way in comparison.ways
     )
-    title = f"{_title(comparison)} ({comparison.repetitions} repetitions)"
+    title = f"{_title(comparison)} ({comparison.path.name}, {comparison.repetitions} repetitions)"
     return SectionTable(title, columns, rows, is_long=True)
 
 
