@@ -144,8 +144,10 @@ def test_the_report_has_the_section_where_there_are_comparisons(tmp_path: Path) 
     run = write_runs(tmp_path / "run", plan)
     (run / "sampling").mkdir()
     write_comparison(run / "sampling/delfines.json")
+    (run / "sampling/maceta.json").write_text("cut o")  # costs its scene, not the report
     write_report(run, plan)
     page = (run / "report.html").read_text()
+    assert "sampling/maceta.json: is not what" in page
     assert '<section id="sampling">' in page
     assert "## Samples chosen in object space" in (run / "report.md").read_text()
     assert (run / "figures/sampling-delfines-640x480.png").exists()

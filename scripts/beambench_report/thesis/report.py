@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -97,6 +97,7 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
     every = read_cells(directory, (sweep.name for sweep in sweeps))
     # Tables, figures and ledger have one sweep for each of their cells, and none of them is LEVELS.
     cells = every.without(LEVELS)
+    sections, unread = sections_of(directory, every)
     shown = [table for table in TABLES if table.number in plan.tables]
     pictures = ()
     if _PICTURES in plan.figures and beambench is not None and cells.cells:
@@ -104,12 +105,12 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
     return Report(
         directory,
         plan,
-        every,
+        replace(every, unread=(*every.unread, *unread)),
         tuple((table, _parts(table, cells, directory, plan)) for table in shown),
         tuple(make_figures(plan.figures, cells)),
         pictures,
         tuple(ledger(cells.runs)),
-        tuple(sections_of(directory, every)),
+        tuple(sections),
         tuple(_summary(directory, sweeps, every)),
     )
 

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
 from pathlib import Path
 
 from beambench_report.thesis.cells import Cells
 from beambench_report.thesis.cost.section import cost_section
 from beambench_report.thesis.levels.section import levels_section
 from beambench_report.thesis.plan import Plan
-from beambench_report.thesis.sampling.section import read_comparisons, sampling_section
+from beambench_report.thesis.sampling.section import readable_comparisons, sampling_section
 from beambench_report.thesis.section import Section
 from beambench_report.thesis.sweeps import LEVELS, Sweep
 
@@ -29,13 +28,12 @@ def extra_sweeps(directory: Path, plan: Plan) -> list[Sweep]:
     return [Sweep(LEVELS, source)]
 
 
-def sections_of(directory: Path, cells: Cells) -> Iterable[Section]:
-    """Costs, levels and sampling, in the order in which each builds on the one before."""
-    comparisons = read_comparisons(sorted((directory / SAMPLING).glob("*.json")))
-    for section in (
+def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]]:
+    """Costs, levels and sampling; and a sentence for each file that could not be read."""
+    comparisons, unread = readable_comparisons(sorted((directory / SAMPLING).glob("*.json")))
+    sections = (
         cost_section(cells.cells),
         levels_section(cells.cells),
         sampling_section(comparisons),
-    ):
-        if section is not None:
-            yield section
+    )
+    return [section for section in sections if section is not None], unread

@@ -62,16 +62,29 @@ def sampling_section(comparisons: Sequence[Comparison]) -> Section | None:
 
 def read_comparisons(files: Iterable[Path]) -> list[Comparison]:
     """One file a view. Raises Problem where a file cannot be read, or is of a view again."""
-    seen: dict[str, Path] = {}
-    found = []
-    for path in files:
-        comparison = read_comparison(path)
-        title = _title(comparison)
-        if title in seen:
-            raise Problem(f"{path} and {seen[title]} are both of {title}; give one of them")
-        seen[title] = path
-        found.append(comparison)
+    found, unread = readable_comparisons(files)
+    if unread:
+        raise Problem(unread[0])
     return found
+
+
+def readable_comparisons(files: Iterable[Path]) -> tuple[list[Comparison], list[str]]:
+    """What can be shown, and a sentence for each file that cannot."""
+    found: dict[str, Comparison] = {}
+    unread = []
+    for path in files:
+        try:
+            comparison = read_comparison(path)
+        except Problem as problem:
+            unread.append(str(problem))
+            continue
+        title = _title(comparison)
+        if title in found:
+            first = found[title].path
+            unread.append(f"{path} and {first} are both of {title}; give one of them")
+            continue
+        found[title] = comparison
+    return list(found.values()), unread
 
 
 def write_sampling(files: Iterable[Path], directory: Path) -> list[Path]:
