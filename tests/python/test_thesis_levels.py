@@ -175,7 +175,7 @@ def test_the_sweep_has_all_scenes_and_both_structures() -> None:
     jsonschema.Draft202012Validator(schema).validate(source)
     sweep = read_sweep(LEVELS, SWEEP.parent)
     assert {cell.scene for cell in sweep.cells()} == set(primitives_by_scene())
-    assert len(sweep.cells()) == 15 * 3 * 2 * 6
+    assert len(sweep.cells()) == 15 * 3 * 2 * 5
     assert ("max_level", "auto") in {pair for cell in sweep.cells() for pair in cell.parameters}
     assert quick(sweep).source["resolutions"] == ["320x200", "640x480"]
 
