@@ -22,14 +22,14 @@ void count_beams(const Octree& octree, const Camera& camera, OctreeWork& work) {
 }
 
 double beam_cost(const OctreeWork& work, double handover) {
-  const double build = 80.0 * work.nodes + 180.0 * work.references;
-  double beams = 260.0 * work.nonterminal + 360.0 * work.occupied;
+  const double build = 60.0 * work.nodes + 110.0 * work.references;
+  double beams = 240.0 * work.nonterminal + 380.0 * work.occupied;
   if (handover > 0.0) {
     // A level of leaves before the eye has no more beams of `handover` samples than this.
     const double large = work.steps * work.rays / handover;
     beams *= std::min(1.0, large / std::max(1.0, work.nonterminal));
   }
-  return build + beams + work.rays * work.hit_share * (6.7 * work.steps + 7.0 * work.tests);
+  return build + beams + work.rays * work.hit_share * (6.6 * work.steps + 6.6 * work.tests);
 }
 
 }  // namespace beambench

@@ -75,8 +75,8 @@ class LevelSearch {
 }  // namespace
 
 double samet_cost(const OctreeWork& work) {
-  const double build = 80.0 * work.nodes + 180.0 * work.references;
-  return build + work.rays * (9.0 * work.steps + 13.0 * work.tests);
+  const double build = 60.0 * work.nodes + 110.0 * work.references;
+  return build + work.rays * (8.4 * work.steps + 12.6 * work.tests);
 }
 
 Octree choose_octree(const Scene& scene, const OctreeOptions& options, const Workload& workload,
