@@ -51,7 +51,7 @@ Statistics Octree::statistics() const {
     ++statistics.leaves;
     if (node.count == 0) ++statistics.empty_leaves;
   }
-  statistics.references = references_.size();
+  statistics.references = reference_count();
   statistics.depth = static_cast<std::uint64_t>(deepest_level_);
   statistics.bytes = sizeof(*this) + nodes_.capacity() * sizeof(OctreeNode) +
                      references_.capacity() * sizeof(PrimitiveId);

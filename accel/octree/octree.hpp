@@ -1,6 +1,7 @@
 #pragma once
 // The octree of the thesis (section 3.3), shared by every structure that walks one.
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -62,6 +63,8 @@ class Octree {
   /// The finest cells, as many along each axis: 2^(max_level - 1).
   const CellGrid& grid() const { return grid_; }
   int deepest_level() const { return deepest_level_; }
+  /// Of all leaves together.
+  std::size_t reference_count() const { return references_.size(); }
   std::span<const OctreeNode> nodes() const { return nodes_; }
   std::span<const PrimitiveId> references(const OctreeNode& leaf) const {
     return {references_.data() + leaf.first, leaf.count};

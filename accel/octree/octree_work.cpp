@@ -40,7 +40,7 @@ OctreeWork count_work(const Scene& scene, const Octree& octree, const Workload& 
   };
   return {.rays = static_cast<double>(workload.rays),
           .nodes = static_cast<double>(octree.nodes().size()),
-          .references = static_cast<double>(octree.statistics().references),
+          .references = static_cast<double>(octree.reference_count()),
           .steps = a_ray(counters.get(Counter::kTraversalSteps)),
           .tests = a_ray(counters.get(Counter::kPrimitiveTests)),
           .hit_share = a_ray(meet_objects)};

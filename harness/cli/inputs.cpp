@@ -51,11 +51,6 @@ PrimaryRays choose_rays(const Scene& scene, const ImageRequest& request) {
   return {image.camera, image.resolution.width, image.resolution.height, image.samples};
 }
 
-Workload workload_of(const Scene& scene, const ImageRequest& request) {
-  const ImageOfRays image = choose_image(scene, request);
-  return {image.camera, choose_rays(scene, request).count()};
-}
-
 void add_image_options(CLI::App& command, ImageRequest& request) {
   command.add_option("--resolution", request.resolution, "WxH (default: the camera's own)");
   command.add_option("--samples", request.samples, "Rays a pixel: 1, 4, 5, 9, 16, ...")

@@ -33,8 +33,6 @@ struct ImageRequest {
 /// Throws InputError for a wrong resolution, camera or number of samples. The scene outlives it.
 ImageOfRays choose_image(const Scene& scene, const ImageRequest& request);
 PrimaryRays choose_rays(const Scene& scene, const ImageRequest& request);
-/// The workload of these rays.
-Workload workload_of(const Scene& scene, const ImageRequest& request);
 /// Adds --resolution, --samples and --camera.
 void add_image_options(CLI::App& command, ImageRequest& request);
 

@@ -108,7 +108,7 @@ ReferenceHits find_reference(const Request& request, const Scene& scene, const P
   if (request.difference == kOracleName) return {scene, rays};
   const StructureChoice other = choose_one("--difference", request.difference);
   Answers answers = room_for(rays);
-  ask(*other.build(scene, workload_of(scene, request.image)), rays, answers);
+  ask(*other.build(scene, workload_of(choose_image(scene, request.image), rays)), rays, answers);
   return reference_from(scene, rays, answers);
 }
 
@@ -140,7 +140,8 @@ void render(const Request& request) {
 
   Progress progress(1);
   progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
-  const auto accelerator = choice.build(scene, workload_of(scene, request.image));
+  const auto accelerator =
+      choice.build(scene, workload_of(choose_image(scene, request.image), rays));
   Answers answers = room_for(rays);
   auto& hits = std::get<HitBuffer>(answers);
   std::string found;

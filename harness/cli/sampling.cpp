@@ -78,7 +78,7 @@ void compare(const Request& request) {
   }
   const Scene scene = open_scene(request.scene);
   const ImageOfRays image = choose_image(scene, request.image);
-  const auto structure = choice.build(scene, workload_of(scene, request.image));
+  const auto structure = choice.build(scene, workload_of(image, choose_rays(scene, request.image)));
   const auto* tracer = dynamic_cast<const BeamTracer*>(structure.get());
   if (tracer == nullptr) {
     throw InputError(
