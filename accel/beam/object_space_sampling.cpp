@@ -38,7 +38,7 @@ class ChoosingWatch : public NoBeamWatch {
 
   void met(BeamKind kind, const Beam& beam) {
     const double edges = kind == BeamKind::kOccupied ? edges_a_pixel(beam) : density_.many;
-    choice_ = edges >= density_.many ? 2 : edges >= density_.few ? 1 : 0;
+    choice_ = sample_choice(edges, density_.few, density_.many);
   }
   std::span<const SampleLattice> chosen(std::span<const SampleLattice>) const {
     return lattices_[choice_];

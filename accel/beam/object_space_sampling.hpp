@@ -38,6 +38,11 @@ struct SparseSamples {
 /// The numbers of samples that leaves choose from, in increasing order.
 inline constexpr std::array<int, 3> kSampleNumbers{1, 5, 25};
 
+/// Which of them belongs to a value, the second from `few` on and the third from `many` on.
+constexpr std::size_t sample_choice(double value, double few, double many) {
+  return value >= many ? 2 : value >= few ? 1 : 0;
+}
+
 /// The samples, as places in the grid of 5 x 5 (row by row), that a pixel with `number` samples
 /// has: all, one of each row and column, or the middle one.
 std::span<const int> chosen_samples(int number);

@@ -45,7 +45,7 @@ std::vector<std::size_t> choose(const Image& image, const SamplingContrast& cont
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) {
       const double found = contrast_at(image, x, y);
-      const int number = found >= contrast.many ? 25 : found >= contrast.few ? 5 : 1;
+      const int number = kSampleNumbers[sample_choice(found, contrast.few, contrast.many)];
       for (const int sample : chosen_samples(number)) {
         const std::size_t index = samples.hits.index(x, y, sample);
         samples.number[index] = static_cast<std::uint8_t>(number);
