@@ -5,12 +5,14 @@
 
 namespace beambench {
 
-/// Follows the beams of a camera and counts those that meet an empty leaf and those that end at an
-/// occupied one. Beams do not depend on the resolution, and no sample is traced.
-void count_beams(const Octree& octree, const Camera& camera, OctreeWork& work);
+/// Estimates how many beams of a camera meet an empty leaf and how many end at an occupied one.
+/// Follows those that windows spread over the image show, small ones where many beams are
+/// `expected` for few rays; it is right on average. No sample is traced.
+void count_beams(const Octree& octree, const Workload& workload, const OctreeWork& expected,
+                 OctreeWork& work);
 
-/// Nanoseconds that building the octree and tracing by beams are expected to take (thesis, section
-/// 5.3.3); see `samet_cost`. `handover` is the tracer's.
-double beam_cost(const OctreeWork& work, double handover);
+/// Nanoseconds that tracing by beams is expected to take (thesis, section 5.3.3); see
+/// `samet_trace_cost`. `handover` is the tracer's.
+double beam_trace_cost(const OctreeWork& work, double handover);
 
 }  // namespace beambench

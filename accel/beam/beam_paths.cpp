@@ -81,9 +81,10 @@ BeamCut cut_between(const EyeView& view, const Crossing& inner, const Crossing& 
   return {inner, outer, view.line_before(inner, outer)};
 }
 
-void enter_root(const Octree& octree, const EyeView& view, const Crossing& face, BeamQueue& queue) {
+void enter_root(const Octree& octree, const EyeView& view, const ImagePolygon& part,
+                const Crossing& face, BeamQueue& queue) {
   Beam screen;
-  screen.outline = view.screen();
+  screen.outline = part;
   FixedVector<BeamCut, 4> borders;
   for (int other = 1; other <= 2; ++other) {
     const int axis = (face.axis + other) % 3;
@@ -168,7 +169,8 @@ class Exits {
 
 }  // namespace
 
-void begin_beams(const Octree& octree, const EyeView& view, BeamQueue& queue) {
+void begin_beams(const Octree& octree, const EyeView& view, const ImagePolygon& part,
+                 BeamQueue& queue) {
   bool inside = true;
   for (int axis = 0; axis < 3; ++axis) {
     const std::int32_t cells = octree.grid().cells[axis];
@@ -179,7 +181,7 @@ void begin_beams(const Octree& octree, const EyeView& view, BeamQueue& queue) {
     inside = false;
     const Crossing face{below ? 0 : cells, static_cast<std::int16_t>(axis),
                         static_cast<std::int16_t>(below ? 1 : -1)};
-    enter_root(octree, view, face, queue);
+    enter_root(octree, view, part, face, queue);
   }
   if (!inside) return;
   OctreeCursor cursor(octree);
@@ -192,7 +194,7 @@ void begin_beams(const Octree& octree, const EyeView& view, BeamQueue& queue) {
     cursor.enter_child(corner);
   }
   Beam beam;
-  beam.outline = view.screen();
+  beam.outline = part;
   push_at(cursor, beam, queue);
 }
 

@@ -17,10 +17,12 @@ struct BeamQueue {
   std::uint64_t passed_whole = 0;  ///< beams that went on into one leaf, undivided
 };
 
-/// Appends the beams at which tracing begins (thesis, section 3.4). From outside: for each face of
-/// the root that the eye sees, the screen clipped to it, divided among the leaves behind it. From
-/// inside: the whole screen in the eye's leaf. Samples of no beam miss the root.
-void begin_beams(const Octree& octree, const EyeView& view, BeamQueue& queue);
+/// Appends the beams at which tracing begins (thesis, section 3.4), through a convex `part` of the
+/// image: the whole of it is `view.screen()`. From outside: for each face of the root that the eye
+/// sees, the part clipped to it, divided among the leaves behind it. From inside: the part itself
+/// in the eye's leaf. Samples of no beam miss the root.
+void begin_beams(const Octree& octree, const EyeView& view, const ImagePolygon& part,
+                 BeamQueue& queue);
 
 /// Appends the beams that leave a leaf (thesis, section 3.5): divided among the faces by which its
 /// rays leave, then among the leaves behind each face.

@@ -73,7 +73,7 @@ class BeamTracer::Run {
   void operator()() {
     std::fill_n(buffer_->t(), buffer_->size(), kInfinity);
     std::fill_n(buffer_->primitive(), buffer_->size(), kNoPrimitive);
-    begin_beams(octree(), view_, queue_);
+    begin_beams(octree(), view_, view_.screen(), queue_);
     BeamStep step;
     while (!queue_.waiting.empty()) {
       queue_.waiting.pop(step);

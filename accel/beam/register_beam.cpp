@@ -10,8 +10,10 @@ Octree chosen_octree(const Scene& scene, const BeamOptions& options, const Workl
   const auto handover = static_cast<double>(options.handover);
   return choose_octree(
       scene, options.octree, workload,
-      [handover](const OctreeWork& work) { return beam_cost(work, handover); },
-      [&](const Octree& octree, OctreeWork& work) { count_beams(octree, workload.camera, work); });
+      [handover](const OctreeWork& work) { return beam_trace_cost(work, handover); },
+      [&](const Octree& octree, const OctreeWork& expected, OctreeWork& work) {
+        count_beams(octree, workload, expected, work);
+      });
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 namespace beambench {
 namespace {
 
-constexpr int kFirstLevel = 4;
+constexpr int kFirstLevel = 3;
 constexpr int kLastLevel = 12;
 
 /// An octree with its work.
@@ -17,33 +17,34 @@ struct Trial {
 /// The work of the level before the first, at which nothing was counted: what is usual.
 OctreeWork usual_work_before(const OctreeWork& first) {
   OctreeWork before = first;
-  before.nodes /= 4.0;
-  before.references /= 1.7;
-  before.steps -= 7.0;
-  before.tests *= 2.5;
-  before.nonterminal /= 8.0;
-  before.occupied /= 5.0;
+  before.nodes /= 8.0;
+  before.references /= 2.0;
+  before.steps -= 5.0;
+  before.tests *= 4.0;
+  before.nonterminal /= 7.0;
+  before.occupied /= 4.5;
   return before;
 }
 
 class LevelSearch {
  public:
   LevelSearch(const Scene& scene, const OctreeOptions& options, const Workload& workload,
-              const Cost& cost, const CountMore& count_more)
+              const TraceCost& trace_cost, const CountMore& count_more)
       : scene_(&scene),
         options_(options),
         workload_(&workload),
-        cost_(&cost),
+        trace_cost_(&trace_cost),
         count_more_(&count_more) {}
 
   Octree find() {
     options_.max_level = kFirstLevel;
-    Trial best = tried(Octree(*scene_, options_));
+    Trial best = tried(Octree(*scene_, options_), {});
     OctreeWork next = extrapolate(usual_work_before(best.work), best.work);
     while (promises(next, best)) {
       ++options_.max_level;
-      Trial deeper = tried(Octree(*scene_, options_, best.octree));
-      if ((*cost_)(deeper.work) >= (*cost_)(best.work)) break;
+      Trial deeper = tried(Octree(*scene_, options_, best.octree), next);
+      // Both are built by now.
+      if ((*trace_cost_)(deeper.work) >= (*trace_cost_)(best.work)) break;
       next = extrapolate(best.work, deeper.work);
       best = std::move(deeper);
     }
@@ -51,38 +52,42 @@ class LevelSearch {
   }
 
  private:
-  Trial tried(Octree octree) const {
+  Trial tried(Octree octree, const OctreeWork& expected) const {
     OctreeWork work = count_work(*scene_, octree, *workload_);
-    if (*count_more_) (*count_more_)(octree, work);
+    if (*count_more_) (*count_more_)(octree, expected, work);
     return {std::move(octree), work};
   }
 
   bool promises(const OctreeWork& next, const Trial& best) const {
-    constexpr double kRoom = 0.5;  // the extrapolated number may be wrong
+    constexpr double kRoom = 0.5;          // the extrapolated number may be wrong
+    constexpr double kWorthTrying = 0.95;  // trying costs something
     return options_.max_level < kLastLevel &&
            best.octree.deepest_level() == options_.max_level &&  // or nothing is left to split
            next.references < kRoom * static_cast<double>(options_.max_references) &&
-           (*cost_)(next) < (*cost_)(best.work);
+           cost(next) < kWorthTrying * cost(best.work);
+  }
+
+  double cost(const OctreeWork& work) const {
+    return 60.0 * work.nodes + 70.0 * work.references + (*trace_cost_)(work);
   }
 
   const Scene* scene_;
   OctreeOptions options_;
   const Workload* workload_;
-  const Cost* cost_;
+  const TraceCost* trace_cost_;
   const CountMore* count_more_;
 };
 
 }  // namespace
 
-double samet_cost(const OctreeWork& work) {
-  const double build = 60.0 * work.nodes + 110.0 * work.references;
-  return build + work.rays * (8.4 * work.steps + 12.6 * work.tests);
+double samet_trace_cost(const OctreeWork& work) {
+  return work.rays * (8.4 * work.steps + 12.6 * work.tests);
 }
 
 Octree choose_octree(const Scene& scene, const OctreeOptions& options, const Workload& workload,
-                     const Cost& cost, const CountMore& count_more) {
+                     const TraceCost& trace_cost, const CountMore& count_more) {
   if (options.max_level != OctreeOptions::kAutomatic) return {scene, options};
-  return LevelSearch(scene, options, workload, cost, count_more).find();
+  return LevelSearch(scene, options, workload, trace_cost, count_more).find();
 }
 
 }  // namespace beambench

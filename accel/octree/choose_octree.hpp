@@ -7,19 +7,22 @@
 
 namespace beambench {
 
-/// Nanoseconds that building and tracing are expected to take. The coefficients are those of
+/// Nanoseconds that tracing individual rays is expected to take. The coefficients are those of
 /// section 5.3.3 of the thesis, fitted to measured times (results/published/thesis): what matters
 /// here is where their sum is least, which depends on their ratios alone.
-double samet_cost(const OctreeWork& work);
+double samet_trace_cost(const OctreeWork& work);
 
-/// Counts what `count_work` does not.
-using CountMore = std::function<void(const Octree& octree, OctreeWork& work)>;
-using Cost = std::function<double(const OctreeWork& work)>;
+/// Counts what `count_work` does not; `expected` is about what it will come to, nothing at first.
+using CountMore =
+    std::function<void(const Octree& octree, const OctreeWork& expected, OctreeWork& work)>;
+/// Nanoseconds of tracing.
+using TraceCost = std::function<double(const OctreeWork& work)>;
 
-/// The octree of `options`, where `max_level` may be automatic: levels are tried from 4 on, each
-/// octree made from the one before, as long as the next one promises to cost less. Throws as
+/// The octree of `options`, where `max_level` may be automatic: levels are tried from 3 on, each
+/// octree made from the one before, as long as building and tracing the next one promise to cost
+/// less. Throws as
 /// `Octree`, but where the level is automatic it ends before `max_references` are exceeded.
 Octree choose_octree(const Scene& scene, const OctreeOptions& options, const Workload& workload,
-                     const Cost& cost, const CountMore& count_more = {});
+                     const TraceCost& trace_cost, const CountMore& count_more = {});
 
 }  // namespace beambench

@@ -18,7 +18,8 @@ struct OctreeWork {
   double occupied = 0.0;     ///< beams that end at an occupied leaf
 };
 
-/// Counts for individual rays, on a grid of 16 x 8 rays over the camera's image.
+/// Counts for individual rays, on a grid of 32 x 16 rays over the camera's image or, where rays
+/// are much work, on some of them.
 OctreeWork count_work(const Scene& scene, const Octree& octree, const Workload& workload);
 
 /// The work of the next level, from this one's and the one before: each number goes on as it went.

@@ -12,8 +12,8 @@ void register_octree(Registry& registry) {
                 Conformance::kBitExact, OctreeOptions::parameters(),
                 [](const Scene& scene, const Parameters& parameters, const Workload& workload) {
                   return std::make_unique<Samet>(
-                      scene,
-                      choose_octree(scene, OctreeOptions::from(parameters), workload, samet_cost));
+                      scene, choose_octree(scene, OctreeOptions::from(parameters), workload,
+                                           samet_trace_cost));
                 }});
   registry.add({"samet-net",
                 "the octree and the traversal of samet, each face linked beforehand to the "
@@ -21,8 +21,8 @@ void register_octree(Registry& registry) {
                 Conformance::kBitExact, OctreeOptions::parameters(),
                 [](const Scene& scene, const Parameters& parameters, const Workload& workload) {
                   return std::make_unique<SametNet>(
-                      scene,
-                      choose_octree(scene, OctreeOptions::from(parameters), workload, samet_cost));
+                      scene, choose_octree(scene, OctreeOptions::from(parameters), workload,
+                                           samet_trace_cost));
                 }});
 }
 
