@@ -97,6 +97,7 @@ struct Way {
 
 std::vector<Way> ways() {
   std::vector<Way> all;
+  all.reserve(std::size(kUniform) + std::size(kDensities) + std::size(kContrasts));
   for (const int samples : kUniform) {
     all.push_back({"uniform", fmt::format("{}", samples),
                    [samples](const Sampler& sampler) { return sampler.uniform(samples); }});
