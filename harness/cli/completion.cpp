@@ -15,6 +15,7 @@
 #include "harness/cli/overlay_picture.hpp"
 #include "harness/rays/ray_kind.hpp"
 #include "harness/shade/shading.hpp"
+#include "harness/shade/whitted_options.hpp"
 #include "scenes/catalogue.hpp"
 
 namespace beambench {
@@ -50,6 +51,8 @@ const std::map<std::string, Words>& known_values() {
       {"--heatmap", {kCounterNames.begin(), kCounterNames.end()}},
       {"--overlay", {overlay_names().begin(), overlay_names().end()}},
       {"--rays", ray_kind_names()},
+      {"--rules", {"spd", "image"}},
+      {"--shadows", {shadow_method_names().begin(), shadow_method_names().end()}},
       {"--shade", {shading_names().begin(), shading_names().end()}}};
   return values;
 }

@@ -15,6 +15,7 @@
 #include "harness/cli/overlay_picture.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/cli/watched_ask.hpp"
+#include "harness/cli/whitted_request.hpp"
 #include "harness/cli/work_picture.hpp"
 #include "harness/files/pending_file.hpp"
 #include "harness/picture/image_file.hpp"
@@ -32,6 +33,7 @@ struct Request {
   std::string difference;
   std::string shading = "preview";
   std::string overlay;
+  WhittedRequest whitted;
 };
 
 /// Depth and id of each pixel, those of its nearest sample.
@@ -70,12 +72,21 @@ std::string describe(const std::vector<LegendEntry>& legend) {
   return text;
 }
 
+Image shaded(const Request& request, const Accelerator& accelerator, const Scene& scene,
+             const PrimaryRays& rays, const HitBuffer& hits, Progress& progress) {
+  const Shading shading = parse_shading(request.shading);
+  if (shading != Shading::kWhitted) return shade(scene, rays, hits, shading);
+  const Whitted tracer(scene, accelerator, whitted_options(request.whitted));
+  return watched_picture(tracer, eye_rays(rays), hits, request.whitted, progress).image;
+}
+
 /// Shades the hits and draws over them what is asked for; returns what the picture tells of it. A
 /// PNG gets its legend.
 std::string write_shaded(const Request& request, const StructureChoice& choice,
                          std::optional<Overlay> overlay, const Accelerator& accelerator,
-                         const Scene& scene, const PrimaryRays& rays, const HitBuffer& hits) {
-  Image image = shade(scene, rays, hits, parse_shading(request.shading));
+                         const Scene& scene, const PrimaryRays& rays, const HitBuffer& hits,
+                         Progress& progress) {
+  Image image = shaded(request, accelerator, scene, rays, hits, progress);
   std::vector<LegendEntry> legend;
   if (overlay) legend = draw_overlay(*overlay, image, accelerator, rays);
   if (overlay && image_format(request.file) == ImageFormat::kPng) {
@@ -127,6 +138,7 @@ std::string compare(const Request& request, const StructureChoice& choice, const
 
 void render(const Request& request) {
   parse_shading(request.shading);
+  whitted_options(request.whitted);
   image_format(request.file);
   require_writable(request.file);
   if (!request.difference.empty() && request.difference != kOracleName) {
@@ -153,7 +165,7 @@ void render(const Request& request) {
     watched_ask(*accelerator, rays, answers, progress);
     if (request.difference.empty()) {
       found = share_of_hits(hits) +
-              write_shaded(request, choice, overlay, *accelerator, scene, rays, hits);
+              write_shaded(request, choice, overlay, *accelerator, scene, rays, hits, progress);
     } else {
       found = compare(request, choice, scene, rays, answers);
     }
@@ -173,8 +185,11 @@ void add_render_command(CLI::App& app, int&) {
       ->required();
   command->add_option("-o", request->file, "Picture to write, .png or .exr")->required();
   add_image_options(*command, request->image);
-  command->add_option("--shade", request->shading, "preview, normals, id or depth")
+  command
+      ->add_option("--shade", request->shading,
+                   "preview, normals, id, depth, or whitted: lights, shadows, mirrors and glass")
       ->capture_default_str();
+  add_whitted_options(*command, request->whitted);
   CLI::Option* heatmap = command->add_option("--heatmap", request->heatmap,
                                              "Instead of shading: a work counter in colours");
   CLI::Option* difference =
@@ -202,6 +217,7 @@ void add_render_command(CLI::App& app, int&) {
       "  beambench render balls:n=3 --accel samet -o work.png --heatmap primitive_tests\n"
       "  beambench render tetra --accel embree:robust=false -o wrong.png --difference oracle\n"
       "  beambench render escena2 --accel beam:max_level=5 -o beams.png --overlay beams\n"
+      "  beambench render balls --accel beam -o balls.png --shade whitted --samples 4\n"
       "  beambench render tetra --accel embree -o tetra.exr --resolution 640x480 --samples 4");
   command->callback([request] { render(*request); });
 }

@@ -6,7 +6,9 @@
 #include <tbb/parallel_for.h>
 
 #include "accel/embree/oracle.hpp"
+#include "harness/rays/beside_surface.hpp"
 #include "harness/rays/cosine_direction.hpp"
+#include "harness/rays/mirrored.hpp"
 #include "harness/rays/normal.hpp"
 #include "scenes/random.hpp"
 
@@ -23,8 +25,7 @@ SurfacePoint point_of(const Scene& scene, const Ray& ray, const ExactHit& hit) {
 }
 
 dvec3 above(const Scene& scene, const SurfacePoint& at) {
-  const double size = scene.bounds.largest_coordinate() + glm::length(at.point);
-  return at.point + at.normal * (64.0 * 0x1p-24 * size);
+  return beside_surface(scene, at.point, at.normal);
 }
 
 Ray ray_from(const Scene& scene, const SurfacePoint& at, const dvec3& direction) {
@@ -70,8 +71,7 @@ std::vector<Ray> reflection_rays(const Scene& scene, const std::vector<SurfacePo
   std::vector<Ray> rays;
   rays.reserve(points.size());
   for (const SurfacePoint& at : points) {
-    rays.push_back(
-        ray_from(scene, at, at.incoming - 2.0 * glm::dot(at.incoming, at.normal) * at.normal));
+    rays.push_back(ray_from(scene, at, mirrored(at.incoming, at.normal)));
   }
   return rays;
 }

@@ -22,10 +22,7 @@ struct SurfacePoint {
 /// here are the same whatever structure is asked.
 std::vector<SurfacePoint> surface_points(const Scene& scene, const PrimaryRays& rays);
 
-/// All secondary rays start a little above the surface, on the side of the primary ray: 64 x 2^-24
-/// x (largest |coordinate| + |point|) along the normal, four times the length within which the
-/// differ cannot tell places apart. Nothing but geometry then decides whether the surface itself is
-/// met again, and rays need no t_min.
+/// All secondary rays start `beside_surface`, on the side of the primary ray.
 ///
 /// To each light that the surface faces, point by point: t in [0, 1], the light being at 1.
 std::vector<Ray> shadow_rays(const Scene& scene, const std::vector<SurfacePoint>& points);

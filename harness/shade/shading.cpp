@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <functional>
+#include <stdexcept>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,7 +17,7 @@
 namespace beambench {
 namespace {
 
-constexpr std::array<std::string_view, 4> kNames{"preview", "normals", "id", "depth"};
+constexpr std::array<std::string_view, 5> kNames{"preview", "normals", "id", "depth", "whitted"};
 
 using HitColor = std::function<glm::vec3(const Ray&, const Hit&)>;
 
@@ -49,9 +50,11 @@ HitColor color_of(const Scene& scene, const HitBuffer& hits, Shading shading) {
     case Shading::kId:
       return [](const Ray&, const Hit& hit) { return id_color(hit.primitive); };
     case Shading::kDepth:
+      return depth_color(hits);
+    case Shading::kWhitted:
       break;
   }
-  return depth_color(hits);
+  throw std::invalid_argument("shade() has hits only; Whitted traces more rays");
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ enum class Shading {
   kPreview,  ///< surface colours under the scene's lights and a headlight, without shadows
   kNormals,  ///< the surface's direction: x, y, z as red, green, blue
   kId,       ///< a colour for each primitive
-  kDepth     ///< the nearer, the brighter
+  kDepth,    ///< the nearer, the brighter
+  kWhitted   ///< the whole ray tracer (`Whitted`), which needs more than hits
 };
 
 /// The names after --shade, in the order of `Shading`.
@@ -24,7 +25,8 @@ std::span<const std::string_view> shading_names();
 /// Throws InputError listing the valid names.
 Shading parse_shading(std::string_view name);
 
-/// Each pixel is the mean of its samples. `hits` are the answers to `rays`.
+/// Each pixel is the mean of its samples. `hits` are the answers to `rays`. Throws
+/// std::invalid_argument for kWhitted.
 Image shade(const Scene& scene, const PrimaryRays& rays, const HitBuffer& hits, Shading shading);
 
 }  // namespace beambench

@@ -217,7 +217,7 @@ def test_the_camera_says_the_size_where_nobody_else_does(tmp_path: Path) -> None
         assert picture.size == (8, 8)
 
 
-@pytest.mark.parametrize("shading", ["preview", "normals", "id", "depth"])
+@pytest.mark.parametrize("shading", ["preview", "normals", "id", "depth", "whitted"])
 def test_every_structure_draws_the_same_picture(tmp_path: Path, shading: str) -> None:
     pictures = []
     for structure in ["exhaustive", "samet"]:
@@ -340,6 +340,29 @@ def test_sampling_compares_methods(tmp_path: Path) -> None:
     assert uniform["25"]["rays_per_pixel"] == pytest.approx(
         25 * uniform["1"]["rays_per_pixel"], rel=0.05
     )
+
+
+def test_a_census_counts_rays_by_kind(tmp_path: Path) -> None:
+    picture = tmp_path / "balls.png"
+    arguments = ("census", "balls:n=1", "--resolution", "48x48", "--shadows", "cache")
+    text = output_of(*arguments, "--picture", picture)
+    for word in ["eye rays", "reflected", "refracted", "shadow", "cached", "balls:n=1"]:
+        assert word in text
+    assert count_colors(Image.open(picture)) > 50
+
+    (cached,) = json.loads(output_of(*arguments, "--json"))["scenes"]
+    assert cached["eye_rays"] == 48 * 48
+    assert cached["reflected_rays"] > 0
+    assert cached["refracted_rays"] == 0
+    assert 0 < cached["shadow_cached"] <= cached["shadow_hidden"] < cached["shadow_rays"]
+    (shallow,) = json.loads(output_of(*arguments, "--json", "--depth", "1"))["scenes"]
+    assert shallow["reflected_rays"] == 0
+    assert shallow["shadow_rays"] < cached["shadow_rays"]
+
+
+def test_the_rules_of_spd_fix_the_rays() -> None:
+    (tetra,) = json.loads(output_of("census", "tetra:n=2", "--rules", "spd", "--json"))["scenes"]
+    assert tetra["eye_rays"] == 513 * 513
 
 
 def test_stats_tell_parameters_apart() -> None:
@@ -609,6 +632,11 @@ WRONG_REQUESTS = [
     (["verify", "tetra:n=1", "--samples", "3"], ["3 samples"]),
     (["completion", "tcsh"], ["tcsh", "bash"]),
     (["sampling", "tetra:n=1", "--accel", "samet"], ["samet", "--accel beam"]),
+    (["census", "tetra:n=1", "--rules", "haines"], ["haines", "spd", "image"]),
+    (["census", "tetra:n=1", "--rules", "spd", "--resolution", "9x9"], ["513x513"]),
+    (["census", "tetra:n=1", "--shadows", "volumes"], ["volumes", "light-buffer"]),
+    (["census", "tetra:n=1", "--depth", "0"], ["--depth"]),
+    (["census", "tetra:n=1", "tetra:n=2", "--picture", "a.png"], ["--picture", "one"]),
     (["sampling", "tetra:n=1", "--resolution", "9000x9000"], ["9000x9000"]),
     (["sampling", "tetra:n=1", "--repetitions", "0"], ["--repetitions"]),
     (["stats", "tetra:n=1", "--accel", "samet:max_level=deep"], ["deep", "auto", "1 to 16"]),

@@ -1,0 +1,166 @@
+#include "harness/shade/whitted.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "harness/picture/srgb.hpp"
+#include "harness/rays/beside_surface.hpp"
+#include "harness/rays/mirrored.hpp"
+#include "harness/rays/normal.hpp"
+#include "harness/shade/preview.hpp"
+#include "harness/shade/refracted.hpp"
+
+namespace beambench {
+namespace {
+
+using glm::dvec3;
+
+constexpr double kAmbient = 0.06;  // of white light, from everywhere
+
+std::vector<dvec3> light_colors(const Scene& scene) {
+  std::vector<dvec3> colors;
+  colors.reserve(scene.lights.size());
+  const double share =
+      1.0 / std::sqrt(static_cast<double>(std::max<std::size_t>(scene.lights.size(), 1)));
+  for (const Light& light : scene.lights) {
+    const bool unsaid = light.color == glm::vec3(1.0F);
+    colors.push_back(unsaid ? dvec3(share) : dvec3(light.color));
+  }
+  return colors;
+}
+
+/// Phong's: how near the eye is to where a mirror would send the light.
+double highlight(const dvec3& normal, const dvec3& to_light, const dvec3& incoming, float shine) {
+  const double cosine = glm::dot(mirrored(to_light, normal), incoming);
+  return cosine > 0.0 ? std::pow(cosine, std::max(double{shine}, 1.0)) : 0.0;
+}
+
+/// A direction on the outer side of the surface: a smooth polygon's shading normal may send it
+/// through the polygon.
+dvec3 mirrored_outward(const dvec3& incoming, const dvec3& shading, const dvec3& geometric) {
+  const dvec3 direction = mirrored(incoming, shading);
+  return glm::dot(direction, geometric) > 0.0 ? direction : mirrored(incoming, geometric);
+}
+
+}  // namespace
+
+/// How a ray came about.
+struct Whitted::Path {
+  int depth = 1;        ///< rays from the eye to here
+  double weight = 1.0;  ///< the largest part that it can have in the pixel's colour
+  bool inside = false;  ///< in something transparent
+};
+
+/// Where a ray meets a surface.
+struct Whitted::Place {
+  const Surface* surface;
+  const Primitive* primitive;
+  dvec3 point;
+  dvec3 incoming;   ///< unit length
+  dvec3 geometric;  ///< unit normals on the side of the ray
+  dvec3 shading;
+};
+
+Whitted::Whitted(const Scene& scene, const Accelerator& structure, const WhittedOptions& options)
+    : scene_(&scene),
+      structure_(&structure),
+      options_(options),
+      shadows_(scene, structure, options),
+      textures_(scene),
+      light_colors_(light_colors(scene)),
+      background_(background_color(scene)) {}
+
+Whitted::Progress Whitted::begin() const {
+  return {ShadowCache(scene_->lights.size(), options_.max_depth), {}};
+}
+
+dvec3 Whitted::eye_color(const Ray& ray, const std::optional<Hit>& hit, Progress& progress) const {
+  ++progress.census.eye;
+  if (hit) ++progress.census.eye_hits;
+  return color_along(ray, hit, {}, progress);
+}
+
+dvec3 Whitted::color_along(const Ray& ray, const std::optional<Hit>& hit, const Path& path,
+                           Progress& progress) const {
+  if (!hit) return background_;
+  const Place at = place_of(ray, *hit);
+  return lit(at, path, progress) + reflected(at, path, at.surface->specular, progress) +
+         transmitted(at, path, progress);
+}
+
+Whitted::Place Whitted::place_of(const Ray& ray, const Hit& hit) const {
+  const Primitive& primitive = scene_->primitives[hit.primitive];
+  const dvec3 direction(ray.direction);
+  return {&scene_->surfaces[primitive.surface],          &primitive,
+          dvec3(ray.origin) + double{hit.t} * direction, glm::normalize(direction),
+          geometric_normal(*scene_, ray, hit),           shading_normal(*scene_, ray, hit)};
+}
+
+/// What the lights send to the eye from here. Lights behind the surface get no shadow ray.
+dvec3 Whitted::lit(const Place& at, const Path& path, Progress& progress) const {
+  const Surface& surface = *at.surface;
+  const dvec3 display = glm::clamp(textures_.color_at(surface, at.point), 0.0, 1.0);
+  const dvec3 matte = double{surface.diffuse} * dvec3(linear_from_srgb(glm::vec3(display)));
+  const dvec3 origin = beside_surface(*scene_, at.point, at.geometric);
+  dvec3 sum = kAmbient * matte;
+  for (std::size_t i = 0; i < scene_->lights.size(); ++i) {
+    const dvec3 way = dvec3(scene_->lights[i].position) - origin;
+    if (glm::dot(way, at.geometric) <= 0.0 || glm::dot(way, at.shading) <= 0.0) continue;
+    Ray ray;
+    ray.origin = glm::vec3(origin);
+    ray.direction = glm::vec3(way);
+    ray.t_max = 1.0F;
+    const double part = shadows_.transmitted(ray, i, path.depth, progress.shadows, progress.census);
+    if (part == 0.0) continue;
+    const dvec3 to_light = glm::normalize(way);
+    sum += part * light_colors_[i] *
+           (glm::dot(to_light, at.shading) * matte +
+            surface.specular * highlight(at.shading, to_light, at.incoming, surface.shine));
+  }
+  return sum;
+}
+
+dvec3 Whitted::reflected(const Place& at, const Path& path, double share,
+                         Progress& progress) const {
+  if (share <= 0.0) return dvec3(0.0);
+  const Path next{path.depth + 1, path.weight * share, path.inside};
+  return share * traced(beside_surface(*scene_, at.point, at.geometric),
+                        mirrored_outward(at.incoming, at.shading, at.geometric), next,
+                        &RayCensus::reflected, progress);
+}
+
+dvec3 Whitted::transmitted(const Place& at, const Path& path, Progress& progress) const {
+  const double share = at.surface->transmittance;
+  if (share <= 0.0) return dvec3(0.0);
+  bool entering = !path.inside;
+  if (at.primitive->kind == PrimitiveKind::kSphere) {
+    const dvec3 center(scene_->spheres[at.primitive->index].center);
+    entering = glm::dot(at.point - center, at.incoming) < 0.0;
+  }
+  const double index = std::max(double{at.surface->refraction_index}, 1e-3);
+  const auto direction = refracted(at.incoming, at.shading, entering ? 1.0 / index : index);
+  if (!direction) return reflected(at, path, share, progress);  // total reflection
+  const Path next{path.depth + 1, path.weight * share, entering};
+  return share * traced(beside_surface(*scene_, at.point, -at.geometric), *direction, next,
+                        &RayCensus::refracted, progress);
+}
+
+dvec3 Whitted::traced(const dvec3& origin, const dvec3& direction, const Path& path,
+                      std::uint64_t RayCensus::*kind, Progress& progress) const {
+  if (path.depth > options_.max_depth) return dvec3(0.0);
+  if (path.weight < options_.least_weight) {
+    ++progress.census.too_faint;
+    return dvec3(0.0);
+  }
+  Ray ray;
+  ray.origin = glm::vec3(origin);
+  ray.direction = glm::vec3(direction);
+  ++(progress.census.*kind);
+  const std::optional<Hit> hit = structure_->closest_hit(ray);
+  if (hit) ++progress.census.secondary_hits;
+  return color_along(ray, hit, path, progress);
+}
+
+}  // namespace beambench

@@ -1,0 +1,64 @@
+#pragma once
+// The whole ray tracer: light, shadow, mirrors and glass over any structure.
+
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "accel/accelerator.hpp"
+#include "harness/shade/ray_census.hpp"
+#include "harness/shade/shadows.hpp"
+#include "harness/shade/texture.hpp"
+#include "harness/shade/whitted_options.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// Recursive ray tracing (Whitted, "An improved illumination model for shaded display", CACM 23(6),
+/// 1980; chapter 4 of the thesis) with NFF's surfaces: the diffuse factor times the colour under
+/// ambient light and every light that is seen; the specular factor for highlights (Phong) and for
+/// what a mirror ray sees; the transmittance for what a ray refracted by Snell's law sees.
+///
+/// Colours of scenes are display values, as they were in 1987, and are decoded to linear light. A
+/// light without a colour of its own (white) has 1 / sqrt(lights), as NFF says. All in double, in
+/// one order: structures that return the same hits give the same bits.
+class Whitted {
+ public:
+  /// Scene and structure must outlive this.
+  Whitted(const Scene& scene, const Accelerator& structure, const WhittedOptions& options);
+
+  /// What a part of a picture, made by one thread in one order, remembers and counts.
+  struct Progress {
+    ShadowCache shadows;
+    RayCensus census;
+  };
+  Progress begin() const;
+
+  /// Linear light along a ray of the eye that found `hit`.
+  glm::dvec3 eye_color(const Ray& ray, const std::optional<Hit>& hit, Progress& progress) const;
+
+  const Shadows& shadows() const { return shadows_; }
+
+ private:
+  struct Path;
+  struct Place;
+  glm::dvec3 color_along(const Ray& ray, const std::optional<Hit>& hit, const Path& path,
+                         Progress& progress) const;
+  Place place_of(const Ray& ray, const Hit& hit) const;
+  glm::dvec3 lit(const Place& at, const Path& path, Progress& progress) const;
+  glm::dvec3 reflected(const Place& at, const Path& path, double share, Progress& progress) const;
+  glm::dvec3 transmitted(const Place& at, const Path& path, Progress& progress) const;
+  glm::dvec3 traced(const glm::dvec3& origin, const glm::dvec3& direction, const Path& path,
+                    std::uint64_t RayCensus::*kind, Progress& progress) const;
+
+  const Scene* scene_;
+  const Accelerator* structure_;
+  WhittedOptions options_;
+  Shadows shadows_;
+  TextureSpace textures_;
+  std::vector<glm::dvec3> light_colors_;
+  glm::dvec3 background_;
+};
+
+}  // namespace beambench

@@ -1,0 +1,29 @@
+#include "harness/shade/whitted_options.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scenes/error.hpp"
+
+namespace beambench {
+namespace {
+
+constexpr std::array<std::string_view, 3> kNames{"rays", "cache", "light-buffer"};
+
+}  // namespace
+
+std::span<const std::string_view> shadow_method_names() { return kNames; }
+
+ShadowMethod parse_shadow_method(std::string_view name) {
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) {
+    throw InputError(fmt::format("unknown way of finding shadows '{}'; choose from: {}", name,
+                                 fmt::join(kNames, ", ")));
+  }
+  return static_cast<ShadowMethod>(found - kNames.begin());
+}
+
+}  // namespace beambench

@@ -1,0 +1,55 @@
+#include "harness/shade/whitted_picture.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <future>
+#include <vector>
+
+#include <tbb/parallel_for.h>
+
+namespace beambench {
+namespace {
+
+/// One row, left to right: the shadow cache begins anew, so that the census is the same however
+/// rows are shared among threads.
+RayCensus draw_row(const Whitted& tracer, const EyeRays& rays, const HitBuffer& hits, int y,
+                   Image& image) {
+  Whitted::Progress progress = tracer.begin();
+  const double share = 1.0 / rays.samples;
+  for (int x = 0; x < rays.width; ++x) {
+    glm::dvec3 sum(0.0);
+    for (int sample = 0; sample < rays.samples; ++sample) {
+      sum += tracer.eye_color(rays.ray(x, y, sample), hits.get(hits.index(x, y, sample)), progress);
+    }
+    image.at(x, y) = glm::vec3(share * sum);
+  }
+  return progress.census;
+}
+
+}  // namespace
+
+WhittedPicture whitted_picture(const Whitted& tracer, const EyeRays& rays, const HitBuffer& hits,
+                               const PictureWatch& watch) {
+  WhittedPicture picture{Image(rays.width, rays.height), {}};
+  std::vector<RayCensus> rows(static_cast<std::size_t>(rays.height));
+  std::atomic<int> done = 0;
+  const auto draw = [&] {
+    tbb::parallel_for(0, rays.height, [&](int y) {
+      rows[static_cast<std::size_t>(y)] = draw_row(tracer, rays, hits, y, picture.image);
+      ++done;
+    });
+  };
+  if (watch) {
+    auto drawn = std::async(std::launch::async, draw);
+    while (drawn.wait_for(std::chrono::milliseconds(100)) == std::future_status::timeout) {
+      watch(static_cast<double>(done.load()) / rays.height);
+    }
+    drawn.get();
+  } else {
+    draw();
+  }
+  for (const RayCensus& row : rows) picture.census += row;
+  return picture;
+}
+
+}  // namespace beambench

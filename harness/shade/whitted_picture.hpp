@@ -1,0 +1,27 @@
+#pragma once
+// Pictures by the whole ray tracer, on all threads.
+
+#include <functional>
+
+#include "accel/hit_buffer.hpp"
+#include "harness/picture/image.hpp"
+#include "harness/shade/eye_rays.hpp"
+#include "harness/shade/whitted.hpp"
+
+namespace beambench {
+
+struct WhittedPicture {
+  Image image;
+  RayCensus census;
+};
+
+/// Told from time to time, on the calling thread, how much is done (0 ... 1).
+using PictureWatch = std::function<void(double part)>;
+
+/// Each pixel is the mean of its samples. `hits` are the structure's answers to `rays`, found
+/// beforehand by whatever way it has for whole images (beams); what follows them goes ray by ray.
+/// Rows are shared among TBB's threads; picture and census do not depend on how many there are.
+WhittedPicture whitted_picture(const Whitted& tracer, const EyeRays& rays, const HitBuffer& hits,
+                               const PictureWatch& watch = {});
+
+}  // namespace beambench
