@@ -16,6 +16,8 @@ struct Statistics {
   std::uint64_t references = 0;    ///< entries in the leaves' lists of primitives
   std::uint64_t depth = 0;         ///< levels of the deepest leaf, the root being level 1
   std::uint64_t bytes = 0;         ///< memory the structure holds, without the scene
+  /// What it runs on where it chooses among several; empty: what the build's flags say.
+  std::string instruction_set;
   std::vector<std::pair<std::string, double>> more;  ///< what the family adds, by name
 };
 

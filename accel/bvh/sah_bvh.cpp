@@ -28,6 +28,7 @@ Statistics SahBvh::statistics() const {
   statistics.depth = bvh_.depth;
   statistics.bytes =
       bvh_.nodes.capacity() * sizeof(WideNode) + bvh_.blocks.capacity() * sizeof(PrimitiveBlock);
+  statistics.instruction_set = instruction_set();
   statistics.more = {{"cost", bvh_.cost}};
   return statistics;
 }

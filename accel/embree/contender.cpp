@@ -2,13 +2,16 @@
 
 #include <algorithm>
 
+#include "accel/embree/isa.hpp"
 #include "accel/embree/native_scene.hpp"
 #include "accel/embree/trace.hpp"
+#include "accel/instruction_set.hpp"
 #include "accel/registry.hpp"
 
 namespace beambench {
 namespace {
 
+using embree::ImageTracers;
 using embree::NativeScene;
 using embree::TraceMode;
 
@@ -17,8 +20,12 @@ using embree::TraceMode;
 class EmbreeContender : public Accelerator {
  public:
   EmbreeContender(const Scene& scene, RTCBuildQuality quality, bool robust, const TraceMode& mode,
-                  bool coherent)
-      : scene_(scene, quality, robust), mode_(mode), coherent_(coherent) {}
+                  bool coherent, const std::string& isa)
+      : scene_(scene, quality, robust, isa),
+        tracers_(embree::image_tracers(targets_of(isa))),
+        mode_(mode),
+        coherent_(coherent),
+        isa_(embree::isa_in_use(isa)) {}
 
   std::optional<Hit> closest_hit(const Ray& ray) const override {
     embree::Context context(coherent_);
@@ -34,7 +41,7 @@ class EmbreeContender : public Accelerator {
   }
   void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
     embree::Context context(coherent_);
-    mode_.trace(scene_, context, rays, buffer);
+    (tracers_.*mode_.trace)(scene_, context, rays, buffer);
   }
   void closest_hits(std::span<const Ray> rays, HitBuffer& buffer) const override {
     embree::Context context(coherent_);
@@ -64,6 +71,7 @@ class EmbreeContender : public Accelerator {
   Statistics statistics() const override {
     Statistics statistics;
     statistics.bytes = scene_.bytes();
+    statistics.instruction_set = isa_;
     statistics.more = {{"triangles", static_cast<double>(scene_.triangle_count())},
                        {"sphere_points", static_cast<double>(scene_.sphere_count())},
                        {"user_primitives", static_cast<double>(scene_.user_count())}};
@@ -72,8 +80,10 @@ class EmbreeContender : public Accelerator {
 
  private:
   NativeScene scene_;
+  const ImageTracers& tracers_;
   TraceMode mode_;
   bool coherent_;
+  std::string isa_;
 };
 
 std::vector<std::string> mode_names() {
@@ -111,11 +121,14 @@ void register_embree(Registry& registry) {
                        "watertight traversal; without it Embree loses rays at vertices and edges, "
                        "which costs the verdict where they matter"),
         flag_parameter("coherent", true,
-                       "tells Embree that neighbouring rays are alike, which packets need")},
+                       "tells Embree that neighbouring rays are alike, which packets need"),
+        isa_parameter()},
        [](const Scene& scene, const Parameters& parameters, const Workload&) {
+         const std::string isa = parameters.choice("isa");
+         embree::require_isa(isa);
          return std::make_unique<EmbreeContender>(
              scene, parse_quality(parameters.choice("quality")), parameters.flag("robust"),
-             find_mode(parameters.choice("mode")), parameters.flag("coherent"));
+             find_mode(parameters.choice("mode")), parameters.flag("coherent"), isa);
        }});
 }
 

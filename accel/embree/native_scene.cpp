@@ -1,9 +1,12 @@
 #include "accel/embree/native_scene.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include <glm/vec4.hpp>
 #include <tbb/global_control.h>
+
+#include "accel/embree/isa.hpp"
 
 namespace beambench::embree {
 namespace {
@@ -17,31 +20,39 @@ Element* new_buffer(const GeometryHandle& geometry, RTCBufferType type, RTCForma
       rtcSetNewGeometryBuffer(geometry.get(), type, 0, format, sizeof(Element), count));
 }
 
+/// Is it 0, 1, 2...?
+bool is_count(const std::vector<PrimitiveId>& ids) {
+  PrimitiveId expected = 0;
+  return std::ranges::all_of(ids, [&](PrimitiveId id) { return id == expected++; });
+}
+
 }  // namespace
 
-NativeScene::NativeScene(const Scene& scene, RTCBuildQuality quality, bool robust)
-    : device_("threads=1"), user_(scene), scene_(rtcNewScene(device_.get())) {
+NativeScene::NativeScene(const Scene& scene, RTCBuildQuality quality, bool robust,
+                         const std::string& isa)
+    : device_(device_config(isa).c_str()), user_(scene), scene_(rtcNewScene(device_.get())) {
   // Embree takes the largest thread count of all its living devices; this holds it to one.
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   rtcSetSceneBuildQuality(scene_.get(), quality);
   rtcSetSceneFlags(scene_.get(), robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
 
-  owners_.reserve(scene.triangles.size() + scene.spheres.size() + scene.cones.size());
-  for (const Triangle& triangle : scene.triangles) owners_.push_back(triangle.primitive);
+  owners_.ids.reserve(scene.triangles.size() + scene.spheres.size() + scene.cones.size());
+  for (const Triangle& triangle : scene.triangles) owners_.ids.push_back(triangle.primitive);
   if (!scene.triangles.empty()) attach(kTriangles, make_triangles(scene), quality);
 
-  first_owner_[kSpheres] = owners_.size();
+  owners_.first[kSpheres] = static_cast<std::uint32_t>(owners_.ids.size());
   for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     const Primitive& primitive = scene.primitives[id];
     if (primitive.kind == PrimitiveKind::kSphere && !is_user_primitive(scene, primitive)) {
-      owners_.push_back(id);
+      owners_.ids.push_back(id);
     }
   }
-  first_owner_[kUser] = owners_.size();
+  owners_.first[kUser] = static_cast<std::uint32_t>(owners_.ids.size());
   if (sphere_count() > 0) attach(kSpheres, make_spheres(scene), quality);
 
-  owners_.insert(owners_.end(), user_.ids().begin(), user_.ids().end());
+  owners_.ids.insert(owners_.ids.end(), user_.ids().begin(), user_.ids().end());
   if (user_count() > 0) attach(kUser, user_.make(device_.get()), quality);
+  owners_.in_order = is_count(owners_.ids);
 
   rtcCommitScene(scene_.get());
   device_.check("building over " + scene.name);
@@ -71,7 +82,7 @@ GeometryHandle NativeScene::make_spheres(const Scene& scene) {
       new_buffer<glm::vec4>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, sphere_count());
   device_.check("building over " + scene.name);
   for (std::size_t i = 0; i < sphere_count(); ++i) {
-    const PrimitiveId id = owners_[first_owner_[kSpheres] + i];
+    const PrimitiveId id = owners_.ids[owners_.first[kSpheres] + i];
     const Sphere& sphere = scene.spheres[scene.primitives[id].index];
     points[i] = glm::vec4(sphere.center, sphere.radius);
   }
@@ -79,7 +90,7 @@ GeometryHandle NativeScene::make_spheres(const Scene& scene) {
 }
 
 std::uint64_t NativeScene::bytes() const {
-  return device_.bytes() + owners_.capacity() * sizeof(PrimitiveId) +
+  return device_.bytes() + owners_.ids.capacity() * sizeof(PrimitiveId) +
          user_.ids().capacity() * sizeof(PrimitiveId);
 }
 

@@ -11,29 +11,42 @@
 
 namespace beambench::embree {
 
+/// The numbers of our geometries in Embree.
+enum GeometryId : unsigned { kTriangles, kSpheres, kUser, kGeometryCount };
+
+/// Whose Embree's primitives are.
+struct OwnerTable {
+  /// Primitive ids of the three geometries' primitives, one geometry after the other.
+  std::vector<PrimitiveId> ids;
+  /// Where each geometry begins in `ids`.
+  std::array<std::uint32_t, kGeometryCount> first{};
+  bool in_order = false;  ///< ids[i] is i: one need not look
+};
+
 /// Polygons are Embree triangles (the scene's own triangulation), hollow spheres are sphere points,
 /// the rest is user geometry. The device is its own, with one build thread, so that build times
 /// compare with structures that build on one and memory is counted exactly. Making the device is
 /// part of the build: 0.05 ms.
 class NativeScene {
  public:
-  NativeScene(const Scene& scene, RTCBuildQuality quality, bool robust);
+  /// `isa` is a value of `isa_parameter`.
+  NativeScene(const Scene& scene, RTCBuildQuality quality, bool robust, const std::string& isa);
 
   RTCScene get() const { return scene_.get(); }
   /// Whose the hit is; kNoPrimitive for RTC_INVALID_GEOMETRY_ID.
   PrimitiveId owner(unsigned geometry, unsigned primitive) const {
     return geometry == RTC_INVALID_GEOMETRY_ID ? kNoPrimitive
-                                               : owners_[first_owner_[geometry] + primitive];
+                                               : owners_.ids[owners_.first[geometry] + primitive];
   }
+  /// The same for those who ask for many at once.
+  const OwnerTable& owners() const { return owners_; }
 
-  std::size_t triangle_count() const { return first_owner_[kSpheres]; }
-  std::size_t sphere_count() const { return first_owner_[kUser] - first_owner_[kSpheres]; }
+  std::size_t triangle_count() const { return owners_.first[kSpheres]; }
+  std::size_t sphere_count() const { return owners_.first[kUser] - owners_.first[kSpheres]; }
   std::size_t user_count() const { return user_.ids().size(); }
   std::uint64_t bytes() const;
 
  private:
-  enum GeometryId : unsigned { kTriangles, kSpheres, kUser, kGeometryCount };
-
   void attach(GeometryId id, const GeometryHandle& geometry, RTCBuildQuality quality);
   GeometryHandle make_triangles(const Scene& scene);
   GeometryHandle make_spheres(const Scene& scene);
@@ -41,9 +54,7 @@ class NativeScene {
   Device device_;
   UserGeometry user_;
   SceneHandle scene_;
-  /// Primitive ids of the three geometries' primitives, one geometry after the other.
-  std::vector<PrimitiveId> owners_;
-  std::array<std::size_t, kGeometryCount> first_owner_{};
+  OwnerTable owners_;
 };
 
 }  // namespace beambench::embree

@@ -4,18 +4,15 @@
 #include <cstdint>
 #include <span>
 
-#include "accel/embree/native_scene.hpp"
-#include "accel/hit_buffer.hpp"
-#include "accel/primary_rays.hpp"
+#include "accel/embree/image_tracers.hpp"
 
 namespace beambench::embree {
 
-/// A way to ask Embree: for the closest hits of an image, by exactly the rays of
-/// `PrimaryRays::ray`, and for closest or any hits of a list of rays.
+/// A way to ask Embree: for the closest hits of an image, and for closest or any hits of a list of
+/// rays.
 struct TraceMode {
   const char* name;
-  void (*trace)(const NativeScene& scene, Context& context, const PrimaryRays& rays,
-                HitBuffer& buffer);
+  ImageTracers::Trace ImageTracers::*trace;
   void (*closest_hits)(const NativeScene& scene, Context& context, std::span<const Ray> rays,
                        HitBuffer& buffer);
   void (*any_hits)(const NativeScene& scene, Context& context, std::span<const Ray> rays,

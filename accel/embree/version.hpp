@@ -8,9 +8,8 @@ namespace beambench {
 /// The version of the Embree library that is loaded: "3.13.5".
 std::string embree_version();
 
-/// The widest instruction set that Embree uses on this machine: "AVX2", "AVX512". Found once, by
-/// what a verbose device says of itself on std::cout: no device property tells it. The first call
-/// must not run while other threads write to std::cout.
+/// The instruction set that Embree runs on unless it is held to less (parameter `isa`): "AVX512".
+/// The first call must not run while other threads write to std::cout (accel/embree/isa.hpp).
 std::string embree_isa();
 
 }  // namespace beambench

@@ -91,6 +91,9 @@ void add_sizes(StatisticsTable& table, const std::vector<Finding>& findings) {
   table.add("references", [](const Finding& f) { return or_dash(f.statistics.references); });
   table.add("depth", [](const Finding& f) { return or_dash(f.statistics.depth); });
   table.add("memory", [](const Finding& f) { return format_bytes(f.statistics.bytes); });
+  table.add("instruction set", [](const Finding& f) {
+    return f.statistics.instruction_set.empty() ? "-" : f.statistics.instruction_set;
+  });
   table.add("build time (1)",
             [](const Finding& f) { return fmt::format("{:.3g} ms", f.build_ms); });
 
@@ -150,6 +153,7 @@ Json to_json(const Finding& finding, std::size_t rays) {
            {"references", sizes.references},
            {"depth", sizes.depth},
            {"memory_bytes", sizes.bytes},
+           {"instruction_set", sizes.instruction_set},
            {"more", Json::object()},
            {"build_ms", finding.build_ms},
            {"hits", finding.hits},

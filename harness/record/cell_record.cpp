@@ -41,6 +41,8 @@ void add_run(Row& row, const RunFacts& run, const CellRecord& cell) {
   row["build_type"] = run.build_type;
   row["flags"] = run.flags;
   row["isa"] = run.isa;
+  const bool chose = cell.statistics && !cell.statistics->instruction_set.empty();
+  row["structure_isa"] = chose ? Json(cell.statistics->instruction_set) : Json();
   row["threads"] = run.threads;
 }
 
@@ -64,6 +66,13 @@ void add_identity(Row& row, const CellRecord& cell) {
   row["hit_share"] = any ? Json() : share;
   row["occluded_share"] = any ? share : Json();
   row["coherence"] = cell.rays.rays > 0 ? Json(cell.rays.coherence) : Json();
+}
+
+/// The 95% interval of a median.
+void add_interval(Row& row, const std::string& phase, const std::vector<double>& samples) {
+  const std::optional<Interval> interval = median_interval(samples);
+  row[phase + "_ms_ci_low"] = interval ? Json(interval->low) : Json();
+  row[phase + "_ms_ci_high"] = interval ? Json(interval->high) : Json();
 }
 
 void add_wall_time(Row& row, const std::string& phase, const std::vector<double>& samples) {
@@ -99,14 +108,13 @@ void add_times(Row& row, const CellRecord& cell) {
   row["stop_reason"] = cell.stop_reason ? Json(to_string(*cell.stop_reason)) : Json();
   add_wall_time(row, "build", samples(&Repetition::build_ms));
   add_wall_time(row, "trace", samples(&Repetition::trace_ms));
+  add_interval(row, "trace", samples(&Repetition::trace_ms));
   row["trace_warm_ms_median"] = known ? median_warm_trace(cell) : Json();
   row["harness_ms"] = known ? Json(cell.rays.harness_ms) : Json();
   row["trace_net_ms_median"] = known ? net_of_harness(cell) : Json();
   const std::vector<double> totals = samples(&Repetition::total_ms);
   add_wall_time(row, "total", totals);
-  const std::optional<Interval> interval = median_interval(totals);
-  row["total_ms_ci_low"] = interval ? Json(interval->low) : Json();
-  row["total_ms_ci_high"] = interval ? Json(interval->high) : Json();
+  add_interval(row, "total", totals);
   const std::vector<double> cycles = samples(&Repetition::total_mcycles);
   const std::optional<Interval> repeat = repeat_interval(cycles);
   row["clock_ghz_median"] = median_of(&Repetition::clock_ghz);

@@ -55,6 +55,7 @@ Json measurement_json(const Manifest& manifest) {
   const MeasurementFacts& facts = manifest.measurement;
   return {{"threads", manifest.run.threads},
           {"isa", manifest.run.isa},
+          {"simd_target", manifest.measurement.simd_target},
           {"flush_to_zero", facts.flush_to_zero},
           {"denormals_are_zero", facts.flush_to_zero},
           {"pinned", facts.pinned_core >= 0},

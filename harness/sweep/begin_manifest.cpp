@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "accel/embree/version.hpp"
+#include "accel/instruction_set.hpp"
 #include "harness/record/build_info.hpp"
 #include "harness/sweep/conditions.hpp"
 
@@ -42,6 +43,7 @@ Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes
                           core,
                           MeasuringFloatMode::control_word(),
                           warm_up.count(),
+                          best_simd_target(),
                           std::nullopt,
                           ""};
   manifest.scenes = std::move(scenes);

@@ -5,9 +5,12 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <hwy/targets.h>
 
+#include "accel/embree/isa.hpp"
 #include "accel/embree/oracle.hpp"
 #include "accel/embree/version.hpp"
 #include "accel/hit_buffer.hpp"
@@ -16,7 +19,9 @@
 #include "scenes/error.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/embree_modes.hpp"
+#include "tests/only_target.hpp"
 #include "tests/random_scene.hpp"
+#include "tests/scenes/thrown_message.hpp"
 
 namespace beambench {
 namespace {
@@ -158,6 +163,59 @@ TEST_P(EmbreeModes, WriteEverySampleOfAnImageOfAnySize) {
   }
 }
 
+/// A camera at some distance and a random angle.
+Camera random_camera(Random& random) {
+  Camera camera;
+  const auto number = [&] { return static_cast<float>(random.uniform(-1.0, 1.0)); };
+  camera.from = {30.0F * number(), 25.0F + number(), 30.0F * number()};
+  camera.at = {3.0F * number(), number(), number()};
+  camera.up = {0.3F * number(), 0.3F * number(), 1.0F};
+  camera.angle = 40.0F + 15.0F * number();
+  camera.aspect = 1.3F;
+  return camera;
+}
+
+/// Hollow spheres seen from the inside only and cones, scattered: user geometry, whose t comes from
+/// our own test in double, whatever packet the ray came in. A ray that differs in one bit shows.
+Scene user_primitives(Random& random) {
+  SceneBuilder builder("user primitives");
+  const auto place = [&] {
+    return glm::dvec3(random.uniform(-12.0, 12.0), random.uniform(-12.0, 12.0),
+                      random.uniform(-12.0, 12.0));
+  };
+  for (int i = 0; i < 25; ++i) {
+    builder.add_sphere(place(), -random.uniform(1.0, 4.0));
+    builder.add_cone(place(), random.uniform(0.5, 3.0), place(), random.uniform(0.5, 3.0));
+  }
+  return std::move(builder).build();
+}
+
+TEST_P(EmbreeModes, TraceTheVeryRaysOfTheImageOnEveryInstructionSet) {
+  Random random(7);
+  const Scene scene = user_primitives(random);
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    const testing::OnlyTarget only(target);
+    const auto structure = embree(mode(), scene);
+    for (const auto& [width, height, samples] :
+         {std::tuple(64, 48, 1), std::tuple(37, 19, 4), std::tuple(23, 30, 5)}) {
+      const PrimaryRays rays(random_camera(random), width, height, samples);
+      HitBuffer traced(width, height, samples);
+      structure->trace(rays, traced);
+      HitBuffer expected(width, height, samples);
+      for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+          for (int sample = 0; sample < samples; ++sample) {
+            expected.set(expected.index(x, y, sample),
+                         structure->closest_hit(rays.ray(x, y, sample)));
+          }
+        }
+      }
+      ASSERT_EQ(traced, expected) << width << "x" << height << ", " << samples << " samples";
+    }
+  }
+}
+
 TEST_P(EmbreeModes, MissEverythingInAnEmptyScene) {
   const Scene scene = SceneBuilder("empty").build();
   const auto structure = embree(mode(), scene);
@@ -201,6 +259,47 @@ TEST(Embree, HasStreamsBeforeVersion4) {
 TEST(Embree, RefusesAnUnknownMode) {
   const Scene scene = row_of_primitives();
   EXPECT_THROW(embree("mode=packet32", scene), InputError);
+}
+
+// What Embree 3.13.5 prints on a machine with AVX-512 and when it was built for less.
+constexpr const char* kPrinted = R"(
+   Targets  : SSE SSE2 SSE3 SSSE3 SSE4.1 SSE4.2 AVX AVXI AVX2 AVX512
+  Config
+    Targets : SSE SSE2 SSE3 SSSE3 SSE4.1 SSE4.2 AVX AVXI AVX2 AVX512  (supported)
+              SSE2 SSE4.2 AVX AVX2{} (compile time enabled)
+)";
+
+TEST(Embree, ReadsItsInstructionSetOffWhatItPrints) {
+  const auto with = [](const char* more) { return fmt::format(fmt::runtime(kPrinted), more); };
+  EXPECT_EQ(embree::widest_target(with(" AVX512 ")), "AVX512");
+  EXPECT_EQ(embree::widest_target(with("")), "AVX2");
+  EXPECT_EQ(embree::widest_target("nothing of the kind"), "unknown");
+}
+
+TEST(Embree, IsHeldToAnInstructionSet) {
+  const Scene scene = load_scene("tetra:n=3");
+  const PrimaryRays rays(scene.cameras.front(), 40, 30, 1);
+  HitBuffer best(40, 30, 1);
+  embree("mode=packet8", scene)->trace(rays, best);
+  for (const auto& [isa, name] : {std::pair("avx2", "AVX2"), std::pair("sse4", "SSE4.2")}) {
+    const auto structure = embree(std::string("mode=packet8,isa=") + isa, scene);
+    EXPECT_EQ(structure->statistics().instruction_set, name);
+    HitBuffer held(40, 30, 1);
+    structure->trace(rays, held);
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      ASSERT_NEAR(held.t()[i] == kInfinity ? 0.0F : held.t()[i],
+                  best.t()[i] == kInfinity ? 0.0F : best.t()[i], 1e-5F);
+    }
+  }
+  EXPECT_EQ(embree("mode=single", scene)->statistics().instruction_set, embree_isa());
+}
+
+TEST(Embree, RefusesAnInstructionSetThatTheMachineLacks) {
+  const Scene scene = row_of_primitives();
+  const testing::OnlyTarget only(HWY_SSE4);
+  EXPECT_TRUE(says(thrown_message([&] { embree("isa=avx2", scene); }),
+                   {"avx2", "does not have", "isa=best"}));
+  EXPECT_NO_THROW(embree("isa=best", scene)) << "Embree runs on more than is asked for";
 }
 
 TEST(Embree, TellsItsVersionAndInstructionSet) {

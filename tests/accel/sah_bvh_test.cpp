@@ -6,31 +6,16 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include "accel/bvh/padded_bounds.hpp"
 #include "accel/tolerance.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
+#include "tests/only_target.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench {
 namespace {
-
-/// Makes Highway believe that the machine has one instruction set, until destroyed.
-class OnlyTarget {
- public:
-  explicit OnlyTarget(std::int64_t target) { pretend(target); }
-  ~OnlyTarget() { pretend(0); }
-  OnlyTarget(const OnlyTarget&) = delete;
-  OnlyTarget& operator=(const OnlyTarget&) = delete;
-
- private:
-  static void pretend(std::int64_t targets) {
-    hwy::SetSupportedTargetsForTest(targets);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
 
 /// Hits of rays that look for trouble, and of the same rays with any_hit.
 void expect_equal_to_exhaustive(const SahBvh& structure, const Scene& scene, std::uint64_t seed,
@@ -50,7 +35,7 @@ TEST(SahBvh, EveryInstructionSetGivesTheSameHits) {
   ASSERT_GE(targets.size(), 2U) << "no choice at run time was compiled in";
   for (const std::int64_t target : targets) {
     SCOPED_TRACE(hwy::TargetName(target));
-    const OnlyTarget only(target);
+    const testing::OnlyTarget only(target);
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
       SCOPED_TRACE(seed);
       const Scene scene = testing::random_scene(seed, 80);

@@ -191,12 +191,14 @@ const RunFacts kRun{"id", "abc", true, "m", "Release", "-O3", "AVX2", 1};
 
 /// The columns that scripts and people rely on, in order.
 const char* const kContract =
-    "schema_version,run_id,time_utc,commit,dirty,machine_id,build_type,flags,isa,threads,"
+    "schema_version,run_id,time_utc,commit,dirty,machine_id,build_type,flags,isa,structure_isa,"
+    "threads,"
     "scene,camera,scene_hash,rays_hash,seed,primitives,"
     "structure,parameters,width,height,samples,ray_kind,query,rays,hit_share,occluded_share,"
     "coherence,"
     "repetitions,stop_reason,"
     "build_ms_median,build_ms_min,build_ms_mad,trace_ms_median,trace_ms_min,trace_ms_mad,"
+    "trace_ms_ci_low,trace_ms_ci_high,"
     "trace_warm_ms_median,harness_ms,trace_net_ms_median,"
     "total_ms_median,total_ms_min,total_ms_mad,total_ms_ci_low,total_ms_ci_high,"
     "clock_ghz_median,total_mcycles_median,total_mcycles_repeat_low,total_mcycles_repeat_high,"
@@ -222,6 +224,8 @@ TEST(CellRow, SumsUpTheRepetitions) {
   EXPECT_EQ(row.at("build_ms_median"), 4.0);
   EXPECT_EQ(row.at("trace_ms_median"), 10.0);
   EXPECT_EQ(row.at("total_ms_median"), 14.0);
+  EXPECT_EQ(row.at("trace_ms_ci_low"), 10.0);
+  EXPECT_EQ(row.at("trace_ms_ci_high"), 10.0);
   EXPECT_EQ(row.at("total_ms_ci_low"), 11.0);
   EXPECT_EQ(row.at("total_ms_ci_high"), 17.0);
   EXPECT_EQ(row.at("mrays_per_s"), 0.064);  // 640 rays in 10 ms
@@ -229,6 +233,14 @@ TEST(CellRow, SumsUpTheRepetitions) {
   EXPECT_EQ(row.at("clips_per_ray"), 0.1);
   EXPECT_TRUE(row.at("box_tests_per_ray").is_null());
   EXPECT_EQ(row.at("allocated_bytes"), 4096);
+  EXPECT_EQ(row.at("isa"), "AVX2");
+  EXPECT_TRUE(row.at("structure_isa").is_null()) << "it does not choose";
+}
+
+TEST(CellRow, NamesTheInstructionSetThatTheStructureChose) {
+  CellRecord cell = some_cell();
+  cell.statistics->instruction_set = "AVX3";
+  EXPECT_EQ(to_row(kRun, cell).at("structure_isa"), "AVX3");
 }
 
 TEST(CellRow, HardwareCountsAreEmptyWhereTheMachineCountsNone) {
@@ -256,7 +268,7 @@ TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
     EXPECT_EQ(value.is_null(),
               is_time || column == "leaves_per_ray" || column == "empty_leaves_per_ray" ||
                   column == "box_tests_per_ray" || column == "primitive_tests_per_ray" ||
-                  column == "occluded_share" || column == "tree_cost")
+                  column == "structure_isa" || column == "occluded_share" || column == "tree_cost")
         << column;
   }
   EXPECT_TRUE(to_json(kRun, cell).at("repetitions").empty());

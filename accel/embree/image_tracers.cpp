@@ -1,0 +1,286 @@
+#include "accel/embree/image_tracers.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "accel/pick_target.hpp"
+
+// Highway includes this file once more for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "accel/embree/image_tracers.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::embree::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// An image is traced tile by tile, so that what a tile needs of the scene stays in the caches.
+constexpr int kTile = 16;
+
+/// The rays through one sample of each pixel of a block, as a packet of N takes them.
+template <int N>
+class Block {
+ public:
+  static constexpr int kWidth = Packet<N>::kWidth;
+  static constexpr int kHeight = N / kWidth;
+  using Query = typename Packet<N>::Query;
+
+  /// What is the same for all rays of an image and what Embree leaves alone.
+  static void prepare(const PrimaryRays& rays, Query& query) {
+    query = {};
+    std::fill_n(query.ray.org_x, N, rays.eye().x);
+    std::fill_n(query.ray.org_y, N, rays.eye().y);
+    std::fill_n(query.ray.org_z, N, rays.eye().z);
+    std::fill_n(query.ray.mask, N, std::numeric_limits<unsigned>::max());
+  }
+
+  /// The blocks whose top row of pixels is `y`.
+  Block(const PrimaryRays& rays, int y, int sample) : rays_(rays), y_(y), sample_(sample) {
+    const Doubles doubles;
+    for (std::size_t lane = 0; lane < N; lane += hn::Lanes(doubles)) {
+      const auto row = hn::Add(hn::Set(doubles, y), hn::Load(doubles, &kRowOfLane[lane]));
+      const auto py = hn::Add(row, hn::Set(doubles, offset().y));
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto down = hn::Mul(hn::Set(doubles, rays.down()[axis]), py);
+        hn::Store(down, doubles, &down_[static_cast<std::size_t>(axis)][lane]);
+      }
+    }
+  }
+
+  /// The rest, for the block whose left column of pixels is `x`, and in `valid` -1 for each lane on
+  /// the image and 0 for the others, which get an empty interval: what Embree asks for.
+  void aim(int x, Query& query, int* valid) const {
+    const Floats floats;
+    const hn::RebindToSigned<Floats> numbers;
+    const hn::RebindToUnsigned<Floats> words;
+    for (std::size_t lane = 0; lane < N; lane += hn::Lanes(floats)) {
+      hn::Store(direction(x, 0, lane), floats, query.ray.dir_x + lane);
+      hn::Store(direction(x, 1, lane), floats, query.ray.dir_y + lane);
+      hn::Store(direction(x, 2, lane), floats, query.ray.dir_z + lane);
+      hn::Store(hn::Set(floats, kInfinity), floats, query.ray.tfar + lane);
+      hn::Store(hn::Set(words, RTC_INVALID_GEOMETRY_ID), words, query.hit.geomID + lane);
+      hn::Store(hn::Set(numbers, -1), numbers, valid + lane);
+    }
+    if (is_on_image(x)) return;
+    for (int lane = 0; lane < N; ++lane) {
+      if (is_on_image(x, lane)) continue;
+      query.ray.tfar[lane] = -kInfinity;
+      valid[lane] = 0;
+    }
+  }
+
+  void write(const NativeScene& scene, const Query& query, int x, HitBuffer& buffer) const {
+    alignas(64) std::array<PrimitiveId, N> owners;
+    find_owners(scene, query, owners.data());
+    if (rays_.samples() == 1 && is_on_image(x)) {
+      for (int row = 0; row < kHeight; ++row) {
+        const std::size_t index = buffer.index(x, y_ + row, 0);
+        copy_row(query.ray.tfar + row * kWidth, buffer.t() + index);
+        copy_row(owners.data() + row * kWidth, buffer.primitive() + index);
+      }
+      return;
+    }
+    for (int lane = 0; lane < N; ++lane) {
+      if (!is_on_image(x, lane)) continue;
+      const std::size_t index = buffer.index(x + lane % kWidth, y_ + lane / kWidth, sample_);
+      buffer.t()[index] = query.ray.tfar[lane];
+      buffer.primitive()[index] = owners[static_cast<std::size_t>(lane)];
+    }
+  }
+
+ private:
+  using Floats = hn::CappedTag<float, N>;
+  using Doubles = hn::CappedTag<double, hn::MaxLanes(Floats())>;
+
+  static constexpr std::array<double, N> count_lanes(int (*place)(int lane)) {
+    std::array<double, N> places{};
+    for (int lane = 0; lane < N; ++lane) places[static_cast<std::size_t>(lane)] = place(lane);
+    return places;
+  }
+  alignas(64) static constexpr std::array<double, N> kColumnOfLane = count_lanes([](int lane) {
+    return lane % kWidth;
+  });
+  alignas(64) static constexpr std::array<double, N> kRowOfLane = count_lanes([](int lane) {
+    return lane / kWidth;
+  });
+
+  bool is_on_image(int x) const {
+    return x + kWidth <= rays_.width() && y_ + kHeight <= rays_.height();
+  }
+  bool is_on_image(int x, int lane) const {
+    return x + lane % kWidth < rays_.width() && y_ + lane / kWidth < rays_.height();
+  }
+
+  const glm::dvec2& offset() const { return rays_.offsets()[static_cast<std::size_t>(sample_)]; }
+
+  /// One component of the directions of a register of lanes from `lane` on.
+  hn::Vec<Floats> direction(int x, int axis, std::size_t lane) const {
+    const Doubles doubles;
+    const hn::Rebind<float, Doubles> rounded;
+    const auto some = [&](std::size_t first) {
+      const auto column = hn::Add(hn::Set(doubles, x), hn::Load(doubles, &kColumnOfLane[first]));
+      const auto px = hn::Add(column, hn::Set(doubles, offset().x));
+      const auto across = hn::Add(hn::Set(doubles, rays_.top_left()[axis]),
+                                  hn::Mul(hn::Set(doubles, rays_.right()[axis]), px));
+      const auto down = hn::Load(doubles, &down_[static_cast<std::size_t>(axis)][first]);
+      return hn::DemoteTo(rounded, hn::Add(across, down));
+    };
+    // In one piece, as Embree loads it: so the load need not wait for two stores to be done.
+    // `Combine` is found by its arguments' namespace, since the scalar target has none.
+    if constexpr (hn::MaxLanes(Doubles()) == hn::MaxLanes(Floats())) {
+      return some(lane);
+    } else {
+      return Combine(Floats(), some(lane + hn::Lanes(doubles)), some(lane));
+    }
+  }
+
+  template <class T>
+  static void copy_row(const T* from, T* to) {
+    const hn::CappedTag<T, kWidth> tag;
+    for (std::size_t lane = 0; lane < kWidth; lane += hn::Lanes(tag)) {
+      hn::StoreU(hn::Load(tag, from + lane), tag, to + lane);
+    }
+  }
+
+  static void find_owners(const NativeScene& scene, const Query& query, PrimitiveId* owners) {
+    const hn::CappedTag<PrimitiveId, N> words;
+    const hn::RebindToSigned<decltype(words)> numbers;
+    const OwnerTable& table = scene.owners();
+    for (std::size_t lane = 0; lane < N; lane += hn::Lanes(words)) {
+      const auto geometry = hn::Load(words, query.hit.geomID + lane);
+      const auto hit = hn::Ne(geometry, hn::Set(words, RTC_INVALID_GEOMETRY_ID));
+      auto owner = hn::Load(words, query.hit.primID + lane);
+      for (unsigned id = 1; id < table.first.size(); ++id) {
+        owner = hn::Add(owner, hn::IfThenElseZero(hn::Eq(geometry, hn::Set(words, id)),
+                                                  hn::Set(words, table.first[id])));
+      }
+      if (!table.in_order && !hn::AllFalse(words, hit)) {
+        owner = hn::GatherIndex(words, table.ids.data(),
+                                hn::BitCast(numbers, hn::IfThenElseZero(hit, owner)));
+      }
+      hn::Store(hn::IfThenElse(hit, owner, hn::Set(words, kNoPrimitive)), words, owners + lane);
+    }
+  }
+
+  const PrimaryRays& rays_;
+  int y_;
+  int sample_;
+  alignas(64) std::array<std::array<double, N>, 3> down_;  ///< down * py of each lane
+};
+
+/// Calls `trace_tile(left, top, right, bottom)` for all tiles.
+template <class TraceTile>
+void for_each_tile(const PrimaryRays& rays, TraceTile trace_tile) {
+  for (int top = 0; top < rays.height(); top += kTile) {
+    for (int left = 0; left < rays.width(); left += kTile) {
+      trace_tile(left, top, std::min(left + kTile, rays.width()),
+                 std::min(top + kTile, rays.height()));
+    }
+  }
+}
+
+/// Traces an image block by block; `trace_block(query, valid)` finds the closest hits of a packet.
+template <int N, class TraceBlock>
+void trace_blocks(const NativeScene& scene, const PrimaryRays& rays, HitBuffer& buffer,
+                  TraceBlock trace_block) {
+  typename Block<N>::Query query;
+  Block<N>::prepare(rays, query);
+  alignas(64) std::array<int, N> valid;
+  for_each_tile(rays, [&](int left, int top, int right, int bottom) {
+    for (int y = top; y < bottom; y += Block<N>::kHeight) {
+      for (int sample = 0; sample < rays.samples(); ++sample) {
+        const Block<N> block(rays, y, sample);
+        for (int x = left; x < right; x += Block<N>::kWidth) {
+          block.aim(x, query, valid.data());
+          trace_block(query, valid.data());
+          block.write(scene, query, x, buffer);
+        }
+      }
+    }
+  });
+}
+
+template <int N>
+void trace_packets(const NativeScene& scene, Context& context, const PrimaryRays& rays,
+                   HitBuffer& buffer) {
+  trace_blocks<N>(scene, rays, buffer, [&](typename Packet<N>::Query& query, const int* valid) {
+    intersect(valid, scene.get(), context, query);
+  });
+}
+
+void trace_single(const NativeScene& scene, Context& context, const PrimaryRays& rays,
+                  HitBuffer& buffer) {
+  constexpr int kLanes = 16;
+  RTCRayHit one = to_embree_query({.origin = rays.eye()});
+  trace_blocks<kLanes>(scene, rays, buffer, [&](Packet<kLanes>::Query& query, const int* valid) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (valid[lane] == 0) continue;
+      one.ray.dir_x = query.ray.dir_x[lane];
+      one.ray.dir_y = query.ray.dir_y[lane];
+      one.ray.dir_z = query.ray.dir_z[lane];
+      one.ray.tfar = kInfinity;
+      one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      intersect(scene.get(), context, one);
+      query.ray.tfar[lane] = one.ray.tfar;
+      query.hit.geomID[lane] = one.hit.geomID;
+      query.hit.primID[lane] = one.hit.primID;
+    }
+  });
+}
+
+#if BEAMBENCH_EMBREE_MAJOR == 3
+void trace_stream(const NativeScene& scene, Context& context, const PrimaryRays& rays,
+                  HitBuffer& buffer) {
+  using Block = Block<16>;
+  constexpr std::size_t kBlocks = kTile * kTile / 16;
+  std::vector<Block::Query> queries(kBlocks);
+  for (Block::Query& query : queries) Block::prepare(rays, query);
+  alignas(64) std::array<int, 16> valid;  // which streams tell by the interval alone
+
+  for_each_tile(rays, [&](int left, int top, int right, int bottom) {
+    for (int sample = 0; sample < rays.samples(); ++sample) {
+      const auto each_block = [&](auto&& action) {
+        unsigned count = 0;
+        for (int y = top; y < bottom; y += Block::kHeight) {
+          const Block block(rays, y, sample);
+          for (int x = left; x < right; x += Block::kWidth) action(block, x, queries[count++]);
+        }
+        return count;
+      };
+      const unsigned count = each_block([&](const Block& block, int x, Block::Query& query) {
+        block.aim(x, query, valid.data());
+      });
+      intersect_stream(scene.get(), context, queries.data(), count);
+      each_block([&](const Block& block, int x, const Block::Query& query) {
+        block.write(scene, query, x, buffer);
+      });
+    }
+  });
+}
+#else
+constexpr ImageTracers::Trace trace_stream = nullptr;
+#endif
+
+const ImageTracers& tracers() {
+  static constexpr ImageTracers kTracers{trace_single,      trace_packets<4>, trace_packets<8>,
+                                         trace_packets<16>, trace_stream,     HWY_TARGET};
+  return kTracers;
+}
+
+}  // namespace beambench::embree::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace beambench::embree {
+
+HWY_EXPORT(tracers);
+
+const ImageTracers& image_tracers(std::int64_t targets) {
+  return pick_target(HWY_DISPATCH_TABLE(tracers), targets)();
+}
+
+}  // namespace beambench::embree
+#endif

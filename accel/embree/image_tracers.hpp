@@ -1,0 +1,29 @@
+#pragma once
+// Whole images through Embree. Rays are made and hits are written by SIMD, compiled for several
+// instruction sets, so that what is measured is Embree and not the making of its rays.
+
+#include <cstdint>
+
+#include "accel/embree/native_scene.hpp"
+#include "accel/hit_buffer.hpp"
+#include "accel/primary_rays.hpp"
+
+namespace beambench::embree {
+
+/// The tracers of images for one instruction set. The rays are those of `PrimaryRays::ray`, bit for
+/// bit: computed in double by the same operations, each component rounded once to float.
+struct ImageTracers {
+  using Trace = void (*)(const NativeScene& scene, Context& context, const PrimaryRays& rays,
+                         HitBuffer& buffer);
+  Trace single;  ///< ray by ray, in blocks of 4x4 pixels
+  Trace packet4;
+  Trace packet8;
+  Trace packet16;
+  Trace stream;         ///< a tile's rays at once, as packets of 16; nullptr in Embree 4
+  std::int64_t target;  ///< HWY_TARGET: hwy::TargetName gives its name
+};
+
+/// Those for the best of Highway's `targets` that this machine has.
+const ImageTracers& image_tracers(std::int64_t targets);
+
+}  // namespace beambench::embree

@@ -1,0 +1,126 @@
+#include "accel/embree/isa.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iostream>
+#include <map>
+#include <mutex>
+#include <sstream>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "accel/embree/device.hpp"
+#include "accel/instruction_set.hpp"
+#include "scenes/error.hpp"
+
+namespace beambench::embree {
+namespace {
+
+/// One instruction set by its three names.
+struct Isa {
+  const char* parameter;  ///< of isa_parameter
+  const char* config;     ///< in a device's configuration
+  const char* printed;    ///< by a verbose device
+};
+constexpr std::array<Isa, 3> kIsas{
+    {{"avx512", "avx512", "AVX512"}, {"avx2", "avx2", "AVX2"}, {"sse4", "sse4.2", "SSE4.2"}}};
+
+/// Sends std::cout into a string for as long as it lives.
+class CaptureStandardOutput {
+ public:
+  CaptureStandardOutput() : before_(std::cout.rdbuf(captured_.rdbuf())) {}
+  CaptureStandardOutput(const CaptureStandardOutput&) = delete;
+  CaptureStandardOutput& operator=(const CaptureStandardOutput&) = delete;
+  ~CaptureStandardOutput() { std::cout.rdbuf(before_); }
+
+  std::string text() const { return captured_.str(); }
+
+ private:
+  std::ostringstream captured_;
+  std::streambuf* before_;
+};
+
+/// The words before `mark` on its line, those up to a ": " left out.
+std::vector<std::string> words_before(const std::string& text, std::string_view mark) {
+  const std::size_t end = text.find(mark);
+  if (end == std::string::npos) return {};
+  const std::size_t newline = text.rfind('\n', end);
+  std::istringstream line(text.substr(newline + 1, end - newline - 1));
+  std::vector<std::string> words;
+  for (std::string word; line >> word;) {
+    if (word == ":") {
+      words.clear();
+    } else {
+      words.push_back(word);
+    }
+  }
+  return words;
+}
+
+/// The best of our instruction sets that the machine has; nullptr where it has none of them.
+const Isa* best_of_machine() {
+  const auto has = [](const Isa& isa) {
+    try {
+      targets_of(isa.parameter);
+      return true;
+    } catch (const InputError&) {
+      return false;
+    }
+  };
+  const auto found = std::ranges::find_if(kIsas, has);
+  return found == kIsas.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::string device_config(const std::string& isa) {
+  const auto found = std::ranges::find(kIsas, isa, &Isa::parameter);
+  return found == kIsas.end() ? "threads=1" : fmt::format("threads=1,isa={}", found->config);
+}
+
+std::string widest_target(const std::string& printed) {
+  // "Targets : SSE ... AVX512 (supported)" and below "SSE2 ... AVX512 (compile time enabled)",
+  // both from the narrowest to the widest.
+  const std::vector<std::string> supported = words_before(printed, "(supported)");
+  std::string widest = "unknown";
+  for (const std::string& target : words_before(printed, "(compile time enabled)")) {
+    if (std::ranges::find(supported, target) != supported.end()) widest = target;
+  }
+  return widest;
+}
+
+std::string isa_in_use(const std::string& isa) {
+  static std::mutex mutex;
+  static std::map<std::string, std::string> known;
+  const std::lock_guard lock(mutex);
+  const auto [entry, is_new] = known.try_emplace(isa);
+  if (is_new) {
+    const CaptureStandardOutput capture;
+    const Device device((device_config(isa) + ",verbose=1").c_str());
+    entry->second = widest_target(capture.text());
+  }
+  return entry->second;
+}
+
+void require_isa(const std::string& isa) {
+  targets_of(isa);
+  const std::string used = isa_in_use(isa);
+  if (isa != "best") {
+    const auto asked = std::ranges::find(kIsas, isa, &Isa::parameter);
+    if (asked == kIsas.end() || used == asked->printed) return;
+    throw InputError(fmt::format(
+        "embree cannot be held to isa={}: it runs on {} then; choose isa=best or another", isa,
+        used));
+  }
+  const Isa* const best = best_of_machine();
+  if (best == nullptr) return;
+  const auto found = std::ranges::find(kIsas, used, &Isa::printed);
+  if (found <= best) return;
+  throw InputError(fmt::format(
+      "Embree runs on {} although the machine has {}, so that ratios to it would mislead; install "
+      "an Embree with {}, or say isa=... to hold embree and what it is compared with to less",
+      used, best->printed, best->printed));
+}
+
+}  // namespace beambench::embree

@@ -1,0 +1,25 @@
+#pragma once
+// Tests of every instruction set that this machine has.
+
+#include <cstdint>
+
+#include <hwy/targets.h>
+
+namespace beambench::testing {
+
+/// Makes Highway believe that the machine has one instruction set, until destroyed.
+class OnlyTarget {
+ public:
+  explicit OnlyTarget(std::int64_t target) { pretend(target); }
+  ~OnlyTarget() { pretend(0); }
+  OnlyTarget(const OnlyTarget&) = delete;
+  OnlyTarget& operator=(const OnlyTarget&) = delete;
+
+ private:
+  static void pretend(std::int64_t targets) {
+    hwy::SetSupportedTargetsForTest(targets);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+}  // namespace beambench::testing
