@@ -12,6 +12,7 @@
 #include "scenes/generators/bumpy.hpp"
 #include "scenes/generators/caracol.hpp"
 #include "scenes/generators/casa_de_campo.hpp"
+#include "scenes/generators/closed_room.hpp"
 #include "scenes/generators/delfines.hpp"
 #include "scenes/generators/escena1.hpp"
 #include "scenes/generators/escena2.hpp"
@@ -27,7 +28,9 @@
 #include "scenes/generators/rings.hpp"
 #include "scenes/generators/shells.hpp"
 #include "scenes/generators/sombrero.hpp"
+#include "scenes/generators/soup.hpp"
 #include "scenes/generators/teapot.hpp"
+#include "scenes/generators/tessellated_balls.hpp"
 #include "scenes/generators/tetera.hpp"
 #include "scenes/generators/tetra.hpp"
 #include "scenes/generators/torre_eiffel.hpp"
@@ -57,14 +60,21 @@ bool is_path(std::string_view spec) {
 }  // namespace
 
 std::span<const SceneInfo> scene_catalogue() {
-  static const std::vector<SceneInfo> catalogue = {
-      ajedrez_scene(),    balls_scene(),         bola_espacial_scene(), bumpy_scene(),
-      caracol_scene(),    casa_de_campo_scene(), delfines_scene(),      escena1_scene(),
-      escena2_scene(),    flamenco_scene(),      gato_bill_scene(),     gears_scene(),
-      habitacion_scene(), jacks_scene(),         lattice_scene(),       maceta_scene(),
-      misil_scene(),      mount_scene(),         rings_scene(),         shells_scene(),
-      sombrero_scene(),   stetra_scene(),        teapot_scene(),        tetera_scene(),
-      tetra_scene(),      torre_eiffel_scene(),  tree_scene()};
+  static const std::vector<SceneInfo> catalogue = {ajedrez_scene(),       balls_scene(),
+                                                   bola_espacial_scene(), bumpy_scene(),
+                                                   caracol_scene(),       casa_de_campo_scene(),
+                                                   closed_room_scene(),   delfines_scene(),
+                                                   escena1_scene(),       escena2_scene(),
+                                                   flamenco_scene(),      gato_bill_scene(),
+                                                   gears_scene(),         habitacion_scene(),
+                                                   jacks_scene(),         lattice_scene(),
+                                                   maceta_scene(),        misil_scene(),
+                                                   mount_scene(),         rings_scene(),
+                                                   shells_scene(),        sombrero_scene(),
+                                                   soup_scene(),          stetra_scene(),
+                                                   teapot_scene(),        tessellated_balls_scene(),
+                                                   tetera_scene(),        tetra_scene(),
+                                                   torre_eiffel_scene(),  tree_scene()};
   return catalogue;
 }
 

@@ -1,10 +1,13 @@
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
 #include <tuple>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
@@ -33,39 +36,43 @@ TEST_P(Counts, AreTheDefinitions) {
   EXPECT_EQ(scene.primitives.size(), GetParam().spheres + GetParam().polygons);
 }
 
-INSTANTIATE_TEST_SUITE_P(Catalogue, Counts,
-                         testing::Values(Expected{"balls:n=0", 1, 1}, Expected{"balls:n=2", 91, 1},
-                                         Expected{"balls", 7381, 1}, Expected{"tetra:n=1", 0, 4},
-                                         Expected{"tetra:n=3", 0, 64}, Expected{"tetra", 0, 4096},
-                                         Expected{"stetra", 0, 256}, Expected{"escena1", 430, 0},
-                                         Expected{"escena1:spheres=1", 1, 0},
-                                         Expected{"escena2", 91, 1}, Expected{"bumpy", 0, 15552},
-                                         Expected{"bumpy:triangles=12", 0, 12},
-                                         Expected{"bumpy:triangles=200000", 0, 199692}),
-                         [](const auto& info) {
-                           std::string name = info.param.spec;
-                           std::replace_if(
-                               name.begin(), name.end(),
-                               [](char c) { return c == ':' || c == '='; }, '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Catalogue, Counts,
+    testing::Values(Expected{"balls:n=0", 1, 1}, Expected{"balls:n=2", 91, 1},
+                    Expected{"balls", 7381, 1}, Expected{"tetra:n=1", 0, 4},
+                    Expected{"tetra:n=3", 0, 64}, Expected{"tetra", 0, 4096},
+                    Expected{"stetra", 0, 256}, Expected{"escena1", 430, 0},
+                    Expected{"escena1:spheres=1", 1, 0}, Expected{"escena2", 91, 1},
+                    Expected{"bumpy", 0, 15552}, Expected{"bumpy:triangles=12", 0, 12},
+                    Expected{"bumpy:triangles=200000", 0, 199692},
+                    Expected{"closed-room", 0, 32272}, Expected{"closed-room:detail=1", 0, 576},
+                    Expected{"closed-room:detail=9", 0, 40928}, Expected{"soup", 0, 20000},
+                    Expected{"soup:triangles=1", 0, 1}, Expected{"tessellated-balls", 0, 96320},
+                    Expected{"tessellated-balls:slices=6,spheres=5", 0, 5 * 24}),
+    [](const auto& info) {
+      std::string name = info.param.spec;
+      std::replace_if(
+          name.begin(), name.end(), [](char c) { return std::isalnum(c) == 0; }, '_');
+      return name;
+    });
 
 TEST(Catalogue, SceneHashesArePinned) {
   const std::map<std::string, std::uint64_t> hashes = {
       {"ajedrez", 0x141e951750a1546e},       {"balls", 0x4ec0de13a661c1e3},
       {"bola-espacial", 0xf0ef35d661aef792}, {"bumpy", 0xdb2bb96ee4060375},
       {"caracol", 0xece2bddf3ffb36c7},       {"casa-de-campo", 0x9ddb86ac08fd857f},
-      {"delfines", 0x270037d9501248a6},      {"escena1", 0xd11e781ffd1bb313},
-      {"escena2", 0x9d87ad15fbf7a3c4},       {"flamenco", 0x18caa2d84303aed3},
-      {"gato-bill", 0x5f6e6f201f6d4cab},     {"gears", 0x2788c3eafe0614b7},
-      {"habitacion", 0x833d7e989334271b},    {"jacks", 0xcb34972e4e1c3ffd},
-      {"lattice", 0x3251fd8ab231338c},       {"maceta", 0x0822db74cb611fe6},
-      {"misil", 0x032cb75abdd2f8ea},         {"mount", 0x161ae288891688a3},
-      {"rings", 0x0f27dc72e21f1bb8},         {"shells", 0x091e2056d8ef061a},
-      {"sombrero", 0xc6d55dae08c426c5},      {"stetra", 0xb7c5999641909e78},
-      {"teapot", 0x7ee8e74a7f20ad0f},        {"tetera", 0x4d415d421365ff93},
-      {"tetra", 0x38c3e535c1bd53f0},         {"torre-eiffel", 0xa44a81f18aa61d8a},
-      {"tree", 0xcf6d525f70c012df},
+      {"closed-room", 0x46ba5d68b70ed5cf},   {"delfines", 0x270037d9501248a6},
+      {"escena1", 0xd11e781ffd1bb313},       {"escena2", 0x9d87ad15fbf7a3c4},
+      {"flamenco", 0x18caa2d84303aed3},      {"gato-bill", 0x5f6e6f201f6d4cab},
+      {"gears", 0x2788c3eafe0614b7},         {"habitacion", 0x833d7e989334271b},
+      {"jacks", 0xcb34972e4e1c3ffd},         {"lattice", 0x3251fd8ab231338c},
+      {"maceta", 0x0822db74cb611fe6},        {"misil", 0x032cb75abdd2f8ea},
+      {"mount", 0x161ae288891688a3},         {"rings", 0x0f27dc72e21f1bb8},
+      {"shells", 0x091e2056d8ef061a},        {"sombrero", 0xc6d55dae08c426c5},
+      {"soup", 0x28e0e97b897bda33},          {"stetra", 0xb7c5999641909e78},
+      {"teapot", 0x7ee8e74a7f20ad0f},        {"tessellated-balls", 0x102d62341341ae7e},
+      {"tetera", 0x4d415d421365ff93},        {"tetra", 0x38c3e535c1bd53f0},
+      {"torre-eiffel", 0xa44a81f18aa61d8a},  {"tree", 0xcf6d525f70c012df},
   };
   for (const SceneInfo& info : scene_catalogue()) {
     ASSERT_TRUE(hashes.contains(info.name)) << "pin the hash of " << info.name;
@@ -116,7 +123,8 @@ bool sees(const Camera& camera, const glm::dvec3& point) {
 }
 
 TEST(Catalogue, CamerasSeeTheirScenes) {
-  for (const char* spec : {"escena1", "escena2", "bumpy", "tetra"}) {
+  for (const char* spec :
+       {"escena1", "escena2", "bumpy", "tetra", "tessellated-balls:slices=4", "soup"}) {
     const Scene scene = load_scene(spec);
     for (const Sphere& sphere : scene.spheres) {
       EXPECT_TRUE(sees(scene.cameras[0], sphere.center)) << spec;
@@ -273,22 +281,68 @@ TEST(Escena2, FlakeIsTinyInAHugeVolume) {
   EXPECT_LT(flake.upper.y, scene.bounds.upper.y) << "the polygon stands behind";
 }
 
+/// Of triangles over shared vertices: edges that do not belong to two, once in each direction.
+std::size_t count_open_edges(std::span<const Triangle> triangles) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+  for (const Triangle& t : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) ++edges[{t.vertex[i], t.vertex[(i + 1) % 3]}];
+  }
+  return static_cast<std::size_t>(std::ranges::count_if(edges, [&](const auto& edge) {
+    return edge.second != 1 || !edges.contains({edge.first.second, edge.first.first});
+  }));
+}
+
 /// Every edge belongs to exactly two triangles, once in each direction: closed and oriented.
 void expect_closed(const Scene& scene) {
-  std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-  for (const Triangle& t : scene.triangles) {
-    for (int i = 0; i < 3; ++i) ++edges[{t.vertex[i], t.vertex[(i + 1) % 3]}];
-  }
-  for (const auto& [edge, count] : edges) {
-    RC_ASSERT(count == 1);
-    RC_ASSERT(edges.contains({edge.second, edge.first}));
-  }
+  RC_ASSERT(count_open_edges(scene.triangles) == 0);
   RC_ASSERT(scene.vertices.size() == scene.triangles.size() / 2 + 2);  // Euler
 }
 
 RC_GTEST_PROP(Bumpy, IsClosedAndShared, ()) {
   const int triangles = *rc::gen::inRange(12, 4000);
   expect_closed(load_scene("bumpy:triangles=" + std::to_string(triangles)));
+}
+
+TEST(ClosedRoom, HasNoGapInItsShell) {
+  for (const int detail : {1, 3, 8}) {
+    const Scene scene = load_scene("closed-room:detail=" + std::to_string(detail));
+    const auto shell = static_cast<std::size_t>(44 * detail * detail);
+    EXPECT_EQ(count_open_edges(std::span(scene.triangles).first(shell)), 0U);
+    for (std::size_t i = 0; i < shell; ++i) {  // they look at the middle of the room
+      const glm::dvec3 a(scene.vertices[scene.triangles[i].vertex[0]]);
+      const glm::dvec3 b(scene.vertices[scene.triangles[i].vertex[1]]);
+      const glm::dvec3 c(scene.vertices[scene.triangles[i].vertex[2]]);
+      ASSERT_GT(glm::dot(glm::cross(b - a, c - a), glm::dvec3(5.0, 4.0, 2.0) - a), 0.0);
+    }
+  }
+}
+
+TEST(TessellatedBalls, AreTheBallsOfEscena1AsClosedMeshes) {
+  const Scene balls = load_scene("escena1:spheres=9");
+  const Scene meshes = load_scene("tessellated-balls:spheres=9");
+  constexpr std::size_t kTriangles = 224;  // of a ball
+  EXPECT_EQ(count_open_edges(meshes.triangles), 0U);
+  for (std::size_t i = 0; i < meshes.triangles.size(); ++i) {
+    const Sphere& ball = balls.spheres[i / kTriangles];
+    for (const std::uint32_t vertex : meshes.triangles[i].vertex) {
+      const glm::dvec3 p(meshes.vertices[vertex]);
+      ASSERT_NEAR(glm::length(p - glm::dvec3(ball.center)), ball.radius, 1e-5);
+    }
+  }
+}
+
+TEST(Soup, SharesNothingAndKeepsItsDensity) {
+  for (const auto& [count, reach] : {std::pair(1000, 0.06), std::pair(8000, 0.03)}) {
+    const Scene scene = load_scene("soup:triangles=" + std::to_string(count));
+    EXPECT_EQ(scene.vertices.size(), 3U * static_cast<std::size_t>(count));
+    for (const Triangle& triangle : scene.triangles) {
+      const glm::vec3 a = scene.vertices[triangle.vertex[0]];
+      for (const std::uint32_t other : triangle.vertex) {
+        const glm::vec3 away = glm::abs(scene.vertices[other] - a);
+        ASSERT_LE(std::max({away.x, away.y, away.z}), 2.001 * reach);
+      }
+    }
+  }
 }
 
 TEST(Bumpy, IsStarShapedAndLooksOutward) {
