@@ -6,6 +6,7 @@ import argparse
 import sys
 from pathlib import Path
 
+from beambench_report.beat.command import beat_text, write_beat
 from beambench_report.contact_sheet import write_contact_sheet
 from beambench_report.dictionary import as_markdown, dictionary
 from beambench_report.files import write_text
@@ -40,6 +41,9 @@ def main(arguments: list[str] | None = None) -> int:
             return 0
         if options.command == "levels" and options.output is None:
             print(levels_text(options.runs), end="")
+            return 0
+        if options.command == "beat" and options.output is None:
+            print(beat_text(options.runs), end="")
             return 0
         if options.command == "thesis":
             return thesis(options)
@@ -115,14 +119,18 @@ def _parser() -> argparse.ArgumentParser:
     levels = commands.add_parser(
         "levels", help="say how well max_level=auto chooses, beside the best of fixed levels"
     )
-    levels.add_argument("runs", type=Path, nargs="+", metavar="RUN", help="folder of a run")
-    levels.add_argument(
-        "-o",
-        "--output",
-        type=Path,
-        metavar="FILE.md",
-        help="if not given, it is printed; a plot comes beside it",
+    beat = commands.add_parser(
+        "beat", help="say how many times as fast as Embree's fastest mode tile beams are"
     )
+    for command in (levels, beat):
+        command.add_argument("runs", type=Path, nargs="+", metavar="RUN", help="folder of a run")
+        command.add_argument(
+            "-o",
+            "--output",
+            type=Path,
+            metavar="FILE.md",
+            help="if not given, it is printed; its plots come beside it",
+        )
     sampling = commands.add_parser(
         "sampling", help="draw what beambench sampling SCENE --json printed, beside each other"
     )
@@ -142,6 +150,8 @@ def _write(options: argparse.Namespace) -> list[Path]:
         return [write_text(options.output, _ledger(options))]
     if options.command == "levels":
         return write_levels(options.runs, options.output)
+    if options.command == "beat":
+        return write_beat(options.runs, options.output)
     if options.command == "sampling":
         return write_sampling(options.files, options.output)
     if options.command == "plots":

@@ -1,0 +1,209 @@
+"""Tile beams against Embree: ratios, intervals and judgements worked out by hand."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from beambench_report.__main__ import main
+from beambench_report.beat.aims import groups
+from beambench_report.beat.duels import Duel, Ratio, duels, geometric_mean
+from beambench_report.beat.plots import plots
+from beambench_report.beat.report import as_markdown, judgement
+from beambench_report.records import read_run
+from made_up_run import write_run
+from program import output_of
+
+REPOSITORY = Path(__file__).resolve().parents[2]
+Row = dict[str, object]
+
+
+def row(
+    structure: str,
+    trace: float,
+    *,
+    scene: str = "tetra:n=6",
+    resolution: str = "1280x1024",
+    spread: float = 0.1,
+    verdict: str = "ok",
+    primitives: int = 4096,
+    **parameters: str,
+) -> Row:
+    width, height = (int(side) for side in resolution.split("x"))
+    return {
+        "schema_version": 1,
+        "run_id": "20261122-100000-beat-embree",
+        "commit": "0123456789abcdef",
+        "dirty": "false",
+        "machine_id": "feedfeedfeedfeed",
+        "threads": 1,
+        "structure_isa": "AVX512" if structure == "embree" else "AVX3",
+        "scene": scene,
+        "camera": "default",
+        "primitives": primitives,
+        "structure": structure,
+        "parameters": ",".join(f"{name}={value}" for name, value in parameters.items()),
+        "width": width,
+        "height": height,
+        "samples": 1,
+        "ray_kind": "primary",
+        "rays": width * height,
+        "build_ms_median": 1,
+        "trace_ms_median": trace,
+        "trace_ms_ci_low": (1 - spread) * trace,
+        "trace_ms_ci_high": (1 + spread) * trace,
+        "trace_warm_ms_median": 0.9 * trace,
+        "total_ms_median": 1 + trace,
+        "memory_bytes": 1,
+        "verdict": verdict,
+    }
+
+
+def duels_of(folder: Path, *rows: Row) -> list[Duel]:
+    return duels([read_run(write_run(folder, list(rows))).rows])
+
+
+def test_the_fastest_right_mode_counts(tmp_path: Path) -> None:
+    (duel,) = duels_of(
+        tmp_path,
+        row("tile-beam", 2),
+        row("embree", 90, mode="single", robust="false"),
+        row("embree", 20, mode="packet16", robust="false"),
+        row("embree", 15, mode="stream", robust="false", verdict="mismatch"),
+        row("embree", 17, mode="stream", robust="true"),
+        row("sah-bvh", 1),
+    )
+    assert duel.embree.contender == "stream, robust"
+    assert duel.ratio.value == pytest.approx(8.5)
+    assert duel.ratio.low == pytest.approx(17 * 0.9 / (2 * 1.1))
+    assert duel.ratio.high == pytest.approx(17 * 1.1 / (2 * 0.9))
+    assert duel.warm_ratio == pytest.approx(8.5)
+
+
+def test_images_and_instruction_sets_are_kept_apart(tmp_path: Path) -> None:
+    found = duels_of(
+        tmp_path,
+        row("tile-beam", 2, resolution="320x200"),
+        row("embree", 8, resolution="320x200", mode="single"),
+        row("tile-beam", 4, isa="avx2"),
+        row("embree", 12, mode="single", isa="best"),
+        row("embree", 20, mode="single", isa="avx2"),
+        row("tile-beam", 4, scene="shells:n=5"),
+    )
+    assert [(duel.resolution, duel.isa) for duel in found] == [
+        ("320x200", "best"),
+        ("1280x1024", "avx2"),
+    ]
+    assert [duel.ratio.value for duel in found] == [4, 5]
+
+
+def test_without_an_interval_the_median_decides(tmp_path: Path) -> None:
+    times = {"trace_ms_ci_low": "", "trace_ms_ci_high": ""}
+    (duel,) = duels_of(tmp_path, row("tile-beam", 2) | times, row("embree", 12, mode="single"))
+    assert duel.ratio == Ratio(6)
+    assert judgement(duel.ratio, 6) == "met"
+    assert judgement(duel.ratio, 6.1) == "missed"
+
+
+def test_an_aim_within_the_interval_is_open() -> None:
+    ratio = Ratio(6, 5, 7)
+    assert [judgement(ratio, aim) for aim in (5, 5.5, 6.5, 7.1)] == [
+        "met",
+        "open",
+        "open",
+        "missed",
+    ]
+
+
+def test_the_geometric_mean_is_of_the_ends_too() -> None:
+    mean = geometric_mean([Ratio(2, 1, 4), Ratio(8, 4, 16)])
+    assert (mean.value, mean.low, mean.high) == pytest.approx((4, 2, 8))
+    assert geometric_mean([Ratio(2, 1, 4), Ratio(8)]).low is None
+
+
+def all_triangles(tile: float, isa: str = "best") -> list[Row]:
+    return [
+        made
+        for scene in groups()[0].scenes
+        for made in (
+            row("tile-beam", tile, scene=scene, spread=0.01, isa=isa),
+            row("embree", 12, scene=scene, spread=0.01, mode="stream", isa=isa),
+        )
+    ]
+
+
+def test_the_report_tells_what_is_met(tmp_path: Path) -> None:
+    text = as_markdown(duels_of(tmp_path, *all_triangles(1.5)))
+    assert "| tetra, 4 k | 8.00 (7.84 to 8.16) met |" in text
+    assert "| **geometric mean** | 8.00 (7.84 to 8.16) missed |" in text
+    assert "*at least 12*" in text
+    assert "AVX3 against AVX512" in text
+
+
+def test_half_the_aims_hold_where_both_are_held_to_less(tmp_path: Path) -> None:
+    text = as_markdown(duels_of(tmp_path, *all_triangles(1.5, isa="avx2")))
+    assert "| **geometric mean** | 8.00 (7.84 to 8.16) met |" in text
+    assert "*at least 6*" in text
+
+
+def test_a_mean_of_some_scenes_is_not_judged(tmp_path: Path) -> None:
+    text = as_markdown(duels_of(tmp_path, *all_triangles(1.5)[:4]))
+    assert "| **geometric mean** | 8.00 (7.84 to 8.16) of 2 scenes |" in text
+
+
+def test_plots_follow_what_was_measured(tmp_path: Path) -> None:
+    few = duels_of(tmp_path, *all_triangles(1.5))
+    assert [plot.stem for plot in plots(few)] == ["beat-embree"]
+    many = duels_of(
+        tmp_path,
+        *all_triangles(1.5),
+        *(
+            made
+            for size in (10, 20, 40, 80, 160)
+            for made in (
+                row("tile-beam", size, scene=f"soup:triangles={size}", primitives=size),
+                row("embree", 3 * size, scene=f"soup:triangles={size}", primitives=size),
+            )
+        ),
+        *(
+            made
+            for side in (100, 200, 300, 400, 500)
+            for made in (
+                row("tile-beam", side, scene="shells:n=5", resolution=f"{side}x{side}"),
+                row("embree", 2 * side, scene="shells:n=5", resolution=f"{side}x{side}"),
+            )
+        ),
+    )
+    stems = ["beat-embree", "beat-embree-scaling", "beat-embree-resolutions"]
+    assert [plot.stem for plot in plots(many)] == stems
+
+
+def test_the_command_writes_the_report_and_its_plots(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run = write_run(tmp_path, all_triangles(1.5))
+    assert main(["beat", str(run)]) == 0
+    assert capsys.readouterr().out.startswith("# Tile beams against Embree")
+    assert main(["beat", str(run), "-o", str(tmp_path / "beat.md")]) == 0
+    assert "![beat-embree.png](beat-embree.png)" in (tmp_path / "beat.md").read_text()
+    assert (tmp_path / "beat-embree.png").stat().st_size > 0
+    assert (tmp_path / "beat-embree.svg").stat().st_size > 0
+
+
+def test_runs_without_both_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    run = write_run(tmp_path, [row("tile-beam", 2), row("sah-bvh", 3)])
+    assert main(["beat", str(run)]) == 2
+    assert "beat-embree.json" in capsys.readouterr().err
+
+
+def test_the_aims_name_the_scenes_of_the_sweeps() -> None:
+    named = {scene for group in groups() for scene in group.scenes}
+    swept = set()
+    for sweep in ("beat-embree", "beat-embree-scenes", "beat-embree-soup", "beat-embree-avx2"):
+        config = json.loads((REPOSITORY / f"harness/sweeps/{sweep}.json").read_text())
+        swept |= {
+            json.loads(output_of("scene", scene, "--json"))["name"] for scene in config["scenes"]
+        }
+    assert swept == named
