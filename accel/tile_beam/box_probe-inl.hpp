@@ -1,0 +1,117 @@
+// Which of sixteen boxes a tile's beam meets, where on the screen, and how near.
+
+#if defined(ACCEL_TILE_BEAM_BOX_PROBE_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ACCEL_TILE_BEAM_BOX_PROBE_INL
+#undef ACCEL_TILE_BEAM_BOX_PROBE_INL
+#else
+#define ACCEL_TILE_BEAM_BOX_PROBE_INL
+#endif
+
+#include "accel/tile_beam/lanes-inl.hpp"
+#include "accel/tile_beam/tile_hierarchy.hpp"
+#include "accel/tile_beam/tile_image.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::HWY_NAMESPACE {
+
+/// The 1/t of boxes that reach behind the eye.
+inline constexpr float kNearestOfAll = 1e30F;
+
+/// A view's planes as the boxes' test wants them: which corner of a box lies farthest along each.
+class BoxProbe {
+ public:
+  explicit BoxProbe(const TileView& view)
+      : rows_{view.x, view.depth * static_cast<float>(view.width - 1) - view.x, view.y,
+              view.depth * static_cast<float>(view.height - 1) - view.y, view.depth},
+        slacks_{view.slack_x, view.slack_x, view.slack_y, view.slack_y, view.slack_depth},
+        eye_(view.eye),
+        width_(static_cast<float>(view.width - 1)),
+        height_(static_cast<float>(view.height - 1)) {}
+
+  /// The boxes' samples and their largest 1/t, for those that the beam meets.
+  struct Met {
+    alignas(64) std::array<std::int32_t, kTileLanes> rectangle;  ///< bytes of SampleRectangle
+    alignas(64) std::array<float, kTileLanes> nearest;
+    LaneBits lanes;
+
+    SampleRectangle where(std::size_t lane) const {
+      const auto byte = [&](unsigned index) {
+        return static_cast<std::uint8_t>(static_cast<std::uint32_t>(rectangle[lane]) >> 8U * index);
+      };
+      return {byte(0), byte(1), byte(2), byte(3)};
+    }
+  };
+
+  /// A box is met when it reaches into the beam, holds a sample's place and is not behind
+  /// `farthest` (1/t) everywhere.
+  HWY_INLINE void probe(const TileBoxes& boxes, std::uint32_t count, float farthest,
+                        Met& met) const {
+    met.lanes = for_each_register(
+        [&](std::size_t lane) { return probe_register(boxes, lane, farthest, met); });
+    met.lanes &= (LaneBits{1} << count) - 1;
+  }
+
+ private:
+  HWY_INLINE Mask probe_register(const TileBoxes& boxes, std::size_t lane, float farthest,
+                                 Met& met) const {
+    const Points lower{from_eye(boxes, 0, lane, eye_.x), from_eye(boxes, 1, lane, eye_.y),
+                       from_eye(boxes, 2, lane, eye_.z)};
+    const Points upper{from_eye(boxes, 3, lane, eye_.x), from_eye(boxes, 4, lane, eye_.y),
+                       from_eye(boxes, 5, lane, eye_.z)};
+    const Floats from_left = largest(0, lower, upper);
+    const Floats from_right = largest(1, lower, upper);
+    const Floats from_top = largest(2, lower, upper);
+    const Floats from_bottom = largest(3, lower, upper);
+    const Floats none = hn::Zero(Tag());
+    const Floats inside =
+        hn::Min(hn::Min(from_left, from_right),
+                hn::Min(hn::Min(from_top, from_bottom), largest(4, lower, upper)));
+
+    // With the corners exchanged it is the smallest value along the row.
+    const Floats near = largest(4, upper, lower, -1.0F);
+    const Mask before = hn::Gt(near, none);
+    const Floats nearest = hn::IfThenElse(before, hn::Div(all(1.0F), near), all(kNearestOfAll));
+
+    const Floats width = all(width_);
+    const Floats height = all(height_);
+    const Floats left = hn::Ceil(hn::Max(hn::NegMulAdd(from_right, nearest, width), none));
+    const Floats right = hn::Floor(hn::Min(hn::Mul(from_left, nearest), width));
+    const Floats top = hn::Ceil(hn::Max(hn::NegMulAdd(from_bottom, nearest, height), none));
+    const Floats bottom = hn::Floor(hn::Min(hn::Mul(from_top, nearest), height));
+    const Mask samples = hn::And(hn::Le(left, right), hn::Le(top, bottom));
+    const Ints packed =
+        hn::Or(hn::Or(whole(left), hn::ShiftLeft<8>(whole(right))),
+               hn::Or(hn::ShiftLeft<16>(whole(top)), hn::ShiftLeft<24>(whole(bottom))));
+    hn::Store(packed, IntTag(), &met.rectangle[lane]);
+    store(nearest, &met.nearest[lane]);
+    return hn::And(hn::And(hn::Ge(inside, none), samples), hn::Ge(nearest, all(farthest)));
+  }
+
+  static HWY_INLINE Ints whole(Floats values) { return hn::ConvertTo(IntTag(), values); }
+  static HWY_INLINE Floats from_eye(const TileBoxes& boxes, std::size_t plane, std::size_t lane,
+                                    float eye) {
+    return hn::Sub(load(&boxes.planes[plane][lane]), all(eye));
+  }
+  /// The largest value along a row over the boxes, moved by `slacks` slacks.
+  HWY_INLINE Floats largest(std::size_t row, const Points& lower, const Points& upper,
+                            float slacks = 1.0F) const {
+    const glm::vec3& along = rows_[row];
+    const Floats x = along.x > 0.0F ? upper.x : lower.x;
+    const Floats y = along.y > 0.0F ? upper.y : lower.y;
+    const Floats z = along.z > 0.0F ? upper.z : lower.z;
+    return hn::MulAdd(
+        all(along.x), x,
+        hn::MulAdd(all(along.y), y, hn::MulAdd(all(along.z), z, all(slacks * slacks_[row]))));
+  }
+
+  std::array<glm::vec3, 5> rows_;
+  std::array<float, 5> slacks_;
+  glm::vec3 eye_;
+  float width_;
+  float height_;
+};
+
+}  // namespace beambench::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,36 @@
+#pragma once
+// A triangle's image made in double: where float would be too coarse.
+
+#include <array>
+#include <optional>
+
+#include <glm/vec3.hpp>
+
+#include "accel/tile_beam/tile_image.hpp"
+#include "accel/tile_beam/tile_view.hpp"
+
+namespace beambench {
+
+/// x * i + y * j + constant at sample (i, j) of a tile.
+struct TileLine {
+  float x;
+  float y;
+  float constant;
+};
+
+/// What a sample must fulfil to hit a triangle: edges that are not negative. Then 1/t is given by
+/// the plane.
+struct ExactTriangle {
+  std::array<TileLine, 3> edges;
+  TileLine plane;
+  SampleRectangle box;
+};
+
+/// For any triangle: one that crosses the plane through the eye at right angles to the view, one
+/// that reaches far beyond the tile, a sliver. Homogeneous coordinates need no clipping (Olano and
+/// Greer, "Triangle Scan Conversion using 2D Homogeneous Coordinates", 1997). Nothing where no
+/// sample of the tile can hit it. The edges are moved outward by kEdgeWidening.
+std::optional<ExactTriangle> exact_triangle(const TileView& view,
+                                            const std::array<glm::vec3, 3>& corners);
+
+}  // namespace beambench

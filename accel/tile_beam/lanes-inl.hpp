@@ -1,0 +1,90 @@
+// What the kernels need of Highway, for the instruction set being compiled.
+
+#if defined(ACCEL_TILE_BEAM_LANES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ACCEL_TILE_BEAM_LANES_INL
+#undef ACCEL_TILE_BEAM_LANES_INL
+#else
+#define ACCEL_TILE_BEAM_LANES_INL
+#endif
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Sixteen lanes where the registers have them, otherwise several registers of fewer.
+using Tag = hn::CappedTag<float, 16>;
+using Floats = hn::Vec<Tag>;
+using Mask = hn::Mask<Tag>;
+using IntTag = hn::RebindToSigned<Tag>;
+using Ints = hn::Vec<IntTag>;
+inline constexpr std::size_t kLanes = HWY_LANES(float) < 16 ? HWY_LANES(float) : 16;
+
+/// One bit a lane.
+using LaneBits = std::uint32_t;
+
+HWY_INLINE Floats all(float value) { return hn::Set(Tag(), value); }
+HWY_INLINE Floats load(const float* from) { return hn::Load(Tag(), from); }
+HWY_INLINE void store(Floats values, float* to) { hn::Store(values, Tag(), to); }
+
+HWY_INLINE LaneBits bits_of(Mask mask) {
+  std::array<std::uint8_t, 8> stored{};
+  hn::StoreMaskBits(Tag(), mask, stored.data());
+  return stored[0] | static_cast<LaneBits>(stored[1]) << 8U;
+}
+
+/// Calls `test(lane)` for the first lane of each register and joins the masks it returns.
+template <class Test>
+HWY_INLINE LaneBits for_each_register(Test test) {
+  LaneBits bits = 0;
+  for (std::size_t lane = 0; lane < 16; lane += kLanes) bits |= bits_of(test(lane)) << lane;
+  return bits;
+}
+
+/// Three coordinates a lane.
+struct Points {
+  Floats x;
+  Floats y;
+  Floats z;
+};
+
+/// x * a.x + y * a.y + z * a.z.
+HWY_INLINE Floats dot(const Points& a, const Points& b) {
+  return hn::MulAdd(a.x, b.x, hn::MulAdd(a.y, b.y, hn::Mul(a.z, b.z)));
+}
+template <class Vector>
+HWY_INLINE Points all_of(const Vector& v) {
+  return {all(v.x), all(v.y), all(v.z)};
+}
+
+/// Entries of a table of 32 floats, by indices.
+class Table32 {
+ public:
+  HWY_INLINE explicit Table32(const float* entries) : entries_(entries) {}
+
+  HWY_INLINE Floats at(Ints indices) const {
+    if constexpr (kLanes == 16) {  // two permutations are faster than a gather
+      const auto picked = hn::IndicesFromVec(Tag(), hn::And(indices, hn::Set(IntTag(), 15)));
+      const Floats low = hn::TableLookupLanes(load(entries_), picked);
+      const Floats high = hn::TableLookupLanes(load(entries_ + 16), picked);
+      return hn::IfThenElse(hn::RebindMask(Tag(), hn::Gt(indices, hn::Set(IntTag(), 15))), high,
+                            low);
+    } else {
+      return hn::GatherIndex(Tag(), entries_, indices);
+    }
+  }
+
+ private:
+  const float* entries_;
+};
+
+}  // namespace beambench::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

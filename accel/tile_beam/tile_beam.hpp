@@ -1,0 +1,67 @@
+#pragma once
+// Primary rays in beams the size of screen tiles, through a hierarchy over meshlets.
+
+#include "accel/bvh/probe_ray.hpp"
+#include "accel/exhaustive/exhaustive.hpp"
+#include "accel/tile_beam/tile_hierarchy.hpp"
+#include "accel/tile_beam/tile_kernels.hpp"
+#include "accel/traversal_accelerator.hpp"
+#include "scenes/parameters.hpp"
+
+namespace beambench {
+
+/// The thesis's two ideas, many primary rays moved through the scene as one beam and no rays where
+/// nothing is, with today's means: a tile of the screen goes through a hierarchy of boxes front to
+/// back, leaving out what its frustum, its samples or what it has already seen exclude
+/// (hierarchical depth: Greene, Kass and Miller 1993), and draws what leaves hold. Images are
+/// computed in float, to within a few roundings of the distances; single rays are answered as the
+/// classic structures answer them, bit for bit.
+class TileBeam : public TraversalAccelerator<TileBeam> {
+ public:
+  static std::vector<ParameterInfo> parameters();
+  static TileHierarchyOptions options_from(const Parameters& parameters);
+
+  TileBeam(const Scene& scene, const TileHierarchyOptions& options)
+      : scene_(&scene),
+        hierarchy_(build_tile_hierarchy(scene, options)),
+        kernels_(&best_tile_kernels()) {}
+
+  const TileHierarchy& hierarchy() const { return hierarchy_; }
+  /// The instruction set in use, as Highway calls it: "AVX3".
+  const char* instruction_set() const;
+  Statistics statistics() const override;
+
+  void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
+    NoCounting none;
+    trace_tiles(rays, buffer, none);
+  }
+  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const override {
+    trace_tiles(rays, buffer, counters);
+  }
+
+  template <class Counting>
+  std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
+    if (hierarchy_.empty()) return std::nullopt;
+    if (!ProbeRay::can_probe(ray)) return Exhaustive(*scene_).find_closest(ray, counting);
+    return kernels_->queries<Counting>().closest(hierarchy_, *scene_, ray, counting);
+  }
+
+  template <class Counting>
+  bool find_any(const Ray& ray, Counting& counting) const {
+    if (hierarchy_.empty()) return false;
+    if (!ProbeRay::can_probe(ray)) return Exhaustive(*scene_).find_any(ray, counting);
+    return kernels_->queries<Counting>().any(hierarchy_, *scene_, ray, counting);
+  }
+
+ private:
+  template <class Counting>
+  void trace_tiles(const PrimaryRays& rays, HitBuffer& buffer, Counting& counting) const {
+    kernels_->tiles<Counting>().trace(hierarchy_, *scene_, rays, buffer, counting);
+  }
+
+  const Scene* scene_;
+  TileHierarchy hierarchy_;
+  const TileKernels* kernels_;
+};
+
+}  // namespace beambench

@@ -1,0 +1,125 @@
+#pragma once
+// The hierarchy that tile beams walk: sixteen children a node, leaves that hold one kind each.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "scenes/bounds.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// Children of a node, and spheres or cones of a block.
+inline constexpr std::size_t kTileLanes = 16;
+
+/// What a node's child is, and where.
+class TileChild {
+ public:
+  enum class Kind : std::uint32_t { kNode, kMeshlet, kSpheres, kCones };
+  static constexpr std::uint32_t kIndices = 1U << 30U;  ///< one more than the largest index
+
+  TileChild() = default;
+  TileChild(Kind kind, std::uint32_t index)
+      : bits_(static_cast<std::uint32_t>(kind) << 30U | index) {}
+  static TileChild from_bits(std::uint32_t bits) {
+    TileChild child;
+    child.bits_ = bits;
+    return child;
+  }
+
+  Kind kind() const { return static_cast<Kind>(bits_ >> 30U); }
+  std::uint32_t index() const { return bits_ & (kIndices - 1); }
+  std::uint32_t bits() const { return bits_; }
+
+ private:
+  std::uint32_t bits_ = 0;
+};
+
+/// Up to sixteen boxes: lower x, y, z; upper x, y, z.
+struct alignas(64) TileBoxes {
+  std::array<std::array<float, kTileLanes>, 6> planes;
+
+  void set(std::size_t lane, const Bounds& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+      planes[static_cast<std::size_t>(axis)][lane] = box.lower[axis];
+      planes[static_cast<std::size_t>(axis) + 3][lane] = box.upper[axis];
+    }
+  }
+  Bounds get(std::size_t lane) const {
+    return {{planes[0][lane], planes[1][lane], planes[2][lane]},
+            {planes[3][lane], planes[4][lane], planes[5][lane]}};
+  }
+};
+
+struct alignas(64) TileNode {
+  TileBoxes boxes;
+  std::array<TileChild, kTileLanes> children;
+  std::array<std::uint32_t, kTileLanes> leaves;  ///< of each child, itself included
+  std::uint32_t count;
+};
+
+/// A few neighbouring triangles over the corners that they share: each corner is seen once.
+struct alignas(64) Meshlet {
+  static constexpr std::size_t kMostVertices = 32;
+  static constexpr std::size_t kMostTriangles = 32;
+
+  std::array<std::array<float, kMostVertices>, 3> vertices;         ///< x, y, z
+  std::array<std::array<std::uint8_t, kMostTriangles>, 3> corners;  ///< of triangles, into vertices
+  std::array<PrimitiveId, kMostTriangles>
+      primitives;  ///< the polygons that the triangles belong to
+  std::uint32_t vertex_count;
+  std::uint32_t triangle_count;
+  float extent;  ///< longest side of the box of all
+
+  glm::vec3 corner(std::size_t which, std::size_t triangle) const {
+    const std::size_t vertex = corners[which][triangle];
+    return {vertices[0][vertex], vertices[1][vertex], vertices[2][vertex]};
+  }
+};
+
+struct alignas(64) SphereBlock {
+  std::array<std::array<float, kTileLanes>, 3> center;
+  std::array<float, kTileLanes> radius;
+  std::array<PrimitiveId, kTileLanes> primitives;
+  std::uint32_t inside_only;  ///< bit i: sphere i is
+  std::uint32_t count;
+};
+
+struct alignas(64) ConeBlock {
+  TileBoxes boxes;
+  std::array<PrimitiveId, kTileLanes> primitives;
+  std::uint32_t count;
+};
+
+/// A hierarchy over a scene's triangles, spheres and cones. Boxes are widened by
+/// `overlap_tolerance`.
+struct TileHierarchy {
+  std::vector<TileNode> nodes;
+  std::vector<Meshlet> meshlets;
+  std::vector<SphereBlock> spheres;
+  std::vector<ConeBlock> cones;
+  TileChild root;
+  Bounds bounds;            ///< of everything, widened
+  std::uint32_t depth = 0;  ///< nodes on the longest way down, leaf included
+  std::uint64_t references = 0;
+  double cost = 0.0;  ///< of the binary hierarchy it was made from: see sah_cost
+
+  bool empty() const { return references == 0; }
+  std::size_t leaves() const { return meshlets.size() + spheres.size() + cones.size(); }
+};
+
+/// No more nodes than this lie on any way down: the binary hierarchy's, and one for a leaf that
+/// needs several blocks.
+inline constexpr std::size_t kMostTileDepth = 97;
+
+struct TileHierarchyOptions {
+  std::uint32_t max_leaf = 32;  ///< most primitives of a leaf
+  bool parallel = false;        ///< build on all cores
+};
+
+/// Throws InputError when the scene needs more than TileChild::kIndices leaves of a kind.
+TileHierarchy build_tile_hierarchy(const Scene& scene, const TileHierarchyOptions& options);
+
+}  // namespace beambench

@@ -1,0 +1,50 @@
+#pragma once
+// What a tile has seen so far: the nearest hit of each of its samples.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "accel/tile_beam/tile_view.hpp"
+#include "scenes/primitive.hpp"
+
+namespace beambench {
+
+/// Samples lie in blocks of 4 x 4, which fill a 512-bit register; blocks lie row by row. Of a hit
+/// 1/t is kept, which is linear on the screen for points of a plane; 0 is the background. Samples
+/// beyond the raster's ends hold infinity: nothing is nearer.
+struct TileImage {
+  static constexpr int kBlockColumns = kTileWidth / 4;
+  static constexpr int kBlockRows = kTileHeight / 4;
+  static constexpr int kBlockSamples = 16;
+  static constexpr std::size_t kSamples = std::size_t{kTileWidth} * kTileHeight;
+  /// The coarse depths are of squares of 8 x 8 samples.
+  static constexpr int kSquareColumns = kTileWidth / 8;
+  static constexpr int kSquareRows = kTileHeight / 8;
+
+  static constexpr std::size_t block(int column, int row) {
+    return static_cast<std::size_t>((row * kBlockColumns + column) * kBlockSamples);
+  }
+  static constexpr std::size_t place(int x, int y) {
+    return block(x >> 2, y >> 2) + static_cast<std::size_t>((y & 3) * 4 + (x & 3));
+  }
+
+  alignas(64) std::array<float, kSamples> inverse_t;
+  alignas(64) std::array<PrimitiveId, kSamples> primitive;
+  /// The smallest 1/t of a square, where `stale` does not say that it has to be found anew.
+  std::array<float, std::size_t{kSquareColumns} * kSquareRows> farthest;
+  std::array<std::uint32_t, kSquareRows> stale;  ///< one bit a square of a row
+  bool touched;                                  ///< false: all background, and not even cleared
+};
+
+/// Samples [left, right] x [top, bottom] of a tile.
+struct SampleRectangle {
+  std::uint8_t left;
+  std::uint8_t right;
+  std::uint8_t top;
+  std::uint8_t bottom;
+
+  int count() const { return (right - left + 1) * (bottom - top + 1); }
+};
+
+}  // namespace beambench

@@ -1,0 +1,50 @@
+#pragma once
+// Tiles and rays through the hierarchy, compiled for several instruction sets.
+
+#include <cstdint>
+#include <optional>
+
+#include "accel/hit_buffer.hpp"
+#include "accel/primary_rays.hpp"
+#include "accel/step_recorder.hpp"
+#include "accel/tile_beam/tile_hierarchy.hpp"
+#include "accel/work_counters.hpp"
+
+namespace beambench {
+
+/// The queries of single rays under one counting policy. Not for empty hierarchies, nor for rays
+/// that ProbeRay cannot probe.
+template <class Counting>
+struct TileRayQueries {
+  std::optional<Hit> (*closest)(const TileHierarchy&, const Scene&, const Ray&, Counting&);
+  bool (*any)(const TileHierarchy&, const Scene&, const Ray&, Counting&);
+};
+
+/// A whole image by tiles.
+template <class Counting>
+struct TileTrace {
+  void (*trace)(const TileHierarchy&, const Scene&, const PrimaryRays&, HitBuffer&, Counting&);
+};
+
+/// The kernels for one instruction set.
+struct TileKernels : TileRayQueries<NoCounting>,
+                     TileRayQueries<WorkCounters>,
+                     TileRayQueries<StepRecorder>,
+                     TileTrace<NoCounting>,
+                     TileTrace<WorkCounters> {
+  std::int64_t target;  ///< HWY_TARGET: hwy::TargetName gives its name
+
+  template <class Counting>
+  const TileRayQueries<Counting>& queries() const {
+    return *this;
+  }
+  template <class Counting>
+  const TileTrace<Counting>& tiles() const {
+    return *this;
+  }
+};
+
+/// Those for the best instruction set of this machine that Highway supports.
+const TileKernels& best_tile_kernels();
+
+}  // namespace beambench

@@ -1,0 +1,71 @@
+#pragma once
+// The samples of a raster within one tile of the screen: a beam, and how it sees points.
+
+#include <glm/vec3.hpp>
+
+#include "accel/tile_beam/sample_raster.hpp"
+#include "scenes/bounds.hpp"
+
+namespace beambench {
+
+/// Sides of a tile in samples.
+inline constexpr int kTileWidth = 64;
+inline constexpr int kTileHeight = 64;
+
+/// By how much the edges of triangles made in double are moved outward, in units of |direction|:
+/// more than those made in float may err, so that no gap is left between the two.
+inline constexpr double kEdgeWidening = 0x1.4p-21;
+
+/// How a raster's camera turns points into places on the screen, in double. A point p seen from the
+/// eye has the view depth w = depth . p and lies on the screen at sample (x . p / w, y . p / w).
+struct RasterView {
+  RasterView(const SampleRaster& raster, const PrimaryRays& rays, const Bounds& scene);
+
+  glm::vec3 eye;
+  glm::dvec3 x;
+  glm::dvec3 y;
+  glm::dvec3 depth;
+  glm::dvec3 origin;  ///< the direction of sample (i, j) is origin + right * i + down * j
+  glm::dvec3 right;
+  glm::dvec3 down;
+  double per_angle_x;  ///< samples to a unit of |direction|
+  double per_angle_y;
+  double reach;  ///< no point of the scene is farther from the eye along any axis
+};
+
+/// The view with a tile's first sample as (0, 0), in float. Let e = 2^-24. Coordinates of points
+/// relative to the eye have the relative error e, and x . p, y . p, depth . p are wrong by less
+/// than 4 e |p| x the length of their row.
+struct TileView {
+  TileView(const RasterView& raster, int left, int top, int width, int height);
+
+  int left;
+  int top;
+  int width;  ///< at most kTileWidth; less at the raster's ends
+  int height;
+  glm::vec3 eye;
+  glm::vec3 x;
+  glm::vec3 y;
+  glm::vec3 depth;
+  glm::dvec3 exact_x;  ///< the rows before rounding
+  glm::dvec3 exact_y;
+  glm::dvec3 exact_depth;
+  glm::vec3 origin;  ///< direction of sample (0, 0)
+  glm::vec3 right;
+  glm::vec3 down;
+
+  /// Corners farther than this from the tile's first sample make the float edge functions of their
+  /// triangles too coarse. In samples, a unit of |direction|.
+  float guard;
+  /// A triangle whose float area is below sliver x (longer side of its box)^3 has too coarse a
+  /// plane in float.
+  float sliver;
+  double per_angle_x;  ///< samples to a unit of |direction|
+  double per_angle_y;
+  /// What box tests may err by, as distances: of x . p and y . p, and of depth . p.
+  float slack_x;
+  float slack_y;
+  float slack_depth;
+};
+
+}  // namespace beambench

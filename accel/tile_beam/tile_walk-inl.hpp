@@ -1,0 +1,170 @@
+// One tile's beam through the hierarchy, front to back.
+
+#if defined(ACCEL_TILE_BEAM_TILE_WALK_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ACCEL_TILE_BEAM_TILE_WALK_INL
+#undef ACCEL_TILE_BEAM_TILE_WALK_INL
+#else
+#define ACCEL_TILE_BEAM_TILE_WALK_INL
+#endif
+
+#include <bit>
+
+#include "accel/tile_beam/box_probe-inl.hpp"
+#include "accel/tile_beam/cone_raster-inl.hpp"
+#include "accel/tile_beam/ray_walk-inl.hpp"
+#include "accel/tile_beam/sphere_raster-inl.hpp"
+#include "accel/tile_beam/triangle_raster-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::HWY_NAMESPACE {
+
+/// A part of the hierarchy goes to single rays when it has more than this many leaves a sample.
+inline constexpr int kHandoverLeaves = 6;
+
+/// Draws a tile.
+template <class Counting>
+class TileWalk {
+ public:
+  TileWalk(const TileHierarchy& hierarchy, const Scene& scene, const PrimaryRays& rays,
+           const SampleRaster& raster, const TileView& view, TileImage& image, Counting& counting)
+      : hierarchy_(&hierarchy),
+        scene_(&scene),
+        rays_(&rays),
+        raster_(&raster),
+        view_(&view),
+        probe_(view),
+        image_(&image),
+        counting_(&counting) {
+    image.touched = false;
+  }
+
+  void operator()() {
+    push_root();
+    while (size_ > 0) {
+      const Entry entry = stack_[--size_];
+      if (entry.nearest < farthest_) continue;
+      if (image_->touched && hides(*image_, entry.where, entry.nearest)) continue;
+      visit(entry);
+    }
+  }
+
+ private:
+  struct Entry {
+    TileChild child;
+    float nearest;  ///< the largest 1/t of its box
+    SampleRectangle where;
+    std::uint32_t leaves;
+  };
+
+  void push_root() {
+    if (hierarchy_->empty()) return;
+    TileBoxes boxes{};
+    boxes.set(0, hierarchy_->bounds);
+    BoxProbe::Met met;
+    probe_.probe(boxes, 1, 0.0F, met);
+    if (met.lanes == 0) return;
+    stack_[size_++] = {hierarchy_->root, met.nearest[0], met.where(0),
+                       static_cast<std::uint32_t>(hierarchy_->leaves())};
+  }
+
+  HWY_INLINE void visit(const Entry& entry) {
+    counting_->add(Counter::kTraversalSteps);
+    if (entry.child.kind() != TileChild::Kind::kNode) {
+      visit_leaf_of_tile(entry);
+    } else if (entry.leaves > static_cast<std::uint32_t>(kHandoverLeaves * entry.where.count())) {
+      hand_over(entry);
+    } else {
+      push_children(hierarchy_->nodes[entry.child.index()]);
+    }
+  }
+
+  HWY_INLINE void push_children(const TileNode& node) {
+    counting_->add(Counter::kBoxTests, node.count);
+    BoxProbe::Met met;
+    probe_.probe(node.boxes, node.count, farthest_, met);
+    const std::size_t first = size_;
+    for (LaneBits left = met.lanes; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      const float nearest = met.nearest[lane];
+      std::size_t hole = size_++;
+      for (; hole > first && stack_[hole - 1].nearest > nearest; --hole) {
+        stack_[hole] = stack_[hole - 1];
+      }
+      stack_[hole] = {node.children[lane], nearest, met.where(lane), node.leaves[lane]};
+    }
+  }
+
+  HWY_INLINE void visit_leaf_of_tile(const Entry& entry) {
+    counting_->add(Counter::kLeaves);
+    if (!image_->touched) clear(*image_, *view_);
+    switch (entry.child.kind()) {
+      case TileChild::Kind::kMeshlet: {
+        const Meshlet& meshlet = hierarchy_->meshlets[entry.child.index()];
+        counting_->add(Counter::kPrimitiveTests, meshlet.triangle_count);
+        draw_meshlet(meshlet, *view_, farthest_, *image_);
+        break;
+      }
+      case TileChild::Kind::kSpheres: {
+        const SphereBlock& block = hierarchy_->spheres[entry.child.index()];
+        counting_->add(Counter::kPrimitiveTests, block.count);
+        draw_spheres(block, *view_, farthest_, *image_);
+        break;
+      }
+      case TileChild::Kind::kCones: {
+        const ConeBlock& block = hierarchy_->cones[entry.child.index()];
+        counting_->add(Counter::kPrimitiveTests, block.count);
+        draw_cones(block, *scene_, *rays_, *raster_, *view_, probe_, farthest_, *image_);
+        break;
+      }
+      case TileChild::Kind::kNode:
+        break;
+    }
+    changed(entry.where);
+  }
+
+  /// Single rays for what is left of the samples.
+  void hand_over(const Entry& entry) {
+    if (!image_->touched) clear(*image_, *view_);
+    for (int y = entry.where.top; y <= entry.where.bottom; ++y) {
+      for (int x = entry.where.left; x <= entry.where.right; ++x) {
+        const std::size_t at = TileImage::place(x, y);
+        if (image_->inverse_t[at] > entry.nearest) continue;
+        counting_->add("handed_over_rays");
+        Ray ray = raster_->ray(*rays_, view_->left + x, view_->top + y);
+        ray.t_max = 1.0F / image_->inverse_t[at];
+        const auto hit = closest_below(*hierarchy_, *scene_, entry.child, ray, *counting_);
+        if (!hit) continue;
+        image_->inverse_t[at] = 1.0F / hit->t;
+        image_->primitive[at] = hit->primitive;
+      }
+    }
+    changed(entry.where);
+  }
+
+  /// Now and then the whole tile's depth is looked at: not before it can have grown by much.
+  HWY_INLINE void changed(const SampleRectangle& where) {
+    mark_stale(*image_, where);
+    drawn_ += where.count();
+    if (drawn_ < kTileWidth * kTileHeight) return;
+    drawn_ = 0;
+    farthest_ = farthest_of_all(*image_);
+  }
+
+  const TileHierarchy* hierarchy_;
+  const Scene* scene_;
+  const PrimaryRays* rays_;
+  const SampleRaster* raster_;
+  const TileView* view_;
+  BoxProbe probe_;
+  TileImage* image_;
+  Counting* counting_;
+  float farthest_ = 0.0F;  ///< the smallest 1/t of the tile, as far as known
+  int drawn_ = 0;          ///< samples that leaves covered since it was found
+  std::size_t size_ = 0;
+  std::array<Entry, kMostTileDepth*(kTileLanes - 1) + 1> stack_;
+};
+
+}  // namespace beambench::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

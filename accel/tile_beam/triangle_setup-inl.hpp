@@ -1,0 +1,151 @@
+// The images of triangles, as many at once as there are lanes.
+
+#if defined(ACCEL_TILE_BEAM_TRIANGLE_SETUP_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ACCEL_TILE_BEAM_TRIANGLE_SETUP_INL
+#undef ACCEL_TILE_BEAM_TRIANGLE_SETUP_INL
+#else
+#define ACCEL_TILE_BEAM_TRIANGLE_SETUP_INL
+#endif
+
+#include "accel/tile_beam/lanes-inl.hpp"
+#include "accel/tile_beam/tile_hierarchy.hpp"
+#include "accel/tile_beam/tile_view.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::HWY_NAMESPACE {
+
+/// A meshlet's vertices on the screen.
+struct SeenVertices {
+  alignas(64) std::array<float, Meshlet::kMostVertices> x;
+  alignas(64) std::array<float, Meshlet::kMostVertices> y;
+  /// 1 / depth; -1 for those whose triangles need double: behind the eye, or far beside the tile.
+  alignas(64) std::array<float, Meshlet::kMostVertices> inverse_t;
+};
+
+HWY_INLINE void see_vertices(const Meshlet& meshlet, const TileView& view, SeenVertices& seen) {
+  const Points eye = all_of(view.eye);
+  const Points to_x = all_of(view.x);
+  const Points to_y = all_of(view.y);
+  const Points to_depth = all_of(view.depth);
+  const Floats guard = all(view.guard);
+  for (std::size_t i = 0; i < meshlet.vertex_count; i += kLanes) {
+    const Points p{hn::Sub(load(&meshlet.vertices[0][i]), eye.x),
+                   hn::Sub(load(&meshlet.vertices[1][i]), eye.y),
+                   hn::Sub(load(&meshlet.vertices[2][i]), eye.z)};
+    const Floats depth = dot(to_depth, p);
+    const Floats inverse_t = hn::Div(all(1.0F), depth);
+    const Floats x = hn::Mul(dot(to_x, p), inverse_t);
+    const Floats y = hn::Mul(dot(to_y, p), inverse_t);
+    const Mask tame = hn::And(hn::Gt(depth, all(view.slack_depth)),
+                              hn::Le(hn::Max(hn::Abs(x), hn::Abs(y)), guard));
+    store(x, &seen.x[i]);
+    store(y, &seen.y[i]);
+    store(hn::IfThenElse(tame, inverse_t, all(-1.0F)), &seen.inverse_t[i]);
+  }
+}
+
+/// a * x + b * y + c, a lane for each triangle.
+struct Lines {
+  Floats x;
+  Floats y;
+  Floats constant;
+
+  HWY_INLINE Floats at(Floats i, Floats j) const {
+    return hn::MulAdd(x, i, hn::MulAdd(y, j, constant));
+  }
+};
+
+/// The images of some triangles.
+struct TriangleImages {
+  Lines edge0;  ///< none negative: a sample is within
+  Lines edge1;
+  Lines edge2;
+  Lines plane;     ///< 1/t
+  Floats nearest;  ///< the largest 1/t of the corners
+  Floats left;     ///< the samples that may be within
+  Floats right;
+  Floats top;
+  Floats bottom;
+  Mask drawn;        ///< may hit samples, and float is good enough
+  Mask needs_exact;  ///< may hit samples, but float is too coarse: see exact_triangle.hpp
+};
+
+/// How far a triangle's box is widened, in samples: more than edges evaluated in float err.
+inline constexpr float kBoxSlack = 0x1p-8F;
+
+/// The edge from (x0, y0) to (x1, y1). Its constant is taken at the middle: turned round, the edge
+/// has exactly the negative value at every sample, so two triangles that share it leave no gap
+/// (-ffp-contract=off is needed for this).
+HWY_INLINE Lines edge_between(Floats x0, Floats y0, Floats x1, Floats y1, Floats sign) {
+  const Floats a = hn::Sub(y0, y1);
+  const Floats b = hn::Sub(x1, x0);
+  const Floats twice = hn::Add(hn::Mul(a, hn::Add(x0, x1)), hn::Mul(b, hn::Add(y0, y1)));
+  return {hn::Mul(a, sign), hn::Mul(b, sign), hn::Mul(twice, hn::Mul(all(-0.5F), sign))};
+}
+
+/// Of the triangles of a meshlet from `first` on. Those that hold no sample, or that lie behind
+/// `farthest` (1/t) everywhere, are in neither mask.
+HWY_INLINE TriangleImages see_triangles(const Meshlet& meshlet, const SeenVertices& seen,
+                                        std::size_t first, const TileView& view, float farthest) {
+  const hn::Rebind<std::uint8_t, Tag> bytes;
+  const auto corner = [&](std::size_t which) {
+    return hn::PromoteTo(IntTag(), hn::LoadU(bytes, meshlet.corners[which].data() + first));
+  };
+  const Ints corner0 = corner(0);
+  const Ints corner1 = corner(1);
+  const Ints corner2 = corner(2);
+  const Table32 xs(seen.x.data());
+  const Table32 ys(seen.y.data());
+  const Table32 inverse_ts(seen.inverse_t.data());
+  const Floats x0 = xs.at(corner0), x1 = xs.at(corner1), x2 = xs.at(corner2);
+  const Floats y0 = ys.at(corner0), y1 = ys.at(corner1), y2 = ys.at(corner2);
+  const Floats z0 = inverse_ts.at(corner0), z1 = inverse_ts.at(corner1),
+               z2 = inverse_ts.at(corner2);
+
+  TriangleImages images;
+  const Floats x_low = hn::Min(x0, hn::Min(x1, x2));
+  const Floats x_high = hn::Max(x0, hn::Max(x1, x2));
+  const Floats y_low = hn::Min(y0, hn::Min(y1, y2));
+  const Floats y_high = hn::Max(y0, hn::Max(y1, y2));
+  const Floats slack = all(kBoxSlack);
+  const Floats none = hn::Zero(Tag());
+  images.left = hn::Ceil(hn::Max(hn::Sub(x_low, slack), none));
+  images.top = hn::Ceil(hn::Max(hn::Sub(y_low, slack), none));
+  images.right =
+      hn::Floor(hn::Min(hn::Add(x_high, slack), all(static_cast<float>(view.width - 1))));
+  images.bottom =
+      hn::Floor(hn::Min(hn::Add(y_high, slack), all(static_cast<float>(view.height - 1))));
+  images.nearest = hn::Max(z0, hn::Max(z1, z2));
+
+  const Mask present = hn::FirstN(Tag(), meshlet.triangle_count - first);
+  const Mask tame = hn::Gt(hn::Min(z0, hn::Min(z1, z2)), none);
+  const Mask in_tile =
+      hn::And(hn::And(hn::Le(images.left, images.right), hn::Le(images.top, images.bottom)),
+              hn::Ge(hn::Mul(images.nearest, all(1.0F + 0x1p-20F)), all(farthest)));
+  const Mask candidates = hn::And(present, hn::And(tame, in_tile));
+
+  const Floats dx1 = hn::Sub(x1, x0), dx2 = hn::Sub(x2, x0);
+  const Floats dy1 = hn::Sub(y1, y0), dy2 = hn::Sub(y2, y0);
+  const Floats dz1 = hn::Sub(z1, z0), dz2 = hn::Sub(z2, z0);
+  const Floats area = hn::MulSub(dx1, dy2, hn::Mul(dx2, dy1));
+  const Floats side = hn::Max(hn::Sub(x_high, x_low), hn::Sub(y_high, y_low));
+  const Floats too_thin = hn::Mul(hn::Mul(side, side), hn::Mul(side, all(view.sliver)));
+  const Mask thin = hn::Le(hn::Abs(area), too_thin);
+  images.drawn = hn::AndNot(thin, candidates);
+  images.needs_exact = hn::Or(hn::And(candidates, thin), hn::AndNot(tame, present));
+
+  const Floats sign = hn::CopySign(all(1.0F), area);
+  images.edge0 = edge_between(x0, y0, x1, y1, sign);
+  images.edge1 = edge_between(x1, y1, x2, y2, sign);
+  images.edge2 = edge_between(x2, y2, x0, y0, sign);
+  const Floats per_area = hn::Div(all(1.0F), area);
+  images.plane.x = hn::Mul(per_area, hn::MulSub(dz1, dy2, hn::Mul(dz2, dy1)));
+  images.plane.y = hn::Mul(per_area, hn::MulSub(dx1, dz2, hn::Mul(dx2, dz1)));
+  images.plane.constant = hn::NegMulAdd(images.plane.x, x0, hn::NegMulAdd(images.plane.y, y0, z0));
+  return images;
+}
+
+}  // namespace beambench::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
