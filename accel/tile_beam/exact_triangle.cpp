@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -18,28 +19,47 @@ TileLine rounded(const glm::dvec3& line) {
   return {static_cast<float>(line.x), static_cast<float>(line.y), static_cast<float>(line.z)};
 }
 
-/// The samples in the triangle's box on the screen, where all of it is before the eye.
-std::optional<SampleRectangle> box_of(const TileView& view, const std::array<glm::dvec3, 3>& seen) {
-  double left = 0.0;
-  double top = 0.0;
-  double right = view.width - 1;
-  double bottom = view.height - 1;
-  if (std::min({seen[0].z, seen[1].z, seen[2].z}) > 0.0) {
-    constexpr double kSlack = 0x1p-7;  // of a sample: more than edges are widened by
-    std::array<double, 3> x{};
-    std::array<double, 3> y{};
-    for (std::size_t i = 0; i < 3; ++i) {
-      x[i] = seen[i].x / seen[i].z;
-      y[i] = seen[i].y / seen[i].z;
-    }
-    left = std::max(left, std::ceil(std::ranges::min(x) - kSlack));
-    top = std::max(top, std::ceil(std::ranges::min(y) - kSlack));
-    right = std::min(right, std::floor(std::ranges::max(x) + kSlack));
-    bottom = std::min(bottom, std::floor(std::ranges::max(y) + kSlack));
+/// The places on the screen between which a triangle lies along one axis of the screen.
+struct Range {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+
+  void include(double place) {
+    low = std::min(low, place);
+    high = std::max(high, place);
   }
-  if (left > right || top > bottom) return std::nullopt;
+};
+
+/// Of the part of a triangle that lies before the eye. `axis` of the corners is place x depth. An
+/// edge that goes behind the eye leaves the screen at one of its ends.
+Range range_of(const std::array<glm::dvec3, 3>& seen, int axis) {
+  Range range;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (seen[i].z <= 0.0) continue;
+    range.include(seen[i][axis] / seen[i].z);
+    for (const std::size_t other : {(i + 1) % 3, (i + 2) % 3}) {
+      if (seen[other].z > 0.0) continue;
+      const double way = seen[other][axis] * seen[i].z - seen[i][axis] * seen[other].z;
+      if (way != 0.0) range.include(std::copysign(std::numeric_limits<double>::infinity(), way));
+    }
+  }
+  return range;
+}
+
+/// The samples that the triangle may hold. Acute corners end here, for edges moved outward meet
+/// only far beyond them.
+std::optional<SampleRectangle> box_of(const TileView& view, const std::array<glm::dvec3, 3>& seen) {
+  const auto clipped = [&](int axis, double per_angle, int samples) {
+    const double slack = 1.25 * kEdgeWidening * per_angle;
+    const Range range = range_of(seen, axis);
+    return Range{std::max(0.0, std::ceil(range.low - slack)),
+                 std::min(samples - 1.0, std::floor(range.high + slack))};
+  };
+  const Range x = clipped(0, view.per_angle_x, view.width);
+  const Range y = clipped(1, view.per_angle_y, view.height);
+  if (x.low > x.high || y.low > y.high) return std::nullopt;
   const auto small = [](double value) { return static_cast<std::uint8_t>(value); };
-  return SampleRectangle{small(left), small(right), small(top), small(bottom)};
+  return SampleRectangle{small(x.low), small(x.high), small(y.low), small(y.high)};
 }
 
 }  // namespace

@@ -54,6 +54,7 @@ TileView::TileView(const RasterView& raster, int tile_left, int tile_top, int ti
            raster.down * static_cast<double>(top);
   const double per_angle = std::max(raster.per_angle_x, raster.per_angle_y);
   guard = static_cast<float>(std::max(per_angle, 2.0 * kTileWidth));
+  box_slack = static_cast<float>(8.0 * kRounding * guard);
   sliver = static_cast<float>(0.25 / std::min(raster.per_angle_x, raster.per_angle_y));
   // |p| is at most sqrt(3) x reach.
   const auto slack = [&](const glm::dvec3& row) {

@@ -57,6 +57,9 @@ struct TileView {
   /// Corners farther than this from the tile's first sample make the float edge functions of their
   /// triangles too coarse. In samples, a unit of |direction|.
   float guard;
+  /// How far boxes of triangles are widened, in samples: more than edges evaluated in float err,
+  /// but not by much, for it is the boxes that end acute corners.
+  float box_slack;
   /// A triangle whose float area is below sliver x (longer side of its box)^3 has too coarse a
   /// plane in float.
   float sliver;

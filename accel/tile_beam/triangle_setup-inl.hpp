@@ -70,9 +70,6 @@ struct TriangleImages {
   Mask needs_exact;  ///< may hit samples, but float is too coarse: see exact_triangle.hpp
 };
 
-/// How far a triangle's box is widened, in samples: more than edges evaluated in float err.
-inline constexpr float kBoxSlack = 0x1p-8F;
-
 /// The edge from (x0, y0) to (x1, y1). Its constant is taken at the middle: turned round, the edge
 /// has exactly the negative value at every sample, so two triangles that share it leave no gap
 /// (-ffp-contract=off is needed for this).
@@ -107,7 +104,7 @@ HWY_INLINE TriangleImages see_triangles(const Meshlet& meshlet, const SeenVertic
   const Floats x_high = hn::Max(x0, hn::Max(x1, x2));
   const Floats y_low = hn::Min(y0, hn::Min(y1, y2));
   const Floats y_high = hn::Max(y0, hn::Max(y1, y2));
-  const Floats slack = all(kBoxSlack);
+  const Floats slack = all(view.box_slack);
   const Floats none = hn::Zero(Tag());
   images.left = hn::Ceil(hn::Max(hn::Sub(x_low, slack), none));
   images.top = hn::Ceil(hn::Max(hn::Sub(y_low, slack), none));

@@ -1,0 +1,271 @@
+// tile-beam: images to within rounding, without a gap, and single rays bit for bit.
+
+#include "accel/tile_beam/tile_beam.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include "accel/exhaustive/exhaustive.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/scene_builder.hpp"
+#include "tests/random_scene.hpp"
+
+namespace beambench {
+namespace {
+
+using testing::random_ray;
+using testing::random_scene;
+
+/// An eye outside, inside or in the middle planes of the scene's box, looking somewhere.
+Camera random_camera(const Scene& scene, Random& random) {
+  const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
+  const glm::vec3 size = scene.bounds.upper - scene.bounds.lower;
+  const float reach = std::max({size.x, size.y, size.z, 1e-3F});
+  const float spread = random.below(2) == 0 ? 0.4F : 2.5F;
+  Camera camera;
+  for (int axis = 0; axis < 3; ++axis) {
+    camera.from[axis] = middle[axis];
+    camera.at[axis] = middle[axis];
+    if (random.below(4) != 0) {
+      camera.from[axis] += reach * static_cast<float>(random.uniform(-spread, spread));
+    }
+    if (random.below(4) != 0) {
+      camera.at[axis] += reach * static_cast<float>(random.uniform(-0.5, 0.5));
+    }
+  }
+  if (camera.at == camera.from) camera.at.z -= reach;
+  const glm::vec3 view = glm::abs(camera.at - camera.from);
+  camera.up = glm::vec3(0.0F);
+  camera.up[view.y < view.x || view.y < view.z ? 1 : 0] = 1.0F;
+  camera.angle = static_cast<float>(random.uniform(20.0, 110.0));
+  camera.aspect = static_cast<float>(random.uniform(0.6, 1.8));
+  return camera;
+}
+
+/// How far apart places are that float cannot tell apart, K u of the differ.
+double indistinct(const Scene& scene, const glm::vec3& eye) {
+  return 16.0 * 0x1p-24 *
+         (static_cast<double>(scene.bounds.largest_coordinate()) + glm::length(glm::dvec3(eye)));
+}
+
+/// Do rays near the given one, at the distance of the hits in question, get both answers? Then the
+/// answers differ by rounding only.
+bool is_close_call(const Exhaustive& exhaustive, const Ray& ray, const std::optional<Hit>& answer,
+                   double slack) {
+  const float t = answer ? answer->t : 1.0F;
+  const glm::dvec3 d(ray.direction);
+  const glm::dvec3 side = glm::normalize(glm::cross(
+      d, std::abs(d.x) < 0.5 * glm::length(d) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+  const glm::dvec3 other = glm::normalize(glm::cross(d, side));
+  for (const double reach : {1.0, 4.0}) {
+    for (int i = 0; i < 32; ++i) {
+      const double angle = 6.283185307179586 * i / 32.0;
+      Ray near = ray;
+      const double away = reach * slack / (answer ? std::max(t, 1e-6F) : 1.0);
+      near.direction = glm::vec3(d + (side * std::cos(angle) + other * std::sin(angle)) * away);
+      const auto hit = exhaustive.closest_hit(near);
+      if (hit.has_value() != answer.has_value()) continue;
+      if (!hit) return true;
+      if (hit->primitive == answer->primitive) return true;
+      if (std::abs(hit->t - t) <= 8.0 * slack) return true;
+    }
+  }
+  return false;
+}
+
+struct Comparison {
+  std::size_t hits = 0;
+  std::size_t close_calls = 0;
+  std::size_t errors = 0;
+  std::string first;
+};
+
+/// Compares an image with exhaustive search, sample by sample.
+Comparison compare(const Scene& scene, const PrimaryRays& rays, const HitBuffer& image) {
+  const Exhaustive exhaustive(scene);
+  const double slack = indistinct(scene, rays.eye());
+  Comparison found;
+  for (int y = 0; y < rays.height(); ++y) {
+    for (int x = 0; x < rays.width(); ++x) {
+      for (int sample = 0; sample < rays.samples(); ++sample) {
+        const Ray ray = rays.ray(x, y, sample);
+        const auto expected = exhaustive.closest_hit(ray);
+        const auto actual = image.get(image.index(x, y, sample));
+        if (expected) ++found.hits;
+        if (expected == actual) continue;
+        const double length = glm::length(glm::dvec3(ray.direction));
+        if (expected && actual && std::abs(expected->t - actual->t) * length <= 4.0 * slack)
+          continue;
+        if (is_close_call(exhaustive, ray, actual, slack)) {
+          ++found.close_calls;
+          continue;
+        }
+        if (found.errors++ == 0) {
+          found.first = fmt::format(
+              "({}, {}) sample {}: expected {} at {}, got {} at {}", x, y, sample,
+              expected ? expected->primitive : kNoPrimitive, expected ? expected->t : -1,
+              actual ? actual->primitive : kNoPrimitive, actual ? actual->t : -1);
+        }
+      }
+    }
+  }
+  return found;
+}
+
+HitBuffer image_of(const TileBeam& structure, const PrimaryRays& rays) {
+  HitBuffer image(rays.width(), rays.height(), rays.samples());
+  std::fill_n(image.t(), image.size(), -1.0F);  // what is not written shows
+  structure.trace(rays, image);
+  return image;
+}
+
+TEST(TileBeam, ImagesOfRandomScenesAreThoseOfExhaustive) {
+  std::size_t hits = 0;
+  std::size_t samples = 0;
+  std::size_t close_calls = 0;
+  for (std::uint64_t seed = 1; seed <= 150; ++seed) {
+    Random random(seed);
+    const Scene scene = random_scene(seed, static_cast<int>(1 + random.below(80)));
+    const Camera camera = random_camera(scene, random);
+    const int pattern[] = {1, 5, 9, 1};
+    const PrimaryRays rays(camera, static_cast<int>(1 + random.below(90)),
+                           static_cast<int>(1 + random.below(90)), pattern[random.below(4)]);
+    const TileBeam structure(scene, {.max_leaf = static_cast<std::uint32_t>(1 + random.below(32))});
+    const Comparison found = compare(scene, rays, image_of(structure, rays));
+    EXPECT_EQ(found.errors, 0U) << "seed " << seed << ", " << rays.width() << "x" << rays.height()
+                                << "x" << rays.samples() << " first " << found.first;
+    hits += found.hits;
+    close_calls += found.close_calls;
+    samples += rays.count();
+  }
+  EXPECT_GT(hits, samples / 5);
+  EXPECT_LT(hits, samples * 4 / 5);
+  EXPECT_LT(close_calls, samples / 500);
+}
+
+TEST(TileBeam, ImagesOfCatalogueScenesAreThoseOfExhaustive) {
+  for (const char* name : {"tetra:n=4", "balls:n=2", "escena1", "escena2", "bumpy:triangles=768"}) {
+    const Scene scene = load_scene(name);
+    const TileBeam structure(scene, {});
+    for (const int samples : {1, 5, 9}) {
+      const PrimaryRays rays(scene.cameras.front(), 67, 53, samples);
+      const Comparison found = compare(scene, rays, image_of(structure, rays));
+      EXPECT_EQ(found.errors, 0U) << name << " x" << samples << " first " << found.first;
+    }
+  }
+}
+
+TEST(TileBeam, OnePixelIsAnImage) {
+  const Scene scene = load_scene("tetra:n=3");
+  const TileBeam structure(scene, {});
+  for (const auto& [width, height] : {std::pair{1, 1}, {1, 97}, {131, 1}, {65, 64}, {63, 129}}) {
+    const PrimaryRays rays(scene.cameras.front(), width, height, 1);
+    EXPECT_EQ(compare(scene, rays, image_of(structure, rays)).errors, 0U) << width << 'x' << height;
+  }
+}
+
+/// A closed mesh seen from within: every sample must be covered, wherever edges and vertices lie.
+TEST(TileBeam, AClosedMeshHasNoGap) {
+  for (const char* name : {"bumpy:triangles=768", "bumpy:triangles=12288"}) {
+    const Scene scene = load_scene(name);
+    const TileBeam structure(scene, {});
+    Random random(5);
+    std::size_t background = 0;
+    for (int view = 0; view < 200; ++view) {
+      Camera camera = random_camera(scene, random);
+      const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
+      // Well within: the mesh is a sphere with bumps, of a quarter of its box's side at least.
+      const glm::vec3 to = 0.2F * (scene.bounds.upper - scene.bounds.lower);
+      for (int axis = 0; axis < 3; ++axis) {
+        camera.from[axis] = middle[axis] + to[axis] * static_cast<float>(random.uniform(-1.0, 1.0));
+        camera.at[axis] = camera.from[axis] + static_cast<float>(random.uniform(-1.0, 1.0));
+      }
+      const PrimaryRays rays(camera, 200, 150, 1);
+      const HitBuffer image = image_of(structure, rays);
+      background += static_cast<std::size_t>(
+          std::count(image.primitive(), image.primitive() + image.size(), kNoPrimitive));
+    }
+    EXPECT_EQ(background, 0U) << name;
+  }
+}
+
+/// A room whose walls are two triangles each: nearly all of them cross the plane of the eye.
+TEST(TileBeam, WallsBehindTheEyeLeaveNoGap) {
+  SceneBuilder builder("box");
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {0.0, 1.0}) {
+      std::vector<glm::dvec3> corners(4, glm::dvec3(0.0));
+      for (glm::dvec3& corner : corners) corner[axis] = side;
+      corners[1][(axis + 1) % 3] = corners[2][(axis + 1) % 3] = 1.0;
+      corners[2][(axis + 2) % 3] = corners[3][(axis + 2) % 3] = 1.0;
+      builder.add_polygon(corners);
+    }
+  }
+  const Scene scene = std::move(builder).build();
+  const TileBeam structure(scene, {});
+  Random random(9);
+  for (int view = 0; view < 60; ++view) {
+    Camera camera = random_camera(scene, random);
+    for (int axis = 0; axis < 3; ++axis) {
+      camera.from[axis] = static_cast<float>(random.uniform(0.001, 0.999));
+    }
+    const PrimaryRays rays(camera, 150, 120, 1);
+    const HitBuffer image = image_of(structure, rays);
+    EXPECT_EQ(std::count(image.primitive(), image.primitive() + image.size(), kNoPrimitive), 0)
+        << view;
+    EXPECT_EQ(compare(scene, rays, image).errors, 0U) << view;
+  }
+}
+
+TEST(TileBeam, BackgroundOfAnEmptySceneIsPainted) {
+  const Scene scene = SceneBuilder("empty").build();
+  const PrimaryRays rays(Camera{}, 70, 3, 5);
+  EXPECT_EQ(image_of(TileBeam(scene, {}), rays), HitBuffer(70, 3, 5));
+}
+
+TEST(TileBeam, CrowdedTilesGoToRays) {
+  const Scene scene = load_scene("bumpy:triangles=12288");
+  const TileBeam structure(scene, {});
+  const PrimaryRays rays(scene.cameras.front(), 7, 5, 1);
+  HitBuffer image(7, 5, 1);
+  WorkCounters counters;
+  structure.trace(rays, image, counters);
+  EXPECT_GT(counters.by_name()["handed_over_rays"], 0U);
+  EXPECT_EQ(compare(scene, rays, image).errors, 0U);
+}
+
+TEST(TileBeam, CountingChangesNoHit) {
+  const Scene scene = load_scene("escena1");
+  const TileBeam structure(scene, {});
+  const PrimaryRays rays(scene.cameras.front(), 100, 80, 1);
+  HitBuffer counted(100, 80, 1);
+  WorkCounters counters;
+  structure.trace(rays, counted, counters);
+  EXPECT_EQ(counted, image_of(structure, rays));
+  EXPECT_EQ(counters.by_name()["beams"], 4U);
+  EXPECT_GT(counters.get(Counter::kLeaves), 0U);
+}
+
+TEST(TileBeam, SingleRaysAreExact) {
+  for (std::uint64_t seed = 1; seed <= 80; ++seed) {
+    Random random(seed);
+    const Scene scene = random_scene(seed, static_cast<int>(1 + random.below(120)));
+    const TileBeam structure(scene, {.max_leaf = static_cast<std::uint32_t>(1 + random.below(32))});
+    const Exhaustive exhaustive(scene);
+    for (int i = 0; i < 200; ++i) {
+      const Ray ray = random_ray(scene, random);
+      const auto hit = exhaustive.closest_hit(ray);
+      ASSERT_EQ(structure.closest_hit(ray), hit) << "seed " << seed << " ray " << i;
+      ASSERT_EQ(structure.any_hit(ray), hit.has_value()) << "seed " << seed << " ray " << i;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace beambench
