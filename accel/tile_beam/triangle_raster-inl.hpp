@@ -75,13 +75,28 @@ HWY_INLINE void resolve_fragments(const Fragments& fragments, const PrimitiveId*
   }
 }
 
-/// Draws one triangle into blocks [first_column, last_column] of a row of blocks.
+/// Draws one triangle by blocks.
 class BlockPainter {
  public:
-  BlockPainter(const std::array<TileLine, 3>& edges, const TileLine& plane, PrimitiveId primitive)
-      : edges_(edges), plane_(plane), primitive_(primitive) {}
+  BlockPainter(const std::array<TileLine, 3>& edges, const TileLine& plane, PrimitiveId primitive,
+               const SampleRectangle& box)
+      : edges_(edges), plane_(plane), primitive_(primitive), box_(box) {}
 
-  HWY_INLINE void paint(TileImage& image, int row, int first_column, int last_column) const {
+  /// Paints all blocks of the box that the triangle may meet; `clip`: not beyond the box.
+  template <bool kClip>
+  HWY_INLINE void paint(TileImage& image) const {
+    const int last_row = box_.bottom >> 2;
+    for (int row = box_.top >> 2; row <= last_row; ++row) {
+      int first = box_.left >> 2;
+      int last = box_.right >> 2;
+      if (last - first >= 3) narrow(row, first, last);
+      if (first <= last) paint_row<kClip>(image, row, first, last);
+    }
+  }
+
+ private:
+  template <bool kClip>
+  HWY_INLINE void paint_row(TileImage& image, int row, int first_column, int last_column) const {
     for (std::size_t first = 0; first < TileImage::kBlockSamples; first += kLanes) {
       const Floats j = hn::Add(block_y(first), all(static_cast<float>(4 * row)));
       const Floats edge0 = hn::MulAdd(all(edges_[0].y), j, all(edges_[0].constant));
@@ -94,26 +109,22 @@ class BlockPainter {
         const Floats edge = hn::Min(hn::MulAdd(all(edges_[0].x), i, edge0),
                                     hn::Min(hn::MulAdd(all(edges_[1].x), i, edge1),
                                             hn::MulAdd(all(edges_[2].x), i, edge2)));
-        keep_nearer(image, at, hn::MulAdd(all(plane_.x), i, plane), hn::Ge(edge, hn::Zero(Tag())),
-                    primitive_);
+        Mask hit = hn::Ge(edge, hn::Zero(Tag()));
+        if constexpr (kClip) hit = hn::And(hit, in_box(i, j));
+        keep_nearer(image, at, hn::MulAdd(all(plane_.x), i, plane), hit, primitive_);
         i = hn::Add(i, all(4.0F));
         at += TileImage::kBlockSamples;
       }
     }
   }
 
-  /// Paints all blocks of a box that the triangle may meet.
-  HWY_INLINE void paint(TileImage& image, const SampleRectangle& box) const {
-    const int last_row = box.bottom >> 2;
-    for (int row = box.top >> 2; row <= last_row; ++row) {
-      int first = box.left >> 2;
-      int last = box.right >> 2;
-      if (last - first >= 3) narrow(row, first, last);
-      if (first <= last) paint(image, row, first, last);
-    }
+  HWY_INLINE Mask in_box(Floats i, Floats j) const {
+    const auto within = [](Floats value, std::uint8_t low, std::uint8_t high) {
+      return hn::And(hn::Ge(value, all(low)), hn::Le(value, all(high)));
+    };
+    return hn::And(within(i, box_.left, box_.right), within(j, box_.top, box_.bottom));
   }
 
- private:
   /// Leaves out the blocks at a row's ends that lie outside an edge.
   HWY_INLINE void narrow(int row, int& first, int& last) const {
     auto low = static_cast<float>(4 * first);
@@ -136,6 +147,7 @@ class BlockPainter {
   std::array<TileLine, 3> edges_;
   TileLine plane_;
   PrimitiveId primitive_;
+  SampleRectangle box_;
 };
 
 /// Triangles' images, to be taken one by one.
@@ -173,7 +185,8 @@ inline void paint_exact(const Meshlet& meshlet, std::size_t triangle, const Tile
   const auto exact = exact_triangle(view, {meshlet.corner(0, triangle), meshlet.corner(1, triangle),
                                            meshlet.corner(2, triangle)});
   if (!exact) return;
-  BlockPainter(exact->edges, exact->plane, meshlet.primitives[triangle]).paint(image, exact->box);
+  BlockPainter(exact->edges, exact->plane, meshlet.primitives[triangle], exact->box)
+      .paint<true>(image);
 }
 
 /// Draws a meshlet. What lies behind `farthest` (1/t) is not drawn.
@@ -201,11 +214,16 @@ inline void draw_meshlet(const Meshlet& meshlet, const TileView& view, float far
     LaneBits large = bits_of(hn::AndNot(small, images.drawn));
     if (large == 0) continue;
     const StoredImages stored(images);
+    const LaneBits acute = bits_of(images.acute);
     for (; large != 0; large &= large - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(large));
-      BlockPainter({stored.line(0, lane), stored.line(1, lane), stored.line(2, lane)},
-                   stored.line(3, lane), primitives[lane])
-          .paint(image, stored.rectangle(lane));
+      const BlockPainter painter({stored.line(0, lane), stored.line(1, lane), stored.line(2, lane)},
+                                 stored.line(3, lane), primitives[lane], stored.rectangle(lane));
+      if ((acute >> lane & 1U) != 0) {
+        painter.paint<true>(image);
+      } else {
+        painter.paint<false>(image);
+      }
     }
   }
 }

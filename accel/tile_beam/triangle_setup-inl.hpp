@@ -67,8 +67,12 @@ struct TriangleImages {
   Floats top;
   Floats bottom;
   Mask drawn;        ///< may hit samples, and float is good enough
+  Mask acute;        ///< has a corner so acute that rounding may draw it far beyond its box
   Mask needs_exact;  ///< may hit samples, but float is too coarse: see exact_triangle.hpp
 };
+
+/// Of a triangle's area over the square of its longer side: below it, corners are acute.
+inline constexpr float kAcute = 0x1p-5F;
 
 /// The edge from (x0, y0) to (x1, y1). Its constant is taken at the middle: turned round, the edge
 /// has exactly the negative value at every sample, so two triangles that share it leave no gap
@@ -126,6 +130,7 @@ HWY_INLINE TriangleImages see_triangles(const Meshlet& meshlet, const SeenVertic
   const Floats dz1 = hn::Sub(z1, z0), dz2 = hn::Sub(z2, z0);
   const Floats area = hn::MulSub(dx1, dy2, hn::Mul(dx2, dy1));
   const Floats side = hn::Max(hn::Sub(x_high, x_low), hn::Sub(y_high, y_low));
+  images.acute = hn::Le(hn::Abs(area), hn::Mul(hn::Mul(side, side), all(kAcute)));
   const Floats too_thin = hn::Mul(hn::Mul(side, side), hn::Mul(side, all(view.sliver)));
   const Mask thin = hn::Le(hn::Abs(area), too_thin);
   images.drawn = hn::AndNot(thin, candidates);
