@@ -32,6 +32,7 @@ class BoxProbe {
   struct Met {
     alignas(64) std::array<std::int32_t, kTileLanes> rectangle;  ///< bytes of SampleRectangle
     alignas(64) std::array<float, kTileLanes> nearest;
+    alignas(64) std::array<float, kTileLanes> samples;  ///< on the whole screen, about
     LaneBits lanes;
 
     SampleRectangle where(std::size_t lane) const {
@@ -74,10 +75,15 @@ class BoxProbe {
 
     const Floats width = all(width_);
     const Floats height = all(height_);
-    const Floats left = hn::Ceil(hn::Max(hn::NegMulAdd(from_right, nearest, width), none));
-    const Floats right = hn::Floor(hn::Min(hn::Mul(from_left, nearest), width));
-    const Floats top = hn::Ceil(hn::Max(hn::NegMulAdd(from_bottom, nearest, height), none));
-    const Floats bottom = hn::Floor(hn::Min(hn::Mul(from_top, nearest), height));
+    const Floats first_x = hn::NegMulAdd(from_right, nearest, width);
+    const Floats last_x = hn::Mul(from_left, nearest);
+    const Floats first_y = hn::NegMulAdd(from_bottom, nearest, height);
+    const Floats last_y = hn::Mul(from_top, nearest);
+    store(hn::Mul(hn::Sub(last_x, first_x), hn::Sub(last_y, first_y)), &met.samples[lane]);
+    const Floats left = hn::Ceil(hn::Max(first_x, none));
+    const Floats right = hn::Floor(hn::Min(last_x, width));
+    const Floats top = hn::Ceil(hn::Max(first_y, none));
+    const Floats bottom = hn::Floor(hn::Min(last_y, height));
     const Mask samples = hn::And(hn::Le(left, right), hn::Le(top, bottom));
     const Ints packed =
         hn::Or(hn::Or(whole(left), hn::ShiftLeft<8>(whole(right))),

@@ -15,25 +15,40 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::HWY_NAMESPACE {
 
-/// One sample a pixel: rows of the tile are runs of the buffer.
-inline void resolve_rows(const TileImage& image, const TileView& view, HitBuffer& buffer) {
-  alignas(64) std::array<float, kTileWidth> t;
-  alignas(64) std::array<PrimitiveId, kTileWidth> primitive;
-  for (int y = 0; y < view.height; ++y) {
-    for (int column = 0; column < TileImage::kBlockColumns; ++column) {
-      const std::size_t from = TileImage::place(4 * column, y);
-      const hn::CappedTag<float, 4> four;
-      const hn::RebindToUnsigned<decltype(four)> four_ids;
-      const auto at = static_cast<std::size_t>(4 * column);
+/// Writes the four rows of a block, or as much of them as the tile holds.
+HWY_INLINE void resolve_block(const TileImage& image, int column, int row, const TileView& view,
+                              HitBuffer& buffer) {
+  const hn::CappedTag<float, 4> four;
+  const hn::RebindToUnsigned<decltype(four)> four_ids;
+  const std::size_t block = TileImage::block(column, row);
+  alignas(64) std::array<float, TileImage::kBlockSamples> t;
+  for (std::size_t i = 0; i < t.size(); i += kLanes) {
+    store(hn::Div(all(1.0F), load(&image.inverse_t[block + i])), &t[i]);
+  }
+  const int width = std::min(4, view.width - 4 * column);
+  const int height = std::min(4, view.height - 4 * row);
+  for (int y = 0; y < height; ++y) {
+    const std::size_t to = buffer.index(view.left + 4 * column, view.top + 4 * row + y, 0);
+    const auto from = static_cast<std::size_t>(4 * y);
+    const PrimitiveId* const primitives = &image.primitive[block + from];
+    if (width == 4) {
       for (std::size_t i = 0; i < 4; i += hn::Lanes(four)) {
-        hn::Store(hn::Div(hn::Set(four, 1.0F), hn::Load(four, &image.inverse_t[from + i])), four,
-                  &t[at + i]);
-        hn::Store(hn::Load(four_ids, &image.primitive[from + i]), four_ids, &primitive[at + i]);
+        hn::StoreU(hn::Load(four, &t[from + i]), four, buffer.t() + to + i);
+        hn::StoreU(hn::Load(four_ids, primitives + i), four_ids, buffer.primitive() + to + i);
       }
+    } else {
+      std::copy_n(&t[from], width, buffer.t() + to);
+      std::copy_n(primitives, width, buffer.primitive() + to);
     }
-    const std::size_t to = buffer.index(view.left, view.top + y, 0);
-    std::copy_n(t.data(), view.width, buffer.t() + to);
-    std::copy_n(primitive.data(), view.width, buffer.primitive() + to);
+  }
+}
+
+/// One sample a pixel: rows of blocks are runs of the buffer.
+inline void resolve_blocks(const TileImage& image, const TileView& view, HitBuffer& buffer) {
+  for (int row = 0; 4 * row < view.height; ++row) {
+    for (int column = 0; 4 * column < view.width; ++column) {
+      resolve_block(image, column, row, view, buffer);
+    }
   }
 }
 
@@ -66,7 +81,7 @@ inline void resolve(const TileImage& image, const SampleRaster& raster, const Ti
   if (buffer.samples() > 1) {
     resolve_each(image, raster, view, buffer);
   } else if (image.touched) {
-    resolve_rows(image, view, buffer);
+    resolve_blocks(image, view, buffer);
   } else {
     paint_background(view, buffer);
   }

@@ -9,17 +9,19 @@
 
 #include <bit>
 
+#include <hwy/cache_control.h>
+
 #include "accel/tile_beam/box_probe-inl.hpp"
 #include "accel/tile_beam/cone_raster-inl.hpp"
+#include "accel/tile_beam/meshlet_raster-inl.hpp"
 #include "accel/tile_beam/ray_walk-inl.hpp"
 #include "accel/tile_beam/sphere_raster-inl.hpp"
-#include "accel/tile_beam/triangle_raster-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace beambench::HWY_NAMESPACE {
 
 /// A part of the hierarchy goes to single rays when it has more than this many leaves a sample.
-inline constexpr int kHandoverLeaves = 6;
+inline constexpr float kHandoverLeaves = 1.0F;
 
 /// Draws a tile.
 template <class Counting>
@@ -53,7 +55,7 @@ class TileWalk {
     TileChild child;
     float nearest;  ///< the largest 1/t of its box
     SampleRectangle where;
-    std::uint32_t leaves;
+    bool crowded;  ///< more leaves than single rays would take
   };
 
   void push_root() {
@@ -63,15 +65,21 @@ class TileWalk {
     BoxProbe::Met met;
     probe_.probe(boxes, 1, 0.0F, met);
     if (met.lanes == 0) return;
-    stack_[size_++] = {hierarchy_->root, met.nearest[0], met.where(0),
-                       static_cast<std::uint32_t>(hierarchy_->leaves())};
+    stack_[size_++] = {
+        hierarchy_->root, met.nearest[0], met.where(0),
+        is_crowded(static_cast<std::uint32_t>(hierarchy_->leaves()), met.samples[0])};
+  }
+
+  /// Counted on the whole screen: of a part that reaches beyond the tile most leaves may be there.
+  static bool is_crowded(std::uint32_t leaves, float samples) {
+    return static_cast<float>(leaves) > kHandoverLeaves * (samples + 1.0F);
   }
 
   HWY_INLINE void visit(const Entry& entry) {
     counting_->add(Counter::kTraversalSteps);
     if (entry.child.kind() != TileChild::Kind::kNode) {
       visit_leaf_of_tile(entry);
-    } else if (entry.leaves > static_cast<std::uint32_t>(kHandoverLeaves * entry.where.count())) {
+    } else if (entry.crowded) {
       hand_over(entry);
     } else {
       push_children(hierarchy_->nodes[entry.child.index()]);
@@ -86,11 +94,26 @@ class TileWalk {
     for (LaneBits left = met.lanes; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
       const float nearest = met.nearest[lane];
+      prefetch(node.children[lane]);
       std::size_t hole = size_++;
       for (; hole > first && stack_[hole - 1].nearest > nearest; --hole) {
         stack_[hole] = stack_[hole - 1];
       }
-      stack_[hole] = {node.children[lane], nearest, met.where(lane), node.leaves[lane]};
+      stack_[hole] = {node.children[lane], nearest, met.where(lane),
+                      is_crowded(node.leaves[lane], met.samples[lane])};
+    }
+  }
+
+  /// What waits is looked at soon, and in no order that the machine could guess.
+  HWY_INLINE void prefetch(TileChild child) const {
+    const auto fetch = [](const auto& block) {
+      const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&block);
+      for (std::size_t i = 0; i < sizeof(block); i += 64) hwy::Prefetch(bytes + i);
+    };
+    if (child.kind() == TileChild::Kind::kNode) {
+      fetch(hierarchy_->nodes[child.index()]);
+    } else if (child.kind() == TileChild::Kind::kMeshlet) {
+      fetch(hierarchy_->meshlets[child.index()]);
     }
   }
 

@@ -1,0 +1,116 @@
+// Triangles of a few blocks each: which blocks they meet is found by lanes, then block after block.
+
+#if defined(ACCEL_TILE_BEAM_TRIANGLE_BLOCKS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ACCEL_TILE_BEAM_TRIANGLE_BLOCKS_INL
+#undef ACCEL_TILE_BEAM_TRIANGLE_BLOCKS_INL
+#else
+#define ACCEL_TILE_BEAM_TRIANGLE_BLOCKS_INL
+#endif
+
+#include "accel/tile_beam/stored_images-inl.hpp"
+#include "accel/tile_beam/tile_raster-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::HWY_NAMESPACE {
+
+/// A block that a triangle may meet: the block's place in the tile, and the triangle's lane in the
+/// four bits that are free there.
+struct BlockList {
+  static constexpr std::size_t kMost = 16 * 20 + 16;  // room for a whole register at the end
+
+  alignas(64) std::array<std::int32_t, kMost> entries;
+  std::size_t count;
+};
+
+/// Triangles with no more blocks than this in their box are drawn by lists.
+inline constexpr float kMostListedBlocks = 20.0F;
+
+/// The box of each triangle in blocks.
+struct BlockBoxes {
+  Floats left;  ///< first sample of the first block
+  Floats right;
+  Floats top;
+  Floats bottom;
+
+  HWY_INLINE explicit BlockBoxes(const TriangleImages& images)
+      : left(first_of_block(images.left)),
+        right(first_of_block(images.right)),
+        top(first_of_block(images.top)),
+        bottom(first_of_block(images.bottom)) {}
+
+  HWY_INLINE Floats count() const {
+    const Floats quarter = all(0.25F);
+    return hn::Mul(hn::MulAdd(hn::Sub(right, left), quarter, all(1.0F)),
+                   hn::MulAdd(hn::Sub(bottom, top), quarter, all(1.0F)));
+  }
+
+ private:
+  static HWY_INLINE Floats first_of_block(Floats samples) {
+    const Ints whole = hn::ConvertTo(IntTag(), samples);
+    return hn::ConvertTo(Tag(), hn::AndNot(hn::Set(IntTag(), 3), whole));
+  }
+};
+
+/// The edge's largest value on a block, as a line over the blocks' first samples.
+HWY_INLINE Lines largest_on_block(const Lines& edge) {
+  const Floats none = hn::Zero(Tag());
+  const Floats three = all(3.0F + 0x1p-6F);  // and a little for rounding
+  return {edge.x, edge.y,
+          hn::Add(edge.constant, hn::Add(hn::Max(none, hn::Mul(edge.x, three)),
+                                         hn::Max(none, hn::Mul(edge.y, three))))};
+}
+
+/// Each lane walks through the blocks of its triangle's box, row by row.
+HWY_INLINE void list_blocks(const TriangleImages& images, const BlockBoxes& boxes, Mask listed,
+                            BlockList& list) {
+  const Lines edge0 = largest_on_block(images.edge0);
+  const Lines edge1 = largest_on_block(images.edge1);
+  const Lines edge2 = largest_on_block(images.edge2);
+  const Floats four = all(4.0F);
+  const Ints lane = hn::Iota(IntTag(), 0);
+  Floats i = boxes.left;
+  Floats j = boxes.top;
+  list.count = 0;
+  do {
+    const Floats edge = hn::Min(edge0.at(i, j), hn::Min(edge1.at(i, j), edge2.at(i, j)));
+    const Mask met = hn::And(listed, hn::Ge(edge, hn::Zero(Tag())));
+    static_assert(TileImage::block(0, 1) == 4 * 64 && TileImage::block(1, 0) == 4 * 4);
+    const Ints place = hn::Or(hn::ShiftLeft<6>(hn::ConvertTo(IntTag(), j)),
+                              hn::ShiftLeft<2>(hn::ConvertTo(IntTag(), i)));
+    list.count += hn::CompressStore(hn::Or(place, lane), hn::RebindMask(IntTag(), met), IntTag(),
+                                    list.entries.data() + list.count);
+    i = hn::Add(i, four);
+    const Mask row_ends = hn::Gt(i, boxes.right);
+    i = hn::IfThenElse(row_ends, boxes.left, i);
+    j = hn::Add(j, hn::IfThenElseZero(row_ends, four));
+    listed = hn::And(listed, hn::Le(j, boxes.bottom));
+  } while (!hn::AllFalse(Tag(), listed));
+}
+
+HWY_INLINE void paint_list(const BlockList& list, const StoredImages& images,
+                           const PrimitiveId* primitives, TileImage& image) {
+  for (std::size_t entry = 0; entry < list.count; ++entry) {
+    const auto packed = static_cast<std::uint32_t>(list.entries[entry]);
+    const std::size_t lane = packed & 15U;
+    const std::size_t block = packed & ~15U;
+    const auto left = static_cast<float>(packed >> 2U & 0x3CU);
+    const auto top = static_cast<float>(packed >> 6U & 0x3CU);
+    const auto line = [&](std::size_t which, Floats i, Floats j) {
+      return hn::MulAdd(all(images.lines[3 * which][lane]), i,
+                        hn::MulAdd(all(images.lines[3 * which + 1][lane]), j,
+                                   all(images.lines[3 * which + 2][lane])));
+    };
+    for (std::size_t first = 0; first < TileImage::kBlockSamples; first += kLanes) {
+      const Floats i = hn::Add(block_x(first), all(left));
+      const Floats j = hn::Add(block_y(first), all(top));
+      const Floats edge = hn::Min(line(0, i, j), hn::Min(line(1, i, j), line(2, i, j)));
+      keep_nearer(image, block + first, line(3, i, j), hn::Ge(edge, hn::Zero(Tag())),
+                  primitives[lane]);
+    }
+  }
+}
+
+}  // namespace beambench::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
