@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <optional>
-#include <vector>
 
+#include "accel/cache_aligned.hpp"
 #include "accel/ray.hpp"
 
 namespace beambench {
@@ -37,7 +37,7 @@ class HitBuffer {
     return Hit{t_[index], primitive_[index]};
   }
 
-  /// The raw arrays, for structures that write whole packets.
+  /// The raw arrays, for structures that write whole packets. They begin with a cache line.
   float* t() { return t_.data(); }
   const float* t() const { return t_.data(); }
   PrimitiveId* primitive() { return primitive_.data(); }
@@ -49,8 +49,8 @@ class HitBuffer {
   int width_;
   int height_;
   int samples_;
-  std::vector<float> t_;
-  std::vector<PrimitiveId> primitive_;
+  CacheAlignedVector<float> t_;
+  CacheAlignedVector<PrimitiveId> primitive_;
 };
 
 }  // namespace beambench

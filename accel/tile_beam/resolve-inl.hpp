@@ -15,40 +15,90 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::HWY_NAMESPACE {
 
-/// Writes the four rows of a block, or as much of them as the tile holds.
-HWY_INLINE void resolve_block(const TileImage& image, int column, int row, const TileView& view,
-                              HitBuffer& buffer) {
-  const hn::CappedTag<float, 4> four;
-  const hn::RebindToUnsigned<decltype(four)> four_ids;
-  const std::size_t block = TileImage::block(column, row);
-  alignas(64) std::array<float, TileImage::kBlockSamples> t;
-  for (std::size_t i = 0; i < t.size(); i += kLanes) {
-    store(hn::Div(all(1.0F), load(&image.inverse_t[block + i])), &t[i]);
+/// Images larger than this are written past the caches, which could not hold them.
+inline constexpr std::size_t kStreamedSamples = std::size_t{1} << 17U;
+
+/// Are the image's rows whole cache lines, and so many that they are better written past the
+/// caches?
+inline bool is_streamed(const HitBuffer& buffer) {
+  return buffer.samples() == 1 && buffer.width() % 16 == 0 && buffer.size() > kStreamedSamples;
+}
+
+/// Writes sixteen values of a row, a cache line, four by four.
+template <bool kStreamed, class T, class Load>
+HWY_INLINE void write_line(T* to, Load load_four) {
+  const hn::CappedTag<T, 4> four;
+  for (std::size_t i = 0; i < 16; i += hn::Lanes(four)) {
+    if constexpr (kStreamed) {
+      hn::Stream(load_four(four, i), four, to + i);
+    } else {
+      hn::StoreU(load_four(four, i), four, to + i);
+    }
   }
-  const int width = std::min(4, view.width - 4 * column);
+}
+
+/// Writes four blocks that lie side by side.
+template <bool kStreamed>
+HWY_INLINE void resolve_four(const TileImage& image, int column, int row, const TileView& view,
+                             HitBuffer& buffer) {
+  const std::size_t from = TileImage::block(column, row);
+  alignas(64) std::array<float, 4 * TileImage::kBlockSamples> t;
+  for (std::size_t i = 0; i < t.size(); i += kLanes) {
+    store(hn::Div(all(1.0F), load(&image.inverse_t[from + i])), &t[i]);
+  }
   const int height = std::min(4, view.height - 4 * row);
   for (int y = 0; y < height; ++y) {
     const std::size_t to = buffer.index(view.left + 4 * column, view.top + 4 * row + y, 0);
-    const auto from = static_cast<std::size_t>(4 * y);
-    const PrimitiveId* const primitives = &image.primitive[block + from];
-    if (width == 4) {
-      for (std::size_t i = 0; i < 4; i += hn::Lanes(four)) {
-        hn::StoreU(hn::Load(four, &t[from + i]), four, buffer.t() + to + i);
-        hn::StoreU(hn::Load(four_ids, primitives + i), four_ids, buffer.primitive() + to + i);
-      }
-    } else {
-      std::copy_n(&t[from], width, buffer.t() + to);
-      std::copy_n(primitives, width, buffer.primitive() + to);
+    const auto place = [y](std::size_t i) {  // four samples lie together, the next in another block
+      return (i >> 2U) * TileImage::kBlockSamples + static_cast<std::size_t>(4 * y) + (i & 3U);
+    };
+    write_line<kStreamed>(buffer.t() + to,
+                          [&](auto d, std::size_t i) { return hn::Load(d, &t[place(i)]); });
+    write_line<kStreamed>(buffer.primitive() + to, [&](auto d, std::size_t i) {
+      return hn::Load(d, &image.primitive[from + place(i)]);
+    });
+  }
+}
+
+/// Writes the samples of a tile from a column on, one by one.
+inline void resolve_rest(const TileImage& image, const TileView& view, int first,
+                         HitBuffer& buffer) {
+  for (int y = 0; y < view.height; ++y) {
+    for (int x = first; x < view.width; ++x) {
+      const std::size_t to = buffer.index(view.left + x, view.top + y, 0);
+      buffer.t()[to] = 1.0F / image.inverse_t[TileImage::place(x, y)];
+      buffer.primitive()[to] = image.primitive[TileImage::place(x, y)];
     }
   }
 }
 
 /// One sample a pixel: rows of blocks are runs of the buffer.
+template <bool kStreamed>
 inline void resolve_blocks(const TileImage& image, const TileView& view, HitBuffer& buffer) {
+  const int whole = view.width / 16 * 4;
   for (int row = 0; 4 * row < view.height; ++row) {
-    for (int column = 0; 4 * column < view.width; ++column) {
-      resolve_block(image, column, row, view, buffer);
+    for (int column = 0; column < whole; column += 4) {
+      resolve_four<kStreamed>(image, column, row, view, buffer);
     }
+  }
+  resolve_rest(image, view, 4 * whole, buffer);
+}
+
+/// Background, without a ray.
+template <bool kStreamed>
+inline void paint_background(const TileView& view, HitBuffer& buffer) {
+  for (int y = 0; y < view.height; ++y) {
+    const std::size_t to = buffer.index(view.left, view.top + y, 0);
+    const auto width = static_cast<std::size_t>(view.width);
+    std::size_t x = 0;
+    for (; x + 16 <= width; x += 16) {
+      write_line<kStreamed>(buffer.t() + to + x,
+                            [](auto d, std::size_t) { return hn::Set(d, kInfinity); });
+      write_line<kStreamed>(buffer.primitive() + to + x,
+                            [](auto d, std::size_t) { return hn::Set(d, kNoPrimitive); });
+    }
+    std::fill_n(buffer.t() + to + x, width - x, kInfinity);
+    std::fill_n(buffer.primitive() + to + x, width - x, kNoPrimitive);
   }
 }
 
@@ -67,12 +117,12 @@ inline void resolve_each(const TileImage& image, const SampleRaster& raster, con
   }
 }
 
-/// Background, without a ray.
-inline void paint_background(const TileView& view, HitBuffer& buffer) {
-  for (int y = 0; y < view.height; ++y) {
-    const std::size_t to = buffer.index(view.left, view.top + y, 0);
-    std::fill_n(buffer.t() + to, view.width, kInfinity);
-    std::fill_n(buffer.primitive() + to, view.width, kNoPrimitive);
+template <bool kStreamed>
+void resolve_pixels(const TileImage& image, const TileView& view, HitBuffer& buffer) {
+  if (image.touched) {
+    resolve_blocks<kStreamed>(image, view, buffer);
+  } else {
+    paint_background<kStreamed>(view, buffer);
   }
 }
 
@@ -80,10 +130,10 @@ inline void resolve(const TileImage& image, const SampleRaster& raster, const Ti
                     HitBuffer& buffer) {
   if (buffer.samples() > 1) {
     resolve_each(image, raster, view, buffer);
-  } else if (image.touched) {
-    resolve_blocks(image, view, buffer);
+  } else if (is_streamed(buffer)) {
+    resolve_pixels<true>(image, view, buffer);
   } else {
-    paint_background(view, buffer);
+    resolve_pixels<false>(image, view, buffer);
   }
 }
 

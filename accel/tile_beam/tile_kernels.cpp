@@ -6,6 +6,7 @@
 // Highway includes this file once more for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "accel/tile_beam/tile_kernels.cpp"
+#include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -32,6 +33,7 @@ void trace(const TileHierarchy& hierarchy, const Scene& scene, const PrimaryRays
       }
     }
   }
+  hwy::FlushStream();
 }
 
 template <class Counting>
