@@ -95,12 +95,13 @@ HWY_INLINE void see_spheres(const SphereBlock& block, const TileView& view, Sphe
   boxes.seen &= (LaneBits{1} << block.count) - 1;
 }
 
-/// Draws one sphere into the blocks of a box. As the canonical test does, t is found from the point
-/// of the ray nearest the centre (Haines et al., Ray Tracing Gems, 2019): the hit then lies within
-/// a few roundings of the distance from the surface, however small or far the sphere is.
+/// Draws one sphere, whose largest 1/t is `nearest`, into the blocks of a box. As the canonical
+/// test does, t is found from the point of the ray nearest the centre (Haines et al., Ray Tracing
+/// Gems, 2019): the hit then lies within a few roundings of the distance from the surface, however
+/// small or far the sphere is.
 HWY_INLINE void draw_sphere(const glm::vec3& from_eye, float radius, bool inside_only,
-                            PrimitiveId primitive, const SampleRectangle& box, const TileView& view,
-                            TileImage& image) {
+                            PrimitiveId primitive, const SampleRectangle& box, float nearest,
+                            const TileView& view, TileImage& image) {
   const Points center = all_of(from_eye);
   const Points right = all_of(view.right);
   const Points down = all_of(view.down);
@@ -113,6 +114,8 @@ HWY_INLINE void draw_sphere(const glm::vec3& from_eye, float radius, bool inside
                              hn::MulAdd(down.y, j, all(view.origin.y)),
                              hn::MulAdd(down.z, j, all(view.origin.z))};
       for (int column = box.left >> 2; column <= box.right >> 2; ++column) {
+        const std::size_t at = TileImage::block(column, row) + first;
+        if (hn::AllTrue(Tag(), hn::Gt(load(&image.inverse_t[at]), all(nearest)))) continue;
         const Floats i = hn::Add(block_x(first), all(static_cast<float>(4 * column)));
         const Points direction{hn::MulAdd(right.x, i, row_start.x),
                                hn::MulAdd(right.y, i, row_start.y),
@@ -129,24 +132,38 @@ HWY_INLINE void draw_sphere(const glm::vec3& from_eye, float radius, bool inside
         const Mask leaves = hn::Or(take_far, hn::Lt(near_t, hn::Zero(Tag())));
         const Floats t = hn::IfThenElse(leaves, hn::Add(middle_t, half_chord), near_t);
         const Mask hit = hn::And(hn::Ge(left_over, hn::Zero(Tag())), hn::Ge(t, hn::Zero(Tag())));
-        keep_nearer(image, TileImage::block(column, row) + first, hn::Div(all(1.0F), t), hit,
-                    primitive);
+        keep_nearer(image, at, hn::Div(all(1.0F), t), hit, primitive);
       }
     }
   }
 }
 
-/// Draws the spheres of a block. What lies behind `farthest` (1/t) is not drawn.
+/// The lane of the nearest sphere among some.
+inline std::size_t nearest_of(const SphereBoxes& boxes, LaneBits lanes) {
+  auto nearest = static_cast<std::size_t>(std::countr_zero(lanes));
+  for (lanes &= lanes - 1; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    if (boxes.nearest[lane] > boxes.nearest[nearest]) nearest = lane;
+  }
+  return nearest;
+}
+
+/// Draws the spheres of a block, the nearest first. What lies behind `farthest` (1/t) is not drawn.
 inline void draw_spheres(const SphereBlock& block, const TileView& view, float farthest,
                          TileImage& image) {
   SphereBoxes boxes;
   see_spheres(block, view, boxes);
-  for (LaneBits left = boxes.seen; left != 0; left &= left - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    if (boxes.nearest[lane] * (1.0F + 0x1p-18F) < farthest) continue;
+  for (LaneBits left = boxes.seen; left != 0;) {
+    const std::size_t lane = nearest_of(boxes, left);
+    left &= ~(LaneBits{1} << lane);
+    const float nearest = boxes.nearest[lane] * (1.0F + 0x1p-18F);
+    if (nearest < farthest) return;
+    const SampleRectangle box = boxes.rectangle(lane);
+    if (hides(image, box, nearest)) continue;
     const glm::vec3 center(block.center[0][lane], block.center[1][lane], block.center[2][lane]);
     draw_sphere(center - view.eye, block.radius[lane], (block.inside_only >> lane & 1U) != 0,
-                block.primitives[lane], boxes.rectangle(lane), view, image);
+                block.primitives[lane], box, nearest, view, image);
+    mark_stale(image, box);
   }
 }
 
