@@ -14,7 +14,7 @@ inline constexpr int kTileHeight = 64;
 
 /// By how much the edges of triangles made in double are moved outward, in units of |direction|:
 /// more than those made in float may err, so that no gap is left between the two.
-inline constexpr double kEdgeWidening = 0x1.4p-21;
+inline constexpr double kEdgeWidening = 0x1.8p-22;
 
 /// How a raster's camera turns points into places on the screen, in double. A point p seen from the
 /// eye has the view depth w = depth . p and lies on the screen at sample (x . p / w, y . p / w).

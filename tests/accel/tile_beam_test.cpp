@@ -22,6 +22,21 @@ namespace {
 using testing::random_ray;
 using testing::random_scene;
 
+/// Makes Highway believe that the machine has one instruction set, until destroyed.
+class OnlyTarget {
+ public:
+  explicit OnlyTarget(std::int64_t target) { pretend(target); }
+  ~OnlyTarget() { pretend(0); }
+  OnlyTarget(const OnlyTarget&) = delete;
+  OnlyTarget& operator=(const OnlyTarget&) = delete;
+
+ private:
+  static void pretend(std::int64_t targets) {
+    hwy::SetSupportedTargetsForTest(targets);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
 /// An eye outside, inside or in the middle planes of the scene's box, looking somewhere.
 Camera random_camera(const Scene& scene, Random& random) {
   const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
@@ -250,6 +265,43 @@ TEST(TileBeam, CountingChangesNoHit) {
   EXPECT_EQ(counted, image_of(structure, rays));
   EXPECT_EQ(counters.by_name()["beams"], 4U);
   EXPECT_GT(counters.get(Counter::kLeaves), 0U);
+}
+
+TEST(TileBeam, EveryInstructionSetIsRight) {
+  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  ASSERT_GE(targets.size(), 2U) << "no choice at run time was compiled in";
+  for (const std::int64_t target : targets) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    const OnlyTarget only(target);
+    for (const char* name : {"tetra:n=4", "balls:n=2", "bumpy:triangles=3072"}) {
+      const Scene scene = load_scene(name);
+      const TileBeam structure(scene, {});
+      ASSERT_STREQ(structure.instruction_set(), hwy::TargetName(target));
+      for (const int width : {131, 512}) {  // of which the rows of one are whole cache lines
+        const PrimaryRays rays(scene.cameras.front(), width, 45, 1);
+        const Comparison found = compare(scene, rays, image_of(structure, rays));
+        EXPECT_EQ(found.errors, 0U) << name << " first " << found.first;
+      }
+    }
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      Random random(seed);
+      const Scene scene = random_scene(seed, 60);
+      const TileBeam structure(scene, {});
+      const PrimaryRays rays(random_camera(scene, random), 50, 40, 1);
+      EXPECT_EQ(compare(scene, rays, image_of(structure, rays)).errors, 0U) << "seed " << seed;
+      for (int i = 0; i < 100; ++i) {
+        const Ray ray = random_ray(scene, random);
+        ASSERT_EQ(structure.closest_hit(ray), Exhaustive(scene).closest_hit(ray));
+      }
+    }
+  }
+}
+
+TEST(TileBeam, LargeImagesAreWrittenPastTheCaches) {
+  const Scene scene = load_scene("tetra:n=3");
+  const TileBeam structure(scene, {});
+  const PrimaryRays rays(scene.cameras.front(), 448, 301, 1);  // as many as are streamed, and odd
+  EXPECT_EQ(compare(scene, rays, image_of(structure, rays)).errors, 0U);
 }
 
 TEST(TileBeam, SingleRaysAreExact) {
