@@ -34,6 +34,7 @@ inline constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::
 struct NoCounting {
   static constexpr void add(Counter, std::uint64_t = 1) {}
   static constexpr void add(std::string_view, std::uint64_t = 1) {}
+  static constexpr void add(const NoCounting&) {}
   template <class Make>
   static constexpr void enter(const Make&) {}
   static constexpr void tested(PrimitiveId, float) {}
@@ -50,6 +51,8 @@ class WorkCounters {
     standard_[static_cast<std::size_t>(counter)] += amount;
   }
   void add(std::string_view name, std::uint64_t amount = 1);
+  /// What another has counted.
+  void add(const WorkCounters& other);
 
   std::uint64_t get(Counter counter) const { return standard_[static_cast<std::size_t>(counter)]; }
   /// All counters by name: the standard ones, then the family's own.

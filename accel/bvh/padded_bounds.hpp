@@ -1,13 +1,22 @@
 #pragma once
 // The boxes that a hierarchy is made of.
 
-#include <cmath>
+#include <bit>
+#include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "accel/tolerance.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench {
+
+/// The next float above a finite number, as std::nextafter gives it in ten times the time.
+inline float next_above(float value) {
+  const auto bits = std::bit_cast<std::uint32_t>(value);
+  if (value == 0.0F) return std::numeric_limits<float>::denorm_min();
+  return std::bit_cast<float>(value > 0.0F ? bits + 1 : bits - 1);
+}
 
 /// The box widened by `tolerance` on every side, rounded outward to float.
 inline Bounds padded(const Bounds& bounds, double tolerance) {
@@ -16,9 +25,8 @@ inline Bounds padded(const Bounds& bounds, double tolerance) {
     // One more float outward covers the rounding of the difference and of its conversion.
     const auto lower = static_cast<float>(bounds.lower[axis] - tolerance);
     const auto upper = static_cast<float>(bounds.upper[axis] + tolerance);
-    constexpr float kFar = std::numeric_limits<float>::infinity();
-    wider.lower[axis] = std::nextafter(lower, -kFar);
-    wider.upper[axis] = std::nextafter(upper, kFar);
+    wider.lower[axis] = -next_above(-lower);
+    wider.upper[axis] = next_above(upper);
   }
   return wider;
 }

@@ -17,13 +17,58 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::HWY_NAMESPACE {
 
-inline void paint_exact(const Meshlet& meshlet, std::size_t triangle, const TileView& view,
-                        TileImage& image) {
-  const auto exact = exact_triangle(view, {meshlet.corner(0, triangle), meshlet.corner(1, triangle),
-                                           meshlet.corner(2, triangle)});
-  if (!exact) return;
-  BlockPainter(exact->edges, exact->plane, meshlet.primitives[triangle], exact->box)
-      .paint<true>(image);
+/// Made in double, one by one.
+inline void draw_exactly(const Meshlet& meshlet, std::size_t first, Mask which,
+                         const TileView& view, TileImage& image) {
+  for (LaneBits left = bits_of(which); left != 0; left &= left - 1) {
+    const std::size_t triangle = first + static_cast<std::size_t>(std::countr_zero(left));
+    const auto exact = exact_triangle(
+        view,
+        {meshlet.corner(0, triangle), meshlet.corner(1, triangle), meshlet.corner(2, triangle)});
+    if (!exact) continue;
+    BlockPainter(exact->edges, exact->plane, meshlet.primitives[triangle], exact->box)
+        .paint<true>(image);
+  }
+}
+
+/// Row by row, one by one; acute ones not beyond their boxes.
+inline void draw_large(const StoredImages& images, const PrimitiveId* primitives, Mask which,
+                       Mask acute_ones, TileImage& image) {
+  const LaneBits acute = bits_of(acute_ones);
+  for (LaneBits left = bits_of(which); left != 0; left &= left - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+    const BlockPainter painter({images.line(0, lane), images.line(1, lane), images.line(2, lane)},
+                               images.line(3, lane), primitives[lane], images.rectangle(lane));
+    if ((acute >> lane & 1U) != 0) {
+      painter.paint<true>(image);
+    } else {
+      painter.paint<false>(image);
+    }
+  }
+}
+
+/// Draws triangles that float is good enough for, each in the way that suits its size.
+HWY_INLINE void draw_triangles(const TriangleImages& images, const PrimitiveId* primitives,
+                               TileImage& image) {
+  const Mask small = hn::And(images.drawn, hn::Le(images.samples(), all(kMostLaneSamples)));
+  if (!hn::AllFalse(Tag(), small)) {
+    Fragments fragments;
+    collect_fragments(images, small, fragments);
+    resolve_fragments(fragments, primitives, image);
+  }
+  const Mask rest = hn::AndNot(small, images.drawn);
+  if (hn::AllFalse(Tag(), rest)) return;
+
+  const StoredImages stored(images);
+  const BlockBoxes boxes(images);
+  const Mask few = hn::And(rest, hn::Le(boxes.count(), all(kMostListedBlocks)));
+  const Mask listed = hn::AndNot(images.acute, few);
+  if (!hn::AllFalse(Tag(), listed)) {
+    BlockList list;
+    list_blocks(images, boxes, listed, list);
+    paint_list(list, stored, primitives, image);
+  }
+  draw_large(stored, primitives, hn::AndNot(listed, rest), images.acute, image);
 }
 
 /// Draws a meshlet. What lies behind `farthest` (1/t) is not drawn.
@@ -33,43 +78,8 @@ inline void draw_meshlet(const Meshlet& meshlet, const TileView& view, float far
   see_vertices(meshlet, view, seen);
   for (std::size_t first = 0; first < meshlet.triangle_count; first += kLanes) {
     const TriangleImages images = see_triangles(meshlet, seen, first, view, farthest);
-    for (LaneBits exact = bits_of(images.needs_exact); exact != 0; exact &= exact - 1) {
-      paint_exact(meshlet, first + static_cast<std::size_t>(std::countr_zero(exact)), view, image);
-    }
-    if (hn::AllFalse(Tag(), images.drawn)) continue;
-    const PrimitiveId* primitives = meshlet.primitives.data() + first;
-
-    const Floats one = all(1.0F);
-    const Floats samples = hn::Mul(hn::Add(hn::Sub(images.right, images.left), one),
-                                   hn::Add(hn::Sub(images.bottom, images.top), one));
-    const Mask small = hn::And(images.drawn, hn::Le(samples, all(kMostLaneSamples)));
-    if (!hn::AllFalse(Tag(), small)) {
-      Fragments fragments;
-      collect_fragments(images, small, fragments);
-      resolve_fragments(fragments, primitives, image);
-    }
-    const Mask rest = hn::AndNot(small, images.drawn);
-    if (hn::AllFalse(Tag(), rest)) continue;
-    const StoredImages stored(images);
-    const BlockBoxes boxes(images);
-    const Mask few = hn::And(rest, hn::Le(boxes.count(), all(kMostListedBlocks)));
-    const Mask listed = hn::AndNot(images.acute, few);
-    if (!hn::AllFalse(Tag(), listed)) {
-      BlockList list;
-      list_blocks(images, boxes, listed, list);
-      paint_list(list, stored, primitives, image);
-    }
-    const LaneBits acute = bits_of(images.acute);
-    for (LaneBits left = bits_of(hn::AndNot(listed, rest)); left != 0; left &= left - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-      const BlockPainter painter({stored.line(0, lane), stored.line(1, lane), stored.line(2, lane)},
-                                 stored.line(3, lane), primitives[lane], stored.rectangle(lane));
-      if ((acute >> lane & 1U) != 0) {
-        painter.paint<true>(image);
-      } else {
-        painter.paint<false>(image);
-      }
-    }
+    draw_exactly(meshlet, first, images.needs_exact, view, image);
+    draw_triangles(images, meshlet.primitives.data() + first, image);
   }
 }
 

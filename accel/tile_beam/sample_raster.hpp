@@ -34,8 +34,10 @@ struct SampleRaster {
 
   /// The ray of a sample, with the bits that `PrimaryRays::ray` gives it.
   Ray ray(const PrimaryRays& rays, int i, int j) const {
+    const int pixel_x = i / per_pixel;
+    const int pixel_y = j / per_pixel;
     const glm::dvec2& offset = rays.offsets()[sample(places.front(), i, j)];
-    return rays.ray_at(i / per_pixel + offset.x, j / per_pixel + offset.y);
+    return rays.ray_at(pixel_x + offset.x, pixel_y + offset.y);
   }
 
   /// Calls `visit(index)` for the places in a buffer that the sample (i, j) belongs to.
@@ -51,7 +53,8 @@ struct SampleRaster {
 
  private:
   std::size_t sample(const Place& place, int i, int j) const {
-    return static_cast<std::size_t>(place.sample + j % per_pixel * per_pixel + i % per_pixel);
+    const int index = place.sample + j % per_pixel * per_pixel + i % per_pixel;
+    return static_cast<std::size_t>(index);
   }
 };
 

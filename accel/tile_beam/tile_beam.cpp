@@ -10,7 +10,7 @@ std::vector<ParameterInfo> TileBeam::parameters() {
   const TileHierarchyOptions defaults;
   return {integer_parameter("max_leaf", defaults.max_leaf, 1, 32, "most primitives of a leaf"),
           flag_parameter("parallel", defaults.parallel,
-                         "build on all cores; the hierarchy is the same")};
+                         "build, and trace images, on all cores; the hits are the same")};
 }
 
 TileHierarchyOptions TileBeam::options_from(const Parameters& parameters) {

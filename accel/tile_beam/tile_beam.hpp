@@ -5,6 +5,7 @@
 #include "accel/exhaustive/exhaustive.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 #include "accel/tile_beam/tile_kernels.hpp"
+#include "accel/tile_beam/tile_trace.hpp"
 #include "accel/traversal_accelerator.hpp"
 #include "scenes/parameters.hpp"
 
@@ -24,7 +25,8 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   TileBeam(const Scene& scene, const TileHierarchyOptions& options)
       : scene_(&scene),
         hierarchy_(build_tile_hierarchy(scene, options)),
-        kernels_(&best_tile_kernels()) {}
+        kernels_(&best_tile_kernels()),
+        parallel_(options.parallel) {}
 
   const TileHierarchy& hierarchy() const { return hierarchy_; }
   /// The instruction set in use, as Highway calls it: "AVX3".
@@ -33,10 +35,10 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
 
   void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
     NoCounting none;
-    trace_tiles(rays, buffer, none);
+    trace_tiles(*kernels_, hierarchy_, *scene_, rays, parallel_, buffer, none);
   }
   void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const override {
-    trace_tiles(rays, buffer, counters);
+    trace_tiles(*kernels_, hierarchy_, *scene_, rays, parallel_, buffer, counters);
   }
 
   template <class Counting>
@@ -54,14 +56,10 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   }
 
  private:
-  template <class Counting>
-  void trace_tiles(const PrimaryRays& rays, HitBuffer& buffer, Counting& counting) const {
-    kernels_->tiles<Counting>().trace(hierarchy_, *scene_, rays, buffer, counting);
-  }
-
   const Scene* scene_;
   TileHierarchy hierarchy_;
   const TileKernels* kernels_;
+  bool parallel_;
 };
 
 }  // namespace beambench

@@ -33,6 +33,7 @@ class Builder {
   TileHierarchy build() {
     wide_.references = pieces_.size();
     if (pieces_.empty()) return std::move(wide_);
+    reserve();
     LeafPacker packer(scene_, pieces_, boxes_, wide_);
     packer_ = &packer;
     const Made root = convert(0, 1);
@@ -62,6 +63,15 @@ class Builder {
       pieces_.push_back({id, scene_.primitives[id].index});
       boxes_.push_back(padded(primitive_bounds(scene_, id), tolerance));
     }
+  }
+
+  /// About as much as will be needed.
+  void reserve() {
+    const std::size_t leaves = (binary_.nodes.size() + 1) / 2;
+    wide_.nodes.reserve(leaves / 8 + 1);
+    wide_.meshlets.reserve(leaves * scene_.triangles.size() / pieces_.size());
+    wide_.spheres.reserve(leaves * scene_.spheres.size() / pieces_.size());
+    wide_.cones.reserve(leaves * scene_.cones.size() / pieces_.size());
   }
 
   /// The recursion is bounded by kMaxBvhDepth.

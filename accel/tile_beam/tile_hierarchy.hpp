@@ -4,8 +4,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <vector>
 
+#include "accel/large_pages.hpp"
 #include "scenes/bounds.hpp"
 #include "scenes/scene.hpp"
 
@@ -96,10 +96,10 @@ struct alignas(64) ConeBlock {
 /// A hierarchy over a scene's triangles, spheres and cones. Boxes are widened by
 /// `overlap_tolerance`.
 struct TileHierarchy {
-  std::vector<TileNode> nodes;
-  std::vector<Meshlet> meshlets;
-  std::vector<SphereBlock> spheres;
-  std::vector<ConeBlock> cones;
+  LargePageVector<TileNode> nodes;
+  LargePageVector<Meshlet> meshlets;
+  LargePageVector<SphereBlock> spheres;
+  LargePageVector<ConeBlock> cones;
   TileChild root;
   Bounds bounds;            ///< of everything, widened
   std::uint32_t depth = 0;  ///< nodes on the longest way down, leaf included
@@ -116,7 +116,7 @@ inline constexpr std::size_t kMostTileDepth = 97;
 
 struct TileHierarchyOptions {
   std::uint32_t max_leaf = 32;  ///< most primitives of a leaf
-  bool parallel = false;        ///< build on all cores
+  bool parallel = false;        ///< build, and trace images, on all cores
 };
 
 /// Throws InputError when the scene needs more than TileChild::kIndices leaves of a kind.

@@ -16,14 +16,15 @@ namespace beambench {
 struct TileImage {
   static constexpr int kBlockColumns = kTileWidth / 4;
   static constexpr int kBlockRows = kTileHeight / 4;
-  static constexpr int kBlockSamples = 16;
+  static constexpr std::size_t kBlockSamples = 16;
   static constexpr std::size_t kSamples = std::size_t{kTileWidth} * kTileHeight;
   /// The coarse depths are of squares of 8 x 8 samples.
   static constexpr int kSquareColumns = kTileWidth / 8;
   static constexpr int kSquareRows = kTileHeight / 8;
 
   static constexpr std::size_t block(int column, int row) {
-    return static_cast<std::size_t>((row * kBlockColumns + column) * kBlockSamples);
+    const int number = row * kBlockColumns + column;
+    return static_cast<std::size_t>(number) * kBlockSamples;
   }
   static constexpr std::size_t place(int x, int y) {
     return block(x >> 2, y >> 2) + static_cast<std::size_t>((y & 3) * 4 + (x & 3));

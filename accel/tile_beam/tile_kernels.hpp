@@ -7,7 +7,10 @@
 #include "accel/hit_buffer.hpp"
 #include "accel/primary_rays.hpp"
 #include "accel/step_recorder.hpp"
+#include "accel/tile_beam/sample_raster.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
+#include "accel/tile_beam/tile_image.hpp"
+#include "accel/tile_beam/tile_view.hpp"
 #include "accel/work_counters.hpp"
 
 namespace beambench {
@@ -20,18 +23,27 @@ struct TileRayQueries {
   bool (*any)(const TileHierarchy&, const Scene&, const Ray&, Counting&);
 };
 
-/// A whole image by tiles.
+/// What is drawn, and from where.
+struct TilePicture {
+  const TileHierarchy& hierarchy;
+  const Scene& scene;
+  const PrimaryRays& rays;
+  const SampleRaster& raster;
+};
+
+/// Draws one tile of a picture; the image is its memory. Where the buffer is large, hits may be
+/// seen by other threads only after hwy::FlushStream.
 template <class Counting>
-struct TileTrace {
-  void (*trace)(const TileHierarchy&, const Scene&, const PrimaryRays&, HitBuffer&, Counting&);
+struct TileDrawing {
+  void (*draw)(const TilePicture&, const TileView&, TileImage&, HitBuffer&, Counting&);
 };
 
 /// The kernels for one instruction set.
 struct TileKernels : TileRayQueries<NoCounting>,
                      TileRayQueries<WorkCounters>,
                      TileRayQueries<StepRecorder>,
-                     TileTrace<NoCounting>,
-                     TileTrace<WorkCounters> {
+                     TileDrawing<NoCounting>,
+                     TileDrawing<WorkCounters> {
   std::int64_t target;  ///< HWY_TARGET: hwy::TargetName gives its name
 
   template <class Counting>
@@ -39,7 +51,7 @@ struct TileKernels : TileRayQueries<NoCounting>,
     return *this;
   }
   template <class Counting>
-  const TileTrace<Counting>& tiles() const {
+  const TileDrawing<Counting>& drawing() const {
     return *this;
   }
 };

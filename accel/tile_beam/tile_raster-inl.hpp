@@ -27,7 +27,8 @@ HWY_INLINE Floats block_y(std::size_t first) {
 }
 
 /// Keeps hits where they are nearer than what a block holds: those with `inverse_t` in the lanes of
-/// `hit`, from place `at` on.
+/// `hit`, from place `at` on. Of primitives at the very same place the first drawn stays: to look
+/// for the lowest id would cost 5% of a trace, and rounding decides between most of them anyway.
 HWY_INLINE void keep_nearer(TileImage& image, std::size_t at, Floats inverse_t, Mask hit,
                             PrimitiveId primitive) {
   float* const depths = image.inverse_t.data() + at;

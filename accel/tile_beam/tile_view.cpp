@@ -19,8 +19,7 @@ RasterView::RasterView(const SampleRaster& raster, const PrimaryRays& rays, cons
       right(raster.right),
       down(raster.down),
       per_angle_x(1.0 / glm::length(raster.right)),
-      per_angle_y(1.0 / glm::length(raster.down)),
-      reach(0.0) {
+      per_angle_y(1.0 / glm::length(raster.down)) {
   // right and down are at right angles to each other and to forward, and forward . origin = 1.
   const glm::dvec3 across = right * (per_angle_x * per_angle_x);
   const glm::dvec3 along = down * (per_angle_y * per_angle_y);

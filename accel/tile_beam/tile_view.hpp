@@ -30,7 +30,7 @@ struct RasterView {
   glm::dvec3 down;
   double per_angle_x;  ///< samples to a unit of |direction|
   double per_angle_y;
-  double reach;  ///< no point of the scene is farther from the eye along any axis
+  double reach = 0.0;  ///< no point of the scene is farther from the eye along any axis
 };
 
 /// The view with a tile's first sample as (0, 0), in float. Let e = 2^-24. Coordinates of points

@@ -16,6 +16,7 @@
 #include "accel/tile_beam/meshlet_raster-inl.hpp"
 #include "accel/tile_beam/ray_walk-inl.hpp"
 #include "accel/tile_beam/sphere_raster-inl.hpp"
+#include "accel/tile_beam/tile_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace beambench::HWY_NAMESPACE {
@@ -27,12 +28,11 @@ inline constexpr float kHandoverLeaves = 1.0F;
 template <class Counting>
 class TileWalk {
  public:
-  TileWalk(const TileHierarchy& hierarchy, const Scene& scene, const PrimaryRays& rays,
-           const SampleRaster& raster, const TileView& view, TileImage& image, Counting& counting)
-      : hierarchy_(&hierarchy),
-        scene_(&scene),
-        rays_(&rays),
-        raster_(&raster),
+  TileWalk(const TilePicture& picture, const TileView& view, TileImage& image, Counting& counting)
+      : hierarchy_(&picture.hierarchy),
+        scene_(&picture.scene),
+        rays_(&picture.rays),
+        raster_(&picture.raster),
         view_(&view),
         probe_(view),
         image_(&image),

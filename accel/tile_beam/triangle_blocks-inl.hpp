@@ -74,7 +74,7 @@ HWY_INLINE void list_blocks(const TriangleImages& images, const BlockBoxes& boxe
   do {
     const Floats edge = hn::Min(edge0.at(i, j), hn::Min(edge1.at(i, j), edge2.at(i, j)));
     const Mask met = hn::And(listed, hn::Ge(edge, hn::Zero(Tag())));
-    static_assert(TileImage::block(0, 1) == 4 * 64 && TileImage::block(1, 0) == 4 * 4);
+    static_assert(TileImage::block(0, 1) == 256 && TileImage::block(1, 0) == 16);
     const Ints place = hn::Or(hn::ShiftLeft<6>(hn::ConvertTo(IntTag(), j)),
                               hn::ShiftLeft<2>(hn::ConvertTo(IntTag(), i)));
     list.count += hn::CompressStore(hn::Or(place, lane), hn::RebindMask(IntTag(), met), IntTag(),

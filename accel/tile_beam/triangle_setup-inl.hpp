@@ -69,6 +69,12 @@ struct TriangleImages {
   Mask drawn;        ///< may hit samples, and float is good enough
   Mask acute;        ///< has a corner so acute that rounding may draw it far beyond its box
   Mask needs_exact;  ///< may hit samples, but float is too coarse: see exact_triangle.hpp
+
+  /// In the triangles' boxes.
+  HWY_INLINE Floats samples() const {
+    const Floats one = all(1.0F);
+    return hn::Mul(hn::Add(hn::Sub(right, left), one), hn::Add(hn::Sub(bottom, top), one));
+  }
 };
 
 /// Of a triangle's area over the square of its longer side: below it, corners are acute.

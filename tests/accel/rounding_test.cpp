@@ -29,6 +29,7 @@ TEST(Rounding, ATraceShootsTheVeryRaysOfTheCamera) {
   const Scene scene = load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 64, 48, 4);
   for (const StructureChoice& choice : registry().choose_list("all")) {
+    if (choice.info().name == "tile-beam") continue;  // its images are made without rays
     const auto structure = choice.build(scene);
     HitBuffer image(rays.width(), rays.height(), rays.samples());
     structure->trace(rays, image);

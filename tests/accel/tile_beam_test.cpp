@@ -267,6 +267,26 @@ TEST(TileBeam, CountingChangesNoHit) {
   EXPECT_GT(counters.get(Counter::kLeaves), 0U);
 }
 
+TEST(TileBeam, ThreadsChangeNoHitAndNoCount) {
+  for (const char* name : {"escena1", "bumpy:triangles=12288", "escena2"}) {
+    const Scene scene = load_scene(name);
+    const TileBeam alone(scene, {});
+    const TileBeam together(scene, {.parallel = true});
+    for (const int samples : {1, 5}) {
+      const PrimaryRays rays(scene.cameras.front(), 300, 170, samples);
+      HitBuffer expected(300, 170, samples);
+      HitBuffer image(300, 170, samples);
+      WorkCounters expected_counters;
+      WorkCounters counters;
+      alone.trace(rays, expected, expected_counters);
+      together.trace(rays, image, counters);
+      EXPECT_EQ(image, expected) << name;
+      EXPECT_EQ(counters.by_name(), expected_counters.by_name()) << name;
+      EXPECT_EQ(image_of(together, rays), expected) << name;
+    }
+  }
+}
+
 TEST(TileBeam, EveryInstructionSetIsRight) {
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   ASSERT_GE(targets.size(), 2U) << "no choice at run time was compiled in";

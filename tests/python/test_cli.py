@@ -23,6 +23,7 @@ STRUCTURES = [
     "goldsmith-salmon",
     "sah-bvh",
     "beam",
+    "tile-beam",
     "embree",
     "null",
 ]
