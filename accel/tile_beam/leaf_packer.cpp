@@ -4,6 +4,7 @@
 #include <bit>
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include "scenes/error.hpp"
 
@@ -48,73 +49,196 @@ bool append(Meshlet& meshlet, const Scene& scene, const Triangle& triangle) {
   return true;
 }
 
-}  // namespace
+void require_index(const Scene& scene, std::size_t index) {
+  if (index < TileChild::kIndices) return;
+  throw InputError(fmt::format(
+      "tile-beam over '{}' needs more than {} leaves; take a scene with fewer primitives",
+      scene.name, TileChild::kIndices));
+}
 
-std::span<const PackedLeaf> LeafPacker::pack(std::span<const std::uint32_t> items) {
-  packed_.clear();
-  const auto each_of = [&](PrimitiveKind kind, auto&& add) {
-    for (const std::uint32_t item : items) {
-      if (scene_->primitives[pieces_[item].primitive].kind == kind) add(item);
+/// Packs one leaf after another.
+class LeafPacker {
+ public:
+  explicit LeafPacker(const TilePieces& pieces) : pieces_(&pieces) { made_.first.push_back(0); }
+
+  /// Makes room for as many leaves of a scene's pieces.
+  void reserve(std::size_t leaves) {
+    const std::size_t pieces = pieces_->pieces.size();
+    const Scene& scene = pieces_->scene;
+    made_.packed.reserve(leaves);
+    made_.first.reserve(leaves + 1);
+    made_.blocks.meshlets.reserve(leaves * scene.triangles.size() / pieces);
+    made_.blocks.spheres.reserve(leaves * scene.spheres.size() / pieces);
+    made_.blocks.cones.reserve(leaves * scene.cones.size() / pieces);
+  }
+
+  void pack(std::span<const std::uint32_t> items) {
+    const auto each_of = [&](PrimitiveKind kind, auto&& add) {
+      for (const std::uint32_t item : items) {
+        if (pieces_->pieces[item].kind == kind) add(item);
+      }
+    };
+    each_of(PrimitiveKind::kPolygon, [&](std::uint32_t item) { add_triangle(item); });
+    each_of(PrimitiveKind::kSphere, [&](std::uint32_t item) { add_sphere(item); });
+    each_of(PrimitiveKind::kCone, [&](std::uint32_t item) { add_cone(item); });
+    for (std::size_t i = made_.first.back(); i < made_.packed.size(); ++i) {
+      const PackedLeaf& leaf = made_.packed[i];
+      if (leaf.child.kind() != TileChild::Kind::kMeshlet) continue;
+      const glm::vec3 sides = leaf.box.extent();
+      made_.blocks.meshlets[leaf.child.index()].extent = std::max({sides.x, sides.y, sides.z});
+    }
+    made_.first.push_back(static_cast<std::uint32_t>(made_.packed.size()));
+  }
+
+  PackedLeaves& made() { return made_; }
+
+ private:
+  /// Is the leaf's last block of that kind?
+  bool goes_on(TileChild::Kind kind) const {
+    return made_.packed.size() > made_.first.back() && made_.packed.back().child.kind() == kind;
+  }
+
+  void begin(TileChild::Kind kind, std::size_t index) {
+    require_index(pieces_->scene, index);
+    made_.packed.push_back({TileChild(kind, static_cast<std::uint32_t>(index)), {}});
+  }
+
+  void add_triangle(std::uint32_t item) {
+    const Scene& scene = pieces_->scene;
+    auto& meshlets = made_.blocks.meshlets;
+    const Triangle& triangle = scene.triangles[pieces_->pieces[item].index];
+    if (!goes_on(TileChild::Kind::kMeshlet) || !append(meshlets.back(), scene, triangle)) {
+      begin(TileChild::Kind::kMeshlet, meshlets.size());
+      append(meshlets.emplace_back(), scene, triangle);
+    }
+    made_.packed.back().box.include(pieces_->boxes[item]);
+  }
+
+  void add_sphere(std::uint32_t item) {
+    auto& spheres = made_.blocks.spheres;
+    if (!goes_on(TileChild::Kind::kSpheres) || spheres.back().count == kTileLanes) {
+      begin(TileChild::Kind::kSpheres, spheres.size());
+      spheres.emplace_back();
+    }
+    SphereBlock& block = spheres.back();
+    const Sphere& sphere = pieces_->scene.spheres[pieces_->pieces[item].index];
+    const std::size_t lane = block.count++;
+    for (int axis = 0; axis < 3; ++axis) {
+      block.center[static_cast<std::size_t>(axis)][lane] = sphere.center[axis];
+    }
+    block.radius[lane] = sphere.radius;
+    block.primitives[lane] = pieces_->pieces[item].primitive;
+    if (sphere.inside_only) block.inside_only |= 1U << lane;
+    made_.packed.back().box.include(pieces_->boxes[item]);
+  }
+
+  void add_cone(std::uint32_t item) {
+    auto& cones = made_.blocks.cones;
+    if (!goes_on(TileChild::Kind::kCones) || cones.back().count == kTileLanes) {
+      begin(TileChild::Kind::kCones, cones.size());
+      cones.emplace_back();
+    }
+    ConeBlock& block = cones.back();
+    const std::size_t lane = block.count++;
+    block.boxes.set(lane, pieces_->boxes[item]);
+    block.primitives[lane] = pieces_->pieces[item].primitive;
+    made_.packed.back().box.include(pieces_->boxes[item]);
+  }
+
+  const TilePieces* pieces_;
+  PackedLeaves made_;
+};
+
+/// Joins what was packed part by part, in the order of the parts.
+class Joining {
+ public:
+  Joining(const Scene& scene, std::vector<LeafPacker>& parts) : parts_(&parts) {
+    for (LeafPacker& part : parts) {
+      begins_.push_back(end_);
+      const TileBlocks& blocks = part.made().blocks;
+      end_.meshlets += blocks.meshlets.size();
+      end_.spheres += blocks.spheres.size();
+      end_.cones += blocks.cones.size();
+      end_.packed += part.made().packed.size();
+      end_.leaves += part.made().first.size() - 1;
+    }
+    require_index(scene, std::max({end_.meshlets, end_.spheres, end_.cones}));
+  }
+
+  PackedLeaves operator()() {
+    PackedLeaves whole;
+    whole.blocks.meshlets.resize(end_.meshlets);
+    whole.blocks.spheres.resize(end_.spheres);
+    whole.blocks.cones.resize(end_.cones);
+    whole.packed.resize(end_.packed);
+    whole.first.resize(end_.leaves + 1);
+    whole.first.back() = static_cast<std::uint32_t>(end_.packed);
+    tbb::parallel_for(std::size_t{0}, parts_->size(),
+                      [&](std::size_t i) { copy((*parts_)[i].made(), begins_[i], whole); });
+    return whole;
+  }
+
+ private:
+  /// Where a part begins in the whole.
+  struct Begin {
+    std::size_t meshlets = 0;
+    std::size_t spheres = 0;
+    std::size_t cones = 0;
+    std::size_t packed = 0;
+    std::size_t leaves = 0;
+
+    std::size_t of(TileChild::Kind kind) const {
+      if (kind == TileChild::Kind::kMeshlet) return meshlets;
+      return kind == TileChild::Kind::kSpheres ? spheres : cones;
     }
   };
-  each_of(PrimitiveKind::kPolygon, [&](std::uint32_t item) { add_triangle(item); });
-  each_of(PrimitiveKind::kSphere, [&](std::uint32_t item) { add_sphere(item); });
-  each_of(PrimitiveKind::kCone, [&](std::uint32_t item) { add_cone(item); });
-  for (const PackedLeaf& leaf : packed_) {
-    if (leaf.child.kind() != TileChild::Kind::kMeshlet) continue;
-    const glm::vec3 sides = leaf.box.extent();
-    into_->meshlets[leaf.child.index()].extent = std::max({sides.x, sides.y, sides.z});
-  }
-  return packed_;
-}
 
-PackedLeaf& LeafPacker::begin(TileChild::Kind kind, std::size_t index) {
-  if (index >= TileChild::kIndices) {
-    throw InputError(fmt::format(
-        "tile-beam over '{}' needs more than {} leaves; take a scene with fewer primitives",
-        scene_->name, TileChild::kIndices));
+  static void copy(const PackedLeaves& part, const Begin& begin, PackedLeaves& whole) {
+    const auto to = [](auto& all, std::size_t first) { return &all[0] + first; };
+    std::copy(part.blocks.meshlets.begin(), part.blocks.meshlets.end(),
+              to(whole.blocks.meshlets, begin.meshlets));
+    std::copy(part.blocks.spheres.begin(), part.blocks.spheres.end(),
+              to(whole.blocks.spheres, begin.spheres));
+    std::copy(part.blocks.cones.begin(), part.blocks.cones.end(),
+              to(whole.blocks.cones, begin.cones));
+    for (std::size_t i = 0; i < part.packed.size(); ++i) {
+      const TileChild child = part.packed[i].child;
+      const std::size_t index = child.index() + begin.of(child.kind());
+      whole.packed[begin.packed + i] = {TileChild(child.kind(), static_cast<std::uint32_t>(index)),
+                                        part.packed[i].box};
+    }
+    for (std::size_t i = 0; i + 1 < part.first.size(); ++i) {
+      whole.first[begin.leaves + i] = static_cast<std::uint32_t>(begin.packed + part.first[i]);
+    }
   }
-  return packed_.emplace_back(PackedLeaf{TileChild(kind, static_cast<std::uint32_t>(index)), {}});
-}
 
-void LeafPacker::add_triangle(std::uint32_t item) {
-  const Triangle& triangle = scene_->triangles[pieces_[item].index];
-  if (packed_.empty() || !append(into_->meshlets.back(), *scene_, triangle)) {
-    begin(TileChild::Kind::kMeshlet, into_->meshlets.size());
-    append(into_->meshlets.emplace_back(), *scene_, triangle);
-  }
-  packed_.back().box.include(boxes_[item]);
-}
+  std::vector<LeafPacker>* parts_;
+  std::vector<Begin> begins_;
+  Begin end_;
+};
 
-void LeafPacker::add_sphere(std::uint32_t item) {
-  if (packed_.empty() || packed_.back().child.kind() != TileChild::Kind::kSpheres ||
-      into_->spheres.back().count == kTileLanes) {
-    begin(TileChild::Kind::kSpheres, into_->spheres.size());
-    into_->spheres.emplace_back();
-  }
-  SphereBlock& block = into_->spheres.back();
-  const Sphere& sphere = scene_->spheres[pieces_[item].index];
-  const std::size_t lane = block.count++;
-  for (int axis = 0; axis < 3; ++axis) {
-    block.center[static_cast<std::size_t>(axis)][lane] = sphere.center[axis];
-  }
-  block.radius[lane] = sphere.radius;
-  block.primitives[lane] = pieces_[item].primitive;
-  if (sphere.inside_only) block.inside_only |= 1U << lane;
-  packed_.back().box.include(boxes_[item]);
-}
+/// Leaves of a task: enough that joining costs little beside them.
+constexpr std::size_t kLeavesOfPart = 1024;
 
-void LeafPacker::add_cone(std::uint32_t item) {
-  if (packed_.empty() || packed_.back().child.kind() != TileChild::Kind::kCones ||
-      into_->cones.back().count == kTileLanes) {
-    begin(TileChild::Kind::kCones, into_->cones.size());
-    into_->cones.emplace_back();
+}  // namespace
+
+PackedLeaves pack_leaves(const TilePieces& pieces,
+                         std::span<const std::span<const std::uint32_t>> leaves, bool parallel) {
+  const auto pack_range = [&](LeafPacker& packer, std::size_t begin, std::size_t end) {
+    packer.reserve(end - begin);
+    for (std::size_t leaf = begin; leaf < end; ++leaf) packer.pack(leaves[leaf]);
+  };
+  const std::size_t count = (leaves.size() + kLeavesOfPart - 1) / kLeavesOfPart;
+  if (!parallel || count < 2) {
+    LeafPacker packer(pieces);
+    pack_range(packer, 0, leaves.size());
+    return std::move(packer.made());
   }
-  ConeBlock& block = into_->cones.back();
-  const std::size_t lane = block.count++;
-  block.boxes.set(lane, boxes_[item]);
-  block.primitives[lane] = pieces_[item].primitive;
-  packed_.back().box.include(boxes_[item]);
+  std::vector<LeafPacker> parts(count, LeafPacker(pieces));
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    pack_range(parts[i], i * kLeavesOfPart, std::min((i + 1) * kLeavesOfPart, leaves.size()));
+  });
+  return Joining(pieces.scene, parts)();
 }
 
 }  // namespace beambench

@@ -1,10 +1,11 @@
 #pragma once
-// From a leaf's primitives to the blocks that SIMD takes: meshlets, spheres, cones.
+// From leaves of primitives to the blocks that SIMD takes: meshlets, spheres, cones.
 
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "accel/bvh/bvh_builder.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 
 namespace beambench {
@@ -13,6 +14,7 @@ namespace beambench {
 struct TilePiece {
   PrimitiveId primitive;
   std::uint32_t index;  ///< into the scene's triangles, spheres or cones
+  PrimitiveKind kind;
 };
 
 /// A block made of some of a leaf's pieces.
@@ -21,28 +23,29 @@ struct PackedLeaf {
   Bounds box;  ///< of its pieces' boxes
 };
 
-/// Packs leaves into a hierarchy's blocks.
-class LeafPacker {
- public:
-  LeafPacker(const Scene& scene, std::span<const TilePiece> pieces, std::span<const Bounds> boxes,
-             TileHierarchy& into)
-      : scene_(&scene), pieces_(pieces), boxes_(boxes), into_(&into) {}
+/// The blocks of several leaves.
+struct PackedLeaves {
+  TileBlocks blocks;
+  std::vector<PackedLeaf> packed;    ///< leaf by leaf
+  std::vector<std::uint32_t> first;  ///< of each leaf, in `packed`; one more for the end
 
-  /// The blocks of a leaf: one for each kind of primitive in it, more where one is full. At most
-  /// kTileLanes for a leaf of no more than 32 pieces.
-  std::span<const PackedLeaf> pack(std::span<const std::uint32_t> items);
-
- private:
-  void add_triangle(std::uint32_t item);
-  void add_sphere(std::uint32_t item);
-  void add_cone(std::uint32_t item);
-  PackedLeaf& begin(TileChild::Kind kind, std::size_t index);
-
-  const Scene* scene_;
-  std::span<const TilePiece> pieces_;
-  std::span<const Bounds> boxes_;
-  TileHierarchy* into_;
-  std::vector<PackedLeaf> packed_;
+  std::span<const PackedLeaf> of(std::size_t leaf) const {
+    return std::span(packed).subspan(first[leaf], first[leaf + 1] - first[leaf]);
+  }
 };
+
+/// The pieces of a scene and their boxes.
+struct TilePieces {
+  const Scene& scene;
+  std::span<const TilePiece> pieces;
+  std::span<const Bounds> boxes;
+};
+
+/// Packs leaves, each given by its items. A leaf becomes a block for each kind of primitive in it,
+/// more where one is full: at most kTileLanes for a leaf of no more than 32 pieces. `parallel`: on
+/// all cores; the blocks are the same.
+/// Throws InputError when there are more than TileChild::kIndices blocks of a kind.
+PackedLeaves pack_leaves(const TilePieces& pieces,
+                         std::span<const std::span<const std::uint32_t>> leaves, bool parallel);
 
 }  // namespace beambench

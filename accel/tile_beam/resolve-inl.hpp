@@ -24,17 +24,57 @@ inline bool is_streamed(const HitBuffer& buffer) {
   return buffer.samples() == 1 && buffer.width() % 16 == 0 && buffer.size() > kStreamedSamples;
 }
 
-/// Writes sixteen values of a row, a cache line, four by four.
-template <bool kStreamed, class T, class Load>
-HWY_INLINE void write_line(T* to, Load load_four) {
+/// Writes a row of sixteen values, a cache line.
+template <bool kStreamed, class D, class T = hn::TFromD<D>>
+HWY_INLINE void write(D d, hn::Vec<D> values, T* to) {
+  if constexpr (kStreamed) {
+    hn::Stream(values, d, to);
+  } else {
+    hn::StoreU(values, d, to);
+  }
+}
+
+#if HWY_MAX_BYTES == 64  // a block fills a register
+/// Four blocks of 4 x 4 samples that lie side by side, as rows of sixteen: a transposition of
+/// 4 x 4 quarters of registers.
+template <class D>
+HWY_INLINE std::array<hn::Vec<D>, 4> rows_of(D d, const std::array<hn::Vec<D>, 4>& blocks) {
+  const auto& [a, b, c, e] = blocks;
+  const auto upper_ac = hn::ConcatLowerLower(d, c, a);  // a0 a1 c0 c1
+  const auto upper_be = hn::ConcatLowerLower(d, e, b);
+  const auto lower_ac = hn::ConcatUpperUpper(d, c, a);  // a2 a3 c2 c3
+  const auto lower_be = hn::ConcatUpperUpper(d, e, b);
+  return {hn::OddEvenBlocks(hn::SwapAdjacentBlocks(upper_be), upper_ac),
+          hn::OddEvenBlocks(upper_be, hn::SwapAdjacentBlocks(upper_ac)),
+          hn::OddEvenBlocks(hn::SwapAdjacentBlocks(lower_be), lower_ac),
+          hn::OddEvenBlocks(lower_be, hn::SwapAdjacentBlocks(lower_ac))};
+}
+#endif
+
+/// Writes values of four blocks that lie side by side, by `height` rows. `of(d, place)` gives the
+/// values from a place in the image on. `place_of_row(y)` is where a row goes.
+template <bool kStreamed, class T, class PlaceOfRow, class Values>
+HWY_INLINE void write_blocks(std::size_t from, int height, PlaceOfRow place_of_row, T* to,
+                             Values of) {
+  constexpr std::size_t kBlock = TileImage::kBlockSamples;
+#if HWY_MAX_BYTES == 64
+  const hn::CappedTag<T, kBlock> d;
+  const auto rows = rows_of<decltype(d)>(
+      d, {of(d, from), of(d, from + kBlock), of(d, from + 2 * kBlock), of(d, from + 3 * kBlock)});
+  for (int y = 0; y < height; ++y) {
+    write<kStreamed>(d, rows[static_cast<std::size_t>(y)], to + place_of_row(y));
+  }
+#else
   const hn::CappedTag<T, 4> four;
-  for (std::size_t i = 0; i < 16; i += hn::Lanes(four)) {
-    if constexpr (kStreamed) {
-      hn::Stream(load_four(four, i), four, to + i);
-    } else {
-      hn::StoreU(load_four(four, i), four, to + i);
+  for (int y = 0; y < height; ++y) {
+    for (std::size_t i = 0; i < kBlock; i += hn::Lanes(four)) {
+      // Four samples lie together, the next in another block.
+      const std::size_t place =
+          from + (i >> 2U) * kBlock + static_cast<std::size_t>(4 * y) + (i & 3U);
+      write<kStreamed>(four, of(four, place), to + place_of_row(y) + i);
     }
   }
+#endif
 }
 
 /// Writes four blocks that lie side by side.
@@ -42,22 +82,16 @@ template <bool kStreamed>
 HWY_INLINE void resolve_four(const TileImage& image, int column, int row, const TileView& view,
                              HitBuffer& buffer) {
   const std::size_t from = TileImage::block(column, row);
-  alignas(64) std::array<float, 4 * TileImage::kBlockSamples> t;
-  for (std::size_t i = 0; i < t.size(); i += kLanes) {
-    store(hn::Div(all(1.0F), load(&image.inverse_t[from + i])), &t[i]);
-  }
   const int height = std::min(4, view.height - 4 * row);
-  for (int y = 0; y < height; ++y) {
-    const std::size_t to = buffer.index(view.left + 4 * column, view.top + 4 * row + y, 0);
-    const auto place = [y](std::size_t i) {  // four samples lie together, the next in another block
-      return (i >> 2U) * TileImage::kBlockSamples + static_cast<std::size_t>(4 * y) + (i & 3U);
-    };
-    write_line<kStreamed>(buffer.t() + to,
-                          [&](auto d, std::size_t i) { return hn::Load(d, &t[place(i)]); });
-    write_line<kStreamed>(buffer.primitive() + to, [&](auto d, std::size_t i) {
-      return hn::Load(d, &image.primitive[from + place(i)]);
-    });
-  }
+  const auto place_of_row = [&](int y) {
+    return buffer.index(view.left + 4 * column, view.top + 4 * row + y, 0);
+  };
+  write_blocks<kStreamed>(from, height, place_of_row, buffer.t(), [&](auto d, std::size_t place) {
+    return hn::Div(hn::Set(d, 1.0F), hn::Load(d, &image.inverse_t[place]));
+  });
+  write_blocks<kStreamed>(
+      from, height, place_of_row, buffer.primitive(),
+      [&](auto d, std::size_t place) { return hn::Load(d, &image.primitive[place]); });
 }
 
 /// Writes the samples of a tile from a column on, one by one.
@@ -91,11 +125,11 @@ inline void paint_background(const TileView& view, HitBuffer& buffer) {
     const std::size_t to = buffer.index(view.left, view.top + y, 0);
     const auto width = static_cast<std::size_t>(view.width);
     std::size_t x = 0;
-    for (; x + 16 <= width; x += 16) {
-      write_line<kStreamed>(buffer.t() + to + x,
-                            [](auto d, std::size_t) { return hn::Set(d, kInfinity); });
-      write_line<kStreamed>(buffer.primitive() + to + x,
-                            [](auto d, std::size_t) { return hn::Set(d, kNoPrimitive); });
+    const Tag d;
+    const hn::RebindToUnsigned<Tag> ids;
+    for (; x + kLanes <= width; x += kLanes) {
+      write<kStreamed>(d, hn::Set(d, kInfinity), buffer.t() + to + x);
+      write<kStreamed>(ids, hn::Set(ids, kNoPrimitive), buffer.primitive() + to + x);
     }
     std::fill_n(buffer.t() + to + x, width - x, kInfinity);
     std::fill_n(buffer.primitive() + to + x, width - x, kNoPrimitive);

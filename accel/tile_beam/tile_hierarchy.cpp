@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "accel/bvh/bvh_builder.hpp"
 #include "accel/bvh/padded_bounds.hpp"
@@ -17,30 +19,51 @@ Bounds triangle_bounds(const Scene& scene, const Triangle& triangle) {
   return bounds;
 }
 
+struct Pieces {
+  std::vector<TilePiece> pieces;
+  std::vector<Bounds> boxes;
+};
+
+Pieces pieces_of(const Scene& scene) {
+  Pieces all;
+  const double tolerance = overlap_tolerance(scene);
+  const std::size_t count = scene.triangles.size() + scene.spheres.size() + scene.cones.size();
+  all.boxes.reserve(count);
+  all.pieces.reserve(count);
+  for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
+    all.pieces.push_back({scene.triangles[i].primitive, i, PrimitiveKind::kPolygon});
+    all.boxes.push_back(padded(triangle_bounds(scene, scene.triangles[i]), tolerance));
+  }
+  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+    const auto& primitive = scene.primitives[id];
+    if (primitive.kind == PrimitiveKind::kPolygon) continue;
+    all.pieces.push_back({id, primitive.index, primitive.kind});
+    all.boxes.push_back(padded(primitive_bounds(scene, id), tolerance));
+  }
+  return all;
+}
+
 /// Turns the binary hierarchy over a scene's pieces into the wide one.
 class Builder {
  public:
-  Builder(const Scene& scene, const TileHierarchyOptions& options) : scene_(scene) {
-    collect_pieces();
+  Builder(const Scene& scene, const TileHierarchyOptions& options) {
+    const Pieces all = pieces_of(scene);
+    wide_.references = all.pieces.size();
+    if (wide_.empty()) return;
     BvhOptions binary;
     binary.max_leaf = options.max_leaf;
     binary.block_size = kTileLanes;
     binary.parallel = options.parallel;
-    binary_ = build_bvh(boxes_, binary);
+    binary_ = build_bvh(all.boxes, binary);
     wide_.cost = sah_cost(binary_, binary);
-  }
-
-  TileHierarchy build() {
-    wide_.references = pieces_.size();
-    if (pieces_.empty()) return std::move(wide_);
-    reserve();
-    LeafPacker packer(scene_, pieces_, boxes_, wide_);
-    packer_ = &packer;
+    pack({scene, all.pieces, all.boxes}, options.parallel);
+    wide_.nodes.reserve(binary_.nodes.size() / 16 + 1);
     const Made root = convert(0, 1);
     wide_.root = root.child;
     wide_.bounds = root.box;
-    return std::move(wide_);
   }
+
+  TileHierarchy take() { return std::move(wide_); }
 
  private:
   struct Made {
@@ -49,35 +72,26 @@ class Builder {
     std::uint32_t leaves;
   };
 
-  void collect_pieces() {
-    const double tolerance = overlap_tolerance(scene_);
-    const std::size_t count = scene_.triangles.size() + scene_.spheres.size() + scene_.cones.size();
-    boxes_.reserve(count);
-    pieces_.reserve(count);
-    for (std::uint32_t i = 0; i < scene_.triangles.size(); ++i) {
-      pieces_.push_back({scene_.triangles[i].primitive, i});
-      boxes_.push_back(padded(triangle_bounds(scene_, scene_.triangles[i]), tolerance));
+  /// Packs all leaves, in the order of nodes, and numbers them: `first` of a leaf's node becomes
+  /// its number.
+  void pack(const TilePieces& pieces, bool parallel) {
+    std::vector<std::span<const std::uint32_t>> leaves;
+    leaves.reserve((binary_.nodes.size() + 1) / 2);
+    for (BvhNode& node : binary_.nodes) {
+      if (!node.is_leaf()) continue;
+      const auto items = std::span(binary_.items).subspan(node.first, node.count);
+      std::sort(items.begin(), items.end());
+      node.first = static_cast<std::uint32_t>(leaves.size());
+      leaves.push_back(items);
     }
-    for (PrimitiveId id = 0; id < scene_.primitives.size(); ++id) {
-      if (scene_.primitives[id].kind == PrimitiveKind::kPolygon) continue;
-      pieces_.push_back({id, scene_.primitives[id].index});
-      boxes_.push_back(padded(primitive_bounds(scene_, id), tolerance));
-    }
-  }
-
-  /// About as much as will be needed.
-  void reserve() {
-    const std::size_t leaves = (binary_.nodes.size() + 1) / 2;
-    wide_.nodes.reserve(leaves / 8 + 1);
-    wide_.meshlets.reserve(leaves * scene_.triangles.size() / pieces_.size());
-    wide_.spheres.reserve(leaves * scene_.spheres.size() / pieces_.size());
-    wide_.cones.reserve(leaves * scene_.cones.size() / pieces_.size());
+    packed_ = pack_leaves(pieces, leaves, parallel);
+    static_cast<TileBlocks&>(wide_) = std::move(packed_.blocks);
   }
 
   /// The recursion is bounded by kMaxBvhDepth.
   Made convert(std::uint32_t binary_node, std::uint32_t depth) {
     const BvhNode& node = binary_.nodes[binary_node];
-    if (node.is_leaf()) return convert_leaf(node, depth);
+    if (node.is_leaf()) return convert_leaf(packed_.of(node.first), depth);
     std::array<std::uint32_t, kTileLanes> children{};
     const std::size_t count = gather_children(binary_, binary_node, children);
     const auto index = static_cast<std::uint32_t>(wide_.nodes.size());
@@ -88,10 +102,7 @@ class Builder {
     return fill(index, std::span(made).first(count));
   }
 
-  Made convert_leaf(const BvhNode& node, std::uint32_t depth) {
-    const auto items = std::span(binary_.items).subspan(node.first, node.count);
-    std::sort(items.begin(), items.end());
-    const std::span<const PackedLeaf> packed = packer_->pack(items);
+  Made convert_leaf(std::span<const PackedLeaf> packed, std::uint32_t depth) {
     wide_.depth = std::max(wide_.depth, packed.size() == 1 ? depth : depth + 1);
     if (packed.size() == 1) return {packed[0].child, packed[0].box, 1};
     const auto index = static_cast<std::uint32_t>(wide_.nodes.size());
@@ -117,18 +128,15 @@ class Builder {
     return whole;
   }
 
-  const Scene& scene_;
-  std::vector<TilePiece> pieces_;
-  std::vector<Bounds> boxes_;
   BinaryBvh binary_;
+  PackedLeaves packed_;
   TileHierarchy wide_;
-  LeafPacker* packer_ = nullptr;
 };
 
 }  // namespace
 
 TileHierarchy build_tile_hierarchy(const Scene& scene, const TileHierarchyOptions& options) {
-  return Builder(scene, options).build();
+  return Builder(scene, options).take();
 }
 
 }  // namespace beambench

@@ -93,13 +93,19 @@ struct alignas(64) ConeBlock {
   std::uint32_t count;
 };
 
-/// A hierarchy over a scene's triangles, spheres and cones. Boxes are widened by
-/// `overlap_tolerance`.
-struct TileHierarchy {
-  LargePageVector<TileNode> nodes;
+/// What leaves hold.
+struct TileBlocks {
   LargePageVector<Meshlet> meshlets;
   LargePageVector<SphereBlock> spheres;
   LargePageVector<ConeBlock> cones;
+
+  std::size_t count() const { return meshlets.size() + spheres.size() + cones.size(); }
+};
+
+/// A hierarchy over a scene's triangles, spheres and cones. Boxes are widened by
+/// `overlap_tolerance`.
+struct TileHierarchy : TileBlocks {
+  LargePageVector<TileNode> nodes;
   TileChild root;
   Bounds bounds;            ///< of everything, widened
   std::uint32_t depth = 0;  ///< nodes on the longest way down, leaf included
@@ -107,7 +113,7 @@ struct TileHierarchy {
   double cost = 0.0;  ///< of the binary hierarchy it was made from: see sah_cost
 
   bool empty() const { return references == 0; }
-  std::size_t leaves() const { return meshlets.size() + spheres.size() + cones.size(); }
+  std::size_t leaves() const { return count(); }
 };
 
 /// No more nodes than this lie on any way down: the binary hierarchy's, and one for a leaf that
