@@ -13,6 +13,7 @@ from beambench_report.files import write_text
 from beambench_report.growth import write_growth
 from beambench_report.ledger.book import ledger
 from beambench_report.ledger.markdown import as_markdown as ledger_as_markdown
+from beambench_report.nightly.command import add_nightly_command, nightly
 from beambench_report.page.write import write_page
 from beambench_report.pictures import write_pictures
 from beambench_report.plots import write_plots
@@ -47,6 +48,8 @@ def main(arguments: list[str] | None = None) -> int:
             return 0
         if options.command == "thesis":
             return thesis(options)
+        if options.command == "nightly":
+            return nightly(options)
         paths = _write(options)
     except Problem as problem:
         print(f"error: {problem}", file=sys.stderr)
@@ -137,6 +140,7 @@ def _parser() -> argparse.ArgumentParser:
     sampling.add_argument("files", type=Path, nargs="+", metavar="FILE.json")
     sampling.add_argument("-o", "--output", type=Path, required=True, metavar="DIR")
     add_thesis_command(commands, _BUILT)
+    add_nightly_command(commands, _BUILT)
     commands.add_parser("columns", help="print results/README.md: what every column means")
     return parser
 

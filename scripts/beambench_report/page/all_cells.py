@@ -7,6 +7,7 @@ column that says the same in every row is said once.
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,14 +39,15 @@ class AllCells:
     same_everywhere: list[tuple[str, str]]
 
 
-def pack(run: Run) -> AllCells:
-    """Packs every column of a run that holds anything."""
+def pack(run: Run, own: Mapping[str, Column] | None = None) -> AllCells:
+    """Packs every column of a run that holds anything; `own` are columns that no record has."""
+    own = own or {}
     rows = run.rows
     columns = [_named(name, _texts(rows, name)) for name in _NAMES]
     same = []
     for name in rows.columns.drop(["contender", "view", "timed"]):
         series = rows[name]
-        entry = dictionary().find(name) or _unknown(series)
+        entry = own.get(name) or dictionary().find(name) or _unknown(series)
         first = series.iloc[0]
         nothing = series.isna().all() if entry.is_number else (series == "").all()
         if nothing and name != "verdict":

@@ -1,0 +1,134 @@
+"""The command `python -m beambench_report nightly`, which scripts/nightly calls."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from beambench_report.files import write_text
+from beambench_report.nightly.calibration import calibrate, has_enough, noise_of
+from beambench_report.nightly.history import History, rebuild
+from beambench_report.nightly.home import HOME, KEEP_SAMPLES, Home, prune
+from beambench_report.nightly.lock import only_one
+from beambench_report.nightly.nights import read_nights
+from beambench_report.nightly.page.write import write_night_page
+from beambench_report.nightly.run import Wish, describe, rebuild_history, record, run_night
+from beambench_report.nightly.samples import noise_of_samples
+from beambench_report.problem import Problem
+
+_ROOT = Path(__file__).resolve().parents[3]
+_SWEEP = _ROOT / "harness/sweeps/nightly.json"
+_PUBLISHED = _ROOT / "results/published/nightly"
+
+
+def add_nightly_command(commands: argparse._SubParsersAction, built: Path) -> None:
+    """Adds the command and its parts; `built` is where the program is if not told otherwise."""
+    parser = commands.add_parser("nightly", help="nightly runs: measure, keep, judge, show")
+    parts = parser.add_subparsers(dest="part", required=True)
+    run = parts.add_parser("run", help="measure a night, keep and judge it, write the page")
+    run.add_argument("--sweep", type=Path, default=_SWEEP, metavar="FILE")
+    run.add_argument("--resume", action="store_true", help="go on with what was cut off")
+    run.add_argument("--dry-run", action="store_true", help="say what would be done")
+    add = parts.add_parser("add", help="keep, judge and show a run that was measured otherwise")
+    add.add_argument("run", type=Path, metavar="RUN")
+    rebuilding = parts.add_parser("rebuild", help="make the history anew from the CSVs")
+    page = parts.add_parser("page", help="write the page of the newest night again")
+    pruning = parts.add_parser("prune", help="delete the raw samples of old runs")
+    for command in (run, add, rebuilding, page, pruning):
+        command.add_argument("--home", type=Path, default=HOME, metavar="DIR")
+    for command in (run, add, page):
+        command.add_argument("--published", type=Path, metavar="RUN")
+    for command in (run, add, pruning):
+        command.add_argument("--keep", type=int, default=KEEP_SAMPLES, metavar="N")
+    for command in (run, add):
+        command.add_argument("--beambench", type=Path, default=built, metavar="PROGRAM")
+    _add_calibrate(parts)
+
+
+def _add_calibrate(parts: argparse._SubParsersAction) -> None:
+    parser = parts.add_parser(
+        "calibrate", help="count the false alarms of pure noise and find the least slow-down seen"
+    )
+    parser.add_argument(
+        "runs",
+        type=Path,
+        nargs="*",
+        metavar="RUN",
+        help="ten or more runs of one sweep by one program; if none is given, those of the history",
+    )
+    parser.add_argument("--home", type=Path, default=HOME, metavar="DIR")
+    parser.add_argument(
+        "--samples", action="store_true", help="draw nights from the raw samples of the runs"
+    )
+    parser.add_argument("--nights", type=int, default=1000, metavar="N")
+    parser.add_argument("--trials", type=int, default=100, metavar="N")
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE.json")
+
+
+def nightly(options: argparse.Namespace) -> int:
+    """Runs one part; returns its exit code. Raises Problem where the request was wrong."""
+    if options.part == "calibrate":
+        return _calibrate(options)
+    home = Home(options.home.resolve())
+    if getattr(options, "keep", 1) < 1:
+        raise Problem("--keep must be at least 1")
+    published = _published(options)
+    if options.part == "run":
+        return _run(options, home, published)
+    with only_one(home.lock):
+        if options.part == "add":
+            return record(home, options.run, options.beambench, published, options.keep)
+        if options.part == "rebuild":
+            print(f"{home.history}: {rebuild_history(home)} nights")
+        elif options.part == "prune":
+            print(f"{len(prune(home, options.keep))} files deleted")
+        else:
+            with History(home.history) as history:
+                print(write_night_page(home, history, published))
+    return 0
+
+
+def _run(options: argparse.Namespace, home: Home, published: Path | None) -> int:
+    if not options.sweep.is_file():
+        raise Problem(f"{options.sweep}: is not a file that can be read")
+    wish = Wish(home, options.sweep, options.beambench, published, options.resume, options.keep)
+    if options.dry_run:
+        print(describe(wish), end="")
+        return 0
+    with only_one(home.lock):
+        return run_night(wish)
+
+
+def _published(options: argparse.Namespace) -> Path | None:
+    wanted = getattr(options, "published", None)
+    if wanted is not None:
+        if not (wanted / "results.csv").is_file():
+            raise Problem(f"{wanted}: holds no results.csv; give the folder of a run")
+        return wanted
+    return _PUBLISHED if (_PUBLISHED / "results.csv").is_file() else None
+
+
+def _calibrate(options: argparse.Namespace) -> int:
+    if options.samples:
+        noise = noise_of_samples(options.runs)
+    elif options.runs:
+        path = Path(options.runs[0]).parent / ".calibration.sqlite"
+        try:
+            rebuild(path, options.runs)
+            with History(path) as history:
+                noise = noise_of(read_nights(history))
+        finally:
+            path.unlink(missing_ok=True)
+    else:
+        with History(Home(options.home).history) as history:
+            noise = noise_of(read_nights(history))
+    if not has_enough(noise):
+        raise Problem(
+            f"{noise.nights} nights are too few to draw noise from; ten are needed, or raw samples "
+            "of a run: --samples RUN"
+        )
+    result = calibrate(noise, options.nights, trials=options.trials)
+    print(result.summary())
+    if options.output:
+        write_text(options.output, result.as_json())
+    return 0 if result.alarms * 100 <= result.nights else 1

@@ -1,0 +1,216 @@
+"""The history of nightly runs in one SQLite file."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Self
+
+from beambench_report.files import write_whole
+from beambench_report.nightly.night import Key, Night, night_of
+from beambench_report.nightly.schema import APPLICATION_ID, SCHEMA_VERSION, TABLES
+from beambench_report.page.cell_files import IDENTITY
+from beambench_report.problem import Problem
+from beambench_report.records import read_run
+
+_REMEDY = "rebuild it from the runs: python -m beambench_report nightly rebuild"
+
+
+@dataclass(frozen=True)
+class Alarm:
+    """What a night raised its voice about."""
+
+    night: int
+    kind: str
+    """`time`, `counter` or `verdict`."""
+    series: str
+    details: dict
+
+
+class History:
+    """The open file. Every change is one transaction: all of it is there, or nothing."""
+
+    def __init__(self, path: Path) -> None:
+        """Opens the file, or begins it. Raises Problem where it is no history of this version."""
+        self.path = path
+        path.parent.mkdir(parents=True, exist_ok=True)
+        self._base = sqlite3.connect(path, timeout=30, isolation_level=None)
+        try:
+            with self._problems():
+                self._base.execute("PRAGMA foreign_keys = ON")
+                self._begin_or_check()
+        except BaseException:
+            self._base.close()
+            raise
+
+    def __enter__(self) -> Self:
+        """For `with`."""
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        """Closes the file."""
+        self._base.close()
+
+    def add(self, night: Night, folder: Path, alarms: Iterable[Alarm] = ()) -> int | None:
+        """Adds a night; returns its number, or None where it is there already."""
+        if self.number_of(night.run_id) is not None:
+            return None
+        with self.change():
+            number = self._insert_night(night, folder)
+            cells = self._cells(night)
+            inputs = self._numbers("inputs", "hashes", (one.inputs for one in night.figures))
+            work = self._numbers("work", "counters", (one.counters for one in night.figures))
+            self._base.executemany(
+                "INSERT INTO figures VALUES (?, ?, ?, ?, ?, ?, ?)",
+                [
+                    (
+                        number,
+                        cells[one.key],
+                        inputs[one.inputs],
+                        work[one.counters],
+                        cells[one.reference] if one.reference else None,
+                        one.verdict,
+                        one.ratio,
+                    )
+                    for one in night.figures
+                ],
+            )
+            self.add_alarms(number, alarms)
+        return number
+
+    def add_alarms(self, night: int, alarms: Iterable[Alarm]) -> None:
+        """Keeps what a night raised its voice about, instead of what was kept for it before."""
+        self._base.execute("DELETE FROM alarms WHERE night = ?", (night,))
+        self._base.executemany(
+            "INSERT INTO alarms VALUES (?, ?, ?, ?)",
+            [(night, one.kind, one.series, json.dumps(one.details)) for one in alarms],
+        )
+
+    def alarms(self) -> list[Alarm]:
+        """All alarms, the oldest first."""
+        rows = self.read("SELECT night, kind, series, details FROM alarms ORDER BY night, series")
+        return [Alarm(night, kind, series, json.loads(text)) for night, kind, series, text in rows]
+
+    def number_of(self, run_id: str) -> int | None:
+        """The number of a run, if the history has it."""
+        found = self.read("SELECT id FROM nights WHERE run_id = ?", (run_id,))
+        return found[0][0] if found else None
+
+    def read(self, query: str, values: tuple = ()) -> list[tuple]:
+        """The rows of a query."""
+        with self._problems():
+            return self._base.execute(query, values).fetchall()
+
+    @contextmanager
+    def change(self) -> Iterator[None]:
+        """A transaction."""
+        with self._problems():
+            self._base.execute("BEGIN IMMEDIATE")
+            try:
+                yield
+            except BaseException:
+                self._base.execute("ROLLBACK")
+                raise
+            self._base.execute("COMMIT")
+
+    def _begin_or_check(self) -> None:
+        application = self._base.execute("PRAGMA application_id").fetchone()[0]
+        version = self._base.execute("PRAGMA user_version").fetchone()[0]
+        empty = self._base.execute("SELECT count(*) FROM sqlite_schema").fetchone()[0] == 0
+        if empty and application == 0 and version == 0:
+            # One script, one transaction: a history whose tables are half there is never seen.
+            self._base.executescript(
+                f"BEGIN; PRAGMA application_id = {APPLICATION_ID};"
+                f"PRAGMA user_version = {SCHEMA_VERSION}; {TABLES} COMMIT;"
+            )
+            return
+        if application != APPLICATION_ID:
+            raise Problem(f"{self.path}: is an SQLite file, but no history of nightly runs")
+        if version != SCHEMA_VERSION:
+            raise Problem(
+                f"{self.path}: has schema version {version}, and this reads {SCHEMA_VERSION}; "
+                f"{_REMEDY}"
+            )
+
+    @contextmanager
+    def _problems(self) -> Iterator[None]:
+        try:
+            yield
+        except sqlite3.DatabaseError as error:
+            raise Problem(f"{self.path}: cannot be used as a history: {error}; {_REMEDY}") from None
+
+    def _insert_night(self, night: Night, folder: Path) -> int:
+        place = folder.resolve()
+        home = self.path.parent.resolve()
+        told = place.relative_to(home) if place.is_relative_to(home) else place
+        values = (
+            night.run_id,
+            night.time_utc,
+            night.commit,
+            int(night.dirty),
+            night.machine_id,
+            str(told),
+            night.csv_sha256,
+            len(night.figures),
+            night.wrong,
+        )
+        marks = ", ".join("?" * len(values))
+        cursor = self._base.execute(f"INSERT INTO nights VALUES (NULL, {marks})", values)
+        return int(cursor.lastrowid or 0)
+
+    def _cells(self, night: Night) -> dict[Key, int]:
+        keys = {one.key for one in night.figures}
+        marks = ", ".join("?" * len(IDENTITY))
+        self._base.executemany(f"INSERT OR IGNORE INTO cells VALUES (NULL, {marks})", sorted(keys))
+        known = self._base.execute(f"SELECT id, {', '.join(IDENTITY)} FROM cells")
+        return {tuple(key): number for number, *key in known}
+
+    def _numbers(self, table: str, column: str, texts: Iterable[str]) -> dict[str, int]:
+        """The number of each text in a table that keeps every text once."""
+        wanted = sorted(set(texts))
+        self._base.executemany(
+            f"INSERT OR IGNORE INTO {table} VALUES (NULL, ?)", [(text,) for text in wanted]
+        )
+        found = (
+            self._base.execute(f"SELECT id FROM {table} WHERE {column} = ?", (text,)).fetchone()
+            for text in wanted
+        )
+        return {text: number for text, (number,) in zip(wanted, found, strict=True)}
+
+
+def recorded_folders(runs: Path) -> list[Path]:
+    """The folders of finished runs, the oldest first: names begin with the time."""
+    return sorted(path.parent for path in runs.glob("[0-9]*/results.csv"))
+
+
+def rebuild(
+    path: Path,
+    folders: Iterable[Path],
+    judge: Callable[[History, int], Iterable[Alarm]] = lambda _history, _night: (),
+) -> int:
+    """Makes the history anew from the CSVs of runs; the old one stays until the new one is whole.
+
+    Each night is judged by `judge` once it is in, as it was when it was new. Returns their count.
+    """
+    nights = [(night_of(read_run(folder)), folder) for folder in folders]
+    nights.sort(key=lambda one: (one[0].time_utc, one[0].run_id))
+
+    def fill(pending: Path) -> None:
+        pending.unlink(missing_ok=True)
+        with History(pending) as history:
+            for night, folder in nights:
+                if (number := history.add(night, folder)) is None:
+                    raise Problem(f"{folder}: the run {night.run_id} is in another folder, too")
+                alarms = list(judge(history, number))
+                with history.change():
+                    history.add_alarms(number, alarms)
+        # What a killed process left to be rolled back belongs to the file that goes.
+        for ending in ("-journal", "-wal", "-shm"):
+            path.with_name(path.name + ending).unlink(missing_ok=True)
+
+    write_whole(path, fill)
+    return len(nights)

@@ -1,0 +1,97 @@
+"""Where the nights live: a folder with the history, and a folder for each run."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+from beambench_report.nightly.history import recorded_folders
+from beambench_report.problem import Problem
+from beambench_report.records import TIMED_VERDICTS
+
+HOME = Path(__file__).resolve().parents[3] / "results/runs/nightly"
+
+KEEP_SAMPLES = 30
+"""So many runs keep their raw samples; CSV, manifest, sweep and pictures of mismatches stay."""
+
+
+@dataclass(frozen=True)
+class Home:
+    """The files of a history."""
+
+    folder: Path
+
+    @property
+    def history(self) -> Path:
+        """The SQLite file."""
+        return self.folder / "history.sqlite"
+
+    @property
+    def lock(self) -> Path:
+        """What a run holds while it goes on."""
+        return self.folder / "nightly.lock"
+
+    @property
+    def page(self) -> Path:
+        """The page of the newest night."""
+        return self.folder / "report.html"
+
+    def finished(self) -> list[Path]:
+        """Folders of the runs that ended, the oldest first."""
+        return [path for path in recorded_folders(self.folder) if is_finished(path)]
+
+    def unfinished(self) -> list[Path]:
+        """Folders of the runs that were cut off, the oldest first."""
+        begun = sorted(path for path in self.folder.glob("[0-9]*") if path.is_dir())
+        return [path for path in begun if not is_finished(path)]
+
+
+def is_finished(run: Path) -> bool:
+    """Did the run come to its end?"""
+    try:
+        manifest = json.loads((run / "manifest.json").read_text("utf-8"))
+    except FileNotFoundError:
+        return False
+    except ValueError as error:
+        raise Problem(
+            f"{run / 'manifest.json'}: cannot be read as JSON: {error}; remove the folder"
+        ) from None
+    return bool(manifest.get("finished_utc")) and (run / "results.csv").exists()
+
+
+def abandon(run: Path) -> Path:
+    """Takes a run that was cut off out of the way; it never gets into the history."""
+    target = run.with_name(f"abandoned-{run.name}")
+    if target.exists():
+        shutil.rmtree(target)
+    return run.rename(target)
+
+
+def prune(home: Home, keep: int = KEEP_SAMPLES) -> list[Path]:
+    """Deletes raw samples of all but the newest runs, and runs that were abandoned before them.
+
+    The cells that were not right keep their files: they hold the examples.
+    """
+    runs = home.finished()
+    old, kept = (runs[:-keep], runs[-keep:]) if keep > 0 else (runs, [])
+    deleted = []
+    for run in old:
+        deleted += [path for path in (run / "google-benchmark.json",) if path.exists()]
+        deleted += [path for path in run.glob("cells/*.json") if _was_right(path)]
+    for path in deleted:
+        path.unlink()
+    oldest = kept[0].name if kept else ""
+    for path in home.folder.glob("abandoned-*"):
+        if path.name.removeprefix("abandoned-") < oldest:
+            shutil.rmtree(path)
+            deleted.append(path)
+    return deleted
+
+
+def _was_right(path: Path) -> bool:
+    try:
+        return json.loads(path.read_text("utf-8"))["row"]["verdict"] in TIMED_VERDICTS
+    except (ValueError, KeyError, TypeError):
+        return False

@@ -1,0 +1,107 @@
+"""What a night raises its voice about."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import expm1
+
+import numpy as np
+import pandas as pd
+
+from beambench_report.nightly.counters import find_increases
+from beambench_report.nightly.history import Alarm, History
+from beambench_report.nightly.nights import Nights, read_nights
+from beambench_report.nightly.steps import Rule, find_steps
+from beambench_report.records import TIMED_VERDICTS
+
+
+def judge(history: History, night: int) -> list[Alarm]:
+    """The alarms of a night that is in the history, in the light of the nights before it."""
+    nights = read_nights(history, night)
+    earlier = [alarm for alarm in history.alarms() if alarm.kind == "time"]
+    found = [*_wrong(nights), *_more_work(nights), *_slower(nights, earlier)]
+    return [Alarm(night, kind, series, details) for kind, series, details in found]
+
+
+def _wrong(nights: Nights) -> Iterator[tuple[str, str, dict]]:
+    for _, cell in nights.cells.iterrows():
+        if cell["verdict"] not in TIMED_VERDICTS:
+            title = cell_title(cell)
+            yield "verdict", title, {"title": title, "verdict": cell["verdict"] or "no verdict"}
+
+
+def _more_work(nights: Nights) -> Iterator[tuple[str, str, dict]]:
+    for increase in find_increases(nights):
+        title = cell_title(nights.cells.iloc[increase.cell])
+        name = increase.counter.removesuffix("_per_ray").replace("_", " ")
+        details = {
+            "title": title,
+            "counter": name,
+            "before": increase.before,
+            "after": increase.after,
+        }
+        yield "counter", f"{title}: {name}", details
+
+
+def _slower(nights: Nights, earlier: list[Alarm]) -> Iterator[tuple[str, str, dict]]:
+    pools = nights.pools
+    starts = reported_starts(nights, earlier)
+    for step in find_steps(nights.pooled(), starts, Rule()):
+        pool = pools.iloc[step.series]
+        first = nights.nights.iloc[step.change]
+        details = {
+            "title": pool["title"],
+            "scene": pool["scene"],
+            "structure": pool["structure"],
+            "shift": expm1(step.shift),
+            "low": expm1(step.low),
+            "high": expm1(step.high),
+            "p_value": step.p_value,
+            "nights_before": step.before,
+            "nights_after": step.after,
+            "since_run": first["run_id"],
+            "since_commit": first["commit"],
+            "last_good_commit": nights.nights.iloc[step.change - 1]["commit"],
+        }
+        yield "time", series_key(pool), details
+
+
+def series_key(pool: pd.Series) -> str:
+    """Tells a pool from every other one, in any night."""
+    names = "scene camera structure parameters samples ray_kind".split()
+    return " | ".join(str(pool[name]) for name in names)
+
+
+def reported_starts(nights: Nights, earlier: list[Alarm]) -> np.ndarray:
+    """The night from which each pool is judged: where its last reported step was."""
+    place = {run_id: place for place, run_id in enumerate(nights.nights["run_id"])}
+    starts: dict[str, int] = {}
+    for alarm in earlier:
+        if (change := place.get(alarm.details["since_run"])) is not None:
+            starts[alarm.series] = max(change, starts.get(alarm.series, 0))
+    keys = [series_key(pool) for _, pool in nights.pools.iterrows()]
+    return np.array([starts.get(key, 0) for key in keys], int)
+
+
+def cell_title(cell: pd.Series) -> str:
+    """A cell as people read it."""
+    title = f"{cell['contender']} in {cell['scene']} at {cell['width']}x{cell['height']}"
+    if cell["samples"] > 1:
+        title += f" with {cell['samples']} samples"
+    return title if cell["ray_kind"] == "primary" else f"{title}, {cell['ray_kind']} rays"
+
+
+def sentence(alarm: Alarm) -> str:
+    """An alarm in words."""
+    told = alarm.details
+    if alarm.kind == "verdict":
+        return f"{told['title']}: hits were not right ({told['verdict']})"
+    if alarm.kind == "counter":
+        before, after = told["before"], told["after"]
+        part = f" ({after / before - 1:+.2%})" if before > 0 else ""
+        return f"{told['title']}: {told['counter']} a ray from {before:.6g} to {after:.6g}{part}"
+    return (
+        f"{told['title']}: {told['shift']:+.1%} slower ({told['low']:+.1%} to {told['high']:+.1%}) "
+        f"since {told['since_run']}, between the commits {told['last_good_commit'][:12]} and "
+        f"{told['since_commit'][:12]}"
+    )

@@ -1,0 +1,163 @@
+"""One run as the history keeps it: what was asked of whom, and what came out."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+
+from beambench_report.dictionary import COUNTER_SUFFIX
+from beambench_report.page.cell_files import IDENTITY
+from beambench_report.problem import Problem
+from beambench_report.records import TIMED_VERDICTS, Run
+
+Key = tuple[str, str, str, str, int, int, int, str]
+
+_WAITED = 0.9  # a thread that ran for a smaller part of its time was kept waiting
+
+# Contenders of one view answered the same rays; ratios are between them only.
+VIEW = ("scene", "camera", "width", "height", "samples", "ray_kind")
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A cell of a night."""
+
+    key: Key
+    inputs: str
+    counters: str
+    """JSON of the counters a ray that were measured, sorted by name."""
+    verdict: str
+    reference: Key | None
+    ratio: float | None
+
+
+@dataclass(frozen=True)
+class Night:
+    """A run, ready for the history."""
+
+    run_id: str
+    time_utc: str
+    commit: str
+    dirty: bool
+    machine_id: str
+    csv_sha256: str
+    figures: tuple[Figure, ...]
+
+    @property
+    def wrong(self) -> int:
+        """Cells whose hits were not right."""
+        return sum(figure.verdict not in TIMED_VERDICTS for figure in self.figures)
+
+
+def night_of(run: Run) -> Night:
+    """Reads a night off a run. Raises Problem where its rows are not those of one run."""
+    rows = run.rows
+    _require_one_run(run)
+    times = cycles(rows)
+    references = _references(rows, times)
+    counters = [name for name in rows if is_work(str(name))]
+    work = rows[counters].to_dict("records")
+    keys = keys_of(rows)
+    figures = []
+    for place, (key, view) in enumerate(zip(keys, _views(rows), strict=True)):
+        row = rows.iloc[place]
+        base = references.get(view)
+        time = times.iloc[place]
+        ratio = None
+        if base is not None and pd.notna(time):
+            ratio = float(time / times.iloc[base])
+        figures.append(
+            Figure(
+                key,
+                f"{row.get('scene_hash', '')} {row.get('rays_hash', '')}",
+                _packed(work[place]),
+                row["verdict"],
+                keys[base] if base is not None else None,
+                ratio,
+            )
+        )
+    last = rows.iloc[-1]
+    return Night(
+        last["run_id"],
+        str(rows["time_utc"].max()) if "time_utc" in rows else "",
+        last["commit"],
+        (rows["dirty"] == "true").any(),
+        last["machine_id"],
+        hashlib.sha256((run.directory / "results.csv").read_bytes()).hexdigest(),
+        tuple(figures),
+    )
+
+
+def is_work(column: str) -> bool:
+    """Is it a count of work? Some structures add times a ray, which are no such thing."""
+    return column.endswith(COUNTER_SUFFIX) and not column.endswith(f"_ns{COUNTER_SUFFIX}")
+
+
+def keys_of(rows: pd.DataFrame) -> list[Key]:
+    """What tells each row from the others of its run."""
+    columns = [
+        rows[name].astype(int) if name in ("width", "height", "samples") else rows[name]
+        for name in IDENTITY
+    ]
+    return list(zip(*(column.tolist() for column in columns), strict=True))
+
+
+def cycles(rows: pd.DataFrame) -> pd.Series:
+    """What each row is compared by: the total in clock cycles during which its thread ran.
+
+    Wall time in cycles, less the part in which others had the core: machines that are shared are
+    busy at night, too. The clock is known for each repetition and the waiting only by medians, so
+    that where a thread waited a lot, CPU time by the median clock is the better guess. Runs that
+    lack what this needs are compared by wall time.
+    """
+    needed = ("total_mcycles_median", "clock_ghz_median", "build_cpu_ms_median")
+    timed = rows["timed"]
+    if any(name not in rows or rows.loc[timed, name].isna().any() for name in needed):
+        return rows["total_ms_median"].where(timed & (rows["total_ms_median"] > 0))
+    worked = rows["build_cpu_ms_median"] + rows["trace_cpu_ms_median"]
+    share = worked / rows["total_ms_median"]
+    ran = rows["total_mcycles_median"] * share.clip(upper=1.0)
+    times = ran.where(share > _WAITED, worked * rows["clock_ghz_median"])
+    return times.where(timed & (times > 0))
+
+
+def _references(rows: pd.DataFrame, times: pd.Series) -> dict[tuple, int]:
+    """The row that the others of each view are measured by: Embree's single rays, where it can be.
+
+    Embree is the one contender that no commit of ours changes.
+    """
+    best: dict[tuple, tuple[int, int]] = {}
+    views = _views(rows)
+    for place, structure in enumerate(rows["structure"]):
+        if structure != "embree" or pd.isna(times.iloc[place]):
+            continue
+        rank = 0 if "mode=single" in rows["parameters"].iloc[place] else 1
+        best[views[place]] = min(best.get(views[place], (2, 0)), (rank, place))
+    return {view: place for view, (_, place) in best.items()}
+
+
+def _views(rows: pd.DataFrame) -> list[tuple]:
+    return list(zip(*(rows[name].tolist() for name in VIEW), strict=True))
+
+
+def _packed(counters: dict[str, float]) -> str:
+    known = {name: value for name, value in sorted(counters.items()) if pd.notna(value)}
+    return json.dumps(known, separators=(",", ":"))
+
+
+def _require_one_run(run: Run) -> None:
+    path: Path = run.directory / "results.csv"
+    for name in ("run_id", "machine_id"):
+        values = run.rows[name].unique()
+        if len(values) != 1 or not values[0]:
+            raise Problem(
+                f"{path}: {name} is {' and '.join(map(repr, values[:2])) or 'empty'}; "
+                "a night is one run on one machine"
+            )
+    doubled = run.rows.duplicated(list(IDENTITY))
+    if doubled.any():
+        raise Problem(f"{path}, row {run.rows.index[doubled][0] + 2}: repeats an earlier cell")

@@ -1,0 +1,151 @@
+"""The nights of one machine as arrays: a row a night, a column a cell."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import pandas as pd
+
+from beambench_report.names import contender_labels
+from beambench_report.nightly.history import History
+from beambench_report.page.cell_files import IDENTITY
+from beambench_report.problem import Problem
+
+
+@dataclass(frozen=True)
+class Nights:
+    """What the history knows of one machine, the oldest night first; the last one is `tonight`.
+
+    Only cells of the last night are there. `ratios` are NaN where a night has no time, or asked
+    another question (other scene, rays or reference) than the last one.
+    """
+
+    nights: pd.DataFrame
+    """number, run_id, time_utc, commit, dirty, folder, cells, wrong"""
+    cells: pd.DataFrame
+    """IDENTITY, `contender` (its label), `verdict` tonight, `is_reference`"""
+    ratios: np.ndarray
+    works: np.ndarray
+    """Number of the counters of each cell in each night; -1 where it was not asked the same."""
+    counters: dict[int, dict[str, float]]
+
+    @cached_property
+    def pools(self) -> pd.DataFrame:
+        """The series that are judged: a contender over a scene, its resolutions taken together."""
+        names = [name for name in IDENTITY if name not in ("width", "height")]
+        judged = self.cells[~self.cells["is_reference"] & (self.cells["verdict"] != "baseline")]
+        groups = judged.groupby(names, sort=False)
+        rows = [
+            {**dict(zip(names, key, strict=True)), "members": group.index.to_numpy()}
+            for key, group in groups
+        ]
+        pools = pd.DataFrame(rows, columns=[*names, "members"])
+        pools["title"] = [series_title(row, self.cells) for _, row in pools.iterrows()]
+        return pools
+
+    def pooled(self) -> np.ndarray:
+        """Logarithm of the ratio of each pool in each night, 0 being its usual value.
+
+        The mean over resolutions of what each is above its own median; a night that lacks one
+        resolution is judged by the others.
+        """
+        with np.errstate(all="ignore"):
+            logs = np.log(self.ratios)
+        logs[~np.isfinite(logs)] = np.nan
+        logs = logs - nan_median(logs)
+        columns = [nan_mean(logs[:, members]) for members in self.pools["members"]]
+        return np.stack(columns, axis=1) if columns else np.empty((len(self.nights), 0))
+
+
+def series_title(row: pd.Series, cells: pd.DataFrame) -> str:
+    """A series as people read it: the contender, the scene, and what else tells it apart."""
+    same = cells[(cells["structure"] == row["structure"])]
+    label = same.loc[same["parameters"] == row["parameters"], "contender"].iloc[0]
+    title = f"{label} in {row['scene']}"
+    if cells["camera"].nunique() > 1:
+        title += f", camera {row['camera']}"
+    if cells["samples"].nunique() > 1:
+        title += f", {row['samples']} samples"
+    if cells["ray_kind"].nunique() > 1:
+        title += f", {row['ray_kind']} rays"
+    return title
+
+
+def nan_median(values: np.ndarray) -> np.ndarray:
+    """The median of each column; NaN, without a warning, where a column holds nothing."""
+    result = np.full(values.shape[1], np.nan)
+    some = np.isfinite(values).any(axis=0)
+    result[some] = np.nanmedian(values[:, some], axis=0)
+    return result
+
+
+def nan_mean(values: np.ndarray) -> np.ndarray:
+    """The mean of each row; NaN, without a warning, where a row holds nothing."""
+    known = np.isfinite(values)
+    count = known.sum(axis=1)
+    total = np.where(known, values, 0.0).sum(axis=1)
+    return np.where(count > 0, total / np.maximum(count, 1), np.nan)
+
+
+def read_nights(history: History, last: int | None = None) -> Nights:
+    """The nights up to the one of number `last` (the newest if not given), on its machine."""
+    tonight = _tonight(history, last)
+    columns = "n.id, n.run_id, n.time_utc, n.commit_hash, n.dirty, n.folder, n.cells, n.wrong"
+    rows = history.read(
+        f"SELECT {columns} FROM nights n, nights t WHERE t.id = ? AND n.machine_id = t.machine_id "
+        "AND (n.time_utc, n.id) <= (t.time_utc, t.id) ORDER BY n.time_utc, n.id",
+        (tonight,),
+    )
+    names = "number run_id time_utc commit dirty folder cells wrong".split()
+    nights = pd.DataFrame(rows, columns=names)
+    cells = _cells_of(history, tonight)
+    place_of_cell = {number: place for place, number in enumerate(cells["cell"])}
+    place_of_night = {number: place for place, number in enumerate(nights["number"])}
+
+    shape = (len(nights), len(cells))
+    ratios, works = np.full(shape, np.nan), np.full(shape, -1)
+    # One query: a look-up for each night would take longer than all of them together.
+    figures = history.read(
+        "SELECT f.night, f.cell, f.work, f.ratio, f.reference IS t.reference "
+        "FROM figures f JOIN figures t ON t.cell = f.cell AND t.input = f.input WHERE t.night = ?",
+        (tonight,),
+    )
+    for night, cell, work, ratio, same_reference in figures:
+        if (place := place_of_night.get(night)) is None:
+            continue
+        at = (place, place_of_cell[cell])
+        works[at] = work
+        if ratio is not None and same_reference:
+            ratios[at] = ratio
+    used = set(np.unique(works[works >= 0]).tolist())
+    counters = {
+        number: json.loads(text)
+        for number, text in history.read("SELECT id, counters FROM work")
+        if number in used
+    }
+    return Nights(nights, cells, ratios, works, counters)
+
+
+def _tonight(history: History, last: int | None) -> int:
+    if last is not None:
+        return last
+    newest = history.read("SELECT id FROM nights ORDER BY time_utc DESC, id DESC LIMIT 1")
+    if not newest:
+        raise Problem(f"{history.path}: holds no night yet; run scripts/nightly")
+    return newest[0][0]
+
+
+def _cells_of(history: History, night: int) -> pd.DataFrame:
+    names = ", ".join(f"c.{name}" for name in IDENTITY)
+    rows = history.read(
+        f"SELECT c.id, {names}, f.verdict, f.reference IS c.id FROM figures f "
+        "JOIN cells c ON c.id = f.cell WHERE f.night = ? ORDER BY c.id",
+        (night,),
+    )
+    cells = pd.DataFrame(rows, columns=["cell", *IDENTITY, "verdict", "is_reference"])
+    cells["is_reference"] = cells["is_reference"].astype(bool)
+    cells["contender"] = contender_labels(cells)
+    return cells

@@ -1,0 +1,149 @@
+"""One night: measure, keep, judge, show."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+
+from beambench_report.nightly.exports import write_exports
+from beambench_report.nightly.history import Alarm, History, rebuild
+from beambench_report.nightly.home import Home, abandon, is_finished, prune
+from beambench_report.nightly.judge import judge, sentence
+from beambench_report.nightly.night import night_of
+from beambench_report.nightly.page.write import write_night_page
+from beambench_report.nightly.pictures import picture_mismatches
+from beambench_report.problem import Problem
+from beambench_report.records import read_run
+
+_INTERRUPTED = (130, 143, -2, -15)
+
+
+@dataclass(frozen=True)
+class Wish:
+    """What is wanted of a night."""
+
+    home: Home
+    sweep: Path
+    beambench: Path
+    published: Path | None
+    resume: bool
+    keep: int
+
+
+def run_night(wish: Wish) -> int:
+    """Measures a night and tells of it; the exit code: 1 where something regressed or was wrong."""
+    catch_up(wish.home)
+    folder = _folder_for(wish)
+    code = _measure(wish, folder)
+    if code in _INTERRUPTED:
+        _say("interrupted; go on with: scripts/nightly --resume (or it is abandoned next time)")
+        return 130
+    if code not in (0, 1) or not is_finished(folder):
+        raise Problem(f"{folder}: the sweep could not be run (see above); nothing was recorded")
+    return record(wish.home, folder, wish.beambench, wish.published, wish.keep)
+
+
+def record(home: Home, folder: Path, beambench: Path, published: Path | None, keep: int) -> int:
+    """Adds a finished run to the history, judges it, writes the page; returns the exit code."""
+    run = read_run(folder)
+    night = night_of(run)
+    picture_mismatches(run, beambench)
+    write_exports(run)
+    with History(home.history) as history:
+        number = history.add(night, folder)
+        if number is None:
+            number = history.number_of(night.run_id) or 0
+        alarms = judge(history, number)
+        with history.change():
+            history.add_alarms(number, alarms)
+        write_night_page(home, history, published)
+    prune(home, keep)
+    tell(alarms)
+    print(home.page)
+    return 1 if alarms else 0
+
+
+def catch_up(home: Home) -> None:
+    """Adds runs that ended, but whose process was killed before the history had them."""
+    with History(home.history) as history:
+        known = {folder for (folder,) in history.read("SELECT folder FROM nights")}
+        for folder in home.finished():
+            if folder.name in known:
+                continue
+            try:
+                night = night_of(read_run(folder))
+            except Problem as problem:
+                _say(f"left out of the history: {problem}")
+                continue
+            if (number := history.add(night, folder)) is not None:
+                alarms = judge(history, number)
+                with history.change():
+                    history.add_alarms(number, alarms)
+
+
+def rebuild_history(home: Home) -> int:
+    """Makes the history from the CSVs; returns how many nights it has."""
+    return rebuild(home.history, home.finished(), judge)
+
+
+def tell(alarms: list[Alarm]) -> None:
+    """Says what is wrong, one line each; nothing where nothing is."""
+    for alarm in alarms:
+        _say(f"REGRESSION {sentence(alarm)}" if alarm.kind != "verdict" else sentence(alarm))
+
+
+def describe(wish: Wish) -> str:
+    """What a night would do."""
+    budget = json.loads(wish.sweep.read_text("utf-8")).get("budget_seconds", 0)
+    runs = wish.home.finished()
+    lines = [
+        f"sweep      {wish.sweep} ({budget / 60:.0f} min)",
+        f"           {read_description_of(wish.sweep)}",
+        f"history    {wish.home.history} ({len(runs)} nights)",
+        f"page       {wish.home.page}",
+    ]
+    for run in wish.home.unfinished():
+        what = "would be gone on with" if wish.resume else "would be abandoned"
+        lines.append(f"cut off    {run} ({what})")
+    return "\n".join(lines) + "\n"
+
+
+def read_description_of(sweep: Path) -> str:
+    """What a sweep says of itself."""
+    return str(json.loads(sweep.read_text("utf-8")).get("description", ""))
+
+
+def _folder_for(wish: Wish) -> Path:
+    """The run to go on with, or a new one; what was cut off otherwise is out of the way then."""
+    unfinished = wish.home.unfinished()
+    if wish.resume:
+        if not unfinished:
+            raise Problem(f"{wish.home.folder}: no run was cut off; leave out --resume")
+        return unfinished[-1]
+    for run in unfinished:
+        _say(f"== {run.name} was cut off: abandoned")
+        abandon(run)
+    return wish.home.folder / datetime.now(UTC).strftime("%Y%m%dT%H%M%SZ")
+
+
+def _measure(wish: Wish, folder: Path) -> int:
+    resume = wish.resume and (folder / "manifest.json").exists()
+    arguments = ["--resume", folder] if resume else [wish.sweep, "-o", folder]
+    command = [str(part) for part in (wish.beambench, "run", *arguments)]
+    try:
+        child = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    except OSError as error:
+        raise Problem(f"{command[0]} cannot be run: {error.strerror}; build it first") from None
+    try:
+        return child.wait()
+    except KeyboardInterrupt:
+        child.wait()
+        return _INTERRUPTED[0]
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)
