@@ -62,6 +62,14 @@ def _add_calibrate(parts: argparse._SubParsersAction) -> None:
     )
     parser.add_argument("--nights", type=int, default=1000, metavar="N")
     parser.add_argument("--trials", type=int, default=100, metavar="N")
+    parser.add_argument(
+        "--slowdowns",
+        type=float,
+        nargs="+",
+        default=[0.01, 0.015, 0.02, 0.03, 0.05],
+        metavar="PART",
+        help="what is planted, 0.05 being 5%%",
+    )
     parser.add_argument("-o", "--output", type=Path, metavar="FILE.json")
 
 
@@ -127,7 +135,7 @@ def _calibrate(options: argparse.Namespace) -> int:
             f"{noise.nights} nights are too few to draw noise from; ten are needed, or raw samples "
             "of a run: --samples RUN"
         )
-    result = calibrate(noise, options.nights, trials=options.trials)
+    result = calibrate(noise, options.nights, options.slowdowns, options.trials)
     print(result.summary())
     if options.output:
         write_text(options.output, result.as_json())

@@ -14,6 +14,8 @@ from beambench_report.nightly.nights import Nights, read_nights
 from beambench_report.nightly.steps import Rule, find_steps
 from beambench_report.records import TIMED_VERDICTS
 
+_ROOM = 3
+
 
 def judge(history: History, night: int) -> list[Alarm]:
     """The alarms of a night that is in the history, in the light of the nights before it."""
@@ -60,10 +62,15 @@ def _slower(nights: Nights, earlier: list[Alarm]) -> Iterator[tuple[str, str, di
             "nights_before": step.before,
             "nights_after": step.after,
             "since_run": first["run_id"],
-            "since_commit": first["commit"],
-            "last_good_commit": nights.nights.iloc[step.change - 1]["commit"],
+            # Noise moves the place of a step by some nights: the commits leave room for that.
+            "since_commit": _commit(nights, step.change + _ROOM - 1),
+            "last_good_commit": _commit(nights, step.change - _ROOM),
         }
         yield "time", series_key(pool), details
+
+
+def _commit(nights: Nights, place: int) -> str:
+    return nights.nights.iloc[min(max(place, 0), len(nights.nights) - 1)]["commit"]
 
 
 def series_key(pool: pd.Series) -> str:
@@ -102,6 +109,6 @@ def sentence(alarm: Alarm) -> str:
         return f"{told['title']}: {told['counter']} a ray from {before:.6g} to {after:.6g}{part}"
     return (
         f"{told['title']}: {told['shift']:+.1%} slower ({told['low']:+.1%} to {told['high']:+.1%}) "
-        f"since {told['since_run']}, between the commits {told['last_good_commit'][:12]} and "
+        f"since about {told['since_run']}, between the commits {told['last_good_commit'][:12]} and "
         f"{told['since_commit'][:12]}"
     )

@@ -62,7 +62,8 @@ def compare_nights(name: str, tonight: Night, other: Night, rows: pd.DataFrame) 
             )
         if then.counters != now.counters:
             more += 1
-        if now.ratio and then.ratio and then.reference == now.reference != now.key:
+        noise_only = now.verdict == "baseline" or now.reference == now.key
+        if now.ratio and then.ratio and then.reference == now.reference and not noise_only:
             changes.append(
                 Change(row["contender"], row["view"], size_of(row), then.ratio, now.ratio)
             )

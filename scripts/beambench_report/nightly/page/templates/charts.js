@@ -158,5 +158,6 @@
   fill(form.elements.view, Object.keys(data.views));
   fillSizes();
   form.hidden = false;
+  filterTable();
   draw();
 })();

@@ -1,0 +1,112 @@
+"""Nights that never happened: runs of one sweep, night after night, with noise and with plants."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterable
+from pathlib import Path
+
+import numpy as np
+
+from beambench_report.nightly.history import History
+from beambench_report.nightly.home import Home
+from beambench_report.nightly.judge import judge
+from beambench_report.nightly.night import night_of
+from beambench_report.records import read_run
+from made_up_run import made_up_rows, without_times, write_run
+
+SCENES = ("escena1", "tetra:n=6")
+NOISE = 0.01
+
+Row = dict[str, object]
+Plant = Callable[[int, Row], Row]
+
+
+def nothing(_night: int, row: Row) -> Row:
+    """No plant."""
+    return row
+
+
+def slower(structure: str, scene: str, factor: float, since: int) -> Plant:
+    """One structure gets slower in one scene, from one night on."""
+
+    def plant(night: int, row: Row) -> Row:
+        hit = row["structure"] == structure and row["scene"] == scene and night >= since
+        return _timed(row, factor) if hit else row
+
+    return plant
+
+
+def wrong(structure: str, scene: str, since: int) -> Plant:
+    """One structure's hits are wrong in one scene."""
+
+    def plant(night: int, row: Row) -> Row:
+        hit = row["structure"] == structure and row["scene"] == scene and night >= since
+        return without_times(row, "mismatch") if hit else row
+
+    return plant
+
+
+def counting(structure: str, scene: str, factors: Iterable[float]) -> Plant:
+    """One structure needs more or less steps in one scene: a factor for each night."""
+    known = list(factors)
+
+    def plant(night: int, row: Row) -> Row:
+        hit = row["structure"] == structure and row["scene"] == scene
+        steps = row["traversal_steps_per_ray"]
+        return {**row, "traversal_steps_per_ray": steps * known[night]} if hit else row
+
+    return plant
+
+
+def write_nights(home: Home, count: int, plant: Plant = nothing, seed: int = 7) -> list[Path]:
+    """Writes the folders of runs into a home; returns them."""
+    random = np.random.default_rng(seed)
+    return [write_night(home, night, random, plant) for night in range(count)]
+
+
+def write_night(home: Home, night: int, random: np.random.Generator, plant: Plant) -> Path:
+    """Writes one run that ended."""
+    run_id = f"2026{1 + night // 28:02d}{1 + night % 28:02d}T030000Z"
+    folder = home.folder / run_id
+    folder.mkdir(parents=True)
+    rows = []
+    for row in made_up_rows():
+        labels = {
+            "run_id": run_id,
+            "time_utc": f"{run_id[:4]}-{run_id[4:6]}-{run_id[6:8]}T03:00:00Z",
+            "commit": f"{night:07x}def5678",
+            "scene_hash": "1",
+            "rays_hash": "2",
+        }
+        rows.append(plant(night, _timed(row | labels, float(np.exp(random.normal(0, NOISE))))))
+    write_run(folder, rows)
+    (folder / "manifest.json").write_text(
+        json.dumps({"run_id": run_id, "finished_utc": labels["time_utc"], "sweep": "made-up"})
+    )
+    return folder
+
+
+def add_all(home: Home, folders: Iterable[Path]) -> list[list]:
+    """Adds runs to the history, judging each; the alarms of each."""
+    told = []
+    with History(home.history) as history:
+        for folder in folders:
+            number = history.add(night_of(read_run(folder)), folder)
+            alarms = judge(history, number)
+            with history.change():
+                history.add_alarms(number, alarms)
+            told.append(alarms)
+    return told
+
+
+def _timed(row: Row, factor: float) -> Row:
+    times = {name: float(row[name]) * factor for name in row if _is_time(name) and row[name] != ""}
+    times["clock_ghz_median"] = 3.0
+    for part in ("build", "trace"):
+        times[f"{part}_cpu_ms_median"] = times[f"{part}_ms_median"]
+    return row | times
+
+
+def _is_time(name: str) -> bool:
+    return "_ms_" in name or "_mcycles_" in name

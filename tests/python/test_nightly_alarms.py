@@ -1,0 +1,149 @@
+"""What a night raises its voice about: planted regressions, and nothing else."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from beambench_report.nightly.calibration import Noise, calibrate, count_alarms, made_up_nights
+from beambench_report.nightly.history import Alarm
+from beambench_report.nightly.home import Home
+from beambench_report.nightly.judge import sentence
+from beambench_report.nightly.samples import noise_of_samples
+from beambench_report.nightly.steps import Rule, find_steps
+from beambench_report.problem import Problem
+from made_up_nights import add_all, counting, nothing, slower, write_nights, wrong
+from made_up_run import made_up_rows, write_cell
+
+NIGHTS = 30
+
+
+@pytest.fixture
+def home(tmp_path: Path) -> Home:
+    return Home(tmp_path / "nightly")
+
+
+def flat(told: list[list[Alarm]]) -> list[Alarm]:
+    return [alarm for night in told for alarm in night]
+
+
+def test_pure_noise_passes(home: Home) -> None:
+    assert flat(add_all(home, write_nights(home, NIGHTS, nothing))) == []
+
+
+def test_a_structure_slower_by_5_percent_in_one_scene_is_found_and_named_once(home: Home) -> None:
+    plant = slower("exhaustive", "tetra:n=6", 1.05, 16)
+    told = add_all(home, write_nights(home, NIGHTS, plant))
+    [alarm] = flat(told)
+    assert alarm.kind == "time"
+    assert alarm.details["title"] == "exhaustive in tetra:n=6"
+    assert alarm.details["low"] < 0.05 < alarm.details["high"]
+    assert "20260114T030000Z" <= alarm.details["since_run"] <= "20260119T030000Z"
+    assert alarm.details["last_good_commit"] < "0000010def5678"  # that of the first slow night
+    assert alarm.details["since_commit"] >= "0000010def5678"
+    assert alarm.night <= 29, "as soon as some twelve nights were slower"
+    assert "exhaustive in tetra:n=6: +" in sentence(alarm)
+
+
+def test_a_structure_that_got_faster_is_no_regression(home: Home) -> None:
+    plant = slower("exhaustive", "tetra:n=6", 0.9, 16)
+    assert flat(add_all(home, write_nights(home, NIGHTS, plant))) == []
+
+
+def test_a_wrong_hit_is_found_and_named(home: Home) -> None:
+    told = add_all(home, write_nights(home, 2, wrong("samet", "tetra:n=6", 1)))
+    assert told[0] == []
+    assert {alarm.kind for alarm in told[1]} == {"verdict"}
+    assert len(told[1]) == 6
+    sentences = [sentence(alarm) for alarm in told[1]]
+    assert "samet max_level=6 in tetra:n=6 at 320x200: hits were not right (mismatch)" in sentences
+
+
+@pytest.mark.parametrize(
+    ("factors", "alarms"),
+    [
+        ([1, 1.02], [0, 6]),
+        ([1, 1.0005], [0, 0]),
+        ([1, 0.9], [0, 0]),
+        ([1, 1.02, 1.02], [0, 6, 0]),  # told once
+        ([1, 1.02, 1.05], [0, 6, 6]),
+        ([1, 1.0007, 1.0014], [0, 0, 6]),  # small steps add up
+        ([1, 0.9, 1], [0, 0, 6]),  # what was won must not be lost
+    ],
+)
+def test_more_work_is_found(home: Home, factors: list[float], alarms: list[int]) -> None:
+    plant = counting("samet", "escena1", factors)
+    told = add_all(home, write_nights(home, len(factors), plant))
+    assert [len(night) for night in told] == alarms
+    for alarm in flat(told):
+        assert alarm.kind == "counter"
+        assert alarm.series.startswith("samet max_level=")
+        assert "escena1" in alarm.series
+        assert alarm.details["counter"] == "traversal steps"
+
+
+def test_another_scene_under_the_same_name_is_not_compared(home: Home) -> None:
+    def plant(night: int, row: dict) -> dict:
+        return row if night == 0 else {**row, "scene_hash": "9", "traversal_steps_per_ray": 99}
+
+    assert flat(add_all(home, write_nights(home, 2, plant))) == []
+
+
+def test_nights_of_another_machine_are_another_history(home: Home) -> None:
+    def plant(night: int, row: dict) -> dict:
+        return row if night == 0 else {**row, "machine_id": "b", "traversal_steps_per_ray": 99}
+
+    assert flat(add_all(home, write_nights(home, 2, plant))) == []
+
+
+def noise(nights: int = 200, scenes: int = 3, size: float = 0.01) -> Noise:
+    random = np.random.default_rng(3)
+    return Noise(tuple(random.normal(0, size, (nights, 7)) for _ in range(scenes)), nights)
+
+
+def test_a_hundred_nights_of_noise_over_all_series_raise_at_most_one_alarm() -> None:
+    values = made_up_nights(noise(), 100, np.random.default_rng(5))
+    assert values.shape == (100, 105)
+    assert len(count_alarms(values, Rule())) <= 1
+
+
+def test_calibration_finds_what_is_large_and_counts_what_is_false() -> None:
+    told = calibrate(noise(), nights=40, slowdowns=(0.001, 0.05), trials=5)
+    assert told.alarms == 0
+    assert [one.found for one in told.power] == [0.0, 1.0]
+    assert told.smallest_found == 0.05
+    assert "found with 90% power: 5.0%" in told.summary()
+
+
+def test_nights_that_are_missing_are_no_reason_to_raise_or_to_fall_silent() -> None:
+    random = np.random.default_rng(11)
+    values = random.normal(0, 0.01, (50, 20))
+    values[random.random(values.shape) < 0.1] = np.nan
+    assert find_steps(values) == []
+    values[30:, 4] += 0.06
+    [step] = find_steps(values)
+    assert step.series == 4
+    assert 29 <= step.change <= 32
+
+
+def test_an_earlier_gain_does_not_hide_a_later_loss() -> None:
+    random = np.random.default_rng(12)
+    values = random.normal(0, 0.01, (60, 5))
+    values[20:, 2] -= 0.10
+    values[42:, 2] += 0.05
+    assert [step.series for step in find_steps(values)] == [2]
+
+
+def test_noise_can_be_drawn_from_raw_samples(tmp_path: Path) -> None:
+    random = np.random.default_rng(13)
+    for row in made_up_rows():
+        total = float(row["total_ms_median"])
+        write_cell(
+            tmp_path, row, {turn: total * float(random.lognormal(0, 0.01)) for turn in range(20)}
+        )
+    with pytest.raises(Problem, match="build_cpu_ms"):
+        noise_of_samples([tmp_path])
+    with pytest.raises(Problem, match="raw samples were not pruned"):
+        noise_of_samples([tmp_path / "nothing"])
