@@ -20,6 +20,7 @@ from beambench_report.problem import Problem
 
 _PAINTER = "sah-bvh"
 _SAMPLES = "4"
+_SHADING = "whitted"
 
 # All below in pixels of the sheet.
 _WIDTH = 1400
@@ -118,8 +119,8 @@ def _render_all(beambench: Path, counts: dict[str, str], folder: Path) -> dict[s
     for number, (scene, text) in enumerate(counts.items(), 1):
         print(f"rendering {scene} ({number} of {len(counts)})", file=sys.stderr)
         file = folder / "picture.png"
-        options = ("--accel", _PAINTER, "--samples", _SAMPLES, "-o", str(file))
-        _run(beambench, scene, "render", scene, *options)
+        options = ("--accel", _PAINTER, "--samples", _SAMPLES, "--shade", _SHADING)
+        _run(beambench, scene, "render", scene, *options, "-o", str(file))
         pictures[scene] = _Picture(scene, text, imread(file)[..., :3])
     return pictures
 
