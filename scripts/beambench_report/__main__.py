@@ -14,6 +14,9 @@ from beambench_report.growth import write_growth
 from beambench_report.ledger.book import ledger
 from beambench_report.ledger.markdown import as_markdown as ledger_as_markdown
 from beambench_report.nightly.command import add_nightly_command, nightly
+from beambench_report.nightly.compare import compare_turns, measure_in_turns
+from beambench_report.nightly.diff import diff
+from beambench_report.nightly.exports import bigger_is_better, google_benchmark
 from beambench_report.page.write import write_page
 from beambench_report.pictures import write_pictures
 from beambench_report.plots import write_plots
@@ -24,6 +27,7 @@ from beambench_report.thesis.command import add_thesis_command, thesis
 from beambench_report.thesis.levels.command import levels_text, write_levels
 from beambench_report.thesis.sampling.section import write_sampling
 
+_EXPORTS = {"customBiggerIsBetter": bigger_is_better, "google-benchmark": google_benchmark}
 _BUILT = Path(__file__).resolve().parents[2] / "build/release/bin/beambench"
 
 
@@ -50,6 +54,14 @@ def main(arguments: list[str] | None = None) -> int:
             return thesis(options)
         if options.command == "nightly":
             return nightly(options)
+        if options.command == "compare":
+            return _compare(options)
+        if options.command == "diff":
+            print(diff(options.first, options.second, relative=options.relative).text(), end="")
+            return 0
+        if options.command == "benchmarks":
+            print(_EXPORTS[options.format](read_run(options.run)), end="")
+            return 0
         paths = _write(options)
     except Problem as problem:
         print(f"error: {problem}", file=sys.stderr)
@@ -141,8 +153,35 @@ def _parser() -> argparse.ArgumentParser:
     sampling.add_argument("-o", "--output", type=Path, required=True, metavar="DIR")
     add_thesis_command(commands, _BUILT)
     add_nightly_command(commands, _BUILT)
+    _add_comparisons(commands)
     commands.add_parser("columns", help="print results/README.md: what every column means")
     return parser
+
+
+def _add_comparisons(commands: argparse._SubParsersAction) -> None:
+    two = commands.add_parser("diff", help="compare two result files, structure by structure")
+    two.add_argument("first", type=Path, metavar="A.csv", help="a results.csv, or a run's folder")
+    two.add_argument("second", type=Path, metavar="B.csv")
+    two.add_argument(
+        "--relative",
+        action=argparse.BooleanOptionalAction,
+        help="by the ratio to Embree in each file; if not given, where the machines differ",
+    )
+    compare = commands.add_parser("compare", help="run two programs in turns: is B slower?")
+    compare.add_argument("programs", type=Path, nargs=2, metavar="PROGRAM")
+    compare.add_argument("--sweep", type=Path, required=True, metavar="FILE")
+    compare.add_argument("--turns", type=int, default=12, metavar="N")
+    compare.add_argument("-o", "--output", type=Path, required=True, metavar="DIR")
+    benchmarks = commands.add_parser("benchmarks", help="print a run for other benchmark tools")
+    benchmarks.add_argument("run", type=Path, metavar="RUN")
+    benchmarks.add_argument("--format", choices=sorted(_EXPORTS), required=True)
+
+
+def _compare(options: argparse.Namespace) -> int:
+    runs = measure_in_turns(tuple(options.programs), options.sweep, options.output, options.turns)
+    outcome = compare_turns(*runs)
+    print(outcome.table())
+    return 1 if outcome.is_regression else 0
 
 
 def _write(options: argparse.Namespace) -> list[Path]:

@@ -73,9 +73,9 @@ class Calibration:
         """For people."""
         lines = [
             f"{self.alarms} alarms in {self.nights} nights of pure noise over {self.series} series "
-            f"together ({100 * self.alarms / self.nights:.2g} in 100 nights); the noise is that of "
-            f"{self.noise_nights} runs, {100 * self.noise:.2g}% (standard deviation of a usual "
-            "series)."
+            f"together ({100 * self.alarms / self.nights:.2g} in 100 nights); the noise was drawn "
+            f"from {self.noise_nights} nights, {100 * self.noise:.2g}% (standard deviation of a "
+            "usual series)."
         ]
         lines += [
             f"A slow-down by {one.slowdown:.1%} was found and named in {one.found:.0%} of the "

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
-from math import log
+from math import log, sqrt
 from pathlib import Path
 
 import numpy as np
@@ -38,9 +38,14 @@ def noise_of_samples(folders: Iterable[Path], seed: int = 1999) -> Noise:
             f"no run has a view with Embree, others, and {_ROUNDS} repetitions in cells/*.json; "
             "give runs whose raw samples were not pruned"
         )
-    # A scene's resolutions are judged together.
-    parts = (np.mean([one for one in views if one.shape == views[0].shape], axis=0)
-             for views in scenes.values())  # fmt: skip
+    parts = []
+    for views in scenes.values():
+        # A scene's resolutions are judged together; what a process differs by is in all of them,
+        # and half of it is the reference's, which all contenders share.
+        noise = np.mean([one for one in views if one.shape == views[0].shape], axis=0)
+        size = PROCESS / sqrt(2)
+        noise += random.normal(0, size, noise.shape) + random.normal(0, size, (_NIGHTS, 1))
+        parts.append(noise)
     return Noise(tuple(parts), _NIGHTS)
 
 
@@ -83,5 +88,4 @@ def _nights(contenders: Sequence[dict[int, float]], random: np.random.Generator)
             values[(first[:, None] + np.arange(_ROUNDS)) % len(order)], axis=1
         )
     ratios = medians[:, 1:] - medians[:, :1]
-    ratios -= np.median(ratios, axis=0)
-    return ratios + random.normal(0.0, PROCESS, ratios.shape)
+    return ratios - np.median(ratios, axis=0)

@@ -36,7 +36,7 @@ class Rule:
     """Chance that a night of pure noise raises any alarm, over all series together."""
     tolerance: float = 0.01
     """Shifts that may be smaller than this, by their interval, are no regression."""
-    inflation: float = 1.6
+    inflation: float = 1.9
     """What the standard error is multiplied by: a change that was searched for lies where the
     noise helps it, and a night is looked at again the night after. By calibration."""
 

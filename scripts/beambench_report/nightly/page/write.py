@@ -7,6 +7,7 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, Template
 from markupsafe import Markup
 from plotly.offline import get_plotlyjs
@@ -92,8 +93,8 @@ _OWN_COLUMNS = {
 def _with_changes(run: Run, tonight: Night, yesterday: Night | None, published: Run | None) -> Run:
     rows = run.rows.copy()
     other = night_of(published) if published else None
-    rows.insert(0, "since_published", shares(tonight, other))
-    rows.insert(0, "since_yesterday", shares(tonight, yesterday))
+    rows.insert(0, "since_published", np.round(shares(tonight, other), 2))
+    rows.insert(0, "since_yesterday", np.round(shares(tonight, yesterday), 2))
     ratios = [figure.ratio if figure.ratio else float("nan") for figure in tonight.figures]
     rows.insert(0, "ratio", ratios)
     return Run(run.directory, rows)

@@ -1,0 +1,250 @@
+"""scripts/nightly, scripts/compare, diff and the exports, as a user calls them."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from beambench_report.__main__ import main
+from beambench_report.nightly.compare import compare_turns
+from beambench_report.nightly.diff import diff
+from beambench_report.nightly.home import Home
+from beambench_report.nightly.lock import only_one
+from beambench_report.problem import Problem
+from beambench_report.records import read_run
+from made_up_nights import add_all, counting, nothing, slower, write_night, write_nights, wrong
+from program import BINARY
+
+TINY = {
+    "name": "tiny",
+    "description": "A night of seconds.",
+    "scenes": ["stetra"],
+    "structures": ["null", "samet", "embree"],
+    "resolutions": ["32x20"],
+    "precision": 0.5,
+    "repetitions": {"minimum": 2, "maximum": 3},
+    "budget_seconds": 0.2,
+    "warm_up_seconds": 0,
+}
+
+needs_binary = pytest.mark.skipif(not BINARY.exists(), reason="beambench is not built")
+
+
+def call(*command: str | Path, directory: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [str(part) for part in command], cwd=directory, capture_output=True, text=True, check=False
+    )
+
+
+def night(home: Path, sweep: Path, *more: str | Path) -> int:
+    arguments = ["nightly", "run", "--home", home, "--sweep", sweep, "--beambench", BINARY, *more]
+    return main([str(argument) for argument in arguments])
+
+
+@pytest.fixture
+def sweep(tmp_path: Path) -> Path:
+    path = tmp_path / "tiny.json"
+    path.write_text(json.dumps(TINY))
+    return path
+
+
+@pytest.mark.parametrize("script", ["nightly", "compare"])
+def test_help_is_given(script: str, repository: Path) -> None:
+    helped = call(repository / "scripts" / script, "--help", directory=repository)
+    assert helped.returncode == 0
+    assert helped.stdout.startswith(f"usage: scripts/{script}")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["HEAD"], "two commits are needed"),
+        (["HEAD", "no-such-commit"], "'no-such-commit' is no commit"),
+        (["HEAD", "HEAD", "--turns", "3"], "--turns must be a number from 4 on"),
+        (["HEAD", "HEAD", "--sweep", "no/such"], "no/such is not a file"),
+        (["HEAD", "HEAD", "--fast"], "unknown argument '--fast'"),
+    ],
+)
+def test_compare_refuses_before_it_builds(
+    arguments: list[str], message: str, repository: Path
+) -> None:
+    done = call(repository / "scripts/compare", *arguments, directory=repository)
+    assert (done.returncode, done.stdout) == (2, "")
+    assert message in done.stderr
+    assert done.stderr.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--sweep", "no/such.json"], "no/such.json: is not a file"),
+        (["--published", "no/such"], "no/such: holds no results.csv"),
+        (["--keep", "0"], "--keep must be at least 1"),
+    ],
+)
+def test_a_wrong_request_is_one_sentence(
+    arguments: list[str], message: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["nightly", "run", "--home", str(tmp_path), *arguments, "--dry-run"]) == 2
+    assert message in capsys.readouterr().err
+
+
+@needs_binary
+def test_two_nights_in_a_row(
+    tmp_path: Path, sweep: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    home = tmp_path / "home"
+    assert night(home, sweep, "--dry-run") == 0
+    assert "(0 nights)" in capsys.readouterr().out
+    assert not home.exists()
+    assert night(home, sweep) == 0
+    (home / "20250101T000000Z").mkdir()  # as a killed run leaves it
+    assert night(home, sweep) == 0
+    assert not (home / "20250101T000000Z").exists()
+    page = (home / "report.html").read_text()
+    assert "Since yesterday" in page
+    [newest] = sorted(home.glob("2*T*Z"))[-1:]
+    names = {path.name for path in newest.iterdir()}
+    assert {"benchmark-bigger-is-better.json", "benchmark-google.json", "results.csv"} <= names
+
+
+@needs_binary
+def test_a_run_that_was_cut_off_is_resumed(tmp_path: Path, sweep: Path) -> None:
+    home = tmp_path / "home"
+    assert night(home, sweep) == 0
+    [folder] = home.glob("2*T*Z")
+    manifest = json.loads((folder / "manifest.json").read_text())
+    (folder / "manifest.json").write_text(json.dumps(manifest | {"finished_utc": None}))
+    (home / "history.sqlite").unlink()
+    kept = sorted(folder.glob("cells/*.json"))
+    kept[0].unlink()
+    times = {path: path.stat().st_mtime_ns for path in kept[1:]}
+    assert night(home, sweep, "--resume") == 0
+    assert [*home.glob("2*T*Z")] == [folder]
+    assert {path: path.stat().st_mtime_ns for path in kept[1:]} == times
+    assert len(list(folder.glob("cells/*.json"))) == len(kept)
+    assert night(home, sweep, "--resume") == 2
+
+
+def test_a_second_run_is_refused_while_one_goes_on(
+    tmp_path: Path, sweep: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with only_one(Home(tmp_path).lock):
+        assert night(tmp_path, sweep) == 2
+    assert "a nightly run is going on (process " in capsys.readouterr().err
+
+
+def test_a_wrong_hit_ends_with_1_and_is_named(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    home = Home(tmp_path)
+    *earlier, last = write_nights(home, 3, wrong("samet", "escena1", 2))
+    add_all(home, earlier)
+    arguments = ["nightly", "add", last, "--home", home.folder, "--beambench", "/bin/false"]
+    assert main([str(argument) for argument in arguments]) == 1
+    told = capsys.readouterr()
+    assert "samet max_level=5 in escena1 at 320x200: hits were not right (mismatch)" in told.err
+    assert told.out == f"{home.page}\n"
+
+
+# Comparisons
+
+
+def test_a_slow_down_by_5_percent_is_told_by_turns(tmp_path: Path) -> None:
+    before, after = Home(tmp_path / "a"), Home(tmp_path / "b")
+    outcome = compare_turns(
+        write_nights(before, 12, nothing, seed=1),
+        write_nights(after, 12, slower("exhaustive", "escena1", 1.05, 0), seed=2),
+    )
+    assert {cell.title for cell in outcome.slower} <= {
+        f"exhaustive in escena1 at {size}" for size in ("320x200", "640x480", "1280x1024")
+    }
+    assert len(outcome.slower) >= 1
+    assert outcome.is_regression
+    assert "SLOWER" in outcome.table()
+
+
+def test_turns_of_noise_tell_nothing(tmp_path: Path) -> None:
+    first = write_nights(Home(tmp_path / "a"), 12, nothing, seed=1)
+    second = write_nights(Home(tmp_path / "b"), 12, nothing, seed=2)
+    outcome = compare_turns(first, second)
+    assert outcome.slower == []
+    assert outcome.sentences == []
+    with pytest.raises(Problem, match="four or more each"):
+        compare_turns(first[:3], second[:3])
+
+
+def test_turns_tell_of_work_and_of_wrong_hits(tmp_path: Path) -> None:
+    first = write_nights(Home(tmp_path / "a"), 4, nothing)
+    more = counting("samet", "escena1", [1.1] * 4)
+    bad = wrong("exhaustive", "escena1", 0)
+    second = write_nights(Home(tmp_path / "b"), 4, lambda n, row: bad(n, more(n, row)))
+    sentences = compare_turns(first, second).sentences
+    assert "exhaustive in escena1 at 320x200: hits are not right any more (mismatch)" in sentences
+    assert any("traversal steps a ray from 11.5 to 12.65" in one for one in sentences)
+
+
+def test_diff_puts_two_files_beside_each_other(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    [a] = write_nights(Home(tmp_path / "a"), 1, nothing)
+    [b] = write_nights(Home(tmp_path / "b"), 1, slower("exhaustive", "escena1", 2.0, 0))
+    renamed = tmp_path / "b.csv"
+    (b / "results.csv").rename(renamed)
+    assert main(["diff", str(a / "results.csv"), str(renamed)]) == 0
+    told = capsys.readouterr().out
+    assert "in milliseconds" in told
+    pairs = {pair.title: pair for pair in diff(a, renamed).pairs}
+    slow = pairs["exhaustive in escena1 at 320x200"]
+    assert slow.low < 2.0 < slow.high
+    assert slow.ratio == pytest.approx(2.0, rel=0.05)
+    assert pairs["exhaustive in tetra:n=6 at 320x200"].ratio == pytest.approx(1.0, rel=0.05)
+
+
+def test_files_of_two_machines_are_compared_by_ratios(tmp_path: Path) -> None:
+    def elsewhere(_night: int, row: dict) -> dict:
+        times = {name: 3 * row[name] for name in row if "_ms_" in name and row[name] != ""}
+        return {**row, **times, "machine_id": "b"}
+
+    [a] = write_nights(Home(tmp_path / "a"), 1, nothing)
+    [b] = write_nights(Home(tmp_path / "b"), 1, elsewhere)
+    told = diff(a, b)
+    assert "over Embree's single rays" in told.what
+    assert all(pair.ratio == pytest.approx(1.0, rel=0.1) for pair in told.pairs)
+    assert all(pair.ratio > 2.5 for pair in diff(a, b, relative=False).pairs)
+
+
+def test_diff_refuses_what_it_cannot_read(tmp_path: Path) -> None:
+    [a] = write_nights(Home(tmp_path / "a"), 1, nothing)
+    with pytest.raises(Problem, match=r"nothing\.csv: is not a file"):
+        diff(a, tmp_path / "nothing.csv")
+    broken = tmp_path / "broken.csv"
+    broken.write_text("no,columns\n1,2\n")
+    with pytest.raises(Problem, match=r"broken\.csv.*schema_version"):
+        diff(a, broken)
+
+
+def test_exports_hold_every_timed_cell(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = write_night(Home(tmp_path), 0, np.random.default_rng(1), wrong("samet", "escena1", 0))
+    rows = read_run(folder).rows
+    timed = rows[rows["verdict"] == "ok"]
+    assert main(["benchmarks", str(folder), "--format", "customBiggerIsBetter"]) == 0
+    bigger = json.loads(capsys.readouterr().out)
+    assert len(bigger) == len(timed)
+    assert {"name", "unit", "value", "range", "extra"} == set(bigger[0])
+    assert bigger[0]["name"] == "escena1/default/320x200/1/primary/exhaustive"
+    first = timed.iloc[0]
+    assert bigger[0]["value"] == pytest.approx(first["rays"] / first["total_ms_median"] / 1000)
+    assert main(["benchmarks", str(folder), "--format", "google-benchmark"]) == 0
+    google = json.loads(capsys.readouterr().out)
+    frame = pd.DataFrame(google["benchmarks"])
+    assert len(frame) == len(timed)
+    # What compare.py reads of each entry.
+    needed = {"name", "run_type", "real_time", "cpu_time", "time_unit", "repetitions"}
+    assert needed <= set(frame.columns)
+    assert set(frame["run_type"]) == {"iteration"}
