@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from beambench_report.nightly.calibration import Noise, calibrate, count_alarms, made_up_nights
-from beambench_report.nightly.history import Alarm
+from beambench_report.nightly.history import Alarm, History
 from beambench_report.nightly.home import Home
-from beambench_report.nightly.judge import sentence
+from beambench_report.nightly.judge import doubt, judge, sentence
 from beambench_report.nightly.samples import noise_of_samples
 from beambench_report.nightly.steps import Rule, find_steps
 from beambench_report.problem import Problem
@@ -147,3 +147,18 @@ def test_noise_can_be_drawn_from_raw_samples(tmp_path: Path) -> None:
         noise_of_samples([tmp_path])
     with pytest.raises(Problem, match="raw samples were not pruned"):
         noise_of_samples([tmp_path / "nothing"])
+
+
+def test_a_night_that_is_judged_again_raises_the_same(home: Home) -> None:
+    folders = write_nights(home, NIGHTS, slower("exhaustive", "tetra:n=6", 1.08, 16))
+    told = add_all(home, folders)
+    [number] = [place for place, night in enumerate(told, 1) if night]
+    with History(home.history) as history:
+        assert judge(history, number) == told[number - 1]
+
+
+def test_a_faster_reference_is_doubted() -> None:
+    alarms = [Alarm(1, "time", str(series), {}) for series in range(80)]
+    assert doubt(alarms, 105).startswith("80 of 105 series got slower at once")
+    assert doubt(alarms[:20], 105) == ""
+    assert doubt(alarms[:4], 6) == ""

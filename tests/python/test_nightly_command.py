@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -248,3 +249,40 @@ def test_exports_hold_every_timed_cell(tmp_path: Path, capsys: pytest.CaptureFix
     needed = {"name", "run_type", "real_time", "cpu_time", "time_unit", "repetitions"}
     assert needed <= set(frame.columns)
     assert set(frame["run_type"]) == {"iteration"}
+
+
+def test_compare_builds_each_commit_and_measures_in_turns(
+    repository: Path, tmp_path: Path, sweep: Path
+) -> None:
+    """In a clone, by a cmake that only puts the program there: building takes minutes."""
+    if not BINARY.exists() or not (repository / ".git").exists():
+        pytest.skip("beambench is not built, or this is no repository")
+    clone = tmp_path / "clone"
+    call("git", "clone", "-q", "--shared", repository, clone, directory=tmp_path)
+    for script in ("compare", "beambench_report"):  # what is being tested, committed or not
+        call("cp", "-r", repository / "scripts" / script, clone / "scripts/", directory=tmp_path)
+    tools = tmp_path / "tools"
+    tools.mkdir()
+    cmake = tools / "cmake"
+    cmake.write_text(
+        "#!/usr/bin/env bash\n"
+        f"mkdir -p build/release/bin && ln -sf {BINARY.resolve()} build/release/bin/beambench\n"
+    )
+    cmake.chmod(0o755)
+    python = clone / ".venv/bin/python"
+    python.parent.mkdir(parents=True)
+    python.write_text(f'#!/bin/sh\nPYTHONPATH={clone}/scripts exec {sys.executable} "$@"\n')
+    python.chmod(0o755)
+    done = subprocess.run(
+        ["bash", "-c", f"PATH={tools}:$PATH scripts/compare HEAD~1 HEAD --sweep {sweep} --turns 4"],
+        cwd=clone,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode in (0, 1), done.stderr  # times of a busy machine are not judged here
+    assert done.stdout.startswith("    B/A  95% interval")
+    assert "samet in stetra at 32x20" in done.stdout
+    turns = [line for line in done.stderr.splitlines() if line.startswith("== turn")]
+    assert [line[-1] for line in turns] == list("ABBAABBA")
+    assert len(list((clone / "results/runs").glob("compare-*/?-0?/results.csv"))) == 8

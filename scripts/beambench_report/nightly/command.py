@@ -103,8 +103,8 @@ def _run(options: argparse.Namespace, home: Home, published: Path | None) -> int
     if options.dry_run:
         print(describe(wish), end="")
         return 0
-    with only_one(home.lock):
-        return run_night(wish)
+    with only_one(home.lock) as lock:
+        return run_night(wish, lock)
 
 
 def _published(options: argparse.Namespace) -> Path | None:

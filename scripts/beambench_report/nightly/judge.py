@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from math import expm1
 
 import numpy as np
@@ -15,12 +15,14 @@ from beambench_report.nightly.steps import Rule, find_steps
 from beambench_report.records import TIMED_VERDICTS
 
 _ROOM = 3
+_MANY = 5
 
 
 def judge(history: History, night: int) -> list[Alarm]:
     """The alarms of a night that is in the history, in the light of the nights before it."""
     nights = read_nights(history, night)
-    earlier = [alarm for alarm in history.alarms() if alarm.kind == "time"]
+    before = set(nights.nights["number"][:-1])
+    earlier = [one for one in history.alarms() if one.kind == "time" and one.night in before]
     found = [*_wrong(nights), *_more_work(nights), *_slower(nights, earlier)]
     return [Alarm(night, kind, series, details) for kind, series, details in found]
 
@@ -88,6 +90,17 @@ def reported_starts(nights: Nights, earlier: list[Alarm]) -> np.ndarray:
             starts[alarm.series] = max(change, starts.get(alarm.series, 0))
     keys = [series_key(pool) for _, pool in nights.pools.iterrows()]
     return np.array([starts.get(key, 0) for key in keys], int)
+
+
+def doubt(alarms: Iterable[Alarm], series: int) -> str:
+    """Where most series got slower at once, the contender they are measured by got faster."""
+    slower = sum(alarm.kind == "time" for alarm in alarms)
+    if slower < _MANY or slower * 2 < series:
+        return ""
+    return (
+        f"{slower} of {series} series got slower at once: more likely Embree, by which they are "
+        "measured, got faster, or the machine is another one"
+    )
 
 
 def cell_title(cell: pd.Series) -> str:

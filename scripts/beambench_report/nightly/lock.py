@@ -13,10 +13,11 @@ from beambench_report.problem import Problem
 
 
 @contextmanager
-def only_one(path: Path) -> Iterator[None]:
+def only_one(path: Path) -> Iterator[int]:
     """Holds the lock file while the block runs; the system frees it, however the process ends.
 
-    Raises Problem, and waits for nothing, where another process holds it.
+    Gives the file's descriptor: a child that inherits it holds the lock, too, and goes on doing so
+    where its parent is killed. Raises Problem, and waits for nothing, where another process has it.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     with path.open("a+", encoding="utf-8") as file:
@@ -31,5 +32,5 @@ def only_one(path: Path) -> Iterator[None]:
         file.truncate(0)
         file.write(f"process {os.getpid()} since {datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}\n")
         file.flush()
-        yield
+        yield file.fileno()
         file.truncate(0)

@@ -130,14 +130,16 @@ def _references(rows: pd.DataFrame, times: pd.Series) -> dict[tuple, int]:
 
     Embree is the one contender that no commit of ours changes.
     """
-    best: dict[tuple, tuple[int, int]] = {}
+    best: dict[tuple, tuple[int, str, int]] = {}
     views = _views(rows)
     for place, structure in enumerate(rows["structure"]):
         if structure != "embree" or pd.isna(times.iloc[place]):
             continue
-        rank = 0 if "mode=single" in rows["parameters"].iloc[place] else 1
-        best[views[place]] = min(best.get(views[place], (2, 0)), (rank, place))
-    return {view: place for view, (_, place) in best.items()}
+        parameters = rows["parameters"].iloc[place]
+        # By what it is, not by where it stands: rows come in another order each night.
+        candidate = (0 if "mode=single" in parameters else 1, parameters, place)
+        best[views[place]] = min(best.get(views[place], candidate), candidate)
+    return {view: place for view, (_, _, place) in best.items()}
 
 
 def _views(rows: pd.DataFrame) -> list[tuple]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import signal
 import subprocess
 import sys
 from dataclasses import dataclass
@@ -12,8 +13,9 @@ from pathlib import Path
 from beambench_report.nightly.exports import write_exports
 from beambench_report.nightly.history import Alarm, History, rebuild
 from beambench_report.nightly.home import Home, abandon, is_finished, prune
-from beambench_report.nightly.judge import judge, sentence
+from beambench_report.nightly.judge import doubt, judge, sentence
 from beambench_report.nightly.night import night_of
+from beambench_report.nightly.nights import read_nights
 from beambench_report.nightly.page.write import write_night_page
 from beambench_report.nightly.pictures import picture_mismatches
 from beambench_report.problem import Problem
@@ -34,11 +36,14 @@ class Wish:
     keep: int
 
 
-def run_night(wish: Wish) -> int:
-    """Measures a night and tells of it; the exit code: 1 where something regressed or was wrong."""
+def run_night(wish: Wish, lock: int) -> int:
+    """Measures a night and tells of it; the exit code: 1 where something regressed or was wrong.
+
+    `lock` is the descriptor of the lock that keeps other runs away.
+    """
     catch_up(wish.home)
     folder = _folder_for(wish)
-    code = _measure(wish, folder)
+    code = _measure(wish, folder, lock)
     if code in _INTERRUPTED:
         _say("interrupted; go on with: scripts/nightly --resume (or it is abandoned next time)")
         return 130
@@ -60,9 +65,10 @@ def record(home: Home, folder: Path, beambench: Path, published: Path | None, ke
         alarms = judge(history, number)
         with history.change():
             history.add_alarms(number, alarms)
+        series = len(read_nights(history, number).pools)
         write_night_page(home, history, published)
     prune(home, keep)
-    tell(alarms)
+    tell(alarms, series)
     print(home.page)
     return 1 if alarms else 0
 
@@ -90,8 +96,10 @@ def rebuild_history(home: Home) -> int:
     return rebuild(home.history, home.finished(), judge)
 
 
-def tell(alarms: list[Alarm]) -> None:
+def tell(alarms: list[Alarm], series: int) -> None:
     """Says what is wrong, one line each; nothing where nothing is."""
+    if doubtful := doubt(alarms, series):
+        _say(doubtful)
     for alarm in alarms:
         _say(f"REGRESSION {sentence(alarm)}" if alarm.kind != "verdict" else sentence(alarm))
 
@@ -130,19 +138,22 @@ def _folder_for(wish: Wish) -> Path:
     return wish.home.folder / datetime.now(UTC).strftime("%Y%m%dT%H%M%SZ")
 
 
-def _measure(wish: Wish, folder: Path) -> int:
+def _measure(wish: Wish, folder: Path, lock: int) -> int:
     resume = wish.resume and (folder / "manifest.json").exists()
     arguments = ["--resume", folder] if resume else [wish.sweep, "-o", folder]
     command = [str(part) for part in (wish.beambench, "run", *arguments)]
     try:
-        child = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        child = subprocess.Popen(command, stdout=subprocess.DEVNULL, pass_fds=(lock,))
     except OSError as error:
         raise Problem(f"{command[0]} cannot be run: {error.strerror}; build it first") from None
+    before = signal.signal(signal.SIGTERM, lambda *_: child.terminate())
     try:
         return child.wait()
-    except KeyboardInterrupt:
+    except KeyboardInterrupt:  # the child's, too: it ends by it in good order
         child.wait()
         return _INTERRUPTED[0]
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _say(text: str) -> None:

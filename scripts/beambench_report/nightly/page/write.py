@@ -17,7 +17,7 @@ from beambench_report.files import write_text
 from beambench_report.nightly.counters import SHARE
 from beambench_report.nightly.history import Alarm, History
 from beambench_report.nightly.home import Home
-from beambench_report.nightly.judge import sentence
+from beambench_report.nightly.judge import doubt, sentence
 from beambench_report.nightly.night import Night, night_of
 from beambench_report.nightly.nights import Nights, read_nights
 from beambench_report.nightly.page.changes import Changes, compare_nights, shares
@@ -65,6 +65,7 @@ def render(history: History, nights: Nights, run: Run, published: Run | None, ho
         manifest=manifest,
         newest=run.rows.iloc[-1].to_dict(),
         alarms=[_told(one) for one in alarms if one.night == newest],
+        doubt=doubt([one for one in alarms if one.night == newest], len(nights.pools)),
         earlier=_earlier(alarms, nights, newest),
         count=len(nights.nights),
         judged=_judged(nights),
