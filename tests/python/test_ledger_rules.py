@@ -238,6 +238,17 @@ def test_a_claim_is_not_tested_where_rows_are_missing(claim: Claim) -> None:
     assert judge(claim, without(part)).verdict is Verdict.NOT_TESTED
 
 
+def test_a_scene_without_nonterminal_beams_tells_nothing_of_their_time() -> None:
+    (constant,) = (claim for claim in CLAIMS if claim.name == "C09")
+
+    def none_in_tetera(row: Row) -> Row:
+        return set_to(row, 0) if SPOILED["C09"].part(row) and "quantity" in row else row
+
+    found = judge(constant, holding(none_in_tetera))
+    assert found.verdict is Verdict.HOLDS
+    assert not any("tetera" in check.cell for check in found.checks)
+
+
 def test_what_stands_beside_a_claim_does_not_count() -> None:
     (rays_win,) = (claim for claim in CLAIMS if claim.name == "C14")
     found = judge(rays_win, without(lambda row: row.get("resolution") == "640x480"))

@@ -205,8 +205,9 @@ def nonterminal_time_is_constant(e: Evidence) -> list[Check]:
             resolution: e.worked("seconds_nonterminal", scene, resolution, level=level)
             for resolution in RESOLUTIONS
         }
-        known = [figure for figure in seconds.values() if figure is not None]
-        if seconds[COARSEST] is None or seconds[FINEST] is None:
+        known = [figure for figure in seconds.values() if figure is not None and figure.low > 0]
+        # An eye in an occupied leaf has no such beams, and no time to tell of them.
+        if seconds[COARSEST] not in known or seconds[FINEST] not in known:
             continue
         largest = max(known, key=lambda figure: figure.value)
         ratio = largest / smallest(known)
