@@ -32,6 +32,7 @@ Statistics TileBeam::statistics() const {
                      hierarchy_.meshlets.capacity() * sizeof(Meshlet) +
                      hierarchy_.spheres.capacity() * sizeof(SphereBlock) +
                      hierarchy_.cones.capacity() * sizeof(ConeBlock);
+  statistics.instruction_set = instruction_set();
   statistics.more = {{"cost", hierarchy_.cost},
                      {"meshlets", static_cast<double>(hierarchy_.meshlets.size())}};
   return statistics;

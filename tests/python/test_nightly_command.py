@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+from datetime import UTC, datetime
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,7 @@ from beambench_report.nightly.compare import compare_turns
 from beambench_report.nightly.diff import diff
 from beambench_report.nightly.home import Home
 from beambench_report.nightly.lock import only_one
+from beambench_report.nightly.run import _free_folder
 from beambench_report.problem import Problem
 from beambench_report.records import read_run
 from made_up_nights import add_all, counting, nothing, slower, write_night, write_nights, wrong
@@ -93,6 +95,14 @@ def test_a_wrong_request_is_one_sentence(
 ) -> None:
     assert main(["nightly", "run", "--home", str(tmp_path), *arguments, "--dry-run"]) == 2
     assert message in capsys.readouterr().err
+
+
+def test_two_nights_of_one_second_have_folders_of_their_own(tmp_path: Path) -> None:
+    time = datetime(2026, 11, 21, 23, 59, 59, tzinfo=UTC)
+    first = _free_folder(tmp_path, time)
+    first.mkdir()
+    assert first.name == "20261121T235959Z"
+    assert _free_folder(tmp_path, time).name == "20261122T000000Z"
 
 
 @needs_binary

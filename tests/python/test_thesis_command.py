@@ -92,6 +92,11 @@ def test_each_sweep_is_run_once_and_a_finished_one_never_again(
     assert "finished" in capsys.readouterr().out.splitlines()[0]
     assert run_thesis("--resume", run, *options) == 0
     assert calls(stand_in)[2:] == [f"run --resume {run}/best-synthetic"]
+    # The levels may be asked for later.
+    assert run_thesis("--resume", run, "--levels", *options) == 0
+    assert calls(stand_in)[3:] == [f"run {run}/sweeps/levels.json -o {run}/levels"]
+    assert run_thesis("--resume", run, *options) == 0
+    assert len(calls(stand_in)) == 4
     assert run_thesis("--table", "5.4", "-o", run, *options) == 2  # would mix two runs
     assert "holds a run already" in capsys.readouterr().err
 

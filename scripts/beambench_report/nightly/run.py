@@ -7,7 +7,7 @@ import signal
 import subprocess
 import sys
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
 from beambench_report.nightly.exports import write_exports
@@ -135,7 +135,13 @@ def _folder_for(wish: Wish) -> Path:
     for run in unfinished:
         _say(f"== {run.name} was cut off: abandoned")
         abandon(run)
-    return wish.home.folder / datetime.now(UTC).strftime("%Y%m%dT%H%M%SZ")
+    return _free_folder(wish.home.folder, datetime.now(UTC))
+
+
+def _free_folder(home: Path, time: datetime) -> Path:
+    """The run that begins at this time, or the first second after it that has no run yet."""
+    folder = home / time.strftime("%Y%m%dT%H%M%SZ")
+    return _free_folder(home, time + timedelta(seconds=1)) if folder.exists() else folder
 
 
 def _measure(wish: Wish, folder: Path, lock: int) -> int:

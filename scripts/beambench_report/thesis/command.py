@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from beambench_report.problem import Problem
-from beambench_report.thesis.plan import Plan, keep_plan, make_plan, read_plan
+from beambench_report.thesis.plan import Plan, add_levels, keep_plan, make_plan, read_plan
 from beambench_report.thesis.report import write_report
 from beambench_report.thesis.runner import describe, run_sweeps
 
@@ -53,7 +53,7 @@ def thesis(options: argparse.Namespace) -> int:
         print(describe(plan, directory if options.resume else None), end="")
         return 0
     directory.mkdir(parents=True, exist_ok=True)
-    if not options.resume:
+    if not options.resume or options.levels:
         keep_plan(plan, directory)
     code = 0
     if not options.report_only:
@@ -86,10 +86,12 @@ def _request(options: argparse.Namespace) -> tuple[Plan, Path]:
                 f"{directory}: holds a run already; go on with it by --resume, or choose another"
             )
         return plan, directory
-    others = (options.table, options.figure, options.quick, options.levels, options.output)
-    if any(others):
-        raise Problem("--resume goes on with what was begun: give no other choice with it")
-    return read_plan(options.resume), options.resume
+    if any((options.table, options.figure, options.quick, options.output)):
+        raise Problem(
+            "--resume goes on with what was begun: give no other choice with it, but for --levels"
+        )
+    plan = read_plan(options.resume)
+    return add_levels(plan) if options.levels else plan, options.resume
 
 
 def _say(text: str) -> None:

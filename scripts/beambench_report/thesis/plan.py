@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from beambench_report.files import write_text
@@ -63,6 +63,15 @@ def make_plan(
         is_quick,
         tuple(sweep for sweep in made if sweep is not None),
     )
+
+
+def add_levels(plan: Plan) -> Plan:
+    """The same plan with the sweep that max_level=auto is judged by, if it was without."""
+    if any(sweep.name == LEVELS for sweep in plan.sweeps):
+        return plan
+    levels = read_sweep(LEVELS, sweep_files.FOLDER.parent)
+    made = quick(levels) if plan.is_quick else levels
+    return replace(plan, sweeps=(*plan.sweeps, made)) if made else plan
 
 
 def keep_plan(plan: Plan, directory: Path) -> None:
