@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "accel/mirrored.hpp"
 #include "scenes/error.hpp"
 
 namespace beambench {
@@ -51,6 +52,16 @@ PrimaryRays::PrimaryRays(const Camera& camera, int width, int height, int sample
   across_ = right * (2.0 * half_width);
   all_down_ = -up * (2.0 * half_height);
   top_left_ = forward_ - right * half_width + up * half_height;
+}
+
+PrimaryRays PrimaryRays::mirrored(const glm::dvec3& point, const glm::dvec3& normal) const {
+  PrimaryRays rays = *this;
+  rays.eye_ = glm::vec3(point + beambench::mirrored(glm::dvec3(eye_) - point, normal));
+  for (glm::dvec3* way : {&rays.forward_, &rays.top_left_, &rays.right_, &rays.down_, &rays.across_,
+                          &rays.all_down_}) {
+    *way = beambench::mirrored(*way, normal);
+  }
+  return rays;
 }
 
 std::size_t PrimaryRays::count() const {

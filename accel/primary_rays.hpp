@@ -25,6 +25,12 @@ class PrimaryRays {
   /// Throws InputError when width or height is not in 1 ... 16384 or samples has no pattern.
   PrimaryRays(const Camera& camera, int width, int height, int samples);
 
+  /// The rays of the same samples behind a mirror, the plane through `point` with a unit `normal`:
+  /// those of a virtual eye, which is where the mirror shows the eye (Heckbert and Hanrahan, "Beam
+  /// tracing polygonal objects", SIGGRAPH 1984). A ray's t goes on counting where the real one's
+  /// stopped. The eye is rounded to float.
+  PrimaryRays mirrored(const glm::dvec3& point, const glm::dvec3& normal) const;
+
   int width() const { return width_; }
   int height() const { return height_; }
   int samples() const { return static_cast<int>(offsets_.size()); }

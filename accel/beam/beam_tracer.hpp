@@ -7,6 +7,7 @@
 #include "accel/beam/beam_options.hpp"
 #include "accel/beam/beam_paths.hpp"
 #include "accel/beam/beam_samples.hpp"
+#include "accel/beam/beam_sight.hpp"
 #include "accel/beam/beam_watch.hpp"
 #include "accel/beam/leaf_batch.hpp"
 #include "accel/octree/samet.hpp"
@@ -46,8 +47,12 @@ class BeamTracer : public Samet {
   template <class Watch>
   void trace_watched(const PrimaryRays& rays, HitBuffer& buffer, Watch& watch) const;
 
+  /// What a mirror shows: `rays` are those of its virtual eye (`PrimaryRays::mirrored`). Samples
+  /// that do not see the mirror become misses.
+  void trace_behind(const BehindMirror& mirror, const PrimaryRays& rays, HitBuffer& buffer) const;
+
  private:
-  template <class Watch>
+  template <class Watch, class Sight>
   class Run;
 
   const Scene* scene_;
@@ -55,25 +60,31 @@ class BeamTracer : public Samet {
 };
 
 /// One image being traced.
-template <class Watch>
+template <class Watch, class Sight>
 class BeamTracer::Run {
  public:
-  Run(const BeamTracer& tracer, const PrimaryRays& rays, HitBuffer& buffer, Watch& watch)
+  Run(const BeamTracer& tracer, const PrimaryRays& rays, const Sight& sight, HitBuffer& buffer,
+      Watch& watch)
       : tracer_(&tracer),
         view_(tracer.octree().grid(), rays),
         scan_(view_, rays),
         lattices_(sample_lattices(rays, tracer.options_.share_corners)),
         images_(*tracer.scene_, rays),
-        finished_(tracer.options_.continue_with_rays ? 0 : buffer.size(), 0),
+        sight_(&sight),
+        finished_(sight.finished(buffer)),
         samples_(static_cast<double>(rays.count())),
         buffer_(&buffer),
         watch_(&watch),
-        counting_(watch.rays()) {}
+        counting_(watch.rays()) {
+    if (finished_.empty() && !tracer.options_.continue_with_rays) {
+      finished_.assign(buffer.size(), 0);
+    }
+  }
 
   void operator()() {
     std::fill_n(buffer_->t(), buffer_->size(), kInfinity);
     std::fill_n(buffer_->primitive(), buffer_->size(), kNoPrimitive);
-    begin_beams(octree(), view_, view_.screen(), queue_);
+    begin_beams(octree(), view_, sight_->part(view_), queue_);
     BeamStep step;
     while (!queue_.waiting.empty()) {
       queue_.waiting.pop(step);
@@ -83,7 +94,11 @@ class BeamTracer::Run {
           leave(step.beam);
           break;
         case BeamKind::kOccupied:
-          test_leaf(step.beam);
+          if (sight_->passes(octree().grid(), step.beam)) {
+            go_on(step.beam);
+          } else {
+            test_leaf(step.beam);
+          }
           break;
         case BeamKind::kNonTerminal:
           go_on(step.beam);
@@ -187,7 +202,9 @@ class BeamTracer::Run {
     for (const SampleLattice& lattice : watch_->chosen(lattices_)) {
       scan_.for_each_run(beam, lattice, [&](int y, int first, int last) {
         for (int x = first; x <= last; ++x) {
-          LeafBatch::Sample& sample = batch_.add(lattice, x, y, scan_.ray(lattice, x, y));
+          Ray ray = scan_.ray(lattice, x, y);
+          sight_->begin(ray);
+          LeafBatch::Sample& sample = batch_.add(lattice, x, y, ray);
           if (!finished_.empty() && !resume(sample)) batch_.drop_last();
           if (!batch_.full()) continue;
           visit();
@@ -226,7 +243,9 @@ class BeamTracer::Run {
   SampleScan scan_;
   std::vector<SampleLattice> lattices_;
   PrimitiveImages images_;
-  /// For beams that go on behind occupied leaves: which samples need no more.
+  const Sight* sight_;
+  /// Which samples need no more, where that is to be known: if some are not wanted, or beams go on
+  /// behind occupied leaves.
   std::vector<std::uint8_t> finished_;
   double samples_;
   HitBuffer* buffer_;
@@ -237,7 +256,13 @@ class BeamTracer::Run {
 
 template <class Watch>
 void BeamTracer::trace_watched(const PrimaryRays& rays, HitBuffer& buffer, Watch& watch) const {
-  Run<Watch>(*this, rays, buffer, watch)();
+  Run<Watch, WholeImage>(*this, rays, WholeImage{}, buffer, watch)();
+}
+
+inline void BeamTracer::trace_behind(const BehindMirror& mirror, const PrimaryRays& rays,
+                                     HitBuffer& buffer) const {
+  NoBeamWatch watch;
+  Run<NoBeamWatch, BehindMirror>(*this, rays, mirror, buffer, watch)();
 }
 
 }  // namespace beambench

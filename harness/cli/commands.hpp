@@ -27,6 +27,7 @@ void add_trace_command(CLI::App& app, int& exit_code);
 void add_run_command(CLI::App& app, int& exit_code);
 void add_sampling_command(CLI::App& app, int& exit_code);
 void add_census_command(CLI::App& app, int& exit_code);
+void add_mirrors_command(CLI::App& app, int& exit_code);
 /// These two read the other commands off `app` when they run.
 void add_completion_command(CLI::App& app, int& exit_code);
 void add_man_command(CLI::App& app, int& exit_code);

@@ -6,9 +6,9 @@
 #include <tbb/parallel_for.h>
 
 #include "accel/embree/oracle.hpp"
+#include "accel/mirrored.hpp"
 #include "harness/rays/beside_surface.hpp"
 #include "harness/rays/cosine_direction.hpp"
-#include "harness/rays/mirrored.hpp"
 #include "harness/rays/normal.hpp"
 #include "scenes/random.hpp"
 

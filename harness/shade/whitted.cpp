@@ -5,9 +5,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "accel/mirrored.hpp"
 #include "harness/picture/srgb.hpp"
 #include "harness/rays/beside_surface.hpp"
-#include "harness/rays/mirrored.hpp"
 #include "harness/rays/normal.hpp"
 #include "harness/shade/preview.hpp"
 #include "harness/shade/refracted.hpp"

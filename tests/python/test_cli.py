@@ -361,6 +361,17 @@ def test_a_census_counts_rays_by_kind(tmp_path: Path) -> None:
     assert shallow["shadow_rays"] < cached["shadow_rays"]
 
 
+def test_mirrors_are_shown_by_beams_and_by_rays() -> None:
+    arguments = ("mirrors", "teapot:n=2", "--resolution", "64x64", "--repetitions", "1")
+    text = output_of(*arguments)
+    assert "1 planar mirrors" in text
+    assert "rays/beams" in text
+    (board,) = json.loads(output_of(*arguments, "--json"))["seen"]
+    assert 0 < board["hits"] < board["samples"] < 64 * 64
+    assert board["different"] == 0
+    assert json.loads(output_of("mirrors", "tetra:n=1", "--json"))["seen"] == []
+
+
 def test_the_rules_of_spd_fix_the_rays() -> None:
     (tetra,) = json.loads(output_of("census", "tetra:n=2", "--rules", "spd", "--json"))["scenes"]
     assert tetra["eye_rays"] == 513 * 513
@@ -633,6 +644,7 @@ WRONG_REQUESTS = [
     (["verify", "tetra:n=1", "--samples", "3"], ["3 samples"]),
     (["completion", "tcsh"], ["tcsh", "bash"]),
     (["sampling", "tetra:n=1", "--accel", "samet"], ["samet", "--accel beam"]),
+    (["mirrors", "tetra:n=1", "--accel", "samet"], ["samet", "--accel beam"]),
     (["census", "tetra:n=1", "--rules", "haines"], ["haines", "spd", "image"]),
     (["census", "tetra:n=1", "--rules", "spd", "--resolution", "9x9"], ["513x513"]),
     (["census", "tetra:n=1", "--shadows", "volumes"], ["volumes", "light-buffer"]),
