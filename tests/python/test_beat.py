@@ -140,6 +140,8 @@ def test_the_report_tells_what_is_met(tmp_path: Path) -> None:
     assert "| **geometric mean** | 8.00 (7.84 to 8.16) missed |" in text
     assert "*at least 12*" in text
     assert "AVX3 against AVX512" in text
+    assert "Of 6 aims for single scenes 6 are met, 0 open, 0 missed." in text
+    assert "run 20261122-100000-beat-embree, commit 0123456789ab, machine feedfeed" in text
 
 
 def test_half_the_aims_hold_where_both_are_held_to_less(tmp_path: Path) -> None:

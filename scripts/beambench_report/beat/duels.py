@@ -52,6 +52,8 @@ class Duel:
     tile: Trace
     embree: Trace
     """The fastest of Embree's modes whose hits were right."""
+    origin: str
+    """Run, commit and machine."""
 
     @property
     def ratio(self) -> Ratio:
@@ -116,6 +118,8 @@ def _duel(image: tuple, tiles: Sequence[Row], modes: Sequence[Row]) -> Duel:
         str(image[-1]),
         _trace(tile, "tile-beam"),
         _trace(fastest, _mode_name(fastest)),
+        f"run {tile['run_id']}, commit {tile['commit'][:12]}"
+        f"{' (modified)' if tile['dirty'] == 'true' else ''}, machine {tile['machine_id'][:8]}",
     )
 
 

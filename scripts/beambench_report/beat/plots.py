@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, NullLocator
 
 from beambench_report.beat.aims import groups
-from beambench_report.beat.duels import Duel, Trace
+from beambench_report.beat.duels import Duel, Ratio, Trace
 from beambench_report.beat.report import part_of_aims
 from beambench_report.figure import Plot, new_figure
 from beambench_report.style import structure_colour
@@ -68,7 +68,9 @@ def _ratios(isa: str, found: Sequence[Duel]) -> Plot | None:
     for panel, (group, own) in zip(panels, panels_of, strict=True):
         scenes = [scene for scene in group.scenes if any(duel.scene == scene for duel in own)]
         for duel in own:
-            _draw_ratio(panel, duel, scenes.index(duel.scene), resolutions.index(duel.resolution))
+            size = resolutions.index(duel.resolution)
+            shift = 0.13 * (size - (len(resolutions) - 1) / 2)
+            _draw_ratio(panel, duel.ratio, scenes.index(duel.scene) + shift, size)
         for resolution, aim in group.aims.items():
             if any(duel.resolution == resolution for duel in own):
                 colour = _COLOURS[resolutions.index(resolution) % len(_COLOURS)]
@@ -79,14 +81,13 @@ def _ratios(isa: str, found: Sequence[Duel]) -> Plot | None:
         _axis_of_ratios(panel, shown)
     panels[-1].set_xlabel("times as fast as Embree's fastest mode; dashed: aims")
     _legend(figure, resolutions)
+    _tell_origin(figure, shown)
     stem = "beat-embree" if isa == "best" else f"beat-embree-{isa}"
     return Plot(stem, figure, "how many times as fast as Embree tile beams are")
 
 
-def _draw_ratio(panel: Axes, duel: Duel, row: int, size: int) -> None:
-    ratio = duel.ratio
+def _draw_ratio(panel: Axes, ratio: Ratio, at: float, size: int) -> None:
     colour = _COLOURS[size % len(_COLOURS)]
-    at = row + 0.12 * (size - 1)
     if ratio.low is not None and ratio.high is not None:
         panel.plot([ratio.low, ratio.high], [at, at], color=colour, linewidth=1.5)
     panel.plot(ratio.value, at, _MARKERS[size % len(_MARKERS)], color=colour, markersize=4.5)
@@ -118,8 +119,13 @@ def _legend(figure: Figure, resolutions: Sequence[str]) -> None:
         for index, resolution in enumerate(resolutions)
     ]
     figure.legend(
-        handles=handles, loc="outside lower center", ncols=len(handles), frameon=False, fontsize=8
+        handles=handles, loc="outside upper center", ncols=len(handles), frameon=False, fontsize=8
     )
+
+
+def _tell_origin(figure: Figure, found: Sequence[Duel]) -> None:
+    origins = dict.fromkeys(duel.origin for duel in found)
+    figure.supxlabel("\n".join(origins), x=0.01, ha="left", fontsize=7.5, color="#333333")
 
 
 def _growth(
@@ -151,6 +157,7 @@ def _growth(
         panel.grid(axis="y", color="#dddddd", linewidth=0.6)
     panels[0].legend(frameon=False, fontsize=8)
     panels[-1].set_xlabel(axis)
+    _tell_origin(figure, [duel for own in long.values() for duel in own])
     return Plot(stem, figure, f"time of tile beams and of Embree over the number of {axis}")
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 
 from beambench_report.beat.aims import HELD_TO_LESS, Group, groups
@@ -23,6 +24,7 @@ def as_markdown(found: Sequence[Duel], plots: Sequence[str] = ()) -> str:
     lines = ["# Tile beams against Embree", "", _WORDS, ""]
     for plot in plots:
         lines += [f"![{plot}]({plot})", ""]
+    lines += [*(f"- {origin}" for origin in dict.fromkeys(duel.origin for duel in found)), ""]
     single = [duel for duel in found if duel.samples == 1]
     for isa in dict.fromkeys(duel.isa for duel in single):
         lines += [*_of_isa(isa, [duel for duel in single if duel.isa == isa]), ""]
@@ -51,10 +53,25 @@ def _of_isa(isa: str, found: Sequence[Duel]) -> Iterable[str]:
         f"{duel.tile.isa or '?'} against {duel.embree.isa or '?'}" for duel in found
     )
     yield f"## On {', '.join(sets)}{held}"
+    yield ""
+    yield _summary(found, part)
     for group in groups():
         table = _group_table(group, found, part)
         if table:
             yield from ("", f"### {group.title}", "", *table)
+
+
+def _summary(found: Sequence[Duel], part: float) -> str:
+    judged = Counter(
+        judgement(duel.ratio, part * group.aims[duel.resolution])
+        for group in groups()
+        for duel in found
+        if duel.scene in group.scenes and duel.resolution in group.aims
+    )
+    return (
+        f"Of {judged.total()} aims for single scenes {judged['met']} are met, "
+        f"{judged['open']} open, {judged['missed']} missed."
+    )
 
 
 def _group_table(group: Group, found: Sequence[Duel], part: float) -> list[str]:
