@@ -124,7 +124,7 @@ void register_embree(Registry& registry) {
                        "tells Embree that neighbouring rays are alike, which packets need"),
         isa_parameter()},
        [](const Scene& scene, const Parameters& parameters, const Workload&) {
-         const std::string isa = parameters.choice("isa");
+         const std::string& isa = parameters.choice("isa");
          embree::require_isa(isa);
          return std::make_unique<EmbreeContender>(
              scene, parse_quality(parameters.choice("quality")), parameters.flag("robust"),

@@ -165,10 +165,10 @@ class Block {
     }
   }
 
+  alignas(64) std::array<std::array<double, N>, 3> down_;  ///< down * py of each lane
   const PrimaryRays& rays_;
   int y_;
   int sample_;
-  alignas(64) std::array<std::array<double, N>, 3> down_;  ///< down * py of each lane
 };
 
 /// Calls `trace_tile(left, top, right, bottom)` for all tiles.
