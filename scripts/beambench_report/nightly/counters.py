@@ -1,7 +1,8 @@
 """Did a structure need more work for the same rays?
 
 Counters have no noise: the same program asked the same rays counts the same. Each is held to the
-least it has been since it was last reported, so that many small steps are found like a large one.
+least it has been since it was last reported (in the nights that judge.py looks at), so that many
+small steps are found like a large one.
 """
 
 from __future__ import annotations

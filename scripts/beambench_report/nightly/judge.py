@@ -14,13 +14,16 @@ from beambench_report.nightly.nights import Nights, read_nights
 from beambench_report.nightly.steps import Rule, find_steps
 from beambench_report.records import TIMED_VERDICTS
 
+NIGHTS = 120
+"""How far back is looked: a counter's least value and a step are sought among so many nights."""
+
 _ROOM = 3
 _MANY = 5
 
 
 def judge(history: History, night: int) -> list[Alarm]:
     """The alarms of a night that is in the history, in the light of the nights before it."""
-    nights = read_nights(history, night)
+    nights = read_nights(history, night, NIGHTS)
     before = set(nights.nights["number"][:-1])
     earlier = [one for one in history.alarms() if one.kind == "time" and one.night in before]
     found = [*_wrong(nights), *_more_work(nights), *_slower(nights, earlier)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -13,6 +14,9 @@ from beambench_report.names import contender_labels
 from beambench_report.nightly.history import History
 from beambench_report.page.cell_files import IDENTITY
 from beambench_report.problem import Problem
+
+
+_TOLD_APART = {"camera": ", camera {}", "samples": ", {} samples", "ray_kind": ", {} rays"}
 
 
 @dataclass(frozen=True)
@@ -38,12 +42,13 @@ class Nights:
         names = [name for name in IDENTITY if name not in ("width", "height")]
         judged = self.cells[~self.cells["is_reference"] & (self.cells["verdict"] != "baseline")]
         groups = judged.groupby(names, sort=False)
-        rows = [
-            {**dict(zip(names, key, strict=True)), "members": group.index.to_numpy()}
-            for key, group in groups
-        ]
-        pools = pd.DataFrame(rows, columns=[*names, "members"])
-        pools["title"] = [series_title(row, self.cells) for _, row in pools.iterrows()]
+        named = [name for name in _TOLD_APART if self.cells[name].nunique() > 1]
+        rows = []
+        for key, group in groups:
+            row = dict(zip(names, key, strict=True))
+            row["title"] = series_title(group["contender"].iloc[0], row, named)
+            rows.append({**row, "members": group.index.to_numpy()})
+        pools = pd.DataFrame(rows, columns=[*names, "title", "members"])
         return pools
 
     def pooled(self) -> np.ndarray:
@@ -60,18 +65,10 @@ class Nights:
         return np.stack(columns, axis=1) if columns else np.empty((len(self.nights), 0))
 
 
-def series_title(row: pd.Series, cells: pd.DataFrame) -> str:
+def series_title(contender: str, row: Mapping[str, object], named: Iterable[str]) -> str:
     """A series as people read it: the contender, the scene, and what else tells it apart."""
-    same = cells[(cells["structure"] == row["structure"])]
-    label = same.loc[same["parameters"] == row["parameters"], "contender"].iloc[0]
-    title = f"{label} in {row['scene']}"
-    if cells["camera"].nunique() > 1:
-        title += f", camera {row['camera']}"
-    if cells["samples"].nunique() > 1:
-        title += f", {row['samples']} samples"
-    if cells["ray_kind"].nunique() > 1:
-        title += f", {row['ray_kind']} rays"
-    return title
+    title = f"{contender} in {row['scene']}"
+    return title + "".join(_TOLD_APART[name].format(row[name]) for name in named)
 
 
 def nan_median(values: np.ndarray) -> np.ndarray:
@@ -90,15 +87,18 @@ def nan_mean(values: np.ndarray) -> np.ndarray:
     return np.where(count > 0, total / np.maximum(count, 1), np.nan)
 
 
-def read_nights(history: History, last: int | None = None) -> Nights:
-    """The nights up to the one of number `last` (the newest if not given), on its machine."""
+def read_nights(history: History, last: int | None = None, most: int | None = None) -> Nights:
+    """The nights up to the one of number `last` (the newest if not given), on its machine.
+
+    Of these, the newest `most`; all if not given.
+    """
     tonight = _tonight(history, last)
     columns = "n.id, n.run_id, n.time_utc, n.commit_hash, n.dirty, n.folder, n.cells, n.wrong"
     rows = history.read(
         f"SELECT {columns} FROM nights n, nights t WHERE t.id = ? AND n.machine_id = t.machine_id "
-        "AND (n.time_utc, n.id) <= (t.time_utc, t.id) ORDER BY n.time_utc, n.id",
-        (tonight,),
-    )
+        "AND (n.time_utc, n.id) <= (t.time_utc, t.id) ORDER BY n.time_utc DESC, n.id DESC LIMIT ?",
+        (tonight, most or -1),
+    )[::-1]
     names = "number run_id time_utc commit dirty folder cells wrong".split()
     nights = pd.DataFrame(rows, columns=names)
     cells = _cells_of(history, tonight)
@@ -110,8 +110,9 @@ def read_nights(history: History, last: int | None = None) -> Nights:
     # One query: a look-up for each night would take longer than all of them together.
     figures = history.read(
         "SELECT f.night, f.cell, f.work, f.ratio, f.reference IS t.reference "
-        "FROM figures f JOIN figures t ON t.cell = f.cell AND t.input = f.input WHERE t.night = ?",
-        (tonight,),
+        "FROM figures f JOIN figures t ON t.cell = f.cell AND t.input = f.input "
+        "WHERE t.night = ? AND f.night >= ?",
+        (tonight, int(nights["number"].min())),
     )
     for night, cell, work, ratio, same_reference in figures:
         if (place := place_of_night.get(night)) is None:
