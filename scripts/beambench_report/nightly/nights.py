@@ -15,7 +15,6 @@ from beambench_report.nightly.history import History
 from beambench_report.page.cell_files import IDENTITY
 from beambench_report.problem import Problem
 
-
 _TOLD_APART = {"camera": ", camera {}", "samples": ", {} samples", "ray_kind": ", {} rays"}
 
 
@@ -48,8 +47,7 @@ class Nights:
             row = dict(zip(names, key, strict=True))
             row["title"] = series_title(group["contender"].iloc[0], row, named)
             rows.append({**row, "members": group.index.to_numpy()})
-        pools = pd.DataFrame(rows, columns=[*names, "title", "members"])
-        return pools
+        return pd.DataFrame(rows, columns=[*names, "title", "members"])
 
     def pooled(self) -> np.ndarray:
         """Logarithm of the ratio of each pool in each night, 0 being its usual value.
