@@ -89,15 +89,10 @@ def write_night(home: Home, night: int, random: np.random.Generator, plant: Plan
 
 def add_all(home: Home, folders: Iterable[Path]) -> list[list]:
     """Adds runs to the history, judging each; the alarms of each."""
-    told = []
     with History(home.history) as history:
-        for folder in folders:
-            number = history.add(night_of(read_run(folder)), folder)
-            alarms = judge(history, number)
-            with history.change():
-                history.add_alarms(number, alarms)
-            told.append(alarms)
-    return told
+        numbers = [history.add(night_of(read_run(folder)), folder, judge) for folder in folders]
+        alarms = history.alarms()
+    return [[alarm for alarm in alarms if alarm.night == number] for number in numbers]
 
 
 def _timed(row: Row, factor: float) -> Row:

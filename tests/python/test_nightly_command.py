@@ -163,6 +163,16 @@ def test_a_wrong_hit_ends_with_1_and_is_named(
     assert told.out == f"{home.page}\n"
 
 
+def test_a_run_from_elsewhere_is_copied_so_that_a_rebuild_finds_it(tmp_path: Path) -> None:
+    [folder] = write_nights(Home(tmp_path / "elsewhere"), 1, nothing)
+    arguments = ["nightly", "add", folder, "--home", tmp_path / "home"]
+    assert main([str(argument) for argument in arguments]) == 0
+    (tmp_path / "home/history.sqlite").unlink()
+    assert main(["nightly", "rebuild", "--home", str(tmp_path / "home")]) == 0
+    assert main([str(argument) for argument in arguments]) == 0
+    assert len(list((tmp_path / "home").glob("2*Z/results.csv"))) == 1
+
+
 # Comparisons
 
 

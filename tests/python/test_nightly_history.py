@@ -51,11 +51,7 @@ def test_a_run_is_added_once(home: Home) -> None:
 
 
 def killed_while_adding(history_path: Path, folder: Path) -> None:
-    history = History(history_path)
-    with history.change():
-        history._insert_night(night_of(read_run(folder)), folder)
-        history.add_alarms(2, [])
-        os._exit(9)
+    History(history_path).add(night_of(read_run(folder)), folder, lambda *_: os._exit(9))
 
 
 def test_a_killed_process_leaves_the_history_as_it_was(home: Home) -> None:

@@ -8,13 +8,14 @@ from pathlib import Path
 from beambench_report.files import write_text
 from beambench_report.nightly.calibration import calibrate, has_enough, noise_of
 from beambench_report.nightly.history import History, rebuild
-from beambench_report.nightly.home import HOME, KEEP_SAMPLES, Home, prune
+from beambench_report.nightly.home import HOME, KEEP_SAMPLES, Home, adopt, prune
 from beambench_report.nightly.lock import only_one
 from beambench_report.nightly.nights import read_nights
 from beambench_report.nightly.page.write import write_night_page
 from beambench_report.nightly.run import Wish, describe, rebuild_history, record, run_night
 from beambench_report.nightly.samples import noise_of_samples
 from beambench_report.problem import Problem
+from beambench_report.records import read_run
 
 _ROOT = Path(__file__).resolve().parents[3]
 _SWEEP = _ROOT / "harness/sweeps/nightly.json"
@@ -85,7 +86,8 @@ def nightly(options: argparse.Namespace) -> int:
         return _run(options, home, published)
     with only_one(home.lock):
         if options.part == "add":
-            return record(home, options.run, options.beambench, published, options.keep)
+            run = adopt(home, options.run, read_run(options.run).rows.iloc[0]["run_id"])
+            return record(home, run, options.beambench, published, options.keep)
         if options.part == "rebuild":
             print(f"{home.history}: {rebuild_history(home)} nights")
         elif options.part == "prune":

@@ -31,6 +31,10 @@ class Alarm:
     details: dict
 
 
+Judge = Callable[["History", int], list[Alarm]]
+"""Says what the night of a number raises its voice about."""
+
+
 class History:
     """The open file. Every change is one transaction: all of it is there, or nothing."""
 
@@ -55,8 +59,8 @@ class History:
         """Closes the file."""
         self._base.close()
 
-    def add(self, night: Night, folder: Path, alarms: Iterable[Alarm] = ()) -> int | None:
-        """Adds a night; returns its number, or None where it is there already."""
+    def add(self, night: Night, folder: Path, judge: Judge | None = None) -> int | None:
+        """Adds a night with its alarms; returns its number, or None where it is there already."""
         if self.number_of(night.run_id) is not None:
             return None
         with self.change():
@@ -79,16 +83,12 @@ class History:
                     for one in night.figures
                 ],
             )
-            self.add_alarms(number, alarms)
+            alarms = judge(self, number) if judge else []
+            self._base.executemany(
+                "INSERT INTO alarms VALUES (?, ?, ?, ?)",
+                [(number, one.kind, one.series, json.dumps(one.details)) for one in alarms],
+            )
         return number
-
-    def add_alarms(self, night: int, alarms: Iterable[Alarm]) -> None:
-        """Keeps what a night raised its voice about, instead of what was kept for it before."""
-        self._base.execute("DELETE FROM alarms WHERE night = ?", (night,))
-        self._base.executemany(
-            "INSERT INTO alarms VALUES (?, ?, ?, ?)",
-            [(night, one.kind, one.series, json.dumps(one.details)) for one in alarms],
-        )
 
     def alarms(self) -> list[Alarm]:
         """All alarms, the oldest first."""
@@ -190,7 +190,7 @@ def recorded_folders(runs: Path) -> list[Path]:
 def rebuild(
     path: Path,
     folders: Iterable[Path],
-    judge: Callable[[History, int], Iterable[Alarm]] = lambda _history, _night: (),
+    judge: Judge | None = None,
 ) -> int:
     """Makes the history anew from the CSVs of runs; the old one stays until the new one is whole.
 
@@ -203,11 +203,8 @@ def rebuild(
         pending.unlink(missing_ok=True)
         with History(pending) as history:
             for night, folder in nights:
-                if (number := history.add(night, folder)) is None:
+                if history.add(night, folder, judge) is None:
                     raise Problem(f"{folder}: the run {night.run_id} is in another folder, too")
-                alarms = list(judge(history, number))
-                with history.change():
-                    history.add_alarms(number, alarms)
         # What a killed process left to be rolled back belongs to the file that goes.
         for ending in ("-journal", "-wal", "-shm"):
             path.with_name(path.name + ending).unlink(missing_ok=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import shutil
 from dataclasses import dataclass
 from pathlib import Path
@@ -46,6 +47,21 @@ class Home:
         """Folders of the runs that were cut off, the oldest first."""
         begun = sorted(path for path in self.folder.glob("[0-9]*") if path.is_dir())
         return [path for path in begun if not is_finished(path)]
+
+
+def adopt(home: Home, run: Path, run_id: str) -> Path:
+    """The folder of a run below the home, where a rebuild finds it; copied there if it is not."""
+    if run.resolve().parent == home.folder.resolve():
+        return run
+    target = home.folder / re.sub(r"[^A-Za-z0-9._-]", "-", run_id)
+    if not target.name[:1].isdigit():
+        raise Problem(f"{run}: its run_id '{run_id}' does not begin with a time, as runs' do")
+    if not target.exists():
+        home.folder.mkdir(parents=True, exist_ok=True)
+        pending = target.with_name(f".pending-{target.name}")
+        shutil.copytree(run, pending, dirs_exist_ok=True)
+        pending.rename(target)
+    return target
 
 
 def is_finished(run: Path) -> bool:

@@ -59,12 +59,9 @@ def record(home: Home, folder: Path, beambench: Path, published: Path | None, ke
     picture_mismatches(run, beambench)
     write_exports(run)
     with History(home.history) as history:
-        number = history.add(night, folder)
-        if number is None:
-            number = history.number_of(night.run_id) or 0
-        alarms = judge(history, number)
-        with history.change():
-            history.add_alarms(number, alarms)
+        history.add(night, folder, judge)
+        number = history.number_of(night.run_id)
+        alarms = [alarm for alarm in history.alarms() if alarm.night == number]
         series = len(read_nights(history, number).pools)
         write_night_page(home, history, published)
     prune(home, keep)
@@ -85,10 +82,7 @@ def catch_up(home: Home) -> None:
             except Problem as problem:
                 _say(f"left out of the history: {problem}")
                 continue
-            if (number := history.add(night, folder)) is not None:
-                alarms = judge(history, number)
-                with history.change():
-                    history.add_alarms(number, alarms)
+            history.add(night, folder, judge)
 
 
 def rebuild_history(home: Home) -> int:
