@@ -136,17 +136,22 @@ inline void paint_background(const TileView& view, HitBuffer& buffer) {
   }
 }
 
-inline void resolve_each(const TileImage& image, const SampleRaster& raster, const TileView& view,
-                         HitBuffer& buffer) {
-  for (int y = 0; y < view.height; ++y) {
-    for (int x = 0; x < view.width; ++x) {
-      const std::size_t at = TileImage::place(x, y);
-      const float t = image.touched ? 1.0F / image.inverse_t[at] : kInfinity;
-      const PrimitiveId primitive = image.touched ? image.primitive[at] : kNoPrimitive;
-      raster.for_each_index(buffer, view.left + x, view.top + y, [&](std::size_t index) {
-        buffer.t()[index] = t;
-        buffer.primitive()[index] = primitive;
-      });
+/// Several samples a pixel: those of a pixel lie together in the buffer, and may be shared.
+inline void resolve_samples(TileImage& image, const SampleRaster& raster, const TileView& view,
+                            HitBuffer& buffer) {
+  if (!image.touched) clear(image, view);
+  float* const t = image.inverse_t.data();
+  for (std::size_t i = 0; i < TileImage::kSamples; i += kLanes) {
+    store(hn::Div(all(1.0F), load(t + i)), t + i);
+  }
+  for (const SampleRaster::Place& place : raster.places) {
+    for (int y = 0; y < view.height; ++y) {
+      raster.for_each_of_row(place, buffer, view.left, view.top + y, view.width,
+                             [&](int x, std::size_t index) {
+                               const std::size_t at = TileImage::place(x, y);
+                               buffer.t()[index] = t[at];
+                               buffer.primitive()[index] = image.primitive[at];
+                             });
     }
   }
 }
@@ -160,10 +165,11 @@ void resolve_pixels(const TileImage& image, const TileView& view, HitBuffer& buf
   }
 }
 
-inline void resolve(const TileImage& image, const SampleRaster& raster, const TileView& view,
+/// Writes the hits of a tile, which is not to be used any more.
+inline void resolve(TileImage& image, const SampleRaster& raster, const TileView& view,
                     HitBuffer& buffer) {
   if (buffer.samples() > 1) {
-    resolve_each(image, raster, view, buffer);
+    resolve_samples(image, raster, view, buffer);
   } else if (is_streamed(buffer)) {
     resolve_pixels<true>(image, view, buffer);
   } else {

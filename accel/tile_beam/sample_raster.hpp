@@ -40,14 +40,22 @@ struct SampleRaster {
     return rays.ray_at(pixel_x + offset.x, pixel_y + offset.y);
   }
 
-  /// Calls `visit(index)` for the places in a buffer that the sample (i, j) belongs to.
+  /// Calls `visit(x, index)` for the samples (left + x, j), x < width, of a row that belong to
+  /// `place`: with their places in a buffer.
   template <class Visit>
-  void for_each_index(const HitBuffer& buffer, int i, int j, Visit visit) const {
-    for (const Place& place : places) {
-      const int px = i / per_pixel - place.left;
-      const int py = j / per_pixel - place.up;
-      if (px < 0 || py < 0 || px >= buffer.width() || py >= buffer.height()) continue;
-      visit(buffer.index(px, py, static_cast<int>(sample(place, i, j))));
+  void for_each_of_row(const Place& place, const HitBuffer& buffer, int left, int j, int width,
+                       Visit visit) const {
+    const int py = j / per_pixel - place.up;
+    if (py < 0 || py >= buffer.height()) return;
+    const int row_sample = place.sample + j % per_pixel * per_pixel;
+    int px = left / per_pixel - place.left;
+    int in_pixel = left % per_pixel;
+    for (int x = 0; x < width; ++x) {
+      if (px >= 0 && px < buffer.width()) visit(x, buffer.index(px, py, row_sample + in_pixel));
+      if (++in_pixel == per_pixel) {
+        in_pixel = 0;
+        ++px;
+      }
     }
   }
 

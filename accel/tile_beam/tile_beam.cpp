@@ -10,7 +10,8 @@ std::vector<ParameterInfo> TileBeam::parameters() {
   const TileHierarchyOptions defaults;
   return {integer_parameter("max_leaf", defaults.max_leaf, 1, 32, "most primitives of a leaf"),
           flag_parameter("parallel", defaults.parallel,
-                         "build, and trace images, on all cores; the hits are the same")};
+                         "build, and trace images, on all cores; the hits are the same"),
+          isa_parameter()};
 }
 
 TileHierarchyOptions TileBeam::options_from(const Parameters& parameters) {
@@ -44,7 +45,8 @@ void register_tile_beam(Registry& registry) {
                 "resolved by SIMD: the thesis's idea with today's means",
                 Conformance::kTolerance, TileBeam::parameters(),
                 [](const Scene& scene, const Parameters& parameters, const Workload&) {
-                  return std::make_unique<TileBeam>(scene, TileBeam::options_from(parameters));
+                  return std::make_unique<TileBeam>(scene, TileBeam::options_from(parameters),
+                                                    targets_of(parameters.choice("isa")));
                 }});
 }
 

@@ -3,6 +3,7 @@
 
 #include "accel/bvh/probe_ray.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
+#include "accel/instruction_set.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 #include "accel/tile_beam/tile_kernels.hpp"
 #include "accel/tile_beam/tile_trace.hpp"
@@ -22,10 +23,12 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   static std::vector<ParameterInfo> parameters();
   static TileHierarchyOptions options_from(const Parameters& parameters);
 
-  TileBeam(const Scene& scene, const TileHierarchyOptions& options)
+  /// `targets`: the instruction sets that it may run on (accel/instruction_set.hpp).
+  TileBeam(const Scene& scene, const TileHierarchyOptions& options,
+           std::int64_t targets = targets_of("best"))
       : scene_(&scene),
         hierarchy_(build_tile_hierarchy(scene, options)),
-        kernels_(&best_tile_kernels()),
+        kernels_(&tile_kernels_for(targets)),
         parallel_(options.parallel) {}
 
   const TileHierarchy& hierarchy() const { return hierarchy_; }

@@ -2,6 +2,7 @@
 // What a tile has seen so far: the nearest hit of each of its samples.
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -17,6 +18,10 @@ struct TileImage {
   static constexpr int kBlockColumns = kTileWidth / 4;
   static constexpr int kBlockRows = kTileHeight / 4;
   static constexpr std::size_t kBlockSamples = 16;
+  /// 2 to this power is the tile's width: place(x, y) for the first sample of a block is
+  /// (y << kWidthBits) + 4 x.
+  static constexpr int kWidthBits = std::countr_zero(static_cast<unsigned>(kTileWidth));
+  static_assert(kTileWidth == 1 << kWidthBits);
   static constexpr std::size_t kSamples = std::size_t{kTileWidth} * kTileHeight;
   /// The coarse depths are of squares of 8 x 8 samples.
   static constexpr int kSquareColumns = kTileWidth / 8;

@@ -1,5 +1,7 @@
 #include "accel/tile_beam/tile_kernels.hpp"
 
+#include "accel/pick_target.hpp"
+
 // Highway includes this file once more for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "accel/tile_beam/tile_kernels.cpp"
@@ -41,7 +43,9 @@ namespace beambench {
 
 HWY_EXPORT(tile_kernels);
 
-const TileKernels& best_tile_kernels() { return HWY_DYNAMIC_DISPATCH(tile_kernels)(); }
+const TileKernels& tile_kernels_for(std::int64_t targets) {
+  return pick_target(HWY_DISPATCH_TABLE(tile_kernels), targets)();
+}
 
 }  // namespace beambench
 #endif

@@ -56,7 +56,8 @@ struct TileKernels : TileRayQueries<NoCounting>,
   }
 };
 
-/// Those for the best instruction set of this machine that Highway supports.
-const TileKernels& best_tile_kernels();
+/// Those for the best instruction set that this machine has among some: Highway's targets, as
+/// `targets_of` gives them.
+const TileKernels& tile_kernels_for(std::int64_t targets);
 
 }  // namespace beambench

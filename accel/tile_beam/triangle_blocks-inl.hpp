@@ -74,8 +74,7 @@ HWY_INLINE void list_blocks(const TriangleImages& images, const BlockBoxes& boxe
   do {
     const Floats edge = hn::Min(edge0.at(i, j), hn::Min(edge1.at(i, j), edge2.at(i, j)));
     const Mask met = hn::And(listed, hn::Ge(edge, hn::Zero(Tag())));
-    static_assert(TileImage::block(0, 1) == 256 && TileImage::block(1, 0) == 16);
-    const Ints place = hn::Or(hn::ShiftLeft<6>(hn::ConvertTo(IntTag(), j)),
+    const Ints place = hn::Or(hn::ShiftLeft<TileImage::kWidthBits>(hn::ConvertTo(IntTag(), j)),
                               hn::ShiftLeft<2>(hn::ConvertTo(IntTag(), i)));
     list.count += hn::CompressStore(hn::Or(place, lane), hn::RebindMask(IntTag(), met), IntTag(),
                                     list.entries.data() + list.count);
@@ -93,8 +92,8 @@ HWY_INLINE void paint_list(const BlockList& list, const StoredImages& images,
     const auto packed = static_cast<std::uint32_t>(list.entries[entry]);
     const std::size_t lane = packed & 15U;
     const std::size_t block = packed & ~15U;
-    const auto left = static_cast<float>(packed >> 2U & 0x3CU);
-    const auto top = static_cast<float>(packed >> 6U & 0x3CU);
+    const auto left = static_cast<float>(packed >> 2U & (kTileWidth - 4U));
+    const auto top = static_cast<float>(packed >> TileImage::kWidthBits & (kTileHeight - 4U));
     const auto line = [&](std::size_t which, Floats i, Floats j) {
       return hn::MulAdd(all(images.lines[3 * which][lane]), i,
                         hn::MulAdd(all(images.lines[3 * which + 1][lane]), j,

@@ -40,9 +40,8 @@ HWY_INLINE void collect_fragments(const TriangleImages& images, Mask small, Frag
     const Ints x = hn::ConvertTo(IntTag(), i);
     const Ints y = hn::ConvertTo(IntTag(), j);
     const Ints three = hn::Set(IntTag(), 3);
-    static_assert(kTileWidth == 64);
-    const Ints row =
-        hn::Or(hn::ShiftLeft<6>(hn::AndNot(three, y)), hn::ShiftLeft<2>(hn::And(y, three)));
+    const Ints row = hn::Or(hn::ShiftLeft<TileImage::kWidthBits>(hn::AndNot(three, y)),
+                            hn::ShiftLeft<2>(hn::And(y, three)));
     const Ints place =
         hn::Add(row, hn::Or(hn::ShiftLeft<2>(hn::AndNot(three, x)), hn::And(x, three)));
     const auto keep = hn::RebindMask(IntTag(), hit);

@@ -12,8 +12,10 @@
 #include <hwy/targets.h>
 
 #include "accel/exhaustive/exhaustive.hpp"
+#include "accel/registry.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
+#include "tests/only_target.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench {
@@ -21,21 +23,6 @@ namespace {
 
 using testing::random_ray;
 using testing::random_scene;
-
-/// Makes Highway believe that the machine has one instruction set, until destroyed.
-class OnlyTarget {
- public:
-  explicit OnlyTarget(std::int64_t target) { pretend(target); }
-  ~OnlyTarget() { pretend(0); }
-  OnlyTarget(const OnlyTarget&) = delete;
-  OnlyTarget& operator=(const OnlyTarget&) = delete;
-
- private:
-  static void pretend(std::int64_t targets) {
-    hwy::SetSupportedTargetsForTest(targets);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
-};
 
 /// An eye outside, inside or in the middle planes of the scene's box, looking somewhere.
 Camera random_camera(const Scene& scene, Random& random) {
@@ -292,7 +279,7 @@ TEST(TileBeam, EveryInstructionSetIsRight) {
   ASSERT_GE(targets.size(), 2U) << "no choice at run time was compiled in";
   for (const std::int64_t target : targets) {
     SCOPED_TRACE(hwy::TargetName(target));
-    const OnlyTarget only(target);
+    const testing::OnlyTarget only(target);
     for (const char* name : {"tetra:n=4", "balls:n=2", "bumpy:triangles=3072"}) {
       const Scene scene = load_scene(name);
       const TileBeam structure(scene, {});
@@ -315,6 +302,15 @@ TEST(TileBeam, EveryInstructionSetIsRight) {
       }
     }
   }
+}
+
+TEST(TileBeam, CanBeHeldToAnInstructionSet) {
+  const Scene scene = load_scene("tetra:n=2");
+  const auto best = registry().choose({"tile-beam", {}}).build(scene);
+  EXPECT_EQ(best->statistics().instruction_set, best_simd_target());
+  if ((hwy::SupportedTargets() & HWY_AVX2) == 0) GTEST_SKIP() << "this machine has no AVX2";
+  const auto held = registry().choose({"tile-beam", {{"isa", "avx2"}}}).build(scene);
+  EXPECT_EQ(held->statistics().instruction_set, "AVX2");
 }
 
 TEST(TileBeam, LargeImagesAreWrittenPastTheCaches) {
