@@ -144,8 +144,8 @@ inline void resolve_samples(TileImage& image, const SampleRaster& raster, const 
   for (std::size_t i = 0; i < TileImage::kSamples; i += kLanes) {
     store(hn::Div(all(1.0F), load(t + i)), t + i);
   }
-  for (const SampleRaster::Place& place : raster.places) {
-    for (int y = 0; y < view.height; ++y) {
+  for (int y = 0; y < view.height; ++y) {
+    for (const SampleRaster::Place& place : raster.places) {
       raster.for_each_of_row(place, buffer, view.left, view.top + y, view.width,
                              [&](int x, std::size_t index) {
                                const std::size_t at = TileImage::place(x, y);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <vector>
 
 #include <hwy/cache_control.h>
 #include <tbb/blocked_range.h>
@@ -11,28 +12,54 @@
 namespace beambench {
 namespace {
 
-/// The tiles of a raster by number, row by row.
-class Tiling {
- public:
-  Tiling(const SampleRaster& raster, const RasterView& view)
-      : raster_(&raster),
-        view_(&view),
-        columns_((raster.width + kTileWidth - 1) / kTileWidth),
-        rows_((raster.height + kTileHeight - 1) / kTileHeight) {}
+/// A raster, cut into tiles.
+struct TiledRaster {
+  SampleRaster raster;
+  RasterView view;
 
-  int count() const { return columns_ * rows_; }
-  TileView operator[](int tile) const {
-    const int left = tile % columns_ * kTileWidth;
-    const int top = tile / columns_ * kTileHeight;
-    return {*view_, left, top, std::min(kTileWidth, raster_->width - left),
-            std::min(kTileHeight, raster_->height - top)};
+  TiledRaster(const SampleRaster& from, const PrimaryRays& rays, const Bounds& scene)
+      : raster(from), view(from, rays, scene) {}
+
+  int columns() const { return (raster.width + kTileWidth - 1) / kTileWidth; }
+  int rows() const { return (raster.height + kTileHeight - 1) / kTileHeight; }
+  /// For column < columns(), row < rows().
+  TileView tile(int column, int row) const {
+    const int left = column * kTileWidth;
+    const int top = row * kTileHeight;
+    return {view, left, top, std::min(kTileWidth, raster.width - left),
+            std::min(kTileHeight, raster.height - top)};
+  }
+};
+
+/// The rasters of an image under one numbering of tiles: those at the same place, which write to
+/// the same part of the buffer, have the same number.
+class TiledImage {
+ public:
+  TiledImage(const PrimaryRays& rays, const Bounds& scene) {
+    for (const SampleRaster& raster : sample_rasters(rays)) {
+      rasters_.emplace_back(raster, rays, scene);
+      columns_ = std::max(columns_, rasters_.back().columns());
+      rows_ = std::max(rows_, rasters_.back().rows());
+    }
+  }
+
+  int tiles() const { return columns_ * rows_; }
+  /// Calls `draw(raster, view)` for the tiles of a number.
+  template <class Draw>
+  void for_each_of(int number, Draw draw) const {
+    const int column = number % columns_;
+    const int row = number / columns_;
+    for (const TiledRaster& tiled : rasters_) {
+      if (column < tiled.columns() && row < tiled.rows()) {
+        draw(tiled.raster, tiled.tile(column, row));
+      }
+    }
   }
 
  private:
-  const SampleRaster* raster_;
-  const RasterView* view_;
-  int columns_;
-  int rows_;
+  std::vector<TiledRaster> rasters_;
+  int columns_ = 0;
+  int rows_ = 0;
 };
 
 /// What a thread needs of its own.
@@ -48,23 +75,22 @@ template <class Counting>
 void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy, const Scene& scene,
                  const PrimaryRays& rays, bool parallel, HitBuffer& buffer, Counting& counting) {
   tbb::enumerable_thread_specific<Workplace<Counting>> workplaces;
-  for (const SampleRaster& raster : sample_rasters(rays)) {
-    const RasterView view(raster, rays, hierarchy.bounds);
-    const Tiling tiles(raster, view);
-    const TilePicture picture{hierarchy, scene, rays, raster};
-    const auto draw = [&](int begin, int end) {
-      Workplace<Counting>& own = workplaces.local();
-      for (int tile = begin; tile < end; ++tile) {
-        kernels.drawing<Counting>().draw(picture, tiles[tile], *own.image, buffer, own.counting);
-      }
-      hwy::FlushStream();
-    };
-    if (parallel) {
-      tbb::parallel_for(tbb::blocked_range(0, tiles.count()),
-                        [&](const auto& range) { draw(range.begin(), range.end()); });
-    } else {
-      draw(0, tiles.count());
+  const TiledImage tiled(rays, hierarchy.bounds);
+  const auto draw = [&](int begin, int end) {
+    Workplace<Counting>& own = workplaces.local();
+    for (int number = begin; number < end; ++number) {
+      tiled.for_each_of(number, [&](const SampleRaster& raster, const TileView& view) {
+        kernels.drawing<Counting>().draw({hierarchy, scene, rays, raster}, view, *own.image, buffer,
+                                         own.counting);
+      });
     }
+    hwy::FlushStream();
+  };
+  if (parallel) {
+    tbb::parallel_for(tbb::blocked_range(0, tiled.tiles()),
+                      [&](const auto& range) { draw(range.begin(), range.end()); });
+  } else {
+    draw(0, tiled.tiles());
   }
   for (const Workplace<Counting>& workplace : workplaces) counting.add(workplace.counting);
 }

@@ -9,7 +9,7 @@
 namespace beambench {
 
 /// Sides of a tile in samples.
-inline constexpr int kTileWidth = 64;
+inline constexpr int kTileWidth = 128;
 inline constexpr int kTileHeight = 64;
 
 /// By how much the edges of triangles made in double are moved outward, in units of |direction|:
