@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -37,25 +36,12 @@ float leaf_cost(std::uint32_t count, const BvhOptions& options) {
   return static_cast<float>(blocks);
 }
 
-/// A node as it is made; memory for many more than will be needed costs nothing as long as nobody
-/// writes to it.
-struct DraftNode {
-  glm::vec3 lower;
-  glm::vec3 upper;
-  std::uint32_t first;
-  std::uint32_t count;
-
-  BvhNode node() const { return {{lower, upper}, first, count}; }
-};
-
 class Builder {
  public:
   Builder(std::span<const Bounds> boxes, const BvhOptions& options) : options_(options) {
     items_.reserve(boxes.size());
     for (std::uint32_t i = 0; i < boxes.size(); ++i) items_.emplace_back(boxes[i], i);
-    if (!items_.empty()) {
-      nodes_ = std::make_unique_for_overwrite<DraftNode[]>(2 * items_.size() - 1);
-    }
+    if (!items_.empty()) nodes_.resize(2 * items_.size() - 1);
   }
 
   BinaryBvh build() {
@@ -90,10 +76,8 @@ class Builder {
   };
 
   void subdivide(const Pending& pending) {
-    DraftNode& node = nodes_[pending.node];
-    const Bounds box = pending.extent.boxes.bounds();
-    node.lower = box.lower;
-    node.upper = box.upper;
+    BvhNode& node = nodes_[pending.node];
+    node.box = pending.extent.boxes.bounds();
     const std::optional<Halves> halves = halve(pending);
     if (!halves) {
       node.first = static_cast<std::uint32_t>(pending.begin);
@@ -226,7 +210,7 @@ class Builder {
       std::uint32_t node;
       std::uint32_t depth;
     };
-    bvh.nodes.push_back(nodes_[0].node());
+    bvh.nodes.push_back(nodes_[0]);
     std::vector<Copied> waiting{{0, 1}};
     while (!waiting.empty()) {
       const Copied copied = waiting.back();
@@ -236,8 +220,8 @@ class Builder {
       const std::size_t first = bvh.nodes[copied.node].first;
       const auto children = static_cast<std::uint32_t>(bvh.nodes.size());
       bvh.nodes[copied.node].first = children;
-      bvh.nodes.push_back(nodes_[first].node());
-      bvh.nodes.push_back(nodes_[first + 1].node());
+      bvh.nodes.push_back(nodes_[first]);
+      bvh.nodes.push_back(nodes_[first + 1]);
       waiting.push_back({children + 1, copied.depth + 1});
       waiting.push_back({children, copied.depth + 1});
     }
@@ -245,7 +229,7 @@ class Builder {
 
   BvhOptions options_;
   LargePageVector<BuildItem> items_;
-  std::unique_ptr<DraftNode[]> nodes_;
+  LargePageVector<BvhNode> nodes_;
 };
 
 }  // namespace

@@ -275,6 +275,31 @@ TEST(TileBeam, ThreadsChangeNoHitAndNoCount) {
   }
 }
 
+TEST(TileBeam, IsBuiltTheSameOnAllCores) {
+  const Scene scene = load_scene("bumpy:triangles=100000");
+  const TileHierarchy alone = build_tile_hierarchy(scene, {});
+  const TileHierarchy together = build_tile_hierarchy(scene, {.parallel = true});
+  ASSERT_GT(alone.leaves(), 2048U);  // enough for several tasks
+  ASSERT_EQ(together.nodes.size(), alone.nodes.size());
+  ASSERT_EQ(together.meshlets.size(), alone.meshlets.size());
+  EXPECT_EQ(together.depth, alone.depth);
+  for (std::size_t i = 0; i < alone.nodes.size(); ++i) {
+    const TileNode& node = alone.nodes[i];
+    const TileNode& other = together.nodes[i];
+    ASSERT_EQ(other.count, node.count) << i;
+    ASSERT_EQ(other.boxes.planes, node.boxes.planes) << i;
+    ASSERT_EQ(other.leaves, node.leaves) << i;
+    for (std::size_t lane = 0; lane < node.count; ++lane) {
+      ASSERT_EQ(other.children[lane].bits(), node.children[lane].bits()) << i;
+    }
+  }
+  for (std::size_t i = 0; i < alone.meshlets.size(); ++i) {
+    ASSERT_EQ(together.meshlets[i].vertices, alone.meshlets[i].vertices) << i;
+    ASSERT_EQ(together.meshlets[i].corners, alone.meshlets[i].corners) << i;
+    ASSERT_EQ(together.meshlets[i].primitives, alone.meshlets[i].primitives) << i;
+  }
+}
+
 TEST(TileBeam, EveryInstructionSetIsRight) {
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   ASSERT_GE(targets.size(), 2U) << "no choice at run time was compiled in";
