@@ -194,7 +194,7 @@ class Joining {
   };
 
   static void copy(const PackedLeaves& part, const Begin& begin, PackedLeaves& whole) {
-    const auto to = [](auto& all, std::size_t first) { return &all[0] + first; };
+    const auto to = [](auto& all, std::size_t first) { return all.data() + first; };
     std::copy(part.blocks.meshlets.begin(), part.blocks.meshlets.end(),
               to(whole.blocks.meshlets, begin.meshlets));
     std::copy(part.blocks.spheres.begin(), part.blocks.spheres.end(),
