@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
+from browser import Browser, find_browser
 from made_up_run import made_up_rows, write_full_run, write_run
 
 
@@ -25,3 +27,20 @@ def full_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def repository() -> Path:
     """The top of the working tree."""
     return Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="module")
+def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
+    """One browser for all tests of a module."""
+    program = find_browser()
+    if program is None:
+        pytest.skip("no Chromium on this system; scripts/setup installs it where apt has it")
+    with Browser(program, tmp_path_factory.mktemp("profile")) as browser:
+        yield browser
+
+
+@pytest.fixture
+def opened(chromium: Browser, page: Path) -> Browser:
+    """The browser with the module's `page` freshly opened."""
+    chromium.open(page)
+    return chromium

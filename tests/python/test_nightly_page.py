@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 import json
 import struct
-from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -17,7 +16,7 @@ from beambench_report.nightly.page.series import pack, pareto_front
 from beambench_report.nightly.page.write import write_night_page
 from beambench_report.nightly.pictures import picture_mismatches
 from beambench_report.records import read_run
-from browser import Browser, find_browser
+from browser import Browser
 from made_up_nights import add_all, counting, nothing, write_nights, wrong
 
 TAB, DOWN = ("Tab", 9), ("ArrowDown", 40)
@@ -62,21 +61,6 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Path:
         "--resolution 320x200 --samples 1 --camera default --difference oracle"
     )
     return page_of(home, folders[0])
-
-
-@pytest.fixture(scope="module")
-def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    program = find_browser()
-    if program is None:
-        pytest.skip("no Chromium on this system; scripts/setup installs it where apt has it")
-    with Browser(program, tmp_path_factory.mktemp("profile")) as browser:
-        yield browser
-
-
-@pytest.fixture
-def opened(chromium: Browser, page: Path) -> Browser:
-    chromium.open(page)
-    return chromium
 
 
 def column(browser: Browser, table: str, place: int) -> list[str]:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from beambench_report.page.write import write_page
-from browser import Browser, find_browser
+from browser import Browser
 
 ENTER = ("Enter", 13, "\r")
 TAB = ("Tab", 9)
@@ -21,23 +20,6 @@ CELLS = "#cells-table"
 def page(full_run: Path) -> Path:
     """The page of a made-up run."""
     return write_page(full_run)[0]
-
-
-@pytest.fixture(scope="module")
-def chromium(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Browser]:
-    """One browser for all tests."""
-    program = find_browser()
-    if program is None:
-        pytest.skip("no Chromium on this system; scripts/setup installs it where apt has it")
-    with Browser(program, tmp_path_factory.mktemp("profile")) as browser:
-        yield browser
-
-
-@pytest.fixture
-def opened(chromium: Browser, page: Path) -> Browser:
-    """The browser with the page freshly opened."""
-    chromium.open(page)
-    return chromium
 
 
 def column(browser: Browser, table: str, place: int) -> list[str]:

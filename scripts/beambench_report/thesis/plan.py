@@ -54,22 +54,21 @@ def make_plan(
     # A figure that a table's sweeps are enough for costs nothing more.
     shown = [figure.number for figure in FIGURES if wanted.issuperset(figure.sweeps)]
     read = [read_sweep(name, folder or sweep_files.FOLDER) for name in SWEEPS if name in wanted]
-    if with_levels:
-        read.append(read_sweep(LEVELS, (folder or sweep_files.FOLDER).parent))
     made = [quick(sweep) if is_quick else sweep for sweep in read]
-    return Plan(
+    plan = Plan(
         tuple(table.number for table in chosen_tables),
         tuple(shown),
         is_quick,
         tuple(sweep for sweep in made if sweep is not None),
     )
+    return add_levels(plan, folder) if with_levels else plan
 
 
-def add_levels(plan: Plan) -> Plan:
+def add_levels(plan: Plan, folder: Path | None = None) -> Plan:
     """The same plan with the sweep that max_level=auto is judged by, if it was without."""
     if any(sweep.name == LEVELS for sweep in plan.sweeps):
         return plan
-    levels = read_sweep(LEVELS, sweep_files.FOLDER.parent)
+    levels = read_sweep(LEVELS, (folder or sweep_files.FOLDER).parent)
     made = quick(levels) if plan.is_quick else levels
     return replace(plan, sweeps=(*plan.sweeps, made)) if made else plan
 
