@@ -25,7 +25,7 @@ struct MeasurementFacts {
   int pinned_core;        ///< -1 where the thread could not be pinned
   unsigned control_word;  ///< MXCSR in the timed code
   double warm_up_seconds;
-  std::string simd_target;  ///< Highway's best on this machine, what our own SIMD runs on
+  std::string simd_target;       ///< Highway's best on this machine, what our own SIMD runs on
   std::optional<double> noise;   ///< of equal work in the warm-up (harness/sweep/noise.hpp)
   std::string hardware_problem;  ///< why the processor's counters are not read; empty: they are
 };

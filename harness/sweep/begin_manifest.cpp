@@ -1,7 +1,9 @@
 #include "harness/sweep/begin_manifest.hpp"
 
+#include <chrono>
 #include <utility>
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include "accel/embree/version.hpp"
@@ -12,14 +14,13 @@
 namespace beambench {
 namespace {
 
-/// `20240531-140709-default`: sorts by time.
-std::string new_run_id(const std::string& utc, const std::string& sweep) {
-  std::string id;
-  for (const char letter : utc) {
-    if (letter >= '0' && letter <= '9') id += letter;
-    if (letter == 'T') id += '-';
-  }
-  return fmt::format("{}-{}", id, sweep);
+/// `20240531-140709.417-default`: sorts by time; milliseconds, since small runs take less than a
+/// second and no two may have one name.
+std::string new_run_id(const std::string& sweep) {
+  const auto now = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
+  const auto milliseconds = now.time_since_epoch().count() % 1000;
+  return fmt::format("{:%Y%m%d-%H%M%S}.{:03}-{}",
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(now)), milliseconds, sweep);
 }
 
 RunFacts facts_of(const BuildInfo& build, const std::string& run_id, const Machine& machine) {
@@ -38,7 +39,7 @@ Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes
   manifest.machine = inspect_machine();
   manifest.sweep = sweep;
   manifest.begun_utc = manifest.part_begun_utc = utc_now();
-  manifest.run = facts_of(build, new_run_id(manifest.begun_utc, sweep), manifest.machine);
+  manifest.run = facts_of(build, new_run_id(sweep), manifest.machine);
   manifest.measurement = {MeasuringFloatMode::available(),
                           core,
                           MeasuringFloatMode::control_word(),
