@@ -1,0 +1,181 @@
+#pragma once
+// From beams to hits: what becomes of a beam's samples.
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "accel/beam/beam_options.hpp"
+#include "accel/beam/beam_samples.hpp"
+#include "accel/beam/beam_watch.hpp"
+#include "accel/beam/leaf_batch.hpp"
+#include "accel/octree/samet.hpp"
+
+namespace beambench {
+
+/// Finds the samples of beams and traces them (thesis, section 3.6), for one image. It knows
+/// nothing of the other beams, so that it can be done by others than the one who divides them:
+/// several painters, in threads or processes, can fill one image. They can share a buffer where
+/// beams do not go on behind occupied leaves (`BeamOptions::continue_with_rays`), for then no two
+/// beams have a sample in common.
+template <class Watch, class Sight>
+class BeamPainter {
+ public:
+  /// `tracer` holds the octree over the scene. All but `options` must outlive the painter; the
+  /// buffer begins as background.
+  BeamPainter(const Scene& scene, const Samet& tracer, const BeamOptions& options,
+              const EyeView& view, const PrimaryRays& rays, const Sight& sight, HitBuffer& buffer,
+              Watch& watch)
+      : scene_(&scene),
+        tracer_(&tracer),
+        continue_with_rays_(options.continue_with_rays),
+        scan_(view, rays),
+        lattices_(sample_lattices(rays, options.share_corners)),
+        images_(scene, rays),
+        sight_(&sight),
+        finished_(sight.finished(buffer)),
+        buffer_(&buffer),
+        watch_(&watch),
+        counting_(watch.rays()) {
+    if (finished_.empty() && !continue_with_rays_) finished_.assign(buffer.size(), 0);
+  }
+
+  /// A beam leaves the root: its samples keep the background.
+  void leave(const Beam& beam) {
+    if constexpr (Watch::kPaintsLeaving) {
+      for_each_batch(beam, [&] {
+        for (const LeafBatch::Sample& sample : batch_.samples()) {
+          for_each_index(sample, [&](std::size_t index) { watch_->painted(index); });
+        }
+        watch_->left(batch_.samples().size());
+      });
+    }
+  }
+
+  /// A beam in an empty leaf becomes individual rays.
+  void hand_over(const Beam& beam, RayReason reason) {
+    const OctreeCursor place = cursor_at(beam);
+    for_each_batch(beam, [&] {
+      for (LeafBatch::Sample& sample : batch_.samples()) {
+        follow(place, CellRay(octree().grid(), sample.ray), sample);
+        watch_->handed_over(reason);
+        finish(sample);
+      }
+    });
+  }
+
+  /// A beam at an occupied leaf. Returns whether some of its samples go on with it.
+  bool test_leaf(const Beam& beam) {
+    const OctreeCursor place = cursor_at(beam);
+    bool unfinished = false;
+    for_each_batch(beam, [&] {
+      batch_.test(*scene_, octree().references(place.node()), images_, counting_);
+      watch_->tested(batch_.samples().size());
+      for (LeafBatch::Sample& sample : batch_.samples()) {
+        if (!settle(place, sample)) unfinished = true;
+      }
+    });
+    return unfinished;
+  }
+
+ private:
+  const Octree& octree() const { return tracer_->octree(); }
+
+  /// What becomes of a sample that was tested in an occupied leaf. Returns false when it goes on
+  /// with its beam.
+  bool settle(const OctreeCursor& place, LeafBatch::Sample& sample) {
+    const CellRay way(octree().grid(), sample.ray);
+    if (!(sample.closest.ray.t_max < static_cast<float>(leaf_exit(way, place).t))) {
+      if (!continue_with_rays_) {
+        for_each_index(sample,
+                       [&](std::size_t index) { buffer_->set(index, sample.closest.result()); });
+        return false;
+      }
+      watch_->handed_over(RayReason::kOccupied);
+      follow(place, way, sample);
+    }
+    finish(sample);
+    return true;
+  }
+
+  /// A ray goes on alone behind a leaf (thesis, section 3.6.2).
+  void follow(const OctreeCursor& place, const CellRay& way, LeafBatch::Sample& sample) {
+    ClosestHit closest = sample.closest;  // nobody else's: it can stay in registers
+    walk_leaves_behind(place, octree(), tracer_->neighbours(), sample.ray, way, counting_,
+                       [&](const OctreeNode& leaf, double exit_t) {
+                         return test_references(*scene_, octree().references(leaf), exit_t,
+                                                counting_, closest);
+                       });
+    sample.closest = closest;
+  }
+
+  void finish(const LeafBatch::Sample& sample) {
+    for_each_index(sample, [&](std::size_t index) {
+      buffer_->set(index, sample.closest.result());
+      if (!finished_.empty()) finished_[index] = 1;
+      watch_->painted(index);
+    });
+  }
+
+  /// Fills the batch with the beam's samples that are not finished and calls `visit()`, until all
+  /// were in it.
+  template <class Visit>
+  void for_each_batch(const Beam& beam, Visit visit) {
+    batch_.clear();
+    for (const SampleLattice& lattice : watch_->chosen(lattices_)) {
+      scan_.for_each_run(beam, lattice, [&](int y, int first, int last) {
+        for (int x = first; x <= last; ++x) {
+          Ray ray = scan_.ray(lattice, x, y);
+          sight_->begin(ray);
+          LeafBatch::Sample& sample = batch_.add(lattice, x, y, ray);
+          if (!finished_.empty() && !resume(sample)) batch_.drop_last();
+          if (!batch_.full()) continue;
+          visit();
+          batch_.clear();
+        }
+      });
+    }
+    if (!batch_.samples().empty()) visit();
+  }
+
+  /// Recalls what a sample hit in leaves that its beam passed. Returns false when it is finished.
+  bool resume(LeafBatch::Sample& sample) const {
+    bool open = false;
+    for_each_index(sample, [&](std::size_t index) {
+      open = finished_[index] == 0;
+      if (const auto hit = buffer_->get(index)) sample.closest.keep(hit->t, hit->primitive);
+    });
+    return open;
+  }
+
+  /// Calls `visit(index)` for a sample's places in the hit buffer.
+  template <class Visit>
+  void for_each_index(const LeafBatch::Sample& sample, Visit visit) const {
+    sample.lattice->for_each_index(*buffer_, sample.x, sample.y, visit);
+  }
+
+  OctreeCursor cursor_at(const Beam& beam) const {
+    OctreeCursor cursor(octree());
+    cursor.jump(beam.node, beam.corner, beam.size);
+    return cursor;
+  }
+
+  const Scene* scene_;
+  const Samet* tracer_;
+  bool continue_with_rays_;
+  LeafBatch batch_;
+  SampleScan scan_;
+  std::vector<SampleLattice> lattices_;
+  PrimitiveImages images_;
+  const Sight* sight_;
+  /// Which samples need no more, where that is to be known: if some are not wanted, or beams go on
+  /// behind occupied leaves.
+  std::vector<std::uint8_t> finished_;
+  HitBuffer* buffer_;
+  Watch* watch_;
+  decltype(std::declval<Watch>().rays()) counting_;
+};
+
+}  // namespace beambench
