@@ -112,7 +112,8 @@ nlohmann::ordered_json cell(const char* name, double harness_ms, double trace_ms
 }
 
 TEST(Overhead, IsTheHarnessesPartWhereThatIsLargest) {
-  std::vector cells{cell("a", 1.0, 200.0), cell("b", 1.0, 50.0), cell("c", 2.0, 200.0)};
+  std::vector cells{cell("a", 1.0, 200.0), cell("b", 1.0, 50.0), cell("c", 2.0, 200.0),
+                    cell("d makes no rays one by one", 2.0, 1.0)};
   const auto overhead = largest_overhead(cells);
   ASSERT_TRUE(overhead);
   EXPECT_EQ(overhead->part, 0.02);

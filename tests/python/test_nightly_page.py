@@ -76,7 +76,7 @@ def test_it_says_first_what_is_wrong(page: Path) -> None:
     assert "9 alarms" in head
     assert "exhaustive in tetra:n=6 at 320x200: hits were not right (mismatch)" in head
     assert "samet max_level=5 in escena1 at 640x480: traversal steps a ray from 11.5 to" in head
-    assert "Times are not judged yet: there are 3 nights" in head
+    assert "Times are not judged yet: this machine has 3 nights" in head
     assert "6 cells counted other work" in text
 
 

@@ -142,9 +142,10 @@ def _judged(nights: Nights) -> str:
     needed = 2 * Rule().side
     if len(nights.nights) >= needed:
         return ""
+    known = len(nights.nights)
     return (
-        f"Times are not judged yet: there are {len(nights.nights)} nights of this machine, and a "
-        f"step needs {Rule().side} on each side. Until then scripts/compare REV_A REV_B tells."
+        f"Times are not judged yet: this machine has {known} {'night' if known == 1 else 'nights'}"
+        f", and a step needs {Rule().side} on each side. Until then scripts/compare REV_A REV_B tells."
     )
 
 
