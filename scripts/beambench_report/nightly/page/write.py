@@ -145,7 +145,8 @@ def _judged(nights: Nights) -> str:
     known = len(nights.nights)
     return (
         f"Times are not judged yet: this machine has {known} {'night' if known == 1 else 'nights'}"
-        f", and a step needs {Rule().side} on each side. Until then scripts/compare REV_A REV_B tells."
+        f", and a step needs {Rule().side} on each side. Until then scripts/compare REV_A REV_B "
+        "tells."
     )
 
 
