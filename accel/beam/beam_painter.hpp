@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -15,19 +16,28 @@
 
 namespace beambench {
 
+/// For each sample of a buffer whether it needs no more, where that is to be known: if some are not
+/// wanted, or beams go on behind occupied leaves. Empty elsewhere.
+template <class Sight>
+std::vector<std::uint8_t> finished_samples(const BeamOptions& options, const Sight& sight,
+                                           const HitBuffer& buffer) {
+  std::vector<std::uint8_t> finished = sight.finished(buffer);
+  if (finished.empty() && !options.continue_with_rays) finished.assign(buffer.size(), 0);
+  return finished;
+}
+
 /// Finds the samples of beams and traces them (thesis, section 3.6), for one image. It knows
 /// nothing of the other beams, so that it can be done by others than the one who divides them:
-/// several painters, in threads or processes, can fill one image. They can share a buffer where
-/// beams do not go on behind occupied leaves (`BeamOptions::continue_with_rays`), for then no two
-/// beams have a sample in common.
+/// several painters, in threads or processes, can fill one image. They can share its buffer: beams
+/// have no sample in common, or one comes from the other.
 template <class Watch, class Sight>
 class BeamPainter {
  public:
-  /// `tracer` holds the octree over the scene. All but `options` must outlive the painter; the
-  /// buffer begins as background.
+  /// `tracer` holds the octree over the scene. All but `options` must outlive the painter. The
+  /// buffer begins as background, `finished` as `finished_samples`.
   BeamPainter(const Scene& scene, const Samet& tracer, const BeamOptions& options,
               const EyeView& view, const PrimaryRays& rays, const Sight& sight, HitBuffer& buffer,
-              Watch& watch)
+              std::span<std::uint8_t> finished, Watch& watch)
       : scene_(&scene),
         tracer_(&tracer),
         continue_with_rays_(options.continue_with_rays),
@@ -35,12 +45,10 @@ class BeamPainter {
         lattices_(sample_lattices(rays, options.share_corners)),
         images_(scene, rays),
         sight_(&sight),
-        finished_(sight.finished(buffer)),
+        finished_(finished),
         buffer_(&buffer),
         watch_(&watch),
-        counting_(watch.rays()) {
-    if (finished_.empty() && !continue_with_rays_) finished_.assign(buffer.size(), 0);
-  }
+        counting_(watch.rays()) {}
 
   /// A beam leaves the root: its samples keep the background.
   void leave(const Beam& beam) {
@@ -170,9 +178,7 @@ class BeamPainter {
   std::vector<SampleLattice> lattices_;
   PrimitiveImages images_;
   const Sight* sight_;
-  /// Which samples need no more, where that is to be known: if some are not wanted, or beams go on
-  /// behind occupied leaves.
-  std::vector<std::uint8_t> finished_;
+  std::span<std::uint8_t> finished_;
   HitBuffer* buffer_;
   Watch* watch_;
   decltype(std::declval<Watch>().rays()) counting_;

@@ -2,6 +2,8 @@
 // The beam tracer of the thesis.
 
 #include <algorithm>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "accel/beam/beam_options.hpp"
@@ -66,11 +68,12 @@ template <class Watch, class Sight>
 class BeamTracer::Run {
  public:
   Run(const BeamTracer& tracer, const PrimaryRays& rays, const Sight& sight, HitBuffer& buffer,
-      Watch& watch)
+      std::span<std::uint8_t> finished, Watch& watch)
       : tracer_(&tracer),
         view_(tracer.octree().grid(), rays),
         sight_(&sight),
-        painter_(*tracer.scene_, tracer, tracer.options_, view_, rays, sight, buffer, watch),
+        painter_(*tracer.scene_, tracer, tracer.options_, view_, rays, sight, buffer, finished,
+                 watch),
         samples_(static_cast<double>(rays.count())),
         buffer_(&buffer),
         watch_(&watch) {}
@@ -127,13 +130,16 @@ class BeamTracer::Run {
 
 template <class Watch>
 void BeamTracer::trace_watched(const PrimaryRays& rays, HitBuffer& buffer, Watch& watch) const {
-  Run<Watch, WholeImage>(*this, rays, WholeImage{}, buffer, watch)();
+  const WholeImage sight;
+  auto finished = finished_samples(options_, sight, buffer);
+  Run<Watch, WholeImage>(*this, rays, sight, buffer, finished, watch)();
 }
 
 inline void BeamTracer::trace_behind(const BehindMirror& mirror, const PrimaryRays& rays,
                                      HitBuffer& buffer) const {
   NoBeamWatch watch;
-  Run<NoBeamWatch, BehindMirror>(*this, rays, mirror, buffer, watch)();
+  auto finished = finished_samples(options_, mirror, buffer);
+  Run<NoBeamWatch, BehindMirror>(*this, rays, mirror, buffer, finished, watch)();
 }
 
 }  // namespace beambench
