@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "accel/cache_aligned.hpp"
+#include "accel/large_pages.hpp"
 #include "accel/ray.hpp"
 
 namespace beambench {
@@ -37,7 +37,8 @@ class HitBuffer {
     return Hit{t_[index], primitive_[index]};
   }
 
-  /// The raw arrays, for structures that write whole packets. They begin with a cache line.
+  /// The raw arrays, for structures that write whole packets. They begin with a cache line, so
+  /// that lines can be written past the caches, without reading them.
   float* t() { return t_.data(); }
   const float* t() const { return t_.data(); }
   PrimitiveId* primitive() { return primitive_.data(); }
@@ -49,8 +50,8 @@ class HitBuffer {
   int width_;
   int height_;
   int samples_;
-  CacheAlignedVector<float> t_;
-  CacheAlignedVector<PrimitiveId> primitive_;
+  LargePageVector<float> t_;
+  LargePageVector<PrimitiveId> primitive_;
 };
 
 }  // namespace beambench
