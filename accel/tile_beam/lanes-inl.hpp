@@ -39,6 +39,19 @@ HWY_INLINE LaneBits bits_of(Mask mask) {
   return stored[0] | static_cast<LaneBits>(stored[1]) << 8U;
 }
 
+/// 1 / values, to within two roundings; infinity for 0.
+template <class D>
+HWY_INLINE hn::Vec<D> reciprocal(D d, hn::Vec<D> values) {
+#if HWY_MAX_BYTES == 64  // one of Newton's steps is faster than a division
+  const auto about = hn::ApproximateReciprocal(values);
+  const auto rest = hn::NegMulAdd(about, values, hn::Set(d, 1.0F));
+  return hn::IfThenElse(hn::Eq(values, hn::Zero(d)), about, hn::MulAdd(about, rest, about));
+#else
+  return hn::Div(hn::Set(d, 1.0F), values);
+#endif
+}
+HWY_INLINE Floats reciprocal(Floats values) { return reciprocal(Tag(), values); }
+
 /// Calls `test(lane)` for the first lane of each register and joins the masks it returns.
 template <class Test>
 HWY_INLINE LaneBits for_each_register(Test test) {

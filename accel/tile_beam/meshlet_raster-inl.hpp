@@ -47,6 +47,30 @@ inline void draw_large(const StoredImages& images, const PrimitiveId* primitives
   }
 }
 
+/// The triangles of `which` behind what is drawn where they lie: those of at most 2 x 2 squares of
+/// the coarse depths.
+HWY_INLINE Mask hidden(const TriangleImages& images, Mask which, const TileImage& image) {
+  const auto square = [](Floats sample) {
+    return hn::ShiftRight<3>(hn::ConvertTo(IntTag(), sample));
+  };
+  const auto of = hn::RebindMask(IntTag(), which);
+  const Ints left = hn::IfThenElseZero(of, square(images.left));
+  const Ints right = hn::IfThenElseZero(of, square(images.right));
+  constexpr int kRow = std::countr_zero(static_cast<unsigned>(TileImage::kSquareColumns));
+  const Ints top = hn::IfThenElseZero(of, square(images.top));
+  const Ints bottom = hn::IfThenElseZero(of, square(images.bottom));
+  const Ints two = hn::Set(IntTag(), 2);
+  const auto small =
+      hn::And(of, hn::And(hn::Lt(hn::Sub(right, left), two), hn::Lt(hn::Sub(bottom, top), two)));
+  const auto depth = [&](Ints column, Ints row) {
+    return hn::GatherIndex(Tag(), image.farthest.data(), hn::Add(hn::ShiftLeft<kRow>(row), column));
+  };
+  const Floats farthest = hn::Min(hn::Min(depth(left, top), depth(right, top)),
+                                  hn::Min(depth(left, bottom), depth(right, bottom)));
+  return hn::And(hn::RebindMask(Tag(), small),
+                 hn::Gt(farthest, hn::Mul(images.nearest, all(1.0F + 0x1p-18F))));
+}
+
 /// Draws triangles that float is good enough for, each in the way that suits its size.
 HWY_INLINE void draw_triangles(const TriangleImages& images, const PrimitiveId* primitives,
                                TileImage& image) {
@@ -56,7 +80,9 @@ HWY_INLINE void draw_triangles(const TriangleImages& images, const PrimitiveId* 
     collect_fragments(images, small, fragments);
     resolve_fragments(fragments, primitives, image);
   }
-  const Mask rest = hn::AndNot(small, images.drawn);
+  Mask rest = hn::AndNot(small, images.drawn);
+  if (hn::AllFalse(Tag(), rest)) return;
+  rest = hn::AndNot(hidden(images, rest, image), rest);
   if (hn::AllFalse(Tag(), rest)) return;
 
   const StoredImages stored(images);

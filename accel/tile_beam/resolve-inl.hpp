@@ -87,7 +87,7 @@ HWY_INLINE void resolve_four(const TileImage& image, int column, int row, const 
     return buffer.index(view.left + 4 * column, view.top + 4 * row + y, 0);
   };
   write_blocks<kStreamed>(from, height, place_of_row, buffer.t(), [&](auto d, std::size_t place) {
-    return hn::Div(hn::Set(d, 1.0F), hn::Load(d, &image.inverse_t[place]));
+    return reciprocal(d, hn::Load(d, &image.inverse_t[place]));
   });
   write_blocks<kStreamed>(
       from, height, place_of_row, buffer.primitive(),
@@ -142,7 +142,7 @@ inline void resolve_samples(TileImage& image, const SampleRaster& raster, const 
   if (!image.touched) clear(image, view);
   float* const t = image.inverse_t.data();
   for (std::size_t i = 0; i < TileImage::kSamples; i += kLanes) {
-    store(hn::Div(all(1.0F), load(t + i)), t + i);
+    store(reciprocal(load(t + i)), t + i);
   }
   for (int y = 0; y < view.height; ++y) {
     for (const SampleRaster::Place& place : raster.places) {

@@ -34,7 +34,7 @@ class TileChild {
   std::uint32_t bits() const { return bits_; }
 
  private:
-  std::uint32_t bits_ = 0;
+  std::uint32_t bits_;  // not set: stacks of hundreds are made for every tile
 };
 
 /// Up to sixteen boxes: lower x, y, z; upper x, y, z.
@@ -106,7 +106,7 @@ struct TileBlocks {
 /// `overlap_tolerance`.
 struct TileHierarchy : TileBlocks {
   LargePageVector<TileNode> nodes;
-  TileChild root;
+  TileChild root{};
   Bounds bounds;            ///< of everything, widened
   std::uint32_t depth = 0;  ///< nodes on the longest way down, leaf included
   std::uint64_t references = 0;

@@ -7,7 +7,7 @@
 #define ACCEL_TILE_BEAM_TRIANGLE_PAINTER_INL
 #endif
 
-#include <algorithm>
+#include <cmath>
 
 #include "accel/tile_beam/exact_triangle.hpp"
 #include "accel/tile_beam/tile_raster-inl.hpp"
@@ -15,6 +15,45 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace beambench::HWY_NAMESPACE {
+
+/// Of each row of blocks, those between the edges: the others lie outside one of them.
+class RowEnds {
+ public:
+  static_assert(TileImage::kBlockRows == 16);
+
+  HWY_INLINE RowEnds(const std::array<TileLine, 3>& edges, int first_column, int last_column) {
+    for (std::size_t row = 0; row < 16; row += kLanes) {
+      const Floats top = hn::Iota(Tag(), static_cast<float>(row));
+      Floats low = all(static_cast<float>(4 * first_column));
+      Floats high = all(static_cast<float>(4 * last_column + 3));
+      for (const TileLine& edge : edges) {
+        // The largest value on a column of the first block, and a little for rounding.
+        const float largest = edge.constant + (edge.y > 0.0F ? 3.0F * edge.y : 0.0F) +
+                              0x1p-21F * (std::abs(edge.constant) + std::abs(64.0F * edge.y));
+        const Floats value = hn::MulAdd(all(4.0F * edge.y), top, all(largest));
+        constexpr float kLevel = 1e-30F;  // such an edge ends no row
+        constexpr float kSlack = 0.0625F;
+        if (edge.x > kLevel) {
+          low = hn::Max(low, hn::MulAdd(value, all(-1.0F / edge.x), all(-kSlack)));
+        } else if (edge.x < -kLevel) {
+          high = hn::Min(high, hn::MulAdd(value, all(-1.0F / edge.x), all(kSlack)));
+        }
+      }
+      const auto block_of = [](Floats sample) {
+        return hn::ShiftRight<2>(hn::ConvertTo(IntTag(), hn::Floor(sample)));
+      };
+      hn::Store(block_of(hn::Min(low, all(1e6F))), IntTag(), &first_[row]);
+      hn::Store(block_of(hn::Max(high, all(-4.0F))), IntTag(), &last_[row]);
+    }
+  }
+
+  int first(int row) const { return first_[static_cast<std::size_t>(row)]; }
+  int last(int row) const { return last_[static_cast<std::size_t>(row)]; }
+
+ private:
+  alignas(64) std::array<std::int32_t, 16> first_;
+  alignas(64) std::array<std::int32_t, 16> last_;
+};
 
 /// Draws one triangle by blocks.
 class BlockPainter {
@@ -27,11 +66,9 @@ class BlockPainter {
   template <bool kClip>
   HWY_INLINE void paint(TileImage& image) const {
     const int last_row = box_.bottom >> 2;
+    const RowEnds ends(edges_, box_.left >> 2, box_.right >> 2);
     for (int row = box_.top >> 2; row <= last_row; ++row) {
-      int first = box_.left >> 2;
-      int last = box_.right >> 2;
-      if (last - first >= 3) narrow(row, first, last);
-      if (first <= last) paint_row<kClip>(image, row, first, last);
+      paint_row<kClip>(image, row, ends.first(row), ends.last(row));
     }
   }
 
@@ -64,25 +101,6 @@ class BlockPainter {
       return hn::And(hn::Ge(value, all(low)), hn::Le(value, all(high)));
     };
     return hn::And(within(i, box_.left, box_.right), within(j, box_.top, box_.bottom));
-  }
-
-  /// Leaves out the blocks at a row's ends that lie outside an edge.
-  HWY_INLINE void narrow(int row, int& first, int& last) const {
-    auto low = static_cast<float>(4 * first);
-    auto high = static_cast<float>(4 * last + 3);
-    const auto top = static_cast<float>(4 * row);
-    for (const TileLine& edge : edges_) {
-      // The largest value on a column of the block.
-      const float value = edge.constant + edge.y * (edge.y > 0.0F ? top + 3.0F : top);
-      constexpr float kSlack = 0.0625F;
-      if (edge.x > 0.0F) {
-        low = std::max(low, -value / edge.x - kSlack);
-      } else if (edge.x < 0.0F) {
-        high = std::min(high, -value / edge.x + kSlack);
-      }
-    }
-    first = std::max(first, static_cast<int>(std::min(low, 1e6F)) >> 2);
-    last = high < 0.0F ? -1 : std::min(last, static_cast<int>(high) >> 2);
   }
 
   std::array<TileLine, 3> edges_;
