@@ -24,17 +24,6 @@ std::unique_ptr<Accelerator> StructureChoice::build(const Scene& scene) const {
   return build(scene, usual_workload(scene));
 }
 
-std::string StructureChoice::short_label() const {
-  const auto values = parameters_.values();
-  std::vector<std::string> changed;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i].second != info_->parameters[i].default_value) {
-      changed.push_back(values[i].first + '=' + values[i].second);
-    }
-  }
-  return changed.empty() ? info_->name : fmt::format("{}:{}", info_->name, fmt::join(changed, ","));
-}
-
 void Registry::add(StructureInfo info) { structures_.push_back(std::move(info)); }
 
 StructureChoice Registry::choose(const Spec& spec) const {

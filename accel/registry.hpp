@@ -46,7 +46,7 @@ class StructureChoice {
   /// `samet:max_level=6,max_objects=0,...` with every parameter.
   std::string label() const { return parameters_.label(); }
   /// As short as it can be told: the name and the parameters that are not at their defaults.
-  std::string short_label() const;
+  std::string short_label() const { return parameters_.short_label(); }
 
   /// Builds the structure; also throws std::logic_error when it ignores a parameter it was given.
   std::unique_ptr<Accelerator> build(const Scene& scene, const Workload& workload) const;

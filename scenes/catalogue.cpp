@@ -16,6 +16,7 @@
 #include "scenes/generators/delfines.hpp"
 #include "scenes/generators/escena1.hpp"
 #include "scenes/generators/escena2.hpp"
+#include "scenes/generators/finishes.hpp"
 #include "scenes/generators/flamenco.hpp"
 #include "scenes/generators/gato_bill.hpp"
 #include "scenes/generators/gears.hpp"
@@ -60,21 +61,18 @@ bool is_path(std::string_view spec) {
 }  // namespace
 
 std::span<const SceneInfo> scene_catalogue() {
-  static const std::vector<SceneInfo> catalogue = {ajedrez_scene(),       balls_scene(),
-                                                   bola_espacial_scene(), bumpy_scene(),
-                                                   caracol_scene(),       casa_de_campo_scene(),
-                                                   closed_room_scene(),   delfines_scene(),
-                                                   escena1_scene(),       escena2_scene(),
-                                                   flamenco_scene(),      gato_bill_scene(),
-                                                   gears_scene(),         habitacion_scene(),
-                                                   jacks_scene(),         lattice_scene(),
-                                                   maceta_scene(),        misil_scene(),
-                                                   mount_scene(),         rings_scene(),
-                                                   shells_scene(),        sombrero_scene(),
-                                                   soup_scene(),          stetra_scene(),
-                                                   teapot_scene(),        tessellated_balls_scene(),
-                                                   tetera_scene(),        tetra_scene(),
-                                                   torre_eiffel_scene(),  tree_scene()};
+  static const std::vector<SceneInfo> catalogue = {
+      ajedrez_scene(),     balls_scene(),    bola_espacial_scene(),
+      bumpy_scene(),       caracol_scene(),  casa_de_campo_scene(),
+      closed_room_scene(), delfines_scene(), escena1_scene(),
+      escena2_scene(),     finishes_scene(), flamenco_scene(),
+      gato_bill_scene(),   gears_scene(),    habitacion_scene(),
+      jacks_scene(),       lattice_scene(),  maceta_scene(),
+      misil_scene(),       mount_scene(),    rings_scene(),
+      shells_scene(),      sombrero_scene(), soup_scene(),
+      stetra_scene(),      teapot_scene(),   tessellated_balls_scene(),
+      tetera_scene(),      tetra_scene(),    torre_eiffel_scene(),
+      tree_scene()};
   return catalogue;
 }
 

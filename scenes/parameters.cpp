@@ -287,6 +287,15 @@ std::string Parameters::label() const {
   return values_.empty() ? owner_ : owner_ + ':' + canonical();
 }
 
+std::string Parameters::short_label() const {
+  std::string text = owner_;
+  for (const Value& value : values_) {
+    if (value.text == value.info.default_value) continue;
+    text += (text.size() == owner_.size() ? ':' : ',') + value.info.name + '=' + value.text;
+  }
+  return text;
+}
+
 std::vector<Given> Parameters::values() const {
   std::vector<Given> pairs;
   for (const Value& value : values_) pairs.emplace_back(value.info.name, value.text);

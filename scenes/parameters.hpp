@@ -80,6 +80,8 @@ class Parameters {
   std::string canonical() const;
   /// Owner and canonical parameters: `samet:max_level=6,max_objects=0`, or the bare owner.
   std::string label() const;
+  /// The same with only those that are not at their defaults: `samet:max_level=6`.
+  std::string short_label() const;
   /// Name and value pairs as in canonical().
   std::vector<std::pair<std::string, std::string>> values() const;
 

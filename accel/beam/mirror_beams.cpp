@@ -1,8 +1,12 @@
 #include "accel/beam/mirror_beams.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -43,6 +47,26 @@ bool lies_in(const Scene& scene, const Polygon& polygon, const PlanarMirror& mir
     if (std::abs(glm::dot(away, mirror.normal)) > tolerance) return false;
   }
   return true;
+}
+
+/// A cell of the space of planes: normal and distance, rounded.
+using PlaneCell = std::array<std::int64_t, 4>;
+
+/// Only planes of one cell are compared, so that a million small mirrors are no matter. Two halves
+/// of a plane that fall into neighbouring cells are two mirrors, which show the same.
+PlaneCell cell_of(const Scene& scene, const PlanarMirror& mirror) {
+  constexpr double kNormals = 0x1p8;
+  constexpr double kDistances = 0x1p10;
+  dvec3 normal = mirror.normal;
+  for (int axis = 0; axis < 3; ++axis) {  // a plane has two normals: the one whose first axis is up
+    if (std::abs(normal[axis]) < 0.5 / kNormals) continue;
+    normal *= normal[axis] < 0.0 ? -1.0 : 1.0;
+    break;
+  }
+  const dvec3 middle = 0.5 * (dvec3(scene.bounds.lower) + dvec3(scene.bounds.upper));
+  const double distance = glm::dot(normal, mirror.point - middle) / size_of(scene);
+  return {std::llround(kNormals * normal.x), std::llround(kNormals * normal.y),
+          std::llround(kNormals * normal.z), std::llround(kDistances * distance)};
 }
 
 /// A convex cover of pixels: the image, cut along lines of 16 directions.
@@ -91,17 +115,20 @@ std::vector<glm::dvec2> ends_of_rows(const HitBuffer& hits,
 
 std::vector<PlanarMirror> planar_mirrors(const Scene& scene) {
   std::vector<PlanarMirror> mirrors;
+  std::map<PlaneCell, std::vector<std::size_t>> in_cell;  // indices of mirrors
   const double tolerance = 0x1p-20 * size_of(scene);
   for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     if (!is_planar_mirror(scene, scene.primitives[id])) continue;
     const Polygon& polygon = scene.polygons[scene.primitives[id].index];
-    const auto same = std::find_if(mirrors.begin(), mirrors.end(), [&](const PlanarMirror& each) {
-      return lies_in(scene, polygon, each, tolerance);
-    });
-    if (same != mirrors.end()) {
-      same->polygons.push_back(id);
+    PlanarMirror own{corner_of(scene, polygon, 0), unit_normal(scene, polygon), {id}};
+    std::vector<std::size_t>& near = in_cell[cell_of(scene, own)];
+    const auto same = std::ranges::find_if(
+        near, [&](std::size_t i) { return lies_in(scene, polygon, mirrors[i], tolerance); });
+    if (same != near.end()) {
+      mirrors[*same].polygons.push_back(id);
     } else {
-      mirrors.push_back({corner_of(scene, polygon, 0), unit_normal(scene, polygon), {id}});
+      near.push_back(mirrors.size());
+      mirrors.push_back(std::move(own));
     }
   }
   return mirrors;

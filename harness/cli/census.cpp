@@ -1,6 +1,7 @@
 // beambench census: how many rays of which kind the whole ray tracer takes.
 
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,11 +11,12 @@
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
+#include "harness/cli/picture_folder.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/cli/whitted_request.hpp"
-#include "harness/files/pending_file.hpp"
 #include "harness/picture/image_file.hpp"
 #include "harness/rays/answers.hpp"
+#include "scenes/catalogue.hpp"
 #include "scenes/error.hpp"
 
 namespace beambench {
@@ -26,7 +28,7 @@ struct Request {
   std::string rules = "image";
   ImageRequest image;
   WhittedRequest whitted;
-  std::string picture;
+  std::string pictures;  ///< a folder; empty: none are kept
   bool json = false;
 };
 
@@ -46,6 +48,10 @@ using Clock = std::chrono::steady_clock;
 
 double milliseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+double all_ms(const Result& result) {
+  return result.build_ms + result.eye_ms + result.preparation_ms + result.picture_ms;
 }
 
 /// The eye's rays by the structure's own way for images, or one by one at the corners of pixels.
@@ -87,15 +93,19 @@ Result take_census(const Request& request, const std::string& name, Progress& pr
   result.picture_ms = milliseconds_since(begin);
   result.census = picture.census;
   result.shadow_bytes = tracer.shadows().memory_bytes();
-  if (!request.picture.empty()) write_image(request.picture, picture.image);
-  progress.finish(fmt::format("{} rays", picture.census.eye + picture.census.reflected +
-                                             picture.census.refracted + picture.census.shadow));
+  if (!request.pictures.empty()) {
+    write_image(std::filesystem::path(request.pictures) / picture_name(scene.name), picture.image);
+  }
+  progress.finish(fmt::format("{} rays in {}",
+                              picture.census.eye + picture.census.reflected +
+                                  picture.census.refracted + picture.census.shadow,
+                              format_duration(1e-3 * all_ms(result))));
   return result;
 }
 
 void print_text(const Request& request, const std::vector<Result>& results) {
   TextTable table({"scene", "eye rays", "hits", "reflected", "refracted", "shadow", "hidden",
-                   "cached", "listed", "too faint", "eye", "lists", "all else"});
+                   "cached", "listed", "too faint", "build", "eye", "lists", "the rest"});
   for (const Result& result : results) {
     const RayCensus& census = result.census;
     const auto number = [](std::uint64_t value) { return fmt::format("{}", value); };
@@ -105,7 +115,8 @@ void print_text(const Request& request, const std::vector<Result>& results) {
                format_share(census.shadow_hidden, census.shadow),
                format_share(census.shadow_cached, census.shadow_hidden),
                format_share(census.shadow_listed, census.shadow), number(census.too_faint),
-               time(result.eye_ms), time(result.preparation_ms), time(result.picture_ms)});
+               time(result.build_ms), time(result.eye_ms), time(result.preparation_ms),
+               time(result.picture_ms)});
   }
   fmt::print("{}, {} rules, depth {}, shadows by {}\n\n{}", request.structure, request.rules,
              request.whitted.max_depth, request.whitted.shadows, table.text());
@@ -156,15 +167,15 @@ void census(const Request& request) {
   }
   choose_one("--accel", request.structure);
   whitted_options(request.whitted);
-  if (!request.picture.empty()) {
-    if (request.scenes.size() > 1) throw InputError("--picture is for one scene; give one");
-    image_format(request.picture);
-    require_writable(request.picture);
+  if (!request.pictures.empty()) make_picture_folder(request.pictures);
+  std::vector<std::string> scenes = request.scenes;
+  if (scenes.empty()) {
+    for (const SceneInfo& info : scene_catalogue()) scenes.push_back(info.name);
   }
-  Progress progress(request.scenes.size());
+  Progress progress(scenes.size());
   std::vector<Result> results;
-  results.reserve(request.scenes.size());
-  for (const std::string& name : request.scenes) {
+  results.reserve(scenes.size());
+  for (const std::string& name : scenes) {
     results.push_back(take_census(request, name, progress));
   }
   progress.clear();
@@ -177,8 +188,9 @@ void add_census_command(CLI::App& app, int&) {
   CLI::App* command =
       app.add_subcommand("census", "Count the rays of whole pictures: eye, shadow, mirror, glass");
   const auto request = std::make_shared<Request>();
-  command->add_option("SCENE", request->scenes, "Catalogue names, or paths of NFF or mesh files")
-      ->required();
+  command->add_option(
+      "SCENE", request->scenes,
+      "Catalogue names, or paths of NFF or mesh files (default: the whole catalogue)");
   command->add_option("--accel", request->structure, "Structure: NAME:parameter=value,...")
       ->capture_default_str();
   command
@@ -187,7 +199,8 @@ void add_census_command(CLI::App& app, int&) {
       ->capture_default_str();
   add_image_options(*command, request->image);
   add_whitted_options(*command, request->whitted);
-  command->add_option("--picture", request->picture, "Picture to write, .png or .exr");
+  command->add_option("--pictures", request->pictures,
+                      "Write the picture of each scene to this folder, too");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "The rules of SPD: 513x513 rays through the corners of pixels, rays of depth 5, none left "
@@ -196,11 +209,11 @@ void add_census_command(CLI::App& app, int&) {
       "those that something opaque stops; cached: of these, what the shadow cache knew; listed: "
       "of\n"
       "the shadow rays, what light buffers answered; too faint: not traced for --least-weight.\n"
-      "Times: the eye's rays, making light buffers, all else (on --threads).\n"
+      "Times: building, the eye's rays, making light buffers, the rest (on --threads).\n"
       "Examples:\n"
       "  beambench census tetra teapot:n=12 --rules spd\n"
       "  beambench census escena1 --accel beam --resolution 640x480 --shadows cache --json\n"
-      "  beambench census mount --rules spd --least-weight 0.01 --picture mount.png");
+      "  beambench census --resolution 1280x1024 --threads 2 --pictures whitted");
   command->callback([request] { census(*request); });
 }
 

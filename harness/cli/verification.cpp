@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <bit>
-#include <cctype>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "harness/cli/difference_picture.hpp"
+#include "harness/cli/picture_folder.hpp"
 #include "harness/cli/watched_ask.hpp"
 #include "harness/rays/share_warning.hpp"
 #include "scenes/error.hpp"
@@ -65,15 +66,6 @@ std::vector<std::string> describe_disputes(const VerifiedView& view, const DiffR
   return texts;
 }
 
-/// `tetra-n-4-default-samet-max_level-5.png`: what a file system and a shell take.
-std::string picture_name(const VerifiedCell& cell, std::string_view camera) {
-  std::string name = fmt::format("{}-{}-{}", cell.scene, camera, cell.label);
-  for (char& c : name) {
-    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '.') c = '-';
-  }
-  return name + ".png";
-}
-
 class SceneVerifier {
  public:
   SceneVerifier(const VerifiedView& view, const std::filesystem::path& pictures, Progress& progress)
@@ -86,27 +78,6 @@ class SceneVerifier {
     }
   }
 
-  VerifiedCell verify(const StructureChoice& choice) {
-    VerifiedCell cell;
-    cell.scene = view_.scene.name;
-    cell.rays = view_.question.label();
-    cell.primitives = view_.scene.primitives.size();
-    cell.structure = choice.info().name;
-    cell.parameters = choice.parameters().canonical();
-    cell.label = choice.short_label();
-    progress_.start(fmt::format("{} over {}, {} rays", cell.label, cell.scene, cell.rays));
-    try {
-      judge_into(choice, cell);
-    } catch (const InputError& error) {  // a cap was exceeded: this cell fails, the others go on
-      cell.verdict = "error";
-      cell.message = error.what();
-    }
-    progress_.finish(cell.message.empty() ? cell.verdict
-                                          : fmt::format("{}: {}", cell.verdict, cell.message));
-    return cell;
-  }
-
- private:
   void judge_into(const StructureChoice& choice, VerifiedCell& cell) {
     const auto accelerator = choice.build(view_.scene, workload_of(view_.image, view_.question));
     Answers answers = room_for(view_.question);
@@ -124,11 +95,13 @@ class SceneVerifier {
       }
     }
     if (!pictures_.empty() && !cell.passed() && view_.question.image() != nullptr) {
-      cell.picture = pictures_ / picture_name(cell, view_.image.camera.name);
+      cell.picture = pictures_ / picture_name(fmt::format("{}-{}-{}", cell.scene,
+                                                          view_.image.camera.name, cell.label));
       write_difference(cell.picture, reference_, classes, {cell.label, kOracleName});
     }
   }
 
+ private:
   const VerifiedView& view_;
   ReferenceHits reference_;
   const std::filesystem::path& pictures_;
@@ -136,19 +109,51 @@ class SceneVerifier {
   std::optional<BitsReference> bits_;
 };
 
+VerifiedCell empty_cell(const Scene& scene, const std::string& rays,
+                        const StructureChoice& choice) {
+  VerifiedCell cell;
+  cell.scene = scene.name;
+  cell.rays = rays;
+  cell.primitives = scene.primitives.size();
+  cell.structure = choice.info().name;
+  cell.parameters = choice.parameters().canonical();
+  cell.label = choice.short_label();
+  return cell;
+}
+
 }  // namespace
+
+std::vector<VerifiedCell> verify_each(const Scene& scene, const std::string& rays,
+                                      std::vector<StructureChoice> contenders, Progress& progress,
+                                      const JudgeInto& judge_into) {
+  std::stable_partition(contenders.begin(), contenders.end(), [](const StructureChoice& choice) {
+    return choice.info().name == "exhaustive";
+  });
+  std::vector<VerifiedCell> cells;
+  cells.reserve(contenders.size());
+  for (const StructureChoice& choice : contenders) {
+    VerifiedCell& cell = cells.emplace_back(empty_cell(scene, rays, choice));
+    progress.start(fmt::format("{} over {}, {} rays", cell.label, cell.scene, cell.rays));
+    try {
+      judge_into(choice, cell);
+    } catch (const InputError& error) {  // a cap was exceeded: this cell fails, the others go on
+      cell.verdict = "error";
+      cell.message = error.what();
+    }
+    progress.finish(cell.message.empty() ? cell.verdict
+                                         : fmt::format("{}: {}", cell.verdict, cell.message));
+  }
+  return cells;
+}
 
 std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
                                        std::vector<StructureChoice> contenders,
                                        const std::filesystem::path& pictures, Progress& progress) {
-  std::stable_partition(contenders.begin(), contenders.end(), [](const StructureChoice& choice) {
-    return choice.info().name == "exhaustive";
-  });
   SceneVerifier verifier(view, pictures, progress);
-  std::vector<VerifiedCell> cells;
-  cells.reserve(contenders.size());
-  for (const StructureChoice& choice : contenders) cells.push_back(verifier.verify(choice));
-  return cells;
+  return verify_each(view.scene, view.question.label(), std::move(contenders), progress,
+                     [&](const StructureChoice& choice, VerifiedCell& cell) {
+                       verifier.judge_into(choice, cell);
+                     });
 }
 
 nlohmann::ordered_json to_json(const VerifiedCell& cell) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -40,6 +41,14 @@ struct VerifiedView {
   ImageOfRays image;
   Question question;
 };
+
+/// Judges one structure into its cell, which is filled but for that; may throw InputError.
+using JudgeInto = std::function<void(const StructureChoice& choice, VerifiedCell& cell)>;
+/// Judges each contender, the exhaustive search first where it is among them. `progress` gets one
+/// cell for each; one that throws gets the verdict "error".
+std::vector<VerifiedCell> verify_each(const Scene& scene, const std::string& rays,
+                                      std::vector<StructureChoice> contenders, Progress& progress,
+                                      const JudgeInto& judge_into);
 
 /// Judges each contender, the exhaustive search first where it is among them: the bit-exact ones
 /// are compared with it, or with the first of them. `progress` gets one cell for each contender.

@@ -5,15 +5,16 @@
 #include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
+#include "harness/cli/picture_folder.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/cli/verification.hpp"
+#include "harness/cli/verify_picture.hpp"
 #include "harness/files/pending_file.hpp"
 #include "harness/rays/ray_choice.hpp"
 #include "harness/rays/resolution.hpp"
@@ -94,12 +95,14 @@ std::vector<Scene> open_scenes(const Request& request) {
   return scenes;
 }
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!error) return;
-  throw InputError(fmt::format("cannot make the folder '{}': {}; choose another with --pictures",
-                               folder.string(), error.message()));
+std::vector<VerifiedCell> verify_kind(const Scene& scene, const ImageOfRays& image,
+                                      const RayChoice& kind, const Contenders& contenders,
+                                      const Request& request, Progress& progress) {
+  if (kind.kind == RayKind::kWhitted) {
+    return verify_picture(scene, image, kind, contenders.choices, progress);
+  }
+  const VerifiedView view{scene, image, make_question(scene, image, kind)};
+  return verify_scene(view, contenders.choices, request.pictures, progress);
 }
 
 int verify(const Request& request) {
@@ -110,7 +113,7 @@ int verify(const Request& request) {
   const std::size_t structures = registry().choose_list(request.structures).size();
   const std::vector<Scene> scenes = open_scenes(request);
   for (const Scene& scene : scenes) choose_camera(scene, request.camera);
-  if (!request.pictures.empty()) make_folder(request.pictures);
+  if (!request.pictures.empty()) make_picture_folder(request.pictures);
 
   Progress progress(scenes.size() * kinds.size() * structures);
   std::vector<VerifiedCell> cells;
@@ -120,9 +123,7 @@ int verify(const Request& request) {
     if (!contenders.note.empty()) progress.say(contenders.note);
     for (const RayChoice& kind : kinds) {
       progress.skip(structures - contenders.choices.size());
-      const VerifiedView view{scene, image, make_question(scene, image, kind)};
-      for (VerifiedCell& cell :
-           verify_scene(view, contenders.choices, request.pictures, progress)) {
+      for (VerifiedCell& cell : verify_kind(scene, image, kind, contenders, request, progress)) {
         cells.push_back(std::move(cell));
       }
     }
@@ -173,6 +174,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       "  beambench verify tetera\n"
       "  beambench verify escena1 tetra:n=4 --accel all\n"
       "  beambench verify balls --rays shadow,reflection,diffuse,random\n"
+      "  beambench verify finishes --accel all --rays whitted\n"
       "  beambench verify balls --accel samet:max_level=5,embree --resolution 640x480 --json "
       "v.json");
   command->callback([request, &exit_code] { exit_code = verify(*request); });

@@ -45,6 +45,9 @@ enum class Verdict {
   kBaseline   ///< a structure that answers nothing by design, and did
 };
 std::string_view to_string(Verdict verdict);  // "ok", "mismatch", "grazes", "baseline"
+inline bool is_right(Verdict verdict) {
+  return verdict == Verdict::kOk || verdict == Verdict::kBaseline;
+}
 
 /// One ray that did not agree, with all that is needed to look at it.
 struct Mismatch {

@@ -2,6 +2,7 @@
 // A picture in memory.
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -20,6 +21,7 @@ class Image {
   int height() const { return height_; }
   glm::vec3& at(int x, int y) { return pixels_[index(x, y)]; }
   const glm::vec3& at(int x, int y) const { return pixels_[index(x, y)]; }
+  std::span<const glm::vec3> pixels() const { return pixels_; }
 
  private:
   std::size_t index(int x, int y) const {

@@ -35,10 +35,13 @@ void poison(Answers& answers) {
   if (auto* any = std::get_if<AnyHits>(&answers)) {
     std::ranges::fill(*any, kNoAnswer);
   } else {
-    auto& hits = std::get<HitBuffer>(answers);
-    std::fill_n(hits.t(), hits.size(), std::numeric_limits<float>::quiet_NaN());
-    std::fill_n(hits.primitive(), hits.size(), kNoPrimitive - 1);
+    poison(std::get<HitBuffer>(answers));
   }
+}
+
+void poison(HitBuffer& hits) {
+  std::fill_n(hits.t(), hits.size(), std::numeric_limits<float>::quiet_NaN());
+  std::fill_n(hits.primitive(), hits.size(), kNoPrimitive - 1);
 }
 
 bool is_hit_at(const Answers& answers, std::size_t index) {

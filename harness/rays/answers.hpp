@@ -19,6 +19,7 @@ Answers room_for(const Question& question);
 
 /// Overwrites all of them with answers that cannot be: the differ finds every one left unwritten.
 void poison(Answers& answers);
+void poison(HitBuffer& hits);
 
 /// Is the answer at an index a hit? Poison counts as one.
 bool is_hit_at(const Answers& answers, std::size_t index);

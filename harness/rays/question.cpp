@@ -36,6 +36,7 @@ std::vector<Ray> made_rays(const Scene& scene, const PrimaryRays& primary,
       return diffuse_rays(scene, points, choice.seed);
     case RayKind::kPrimary:
     case RayKind::kRandom:
+    case RayKind::kWhitted:
       break;
   }
   return {};
@@ -126,6 +127,12 @@ Workload workload_of(const ImageOfRays& image, const Question& question) {
 
 Question make_question(const Scene& scene, const ImageOfRays& image, const RayChoice& choice) {
   if (!choice.file.empty()) return Question(read_for(scene, choice));
+  if (choice.kind == RayKind::kWhitted) {
+    throw InputError(
+        "the rays of a whole picture follow from a structure's own hits, so they are no list; "
+        "'whitted' is for the sweeps of 'beambench run', 'beambench verify' and 'render --shade', "
+        "and 'beambench census' counts its rays");
+  }
   PrimaryRays primary(image.camera, image.resolution.width, image.resolution.height, image.samples);
   if (choice.kind == RayKind::kPrimary) return {std::move(primary)};
   return Question(made_set(scene, primary, choice));

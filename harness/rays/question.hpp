@@ -69,8 +69,8 @@ struct ImageOfRays {
 Workload workload_of(const ImageOfRays& image, const Question& question);
 
 /// Makes the rays of a choice, or reads them. Throws InputError where the scene has no lights for
-/// shadow rays, where no primary ray hits anything for rays to start from, and as `read_ray_file`;
-/// for a file also when it was made for another scene.
+/// shadow rays, where no primary ray hits anything for rays to start from, for whole pictures, and
+/// as `read_ray_file`; for a file also when it was made for another scene.
 Question make_question(const Scene& scene, const ImageOfRays& image, const RayChoice& choice);
 
 }  // namespace beambench

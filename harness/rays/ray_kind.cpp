@@ -1,5 +1,6 @@
 #include "harness/rays/ray_kind.hpp"
 
+#include <array>
 #include <cstdint>
 
 namespace beambench {
@@ -7,6 +8,14 @@ namespace {
 
 ParameterInfo seed_parameter() {
   return integer_parameter("seed", 1, 0, std::int64_t{1} << 53, "of the random numbers");
+}
+
+std::vector<ParameterInfo> whitted_parameters() {
+  return {integer_parameter("depth", 5, 1, 64, "rays behind one another, the eye's included"),
+          real_parameter("least_weight", 0.0, 0.0, 1.0,
+                         "rays that are a smaller part of their pixel are not traced"),
+          choice_parameter("shadows", "rays", {"rays", "cache", "light-buffer"},
+                           "how it is found out whether a light is seen")};
 }
 
 const std::vector<RayKindInfo>& all_kinds() {
@@ -35,13 +44,20 @@ const std::vector<RayKindInfo>& all_kinds() {
        "random",
        "as many as the image has samples, uniform among all lines through the scene's box",
        Query::kClosestHit,
-       {seed_parameter()}}};
+       {seed_parameter()}},
+      {RayKind::kWhitted, "whitted",
+       "a whole picture: eye, shadow, reflected and refracted rays, which follow from the "
+       "structure's own hits; 'run' and 'verify' judge every one",
+       Query::kPicture, whitted_parameters()}};
   return kinds;
 }
 
 }  // namespace
 
-std::string_view to_string(Query query) { return query == Query::kClosestHit ? "closest" : "any"; }
+std::string_view to_string(Query query) {
+  constexpr std::array<std::string_view, 3> kNames{"closest", "any", "picture"};
+  return kNames[static_cast<std::size_t>(query)];
+}
 
 std::span<const RayKindInfo> ray_kinds() { return all_kinds(); }
 

@@ -15,15 +15,17 @@ enum class RayKind {
   kShadow,      ///< from where primary rays hit to the lights
   kReflection,  ///< mirrored where primary rays hit
   kDiffuse,     ///< scattered where primary rays hit
-  kRandom       ///< lines through the scene's box
+  kRandom,      ///< lines through the scene's box
+  kWhitted      ///< all of a whole picture's, which follow from the structure's own hits
 };
 
 /// What is asked about a ray.
 enum class Query {
   kClosestHit,
-  kAnyHit  ///< is there a hit at all?
+  kAnyHit,  ///< is there a hit at all?
+  kPicture  ///< both, ray after ray as a whole picture needs them
 };
-std::string_view to_string(Query query);  // "closest", "any"
+std::string_view to_string(Query query);  // "closest", "any", "picture"
 
 /// A kind as the user sees it in `beambench list`.
 struct RayKindInfo {

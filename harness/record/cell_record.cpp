@@ -61,11 +61,12 @@ void add_identity(Row& row, const CellRecord& cell) {
   row["ray_kind"] = cell.id.rays;
   row["query"] = to_string(cell.rays.query);
   row["rays"] = cell.rays.rays;
-  const bool any = cell.rays.query == Query::kAnyHit;
-  const Json share = cell.rays.rays > 0 ? Json(cell.rays.hit_share) : Json();
-  row["hit_share"] = any ? Json() : share;
-  row["occluded_share"] = any ? share : Json();
-  row["coherence"] = cell.rays.rays > 0 ? Json(cell.rays.coherence) : Json();
+  const auto known = [](const std::optional<double>& figure) {
+    return figure ? Json(*figure) : Json();
+  };
+  row["hit_share"] = known(cell.rays.hit_share);
+  row["occluded_share"] = known(cell.rays.occluded_share);
+  row["coherence"] = known(cell.rays.coherence);
 }
 
 /// The 95% interval of a median.
@@ -177,14 +178,30 @@ void add_statistics(Row& row, const CellRecord& cell) {
 }
 
 void add_counters(Row& row, const CellRecord& cell) {
+  const NamedCounters& counters = cell.work.counters;
   const auto rays = static_cast<double>(cell.rays.rays);
   for (const std::string_view name : kCounterNames) {
-    const auto found = cell.counters.find(name);
+    const auto found = counters.find(name);
     row[fmt::format("{}_per_ray", name)] =
-        found == cell.counters.end() ? Json() : Json(static_cast<double>(found->second) / rays);
+        found == counters.end() ? Json() : Json(static_cast<double>(found->second) / rays);
   }
-  for (const auto& [name, count] : cell.counters) {
+  for (const auto& [name, count] : counters) {
     row[name + "_per_ray"] = static_cast<double>(count) / rays;
+  }
+}
+
+/// Of whole pictures: `shadow_rays`, and `shadow_box_tests_per_ray` of the shadow rays alone. A
+/// family's own counters are not told apart: most are of beams, which the eye's rays alone have.
+void add_kinds(Row& row, const CellRecord& cell) {
+  for (const RaysOfKind& kind : cell.work.kinds) {
+    row[kind.kind + "_rays"] = kind.rays;
+    if (cell.work.counters.empty() || kind.rays == 0) continue;
+    for (const std::string_view name : kCounterNames) {
+      const auto count = kind.counters.find(name);
+      if (count == kind.counters.end()) continue;
+      row[fmt::format("{}_{}_per_ray", kind.kind, name)] =
+          static_cast<double>(count->second) / static_cast<double>(kind.rays);
+    }
   }
 }
 
@@ -237,6 +254,7 @@ Row to_row(const RunFacts& run, const CellRecord& cell) {
   add_hardware_counts(row, cell);
   add_statistics(row, cell);
   add_counters(row, cell);
+  add_kinds(row, cell);
   add_judgement(row, cell);
   return row;
 }

@@ -90,10 +90,27 @@ struct RaySetFacts {
   std::uint64_t primitives = 0;
   std::uint64_t rays = 0;  ///< 0 where they could not be made
   Query query = Query::kClosestHit;
-  double hit_share = 0.0;  ///< by the oracle; of an any-hit query: the share that is occluded
-  double coherence = 1.0;  ///< between neighbours
-  /// The harness's own part of a trace: what `null` needs for these rays.
+  /// By the oracle: of the rays that ask for the closest hit, and of those that ask for any.
+  std::optional<double> hit_share, occluded_share;
+  std::optional<double> coherence;  ///< between neighbours
+  /// The harness's own part of a trace: what it takes when answers cost nothing.
   double harness_ms = 0.0;
+};
+
+/// Work by name.
+using NamedCounters = std::map<std::string, std::uint64_t, std::less<>>;
+
+/// Rays of one kind within a whole picture.
+struct RaysOfKind {
+  std::string kind;  ///< "eye", "reflected", "refracted", "shadow"
+  std::uint64_t rays;
+  NamedCounters counters;
+};
+
+/// What the counting pass found.
+struct CountedWork {
+  NamedCounters counters;         ///< empty where the structure counts nothing
+  std::vector<RaysOfKind> kinds;  ///< of a whole picture: the same kind by kind
 };
 
 /// A cell and all that was found out about it.
@@ -103,8 +120,7 @@ struct CellRecord {
   RaySetFacts rays;
   std::string time_utc;  ///< when it was finished
 
-  /// Work of the counting pass by name; empty where the structure counts nothing.
-  std::map<std::string, std::uint64_t, std::less<>> counters;
+  CountedWork work;
   /// Absent where the structure could not be built.
   std::optional<Statistics> statistics;
   /// By how much the heap grew when it was built (harness/sweep/heap.hpp).

@@ -8,6 +8,7 @@
 
 #include "harness/picture/srgb.hpp"
 #include "harness/rays/normal.hpp"
+#include "harness/shade/phong.hpp"
 
 namespace beambench {
 namespace {
@@ -29,13 +30,6 @@ struct Reflected {
   glm::dvec3 glossy{0.0};
 };
 
-double phong(const glm::dvec3& normal, const glm::dvec3& to_light, const glm::dvec3& to_eye,
-             float shine) {
-  const glm::dvec3 mirrored = 2.0 * glm::dot(normal, to_light) * normal - to_light;
-  const double exponent = std::clamp(double{shine}, 1.0, kMaxShine);
-  return std::pow(std::max(glm::dot(mirrored, to_eye), 0.0), exponent);
-}
-
 Reflected reflect_lights(const Scene& scene, const glm::dvec3& point, const glm::dvec3& normal,
                          const glm::dvec3& to_eye, float shine) {
   Reflected sum;
@@ -53,7 +47,7 @@ Reflected reflect_lights(const Scene& scene, const glm::dvec3& point, const glm:
     if (cosine <= 0.0) continue;
     const glm::dvec3 power = share * glm::dvec3(glm::clamp(light.color, 0.0F, 1.0F));
     sum.matte += power * cosine;
-    sum.glossy += power * phong(normal, to_light, to_eye, shine);
+    sum.glossy += power * phong(normal, to_light, to_eye, std::min(double{shine}, kMaxShine));
   }
   return sum;
 }

@@ -9,6 +9,7 @@
 #include "harness/picture/srgb.hpp"
 #include "harness/rays/beside_surface.hpp"
 #include "harness/rays/normal.hpp"
+#include "harness/shade/phong.hpp"
 #include "harness/shade/preview.hpp"
 #include "harness/shade/refracted.hpp"
 
@@ -31,12 +32,6 @@ std::vector<dvec3> light_colors(const Scene& scene) {
   return colors;
 }
 
-/// Phong's: how near the eye is to where a mirror would send the light.
-double highlight(const dvec3& normal, const dvec3& to_light, const dvec3& incoming, float shine) {
-  const double cosine = glm::dot(mirrored(to_light, normal), incoming);
-  return cosine > 0.0 ? std::pow(cosine, std::max(double{shine}, 1.0)) : 0.0;
-}
-
 /// A direction on the outer side of the surface: a smooth polygon's shading normal may send it
 /// through the polygon.
 dvec3 mirrored_outward(const dvec3& incoming, const dvec3& shading, const dvec3& geometric) {
@@ -45,6 +40,12 @@ dvec3 mirrored_outward(const dvec3& incoming, const dvec3& shading, const dvec3&
 }
 
 }  // namespace
+
+/// Who answers a kind of rays, and where it is counted.
+struct Whitted::Kind {
+  const Accelerator* Answerers::*answerer;
+  std::uint64_t RayCensus::*count;
+};
 
 /// How a ray came about.
 struct Whitted::Path {
@@ -63,11 +64,11 @@ struct Whitted::Place {
   dvec3 shading;
 };
 
-Whitted::Whitted(const Scene& scene, const Accelerator& structure, const WhittedOptions& options)
+Whitted::Whitted(const Scene& scene, const Answerers& answerers, const WhittedOptions& options)
     : scene_(&scene),
-      structure_(&structure),
+      answerers_(answerers),
       options_(options),
-      shadows_(scene, structure, options),
+      shadows_(scene, *answerers.shadow, options),
       textures_(scene),
       light_colors_(light_colors(scene)),
       background_(background_color(scene)) {}
@@ -117,7 +118,7 @@ dvec3 Whitted::lit(const Place& at, const Path& path, Progress& progress) const 
     const dvec3 to_light = glm::normalize(way);
     sum += part * light_colors_[i] *
            (glm::dot(to_light, at.shading) * matte +
-            surface.specular * highlight(at.shading, to_light, at.incoming, surface.shine));
+            surface.specular * phong(at.shading, to_light, -at.incoming, surface.shine));
   }
   return sum;
 }
@@ -126,9 +127,9 @@ dvec3 Whitted::reflected(const Place& at, const Path& path, double share,
                          Progress& progress) const {
   if (share <= 0.0) return dvec3(0.0);
   const Path next{path.depth + 1, path.weight * share, path.inside};
-  return share * traced(beside_surface(*scene_, at.point, at.geometric),
-                        mirrored_outward(at.incoming, at.shading, at.geometric), next,
-                        &RayCensus::reflected, progress);
+  constexpr Kind kReflected{&Answerers::reflected, &RayCensus::reflected};
+  return share * traced(kReflected, beside_surface(*scene_, at.point, at.geometric),
+                        mirrored_outward(at.incoming, at.shading, at.geometric), next, progress);
 }
 
 dvec3 Whitted::transmitted(const Place& at, const Path& path, Progress& progress) const {
@@ -143,12 +144,13 @@ dvec3 Whitted::transmitted(const Place& at, const Path& path, Progress& progress
   const auto direction = refracted(at.incoming, at.shading, entering ? 1.0 / index : index);
   if (!direction) return reflected(at, path, share, progress);  // total reflection
   const Path next{path.depth + 1, path.weight * share, entering};
-  return share * traced(beside_surface(*scene_, at.point, -at.geometric), *direction, next,
-                        &RayCensus::refracted, progress);
+  constexpr Kind kRefracted{&Answerers::refracted, &RayCensus::refracted};
+  return share * traced(kRefracted, beside_surface(*scene_, at.point, -at.geometric), *direction,
+                        next, progress);
 }
 
-dvec3 Whitted::traced(const dvec3& origin, const dvec3& direction, const Path& path,
-                      std::uint64_t RayCensus::*kind, Progress& progress) const {
+dvec3 Whitted::traced(const Kind& kind, const dvec3& origin, const dvec3& direction,
+                      const Path& path, Progress& progress) const {
   if (path.depth > options_.max_depth) return dvec3(0.0);
   if (path.weight < options_.least_weight) {
     ++progress.census.too_faint;
@@ -157,8 +159,8 @@ dvec3 Whitted::traced(const dvec3& origin, const dvec3& direction, const Path& p
   Ray ray;
   ray.origin = glm::vec3(origin);
   ray.direction = glm::vec3(direction);
-  ++(progress.census.*kind);
-  const std::optional<Hit> hit = structure_->closest_hit(ray);
+  ++(progress.census.*kind.count);
+  const std::optional<Hit> hit = (answerers_.*kind.answerer)->closest_hit(ray);
   if (hit) ++progress.census.secondary_hits;
   return color_along(ray, hit, path, progress);
 }

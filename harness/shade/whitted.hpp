@@ -15,6 +15,13 @@
 
 namespace beambench {
 
+/// Who answers which rays: one structure all of them, or others that watch what it is asked.
+struct Answerers {
+  const Accelerator* reflected;
+  const Accelerator* refracted;
+  const Accelerator* shadow;
+};
+
 /// Recursive ray tracing (Whitted, "An improved illumination model for shaded display", CACM 23(6),
 /// 1980; chapter 4 of the thesis) with NFF's surfaces: the diffuse factor times the colour under
 /// ambient light and every light that is seen; the specular factor for highlights (Phong) and for
@@ -26,7 +33,9 @@ namespace beambench {
 class Whitted {
  public:
   /// Scene and structure must outlive this.
-  Whitted(const Scene& scene, const Accelerator& structure, const WhittedOptions& options);
+  Whitted(const Scene& scene, const Accelerator& structure, const WhittedOptions& options)
+      : Whitted(scene, {&structure, &structure, &structure}, options) {}
+  Whitted(const Scene& scene, const Answerers& answerers, const WhittedOptions& options);
 
   /// What a part of a picture, made by one thread in one order, remembers and counts.
   struct Progress {
@@ -41,6 +50,7 @@ class Whitted {
   const Shadows& shadows() const { return shadows_; }
 
  private:
+  struct Kind;
   struct Path;
   struct Place;
   glm::dvec3 color_along(const Ray& ray, const std::optional<Hit>& hit, const Path& path,
@@ -49,11 +59,11 @@ class Whitted {
   glm::dvec3 lit(const Place& at, const Path& path, Progress& progress) const;
   glm::dvec3 reflected(const Place& at, const Path& path, double share, Progress& progress) const;
   glm::dvec3 transmitted(const Place& at, const Path& path, Progress& progress) const;
-  glm::dvec3 traced(const glm::dvec3& origin, const glm::dvec3& direction, const Path& path,
-                    std::uint64_t RayCensus::*kind, Progress& progress) const;
+  glm::dvec3 traced(const Kind& kind, const glm::dvec3& origin, const glm::dvec3& direction,
+                    const Path& path, Progress& progress) const;
 
   const Scene* scene_;
-  const Accelerator* structure_;
+  Answerers answerers_;
   WhittedOptions options_;
   Shadows shadows_;
   TextureSpace textures_;

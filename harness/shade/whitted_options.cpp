@@ -26,4 +26,11 @@ ShadowMethod parse_shadow_method(std::string_view name) {
   return static_cast<ShadowMethod>(found - kNames.begin());
 }
 
+WhittedOptions whitted_options(const RayChoice& choice) {
+  const RayKindInfo& info = info_of(RayKind::kWhitted);
+  const Parameters parameters(info.name, info.parameters, parse_spec(choice.label).parameters);
+  return {static_cast<int>(parameters.integer("depth")), parameters.real("least_weight"),
+          parse_shadow_method(parameters.choice("shadows"))};
+}
+
 }  // namespace beambench

@@ -4,6 +4,8 @@
 #include <span>
 #include <string_view>
 
+#include "harness/rays/ray_choice.hpp"
+
 namespace beambench {
 
 /// How it is found out whether a light is seen. All give the same picture.
@@ -27,5 +29,8 @@ struct WhittedOptions {
   double least_weight = 0.0;
   ShadowMethod shadows = ShadowMethod::kRays;
 };
+
+/// Of a whole picture that is asked for as a kind of rays: `whitted:depth=3,shadows=cache`.
+WhittedOptions whitted_options(const RayChoice& choice);
 
 }  // namespace beambench

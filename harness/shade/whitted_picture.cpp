@@ -52,4 +52,11 @@ WhittedPicture whitted_picture(const Whitted& tracer, const EyeRays& rays, const
   return picture;
 }
 
+RayCensus draw_in_order(const Whitted& tracer, const EyeRays& rays, const HitBuffer& hits,
+                        Image& image) {
+  RayCensus census;
+  for (int y = 0; y < rays.height; ++y) census += draw_row(tracer, rays, hits, y, image);
+  return census;
+}
+
 }  // namespace beambench

@@ -24,4 +24,8 @@ using PictureWatch = std::function<void(double part)>;
 WhittedPicture whitted_picture(const Whitted& tracer, const EyeRays& rays, const HitBuffer& hits,
                                const PictureWatch& watch = {});
 
+/// The same picture into `image`, which has its size, on this thread alone; returns its census.
+RayCensus draw_in_order(const Whitted& tracer, const EyeRays& rays, const HitBuffer& hits,
+                        Image& image);
+
 }  // namespace beambench

@@ -8,11 +8,9 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "harness/rays/fingerprint.hpp"
 #include "harness/record/machine.hpp"
 #include "harness/sweep/clock_rate.hpp"
 #include "harness/sweep/conditions.hpp"
-#include "harness/sweep/harness_time.hpp"
 #include "harness/sweep/heap.hpp"
 #include "harness/sweep/phase_timer.hpp"
 
@@ -20,20 +18,6 @@ namespace beambench {
 namespace {
 
 constexpr const char* kError = "error";
-
-RaySetFacts facts_of(const ReferenceHits& reference, std::uint64_t scene_hash) {
-  const Question& question = reference.question();
-  const double hits = static_cast<double>(reference.hit_count());
-  return {scene_hash,
-          fingerprint(question),
-          question.seed(),
-          reference.scene().primitives.size(),
-          question.size(),
-          question.query(),
-          hits / static_cast<double>(question.size()),
-          coherence(question),
-          0.0};
-}
 
 std::string mismatch_message(const DiffReport& report) {
   if (report.verdict == Verdict::kGrazes) {
@@ -59,44 +43,33 @@ bool is_all_zero(const std::map<std::string, std::uint64_t, std::less<>>& counte
 
 }  // namespace
 
-SharedQuestion::SharedQuestion(const CellGroup& group, std::uint64_t scene_hash, int core)
-    : group_(&group),
-      reference_(*group.scene, make_question(*group.scene, group.image(), group.rays)),
-      facts_(facts_of(reference_, scene_hash)),
-      answers_(room_for(question())) {
-  facts_.harness_ms = harness_ms(scene(), question(), answers_, core);
-}
-
-Contender::Contender(const PlannedCell& cell, SharedQuestion& question)
-    : cell_(&cell), question_(&question) {
+Contender::Contender(const PlannedCell& cell, Task& task) : cell_(&cell), task_(&task) {
   record_.index = cell.index;
   record_.id = cell.id;
-  record_.rays = question.facts();
+  record_.rays = task.facts();
 }
 
 void Contender::count() {
   try {
     const MeasuringFloatMode mode;
     const auto heap_before = heap_in_use();
-    const auto structure = cell_->structure.build(question_->scene(), question_->workload());
+    const auto structure = cell_->structure.build(task_->scene(), task_->workload());
     record_.allocated_bytes = heap_growth(heap_before, heap_in_use());
-    WorkCounters counters;
-    poison(question_->answers());
-    ask(*structure, question_->question(), question_->answers(), counters);
-    counted_hits_ = fingerprint(question_->answers());
+    task_->poison();
+    record_.work = task_->count(*structure);
+    counted_hits_ = task_->fingerprint();
     record_.statistics = structure->statistics();
-    record_.counters = counters.by_name();
   } catch (const std::exception& error) {
     fail(kError, message_of(error));
   }
   // A structure that counts nothing at all cannot count; zeros would claim that it does no work.
-  if (is_all_zero(record_.counters)) record_.counters.clear();
+  if (is_all_zero(record_.work.counters)) record_.work.counters.clear();
 }
 
 void Contender::repeat(const Instruments& instruments, int round, int position) {
   try {
     const PinnedThread pin(instruments.core);
-    poison(question_->answers());
+    task_->poison();
     std::unique_ptr<Accelerator> structure;
     const double clock_before = clock_ghz();
     Repetition repetition = time_once(instruments, structure);
@@ -106,7 +79,7 @@ void Contender::repeat(const Instruments& instruments, int round, int position) 
     record_.repetitions.push_back(repetition);
     cycles_.push_back(repetition.total_mcycles());
     spent_ms_ += repetition.total_ms();
-    examine();
+    examine(*structure);
     if (!failed_ && record_.repetitions.size() <= kWarmTraces) trace_warm(*structure);
   } catch (const std::exception& error) {
     fail(kError, message_of(error));
@@ -124,13 +97,11 @@ Repetition Contender::time_once(const Instruments& instruments,
         PhaseTime build{};
         PhaseTime trace{};
         const HardwareCounts build_counts = instruments.counters.count([&] {
-          build = time_phase([&] {
-            structure = cell_->structure.build(question_->scene(), question_->workload());
-          });
+          build = time_phase(
+              [&] { structure = cell_->structure.build(task_->scene(), task_->workload()); });
         });
-        const HardwareCounts trace_counts = instruments.counters.count([&] {
-          trace = time_phase([&] { ask(*structure, question_->question(), question_->answers()); });
-        });
+        const HardwareCounts trace_counts = instruments.counters.count(
+            [&] { trace = time_phase([&] { task_->ask(*structure); }); });
         state.SetIterationTime(1e-3 * (build.wall_ms + trace.wall_ms));
         repetition = {0,
                       0,
@@ -152,10 +123,10 @@ Repetition Contender::time_once(const Instruments& instruments,
   return repetition;
 }
 
-void Contender::examine() {
+void Contender::examine(const Accelerator& structure) {
   const bool first = record_.repetitions.size() == 1;
-  if (first) return judge_first();
-  if (fingerprint(question_->answers()) == record_.hits_hash) return;
+  if (first) return judge_first(structure);
+  if (task_->fingerprint() == record_.hits_hash) return;
   fail(std::string(to_string(Verdict::kMismatch)),
        fmt::format("repetition {} wrote other hits than the first: the structure's answers depend "
                    "on more than scene and rays",
@@ -164,29 +135,27 @@ void Contender::examine() {
 
 void Contender::trace_warm(const Accelerator& structure) {
   const MeasuringFloatMode mode;
-  poison(question_->answers());
-  const PhaseTime again =
-      time_phase([&] { ask(structure, question_->question(), question_->answers()); });
+  task_->poison();
+  const PhaseTime again = time_phase([&] { task_->ask(structure); });
   record_.repetitions.back().warm_trace_ms = again.wall_ms;
   spent_ms_ += again.wall_ms;
-  if (fingerprint(question_->answers()) == record_.hits_hash) return;
+  if (task_->fingerprint() == record_.hits_hash) return;
   fail(std::string(to_string(Verdict::kMismatch)),
        "a second trace of the same structure wrote other hits than its first");
 }
 
-void Contender::judge_first() {
-  const Answers& answers = question_->answers();
-  record_.hits_hash = fingerprint(answers);
-  record_.diff = judge(question_->reference(), answers, cell_->structure.info().conformance);
+void Contender::judge_first(const Accelerator& structure) {
+  record_.hits_hash = task_->fingerprint();
+  Judgement judgement = task_->judge(structure, cell_->structure);
+  record_.diff = std::move(judgement.report);
   record_.verdict = to_string(record_.diff->verdict);
   if (!record_.keeps_times()) {
-    const ReplayCommand replay(question_->scene(), question_->image(), cell_->structure,
-                               question_->question());
-    for (const Mismatch& example : record_.diff->examples) {
-      record_.examples.push_back(
-          describe(question_->scene(), question_->question(), example, replay));
-    }
+    record_.examples = std::move(judgement.examples);
     return fail(record_.verdict, mismatch_message(*record_.diff));
+  }
+  if (task_->fingerprint() != record_.hits_hash) {
+    return fail(std::string(to_string(Verdict::kMismatch)),
+                "asked again to be judged, the structure gave other answers");
   }
   if (record_.hits_hash != counted_hits_) {
     fail(std::string(to_string(Verdict::kMismatch)),

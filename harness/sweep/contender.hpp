@@ -8,12 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "harness/differ/differ.hpp"
-#include "harness/rays/answers.hpp"
 #include "harness/record/cell_record.hpp"
 #include "harness/sweep/google_benchmark.hpp"
 #include "harness/sweep/hardware_counters.hpp"
 #include "harness/sweep/plan.hpp"
+#include "harness/sweep/task.hpp"
 
 namespace beambench {
 
@@ -24,38 +23,13 @@ struct Instruments {
   int core;  ///< to pin it to; -1: any
 };
 
-/// What the contenders of a group share: the rays, the oracle's hits, and room for one set of
-/// answers, since they take turns.
-class SharedQuestion {
- public:
-  /// The group outlives it; `core` is to measure the harness's own time on. Throws as
-  /// `make_question`.
-  SharedQuestion(const CellGroup& group, std::uint64_t scene_hash, int core);
-  SharedQuestion(const SharedQuestion&) = delete;
-  SharedQuestion& operator=(const SharedQuestion&) = delete;
-
-  const Scene& scene() const { return reference_.scene(); }
-  ImageOfRays image() const { return group_->image(); }
-  const Question& question() const { return reference_.question(); }
-  Workload workload() const { return workload_of(image(), question()); }
-  const ReferenceHits& reference() const { return reference_; }
-  const RaySetFacts& facts() const { return facts_; }
-  Answers& answers() { return answers_; }
-
- private:
-  const CellGroup* group_;
-  ReferenceHits reference_;
-  RaySetFacts facts_;
-  Answers answers_;
-};
-
 /// A cell while it is measured. Its first timed answers are judged by the differ, and those of
 /// every other pass, the counting one included, must equal them bit for bit: so the verdict speaks
 /// of all answers that a timed repetition wrote. Whatever a structure does wrong is noted here and
 /// ends its measurement; nothing is thrown.
 class Contender {
  public:
-  Contender(const PlannedCell& cell, SharedQuestion& question);
+  Contender(const PlannedCell& cell, Task& task);
 
   /// The untimed pass: sizes and counters.
   void count();
@@ -76,13 +50,13 @@ class Contender {
  private:
   /// Leaves the structure that it built in `structure`.
   Repetition time_once(const Instruments& instruments, std::unique_ptr<Accelerator>& structure);
-  void examine();
+  void examine(const Accelerator& structure);
   void trace_warm(const Accelerator& structure);
-  void judge_first();
+  void judge_first(const Accelerator& structure);
   void fail(std::string verdict, std::string message);
 
   const PlannedCell* cell_;
-  SharedQuestion* question_;
+  Task* task_;
   CellRecord record_;
   std::vector<double> cycles_;
   double spent_ms_ = 0.0;

@@ -1,13 +1,12 @@
 #pragma once
 // The harness's own time within a trace.
 
-#include "harness/rays/answers.hpp"
+#include <functional>
 
 namespace beambench {
 
-/// What `null` needs to be asked a question, which is to make or read every ray and to write every
-/// answer: the median of several traces in milliseconds, after one that is not timed. `answers` is
-/// overwritten. `core` is to pin to; -1: any.
-double harness_ms(const Scene& scene, const Question& question, Answers& answers, int core);
+/// What a trace takes that costs a structure nothing: the median of several in milliseconds, after
+/// one that is not timed. `core` is to pin to; -1: any.
+double harness_ms(int core, const std::function<void()>& trace);
 
 }  // namespace beambench

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/rays/ray_kind.hpp"
+
 namespace beambench {
 namespace {
 
@@ -9,6 +11,7 @@ using Json = nlohmann::ordered_json;
 
 std::optional<double> part_of(const Json& row) {
   if (row.at("verdict") != "ok" || row.at("trace_ms_median").is_null()) return std::nullopt;
+  if (row.at("query") == to_string(Query::kPicture)) return std::nullopt;  // shading is asked for
   const double trace_ms = row.at("trace_ms_median").get<double>();
   // A structure that is quicker than the harness's rays makes none of them: it has no such part.
   if (trace_ms <= row.at("harness_ms").get<double>()) return std::nullopt;

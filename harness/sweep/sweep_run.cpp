@@ -6,13 +6,13 @@
 
 #include "harness/progress/progress.hpp"
 #include "harness/rays/fingerprint.hpp"
-#include "harness/rays/share_warning.hpp"
 #include "harness/record/preflight.hpp"
 #include "harness/sweep/begin_manifest.hpp"
 #include "harness/sweep/conditions.hpp"
 #include "harness/sweep/noise.hpp"
 #include "harness/sweep/overhead.hpp"
 #include "harness/sweep/resume.hpp"
+#include "harness/sweep/task.hpp"
 #include "harness/sweep/turns.hpp"
 #include "scenes/error.hpp"
 
@@ -108,18 +108,17 @@ class SweepRun {
   void run_group(const CellGroup& group, double share_ms, Progress& progress) {
     const auto begin = Clock::now();
     progress.start(group.name());
-    std::optional<SharedQuestion> question;
+    std::unique_ptr<Task> task;
     try {
-      question.emplace(group, hash_of(*group.scene), core_);
+      task = make_task(group, hash_of(*group.scene), core_);
     } catch (const InputError& error) {  // there are no rays to ask: the other groups go on
       for (const PlannedCell& cell : group.cells) finish(failed_cell(cell, error.what()), progress);
       return;
     }
-    if (const auto warning =
-            share_warning(question->question(), question->reference().hit_count())) {
+    if (const auto warning = task->warning()) {
       warn(fmt::format("{}: {}.", group.name(), *warning), progress);
     }
-    measure(group, *question, begin, share_ms, progress);
+    measure(group, *task, begin, share_ms, progress);
   }
 
   void warn(std::string sentence, Progress& progress) {
@@ -137,11 +136,11 @@ class SweepRun {
     return record;
   }
 
-  void measure(const CellGroup& group, SharedQuestion& question, Clock::time_point begin,
-               double share_ms, Progress& progress) {
+  void measure(const CellGroup& group, Task& task, Clock::time_point begin, double share_ms,
+               Progress& progress) {
     const auto label = [&] { progress.start(group.name()); };
     std::vector<Contender> contenders;
-    for (const PlannedCell& cell : group.cells) contenders.emplace_back(cell, question).count();
+    for (const PlannedCell& cell : group.cells) contenders.emplace_back(cell, task).count();
     // The oracle's and the counting passes' time is the group's own.
     const auto cells = static_cast<double>(group.cells.size());
     const double allowance_ms = std::max(share_ms - elapsed_ms(begin) / cells, 0.0);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import textwrap
 from dataclasses import dataclass
 from functools import cache
@@ -10,8 +11,8 @@ from pathlib import Path
 from typing import Literal
 
 _SOURCE = Path(__file__).with_name("columns.json")
-_ANY_COUNTER = "<counter>"
 COUNTER_SUFFIX = "_per_ray"
+_KINDS = "(eye|reflected|refracted|shadow)"  # of the rays of a whole picture
 
 
 @dataclass(frozen=True)
@@ -32,8 +33,13 @@ class Column:
 
     @property
     def is_pattern(self) -> bool:
-        """Does it stand for all counters that families of structures add?"""
-        return _ANY_COUNTER in self.name
+        """Does it stand for many columns, as for all counters that families of structures add?"""
+        return "<" in self.name
+
+    def is_that(self, name: str) -> bool:
+        """Is this the entry of a column of a file?"""
+        pattern = self.name.replace("<kind>", _KINDS).replace("<counter>", "[a-z_]+")
+        return re.fullmatch(pattern, name) is not None
 
 
 @dataclass(frozen=True)
@@ -58,13 +64,14 @@ class Dictionary:
         return tuple(column for group in self.groups for column in group.columns)
 
     def find(self, name: str) -> Column | None:
-        """The entry of a column of a file; a family's own counter gets that of the pattern."""
-        for column in self.columns:
-            if column.name == name:
-                return column
-        if not name.endswith(COUNTER_SUFFIX):
-            return None
-        return next(column for column in self.columns if column.is_pattern)
+        """The entry of a column of a file: that of its name, or of the narrowest pattern."""
+        found = [column for column in self.columns if column.is_that(name)]
+        return min(found, key=_width, default=None)
+
+
+def _width(column: Column) -> int:
+    """How much a pattern covers: one that tells the kind of rays is narrower than any counter."""
+    return 0 if not column.is_pattern else 1 if "<kind>" in column.name else 2
 
 
 @cache

@@ -175,7 +175,7 @@ CellRecord some_cell() {
   cell.verdict = "ok";
   cell.statistics.emplace();
   cell.statistics->nodes = 9;
-  cell.counters = {{"traversal_steps", 1280}, {"clips", 64}};
+  cell.work.counters = {{"traversal_steps", 1280}, {"clips", 64}};
   cell.allocated_bytes = 4096;
   cell.stop_reason = StopReason::kPrecision;
   cell.diff = DiffReport{};
@@ -212,7 +212,7 @@ const char* const kContract =
 
 TEST(CellRow, HasTheColumnsOfTheContract) {
   CellRecord cell = some_cell();
-  cell.counters.erase("clips");
+  cell.work.counters.erase("clips");
   const std::string table = csv_table(std::vector{to_row(kRun, cell)});
   EXPECT_EQ(table.substr(0, table.find('\n') + 1), kContract);
 }

@@ -46,6 +46,11 @@ TEST(RayKinds, AreReadFromAListEachOnce) {
   EXPECT_EQ(choices[1].seed, 7U);
   EXPECT_EQ(choices[2].label, "diffuse");
   EXPECT_EQ(choices[3].file, "a/b.rays");
+  const auto pictures = parse_ray_choices("whitted,whitted:shadows=cache,depth=3,shadow");
+  ASSERT_EQ(pictures.size(), 3U);
+  EXPECT_EQ(pictures[0].label, "whitted");
+  EXPECT_EQ(pictures[1].label, "whitted:depth=3,shadows=cache");
+  EXPECT_EQ(pictures[2].label, "shadow");
   for (const char* text : {"", "primary,", ",primary", "Primary", "shadows", "shadow:seed=1",
                            "diffuse:seed=x", "diffuse:seed=-1"}) {
     EXPECT_THROW(parse_ray_choices(text), InputError) << text;

@@ -290,6 +290,32 @@ TEST_F(Sweep, AsksEveryKindOfRays) {
   for (const auto& [kind, of_kind] : hashes) EXPECT_EQ(of_kind.size(), 1U) << kind;
 }
 
+TEST_F(Sweep, DrawsWholePictures) {
+  json whole = config({"null", "exhaustive", "samet:max_level=4", "beam", "embree"});
+  whole["scenes"] = {"balls:n=1"};
+  whole["rays"] = {"whitted"};
+  const SweepOutcome outcome = run(whole);
+  EXPECT_EQ(outcome.failed, 0U);
+  for (const auto& [structure, cell] : cells()) {
+    const json& row = cell["row"];
+    EXPECT_EQ(row["query"], "picture");
+    EXPECT_EQ(row["eye_rays"], 640);
+    EXPECT_EQ(row["hit_share"].is_null() || row["occluded_share"].is_null(), false);
+    expect_times(cell, true);
+    if (structure == "null") continue;
+    EXPECT_GT(row["shadow_rays"], 0);
+    EXPECT_GT(row["reflected_rays"], 0);
+    EXPECT_EQ(row["refracted_rays"], 0);
+  }
+  const json row = cells()["exhaustive"]["row"];
+  EXPECT_EQ(row["eye_primitive_tests_per_ray"], row["primitives"]);
+  EXPECT_EQ(row["reflected_primitive_tests_per_ray"], row["primitives"]);
+  EXPECT_LT(row["shadow_primitive_tests_per_ray"], row["primitives"]);
+  EXPECT_LT(row["harness_ms"], row["trace_ms_median"]) << "shading alone";
+  EXPECT_FALSE(row.contains("refracted_primitive_tests_per_ray"));
+  EXPECT_EQ(cells()["beam"]["hits_hash"], cells()["exhaustive"]["hits_hash"]);
+}
+
 TEST_F(Sweep, AWrongAnyHitLosesItsTimes) {
   add_faulty([](const Traced&) {});
   json shadow = config({"faulty", "exhaustive"});

@@ -344,12 +344,11 @@ def test_sampling_compares_methods(tmp_path: Path) -> None:
 
 
 def test_a_census_counts_rays_by_kind(tmp_path: Path) -> None:
-    picture = tmp_path / "balls.png"
     arguments = ("census", "balls:n=1", "--resolution", "48x48", "--shadows", "cache")
-    text = output_of(*arguments, "--picture", picture)
+    text = output_of(*arguments, "--pictures", tmp_path / "all" / "of" / "them")
     for word in ["eye rays", "reflected", "refracted", "shadow", "cached", "balls:n=1"]:
         assert word in text
-    assert count_colors(Image.open(picture)) > 50
+    assert count_colors(Image.open(tmp_path / "all" / "of" / "them" / "balls-n-1.png")) > 50
 
     (cached,) = json.loads(output_of(*arguments, "--json"))["scenes"]
     assert cached["eye_rays"] == 48 * 48
@@ -359,6 +358,22 @@ def test_a_census_counts_rays_by_kind(tmp_path: Path) -> None:
     (shallow,) = json.loads(output_of(*arguments, "--json", "--depth", "1"))["scenes"]
     assert shallow["reflected_rays"] == 0
     assert shallow["shadow_rays"] < cached["shadow_rays"]
+
+
+def test_whole_pictures_do_not_depend_on_the_threads(tmp_path: Path) -> None:
+    arguments = ("census", "finishes", "mount:n=3", "--resolution", "80x60", "--samples", "4")
+
+    def counts(threads: int) -> list[dict]:
+        drawn = ("--threads", str(threads), "--pictures", tmp_path / str(threads), "--json")
+        scenes = json.loads(output_of(*arguments, *drawn))["scenes"]
+        return [{k: v for k, v in scene.items() if not k.endswith("_ms")} for scene in scenes]
+
+    one = counts(1)
+    for threads in (2, 3, 7):
+        assert counts(threads) == one
+        for name in ("finishes.png", "mount-n-3.png"):
+            drawn = (tmp_path / str(threads) / name).read_bytes()
+            assert drawn == (tmp_path / "1" / name).read_bytes()
 
 
 def test_mirrors_are_shown_by_beams_and_by_rays() -> None:
@@ -484,6 +499,22 @@ def test_verify_judges_every_kind_of_rays(tmp_path: Path) -> None:
     assert {cell["ray_kind"] for cell in cells} == {
         "primary", "shadow", "reflection", "diffuse:seed=5", "random",
     }  # fmt: skip
+
+
+def test_verify_judges_every_ray_of_whole_pictures(tmp_path: Path) -> None:
+    file = tmp_path / "v.json"
+    done = beambench(
+        *("verify", "finishes", "--accel", "exhaustive,sah-bvh,beam,embree:mode=single,null"),
+        *("--rays", "whitted:depth=4,shadows=cache,primary", "--resolution", "48x30"),
+        *("--json", file),
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    cells = json.loads(file.read_text())["cells"]
+    whole = {cell["structure"]: cell for cell in cells if cell["ray_kind"] != "primary"}
+    assert {cell["ray_kind"] for cell in whole.values()} == {"whitted:depth=4,shadows=cache"}
+    assert whole["beam"]["rays"] == whole["exhaustive"]["rays"] > 3 * 48 * 30
+    assert whole["beam"]["bits"] == {"compared_with": "exhaustive", "different": 0}
+    assert whole["null"]["verdict"] == "baseline"
 
 
 def test_verify_leaves_exhaustive_out_of_all_over_many_primitives() -> None:
@@ -649,7 +680,9 @@ WRONG_REQUESTS = [
     (["census", "tetra:n=1", "--rules", "spd", "--resolution", "9x9"], ["513x513"]),
     (["census", "tetra:n=1", "--shadows", "volumes"], ["volumes", "light-buffer"]),
     (["census", "tetra:n=1", "--depth", "0"], ["--depth"]),
-    (["census", "tetra:n=1", "tetra:n=2", "--picture", "a.png"], ["--picture", "one"]),
+    (["stats", "tetra:n=1", "--accel", "samet", "--rays", "whitted"], ["list", "verify"]),
+    (["verify", "tetra:n=1", "--rays", "whitted:depth=0"], ["depth", "1 to 64"]),
+    (["census", "tetra:n=1", "--pictures", "/dev/null/here"], ["/dev/null/here", "--pictures"]),
     (["sampling", "tetra:n=1", "--resolution", "9000x9000"], ["9000x9000"]),
     (["sampling", "tetra:n=1", "--repetitions", "0"], ["--repetitions"]),
     (["stats", "tetra:n=1", "--accel", "samet:max_level=deep"], ["deep", "auto", "1 to 16"]),

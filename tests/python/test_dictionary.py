@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from beambench_report.dictionary import as_markdown, dictionary
+from beambench_report.dictionary import Column, as_markdown, dictionary
 from beambench_report.records import NEEDED_COLUMNS
 from program import BINARY
 
@@ -78,9 +78,22 @@ def test_each_column_is_there_once_and_in_a_group() -> None:
     assert len(names) == len(set(names)) == len(dictionary().columns)
 
 
+def _entry(name: str) -> Column:
+    return next(column for column in dictionary().columns if column.name == name)
+
+
 def test_a_counter_of_a_family_s_own_is_covered_by_the_pattern() -> None:
-    assert dictionary().find("beams_per_ray") is dictionary().find("<counter>_per_ray")
+    assert dictionary().find("beams_per_ray") is _entry("<counter>_per_ray")
     assert dictionary().find("beams") is None
+
+
+def test_a_kind_of_rays_of_a_whole_picture_has_patterns_of_its_own() -> None:
+    assert dictionary().find("shadow_rays") is _entry("<kind>_rays")
+    by_kind = dictionary().find("shadow_box_tests_per_ray")
+    assert by_kind is _entry("<kind>_<counter>_per_ray")
+    assert dictionary().find("rays").name == "rays"
+    assert dictionary().find("primary_rays") is None
+    assert dictionary().find("box_tests_per_ray").name == "box_tests_per_ray"
 
 
 def test_the_written_dictionary_is_up_to_date(repository: Path) -> None:

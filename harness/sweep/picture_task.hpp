@@ -1,0 +1,36 @@
+#pragma once
+// Whole pictures: which rays follow the eye's depends on what a structure answers.
+
+#include "accel/hit_buffer.hpp"
+#include "harness/picture/image.hpp"
+#include "harness/shade/whitted.hpp"
+#include "harness/sweep/task.hpp"
+
+namespace beambench {
+
+/// The picture of `render --shade whitted`, on one thread: the eye's rays by what the structure has
+/// for images (beams), the rest ray by ray, shading included. Judged is not the picture but every
+/// answer that it rests on, reflected, refracted and shadow rays too: a second drawing, with all
+/// of them written down, must give the same bits as the timed one.
+class PictureTask : public Task {
+ public:
+  PictureTask(const CellGroup& group, std::uint64_t scene_hash, int core);
+
+  void poison() override;
+  void ask(const Accelerator& structure) override;
+  CountedWork count(const Accelerator& structure) override;
+  std::uint64_t fingerprint() const override;
+  Judgement judge(const Accelerator& structure, const StructureChoice& choice) override;
+
+ private:
+  void learn_facts(std::uint64_t scene_hash, int core);
+  RayCensus draw(const Answerers& answerers);
+
+  PrimaryRays rays_;
+  WhittedOptions options_;
+  ReferenceHits eye_reference_;
+  HitBuffer eye_;
+  Image image_;
+};
+
+}  // namespace beambench

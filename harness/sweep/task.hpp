@@ -1,0 +1,62 @@
+#pragma once
+// What the contenders of a group are asked, whatever it is.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accel/accelerator.hpp"
+#include "accel/registry.hpp"
+#include "harness/differ/differ.hpp"
+#include "harness/record/cell_record.hpp"
+#include "harness/sweep/plan.hpp"
+
+namespace beambench {
+
+/// What is found out about answers.
+struct Judgement {
+  DiffReport report;
+  std::vector<std::string> examples;  ///< disputed rays, described, where the verdict is bad
+};
+
+/// Rays, and room for one set of answers: contenders take turns.
+class Task {
+ public:
+  Task(const Task&) = delete;
+  Task& operator=(const Task&) = delete;
+  virtual ~Task() = default;
+
+  const Scene& scene() const { return *group_.scene; }
+  const RaySetFacts& facts() const { return facts_; }
+  Workload workload() const { return {group_.camera, static_cast<std::size_t>(facts_.rays)}; }
+
+  /// What should be known of the rays themselves; nothing where they are as one expects.
+  virtual std::optional<std::string> warning() const { return std::nullopt; }
+
+  /// Overwrites all answers with some that cannot be: the differ finds every one left unwritten.
+  virtual void poison() = 0;
+  /// Asks a structure. What is timed.
+  virtual void ask(const Accelerator& structure) = 0;
+  /// The same, counting work.
+  virtual CountedWork count(const Accelerator& structure) = 0;
+  /// Of all answers, bit for bit.
+  virtual std::uint64_t fingerprint() const = 0;
+  /// Judges the answers; may ask `structure`, which `choice` has built, again for them.
+  virtual Judgement judge(const Accelerator& structure, const StructureChoice& choice) = 0;
+
+ protected:
+  /// The group must outlive it.
+  explicit Task(const CellGroup& group) : group_(group) {}
+
+  const CellGroup& group_;
+  RaySetFacts facts_;
+};
+
+/// The task of a group. `core` is to measure the harness's own time on (-1: any). Throws as
+/// `make_question`.
+std::unique_ptr<Task> make_task(const CellGroup& group, std::uint64_t scene_hash, int core);
+
+}  // namespace beambench

@@ -1,0 +1,80 @@
+// All ways of finding shadows find the same ones.
+
+#include <gtest/gtest.h>
+
+#include "harness/shade/light_buffer.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/error.hpp"
+#include "tests/harness/drawn.hpp"
+
+namespace beambench {
+namespace {
+
+TEST(Whitted, AllWaysOfFindingShadowsGiveTheSameBits) {
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = scene_of_all_surfaces(seed);
+    const WhittedPicture expected = picture(scene, "sah-bvh", {});
+    for (const ShadowMethod method : {ShadowMethod::kCache, ShadowMethod::kLightBuffer}) {
+      const WhittedPicture found = picture(scene, "sah-bvh", {.shadows = method});
+      expect_same_bits(found.image, expected.image);
+      EXPECT_EQ(found.census.shadow, expected.census.shadow);
+      EXPECT_EQ(found.census.shadow_hidden, expected.census.shadow_hidden);
+      EXPECT_LT(found.census.shadow_queries, expected.census.shadow_queries);
+    }
+  }
+}
+
+TEST(LightBuffer, AnswersAsASearchOfAllPrimitives) {
+  std::size_t hidden = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const Scene scene = testing::random_scene(seed, 50);
+    Random random(seed);
+    const auto structure = built(scene, "exhaustive");
+    const glm::vec3 light = testing::random_ray(scene, random).origin;
+    const LightBuffer buffer(scene, light, 1 + static_cast<int>(random.below(40)));
+    for (int i = 0; i < 300; ++i) {
+      Ray ray;
+      ray.origin = testing::random_ray(scene, random).origin;
+      ray.direction = light - ray.origin;
+      ray.t_max = 1.0F;
+      if (ray.direction == glm::vec3(0.0F)) continue;
+      std::uint64_t tests = 0;
+      const bool expected = structure->any_hit(ray);
+      hidden += expected ? 1 : 0;
+      ASSERT_EQ(buffer.ask(ray, tests),
+                expected ? LightBuffer::Answer::kHidden : LightBuffer::Answer::kFree)
+          << "ray " << i;
+    }
+  }
+  EXPECT_GT(hidden, 1000U);
+}
+
+TEST(LightBuffer, TestsFewerPrimitivesThanThereAre) {
+  const Scene scene = load_scene("balls:n=3");
+  const WhittedPicture found = picture(scene, "sah-bvh", {.shadows = ShadowMethod::kLightBuffer});
+  EXPECT_EQ(found.census.shadow_listed, found.census.shadow);
+  EXPECT_LT(found.census.shadow_tests, 20 * found.census.shadow);
+}
+
+TEST(ShadowMethods, AreNamed) {
+  for (const std::string_view name : shadow_method_names()) {
+    EXPECT_EQ(shadow_method_names()[static_cast<std::size_t>(parse_shadow_method(name))], name);
+  }
+  EXPECT_THROW(parse_shadow_method("guess"), InputError);
+}
+
+TEST(ShadowMethods, AreThoseOfTheKindOfRays) {
+  for (const std::string_view name : shadow_method_names()) {
+    const RayChoice choice = parse_ray_choice("whitted:depth=3,shadows=" + std::string(name));
+    const WhittedOptions options = whitted_options(choice);
+    EXPECT_EQ(options.max_depth, 3);
+    EXPECT_EQ(options.shadows, parse_shadow_method(name));
+    EXPECT_EQ(options.least_weight, 0.0);
+  }
+  EXPECT_EQ(whitted_options(parse_ray_choice("whitted")).max_depth, WhittedOptions{}.max_depth);
+}
+
+}  // namespace
+}  // namespace beambench
