@@ -86,22 +86,44 @@ HWY_INLINE void list_blocks(const TriangleImages& images, const BlockBoxes& boxe
   } while (!hn::AllFalse(Tag(), listed));
 }
 
+/// The places of samples of each column of blocks, or each row: faster to look up than to make.
+template <std::size_t kCount>
+struct BlockPlaces {
+  alignas(64) std::array<std::array<float, TileImage::kBlockSamples>, kCount> places;
+
+  constexpr explicit BlockPlaces(bool rows) : places{} {
+    for (std::size_t block = 0; block < kCount; ++block) {
+      for (std::size_t i = 0; i < TileImage::kBlockSamples; ++i) {
+        places[block][i] = static_cast<float>(4 * block + (rows ? i / 4 : i % 4));
+      }
+    }
+  }
+  HWY_INLINE Floats at(std::size_t block, std::size_t first) const {
+    return load(&places[block][first]);
+  }
+};
+inline constexpr BlockPlaces<TileImage::kBlockColumns> kColumnPlaces(false);
+inline constexpr BlockPlaces<TileImage::kBlockRows> kRowPlaces(true);
+
 HWY_INLINE void paint_list(const BlockList& list, const StoredImages& images,
                            const PrimitiveId* primitives, TileImage& image) {
   for (std::size_t entry = 0; entry < list.count; ++entry) {
     const auto packed = static_cast<std::uint32_t>(list.entries[entry]);
     const std::size_t lane = packed & 15U;
     const std::size_t block = packed & ~15U;
-    const auto left = static_cast<float>(packed >> 2U & (kTileWidth - 4U));
-    const auto top = static_cast<float>(packed >> TileImage::kWidthBits & (kTileHeight - 4U));
+    const std::size_t column = packed >> 4U & (TileImage::kBlockColumns - 1U);
+    const std::size_t row = packed >> (TileImage::kWidthBits + 2);
     const auto line = [&](std::size_t which, Floats i, Floats j) {
       return hn::MulAdd(all(images.lines[3 * which][lane]), i,
                         hn::MulAdd(all(images.lines[3 * which + 1][lane]), j,
                                    all(images.lines[3 * which + 2][lane])));
     };
     for (std::size_t first = 0; first < TileImage::kBlockSamples; first += kLanes) {
-      const Floats i = hn::Add(block_x(first), all(left));
-      const Floats j = hn::Add(block_y(first), all(top));
+      const Floats i = kColumnPlaces.at(column, first);
+      const Floats j = kRowPlaces.at(row, first);
+#ifdef PLANE
+      if (hn::AllFalse(Tag(), hn::Gt(line(3, i, j), load(image.inverse_t.data() + block + first)))) continue;
+#endif
       const Floats edge = hn::Min(line(0, i, j), hn::Min(line(1, i, j), line(2, i, j)));
       keep_nearer(image, block + first, line(3, i, j), hn::Ge(edge, hn::Zero(Tag())),
                   primitives[lane]);

@@ -19,10 +19,8 @@ namespace beambench::HWY_NAMESPACE {
 /// Of each row of blocks, those between the edges: the others lie outside one of them.
 class RowEnds {
  public:
-  static_assert(TileImage::kBlockRows == 16);
-
   HWY_INLINE RowEnds(const std::array<TileLine, 3>& edges, int first_column, int last_column) {
-    for (std::size_t row = 0; row < 16; row += kLanes) {
+    for (std::size_t row = 0; row < TileImage::kBlockRows; row += kLanes) {
       const Floats top = hn::Iota(Tag(), static_cast<float>(row));
       Floats low = all(static_cast<float>(4 * first_column));
       Floats high = all(static_cast<float>(4 * last_column + 3));
@@ -51,8 +49,8 @@ class RowEnds {
   int last(int row) const { return last_[static_cast<std::size_t>(row)]; }
 
  private:
-  alignas(64) std::array<std::int32_t, 16> first_;
-  alignas(64) std::array<std::int32_t, 16> last_;
+  alignas(64) std::array<std::int32_t, TileImage::kBlockRows> first_;
+  alignas(64) std::array<std::int32_t, TileImage::kBlockRows> last_;
 };
 
 /// Draws one triangle by blocks.
