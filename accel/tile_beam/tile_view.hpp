@@ -10,7 +10,7 @@ namespace beambench {
 
 /// Sides of a tile in samples.
 inline constexpr int kTileWidth = 128;
-inline constexpr int kTileHeight = 64;
+inline constexpr int kTileHeight = 128;
 
 /// By how much the edges of triangles made in double are moved outward, in units of |direction|:
 /// more than those made in float may err, so that no gap is left between the two.

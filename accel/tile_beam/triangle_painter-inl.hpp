@@ -27,7 +27,7 @@ class RowEnds {
       for (const TileLine& edge : edges) {
         // The largest value on a column of the first block, and a little for rounding.
         const float largest = edge.constant + (edge.y > 0.0F ? 3.0F * edge.y : 0.0F) +
-                              0x1p-21F * (std::abs(edge.constant) + std::abs(64.0F * edge.y));
+                              0x1p-21F * (std::abs(edge.constant) + std::abs(kTileHeight * edge.y));
         const Floats value = hn::MulAdd(all(4.0F * edge.y), top, all(largest));
         constexpr float kLevel = 1e-30F;  // such an edge ends no row
         constexpr float kSlack = 0.0625F;
