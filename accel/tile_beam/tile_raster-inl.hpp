@@ -60,23 +60,47 @@ HWY_INLINE void mark_stale(TileImage& image, const SampleRectangle& where) {
     image.stale[row] |= columns;
 }
 
-/// The smallest 1/t of a square of 8 x 8 samples.
-HWY_INLINE float farthest_of(TileImage& image, unsigned column, unsigned row) {
-  float& farthest =
-      image.farthest[std::size_t{row} * TileImage::kSquareColumns + std::size_t{column}];
-  if ((image.stale[row] >> column & 1U) != 0) {
-    image.stale[row] &= ~(1U << column);
-    const float* block = image.inverse_t.data() +
-                         TileImage::block(static_cast<int>(2 * column), static_cast<int>(2 * row));
-    Floats smallest = all(std::numeric_limits<float>::infinity());
-    for (std::size_t i = 0; i < 32; i += kLanes) {
+/// A square of 8 x 8 samples of a tile.
+class Square {
+ public:
+  HWY_INLINE Square(TileImage& image, unsigned column, unsigned row)
+      : image_(&image), column_(column), row_(row) {}
+
+  /// The smallest 1/t.
+  HWY_INLINE float farthest() const { return is_stale() ? found(smallest()) : kept(); }
+  /// Is all of it at least as near as 1/t?
+  HWY_INLINE bool hides(float inverse_t) const {
+    if (!is_stale()) return kept() >= inverse_t;
+    const Floats now = smallest();
+    if (!hn::AllTrue(Tag(), hn::Ge(now, all(inverse_t)))) return false;
+    found(now);
+    return true;
+  }
+
+ private:
+  HWY_INLINE bool is_stale() const { return (image_->stale[row_] >> column_ & 1U) != 0; }
+  HWY_INLINE float& kept() const {
+    return image_->farthest[std::size_t{row_} * TileImage::kSquareColumns + std::size_t{column_}];
+  }
+  HWY_INLINE Floats smallest() const {
+    const float* block = image_->inverse_t.data() + TileImage::block(static_cast<int>(2 * column_),
+                                                                     static_cast<int>(2 * row_));
+    Floats smallest = hn::Min(load(block), load(block + TileImage::block(0, 1)));
+    for (std::size_t i = kLanes; i < 32; i += kLanes) {
       smallest =
           hn::Min(smallest, hn::Min(load(block + i), load(block + TileImage::block(0, 1) + i)));
     }
-    farthest = hn::GetLane(hn::MinOfLanes(Tag(), smallest));
+    return smallest;
   }
-  return farthest;
-}
+  HWY_INLINE float found(Floats smallest) const {
+    image_->stale[row_] &= ~(1U << column_);
+    return kept() = hn::GetLane(hn::MinOfLanes(Tag(), smallest));
+  }
+
+  TileImage* image_;
+  unsigned column_;
+  unsigned row_;
+};
 
 /// Is all in a rectangle nearer than something whose 1/t is at most `inverse_t`? May say no where
 /// it is, but never yes where it is not.
@@ -89,7 +113,7 @@ inline bool hides(TileImage& image, const SampleRectangle& where, float inverse_
     return false;  // looking costs more than it gains
   for (unsigned row = top; row <= bottom; ++row) {
     for (unsigned column = left; column <= right; ++column) {
-      if (farthest_of(image, column, row) < inverse_t) return false;
+      if (!Square(image, column, row).hides(inverse_t)) return false;
     }
   }
   return true;
@@ -100,7 +124,7 @@ inline float farthest_of_all(TileImage& image) {
   float smallest = std::numeric_limits<float>::infinity();
   for (unsigned row = 0; row < TileImage::kSquareRows; ++row) {
     for (unsigned column = 0; column < TileImage::kSquareColumns; ++column) {
-      smallest = std::min(smallest, farthest_of(image, column, row));
+      smallest = std::min(smallest, Square(image, column, row).farthest());
       if (smallest == 0.0F) return smallest;
     }
   }

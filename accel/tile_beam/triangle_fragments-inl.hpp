@@ -20,37 +20,36 @@ inline constexpr float kMostLaneSamples = 9.0F;
 struct Fragments {
   static constexpr std::size_t kMost = 16 * 9 + 16;  // room for a whole register at the end
 
-  alignas(64) std::array<std::int32_t, kMost> place;
+  /// The sample's number in the tile, row by row, and the triangle's lane in the four bits below.
+  alignas(64) std::array<std::int32_t, kMost> where;
   alignas(64) std::array<float, kMost> inverse_t;
-  alignas(64) std::array<std::int32_t, kMost> triangle;
   std::size_t count;
 };
 
 /// Each lane walks through its triangle's box, row by row.
 HWY_INLINE void collect_fragments(const TriangleImages& images, Mask small, Fragments& fragments) {
   const Floats one = all(1.0F);
-  const Ints triangle = hn::Iota(IntTag(), 0);
   Floats i = images.left;
   Floats j = images.top;
+  const auto whole = [](Floats samples) { return hn::ConvertTo(IntTag(), samples); };
+  Ints where = hn::Add(hn::ShiftLeft<4 + TileImage::kWidthBits>(whole(j)),
+                       hn::Add(hn::ShiftLeft<4>(whole(i)), hn::Iota(IntTag(), 0)));
+  // From the sample after a row's last one to the next row's first one.
+  const Ints to_next_row =
+      hn::ShiftLeft<4>(whole(hn::Sub(all(kTileWidth - 1.0F), hn::Sub(images.right, images.left))));
   fragments.count = 0;
   do {
     const Floats edge =
         hn::Min(images.edge0.at(i, j), hn::Min(images.edge1.at(i, j), images.edge2.at(i, j)));
     const Mask hit = hn::And(small, hn::Ge(edge, hn::Zero(Tag())));
-    const Ints x = hn::ConvertTo(IntTag(), i);
-    const Ints y = hn::ConvertTo(IntTag(), j);
-    const Ints three = hn::Set(IntTag(), 3);
-    const Ints row = hn::Or(hn::ShiftLeft<TileImage::kWidthBits>(hn::AndNot(three, y)),
-                            hn::ShiftLeft<2>(hn::And(y, three)));
-    const Ints place =
-        hn::Add(row, hn::Or(hn::ShiftLeft<2>(hn::AndNot(three, x)), hn::And(x, three)));
-    const auto keep = hn::RebindMask(IntTag(), hit);
-    hn::CompressStore(place, keep, IntTag(), fragments.place.data() + fragments.count);
-    hn::CompressStore(triangle, keep, IntTag(), fragments.triangle.data() + fragments.count);
+    hn::CompressStore(where, hn::RebindMask(IntTag(), hit), IntTag(),
+                      fragments.where.data() + fragments.count);
     fragments.count += hn::CompressStore(images.plane.at(i, j), hit, Tag(),
                                          fragments.inverse_t.data() + fragments.count);
     i = hn::Add(i, one);
     const Mask row_ends = hn::Gt(i, images.right);
+    where = hn::Add(hn::Add(where, hn::Set(IntTag(), 16)),
+                    hn::IfThenElseZero(hn::RebindMask(IntTag(), row_ends), to_next_row));
     i = hn::IfThenElse(row_ends, images.left, i);
     j = hn::Add(j, hn::IfThenElseZero(row_ends, one));
     small = hn::And(small, hn::Le(j, images.bottom));
@@ -60,11 +59,13 @@ HWY_INLINE void collect_fragments(const TriangleImages& images, Mask small, Frag
 HWY_INLINE void resolve_fragments(const Fragments& fragments, const PrimitiveId* primitives,
                                   TileImage& image) {
   for (std::size_t f = 0; f < fragments.count; ++f) {
-    const auto at = static_cast<std::size_t>(fragments.place[f]);
-    if (fragments.inverse_t[f] > image.inverse_t[at]) {
-      image.inverse_t[at] = fragments.inverse_t[f];
-      image.primitive[at] = primitives[fragments.triangle[f]];
-    }
+    const auto where = static_cast<unsigned>(fragments.where[f]);
+    const std::size_t at = TileImage::place(static_cast<int>(where >> 4U & (kTileWidth - 1U)),
+                                            static_cast<int>(where >> (4 + TileImage::kWidthBits)));
+    // Without a branch, which the machine could not guess.
+    const bool nearer = fragments.inverse_t[f] > image.inverse_t[at];
+    image.inverse_t[at] = nearer ? fragments.inverse_t[f] : image.inverse_t[at];
+    image.primitive[at] = nearer ? primitives[where & 15U] : image.primitive[at];
   }
 }
 

@@ -246,8 +246,8 @@ TEST(TileBeam, CrowdedTilesGoToRays) {
 TEST(TileBeam, CountingChangesNoHit) {
   const Scene scene = load_scene("escena1");
   const TileBeam structure(scene, {});
-  const PrimaryRays rays(scene.cameras.front(), 100, 80, 1);
-  HitBuffer counted(100, 80, 1);
+  const PrimaryRays rays(scene.cameras.front(), 200, 80, 1);
+  HitBuffer counted(200, 80, 1);
   WorkCounters counters;
   structure.trace(rays, counted, counters);
   EXPECT_EQ(counted, image_of(structure, rays));
