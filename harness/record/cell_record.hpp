@@ -91,8 +91,8 @@ struct RaySetFacts {
   std::uint64_t rays = 0;  ///< 0 where they could not be made
   Query query = Query::kClosestHit;
   /// By the oracle: of the rays that ask for the closest hit, and of those that ask for any.
-  std::optional<double> hit_share, occluded_share;
-  std::optional<double> coherence;  ///< between neighbours
+  std::optional<double> hit_share{}, occluded_share{};
+  std::optional<double> coherence{};  ///< between neighbours
   /// The harness's own part of a trace: what it takes when answers cost nothing.
   double harness_ms = 0.0;
 };

@@ -1,9 +1,11 @@
 #include "harness/shade/shadows.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include <glm/geometric.hpp>
 
 #include "accel/intersect.hpp"
+#include "harness/rays/beside_surface.hpp"
 
 namespace beambench {
 namespace {
@@ -83,8 +85,10 @@ double Shadows::asked_by_buffer(const Ray& to_light, std::size_t light, RayCensu
   return answer == LightBuffer::Answer::kHidden ? 0.0 : 1.0;
 }
 
-/// Goes from surface to surface; where it ends at an opaque one, that is the `blocker`.
+/// Goes from surface to surface, each time on from a little behind it, as all rays begin a little
+/// beside surfaces; where it ends at an opaque one, that is the `blocker`.
 double Shadows::followed(const Ray& to_light, PrimitiveId& blocker, RayCensus& census) const {
+  const glm::dvec3 direction(to_light.direction);
   Ray ray = to_light;
   double part = 1.0;
   while (ray.t_min <= ray.t_max) {
@@ -97,7 +101,8 @@ double Shadows::followed(const Ray& to_light, PrimitiveId& blocker, RayCensus& c
       return 0.0;
     }
     part *= through;
-    ray.t_min = std::nextafter(hit->t, kInfinity);
+    const glm::dvec3 point = glm::dvec3(ray.origin) + double{hit->t} * direction;
+    ray.t_min = static_cast<float>(hit->t + lift_at(*scene_, point) / glm::length(direction));
   }
   return part;
 }

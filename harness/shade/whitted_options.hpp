@@ -8,7 +8,8 @@
 
 namespace beambench {
 
-/// How it is found out whether a light is seen. All give the same picture.
+/// How it is found out whether a light is seen. All give the same picture, unless something opaque
+/// lies no farther behind glass than rays begin beside surfaces (`lift_at`).
 enum class ShadowMethod {
   kRays,        ///< one any-hit query a light
   kCache,       ///< first the opaque primitive that hid the light last (OORT; `ShadowCache`)

@@ -33,10 +33,10 @@ void add_tiles(SceneBuilder& builder) {
 Scene generate(const Parameters& parameters) {
   SceneBuilder builder(parameters.label());
   Camera camera;
-  camera.from = {0.0F, -11.0F, 6.5F};
-  camera.at = {0.0F, 2.1F, 0.7F};
+  camera.from = {0.0F, -12.0F, 9.5F};
+  camera.at = {0.0F, 2.2F, 0.6F};
   camera.up = {0.0F, 0.0F, 1.0F};
-  camera.angle = 36.0F;
+  camera.angle = 29.0F;
   camera.aspect = 1.6F;
   builder.add_camera(camera);
   builder.set_background({0.35, 0.5, 0.7});
@@ -47,7 +47,7 @@ Scene generate(const Parameters& parameters) {
     for (std::size_t column = 0; column < kRows[row].size(); ++column) {
       builder.set_surface(finished_surface(kRows[row][column]));
       builder.add_sphere(
-          {-3.75 + 2.5 * static_cast<double>(column), -0.5 + 2.75 * static_cast<double>(row), 1.0},
+          {-3.75 + 2.5 * static_cast<double>(column), -0.75 + 3.0 * static_cast<double>(row), 1.0},
           1.0);
     }
   }

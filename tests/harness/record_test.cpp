@@ -172,6 +172,8 @@ CellRecord some_cell() {
   CellRecord cell{};
   cell.id = {"tetra:n=2", "default", "samet", "max_level=6", {32, 20}, 1, "primary"};
   cell.rays = {1, 2, 0, 16, 640};
+  cell.rays.hit_share = 0.5;
+  cell.rays.coherence = 0.9;
   cell.verdict = "ok";
   cell.statistics.emplace();
   cell.statistics->nodes = 9;
