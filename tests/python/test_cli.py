@@ -74,6 +74,7 @@ def test_list_as_json_says_all_of_each_parameter() -> None:
         "reflection",
         "diffuse",
         "random",
+        "whitted",
     ]
 
 
