@@ -87,7 +87,7 @@ HWY_INLINE void draw_triangles(const TriangleImages& images, const PrimitiveId* 
 
   const StoredImages stored(images);
   const BlockBoxes boxes(images);
-  const Mask few = hn::And(rest, hn::Le(boxes.count(), all(kMostListedBlocks)));
+  const Mask few = hn::And(rest, hn::Le(boxes.count(), all(static_cast<float>(kMostListedBlocks))));
   const Mask listed = hn::AndNot(images.acute, few);
   if (!hn::AllFalse(Tag(), listed)) {
     BlockList list;

@@ -119,14 +119,17 @@ inline bool hides(TileImage& image, const SampleRectangle& where, float inverse_
   return true;
 }
 
-/// The smallest 1/t of all of the tile.
-inline float farthest_of_all(TileImage& image) {
-  float smallest = std::numeric_limits<float>::infinity();
-  for (unsigned row = 0; row < TileImage::kSquareRows; ++row) {
-    for (unsigned column = 0; column < TileImage::kSquareColumns; ++column) {
-      smallest = std::min(smallest, Square(image, column, row).farthest());
-      if (smallest == 0.0F) return smallest;
-    }
+/// The smallest 1/t of all of the tile. `open` is a square that is looked at first: where there is
+/// background it becomes one that has some, and most likely will the next time.
+inline float farthest_of_all(TileImage& image, unsigned& open) {
+  constexpr unsigned kColumns = TileImage::kSquareColumns;
+  const auto farthest = [&](unsigned square) {
+    return Square(image, square % kColumns, square / kColumns).farthest();
+  };
+  float smallest = farthest(open);
+  for (unsigned square = 0; smallest > 0.0F && square < image.farthest.size(); ++square) {
+    smallest = std::min(smallest, farthest(square));
+    open = square;
   }
   return smallest;
 }

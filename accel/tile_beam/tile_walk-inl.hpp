@@ -170,7 +170,7 @@ class TileWalk {
     drawn_ += where.count();
     if (drawn_ < kTileWidth * kTileHeight) return;
     drawn_ = 0;
-    farthest_ = farthest_of_all(*image_);
+    farthest_ = farthest_of_all(*image_, open_square_);
   }
 
   const TileHierarchy* hierarchy_;
@@ -181,8 +181,9 @@ class TileWalk {
   BoxProbe probe_;
   TileImage* image_;
   Counting* counting_;
-  float farthest_ = 0.0F;  ///< the smallest 1/t of the tile, as far as known
-  int drawn_ = 0;          ///< samples that leaves covered since it was found
+  float farthest_ = 0.0F;     ///< the smallest 1/t of the tile, as far as known
+  unsigned open_square_ = 0;  ///< where background was seen last
+  int drawn_ = 0;             ///< samples that leaves covered since it was found
   std::size_t size_ = 0;
   std::array<Entry, kMostTileDepth*(kTileLanes - 1) + 1> stack_;
 };

@@ -13,17 +13,18 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::HWY_NAMESPACE {
 
+/// Triangles with no more blocks than this in their box are drawn by lists.
+inline constexpr int kMostListedBlocks = 30;
+
 /// A block that a triangle may meet: the block's place in the tile, and the triangle's lane in the
 /// four bits that are free there.
 struct BlockList {
-  static constexpr std::size_t kMost = 16 * 42 + 16;  // room for a whole register at the end
+  static constexpr std::size_t kMost =
+      16 * kMostListedBlocks + 16;  // room for a whole register at the end
 
   alignas(64) std::array<std::int32_t, kMost> entries;
   std::size_t count;
 };
-
-/// Triangles with no more blocks than this in their box are drawn by lists.
-inline constexpr float kMostListedBlocks = 42.0F;
 
 /// The box of each triangle in blocks.
 struct BlockBoxes {
