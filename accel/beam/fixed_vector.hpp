@@ -31,6 +31,7 @@ class FixedVector {
 
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
+  static constexpr std::size_t capacity() { return Capacity; }
   bool full() const { return size_ == Capacity; }
 
   T& operator[](std::size_t i) { return values_[i]; }

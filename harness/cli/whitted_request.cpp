@@ -6,7 +6,7 @@
 
 namespace beambench {
 
-void add_whitted_options(CLI::App& command, WhittedRequest& request) {
+void add_light_options(CLI::App& command, WhittedRequest& request) {
   command
       .add_option("--depth", request.max_depth,
                   "Rays behind one another, the eye's included; 1: no mirrors and no glass")
@@ -23,6 +23,10 @@ void add_whitted_options(CLI::App& command, WhittedRequest& request) {
                   "traced; 0: all are")
       ->capture_default_str()
       ->check(CLI::Range(0.0, 1.0));
+}
+
+void add_whitted_options(CLI::App& command, WhittedRequest& request) {
+  add_light_options(command, request);
   command.add_option("--threads", request.threads, "0: one for each core")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));

@@ -17,7 +17,9 @@ struct WhittedRequest {
   int threads = 0;
 };
 
-/// Adds --shadows, --depth, --least-weight and --threads.
+/// Adds --shadows, --depth and --least-weight.
+void add_light_options(CLI::App& command, WhittedRequest& request);
+/// The same and --threads.
 void add_whitted_options(CLI::App& command, WhittedRequest& request);
 
 /// Throws InputError for a wrong name of a shadow method.

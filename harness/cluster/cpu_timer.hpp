@@ -1,0 +1,21 @@
+#pragma once
+// The processor time of a piece of work: what it costs, whatever else the machine does.
+
+#include <chrono>
+
+#include "harness/sweep/phase_timer.hpp"
+
+namespace beambench {
+
+/// CPU time of this thread since the timer was made.
+class CpuTimer {
+ public:
+  double seconds() const {
+    return std::chrono::duration<double>(thread_cpu_time() - begin_).count();
+  }
+
+ private:
+  std::chrono::nanoseconds begin_ = thread_cpu_time();
+};
+
+}  // namespace beambench

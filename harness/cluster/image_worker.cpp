@@ -1,0 +1,86 @@
+#include "harness/cluster/image_worker.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "harness/cluster/sample_results.hpp"
+
+namespace beambench {
+namespace {
+
+constexpr std::array kCounts{
+    &RayCensus::eye,           &RayCensus::eye_hits,       &RayCensus::reflected,
+    &RayCensus::refracted,     &RayCensus::secondary_hits, &RayCensus::too_faint,
+    &RayCensus::shadow,        &RayCensus::shadow_hidden,  &RayCensus::shadow_cached,
+    &RayCensus::shadow_listed, &RayCensus::shadow_tests,   &RayCensus::shadow_queries};
+static_assert(sizeof(RayCensus) == kCounts.size() * sizeof(std::uint64_t), "a count is missing");
+
+}  // namespace
+
+ImageWorker::ImageWorker(const BeamTracer& tracer, const PrimaryRays& rays, const Whitted* light)
+    : tracer_(&tracer),
+      rays_(&rays),
+      light_(light),
+      view_(tracer.octree().grid(), rays),
+      hits_(rays.width(), rays.height(), rays.samples()),
+      painter_(tracer.scene(), tracer, tracer.options(), view_, rays, sight_, hits_, {}, decided_) {
+}
+
+void ImageWorker::perform(std::span<const std::byte> task, Bytes& result, const Pulse& pulse) {
+  decided_.begin(pulse);
+  std::visit([this](const auto& each) { trace(each); }, read_task(task, tracer_->octree(), view_));
+  // Beams find their samples lattice by lattice; sorted, a pixel's samples are neighbours.
+  std::vector<std::uint32_t>& samples = decided_.samples();
+  std::ranges::sort(samples);
+  if (light_ == nullptr) {
+    write_hits(samples, hits_, result);
+    return;
+  }
+  // Begun anew, so that the census does not depend on which process had which task before.
+  Whitted::Progress progress = light_->begin();
+  write_colors(samples, hits_, *rays_, *light_, progress, pulse, result);
+  census_ += progress.census;
+}
+
+void ImageWorker::trace(const BeamTask& task) {
+  switch (task.kind) {
+    case BeamTask::Kind::kTestLeaf:
+      painter_.test_leaf(task.beam);
+      break;
+    case BeamTask::Kind::kSmall:
+      painter_.hand_over(task.beam, RayReason::kHandover);
+      break;
+    case BeamTask::Kind::kCrowded:
+      painter_.hand_over(task.beam, RayReason::kCrowded);
+      break;
+  }
+}
+
+void ImageWorker::trace(const BlockTask& block) {
+  if (block.left + block.width > rays_->width() || block.top + block.height > rays_->height()) {
+    throw ProtocolError("a block outside of the image");
+  }
+  for (int y = block.top; y < block.top + block.height; ++y) {
+    for (int x = block.left; x < block.left + block.width; ++x) {
+      for (int sample = 0; sample < rays_->samples(); ++sample) {
+        const std::size_t index = hits_.index(x, y, sample);
+        hits_.set(index, tracer_->closest_hit(rays_->ray(x, y, sample)));
+        decided_.painted(index);
+      }
+    }
+  }
+}
+
+void ImageWorker::tell(Bytes& bytes) const {
+  ByteWriter writer(bytes);
+  for (const auto count : kCounts) writer.put(census_.*count);
+}
+
+RayCensus read_census(std::span<const std::byte> bytes) {
+  ByteReader reader(bytes);
+  RayCensus census;
+  for (const auto count : kCounts) census.*count = reader.get<std::uint64_t>();
+  return census;
+}
+
+}  // namespace beambench

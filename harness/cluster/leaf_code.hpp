@@ -1,0 +1,17 @@
+#pragma once
+// Leaves by a number that means the same in every process.
+
+#include <cstdint>
+
+#include "accel/octree/octree_cursor.hpp"
+
+namespace beambench {
+
+/// The locational code of a node (thesis, section 6.2.2, "some code"; Gargantini 1982): the octants
+/// on the way from the root, three bits each, behind a leading 1.
+std::uint64_t leaf_code(const Octree& octree, const glm::ivec3& corner, std::int32_t size);
+
+/// The leaf of that code. Throws ProtocolError where the octree has none.
+OctreeCursor find_leaf(const Octree& octree, std::uint64_t code);
+
+}  // namespace beambench

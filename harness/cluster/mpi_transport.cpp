@@ -1,0 +1,137 @@
+#include "harness/cluster/mpi_transport.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <mpi.h>
+
+namespace beambench {
+namespace {
+
+Message receive(MPI_Comm processes, const MPI_Status& coming) {
+  int size = 0;
+  MPI_Get_count(&coming, MPI_BYTE, &size);
+  Message message{coming.MPI_SOURCE, static_cast<Tag>(coming.MPI_TAG),
+                  Bytes(static_cast<std::size_t>(size))};
+  MPI_Recv(message.bytes.data(), size, MPI_BYTE, coming.MPI_SOURCE, coming.MPI_TAG, processes,
+           MPI_STATUS_IGNORE);
+  return message;
+}
+
+/// Longer and longer moments: a message that comes soon is taken soon, and who waits long takes
+/// nothing from the others on his processor.
+class Patience {
+ public:
+  void rest() {
+    if (++tries_ < kBusy) {
+      std::this_thread::yield();
+    } else {
+      std::this_thread::sleep_for(std::chrono::microseconds(moment_));
+      moment_ = std::min(2 * moment_, kLongest);
+    }
+  }
+
+ private:
+  static constexpr int kBusy = 20;
+  static constexpr int kLongest = 200;
+  int tries_ = 0;
+  int moment_ = 10;
+};
+
+}  // namespace
+
+struct MpiTransport::Mpi {
+  MPI_Comm processes = MPI_COMM_NULL;
+  /// Messages on their way, each kept until it has left.
+  std::vector<MPI_Request> sending;
+  std::vector<Bytes> sent;
+
+  void forget_what_left();
+};
+
+/// One MPI_Testsome for all.
+void MpiTransport::Mpi::forget_what_left() {
+  if (sending.empty()) return;
+  int left = 0;
+  std::vector<int> which(sending.size());
+  MPI_Testsome(static_cast<int>(sending.size()), sending.data(), &left, which.data(),
+               MPI_STATUSES_IGNORE);
+  for (std::size_t i = sending.size(); i-- > 0;) {
+    if (sending[i] != MPI_REQUEST_NULL) continue;
+    std::swap(sending[i], sending.back());
+    std::swap(sent[i], sent.back());
+    sending.pop_back();
+    sent.pop_back();
+  }
+}
+
+MpiSession::MpiSession(int& argc, char**& argv) { MPI_Init(&argc, &argv); }
+
+MpiSession::~MpiSession() { MPI_Finalize(); }
+
+void MpiSession::abort(int exit_code) {
+  MPI_Abort(MPI_COMM_WORLD, exit_code);
+  std::_Exit(exit_code);
+}
+
+MpiTransport::MpiTransport(Waiting waiting) : mpi_(std::make_unique<Mpi>()), waiting_(waiting) {
+  MPI_Comm_dup(MPI_COMM_WORLD, &mpi_->processes);
+  MPI_Comm_rank(mpi_->processes, &self_);
+  MPI_Comm_size(mpi_->processes, &processes_);
+}
+
+/// The communicator is left to MPI_Finalize: to free it, all would have to come here.
+MpiTransport::~MpiTransport() = default;
+
+double MpiTransport::seconds() const { return MPI_Wtime(); }
+
+/// MPI_Isend, as in the thesis; but there the producer waits here for its last message to leave.
+/// Messages keep their own bytes here, so that nobody waits for a slow consumer.
+void MpiTransport::send(ProcessId to, Tag tag, Bytes bytes) {
+  mpi_->forget_what_left();
+  const Bytes& kept = mpi_->sent.emplace_back(std::move(bytes));
+  MPI_Isend(kept.data(), static_cast<int>(kept.size()), MPI_BYTE, to, static_cast<int>(tag),
+            mpi_->processes, &mpi_->sending.emplace_back());
+}
+
+void MpiTransport::flush() {
+  MPI_Waitall(static_cast<int>(mpi_->sending.size()), mpi_->sending.data(), MPI_STATUSES_IGNORE);
+  mpi_->sending.clear();
+  mpi_->sent.clear();
+}
+
+std::optional<Message> MpiTransport::poll() {
+  int there = 0;
+  MPI_Status coming;
+  MPI_Iprobe(MPI_ANY_SOURCE, MPI_ANY_TAG, mpi_->processes, &there, &coming);
+  if (there == 0) return std::nullopt;
+  return receive(mpi_->processes, coming);
+}
+
+std::optional<Message> MpiTransport::wait(double seconds) {
+  if (waiting_ == Waiting::kBlocking) {
+    MPI_Status coming;
+    MPI_Probe(MPI_ANY_SOURCE, MPI_ANY_TAG, mpi_->processes, &coming);
+    return receive(mpi_->processes, coming);
+  }
+  const double deadline = this->seconds() + seconds;
+  Patience patience;
+  while (true) {
+    if (auto message = poll()) return message;
+    if (this->seconds() >= deadline) return std::nullopt;
+    patience.rest();
+  }
+}
+
+void MpiTransport::broadcast(Bytes& bytes) {
+  auto size = static_cast<std::uint64_t>(bytes.size());
+  MPI_Bcast(&size, 1, MPI_UINT64_T, kProducer, mpi_->processes);
+  bytes.resize(size);
+  MPI_Bcast(bytes.data(), static_cast<int>(size), MPI_BYTE, kProducer, mpi_->processes);
+}
+
+}  // namespace beambench

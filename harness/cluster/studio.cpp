@@ -1,0 +1,51 @@
+#include "harness/cluster/studio.hpp"
+
+#include <array>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "accel/registry.hpp"
+#include "harness/cli/inputs.hpp"
+#include "harness/cluster/cpu_timer.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/error.hpp"
+
+namespace beambench {
+
+Studio::Studio(const Job& job, std::vector<std::string>* warnings)
+    : scene_(load_scene(job.scene, warnings)) {
+  ImageRequest request{"", job.camera, job.samples};
+  if (job.width > 0) request.resolution = to_string(Resolution{job.width, job.height});
+  const ImageOfRays image = choose_image(scene_, request);
+  rays_.emplace(image.camera, image.resolution.width, image.resolution.height, image.samples);
+  const StructureChoice choice = choose_one("--accel", job.structure);
+  const CpuTimer timer;
+  structure_ = choice.build(scene_, workload_of(image, *rays_));
+  build_seconds_ = timer.seconds();
+  tracer_ = dynamic_cast<const BeamTracer*>(structure_.get());
+  if (tracer_ == nullptr) {
+    throw InputError(
+        fmt::format("--accel {} has no beams to share out; the cluster traces with "
+                    "'beam' and its parameters",
+                    choice.info().name));
+  }
+  if (job.light) light_.emplace(scene_, *structure_, job.whitted);
+}
+
+Identity Studio::identity() const {
+  const Octree& octree = tracer_->octree();
+  return {look_hash(scene_), octree.nodes().size(), octree.reference_count()};
+}
+
+Introduction Studio::introduction() const {
+  return {host_name(), "", identity(), build_seconds_, structure_->statistics().bytes};
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  if (::gethostname(name.data(), name.size() - 1) != 0) return "a nameless machine";
+  return name.data();
+}
+
+}  // namespace beambench

@@ -1,0 +1,277 @@
+// What must be true of whole runs: the image is the sequential one bit for bit, however many
+// processes there are, in whatever order their messages come, and whoever falls silent.
+
+#include <functional>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "harness/cluster/consumer.hpp"
+#include "harness/cluster/image_worker.hpp"
+#include "harness/cluster/lead.hpp"
+#include "harness/cluster/producer.hpp"
+#include "harness/cluster/sample_results.hpp"
+#include "harness/cluster/task_sources.hpp"
+#include "harness/rays/fingerprint.hpp"
+#include "harness/shade/preview.hpp"
+#include "harness/shade/whitted_picture.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/error.hpp"
+#include "tests/cluster/local_network.hpp"
+#include "tests/random_scene.hpp"
+
+namespace beambench {
+namespace {
+
+using testing::LocalNetwork;
+using testing::random_scene;
+
+BeamOptions options_with(int max_level, std::int64_t handover = 0) {
+  BeamOptions options;
+  options.octree.max_level = max_level;
+  options.handover = handover;
+  return options;
+}
+
+void accept_anybody(ProcessId, std::span<const std::byte>) {}
+
+/// An image that all the processes of a network make.
+class Workplace {
+ public:
+  Workplace(const Scene& scene, const BeamOptions& options, int samples)
+      : tracer_(scene, options),
+        rays_(scene.cameras.front(), 53, 41, samples),
+        light_(scene, tracer_, {}) {}
+
+  HitBuffer sequential_hits() const {
+    HitBuffer hits(rays_.width(), rays_.height(), rays_.samples());
+    tracer_.trace(rays_, hits);
+    return hits;
+  }
+  Image sequential_picture() const {
+    return whitted_picture(light_, eye_rays(rays_), sequential_hits()).image;
+  }
+
+  ClusterReport hits(LocalNetwork& network, int processes, const ProducerOptions& options,
+                     HitBuffer& hits, std::optional<int> block = {}) const {
+    HitSink sink(hits);
+    return run(network, processes, options, sink, nullptr, block);
+  }
+  Image picture(LocalNetwork& network, int processes, const ProducerOptions& options) const {
+    ColorSink sink(rays_.width(), rays_.height(), rays_.samples(),
+                   glm::dvec3(background_color(tracer_.scene())));
+    run(network, processes, options, sink, &light_, {});
+    return sink.image();
+  }
+  HitBuffer no_hits() const { return {rays_.width(), rays_.height(), rays_.samples()}; }
+
+ private:
+  ClusterReport run(LocalNetwork& network, int processes, const ProducerOptions& options,
+                    ResultSink& sink, const Whitted* light, std::optional<int> block) const {
+    std::vector<std::jthread> consumers;
+    for (ProcessId process = 1; process < processes; ++process) {
+      consumers.emplace_back([this, process, light, &network] {
+        ImageWorker worker(tracer_, rays_, light);
+        Consumer(network.at(process), worker, 0.01).run({});
+      });
+    }
+    std::unique_ptr<TaskSource> source = std::make_unique<BeamSource>(tracer_, rays_);
+    if (block) source = std::make_unique<BlockSource>(rays_.width(), rays_.height(), *block);
+    ImageWorker own(tracer_, rays_, light);
+    return Producer(network.at(kProducer), *source, sink, own, accept_anybody, options).run();
+  }
+
+  BeamTracer tracer_;
+  PrimaryRays rays_;
+  Whitted light_;
+};
+
+bool same_picture(const Image& a, const Image& b) {
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      if (a.at(x, y) != b.at(x, y)) return false;
+    }
+  }
+  return true;
+}
+
+TEST(Cluster, FindsTheSequentialHitsWhateverTheOrderOfMessages) {
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    const Scene scene = random_scene(seed, 40);
+    const Workplace place(scene, options_with(5, seed % 2 == 0 ? 0 : 60), seed % 2 == 0 ? 1 : 5);
+    const HitBuffer expected = place.sequential_hits();
+    for (const int processes : {1, 2, 3, 6}) {
+      LocalNetwork network(processes, seed, 0.002);
+      HitBuffer hits = place.no_hits();
+      const ClusterReport report = place.hits(network, processes, {}, hits);
+      EXPECT_TRUE(hits == expected) << "seed " << seed << ", " << processes << " processes";
+      EXPECT_TRUE(report.remarks.empty());
+      EXPECT_TRUE(report.lost.empty());
+    }
+  }
+}
+
+TEST(Cluster, FindsTheSequentialHitsWithEveryOption) {
+  const Scene scene = random_scene(4, 60);
+  const Workplace place(scene, options_with(5), 5);
+  const HitBuffer expected = place.sequential_hits();
+  for (const std::size_t batch : {1, 3, 1000}) {
+    for (const int in_flight : {1, 2, 3}) {
+      for (const bool consumes : {false, true}) {
+        for (const std::optional<int> block : {std::optional<int>{}, std::optional<int>{16}}) {
+          LocalNetwork network(4, 1, 0.001);
+          HitBuffer hits = place.no_hits();
+          ProducerOptions options;
+          options.batch = batch;
+          options.in_flight = in_flight;
+          options.consumes = consumes;
+          place.hits(network, 4, options, hits, block);
+          EXPECT_TRUE(hits == expected) << batch << ' ' << in_flight << ' ' << consumes;
+        }
+      }
+    }
+  }
+}
+
+TEST(Cluster, MakesTheSequentialPicture) {
+  for (const char* name : {"balls:n=1", "rings:n=1", "escena1"}) {
+    const Scene scene = load_scene(name);
+    for (const int samples : {1, 5}) {
+      const Workplace place(scene, options_with(5), samples);
+      const Image expected = place.sequential_picture();
+      for (const int processes : {1, 3}) {
+        LocalNetwork network(processes, 2, 0.002);
+        EXPECT_TRUE(same_picture(place.picture(network, processes, {}), expected))
+            << name << ", " << samples << " samples, " << processes << " processes";
+      }
+    }
+  }
+}
+
+TEST(Cluster, TellsWhatEachProcessDid) {
+  const Scene scene = random_scene(2, 40);
+  const Workplace place(scene, options_with(5), 1);
+  LocalNetwork network(3, 1, 0.001);
+  HitBuffer hits = place.no_hits();
+  const ClusterReport report = place.hits(network, 3, {}, hits);
+  ASSERT_EQ(report.processes.size(), 3U);
+  EXPECT_EQ(report.processes[0].tasks, 0U);
+  EXPECT_EQ(report.processes[1].tasks + report.processes[2].tasks, report.tasks.size());
+  std::size_t samples = 0;
+  std::size_t task_bytes = 0;
+  for (const TaskReport& task : report.tasks) {
+    EXPECT_TRUE(task.process == 1 || task.process == 2);
+    EXPECT_GT(task.work_seconds, 0.0);
+    EXPECT_GT(task.task_bytes, 0U);
+    samples += task.samples;
+    task_bytes += task.task_bytes;
+  }
+  EXPECT_EQ(report.processes[1].samples + report.processes[2].samples, samples);
+  for (const int consumer : {1, 2}) {
+    const ProcessReport& process = report.processes[static_cast<std::size_t>(consumer)];
+    EXPECT_EQ(process.from_producer.messages, process.tasks + 1);    // and the end
+    EXPECT_EQ(process.to_producer.messages, process.tasks + 2);      // ready and farewell
+    task_bytes -= process.from_producer.bytes - 12 * process.tasks;  // number, length, note
+  }
+  EXPECT_EQ(task_bytes, 0U);
+}
+
+ProducerOptions impatient() {
+  ProducerOptions options;
+  options.timeout = 0.2;
+  options.patience = 0.5;
+  return options;
+}
+
+TEST(Cluster, DoesWithoutAConsumerThatFallsSilent) {
+  const Scene scene = random_scene(6, 60);
+  const Workplace place(scene, options_with(5), 1);
+  const HitBuffer expected = place.sequential_hits();
+  for (const int answers : {0, 1, 5}) {
+    LocalNetwork network(3, 1, 0.0);
+    network.mute_after(2, 1 + answers);  // it says that it is there
+    HitBuffer hits = place.no_hits();
+    ProducerOptions options = impatient();
+    options.in_flight = 2;
+    options.batch = 2;
+    const ClusterReport report = place.hits(network, 3, options, hits);
+    EXPECT_TRUE(hits == expected) << answers;
+    EXPECT_EQ(report.lost, std::vector<ProcessId>{2});
+    ASSERT_EQ(report.remarks.size(), 1U);
+    EXPECT_NE(report.remarks[0].find("process 2 was silent"), std::string::npos);
+  }
+}
+
+TEST(Cluster, FinishesAloneWhereAllFallSilentOrNobodyComes) {
+  const Scene scene = random_scene(6, 60);
+  const Workplace place(scene, options_with(5), 1);
+  const HitBuffer expected = place.sequential_hits();
+  for (const int messages : {0, 1, 3}) {
+    LocalNetwork network(3, 1, 0.0);
+    network.mute_after(1, messages);
+    network.mute_after(2, messages);
+    HitBuffer hits = place.no_hits();
+    place.hits(network, 3, impatient(), hits);
+    EXPECT_TRUE(hits == expected) << messages;
+  }
+}
+
+TEST(Cluster, EndsWithAnErrorWhereAProcessDoesNotFit) {
+  const Scene scene = random_scene(6, 20);
+  const BeamTracer tracer(scene, options_with(4));
+  const PrimaryRays rays(scene.cameras.front(), 20, 20, 1);
+  LocalNetwork network(3, 1, 0.0);
+  std::vector<std::jthread> consumers;  // they are sent home, or this would not end
+  for (const ProcessId process : {1, 2}) {
+    consumers.emplace_back([&, process] {
+      ImageWorker worker(tracer, rays, nullptr);
+      Consumer(network.at(process), worker, 1.0).run({});
+    });
+  }
+  BeamSource source(tracer, rays);
+  HitBuffer hits(20, 20, 1);
+  HitSink sink(hits);
+  ImageWorker own(tracer, rays, nullptr);
+  const auto check = [](ProcessId process, std::span<const std::byte>) {
+    if (process == 2) throw InputError("wrong");
+  };
+  EXPECT_THROW(Producer(network.at(0), source, sink, own, check, {}).run(), InputError);
+}
+
+TEST(Cluster, RunsFromACommandLineToItsEnd) {
+  HitBuffer expected(40, 30, 4);
+  const Scene scene = load_scene("tetra:n=2");
+  BeamTracer(scene, options_with(6)).trace(PrimaryRays(scene.cameras.front(), 40, 30, 4), expected);
+  ClusterRequest request;
+  request.job.scene = "tetra:n=2";
+  request.job.structure = "beam:max_level=6";
+  request.job.width = 40;
+  request.job.height = 30;
+  request.job.samples = 4;
+  LocalNetwork network(3, 1, 0.001);
+  std::vector<std::jthread> others;
+  for (const ProcessId process : {1, 2}) {
+    others.emplace_back([&network, process] { follow(network.at(process)); });
+  }
+  Bytes job = write_job(request.job);
+  network.at(0).broadcast(job);
+  const ClusterRun run = lead(request, network.at(0));
+  EXPECT_EQ(run.result_hash, fingerprint(expected));
+  EXPECT_EQ(run.introductions[2].identity, run.introductions[0].identity);
+}
+
+TEST(Cluster, SendsAllHomeWhereTheSceneIsMissing) {
+  ClusterRequest request;
+  request.job.scene = "no-such-scene";
+  request.job.structure = "beam";
+  LocalNetwork network(2, 1, 0.001);
+  std::jthread other([&network] { follow(network.at(1)); });
+  Bytes job = write_job(request.job);
+  network.at(0).broadcast(job);
+  EXPECT_THROW(lead(request, network.at(0)), InputError);
+}
+
+}  // namespace
+}  // namespace beambench
