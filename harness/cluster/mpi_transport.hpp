@@ -26,7 +26,7 @@ class MpiTransport : public Transport {
   /// How it waits for messages.
   enum class Waiting {
     kSleeping,  ///< looks, and sleeps for a moment: leaves the processor to those that work
-    kBlocking   ///< in MPI_Probe, with no time limit: for a simulation, where waiting is exact
+    kBlocking   ///< in MPI_Recv, with no time limit: for a simulation, where waiting is exact
   };
   explicit MpiTransport(Waiting waiting);
   /// What has not left by now is given up.

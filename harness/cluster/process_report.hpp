@@ -29,8 +29,8 @@ struct ProcessReport {
   double last_result = 0.0;   ///< wall time from the beginning to its last result
   Traffic from_producer;
   Traffic to_producer;
-  Bytes counted;  ///< `TaskWorker::tell`
-  bool answered_to_the_end = true;
+  Bytes counted;               ///< `TaskWorker::tell`
+  bool said_farewell = false;  ///< of a consumer: it came to its end
 };
 
 /// One task, in the order in which they were made.
@@ -53,7 +53,7 @@ struct ClusterReport {
   std::vector<ProcessReport> processes;  ///< by `ProcessId`
   std::vector<TaskReport> tasks;
   std::vector<std::string> remarks;  ///< what went wrong and was mended, a sentence each
-  std::vector<ProcessId> lost;       ///< processes that were silent at the end
+  std::vector<ProcessId> lost;       ///< processes that hung at the end
 
   /// The part of the run in which the producer did not wait for a message.
   double producer_busy_share() const {

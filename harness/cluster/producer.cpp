@@ -54,16 +54,31 @@ void Producer::finish() {
     }
   }
   report_.seconds = transport_->seconds() - begin_;
-  dismiss_idle();
+  dismiss_all();
+  take_leave();
+  own_->tell(of(kProducer).counted);
+}
+
+/// Waits for the farewells of all, but not for ever: one that hangs would not be heard.
+void Producer::take_leave() {
   const double last_call = transport_->seconds() + options_.timeout;
-  while (farewells_ < dismissed_) {
+  const auto missing = [this] {
+    std::vector<ProcessId> processes;
+    for (ProcessId process = kProducer + 1; process < transport_->processes(); ++process) {
+      if (!of(process).said_farewell) processes.push_back(process);
+    }
+    return processes;
+  };
+  while (!missing().empty()) {
     const auto message = transport_->wait(last_call - transport_->seconds());
     if (!message) break;
     handle(*message);
   }
-  report_.lost = crew_.lost();
-  dismiss_all();
-  own_->tell(of(kProducer).counted);
+  report_.lost = missing();
+  for (const ProcessId process : report_.lost) {
+    report_.remarks.push_back(
+        fmt::format("process {} said nothing for {} s at the end", process, options_.timeout));
+  }
 }
 
 /// The next tasks as an open parcel; false when there are none.
@@ -210,8 +225,8 @@ void Producer::take_result(std::size_t task, ProcessId from, const ParcelItem& r
 }
 
 void Producer::take_farewell(const Message& message) {
-  ++farewells_;
   ProcessReport& report = of(message.from);
+  report.said_farewell = true;
   const ConsumerAccount account = read_account(message.bytes);
   report.tasks = account.tasks;
   report.busy_seconds = account.busy_seconds;
@@ -238,7 +253,6 @@ void Producer::dismiss(ProcessId consumer) {
   of(consumer).from_producer.add(0);
   transport_->send(consumer, Tag::kEnd, {});
   crew_.dismiss(consumer);
-  ++dismissed_;
 }
 
 void Producer::dismiss_idle() {

@@ -55,6 +55,7 @@ class Producer {
 
   void produce();
   void finish();
+  void take_leave();
   bool make_parcel();
   void hand_out(Number number);
   void give(Number number, ProcessId consumer);
@@ -89,8 +90,6 @@ class Producer {
   Number next_number_ = 0;
   double begin_ = 0.0;
   double walked_ = 0.0;  ///< CPU seconds since the task before
-  std::size_t farewells_ = 0;
-  std::size_t dismissed_ = 0;
   ClusterReport report_;
 };
 

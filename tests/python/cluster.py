@@ -1,0 +1,63 @@
+"""beambench-cluster as mpirun starts it."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from program import BINARY
+
+CLUSTER = BINARY.resolve().with_name("beambench-cluster")
+
+needs_mpi = pytest.mark.skipif(
+    shutil.which("mpirun") is None or not CLUSTER.exists(),
+    reason="no mpirun, or built without MPI; scripts/setup installs both",
+)
+
+ENVIRONMENT = {
+    **os.environ,
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_hwloc_base_binding_policy": "none",
+}
+
+
+def start(*arguments: str | Path, cwd: Path | None = None) -> subprocess.Popen[str]:
+    """What stands after mpirun."""
+    return subprocess.Popen(
+        ["mpirun", *map(str, arguments)],
+        cwd=cwd,
+        env=ENVIRONMENT,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def finish(run: subprocess.Popen[str]) -> subprocess.CompletedProcess[str]:
+    output, errors = run.communicate(timeout=120)
+    return subprocess.CompletedProcess(run.args, run.returncode, output, errors)
+
+
+def mpirun(*arguments: str | Path, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
+    return finish(start(*arguments, cwd=cwd))
+
+
+def processes_of(run: subprocess.Popen[str]) -> dict[int, int]:
+    """The pids of the run's processes that have begun, by their number."""
+    children = Path(f"/proc/{run.pid}/task/{run.pid}/children").read_text().split()
+    found = {}
+    for child in map(int, children):
+        try:
+            environment = Path(f"/proc/{child}/environ").read_bytes()
+        except OSError:
+            continue
+        for entry in environment.split(b"\0"):
+            if entry.startswith(b"OMPI_COMM_WORLD_RANK="):
+                found[int(entry.split(b"=")[1])] = child
+    return found

@@ -1,0 +1,227 @@
+"""One image on several processes: what must be true when mpirun starts them."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import signal
+import subprocess
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from cluster import CLUSTER, finish, mpirun, needs_mpi, processes_of, start
+from program import beambench, output_of
+
+pytestmark = needs_mpi
+
+SMALL = ["--resolution", "120x90", "--samples", "5"]
+# Long enough to be interrupted: some seconds.
+LONG = ["balls:n=2", "--accel", "beam", "--shade", "whitted", "--depth", "8",
+        "--resolution", "640x480", "--samples", "5"]  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def sequential(tmp_path_factory: pytest.TempPathFactory) -> bytes:
+    """The picture by one process of the other program."""
+    file = tmp_path_factory.mktemp("sequential") / "balls.png"
+    output_of("render", "balls:n=2", "--accel", "beam", "-o", file, "--shade", "whitted", *SMALL)
+    return file.read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("processes", "options"),
+    [
+        (1, []),
+        (2, []),
+        (3, []),
+        (4, ["--batch", "5", "--in-flight", "2"]),
+        (3, ["--producer-consumes"]),
+        (3, ["--work", "blocks", "--block", "20"]),
+    ],
+)
+def test_the_picture_is_the_sequential_one(
+    sequential: bytes, tmp_path: Path, processes: int, options: list[str]
+) -> None:
+    file = tmp_path / "balls.png"
+    run = mpirun(
+        "-n", processes, CLUSTER, "balls:n=2", "--shade", "whitted", "-o", file, *SMALL, *options
+    )
+    assert run.returncode == 0, run.stderr
+    assert file.read_bytes() == sequential
+
+
+def test_pictures_of_hits_are_the_sequential_ones(tmp_path: Path) -> None:
+    for shading in ("preview", "id"):
+        one, several = tmp_path / "one.png", tmp_path / "several.png"
+        asked = ["--shade", shading, *SMALL]
+        output_of("render", "tetra:n=3", "--accel", "beam", "-o", one, *asked)
+        run = mpirun("-n", 3, CLUSTER, "tetra:n=3", "-o", several, *asked)
+        assert run.returncode == 0, run.stderr
+        assert one.read_bytes() == several.read_bytes()
+
+
+def test_the_record_adds_up(tmp_path: Path) -> None:
+    report_file, task_file = tmp_path / "run.json", tmp_path / "tasks.csv"
+    run = mpirun(
+        "-n", 3, CLUSTER, "balls:n=2", *SMALL, "--report", report_file, "--tasks", task_file
+    )
+    assert run.returncode == 0, run.stderr
+    report = json.loads(report_file.read_text())
+    with task_file.open() as file:
+        rows = list(csv.DictReader(file))
+    assert rows[-1]["task"] == "end"
+    tasks = rows[:-1]
+    assert len(tasks) == report["tasks"] > 20
+    assert [process["role"] for process in report["each"]] == ["producer", "consumer", "consumer"]
+    for process in report["each"]:
+        own = [row for row in tasks if int(row["process"]) == process["process"]]
+        assert process["tasks"] == len(own)
+        assert process["samples"] == sum(int(row["samples"]) for row in own)
+    # Each task is a message out and one back; an end out; ready and farewell back.
+    assert report["from_producer"]["messages"] == len(tasks) + 2
+    assert report["to_producer"]["messages"] == len(tasks) + 4
+    assert 0.0 < report["producer_busy_share"] < 1.0
+    assert report["lost"] == []
+
+
+def test_the_same_tasks_whoever_does_them(tmp_path: Path) -> None:
+    def tasks(processes: int) -> list[tuple[str, ...]]:
+        file = tmp_path / f"{processes}.csv"
+        run = mpirun("-n", processes, CLUSTER, "balls:n=2", *SMALL, "--tasks", file)
+        assert run.returncode == 0, run.stderr
+        columns = ["task", "samples", "task_bytes", "result_bytes"]
+        with file.open() as opened:
+            return [tuple(row[column] for column in columns) for row in csv.DictReader(opened)]
+
+    assert tasks(1) == tasks(3)
+
+
+def wait_for_consumers(run: subprocess.Popen[str], count: int) -> dict[int, int]:
+    """Until all processes work: they have used the processor for a moment."""
+    for _ in range(600):
+        pids = processes_of(run)
+        if len(pids) == count and all(cpu_seconds(pid) > 0.3 for pid in list(pids.values())[1:]):
+            return pids
+        time.sleep(0.05)
+    raise AssertionError(run.communicate(timeout=60))
+
+
+def cpu_seconds(pid: int) -> float:
+    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+
+def test_a_killed_consumer_ends_the_run_without_a_picture(tmp_path: Path) -> None:
+    file = tmp_path / "balls.png"
+    file.write_text("the picture before")
+    run = start("-n", 3, CLUSTER, *LONG, "-o", file)
+    os.kill(wait_for_consumers(run, 3)[2], signal.SIGKILL)
+    done = finish(run)
+    assert done.returncode != 0
+    assert "rank 2" in done.stderr  # mpirun says who it was
+    assert file.read_text() == "the picture before"
+    assert list(tmp_path.iterdir()) == [file]
+
+
+def test_a_consumer_that_hangs_is_done_without(tmp_path: Path) -> None:
+    one, several = tmp_path / "one.png", tmp_path / "several.png"
+    run = start("-n", 3, CLUSTER, *LONG, "-o", several, "--timeout", "1")
+    os.kill(wait_for_consumers(run, 3)[2], signal.SIGSTOP)
+    done = finish(run)
+    assert done.returncode == 0, done.stderr
+    assert "process 2 was silent for 1 s" in done.stderr
+    output_of("render", *LONG, "-o", one)
+    assert one.read_bytes() == several.read_bytes()
+
+
+def refused(done: subprocess.CompletedProcess[str], words: list[str]) -> None:
+    assert done.returncode == 2, (done.returncode, done.stderr)
+    sentences = [line for line in done.stderr.splitlines() if line.startswith("beambench-cluster:")]
+    assert len(sentences) == 1, done.stderr
+    for word in words:
+        assert word in sentences[0]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["no-such-scene"], ["no-such-scene"]),
+        ([], ["SCENE"]),
+        (["tetra", "--accel", "sah-bvh"], ["sah-bvh", "'beam'"]),
+        (["tetra", "--accel", "beam:continue=beams"], ["continue=beams"]),
+        (["tetra", "--work", "rays"], ["--work"]),
+        (["tetra", "--samples", "3"], ["3"]),
+        (["tetra", "-o", "/no/such/folder/a.png"], ["/no/such/folder"]),
+        (["tetra", "--batch", "0"], ["--batch"]),
+    ],
+)
+def test_wrong_requests_are_refused_in_one_sentence(arguments: list[str], words: list[str]) -> None:
+    refused(mpirun("-n", 2, CLUSTER, *arguments), words)
+
+
+def test_another_scene_on_one_process_is_refused(tmp_path: Path) -> None:
+    """The same name, read in two folders."""
+    file = tmp_path / "picture.png"
+    for folder, size in (("a", 1), ("b", 2)):
+        (tmp_path / folder).mkdir()
+        scene = tmp_path / folder / "scene.nff"
+        assert beambench("export", f"tetra:n={size}", "-o", scene).returncode == 0
+    line = [CLUSTER, "./scene.nff", "-o", file]
+    one, two = (["-n", 1, "-wdir", tmp_path / folder, *line] for folder in ("a", "b"))
+    done = mpirun(*one, ":", *two)
+    refused(done, ["process 1", "another scene"])
+    (tmp_path / "b" / "scene.nff").unlink()
+    done = mpirun(*one, ":", *two)
+    refused(done, ["process 1", "scene.nff"])
+    assert not file.exists()
+
+
+def test_another_version_on_one_process_is_refused(tmp_path: Path) -> None:
+    """The same program, built from a commit that there is not."""
+    report = tmp_path / "run.json"
+    assert mpirun("-n", 1, CLUSTER, "tetra:n=1", "--report", report).returncode == 0
+    commit = json.loads(report.read_text())["commit"].encode()
+    other = tmp_path / "beambench-cluster"
+    program = CLUSTER.read_bytes()
+    assert commit in program
+    other.write_bytes(program.replace(commit, bytes(reversed(commit))))
+    other.chmod(0o755)
+    file = tmp_path / "picture.png"
+    line = ["tetra:n=1", "-o", file]
+    refused(mpirun("-n", 1, CLUSTER, *line, ":", "-n", 1, other, *line), ["process 1", "version"])
+    assert not file.exists()
+
+
+@pytest.fixture
+def full_disk(tmp_path: Path) -> Iterator[Path]:
+    """A file that leaves no room beside it."""
+    folder = tmp_path / "full"
+    folder.mkdir()
+    mount = ["mount", "-t", "tmpfs", "-o", "size=64k", "none", folder]
+    mounted = subprocess.run(mount, check=False)
+    if mounted.returncode != 0:
+        pytest.skip("needs to mount a small disk, as root")
+    (folder / "tetra.png").write_text("the picture before")
+    with pytest.raises(OSError, match="No space"), (folder / "filler").open("wb", 0) as filler:
+        while filler.write(bytes(1024)):
+            pass
+    yield folder / "tetra.png"
+    subprocess.run(["umount", folder], check=True)
+
+
+def test_a_full_disk_leaves_no_half_picture(full_disk: Path) -> None:
+    run = mpirun("-n", 2, CLUSTER, "balls:n=1", *SMALL, "-o", full_disk)
+    refused(run, ["tetra.png", "disk", "full"])
+    assert full_disk.read_text() == "the picture before"
+    assert {file.name for file in full_disk.parent.iterdir()} == {"filler", "tetra.png"}
+
+
+def test_help_and_version_end_all_processes() -> None:
+    done = mpirun("-n", 3, CLUSTER, "--help")
+    assert done.returncode == 0
+    assert done.stdout.count("Usage:") == 1
+    assert mpirun("-n", 2, CLUSTER, "--version").stdout.startswith("beambench-cluster ")
