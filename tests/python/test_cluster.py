@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import json
 import os
@@ -202,11 +203,12 @@ def full_disk(tmp_path: Path) -> Iterator[Path]:
     folder = tmp_path / "full"
     folder.mkdir()
     mount = ["mount", "-t", "tmpfs", "-o", "size=64k", "none", folder]
-    mounted = subprocess.run(mount, check=False)
+    mounted = subprocess.run(mount, check=False, capture_output=True)
     if mounted.returncode != 0:
         pytest.skip("needs to mount a small disk, as root")
     (folder / "tetra.png").write_text("the picture before")
-    with pytest.raises(OSError, match="No space"), (folder / "filler").open("wb", 0) as filler:
+    filler = (folder / "filler").open("wb", 0)
+    with filler, contextlib.suppress(OSError):
         while filler.write(bytes(1024)):
             pass
     yield folder / "tetra.png"
