@@ -48,6 +48,12 @@ class Accelerator {
   virtual void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers,
                         WorkCounters& counters) const = 0;
 
+  /// `trace`, shared among the threads of the TBB arena that calls it (`trace_on` makes one): the
+  /// same hits and counters for any number of them. Here row by row, each ray by `closest_hit`.
+  virtual void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const;
+  virtual void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
+                            WorkCounters& counters) const;
+
   /// The way of `closest_hit`, step by step; empty where the structure cannot tell it.
   virtual std::vector<TraceStep> explain(const Ray&) const { return {}; }
 

@@ -3,12 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "accel/accelerator.hpp"
+#include "accel/share_rows.hpp"
 #include "accel/step_recorder.hpp"
 
 namespace beambench {
@@ -33,7 +35,7 @@ class TraversalAccelerator : public Accelerator {
   }
   void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
     NoCounting none;
-    trace_each(rays, buffer, none);
+    trace_rows(rays, 0, rays.height(), buffer, none);
   }
   void closest_hits(std::span<const Ray> rays, HitBuffer& buffer) const override {
     NoCounting none;
@@ -51,7 +53,7 @@ class TraversalAccelerator : public Accelerator {
     return self().find_any(ray, counters);
   }
   void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const override {
-    trace_each(rays, buffer, counters);
+    trace_rows(rays, 0, rays.height(), buffer, counters);
   }
   void closest_hits(std::span<const Ray> rays, HitBuffer& buffer,
                     WorkCounters& counters) const override {
@@ -60,6 +62,15 @@ class TraversalAccelerator : public Accelerator {
   void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers,
                 WorkCounters& counters) const override {
     find_each_any(rays, answers, counters);
+  }
+
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const override {
+    NoCounting none;
+    trace_rows_shared(rays, buffer, none);
+  }
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
+                    WorkCounters& counters) const override {
+    trace_rows_shared(rays, buffer, counters);
   }
 
   std::vector<TraceStep> explain(const Ray& ray) const override {
@@ -87,8 +98,9 @@ class TraversalAccelerator : public Accelerator {
   }
 
   template <class Counting>
-  void trace_each(const PrimaryRays& rays, HitBuffer& buffer, Counting& counting) const {
-    for (int y = 0; y < rays.height(); ++y) {
+  void trace_rows(const PrimaryRays& rays, int begin, int end, HitBuffer& buffer,
+                  Counting& counting) const {
+    for (int y = begin; y < end; ++y) {
       for (int x = 0; x < rays.width(); ++x) {
         for (int sample = 0; sample < rays.samples(); ++sample) {
           buffer.set(buffer.index(x, y, sample),
@@ -96,6 +108,17 @@ class TraversalAccelerator : public Accelerator {
         }
       }
     }
+  }
+
+  template <class Counting>
+  void trace_rows_shared(const PrimaryRays& rays, HitBuffer& buffer, Counting& counting) const {
+    std::mutex adding;
+    share_rows(rays.height(), [&](int begin, int end) {
+      Counting own;
+      trace_rows(rays, begin, end, buffer, own);
+      const std::lock_guard lock(adding);
+      counting.add(own);
+    });
   }
 };
 

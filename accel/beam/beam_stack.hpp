@@ -1,6 +1,8 @@
 #pragma once
 // Beams that wait to be traced.
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +21,7 @@ struct BeamStep {
 class BeamStack {
  public:
   bool empty() const { return entries_.empty(); }
+  std::size_t size() const { return entries_.size(); }
 
   void push(BeamKind kind, const Beam& beam) {
     entries_.push_back({kind, beam.node, beam.size, beam.corner,
@@ -40,6 +43,22 @@ class BeamStack {
     take(cuts_, entry.cuts, step.beam.cuts);
   }
 
+  /// Takes the half off that was pushed first: the beams next to the eye, with most behind them.
+  BeamStack take_older_half() {
+    const auto half = static_cast<std::ptrdiff_t>(entries_.size() / 2);
+    std::ptrdiff_t corners = 0;
+    std::ptrdiff_t cuts = 0;
+    for (auto entry = entries_.begin(); entry != entries_.begin() + half; ++entry) {
+      corners += entry->corners;
+      cuts += entry->cuts;
+    }
+    BeamStack older;
+    move_first(entries_, half, older.entries_);
+    move_first(corners_, corners, older.corners_);
+    move_first(cuts_, cuts, older.cuts_);
+    return older;
+  }
+
  private:
   struct Entry {
     BeamKind kind;
@@ -55,6 +74,12 @@ class BeamStack {
     to.resize(count);
     std::copy(from.end() - static_cast<std::ptrdiff_t>(count), from.end(), to.begin());
     from.resize(from.size() - count);
+  }
+
+  template <class T>
+  static void move_first(std::vector<T>& from, std::ptrdiff_t count, std::vector<T>& to) {
+    to.assign(from.begin(), from.begin() + count);
+    from.erase(from.begin(), from.begin() + count);
   }
 
   std::vector<Entry> entries_;

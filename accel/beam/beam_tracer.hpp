@@ -40,6 +40,12 @@ class BeamTracer : public Samet {
     trace_watched(rays, buffer, watch);
   }
 
+  /// The beams are shared among the threads: they have no sample in common, or one comes from the
+  /// other.
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const override;
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
+                    WorkCounters& counters) const override;
+
   std::vector<BeamOutline> beam_outlines(const PrimaryRays& rays) const override {
     OutlineBeamWatch watch(rays.width(), rays.height());
     HitBuffer buffer(rays.width(), rays.height(), rays.samples());
@@ -58,12 +64,14 @@ class BeamTracer : public Samet {
  private:
   template <class Watch, class Sight>
   class Run;
+  template <class Watch>
+  class SharedRun;
 
   const Scene* scene_;
   BeamOptions options_;
 };
 
-/// One image being traced.
+/// One image being traced, or what one of several threads does of it.
 template <class Watch, class Sight>
 class BeamTracer::Run {
  public:
@@ -78,12 +86,28 @@ class BeamTracer::Run {
         buffer_(&buffer),
         watch_(&watch) {}
 
+  /// The whole image.
   void operator()() {
+    begin();
+    work([](BeamStack&) {});
+    end();
+  }
+
+  /// Makes all samples background and lets the first beams wait.
+  void begin() {
     std::fill_n(buffer_->t(), buffer_->size(), kInfinity);
     std::fill_n(buffer_->primitive(), buffer_->size(), kNoPrimitive);
     begin_beams(octree(), view_, sight_->part(view_), queue_);
+  }
+
+  BeamStack& waiting() { return queue_.waiting; }
+
+  /// Traces beams until none waits. Before each, `share(waiting)` may take others away.
+  template <class Share>
+  void work(Share share) {
     BeamStep step;
     while (!queue_.waiting.empty()) {
+      share(queue_.waiting);
       queue_.waiting.pop(step);
       watch_->met(step.kind, step.beam);
       switch (step.kind) {
@@ -100,6 +124,10 @@ class BeamTracer::Run {
           break;
       }
     }
+    watch_->resting();
+  }
+
+  void end() {
     watch_->divided(queue_);
     watch_->finished();
   }

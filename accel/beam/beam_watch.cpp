@@ -3,8 +3,7 @@
 namespace beambench {
 
 void CountingBeamWatch::finished() {
-  stop_clock();
-  task_ = nullptr;
+  resting();
   const auto nanoseconds = [](Clock::duration duration) {
     return static_cast<std::uint64_t>(
         std::chrono::duration_cast<std::chrono::nanoseconds>(duration).count());

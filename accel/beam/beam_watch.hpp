@@ -31,6 +31,7 @@ enum class RayReason {
 ///   already),
 /// - how many samples left the root (`left`) or were tested in a leaf (`tested`) with a beam, and
 ///   each that goes on as a ray (`handed_over`),
+/// - that no beam is being seen to until the next is met (`resting`),
 /// - at the end, what dividing beams took (`divided`), and that it is the end (`finished`),
 /// and takes from it the policy of individual rays (`rays`) and which of the image's samples the
 /// beam that was met last shall have (`chosen`).
@@ -42,6 +43,7 @@ struct NoBeamWatch {
   static constexpr void left(std::uint64_t) {}
   static constexpr void tested(std::uint64_t) {}
   static constexpr void handed_over(RayReason) {}
+  static constexpr void resting() {}
   static constexpr void divided(const BeamQueue&) {}
   static constexpr void finished() {}
   NoCounting rays() const { return {}; }
@@ -83,6 +85,10 @@ class CountingBeamWatch {
   void left(std::uint64_t samples) { left_ += samples; }
   void tested(std::uint64_t samples) { tested_ += samples; }
   void handed_over(RayReason reason) { ++reasons_[static_cast<std::size_t>(reason)]; }
+  void resting() {
+    stop_clock();
+    task_ = nullptr;
+  }
   void divided(const BeamQueue& queue) {
     clips_ += queue.clips;
     neighbour_searches_ += queue.neighbour_searches;

@@ -7,6 +7,7 @@
 #include "accel/embree/trace.hpp"
 #include "accel/instruction_set.hpp"
 #include "accel/registry.hpp"
+#include "accel/share_rows.hpp"
 
 namespace beambench {
 namespace {
@@ -20,8 +21,8 @@ using embree::TraceMode;
 class EmbreeContender : public Accelerator {
  public:
   EmbreeContender(const Scene& scene, RTCBuildQuality quality, bool robust, const TraceMode& mode,
-                  bool coherent, const std::string& isa)
-      : scene_(scene, quality, robust, isa),
+                  bool coherent, const std::string& isa, int threads)
+      : scene_(scene, quality, robust, isa, threads),
         tracers_(embree::image_tracers(targets_of(isa))),
         mode_(mode),
         coherent_(coherent),
@@ -41,7 +42,15 @@ class EmbreeContender : public Accelerator {
   }
   void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
     embree::Context context(coherent_);
-    (tracers_.*mode_.trace)(scene_, context, rays, buffer);
+    (tracers_.*mode_.trace)(scene_, context, rays, {0, rays.height()}, buffer);
+  }
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const override {
+    const int bands = (rays.height() + embree::kTile - 1) / embree::kTile;
+    share_rows(bands, [&](int begin, int end) {
+      embree::Context context(coherent_);
+      const embree::Band band{begin * embree::kTile, std::min(end * embree::kTile, rays.height())};
+      (tracers_.*mode_.trace)(scene_, context, rays, band, buffer);
+    });
   }
   void closest_hits(std::span<const Ray> rays, HitBuffer& buffer) const override {
     embree::Context context(coherent_);
@@ -59,6 +68,9 @@ class EmbreeContender : public Accelerator {
   bool any_hit(const Ray& ray, WorkCounters&) const override { return any_hit(ray); }
   void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters&) const override {
     trace(rays, buffer);
+  }
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters&) const override {
+    trace_shared(rays, buffer);
   }
   void closest_hits(std::span<const Ray> rays, HitBuffer& buffer, WorkCounters&) const override {
     closest_hits(rays, buffer);
@@ -123,12 +135,13 @@ void register_embree(Registry& registry) {
         flag_parameter("coherent", true,
                        "tells Embree that neighbouring rays are alike, which packets need"),
         isa_parameter()},
-       [](const Scene& scene, const Parameters& parameters, const Workload&) {
+       [](const Scene& scene, const Parameters& parameters, const Workload& workload) {
          const std::string& isa = parameters.choice("isa");
          embree::require_isa(isa);
          return std::make_unique<EmbreeContender>(
              scene, parse_quality(parameters.choice("quality")), parameters.flag("robust"),
-             find_mode(parameters.choice("mode")), parameters.flag("coherent"), isa);
+             find_mode(parameters.choice("mode")), parameters.flag("coherent"), isa,
+             workload.threads);
        }});
 }
 

@@ -17,9 +17,6 @@ namespace beambench::embree::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// An image is traced tile by tile, so that what a tile needs of the scene stays in the caches.
-constexpr int kTile = 16;
-
 /// The rays through one sample of each pixel of a block, as a packet of N takes them.
 template <int N>
 class Block {
@@ -171,25 +168,25 @@ class Block {
   int sample_;
 };
 
-/// Calls `trace_tile(left, top, right, bottom)` for all tiles.
+/// Calls `trace_tile(left, top, right, bottom)` for all tiles of a band.
 template <class TraceTile>
-void for_each_tile(const PrimaryRays& rays, TraceTile trace_tile) {
-  for (int top = 0; top < rays.height(); top += kTile) {
+void for_each_tile(const PrimaryRays& rays, const Band& band, TraceTile trace_tile) {
+  for (int top = band.top; top < band.bottom; top += kTile) {
     for (int left = 0; left < rays.width(); left += kTile) {
       trace_tile(left, top, std::min(left + kTile, rays.width()),
-                 std::min(top + kTile, rays.height()));
+                 std::min(top + kTile, band.bottom));
     }
   }
 }
 
-/// Traces an image block by block; `trace_block(query, valid)` finds the closest hits of a packet.
+/// Traces a band block by block; `trace_block(query, valid)` finds the closest hits of a packet.
 template <int N, class TraceBlock>
-void trace_blocks(const NativeScene& scene, const PrimaryRays& rays, HitBuffer& buffer,
-                  TraceBlock trace_block) {
+void trace_blocks(const NativeScene& scene, const PrimaryRays& rays, const Band& band,
+                  HitBuffer& buffer, TraceBlock trace_block) {
   typename Block<N>::Query query;
   Block<N>::prepare(rays, query);
   alignas(64) std::array<int, N> valid;
-  for_each_tile(rays, [&](int left, int top, int right, int bottom) {
+  for_each_tile(rays, band, [&](int left, int top, int right, int bottom) {
     for (int y = top; y < bottom; y += Block<N>::kHeight) {
       for (int sample = 0; sample < rays.samples(); ++sample) {
         const Block<N> block(rays, y, sample);
@@ -205,42 +202,44 @@ void trace_blocks(const NativeScene& scene, const PrimaryRays& rays, HitBuffer& 
 
 template <int N>
 void trace_packets(const NativeScene& scene, Context& context, const PrimaryRays& rays,
-                   HitBuffer& buffer) {
-  trace_blocks<N>(scene, rays, buffer, [&](typename Packet<N>::Query& query, const int* valid) {
-    intersect(valid, scene.get(), context, query);
-  });
+                   const Band& band, HitBuffer& buffer) {
+  trace_blocks<N>(scene, rays, band, buffer,
+                  [&](typename Packet<N>::Query& query, const int* valid) {
+                    intersect(valid, scene.get(), context, query);
+                  });
 }
 
 void trace_single(const NativeScene& scene, Context& context, const PrimaryRays& rays,
-                  HitBuffer& buffer) {
+                  const Band& band, HitBuffer& buffer) {
   constexpr int kLanes = 16;
   RTCRayHit one = to_embree_query({.origin = rays.eye()});
-  trace_blocks<kLanes>(scene, rays, buffer, [&](Packet<kLanes>::Query& query, const int* valid) {
-    for (int lane = 0; lane < kLanes; ++lane) {
-      if (valid[lane] == 0) continue;
-      one.ray.dir_x = query.ray.dir_x[lane];
-      one.ray.dir_y = query.ray.dir_y[lane];
-      one.ray.dir_z = query.ray.dir_z[lane];
-      one.ray.tfar = kInfinity;
-      one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      intersect(scene.get(), context, one);
-      query.ray.tfar[lane] = one.ray.tfar;
-      query.hit.geomID[lane] = one.hit.geomID;
-      query.hit.primID[lane] = one.hit.primID;
-    }
-  });
+  trace_blocks<kLanes>(scene, rays, band, buffer,
+                       [&](Packet<kLanes>::Query& query, const int* valid) {
+                         for (int lane = 0; lane < kLanes; ++lane) {
+                           if (valid[lane] == 0) continue;
+                           one.ray.dir_x = query.ray.dir_x[lane];
+                           one.ray.dir_y = query.ray.dir_y[lane];
+                           one.ray.dir_z = query.ray.dir_z[lane];
+                           one.ray.tfar = kInfinity;
+                           one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+                           intersect(scene.get(), context, one);
+                           query.ray.tfar[lane] = one.ray.tfar;
+                           query.hit.geomID[lane] = one.hit.geomID;
+                           query.hit.primID[lane] = one.hit.primID;
+                         }
+                       });
 }
 
 #if BEAMBENCH_EMBREE_MAJOR == 3
 void trace_stream(const NativeScene& scene, Context& context, const PrimaryRays& rays,
-                  HitBuffer& buffer) {
+                  const Band& band, HitBuffer& buffer) {
   using Block = Block<16>;
   constexpr std::size_t kBlocks = kTile * kTile / 16;
   std::vector<Block::Query> queries(kBlocks);
   for (Block::Query& query : queries) Block::prepare(rays, query);
   alignas(64) std::array<int, 16> valid;  // which streams tell by the interval alone
 
-  for_each_tile(rays, [&](int left, int top, int right, int bottom) {
+  for_each_tile(rays, band, [&](int left, int top, int right, int bottom) {
     for (int sample = 0; sample < rays.samples(); ++sample) {
       const auto each_block = [&](auto&& action) {
         unsigned count = 0;

@@ -10,11 +10,21 @@
 
 namespace beambench::embree {
 
+/// Rows of an image, from `top` to before `bottom`.
+struct Band {
+  int top;
+  int bottom;
+};
+
+/// An image is traced tile by tile, so that what a tile needs of the scene stays in the caches.
+inline constexpr int kTile = 16;
+
 /// The tracers of images for one instruction set. The rays are those of `PrimaryRays::ray`, bit for
 /// bit: computed in double by the same operations, each component rounded once to float.
 struct ImageTracers {
+  /// `band` begins at a multiple of `kTile`.
   using Trace = void (*)(const NativeScene& scene, Context& context, const PrimaryRays& rays,
-                         HitBuffer& buffer);
+                         const Band& band, HitBuffer& buffer);
   Trace single;  ///< ray by ray, in blocks of 4x4 pixels
   Trace packet4;
   Trace packet8;

@@ -74,9 +74,10 @@ const Isa* best_of_machine() {
 
 }  // namespace
 
-std::string device_config(const std::string& isa) {
+std::string device_config(const std::string& isa, int threads) {
   const auto found = std::ranges::find(kIsas, isa, &Isa::parameter);
-  return found == kIsas.end() ? "threads=1" : fmt::format("threads=1,isa={}", found->config);
+  const std::string config = fmt::format("threads={}", threads);
+  return found == kIsas.end() ? config : fmt::format("{},isa={}", config, found->config);
 }
 
 std::string widest_target(const std::string& printed) {

@@ -7,9 +7,9 @@
 
 namespace beambench::embree {
 
-/// The configuration of a device on one thread, held to `isa` (accel/instruction_set.hpp):
-/// "threads=1,isa=avx2".
-std::string device_config(const std::string& isa);
+/// The configuration of a device on so many threads (0: one for each core), held to `isa`
+/// (accel/instruction_set.hpp): "threads=1,isa=avx2".
+std::string device_config(const std::string& isa, int threads = 1);
 
 /// The widest target that is both supported by the machine and compiled in, of what a verbose
 /// device printed: "AVX512"; "unknown" where the text does not tell.

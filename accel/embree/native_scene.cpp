@@ -29,8 +29,10 @@ bool is_count(const std::vector<PrimitiveId>& ids) {
 }  // namespace
 
 NativeScene::NativeScene(const Scene& scene, RTCBuildQuality quality, bool robust,
-                         const std::string& isa)
-    : device_(device_config(isa).c_str()), user_(scene), scene_(rtcNewScene(device_.get())) {
+                         const std::string& isa, int threads)
+    : device_(device_config(isa, threads).c_str()),
+      user_(scene),
+      scene_(rtcNewScene(device_.get())) {
   // Embree takes the largest thread count of all its living devices; this holds it to one.
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   rtcSetSceneBuildQuality(scene_.get(), quality);

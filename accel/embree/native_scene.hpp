@@ -30,7 +30,9 @@ struct OwnerTable {
 class NativeScene {
  public:
   /// `isa` is a value of `isa_parameter`.
-  NativeScene(const Scene& scene, RTCBuildQuality quality, bool robust, const std::string& isa);
+  /// While it lives, TBB has no more than `threads` threads (0: one for each core).
+  NativeScene(const Scene& scene, RTCBuildQuality quality, bool robust, const std::string& isa,
+              int threads = 1);
 
   RTCScene get() const { return scene_.get(); }
   /// Whose the hit is; kNoPrimitive for RTC_INVALID_GEOMETRY_ID.

@@ -44,6 +44,15 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
     trace_tiles(*kernels_, hierarchy_, *scene_, rays, parallel_, buffer, counters);
   }
 
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const override {
+    NoCounting none;
+    trace_tiles(*kernels_, hierarchy_, *scene_, rays, true, buffer, none);
+  }
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
+                    WorkCounters& counters) const override {
+    trace_tiles(*kernels_, hierarchy_, *scene_, rays, true, buffer, counters);
+  }
+
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     if (hierarchy_.empty()) return std::nullopt;

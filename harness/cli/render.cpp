@@ -152,8 +152,8 @@ void render(const Request& request) {
 
   Progress progress(1);
   progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
-  const auto accelerator =
-      choice.build(scene, workload_of(choose_image(scene, request.image), rays));
+  const auto accelerator = choice.build(
+      scene, workload_of(choose_image(scene, request.image), rays, request.whitted.threads));
   Answers answers = room_for(rays);
   auto& hits = std::get<HitBuffer>(answers);
   std::string found;
@@ -162,7 +162,7 @@ void render(const Request& request) {
     write_heat_map(request, map, hits);
     found = share_of_hits(hits) + remark_on(map, choice);
   } else {
-    watched_ask(*accelerator, rays, answers, progress);
+    watched_ask(*accelerator, rays, answers, request.whitted.threads, progress);
     if (request.difference.empty()) {
       found = share_of_hits(hits) +
               write_shaded(request, choice, overlay, *accelerator, scene, rays, hits, progress);

@@ -127,7 +127,7 @@ int trace(const Request& request) {
   } else {
     Progress progress(1);
     progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
-    watched_ask(*accelerator, question, answers, progress);
+    watched_ask(*accelerator, question, answers, 1, progress);
   }
   way.judgement = ask_again(question, answers, index, oracle.closest_hit(ray));
   judge_ray(scene, choice.info().conformance, way.judgement);

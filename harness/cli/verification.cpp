@@ -79,9 +79,10 @@ class SceneVerifier {
   }
 
   void judge_into(const StructureChoice& choice, VerifiedCell& cell) {
-    const auto accelerator = choice.build(view_.scene, workload_of(view_.image, view_.question));
+    const auto accelerator =
+        choice.build(view_.scene, workload_of(view_.image, view_.question, view_.threads));
     Answers answers = room_for(view_.question);
-    watched_ask(*accelerator, view_.question, answers, progress_);
+    watched_ask(*accelerator, view_.question, answers, view_.threads, progress_);
     const ReplayCommand replay(view_.scene, view_.image, choice, view_.question);
     std::vector<DiffClass> classes(view_.question.size());
     cell.report = judge(reference_, answers, choice.info().conformance, classes);

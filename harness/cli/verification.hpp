@@ -40,6 +40,7 @@ struct VerifiedView {
   const Scene& scene;
   ImageOfRays image;
   Question question;
+  int threads = 1;  ///< that trace the image
 };
 
 /// Judges one structure into its cell, which is filled but for that; may throw InputError.

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "accel/trace_on.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/picture_folder.hpp"
@@ -34,6 +35,7 @@ struct Request {
   std::string camera;
   int samples = 1;
   std::string rays = "primary";
+  int threads = 1;
   std::string json;
   std::string pictures;
 };
@@ -80,6 +82,7 @@ void write_json(const Request& request, const std::vector<VerifiedCell>& cells, 
                              {"resolution", request.resolution},
                              {"samples", request.samples},
                              {"ray_kinds", request.rays},
+                             {"threads", thread_count(request.threads)},
                              {"passed", passed},
                              {"cells", nlohmann::ordered_json::array()}};
   for (const VerifiedCell& cell : cells) out["cells"].push_back(to_json(cell));
@@ -101,7 +104,7 @@ std::vector<VerifiedCell> verify_kind(const Scene& scene, const ImageOfRays& ima
   if (kind.kind == RayKind::kWhitted) {
     return verify_picture(scene, image, kind, contenders.choices, progress);
   }
-  const VerifiedView view{scene, image, make_question(scene, image, kind)};
+  const VerifiedView view{scene, image, make_question(scene, image, kind), request.threads};
   return verify_scene(view, contenders.choices, request.pictures, progress);
 }
 
@@ -157,6 +160,11 @@ void add_verify_command(CLI::App& app, int& exit_code) {
   command->add_option("--samples", request->samples, "Rays a pixel: 1, 4, 5, 9, 16, ...")
       ->capture_default_str();
   command->add_option("--camera", request->camera, "By name (default: each scene's first)");
+  command
+      ->add_option("--threads", request->threads,
+                   "That trace images of primary rays; 0: one for each core")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
   command->add_option("--json", request->json, "Write the judgement to this file, too");
   command->add_option("--pictures", request->pictures,
                       "Write a picture of the differences to this folder where there are errors");

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <future>
 
+#include "accel/trace_on.hpp"
+
 namespace beambench {
 namespace {
 
@@ -36,11 +38,12 @@ double estimated_seconds(const Accelerator& structure, const Question& question)
 }  // namespace
 
 void watched_ask(const Accelerator& structure, const Question& question, Answers& answers,
-                 Progress& progress) {
-  const double expected = progress.on_terminal() ? estimated_seconds(structure, question) : 0.0;
-  if (expected < kWorthWatching) return ask(structure, question, answers);
+                 int threads, Progress& progress) {
+  const double expected =
+      progress.on_terminal() ? estimated_seconds(structure, question) / thread_count(threads) : 0.0;
+  if (expected < kWorthWatching) return ask(structure, question, answers, threads);
   const Clock::time_point begin = Clock::now();
-  auto asked = std::async(std::launch::async, [&] { ask(structure, question, answers); });
+  auto asked = std::async(std::launch::async, [&] { ask(structure, question, answers, threads); });
   while (asked.wait_for(std::chrono::milliseconds(100)) == std::future_status::timeout) {
     progress.advance(std::min(seconds_since(begin) / expected, 0.99));
   }

@@ -6,9 +6,9 @@
 
 namespace beambench {
 
-/// `ask(structure, question, answers)`; on a terminal with the remaining time, estimated from a few
-/// rays asked beforehand.
+/// `ask(structure, question, answers, threads)`; on a terminal with the remaining time, estimated
+/// from a few rays asked beforehand.
 void watched_ask(const Accelerator& structure, const Question& question, Answers& answers,
-                 Progress& progress);
+                 int threads, Progress& progress);
 
 }  // namespace beambench

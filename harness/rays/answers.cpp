@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "accel/trace_on.hpp"
+
 namespace beambench {
 namespace {
 
@@ -10,12 +12,12 @@ constexpr std::uint8_t kNoAnswer = 0xFF;
 
 /// Both forms of every query: `counters` is empty or a WorkCounters.
 template <class... Counters>
-void ask_with(const Accelerator& structure, const Question& question, Answers& answers,
+void ask_with(int threads, const Accelerator& structure, const Question& question, Answers& answers,
               Counters&... counters) {
   if (auto* any = std::get_if<AnyHits>(&answers)) {
     structure.any_hits(question.list()->rays, *any, counters...);
   } else if (question.image() != nullptr) {
-    structure.trace(*question.image(), std::get<HitBuffer>(answers), counters...);
+    trace_on(threads, structure, *question.image(), std::get<HitBuffer>(answers), counters...);
   } else {
     structure.closest_hits(question.list()->rays, std::get<HitBuffer>(answers), counters...);
   }
@@ -49,13 +51,13 @@ bool is_hit_at(const Answers& answers, std::size_t index) {
   return std::get<HitBuffer>(answers).get(index).has_value();
 }
 
-void ask(const Accelerator& structure, const Question& question, Answers& answers) {
-  ask_with(structure, question, answers);
+void ask(const Accelerator& structure, const Question& question, Answers& answers, int threads) {
+  ask_with(threads, structure, question, answers);
 }
 
 void ask(const Accelerator& structure, const Question& question, Answers& answers,
-         WorkCounters& counters) {
-  ask_with(structure, question, answers, counters);
+         WorkCounters& counters, int threads) {
+  ask_with(threads, structure, question, answers, counters);
 }
 
 }  // namespace beambench

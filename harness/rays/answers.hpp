@@ -24,9 +24,10 @@ void poison(HitBuffer& hits);
 /// Is the answer at an index a hit? Poison counts as one.
 bool is_hit_at(const Answers& answers, std::size_t index);
 
-/// Asks a structure. `answers` has the shape that `room_for` gives.
-void ask(const Accelerator& structure, const Question& question, Answers& answers);
+/// Asks a structure. `answers` has the shape that `room_for` gives. An image is traced on that many
+/// threads (0: one for each core); a list is answered on the calling one.
+void ask(const Accelerator& structure, const Question& question, Answers& answers, int threads = 1);
 void ask(const Accelerator& structure, const Question& question, Answers& answers,
-         WorkCounters& counters);
+         WorkCounters& counters, int threads = 1);
 
 }  // namespace beambench

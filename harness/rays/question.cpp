@@ -121,8 +121,8 @@ double coherence(const Question& question) {
   return question.size() < 2 ? 1.0 : sum / static_cast<double>(question.size() - 1);
 }
 
-Workload workload_of(const ImageOfRays& image, const Question& question) {
-  return {image.camera, question.size()};
+Workload workload_of(const ImageOfRays& image, const Question& question, int threads) {
+  return {image.camera, question.size(), threads};
 }
 
 Question make_question(const Scene& scene, const ImageOfRays& image, const RayChoice& choice) {

@@ -65,8 +65,8 @@ struct ImageOfRays {
   int samples;
 };
 
-/// What a structure is built for: the question, and the camera behind it.
-Workload workload_of(const ImageOfRays& image, const Question& question);
+/// What a structure is built for: the question, the camera behind it, and the threads that ask.
+Workload workload_of(const ImageOfRays& image, const Question& question, int threads = 1);
 
 /// Makes the rays of a choice, or reads them. Throws InputError where the scene has no lights for
 /// shadow rays, where no primary ray hits anything for rays to start from, for whole pictures, and

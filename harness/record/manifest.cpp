@@ -66,7 +66,8 @@ Json measurement_json(const Manifest& manifest) {
           {"hardware_counters",
            facts.hardware_problem.empty() ? Json(kHardwareEvents) : Json(facts.hardware_problem)},
           {"wall_clock", "steady_clock"},
-          {"cpu_clock", "CLOCK_THREAD_CPUTIME_ID"}};
+          {"cpu_clock",
+           manifest.run.threads == 1 ? "CLOCK_THREAD_CPUTIME_ID" : "CLOCK_PROCESS_CPUTIME_ID"}};
 }
 
 Json scenes_json(const std::vector<SceneFacts>& scenes) {

@@ -23,23 +23,28 @@ std::string new_run_id(const std::string& sweep) {
                      fmt::gmtime(std::chrono::system_clock::to_time_t(now)), milliseconds, sweep);
 }
 
-RunFacts facts_of(const BuildInfo& build, const std::string& run_id, const Machine& machine) {
-  return {run_id,       std::string(build.commit),     build.dirty,
-          machine.id,   std::string(build.build_type), std::string(build.flags),
+RunFacts facts_of(const BuildInfo& build, const std::string& run_id, const Machine& machine,
+                  int threads) {
+  return {run_id,
+          std::string(build.commit),
+          build.dirty,
+          machine.id,
+          std::string(build.build_type),
+          std::string(build.flags),
           embree_isa(),
-          /*threads=*/1};
+          threads};
 }
 
 }  // namespace
 
 Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes, int core,
-                        std::chrono::duration<double> warm_up) {
+                        int threads, std::chrono::duration<double> warm_up) {
   const BuildInfo& build = build_info();
   Manifest manifest;
   manifest.machine = inspect_machine();
   manifest.sweep = sweep;
   manifest.begun_utc = manifest.part_begun_utc = utc_now();
-  manifest.run = facts_of(build, new_run_id(sweep), manifest.machine);
+  manifest.run = facts_of(build, new_run_id(sweep), manifest.machine, threads);
   manifest.measurement = {MeasuringFloatMode::available(),
                           core,
                           MeasuringFloatMode::control_word(),
@@ -49,7 +54,16 @@ Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes
                           ""};
   manifest.scenes = std::move(scenes);
   manifest.uncontrolled = disturbances(manifest.machine);
-  if (core < 0) manifest.uncontrolled.emplace_back("The measuring thread could not be pinned.");
+  if (threads > 1) {
+    manifest.uncontrolled.push_back(
+        fmt::format("The {} threads that trace are not pinned to cores.", threads));
+    if (std::cmp_greater(threads, manifest.machine.cores)) {
+      manifest.uncontrolled.push_back(
+          fmt::format("There are {} threads for {} cores.", threads, manifest.machine.cores));
+    }
+  } else if (core < 0) {
+    manifest.uncontrolled.emplace_back("The measuring thread could not be pinned.");
+  }
   if (build.build_type != "Release") {
     manifest.uncontrolled.push_back(
         fmt::format("beambench was built as '{}', not as Release.", build.build_type));

@@ -10,8 +10,9 @@
 namespace beambench {
 
 /// The manifest of a new run of the sweep of that name, whose timed code is pinned to `core` (-1:
-/// to none) after a warm-up: asks this program, the machine and Embree for the rest.
+/// to none) and runs on so many threads, after a warm-up: asks this program, the machine and Embree
+/// for the rest.
 Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes, int core,
-                        std::chrono::duration<double> warm_up);
+                        int threads, std::chrono::duration<double> warm_up);
 
 }  // namespace beambench

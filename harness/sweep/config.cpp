@@ -15,6 +15,7 @@ constexpr double kDefaultPrecision = 0.02;
 constexpr double kDefaultWarmUp = 0.5;  // seconds
 constexpr double kMaxWarmUp = 60.0;
 constexpr std::int64_t kMaxRepetitions = 100'000;
+constexpr std::int64_t kMaxThreads = 1024;
 constexpr double kMaxBudgetSeconds = 1e7;  // some four months
 
 /// The name ends up in run ids and folder names.
@@ -140,6 +141,19 @@ void read_rays(const JsonNode& root, SweepConfig& config) {
   }
 }
 
+int read_threads(const JsonNode& root, const SweepConfig& config) {
+  const auto node = root.find("threads");
+  if (!node) return 1;
+  const int threads = static_cast<int>(node->integer(1, kMaxThreads));
+  for (const RayChoice& rays : config.rays) {
+    if (threads == 1 || rays == RayChoice()) continue;
+    node->fail(
+        "only images of primary rays are traced on several threads; leave out the other "
+        "rays or 'threads'");
+  }
+  return threads;
+}
+
 }  // namespace
 
 SweepConfig read_sweep(const std::filesystem::path& path, const Registry& structures) {
@@ -147,7 +161,7 @@ SweepConfig read_sweep(const std::filesystem::path& path, const Registry& struct
   config.source = read_json_file(path);
   const JsonNode root(config.source, path.string());
   root.require_object({"$schema", "name", "description", "scenes", "structures", "resolutions",
-                       "samples", "rays", "precision", "repetitions", "budget_seconds",
+                       "samples", "rays", "threads", "precision", "repetitions", "budget_seconds",
                        "warm_up_seconds", "exclude"});
   config.name = read_name(root.require("name"));
   if (const auto description = root.find("description")) config.description = description->text();
@@ -156,6 +170,7 @@ SweepConfig read_sweep(const std::filesystem::path& path, const Registry& struct
   }
   read_structures(root.require("structures"), structures, config);
   read_rays(root, config);
+  config.threads = read_threads(root, config);
   read_effort(root, config);
   if (const auto exclude = root.find("exclude")) {
     for (const JsonNode& node : exclude->elements()) {

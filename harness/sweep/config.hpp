@@ -39,6 +39,7 @@ struct SweepConfig {
   std::vector<Resolution> resolutions;
   std::vector<int> samples;
   std::vector<RayChoice> rays;
+  int threads;       ///< that trace an image
   double precision;  ///< wanted half-width of the interval of a repeat, relative to the median
   int minimum_repetitions;
   int maximum_repetitions;

@@ -100,8 +100,10 @@ Repetition Contender::time_once(const Instruments& instruments,
           build = time_phase(
               [&] { structure = cell_->structure.build(task_->scene(), task_->workload()); });
         });
-        const HardwareCounts trace_counts = instruments.counters.count(
-            [&] { trace = time_phase([&] { task_->ask(*structure); }); });
+        HardwareCounts trace_counts = instruments.counters.count([&] {
+          trace = time_phase([&] { task_->ask(*structure); }, cpu_clock(instruments.threads));
+        });
+        if (instruments.threads > 1) trace_counts = {};  // they are of the calling thread alone
         state.SetIterationTime(1e-3 * (build.wall_ms + trace.wall_ms));
         repetition = {0,
                       0,

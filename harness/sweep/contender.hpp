@@ -20,7 +20,8 @@ namespace beambench {
 struct Instruments {
   const GoogleBenchmark& benchmark;
   const HardwareCounters& counters;
-  int core;  ///< to pin it to; -1: any
+  int core;     ///< to pin it to; -1: any
+  int threads;  ///< that trace an image
 };
 
 /// A cell while it is measured. Its first timed answers are judged by the differ, and those of

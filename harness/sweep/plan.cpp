@@ -78,7 +78,7 @@ class Planner {
         for (const int samples : config_.samples) {
           for (const RayChoice& rays : config_.rays) {
             if (!rays.file.empty() && !is_first(*scene, camera, resolution, samples)) continue;
-            add_group({scene, camera, resolution, samples, rays, {}}, entry);
+            add_group({scene, camera, resolution, samples, rays, config_.threads, {}}, entry);
           }
         }
       }

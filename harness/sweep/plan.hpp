@@ -28,6 +28,7 @@ struct CellGroup {
   Resolution resolution;
   int samples;
   RayChoice rays;
+  int threads = 1;  ///< that trace an image
   std::vector<PlannedCell> cells;
 
   /// `escena1/default/320x200/1/primary`.

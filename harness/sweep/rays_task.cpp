@@ -39,7 +39,7 @@ std::optional<std::string> RaysTask::warning() const {
 }
 
 void RaysTask::ask(const Accelerator& structure) {
-  beambench::ask(structure, question(), answers_);
+  beambench::ask(structure, question(), answers_, group_.threads);
 }
 
 CountedWork RaysTask::count(const Accelerator& structure) {

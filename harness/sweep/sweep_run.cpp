@@ -49,8 +49,9 @@ class SweepRun {
         benchmark_(benchmark),
         options_(options),
         messages_(messages),
-        core_(pinnable_core()),
-        manifest_(begin_manifest(config.name, scene_facts(plan), core_, config.warm_up)),
+        core_(config.threads == 1 ? pinnable_core() : -1),
+        manifest_(begin_manifest(config.name, scene_facts(plan), core_, config.threads,
+                                 config.warm_up)),
         folder_(open_folder()),
         plan_(unfinished(std::move(plan))) {}
 
@@ -147,7 +148,7 @@ class SweepRun {
     const StoppingRule stopping{config_.precision, config_.minimum_repetitions,
                                 config_.maximum_repetitions};
     const TurnRules rules{stopping, allowance_ms, fingerprint(group.name())};
-    take_turns(std::move(contenders), {benchmark_, counters_, core_}, rules,
+    take_turns(std::move(contenders), {benchmark_, counters_, core_, config_.threads}, rules,
                {[&](const CellRecord& cell) {
                   finish(cell, progress);
                   label();

@@ -99,6 +99,8 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"/samples/1", 1.5, {"/samples/1: expected a whole number", "1.5"}},
         Wrong{"/samples", {1, 1000000000}, {"/samples/1: expected a whole number from 1 to"}},
         Wrong{"/rays/0", "gamma", {"/rays/0: ", "gamma", "primary"}},
+        Wrong{"/threads", 0, {"/threads: expected a whole number from 1", "0"}},
+        Wrong{"/threads", {1, 2}, {"/threads: expected a whole number"}},
         Wrong{"/precision", -0.5, {"/precision: expected a number from 0 to 1", "-0.5"}},
         Wrong{"/precision", "good", {"/precision: expected a number"}},
         Wrong{"/repetitions/minimum", 0, {"/repetitions/minimum: expected a whole number from 1"}},
@@ -144,6 +146,17 @@ TEST_F(Config, TooManyCombinationsAreRefused) {
   document["structures"][1]["parameters"] = {{"max_objects", values}, {"max_references", values}};
   document["structures"][1]["parameters"]["max_references"][0] = 200;
   EXPECT_TRUE(says(refusal(document), {"/structures/1: ", "multiply", "10000"}));
+}
+
+TEST_F(Config, SeveralThreadsAreForImages) {
+  EXPECT_EQ(read(fine()).threads, 1);
+  json document = fine();
+  document["threads"] = 3;
+  EXPECT_EQ(read(document).threads, 3);
+  document["rays"] = {"primary", "shadow"};
+  EXPECT_TRUE(says(refusal(document), {"/threads: only images of primary rays"}));
+  document["threads"] = 1;
+  EXPECT_EQ(read(document).threads, 1);
 }
 
 TEST_F(Config, ListsOfParametersAreMultipliedOut) {

@@ -167,6 +167,21 @@ TEST_F(Sweep, RightStructuresKeepTheirTimes) {
   EXPECT_EQ(cells()["samet"]["hits_hash"], cells()["exhaustive"]["hits_hash"]);
 }
 
+TEST_F(Sweep, SeveralThreadsTraceAndAreTold) {
+  json document = config({"exhaustive", "beam", "embree"});
+  document["threads"] = 2;
+  run(document);
+  for (const auto& [name, cell] : cells()) {
+    EXPECT_EQ(cell["row"]["verdict"], "ok") << name;
+    EXPECT_EQ(cell["row"]["threads"], 2) << name;
+    EXPECT_GT(cell["row"]["trace_ms_median"], 0.0) << name;
+    EXPECT_TRUE(cell["row"]["trace_cycles"].is_null()) << name;  // counted on one thread only
+  }
+  const json manifest = read_json("manifest.json");
+  EXPECT_EQ(manifest["measurement"]["cpu_clock"], "CLOCK_PROCESS_CPUTIME_ID");
+  EXPECT_EQ(manifest["measurement"]["pinned"], false);
+}
+
 TEST_F(Sweep, TheHarnessesOwnTimeIsTold) {
   run(config({"null", "exhaustive"}));
   const json row = cells()["exhaustive"]["row"];
