@@ -7,6 +7,7 @@ from functools import cached_property
 
 import pandas as pd
 
+from beambench_report.ledger.cluster_evidence import NO_CLUSTER, ClusterEvidence
 from beambench_report.ledger.measured import Measured, share, total
 
 RESOLUTIONS = ("320x200", "640x480", "800x600", "1024x768", "1280x1024")
@@ -30,11 +31,13 @@ class Evidence:
     times: table, setting, seconds with the building of the structure, and their interval.
     work: setting, the name of a quantity, its value and interval; a row a quantity.
     octrees: counts of occupied leaves and of pixels of exit beams at 1280x1024.
+    cluster: chapter 6.
     """
 
     times: pd.DataFrame
     work: pd.DataFrame
     octrees: pd.DataFrame
+    cluster: ClusterEvidence = NO_CLUSTER
 
     def time(
         self,

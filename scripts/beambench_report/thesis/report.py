@@ -12,6 +12,7 @@ from beambench_report.figure import house_style, write_plot
 from beambench_report.files import write_text, write_whole
 from beambench_report.ledger.book import Entry as LedgerEntry
 from beambench_report.ledger.book import ledger
+from beambench_report.ledger.rules import CLAIMS
 from beambench_report.page.manifest import Manifest, read_manifest
 from beambench_report.thesis.best import BestTable, best_table
 from beambench_report.thesis.catalogue import TABLES, Table
@@ -109,7 +110,7 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
         tuple((table, _parts(table, cells, directory, plan)) for table in shown),
         tuple(make_figures(plan.figures, cells)),
         pictures,
-        tuple(ledger(cells.runs)),
+        tuple(ledger(cells.runs, CLAIMS)),
         tuple(sections),
         tuple(_summary(directory, sweeps, every)),
     )
