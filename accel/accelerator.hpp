@@ -22,7 +22,9 @@ namespace beambench {
 ///
 /// Each query comes twice: as timed code, and counting the work it does. Structures get both, those
 /// of many rays and `explain` by deriving from `TraversalAccelerator` (traversal_accelerator.hpp).
-class Accelerator {
+///
+/// Plug-ins hide their symbols, but derive from the one class that is in the program.
+class [[gnu::visibility("default")]] Accelerator {
  public:
   Accelerator() = default;
   Accelerator(const Accelerator&) = delete;
@@ -36,23 +38,23 @@ class Accelerator {
   /// The closest hits of a whole image. `buffer` has the size of `rays`.
   virtual void trace(const PrimaryRays& rays, HitBuffer& buffer) const = 0;
   /// The closest hits of a list of rays. `buffer` has its size.
-  virtual void closest_hits(std::span<const Ray> rays, HitBuffer& buffer) const = 0;
+  virtual void closest_hits(std::span<const Ray> rays, HitBuffer & buffer) const = 0;
   /// For each ray of a list: is there a hit (1) or none (0)? `answers` has its size.
   virtual void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers) const = 0;
 
   virtual std::optional<Hit> closest_hit(const Ray& ray, WorkCounters& counters) const = 0;
   virtual bool any_hit(const Ray& ray, WorkCounters& counters) const = 0;
   virtual void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const = 0;
-  virtual void closest_hits(std::span<const Ray> rays, HitBuffer& buffer,
-                            WorkCounters& counters) const = 0;
+  virtual void closest_hits(std::span<const Ray> rays, HitBuffer & buffer, WorkCounters & counters)
+      const = 0;
   virtual void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers,
-                        WorkCounters& counters) const = 0;
+                        WorkCounters & counters) const = 0;
 
   /// `trace`, shared among the threads of the TBB arena that calls it (`trace_on` makes one): the
   /// same hits and counters for any number of them. Here row by row, each ray by `closest_hit`.
   virtual void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const;
-  virtual void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                            WorkCounters& counters) const;
+  virtual void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters)
+      const;
 
   /// The way of `closest_hit`, step by step; empty where the structure cannot tell it.
   virtual std::vector<TraceStep> explain(const Ray&) const { return {}; }

@@ -1,10 +1,12 @@
 #include "accel/registry.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "accel/extend_registry.hpp"
 #include "scenes/error.hpp"
 #include "scenes/nearest_name.hpp"
 
@@ -52,13 +54,23 @@ std::vector<StructureChoice> Registry::choose_list(std::string_view text) const 
   return choices;
 }
 
-const Registry& registry() {
-  static const Registry all = [] {
+namespace {
+
+Registry& whole_registry() {
+  static Registry all = [] {
     Registry built;
     register_families(built);
     return built;
   }();
   return all;
+}
+
+}  // namespace
+
+const Registry& registry() { return whole_registry(); }
+
+void extend_registry(std::vector<StructureInfo> structures) {
+  for (StructureInfo& info : structures) whole_registry().add(std::move(info));
 }
 
 }  // namespace beambench

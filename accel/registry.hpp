@@ -33,6 +33,7 @@ struct StructureInfo {
   /// change.
   std::function<std::unique_ptr<Accelerator>(const Scene&, const Parameters&, const Workload&)>
       build;
+  std::string origin{};  ///< the file of the plug-in that it comes from; empty: built in
 };
 
 /// A structure picked by the user, its parameters checked: `samet:max_level=6`.
@@ -73,7 +74,7 @@ class Registry {
   std::vector<StructureInfo> structures_;
 };
 
-/// All structures that were built into this program.
+/// All structures of this program: those that were built into it, then those of plug-ins.
 const Registry& registry();
 
 }  // namespace beambench

@@ -1,11 +1,14 @@
 #include "scenes/catalogue.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <iterator>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "scenes/error.hpp"
+#include "scenes/extend_catalogue.hpp"
 #include "scenes/generators/ajedrez.hpp"
 #include "scenes/generators/balls.hpp"
 #include "scenes/generators/bola_espacial.hpp"
@@ -44,9 +47,54 @@
 namespace beambench {
 namespace {
 
+std::vector<SceneInfo> built_in_scenes() {
+  return {ajedrez_scene(),     balls_scene(),    bola_espacial_scene(),
+          bumpy_scene(),       caracol_scene(),  casa_de_campo_scene(),
+          closed_room_scene(), delfines_scene(), escena1_scene(),
+          escena2_scene(),     finishes_scene(), flamenco_scene(),
+          gato_bill_scene(),   gears_scene(),    habitacion_scene(),
+          jacks_scene(),       lattice_scene(),  maceta_scene(),
+          misil_scene(),       mount_scene(),    rings_scene(),
+          shells_scene(),      sombrero_scene(), soup_scene(),
+          stetra_scene(),      teapot_scene(),   tessellated_balls_scene(),
+          tetera_scene(),      tetra_scene(),    torre_eiffel_scene(),
+          tree_scene()};
+}
+
+/// What the program knows: its own scenes, and what plug-ins add.
+struct Catalogue {
+  std::vector<SceneInfo> scenes;
+  std::vector<SceneReader> readers;
+};
+
+Catalogue& whole_catalogue() {
+  static Catalogue all{built_in_scenes(), {}};
+  return all;
+}
+
+/// The reader of a plug-in for that file; nullptr where there is none.
+const SceneReader* find_reader(std::string_view file_name) {
+  std::string name(file_name);
+  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+  const auto readers = scene_readers();
+  const auto found = std::ranges::find_if(
+      readers, [&](const SceneReader& reader) { return name.ends_with(reader.ending); });
+  return found == readers.end() ? nullptr : &*found;
+}
+
+Scene read_by_plugin(const SceneReader& reader, std::string_view spec,
+                     std::vector<std::string>* warnings, bool strict) {
+  std::vector<std::string> noticed;
+  Scene scene = reader.read(std::filesystem::path(spec), noticed);
+  scene.name = spec;
+  if (strict && !noticed.empty()) throw InputError(noticed.front());
+  if (warnings != nullptr) warnings->insert(warnings->end(), noticed.begin(), noticed.end());
+  return scene;
+}
+
 bool is_path(std::string_view spec) {
   return spec.find('/') != std::string_view::npos || spec.ends_with(".nff") ||
-         !mesh_ending(spec).empty();
+         !mesh_ending(spec).empty() || find_reader(spec) != nullptr;
 }
 
 [[noreturn]] void refuse_name(const std::string& name) {
@@ -60,20 +108,15 @@ bool is_path(std::string_view spec) {
 
 }  // namespace
 
-std::span<const SceneInfo> scene_catalogue() {
-  static const std::vector<SceneInfo> catalogue = {
-      ajedrez_scene(),     balls_scene(),    bola_espacial_scene(),
-      bumpy_scene(),       caracol_scene(),  casa_de_campo_scene(),
-      closed_room_scene(), delfines_scene(), escena1_scene(),
-      escena2_scene(),     finishes_scene(), flamenco_scene(),
-      gato_bill_scene(),   gears_scene(),    habitacion_scene(),
-      jacks_scene(),       lattice_scene(),  maceta_scene(),
-      misil_scene(),       mount_scene(),    rings_scene(),
-      shells_scene(),      sombrero_scene(), soup_scene(),
-      stetra_scene(),      teapot_scene(),   tessellated_balls_scene(),
-      tetera_scene(),      tetra_scene(),    torre_eiffel_scene(),
-      tree_scene()};
-  return catalogue;
+std::span<const SceneInfo> scene_catalogue() { return whole_catalogue().scenes; }
+
+std::span<const SceneReader> scene_readers() { return whole_catalogue().readers; }
+
+void extend_catalogue(std::vector<SceneInfo> scenes, std::vector<SceneReader> readers) {
+  Catalogue& all = whole_catalogue();
+  std::ranges::move(scenes, std::back_inserter(all.scenes));
+  std::ranges::sort(all.scenes, {}, &SceneInfo::name);
+  std::ranges::move(readers, std::back_inserter(all.readers));
 }
 
 const SceneInfo& find_scene(const std::string& name) {
@@ -94,6 +137,9 @@ Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, NffO
       return load_mesh({spec, std::string(spec), usual_orientation(ending), options.strict},
                        warnings);
     }
+    if (const SceneReader* reader = find_reader(spec)) {
+      return read_by_plugin(*reader, spec, warnings, options.strict);
+    }
     refuse_foreign_format(spec);
     NffResult result = read_nff(spec, options);
     if (warnings != nullptr) {
@@ -107,6 +153,7 @@ Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, NffO
   const Parameters parameters(info.name, info.parameters, parsed.parameters);
   Scene scene = info.generate(parameters);
   parameters.require_given_were_read();
+  if (!info.origin.empty()) scene.name = parameters.label();  // records and replays rely on it
   return scene;
 }
 

@@ -1,24 +1,11 @@
 #pragma once
-// Random scenes and rays that look for trouble: ties, shared edges, boundaries, inner surfaces.
+// Random scenes and rays for the tests of every room: those of `beambench selftest`.
 
-#include <cstdint>
-#include <vector>
-
-#include "accel/ray.hpp"
-#include "scenes/random.hpp"
-#include "scenes/scene.hpp"
+#include "harness/selftest/random_scene.hpp"
 
 namespace beambench::testing {
 
-/// A scene of spheres, triangles, concave polygons and cones in and around the cube [-1, 1]^3. Of
-/// every four seeds one gives coordinates that are multiples of 1/8 (coplanar polygons, shared
-/// edges and exact ties), one repeats primitives, one lies far from the origin of the coordinates.
-Scene random_scene(std::uint64_t seed, int primitives);
-
-/// A ray from outside, inside or a special place (the scene's centre planes, axes and centre, which
-/// are faces, edges and corners of octree cells; a vertex), in any direction, along an axis or a
-/// diagonal, or aimed at a vertex, an edge or a primitive's middle; now and then with a short
-/// interval.
-Ray random_ray(const Scene& scene, Random& random);
+using beambench::random_ray;
+using beambench::random_scene;
 
 }  // namespace beambench::testing

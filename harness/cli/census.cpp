@@ -15,6 +15,7 @@
 #include "harness/cli/text.hpp"
 #include "harness/cli/whitted_request.hpp"
 #include "harness/picture/image_file.hpp"
+#include "harness/plugin/check_hits.hpp"
 #include "harness/rays/answers.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/error.hpp"
@@ -85,6 +86,7 @@ Result take_census(const Request& request, const std::string& name, Progress& pr
   begin = Clock::now();
   const HitBuffer hits = eye_hits(*structure, rays, spd ? nullptr : &primary);
   result.eye_ms = milliseconds_since(begin);
+  check_hits(hits, scene, choice.info());
   begin = Clock::now();
   const Whitted tracer(scene, *structure, whitted_options(request.whitted));
   result.preparation_ms = milliseconds_since(begin);

@@ -3,6 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include "harness/plugin/activity.hpp"
+
 namespace beambench {
 
 /// What the process ends with.
@@ -24,10 +26,12 @@ void add_rays_command(CLI::App& app, int& exit_code);
 void add_stats_command(CLI::App& app, int& exit_code);
 void add_verify_command(CLI::App& app, int& exit_code);
 void add_trace_command(CLI::App& app, int& exit_code);
-void add_run_command(CLI::App& app, int& exit_code);
+/// `activity` outlives `app`.
+void add_run_command(CLI::App& app, int& exit_code, Activity& activity);
 void add_sampling_command(CLI::App& app, int& exit_code);
 void add_census_command(CLI::App& app, int& exit_code);
 void add_mirrors_command(CLI::App& app, int& exit_code);
+void add_selftest_command(CLI::App& app, int& exit_code);
 /// These two read the other commands off `app` when they run.
 void add_completion_command(CLI::App& app, int& exit_code);
 void add_man_command(CLI::App& app, int& exit_code);

@@ -10,6 +10,8 @@
 #include "accel/registry.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/text.hpp"
+#include "harness/plugin/load_plugin.hpp"
+#include "harness/rays/fingerprint.hpp"
 #include "harness/rays/ray_kind.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/error.hpp"
@@ -91,11 +93,29 @@ void print_meshes() {
   }
 }
 
+std::string origin_text(const std::string& origin) {
+  return origin.empty() ? "" : fmt::format("  (of {})", origin);
+}
+
+void print_plugins() {
+  if (loaded_plugins().empty()) return;
+  if (!scene_readers().empty()) fmt::print("\nFurther formats of scene files, by path:\n");
+  for (const SceneReader& reader : scene_readers()) {
+    fmt::print("\n  *{}{}\n{}", reader.ending, origin_text(reader.origin), wrap(reader.summary, 6));
+  }
+  fmt::print("\nPlug-ins:\n");
+  for (const LoadedPlugin& plugin : loaded_plugins()) {
+    fmt::print("\n  {}\n{}", plugin.file, wrap(plugin.description, 6));
+    fmt::print("      hash {}, built by {} for {}{}\n", hex_digits(plugin.hash), plugin.compiler,
+               plugin.instructions, plugin.optimised ? "" : ", without optimisation");
+  }
+}
+
 void print_text() {
   fmt::print("Structures, for --accel NAME:parameter=value,... ('all' is every one):\n");
   for (const StructureInfo& info : registry().structures()) {
-    fmt::print("\n  {}  [{}]\n{}", info.name, conformance_name(info.conformance),
-               wrap(info.summary, 6));
+    fmt::print("\n  {}  [{}]{}\n{}", info.name, conformance_name(info.conformance),
+               origin_text(info.origin), wrap(info.summary, 6));
     print_parameters(info.parameters);
   }
   fmt::print("\n{}", wrap("bit-exact: equal to exhaustive bit for bit; tolerance: arithmetic of "
@@ -104,10 +124,11 @@ void print_text() {
                           2));
   fmt::print("\nScenes, as NAME:parameter=value,... (or the path of a mesh or of an NFF file):\n");
   for (const SceneInfo& info : scene_catalogue()) {
-    fmt::print("\n  {}\n{}", info.name, wrap(info.summary, 6));
+    fmt::print("\n  {}{}\n{}", info.name, origin_text(info.origin), wrap(info.summary, 6));
     print_parameters(info.parameters);
   }
   print_meshes();
+  print_plugins();
   fmt::print("\nKinds of rays, for --rays (or the path of a .rays file, see 'beambench rays'):\n");
   for (const RayKindInfo& info : ray_kinds()) {
     fmt::print("\n  {}\n{}", info.name, wrap(info.summary, 6));
@@ -131,18 +152,29 @@ Json parameters_json(const std::vector<ParameterInfo>& parameters) {
   return list;
 }
 
+Json origin_json(const std::string& origin) {
+  return origin.empty() ? Json("built in") : Json(origin);
+}
+
 void print_json() {
   Json all;
   for (const StructureInfo& info : registry().structures()) {
     all["structures"].push_back({{"name", info.name},
                                  {"summary", info.summary},
                                  {"conformance", conformance_name(info.conformance)},
+                                 {"origin", origin_json(info.origin)},
                                  {"parameters", parameters_json(info.parameters)}});
   }
   for (const SceneInfo& info : scene_catalogue()) {
     all["scenes"].push_back({{"name", info.name},
                              {"summary", info.summary},
+                             {"origin", origin_json(info.origin)},
                              {"parameters", parameters_json(info.parameters)}});
+  }
+  all["readers"] = Json::array();
+  for (const SceneReader& reader : scene_readers()) {
+    all["readers"].push_back(
+        {{"ending", reader.ending}, {"summary", reader.summary}, {"origin", reader.origin}});
   }
   all["meshes"] = Json::array();
   for (const std::string& name : registered_mesh_names()) {

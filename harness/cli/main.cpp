@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <new>
 #include <string>
 #include <string_view>
@@ -13,9 +15,13 @@
 #include <fmt/ranges.h>
 
 #include "harness/cli/commands.hpp"
+#include "harness/plugin/guard.hpp"
+#include "harness/plugin/load_plugin.hpp"
+#include "harness/plugin/requested_plugins.hpp"
 #include "harness/record/build_info.hpp"
 #include "scenes/error.hpp"
 #include "scenes/nearest_name.hpp"
+#include "scenes/plugin_error.hpp"
 
 namespace beambench {
 namespace {
@@ -45,11 +51,20 @@ int complain_of_output() {
   return complain("cannot write to the standard output; make room where it goes", kWrongRequest);
 }
 
+using Arguments = std::vector<std::string>;
+
+/// For --help, completions and the manual page: it is taken off the command line before.
+void add_plugin_option(CLI::App& app) {
+  app.add_option("--plugin",
+                 "A shared object with structures or scenes of your own; again for more")
+      ->type_name("FILE");
+}
+
 /// CLI11 would only say that a subcommand is required, or that an argument was not expected.
-void require_known_command(const CLI::App& app, int argc, char** argv) {
+void require_known_command(const CLI::App& app, const Arguments& arguments) {
   std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
-  const std::string word = argc > 1 ? argv[1] : "";
+  const std::string word = arguments.size() > 1 ? arguments[1] : "";
   if (word.starts_with('-')) return;
   if (std::find(names.begin(), names.end(), word) != names.end()) return;
   const std::string_view remedy = "'beambench --help' tells what they do";
@@ -61,7 +76,7 @@ void require_known_command(const CLI::App& app, int argc, char** argv) {
                   nearest_name(word, names), fmt::join(names, ", "), remedy));
 }
 
-int parse_and_run(int argc, char** argv) {
+int parse_and_run(const Arguments& arguments, Activity& activity) {
   CLI::App app(kDescription, "beambench");
   int exit_code = kSuccess;
   app.set_version_flag("--version", fmt::format("beambench {}", build_info().version));
@@ -70,14 +85,17 @@ int parse_and_run(int argc, char** argv) {
   app.require_subcommand(1);
   for (const auto add :
        {add_list_command, add_scene_command, add_export_command, add_render_command,
-        add_rays_command, add_stats_command, add_verify_command, add_trace_command, add_run_command,
-        add_sampling_command, add_census_command, add_mirrors_command, add_completion_command,
-        add_man_command}) {
+        add_rays_command, add_stats_command, add_verify_command, add_trace_command,
+        add_selftest_command, add_sampling_command, add_census_command, add_mirrors_command,
+        add_completion_command, add_man_command}) {
     add(app, exit_code);
   }
+  add_run_command(app, exit_code, activity);
+  add_plugin_option(app);
   try {
-    require_known_command(app, argc, argv);
-    app.parse(argc, argv);
+    require_known_command(app, arguments);
+    // CLI11 takes them from the back of a list.
+    app.parse(Arguments(arguments.rbegin(), arguments.rend() - 1));
   } catch (const CLI::Success& success) {  // --help and --version
     return app.exit(success);
   } catch (const CLI::ParseError& error) {
@@ -90,11 +108,15 @@ int parse_and_run(int argc, char** argv) {
   return exit_code;
 }
 
-int run_command_line(int argc, char** argv) {
+int run_command_line(const Arguments& arguments, const std::vector<std::string>& plugins,
+                     Activity& activity) {
   try {
-    return parse_and_run(argc, argv);
+    for (const std::string& file : plugins) load_plugin(file, activity);
+    return parse_and_run(arguments, activity);
   } catch (const InputError& error) {
     return complain(error.what(), kWrongRequest);
+  } catch (const PluginError& error) {
+    return complain(error.what(), kFound);
   } catch (const std::bad_alloc&) {
     return complain(
         "the memory does not suffice for this request; choose a smaller scene, resolution or "
@@ -110,7 +132,28 @@ int run_command_line(int argc, char** argv) {
   }
 }
 
+/// Does the user want to look on in a debugger?
+bool wants_no_guard() { return std::getenv("BEAMBENCH_UNGUARDED") != nullptr; }
+
+/// Foreign code is kept in a process of its own.
+int begin(int argc, char** argv) {
+  try {
+    Arguments arguments(argv, argv + argc);
+    const std::vector<std::string> plugins = take_requested_plugins(arguments);
+    std::unique_ptr<Activity> activity = guarded_activity();
+    const bool guarded = activity != nullptr;
+    if (!plugins.empty() && !guarded && !wants_no_guard()) return run_guarded(argv);
+    if (!guarded) activity = std::make_unique<Activity>();
+    const int code = run_command_line(arguments, plugins, *activity);
+    activity->clear(Activity::Line::kForeign);
+    activity->clear(Activity::Line::kCell);
+    return code;
+  } catch (const std::exception& error) {
+    return complain(error.what(), kWrongRequest);
+  }
+}
+
 }  // namespace
 }  // namespace beambench
 
-int main(int argc, char** argv) { return beambench::run_command_line(argc, argv); }
+int main(int argc, char** argv) { return beambench::begin(argc, argv); }

@@ -19,6 +19,7 @@
 #include "harness/cli/work_picture.hpp"
 #include "harness/files/pending_file.hpp"
 #include "harness/picture/image_file.hpp"
+#include "harness/plugin/check_hits.hpp"
 #include "harness/shade/shading.hpp"
 
 namespace beambench {
@@ -164,6 +165,7 @@ void render(const Request& request) {
   } else {
     watched_ask(*accelerator, rays, answers, request.whitted.threads, progress);
     if (request.difference.empty()) {
+      check_hits(hits, scene, choice.info());
       found = share_of_hits(hits) +
               write_shaded(request, choice, overlay, *accelerator, scene, rays, hits, progress);
     } else {

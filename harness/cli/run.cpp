@@ -9,7 +9,8 @@
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/interruption.hpp"
-#include "harness/differ/replay_command.hpp"
+#include "harness/files/shell_word.hpp"
+#include "harness/plugin/load_plugin.hpp"
 #include "harness/sweep/sweep_run.hpp"
 #include "scenes/error.hpp"
 
@@ -82,15 +83,16 @@ int report(const SweepOutcome& outcome) {
 }
 
 std::string resume_command(const std::filesystem::path& folder) {
-  return fmt::format("beambench run --resume {}", shell_quoted(folder.string()));
+  return fmt::format("{} run --resume {}", program_call(), shell_quoted(folder.string()));
 }
 
 /// Runs the sweep so that, however it is cut off, its end says how to go on.
 SweepOutcome run_resumable(const SweepConfig& config, Plan plan, const GoogleBenchmark& benchmark,
-                           SweepOptions options, Interruption& interruption) {
+                           SweepOptions options, Activity& activity, Interruption& interruption) {
   std::string go_on;
   options.begun = [&](const std::filesystem::path& folder) {
     go_on = resume_command(folder);
+    activity.write(Activity::Line::kRunFolder, folder.string());
     interruption.set_last_line(
         fmt::format("interrupted; every finished cell is kept, go on with: {}", go_on));
   };
@@ -102,9 +104,20 @@ SweepOutcome run_resumable(const SweepConfig& config, Plan plan, const GoogleBen
   }
 }
 
-int run(const RunRequest& request) {
+/// Where a plug-in broke the process down over a cell, this one goes on behind it.
+void go_on_behind_broken_cells(RunRequest& request, const Activity& activity) {
+  if (activity.broken_cells().empty()) return;
+  request.config.clear();
+  request.output.clear();
+  request.resume = activity.read(Activity::Line::kRunFolder);
+}
+
+int run(RunRequest request, Activity& activity) {
   Interruption interruption("interrupted; nothing was measured yet");
-  const SweepOptions options = options_of(request);
+  go_on_behind_broken_cells(request, activity);
+  SweepOptions options = options_of(request);
+  options.broken_cells = activity.broken_cells();
+  options.at_work = [&](std::string_view cell) { activity.write(Activity::Line::kCell, cell); };
   for (const std::string& note : options.flags.notes) fmt::print(stderr, "{}\n", note);
   SweepConfig config = read_sweep(config_path(request), registry());
   if (options.flags.repetitions) override_repetitions(config, *options.flags.repetitions);
@@ -114,12 +127,13 @@ int run(const RunRequest& request) {
     for (const std::string& name : cell_names(plan)) fmt::print("{}\n", name);
     return kSuccess;
   }
-  return report(run_resumable(config, std::move(plan), benchmark, options, interruption));
+  return report(run_resumable(config, std::move(plan), benchmark, std::move(options), activity,
+                              interruption));
 }
 
 }  // namespace
 
-void add_run_command(CLI::App& app, int& exit_code) {
+void add_run_command(CLI::App& app, int& exit_code, Activity& activity) {
   CLI::App* command =
       app.add_subcommand("run", "Measure a sweep: times of structures whose hits are judged right");
   const auto request = std::make_shared<RunRequest>();
@@ -141,9 +155,9 @@ void add_run_command(CLI::App& app, int& exit_code) {
       "  beambench run harness/sweeps/quick.json\n"
       "  beambench run harness/sweeps/quick.json -o my-run --benchmark_filter=tetra.*samet\n"
       "  beambench run --resume my-run");
-  command->callback([command, request, &exit_code] {
+  command->callback([command, request, &activity, &exit_code] {
     request->benchmark_flags = command->remaining();
-    exit_code = run(*request);
+    exit_code = run(*request, activity);
   });
 }
 

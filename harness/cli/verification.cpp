@@ -12,6 +12,7 @@
 #include "harness/cli/watched_ask.hpp"
 #include "harness/rays/share_warning.hpp"
 #include "scenes/error.hpp"
+#include "scenes/plugin_error.hpp"
 
 namespace beambench {
 namespace {
@@ -110,6 +111,11 @@ class SceneVerifier {
   std::optional<BitsReference> bits_;
 };
 
+void fail(VerifiedCell& cell, const std::exception& error) {
+  cell.verdict = "error";
+  cell.message = error.what();
+}
+
 VerifiedCell empty_cell(const Scene& scene, const std::string& rays,
                         const StructureChoice& choice) {
   VerifiedCell cell;
@@ -138,8 +144,9 @@ std::vector<VerifiedCell> verify_each(const Scene& scene, const std::string& ray
     try {
       judge_into(choice, cell);
     } catch (const InputError& error) {  // a cap was exceeded: this cell fails, the others go on
-      cell.verdict = "error";
-      cell.message = error.what();
+      fail(cell, error);
+    } catch (const PluginError& error) {
+      fail(cell, error);
     }
     progress.finish(cell.message.empty() ? cell.verdict
                                          : fmt::format("{}: {}", cell.verdict, cell.message));

@@ -1,31 +1,15 @@
 #include "harness/differ/replay_command.hpp"
 
-#include <algorithm>
-#include <cctype>
-
 #include <fmt/format.h>
 
+#include "harness/files/shell_word.hpp"
+#include "harness/plugin/load_plugin.hpp"
+
 namespace beambench {
-namespace {
-
-bool is_plain(char c) {
-  return std::isalnum(static_cast<unsigned char>(c)) != 0 ||
-         std::string_view("_-+.,:=/@%").find(c) != std::string_view::npos;
-}
-
-}  // namespace
-
-std::string shell_quoted(std::string_view word) {
-  if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return std::string(word);
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + '\'';
-}
-
 ReplayCommand::ReplayCommand(const Scene& scene, const ImageOfRays& image,
                              const StructureChoice& structure, const Question& question)
     : question_(question),
-      subject_(fmt::format("beambench trace {} --accel {}", shell_quoted(scene.name),
+      subject_(fmt::format("{} trace {} --accel {}", program_call(), shell_quoted(scene.name),
                            shell_quoted(structure.short_label()))),
       image_(fmt::format("--resolution {}", to_string(image.resolution))) {
   if (image.samples > 1) image_ += fmt::format(" --samples {}", image.samples);

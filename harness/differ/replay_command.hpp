@@ -2,7 +2,6 @@
 // The command line that shows a ray's way again.
 
 #include <string>
-#include <string_view>
 
 #include "accel/registry.hpp"
 #include "harness/rays/question.hpp"
@@ -10,12 +9,9 @@
 
 namespace beambench {
 
-/// A word as a shell must be given it: as it is where that is safe, otherwise in single quotes.
-std::string shell_quoted(std::string_view word);
-
 /// `beambench trace SCENE --accel A --pixel X,Y ...` for the rays of an image,
 /// `... --rays KIND --ray N ...` for those of a list, to be pasted into a shell. Scenes from files
-/// are named by their path as it was typed.
+/// are named by their path as it was typed, and so are plug-ins.
 class ReplayCommand {
  public:
   /// `image` is what the rays come from, be they primary or not.

@@ -70,6 +70,22 @@ Json measurement_json(const Manifest& manifest) {
            manifest.run.threads == 1 ? "CLOCK_THREAD_CPUTIME_ID" : "CLOCK_PROCESS_CPUTIME_ID"}};
 }
 
+Json plugins_json(const std::vector<LoadedPlugin>& plugins) {
+  Json list = Json::array();
+  for (const LoadedPlugin& plugin : plugins) {
+    list.push_back({{"file", plugin.file},
+                    {"hash", hex_digits(plugin.hash)},
+                    {"description", plugin.description},
+                    {"compiler", plugin.compiler},
+                    {"instructions", plugin.instructions},
+                    {"optimised", plugin.optimised},
+                    {"structures", plugin.structures},
+                    {"scenes", plugin.scenes},
+                    {"readers", plugin.readers}});
+  }
+  return list;
+}
+
 Json scenes_json(const std::vector<SceneFacts>& scenes) {
   Json list = Json::array();
   for (const SceneFacts& scene : scenes) {
@@ -101,6 +117,7 @@ Json to_json(const Manifest& manifest) {
           {"time_utc", manifest.begun_utc},
           {"finished_utc", text_or_null(manifest.finished_utc)},
           {"program", program_json(manifest)},
+          {"plugins", plugins_json(manifest.plugins)},
           {"machine", machine_json(manifest.machine)},
           {"measurement", measurement_json(manifest)},
           {"scenes", scenes_json(manifest.scenes)},

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "harness/plugin/load_plugin.hpp"
 #include "harness/record/cell_record.hpp"
 #include "harness/record/machine.hpp"
 
@@ -38,6 +39,7 @@ struct Manifest {
   std::string finished_utc;    ///< empty while the run goes on, or when it was cut off
   Machine machine;
   MeasurementFacts measurement;
+  std::vector<LoadedPlugin> plugins;
   std::vector<SceneFacts> scenes;
   nlohmann::ordered_json overhead;        ///< of the harness, by `null`; null where it is not known
   std::vector<std::string> uncontrolled;  ///< sentences

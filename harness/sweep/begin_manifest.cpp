@@ -52,6 +52,7 @@ Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes
                           best_simd_target(),
                           std::nullopt,
                           ""};
+  manifest.plugins.assign(loaded_plugins().begin(), loaded_plugins().end());
   manifest.scenes = std::move(scenes);
   manifest.uncontrolled = disturbances(manifest.machine);
   if (threads > 1) {
@@ -67,6 +68,11 @@ Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes
   if (build.build_type != "Release") {
     manifest.uncontrolled.push_back(
         fmt::format("beambench was built as '{}', not as Release.", build.build_type));
+  }
+  for (const LoadedPlugin& plugin : manifest.plugins) {
+    if (plugin.optimised) continue;
+    manifest.uncontrolled.push_back(
+        fmt::format("The plug-in {} was built without optimisation.", plugin.file));
   }
   return manifest;
 }

@@ -40,6 +40,7 @@ class Contender {
 
   static constexpr std::size_t kWarmTraces = 5;
 
+  const CellId& id() const { return cell_->id; }
   bool failed() const { return failed_; }
   /// Total cycles of each repetition, in millions.
   std::span<const double> cycles() const { return cycles_; }

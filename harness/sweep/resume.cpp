@@ -1,9 +1,11 @@
 #include "harness/sweep/resume.hpp"
 
+#include <map>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "harness/files/shell_word.hpp"
 #include "scenes/error.hpp"
 
 namespace beambench {
@@ -46,6 +48,28 @@ void require_same_program(const RunFolder& folder, const Json& then, const Json&
   if (differs("/machine/id")) refuse(folder, "it was begun on another machine");
 }
 
+/// The plug-ins of a manifest: hash by file.
+std::map<std::string, std::string> plugins_of(const Json& manifest) {
+  std::map<std::string, std::string> plugins;
+  for (const Json& plugin : manifest.value("plugins", Json::array())) {
+    plugins[plugin.at("file").get<std::string>()] = plugin.at("hash").get<std::string>();
+  }
+  return plugins;
+}
+
+void require_same_plugins(const RunFolder& folder, const Json& then, const Json& now) {
+  const auto plugins = plugins_of(now);
+  for (const auto& [file, hash] : plugins_of(then)) {
+    const auto found = plugins.find(file);
+    if (found == plugins.end()) {
+      refuse(folder, fmt::format("it was begun with --plugin {}", shell_quoted(file)));
+    }
+    if (found->second != hash) {
+      refuse(folder, fmt::format("the plug-in {} has changed since", file));
+    }
+  }
+}
+
 void require_same_scenes(const RunFolder& folder, const Json& then, const Json& now) {
   for (const Json& scene : now.at("scenes")) {
     for (const Json& earlier : then.value("scenes", Json::array())) {
@@ -62,6 +86,7 @@ void require_same_run(const RunFolder& folder, const nlohmann::json& config, con
   const Json then = folder.read_json("manifest.json");
   require_same_config(folder, config);
   require_same_program(folder, then, manifest);
+  require_same_plugins(folder, then, manifest);
   require_same_scenes(folder, then, manifest);
 }
 

@@ -50,8 +50,8 @@ class SweepRun {
         options_(options),
         messages_(messages),
         core_(config.threads == 1 ? pinnable_core() : -1),
-        manifest_(begin_manifest(config.name, scene_facts(plan), core_, config.threads,
-                                 config.warm_up)),
+        manifest_(
+            begin_manifest(config.name, scene_facts(plan), core_, config.threads, config.warm_up)),
         folder_(open_folder()),
         plan_(unfinished(std::move(plan))) {}
 
@@ -70,6 +70,7 @@ class SweepRun {
     const auto begin = Clock::now();
     std::size_t cells_left = plan_.cell_count();
     Progress progress(cells_left, messages_);
+    cells_left -= give_up_broken(progress);
     for (CellGroup& group : plan_.groups) {
       const double left_ms = 1e3 * config_.budget_seconds - elapsed_ms(begin);
       const double share_ms = std::max(left_ms, 0.0) / static_cast<double>(cells_left);
@@ -104,6 +105,22 @@ class SweepRun {
   Plan unfinished(Plan plan) const {
     filter_cells(plan, [&](const CellId& id) { return !folder_.has_cell(id.key()); });
     return plan;
+  }
+
+  /// Records the cells that broke an earlier process down; how many there are.
+  std::size_t give_up_broken(Progress& progress) {
+    const auto& broken = options_.broken_cells;
+    std::size_t count = 0;
+    for (const CellGroup& group : plan_.groups) {
+      for (const PlannedCell& cell : group.cells) {
+        const auto found = broken.find(cell.id.key());
+        if (found == broken.end()) continue;
+        finish(failed_cell(cell, found->second), progress);
+        ++count;
+      }
+    }
+    filter_cells(plan_, [&](const CellId& id) { return !broken.contains(id.key()); });
+    return count;
   }
 
   void run_group(const CellGroup& group, double share_ms, Progress& progress) {
@@ -141,7 +158,10 @@ class SweepRun {
                Progress& progress) {
     const auto label = [&] { progress.start(group.name()); };
     std::vector<Contender> contenders;
-    for (const PlannedCell& cell : group.cells) contenders.emplace_back(cell, task).count();
+    for (const PlannedCell& cell : group.cells) {
+      options_.at_work(cell.id.key());
+      contenders.emplace_back(cell, task).count();
+    }
     // The oracle's and the counting passes' time is the group's own.
     const auto cells = static_cast<double>(group.cells.size());
     const double allowance_ms = std::max(share_ms - elapsed_ms(begin) / cells, 0.0);
@@ -149,11 +169,13 @@ class SweepRun {
                                 config_.maximum_repetitions};
     const TurnRules rules{stopping, allowance_ms, fingerprint(group.name())};
     take_turns(std::move(contenders), {benchmark_, counters_, core_, config_.threads}, rules,
-               {[&](const CellRecord& cell) {
+               {[&](const Contender& contender) { options_.at_work(contender.id().key()); },
+                [&](const CellRecord& cell) {
                   finish(cell, progress);
                   label();
                 },
                 [&](double done) { progress.advance(done); }});
+    options_.at_work("");
   }
 
   void finish(const CellRecord& cell, Progress& progress) {

@@ -4,8 +4,10 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "harness/record/run_folder.hpp"
 #include "harness/sweep/benchmark_flags.hpp"
@@ -23,6 +25,11 @@ struct SweepOptions {
   BenchmarkFlags flags;
   /// Called with the run's folder as soon as the run can be resumed.
   std::function<void(const std::filesystem::path&)> begun;
+  /// Called with the key of a cell when a structure is about to work for it, and with "" when it
+  /// has done so.
+  std::function<void(std::string_view)> at_work = [](std::string_view) {};
+  /// Cells by key that are not to be measured, with the reason: they broke the process down.
+  std::map<std::string, std::string> broken_cells{};
 };
 
 struct SweepOutcome {

@@ -56,6 +56,7 @@ void take_turns(std::vector<Contender> contenders, const Instruments& instrument
   for (int round = 0; !contenders.empty(); ++round) {
     shuffle(contenders, random);
     for (std::size_t i = 0; i < contenders.size(); ++i) {
+      events.begins(contenders[i]);
       contenders[i].repeat(instruments, round, static_cast<int>(i));
       events.advanced(work_done(contenders, rules));
     }

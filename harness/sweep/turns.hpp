@@ -17,6 +17,7 @@ struct TurnRules {
 };
 
 struct TurnEvents {
+  std::function<void(const Contender&)> begins;     ///< it is about to be measured once more
   std::function<void(const CellRecord&)> finished;  ///< a contender is done
   std::function<void(double)> advanced;  ///< what the unfinished have done, in whole contenders
 };

@@ -1,4 +1,4 @@
-#include "tests/random_scene.hpp"
+#include "harness/selftest/random_scene.hpp"
 
 #include <cmath>
 
@@ -8,7 +8,7 @@
 #include "scenes/error.hpp"
 #include "scenes/scene_builder.hpp"
 
-namespace beambench::testing {
+namespace beambench {
 
 namespace {
 
@@ -207,4 +207,4 @@ Ray random_ray(const Scene& scene, Random& random) {
   return ray;
 }
 
-}  // namespace beambench::testing
+}  // namespace beambench

@@ -1,0 +1,152 @@
+// beambench selftest: does a structure keep its contract?
+
+#include "harness/selftest/selftest.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/cli/commands.hpp"
+#include "harness/cli/text.hpp"
+#include "harness/files/pending_file.hpp"
+#include "harness/progress/progress.hpp"
+#include "harness/record/build_info.hpp"
+#include "scenes/error.hpp"
+
+namespace beambench {
+namespace {
+
+struct Request {
+  std::string structures = "all";
+  std::string json;
+  SelftestEffort effort;
+};
+
+/// A check that was made of a structure.
+struct CheckedProperty {
+  std::string structure;
+  const Check* check;
+  CheckOutcome outcome;
+};
+
+std::string_view verdict_of(const CheckOutcome& outcome) {
+  return outcome.passed() ? "ok" : "failed";
+}
+
+std::vector<CheckedProperty> check_all(const std::vector<StructureChoice>& choices,
+                                       const SelftestEffort& effort) {
+  Progress progress(choices.size() * selftest_checks().size());
+  std::vector<CheckedProperty> checked;
+  for (const StructureChoice& choice : choices) {
+    const Subject subject(choice);
+    for (const Check& check : selftest_checks()) {
+      if (!applies(check, subject.conformance())) {
+        progress.skip(1);
+        continue;
+      }
+      progress.start(fmt::format("{}: {}", choice.short_label(), check.name));
+      checked.push_back({choice.short_label(), &check, run_check(check, subject, effort)});
+      progress.finish(std::string(verdict_of(checked.back().outcome)));
+    }
+  }
+  progress.clear();
+  return checked;
+}
+
+void print(const std::vector<CheckedProperty>& checked) {
+  TextTable table({"structure", "check", "rays", "verdict"}, 2);
+  for (const CheckedProperty& property : checked) {
+    table.add({property.structure, std::string(property.check->name),
+               fmt::format("{}", property.outcome.rays),
+               std::string(verdict_of(property.outcome))});
+  }
+  fmt::print("{}", table.text());
+  for (const CheckedProperty& property : checked) {
+    if (property.outcome.passed()) continue;
+    fmt::print("\n{}: {} ({}):\n  {}\n", property.structure, property.check->name,
+               property.check->claim, property.outcome.failure);
+  }
+}
+
+void print_verdicts(const std::vector<CheckedProperty>& checked,
+                    const std::vector<StructureChoice>& choices) {
+  fmt::print("\n");
+  for (const StructureChoice& choice : choices) {
+    const std::string label = choice.short_label();
+    std::size_t made = 0;
+    std::size_t failed = 0;
+    for (const CheckedProperty& property : checked) {
+      if (property.structure != label) continue;
+      ++made;
+      if (!property.outcome.passed()) ++failed;
+    }
+    if (made == 0) {
+      fmt::print("{}: answers nothing by design, so there is nothing to check\n", label);
+    } else if (failed == 0) {
+      fmt::print("{}: ok, it keeps its contract in all {} checks\n", label, made);
+    } else {
+      fmt::print("{}: failed {} of {} checks\n", label, failed, made);
+    }
+  }
+}
+
+void write_json(const Request& request, const std::vector<CheckedProperty>& checked, bool passed) {
+  nlohmann::ordered_json out{{"beambench", build_info().version},
+                             {"seed", request.effort.seed},
+                             {"scenes", request.effort.scenes},
+                             {"passed", passed},
+                             {"checks", nlohmann::ordered_json::array()}};
+  for (const CheckedProperty& property : checked) {
+    out["checks"].push_back({{"structure", property.structure},
+                             {"check", property.check->name},
+                             {"claim", property.check->claim},
+                             {"rays", property.outcome.rays},
+                             {"passed", property.outcome.passed()},
+                             {"failure", property.outcome.failure}});
+  }
+  write_file(request.json, out.dump(2) + '\n');
+}
+
+int selftest(const Request& request) {
+  if (!request.json.empty()) require_writable(request.json);
+  const std::vector<StructureChoice> choices = registry().choose_list(request.structures);
+  const std::vector<CheckedProperty> checked = check_all(choices, request.effort);
+  const bool passed = std::ranges::all_of(
+      checked, [](const CheckedProperty& property) { return property.outcome.passed(); });
+  print(checked);
+  print_verdicts(checked, choices);
+  if (!request.json.empty()) write_json(request, checked, passed);
+  return passed ? kSuccess : kFound;
+}
+
+}  // namespace
+
+void add_selftest_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand(
+      "selftest", "Checks that a structure keeps its contract, over scenes made to break it");
+  const auto request = std::make_shared<Request>();
+  command->add_option("--accel", request->structures, "Structures: NAME:parameter=value,... or all")
+      ->capture_default_str();
+  command->add_option("--scenes", request->effort.scenes, "Random scenes")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  command->add_option("--seed", request->effort.seed, "Of the first random scene")
+      ->capture_default_str();
+  command->add_option("--json", request->json, "Write the outcome to this file, too");
+  command->footer(
+      "Answers are compared with those of exhaustive search, bit for bit; those of a structure "
+      "with\n"
+      "arithmetic of its own are judged by the differ's classes. A structure without parameters\n"
+      "after its name gets random ones in the random scenes. Exits with 1 when a check failed.\n"
+      "Examples:\n"
+      "  beambench selftest --accel samet --scenes 10\n"
+      "  beambench selftest --accel samet:max_level=4,voxel-grid --scenes 5 --json selftest.json");
+  command->callback([request, &exit_code] { exit_code = selftest(*request); });
+}
+
+}  // namespace beambench

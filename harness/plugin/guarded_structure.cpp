@@ -1,0 +1,161 @@
+#include "harness/plugin/guarded_structure.hpp"
+
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "harness/plugin/foreign_call.hpp"
+
+namespace beambench {
+namespace {
+
+/// Passes every call on to the plug-in's structure.
+class GuardedStructure : public Accelerator {
+  template <class Query>
+  decltype(auto) call(Query&& query) const {
+    return foreign_call(file_, when_asked_, std::forward<Query>(query));
+  }
+
+  void require_primitive(PrimitiveId id) const {
+    if (id < primitives_) return;
+    throw PluginError(fmt::format(
+        "the plug-in {} answers nonsense: '{}' names primitive {}, but the scene has {} of them",
+        file_, name_, id, primitives_));
+  }
+  std::optional<Hit> sound(const std::optional<Hit>& hit) const {
+    if (hit) require_primitive(hit->primitive);
+    return hit;
+  }
+
+ public:
+  GuardedStructure(std::unique_ptr<Accelerator> structure, const Scene& scene, std::string file,
+                   std::string name, Activity& activity)
+      : structure_(std::move(structure)),
+        primitives_(scene.primitives.size()),
+        file_(std::move(file)),
+        name_(std::move(name)),
+        when_asked_("when '" + name_ + "' was asked"),
+        activity_(&activity) {}
+
+  std::optional<Hit> closest_hit(const Ray& ray) const override {
+    return sound(call([&] { return structure_->closest_hit(ray); }));
+  }
+  bool any_hit(const Ray& ray) const override {
+    return call([&] { return structure_->any_hit(ray); });
+  }
+  void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
+    call([&] { structure_->trace(rays, buffer); });
+  }
+  void closest_hits(std::span<const Ray> rays, HitBuffer& buffer) const override {
+    call([&] { structure_->closest_hits(rays, buffer); });
+  }
+  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers) const override {
+    call([&] { structure_->any_hits(rays, answers); });
+  }
+
+  std::optional<Hit> closest_hit(const Ray& ray, WorkCounters& counters) const override {
+    return sound(call([&] { return structure_->closest_hit(ray, counters); }));
+  }
+  bool any_hit(const Ray& ray, WorkCounters& counters) const override {
+    return call([&] { return structure_->any_hit(ray, counters); });
+  }
+  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const override {
+    call([&] { structure_->trace(rays, buffer, counters); });
+  }
+  void closest_hits(std::span<const Ray> rays, HitBuffer& buffer,
+                    WorkCounters& counters) const override {
+    call([&] { structure_->closest_hits(rays, buffer, counters); });
+  }
+  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers,
+                WorkCounters& counters) const override {
+    call([&] { structure_->any_hits(rays, answers, counters); });
+  }
+
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const override {
+    call([&] { structure_->trace_shared(rays, buffer); });
+  }
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
+                    WorkCounters& counters) const override {
+    call([&] { structure_->trace_shared(rays, buffer, counters); });
+  }
+
+  std::vector<TraceStep> explain(const Ray& ray) const override {
+    std::vector<TraceStep> steps = call([&] { return structure_->explain(ray); });
+    for (const TraceStep& step : steps) {
+      for (const TestedPrimitive& test : step.tests) require_primitive(test.primitive);
+    }
+    return steps;
+  }
+  std::vector<BeamOutline> beam_outlines(const PrimaryRays& rays) const override {
+    return call([&] { return structure_->beam_outlines(rays); });
+  }
+  std::vector<Box> occupied_cells() const override {
+    return call([&] { return structure_->occupied_cells(); });
+  }
+  Statistics statistics() const override {
+    return call([&] { return structure_->statistics(); });
+  }
+
+  ~GuardedStructure() override {
+    structure_.reset();
+    activity_->clear(Activity::Line::kForeign);
+  }
+
+ private:
+  std::unique_ptr<Accelerator> structure_;
+  std::size_t primitives_;
+  std::string file_;
+  std::string name_;
+  std::string when_asked_;
+  Activity* activity_;
+};
+
+/// A plug-in's function that builds a structure, under watch. It is timed: texts are made before or
+/// when something has gone wrong.
+class GuardedBuild {
+ public:
+  GuardedBuild(const StructureInfo& info, Activity& activity)
+      : build_(info.build),
+        file_(info.origin),
+        name_(info.name),
+        building_(fmt::format("{}: building '{}' over ", file_, name_)),
+        asking_(fmt::format("{}: asking '{}' over ", file_, name_)),
+        when_built_(fmt::format("when '{}' was built", name_)),
+        activity_(&activity) {}
+
+  std::unique_ptr<Accelerator> operator()(const Scene& scene, const Parameters& parameters,
+                                          const Workload& workload) const {
+    activity_->write(Activity::Line::kForeign, building_, scene.name);
+    auto structure = foreign_call(file_, when_built_, [&] {
+      auto built = build_(scene, parameters, workload);
+      if (built != nullptr) parameters.require_given_were_read();
+      return built;
+    });
+    if (structure == nullptr) {
+      throw PluginError(fmt::format("the plug-in {} built no '{}': its function returned nullptr",
+                                    file_, parameters.label()));
+    }
+    activity_->write(Activity::Line::kForeign, asking_, scene.name);
+    return std::make_unique<GuardedStructure>(std::move(structure), scene, file_, name_,
+                                              *activity_);
+  }
+
+ private:
+  decltype(StructureInfo::build) build_;
+  std::string file_;
+  std::string name_;
+  std::string building_;
+  std::string asking_;
+  std::string when_built_;
+  Activity* activity_;
+};
+
+}  // namespace
+
+StructureInfo guarded(StructureInfo info, Activity& activity) {
+  info.build = GuardedBuild(info, activity);
+  return info;
+}
+
+}  // namespace beambench

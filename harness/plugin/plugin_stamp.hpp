@@ -1,0 +1,95 @@
+#pragma once
+// What must be equal on both sides of a plug-in's door, looked at before anything is called.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <version>
+
+#include "accel/registry.hpp"
+#include "accel/traversal_accelerator.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// Counted up when a header that is installed changes so that a plug-in made with the old one would
+/// err: a virtual function, a type, the meaning of a call.
+inline constexpr std::uint32_t kPluginInterface = 1;
+
+/// Says which build made a plug-in. The first two members stand where they stand for ever.
+struct PluginStamp {
+  std::uint64_t magic;
+  std::uint32_t interface_version;
+  bool optimised;
+  std::uint64_t layout;      ///< fingerprint of the types that cross the door
+  const char* library;       ///< the C++ library and its binary interface
+  const char* compiler;      ///< need not be the program's
+  const char* instructions;  ///< what it was compiled to use
+};
+
+namespace plugin_stamp {
+
+/// Sizes and alignments of all types that cross the door, folded by FNV-1a: they change with the
+/// project's headers, and with macros that change GLM or the C++ library.
+template <class... Types>
+constexpr std::uint64_t layout_of() {
+  std::uint64_t hash = 0xCBF29CE484222325U;
+  for (const std::size_t number : {sizeof(Types)..., alignof(Types)...}) {
+    hash = (hash ^ number) * 0x100000001B3U;
+  }
+  return hash;
+}
+
+inline constexpr std::uint64_t kMagic = 0x636E65626D616562U;  // "beambenc" in memory
+inline constexpr std::uint64_t kLayout =
+    layout_of<glm::vec3, glm::dvec3, Scene, Camera, Surface, Light, Primitive, Sphere, Cone,
+              Polygon, Triangle, Bounds, Ray, Hit, HitBuffer, PrimaryRays, WorkCounters, Statistics,
+              TraceStep, BeamOutline, Box, Accelerator, Workload, Parameters, ParameterInfo,
+              StructureInfo, SceneInfo, SceneReader>();
+
+#if defined(_LIBCPP_VERSION)
+inline constexpr const char* kLibrary = "libc++";
+#elif defined(_GLIBCXX_DEBUG)
+inline constexpr const char* kLibrary = "libstdc++ in debug mode";
+#elif defined(_GLIBCXX_USE_CXX11_ABI) && !_GLIBCXX_USE_CXX11_ABI
+inline constexpr const char* kLibrary = "libstdc++ with the strings of before C++11";
+#else
+inline constexpr const char* kLibrary = "libstdc++";
+#endif
+
+#if defined(__clang__)
+inline constexpr const char* kCompiler = __VERSION__;
+#else
+inline constexpr const char* kCompiler = "GCC " __VERSION__;
+#endif
+
+#if defined(__AVX512F__)
+inline constexpr const char* kInstructions = "AVX-512";
+#elif defined(__AVX2__) && defined(__FMA__)
+inline constexpr const char* kInstructions = "AVX2 and FMA";
+#elif defined(__AVX2__)
+inline constexpr const char* kInstructions = "AVX2";
+#elif defined(__AVX__)
+inline constexpr const char* kInstructions = "AVX";
+#elif defined(__SSE4_2__)
+inline constexpr const char* kInstructions = "SSE4.2";
+#else
+inline constexpr const char* kInstructions = "the processor family's baseline";
+#endif
+
+#if defined(__OPTIMIZE__)
+inline constexpr bool kOptimised = true;
+#else
+inline constexpr bool kOptimised = false;
+#endif
+
+}  // namespace plugin_stamp
+
+/// The stamp of the code that includes this.
+inline constexpr PluginStamp kPluginStamp{plugin_stamp::kMagic,       kPluginInterface,
+                                          plugin_stamp::kOptimised,   plugin_stamp::kLayout,
+                                          plugin_stamp::kLibrary,     plugin_stamp::kCompiler,
+                                          plugin_stamp::kInstructions};
+
+}  // namespace beambench

@@ -1,0 +1,128 @@
+#include "harness/selftest/answer_checks.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "harness/selftest/awkward_scenes.hpp"
+#include "harness/selftest/comparison.hpp"
+#include "harness/selftest/random_scene.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/error.hpp"
+
+namespace beambench {
+namespace {
+
+constexpr std::uint64_t kMostPrimitives = 60;
+constexpr int kRays = 300;
+
+std::vector<Ray> random_rays(const Scene& scene, Random& random) {
+  std::vector<Ray> rays;
+  for (int i = 0; i < kRays; ++i) rays.push_back(random_ray(scene, random));
+  return rays;
+}
+
+/// Adds what one scene had to tell to what was found before.
+void add(CheckOutcome& outcome, std::size_t rays, const std::string& where, std::string wrong) {
+  outcome.rays += rays;
+  if (!wrong.empty()) outcome.failure = fmt::format("{}: {}", where, wrong);
+}
+
+CheckOutcome ask_about(const Subject& subject, const SceneWithRays& made) {
+  CheckOutcome outcome;
+  const auto structure = subject.build(made.scene);
+  add(outcome, made.rays.size(), made.scene.name,
+      Comparison(made.scene, subject.conformance()).single_rays(*structure, made.rays));
+  return outcome;
+}
+
+}  // namespace
+
+CheckOutcome check_random_scenes(const Subject& subject, const SelftestEffort& effort) {
+  CheckOutcome outcome;
+  std::uint64_t hits = 0;
+  std::uint64_t refused = 0;
+  for (std::uint64_t i = 0; i < effort.scenes && outcome.passed(); ++i) {
+    const std::uint64_t seed = effort.seed + i;
+    Random random(seed);
+    // Small scenes first: what fails is easy to look at.
+    const auto primitives = static_cast<int>(1 + i * kMostPrimitives / effort.scenes);
+    const Scene scene = random_scene(seed, primitives);
+    const StructureChoice choice = subject.vary(random);
+    std::unique_ptr<Accelerator> structure;
+    try {
+      structure = choice.build(scene);
+    } catch (const InputError&) {  // it may refuse what it cannot do, but not everything
+      ++refused;
+      continue;
+    }
+    const std::vector<Ray> rays = random_rays(scene, random);
+    const Comparison comparison(scene, subject.conformance());
+    hits += comparison.count_hits(rays);
+    add(outcome, rays.size(),
+        fmt::format("random scene of seed {} with {} primitives, {}", seed, primitives,
+                    choice.short_label()),
+        comparison.single_rays(*structure, rays));
+  }
+  if (outcome.passed() && 2 * refused > effort.scenes) {
+    outcome.failure = fmt::format("it refused {} of {} scenes", refused, effort.scenes);
+  }
+  // Rays that all hit or all miss would prove little.
+  if (outcome.passed() && effort.scenes >= 40 &&
+      (hits < outcome.rays / 5 || hits > outcome.rays * 4 / 5)) {
+    outcome.failure =
+        fmt::format("{} of {} rays hit: the rays are badly chosen", hits, outcome.rays);
+  }
+  return outcome;
+}
+
+CheckOutcome check_images(const Subject& subject, const SelftestEffort&) {
+  CheckOutcome outcome;
+  for (const char* name : {"tetra:n=3", "balls:n=2", "escena1", "escena2", "bumpy:triangles=768"}) {
+    const Scene scene = load_scene(name);
+    const auto structure = subject.build(scene);
+    for (const int samples : {1, 5}) {
+      const PrimaryRays rays(scene.cameras.front(), 41, 33, samples);
+      add(outcome, rays.count(), fmt::format("{} with {} samples a pixel", name, samples),
+          Comparison(scene, subject.conformance()).image(*structure, rays));
+      if (!outcome.passed()) return outcome;
+    }
+  }
+  return outcome;
+}
+
+CheckOutcome check_smallest_scenes(const Subject& subject, const SelftestEffort& effort) {
+  CheckOutcome outcome;
+  for (Scene& scene : smallest_scenes()) {
+    Random random(effort.seed);
+    std::vector<Ray> rays{Ray{}};
+    if (!scene.primitives.empty()) rays = random_rays(scene, random);
+    const CheckOutcome found = ask_about(subject, {std::move(scene), std::move(rays)});
+    outcome.rays += found.rays;
+    outcome.failure = found.failure;
+    if (!outcome.passed()) break;
+  }
+  return outcome;
+}
+
+CheckOutcome check_faces_edges_corners(const Subject& subject, const SelftestEffort&) {
+  CheckOutcome cubes = ask_about(subject, cubes_on_a_lattice());
+  if (!cubes.passed()) return cubes;
+  CheckOutcome block = ask_about(subject, block_of_squares());
+  block.rays += cubes.rays;
+  return block;
+}
+
+CheckOutcome check_heap(const Subject& subject, const SelftestEffort&) {
+  return ask_about(subject, heap_of_spheres());
+}
+
+CheckOutcome check_degenerate_rays(const Subject& subject, const SelftestEffort& effort) {
+  Scene scene = random_scene(effort.seed, 40);
+  std::vector<Ray> rays = degenerate_rays(scene, effort.seed);
+  return ask_about(subject, {std::move(scene), std::move(rays)});
+}
+
+}  // namespace beambench

@@ -1,0 +1,253 @@
+#include "harness/selftest/behaviour_checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "harness/rays/answers.hpp"
+#include "harness/selftest/comparison.hpp"
+#include "harness/selftest/random_scene.hpp"
+
+namespace beambench {
+namespace {
+
+constexpr int kPrimitives = 40;
+
+using Counts = std::map<std::string, std::uint64_t, std::less<>>;
+
+/// A scene and rays for all these checks: no multiple of a packet's size, some of them short.
+struct Ground {
+  explicit Ground(std::uint64_t seed) : scene(random_scene(seed, kPrimitives)) {
+    Random random(seed);
+    for (int i = 0; i < 503; ++i) {
+      rays.push_back(random_ray(scene, random));
+      if (i % 3 == 0) rays.back().t_max = 0.5F * static_cast<float>(i);
+    }
+  }
+
+  PrimaryRays image() const { return {scene.cameras.front(), 37, 23, 5}; }
+
+  Scene scene;
+  std::vector<Ray> rays;
+};
+
+/// All that a structure can be asked.
+std::vector<Question> questions(const Ground& ground) {
+  return {Question(RaySet{"closest", Query::kClosestHit, 0, std::nullopt, ground.rays}),
+          Question(RaySet{"any", Query::kAnyHit, 0, std::nullopt, ground.rays}),
+          Question(ground.image())};
+}
+
+/// Nothing of an earlier answer can be taken for one of these.
+template <class... Counters>
+Answers asked(const Accelerator& structure, const Question& question, Counters&... counters) {
+  Answers answers = room_for(question);
+  poison(answers);
+  ask(structure, question, answers, counters...);
+  return answers;
+}
+
+std::string first_difference(const Answers& a, const Answers& b, std::string_view what) {
+  if (a == b) return "";
+  return fmt::format("{} are not the same", what);
+}
+
+/// Times, which some families count, too, are their own each time.
+std::string first_difference(const Counts& a, const Counts& b) {
+  for (const auto& [name, count] : a) {
+    if (name.ends_with("_ns")) continue;
+    const auto other = b.find(name);
+    if (other == b.end() || other->second != count) {
+      return fmt::format("two builds count {} {} and {} for the same rays", count, name,
+                         other == b.end() ? 0 : other->second);
+    }
+  }
+  return a.size() == b.size() ? "" : "two builds count other things";
+}
+
+/// What is wrong with the counters of one ray; empty: nothing.
+std::string impossible_count(const Ray& ray, bool hit, const WorkCounters& counters) {
+  const auto count = [&](Counter counter) { return counters.get(counter); };
+  if (hit && count(Counter::kPrimitiveTests) == 0) {
+    return show(ray) + " found a hit without a primitive test counted";
+  }
+  if (count(Counter::kEmptyLeaves) > count(Counter::kLeaves)) {
+    return show(ray) + " entered more empty leaves than leaves";
+  }
+  if (count(Counter::kLeaves) > count(Counter::kTraversalSteps)) {
+    return show(ray) + " entered more leaves than nodes or cells, which include them";
+  }
+  return "";
+}
+
+}  // namespace
+
+CheckOutcome check_lists(const Subject& subject, const SelftestEffort& effort) {
+  const Ground ground(effort.seed);
+  const auto structure = subject.build(ground.scene);
+  const std::vector<Question> all = questions(ground);
+  const auto closest = std::get<HitBuffer>(asked(*structure, all[0]));
+  const auto any = std::get<AnyHits>(asked(*structure, all[1]));
+  for (std::size_t i = 0; i < ground.rays.size(); ++i) {
+    const Ray& ray = ground.rays[i];
+    const Hit written{closest.t()[i], closest.primitive()[i]};
+    const auto alone = structure->closest_hit(ray);
+    if (written != alone.value_or(Hit{kInfinity, kNoPrimitive})) {
+      return {ground.rays.size(),
+              fmt::format("{} gets {} alone, but t {:a} and primitive {} in a list (a miss is "
+                          "infinity and {})",
+                          show(ray), show(alone), written.t, written.primitive, kNoPrimitive)};
+    }
+    if (any[i] != (structure->any_hit(ray) ? 1 : 0)) {
+      return {ground.rays.size(), fmt::format("any_hit of {} is {} alone, but {} in a list",
+                                              show(ray), structure->any_hit(ray), any[i])};
+    }
+  }
+  return {ground.rays.size(), ""};
+}
+
+CheckOutcome check_counting(const Subject& subject, const SelftestEffort& effort) {
+  const Ground ground(effort.seed);
+  const auto structure = subject.build(ground.scene);
+  CheckOutcome outcome;
+  WorkCounters counters;
+  for (const Question& question : questions(ground)) {
+    outcome.rays += question.size();
+    outcome.failure =
+        first_difference(asked(*structure, question), asked(*structure, question, counters),
+                         "answers with and without counting");
+    if (!outcome.passed()) return outcome;
+  }
+  for (const Ray& ray : ground.rays) {
+    if (structure->closest_hit(ray) != structure->closest_hit(ray, counters) ||
+        structure->any_hit(ray) != structure->any_hit(ray, counters)) {
+      outcome.failure = show(ray) + " gets another answer when work is counted";
+      return outcome;
+    }
+  }
+  return outcome;
+}
+
+CheckOutcome check_two_builds(const Subject& subject, const SelftestEffort& effort) {
+  const Ground ground(effort.seed);
+  const auto first = subject.build(ground.scene);
+  const auto second = subject.build(ground.scene);
+  CheckOutcome outcome;
+  for (const Question& question : questions(ground)) {
+    outcome.rays += question.size();
+    WorkCounters counters_of_first;
+    WorkCounters counters_of_second;
+    outcome.failure =
+        first_difference(asked(*first, question, counters_of_first),
+                         asked(*second, question, counters_of_second), "the answers of two builds");
+    if (outcome.passed()) {
+      outcome.failure = first_difference(counters_of_first.by_name(), counters_of_second.by_name());
+    }
+    if (!outcome.passed()) return outcome;
+  }
+  const Statistics a = first->statistics();
+  const Statistics b = second->statistics();
+  if (a.nodes != b.nodes || a.leaves != b.leaves || a.references != b.references ||
+      a.depth != b.depth) {
+    outcome.failure = "two builds over one scene have other nodes, leaves, references or depth";
+  }
+  return outcome;
+}
+
+CheckOutcome check_threads(const Subject& subject, const SelftestEffort& effort) {
+  const Ground ground(effort.seed);
+  const auto structure = subject.build(ground.scene);
+  const std::vector<Question> all = questions(ground);
+  const Answers closest = asked(*structure, all[0]);
+  const Answers any = asked(*structure, all[1]);
+  std::array<std::string, 4> wrong;
+  {
+    std::vector<std::jthread> threads;
+    threads.reserve(wrong.size());
+    for (std::string& mine : wrong) {
+      threads.emplace_back([&] {
+        try {
+          for (int again = 0; again < 3; ++again) {
+            if (asked(*structure, all[0]) != closest || asked(*structure, all[1]) != any) {
+              mine = "four threads at once get other answers than one alone";
+            }
+          }
+        } catch (const std::exception& error) {
+          mine = error.what();
+        }
+      });
+    }
+  }
+  CheckOutcome outcome{wrong.size() * 3 * 2 * ground.rays.size(), ""};
+  for (const std::string& one : wrong) {
+    if (!one.empty()) outcome.failure = one;
+  }
+  return outcome;
+}
+
+CheckOutcome check_counters(const Subject& subject, const SelftestEffort& effort) {
+  const Ground ground(effort.seed);
+  const auto structure = subject.build(ground.scene);
+  CheckOutcome outcome;
+  WorkCounters all;
+  for (const Ray& ray : ground.rays) {
+    ++outcome.rays;
+    WorkCounters counters;
+    const auto hit = structure->closest_hit(ray, counters);
+    all.add(counters);
+    if (outcome.passed()) outcome.failure = impossible_count(ray, hit.has_value(), counters);
+  }
+  // A structure need not count; then records leave its counters empty.
+  const bool counts =
+      std::ranges::any_of(all.by_name(), [](const auto& c) { return c.second > 0; });
+  return counts ? outcome : CheckOutcome{outcome.rays, ""};
+}
+
+CheckOutcome check_statistics(const Subject& subject, const SelftestEffort& effort) {
+  const Ground ground(effort.seed);
+  const Statistics told = subject.build(ground.scene)->statistics();
+  const auto wrong = [](std::string what) { return CheckOutcome{0, std::move(what)}; };
+  if (told.leaves > told.nodes)
+    return wrong("there are more leaves than nodes, which include them");
+  if (told.empty_leaves > told.leaves) return wrong("there are more empty leaves than leaves");
+  if (told.depth > told.nodes) return wrong("it is deeper than it has nodes");
+  if (told.nodes > 0 && told.bytes == 0) return wrong("there are nodes, but they take no memory");
+  for (const auto& [name, value] : told.more) {
+    if (!std::isfinite(value)) return wrong(fmt::format("'{}' is no number", name));
+  }
+  return {};
+}
+
+CheckOutcome check_explanation(const Subject& subject, const SelftestEffort& effort) {
+  const Ground ground(effort.seed);
+  const auto structure = subject.build(ground.scene);
+  CheckOutcome outcome;
+  for (const Ray& ray : ground.rays) {
+    const std::vector<TraceStep> steps = structure->explain(ray);
+    if (steps.empty()) continue;
+    ++outcome.rays;
+    std::optional<Hit> nearest;
+    for (const TraceStep& step : steps) {
+      for (const TestedPrimitive& test : step.tests) {
+        const Hit hit{test.t, test.primitive};
+        if (test.t == test.t && (!nearest || precedes(hit, *nearest))) nearest = hit;
+      }
+    }
+    const auto found = structure->closest_hit(ray);
+    // A structure that tells no tests explains its way, not its hit.
+    if (nearest && nearest != found) {
+      outcome.failure = fmt::format("{} is explained to hit {}, but hits {}", show(ray),
+                                    show(nearest), show(found));
+      return outcome;
+    }
+  }
+  return outcome;
+}
+
+}  // namespace beambench

@@ -1,0 +1,43 @@
+// The way into beambench: what is brought, under which name, with which parameters.
+
+#include <cmath>
+#include <memory>
+
+#include "median_bvh.hpp"
+
+namespace {
+
+std::unique_ptr<beambench::Accelerator> build_median_bvh(const beambench::Scene& scene,
+                                                         const beambench::Parameters& parameters,
+                                                         const beambench::Workload&) {
+  return std::make_unique<MedianBvh>(scene,
+                                     static_cast<std::uint32_t>(parameters.integer("max_leaf")));
+}
+
+beambench::Scene generate_helix(const beambench::Parameters& parameters) {
+  beambench::SceneBuilder builder(parameters.label());
+  const auto count = parameters.integer("spheres");
+  for (std::int64_t i = 0; i < count; ++i) {
+    const double turn = 0.2 * static_cast<double>(i);
+    builder.add_sphere({std::cos(turn), std::sin(turn), 0.02 * static_cast<double>(i)}, 0.08);
+  }
+  return std::move(builder).build();
+}
+
+}  // namespace
+
+const beambench::Plugin beambench_plugin{
+    .description = "A hierarchy to start from, and a scene to try it on",
+    .fill = [](beambench::PluginContents& contents) {
+      contents.structures.push_back(
+          {"mine",
+           "a binary hierarchy split at the median",
+           beambench::Conformance::kBitExact,
+           {beambench::integer_parameter("max_leaf", 4, 1, 64, "most primitives of a leaf")},
+           build_median_bvh});
+      contents.scenes.push_back(
+          {"helix",
+           "spheres on a helix",
+           {beambench::integer_parameter("spheres", 200, 1, 100000, "how many")},
+           generate_helix});
+    }};

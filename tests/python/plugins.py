@@ -1,0 +1,53 @@
+"""Plug-ins for the tests, built as their authors build them: with the package alone."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from program import BINARY
+
+BUILD = BINARY.resolve().parents[1]
+SOURCES = Path(__file__).resolve().parents[1] / "plugin"
+
+
+def run(*command: str | Path, cwd: Path | None = None) -> None:
+    done = subprocess.run(
+        list(map(str, command)), cwd=cwd, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}"
+
+
+def installed(prefix: Path) -> Path:
+    """What `cmake --install` brings; skips the test where the build folder is not complete."""
+    if not (BUILD / "beambenchConfig.cmake").exists():
+        pytest.skip("the program is not in its build folder")
+    run("cmake", "--install", BUILD, "--prefix", prefix)
+    return prefix
+
+
+def built(source: Path, folder: Path, package: Path, *options: str) -> Path:
+    """The folder with the shared objects of an outside project, found by the package alone."""
+    launcher = shutil.which("ccache")
+    speed = [f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}"] if launcher else []
+    found = f"-DCMAKE_PREFIX_PATH={package}"
+    run("cmake", "-G", "Ninja", "-S", source, "-B", folder, found, *speed, *options)
+    run("cmake", "--build", folder)
+    return folder
+
+
+def call(
+    *arguments: str | Path, fault: str = "", program: Path = BINARY, **environment: str
+) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [program, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=False,
+        env={**os.environ, "FAULT": fault, **environment},
+    )

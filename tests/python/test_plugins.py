@@ -1,0 +1,298 @@
+"""Structures and scenes of one's own, in shared objects: taken in, measured, refused, survived."""
+
+from __future__ import annotations
+
+import csv
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from plugins import BUILD, SOURCES, built, call, installed
+from program import refused
+
+SWEEP = {
+    "name": "plugged",
+    "scenes": ["tetra:n=2", "row:n=2"],
+    "structures": ["exhaustive", "faulty"],
+    "resolutions": ["16x12"],
+    "budget_seconds": 20,
+    "repetitions": {"minimum": 2, "maximum": 2},
+}
+
+
+@pytest.fixture(scope="module")
+def prefix(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return installed(tmp_path_factory.mktemp("prefix"))
+
+
+@pytest.fixture(scope="module")
+def template(prefix: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The template, built with what is installed."""
+    return built(SOURCES / "template", tmp_path_factory.mktemp("template"), prefix) / "libmine.so"
+
+
+@pytest.fixture(scope="module")
+def faulty_folder(prefix: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Built with the package of the build folder."""
+    del prefix  # it skips the tests where there is none
+    return built(SOURCES / "faulty", tmp_path_factory.mktemp("faulty"), BUILD)
+
+
+@pytest.fixture(scope="module")
+def faulty(faulty_folder: Path) -> Path:
+    return faulty_folder / "libfaulty.so"
+
+
+def sweep(
+    tmp_path: Path, plugin: Path, fault: str, **changes: object
+) -> tuple[int, list[dict], str]:
+    """Exit code, rows and messages of a small sweep."""
+    config = tmp_path / "sweep.json"
+    config.write_text(json.dumps({**SWEEP, **changes}))
+    done = call("--plugin", plugin, "run", config, "-o", tmp_path / "run", fault=fault)
+    results = tmp_path / "run/results.csv"
+    rows = list(csv.DictReader(results.open())) if results.exists() else []
+    return done.returncode, rows, done.stderr
+
+
+# What is installed
+
+
+def test_installed_headers_include_only_each_other_and_all_are_the_plug_ins(prefix: Path) -> None:
+    include = prefix / "include/beambench"
+    headers = {str(path.relative_to(include)) for path in include.rglob("*.hpp")}
+    reached, waiting = set(), ["plugin.hpp"]
+    while waiting:
+        name = waiting.pop()
+        if name in reached:
+            continue
+        reached.add(name)
+        waiting += re.findall(r'#include "(.*)"', (include / name).read_text())
+    assert reached == headers
+
+
+def test_the_installed_program_takes_the_template_in(prefix: Path, template: Path) -> None:
+    program = prefix / "bin/beambench"
+    done = call("--plugin", template, "verify", "helix:spheres=40", "balls:n=1", "--accel",
+                "exhaustive,mine,mine:max_leaf=1", "--resolution", "64x48",
+                program=program)  # fmt: skip
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert done.stdout.count(" ok") == 6
+
+
+def test_find_package_takes_no_other_version(prefix: Path, tmp_path: Path) -> None:
+    (tmp_path / "CMakeLists.txt").write_text(
+        "cmake_minimum_required(VERSION 3.25)\nproject(other CXX)\n"
+        "find_package(beambench 9.0 REQUIRED)\n"
+    )
+    with pytest.raises(AssertionError, match="compatible with requested version"):
+        built(tmp_path, tmp_path / "build", prefix)
+
+
+# What is taken in
+
+
+def test_list_says_what_is_brought_and_by_whom(template: Path, faulty: Path) -> None:
+    text = call("--plugin", template, "list", "--plugin", faulty).stdout
+    assert f"mine  [bit-exact]  (of {template})" in text
+    assert f"helix  (of {template})" in text
+    assert f"*.row  (of {faulty})" in text
+    assert "A hierarchy to start from" in text
+    everything = json.loads(call("--plugin", template, "list", "--json").stdout)
+    origins = {structure["name"]: structure["origin"] for structure in everything["structures"]}
+    assert origins["mine"] == str(template)
+    assert origins["samet"] == "built in"
+    names = [scene["name"] for scene in everything["scenes"]]
+    assert names == sorted(names)
+
+
+def test_the_environment_names_files_and_folders(template: Path, faulty_folder: Path) -> None:
+    folder = faulty_folder / "only"
+    folder.mkdir()
+    (folder / "libfaulty.so").symlink_to(faulty_folder / "libfaulty.so")
+    text = call("list", BEAMBENCH_PLUGINS=f"{template}:{folder}").stdout
+    assert "mine  [" in text
+    assert "faulty  [" in text
+
+
+def test_a_sweep_measures_it_and_the_manifest_says_what_it_was(
+    template: Path, tmp_path: Path
+) -> None:
+    code, rows, messages = sweep(
+        tmp_path, template, "", structures=["mine", "sah-bvh"], scenes=["helix"]
+    )
+    assert code == 0, messages
+    assert [row["verdict"] for row in rows] == ["ok", "ok"]
+    mine = next(row for row in rows if row["structure"] == "mine")
+    assert float(mine["trace_ms_median"]) > 0
+    assert float(mine["primitive_tests_per_ray"]) > 0
+    (plugin,) = json.loads((tmp_path / "run/manifest.json").read_text())["plugins"]
+    assert plugin["file"] == str(template)
+    assert re.fullmatch("[0-9a-f]{16}", plugin["hash"])
+    assert plugin["structures"] == ["mine"]
+    assert plugin["scenes"] == ["helix"]
+    assert plugin["optimised"]
+
+
+def test_a_run_goes_on_with_the_same_plug_ins_only(template: Path, tmp_path: Path) -> None:
+    sweep(tmp_path, template, "", structures=["mine"], scenes=["balls:n=1"])
+    refused(call("run", "--resume", tmp_path / "run"), ["mine"])
+    other = tmp_path / "libother.so"
+    other.write_bytes(template.read_bytes())
+    refused(
+        call("--plugin", other, "run", "--resume", tmp_path / "run"), ["--plugin", str(template)]
+    )
+
+
+def test_a_scene_is_named_as_it_is_asked_for_and_a_file_by_its_path(
+    faulty: Path, tmp_path: Path
+) -> None:
+    done = call("--plugin", faulty, "scene", "row:n=5", "--json")
+    assert json.loads(done.stdout)["name"] == "row:n=5"
+    file = tmp_path / "some.row"
+    file.write_text("")
+    done = call("--plugin", faulty, "scene", file, "--json")
+    assert json.loads(done.stdout)["name"] == str(file)
+    assert "2: a word was skipped" in done.stderr
+    done = call("--plugin", faulty, "scene", file, "--strict")
+    refused(done, ["a word was skipped"])
+    refused(call("--plugin", faulty, "scene", file, fault="reader refuses"), ["holds no spheres"])
+
+
+# What is refused
+
+
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        ("throw in fill", ["threw", "while it was loaded", "not ready"]),
+        ("throw at load", ["crashed", "SIGABRT", "not taken in"]),
+        ("crash at load", ["crashed", "SIGSEGV", "not taken in"]),
+        ("exit at load", ["ended the process", "not taken in"]),
+        ("hang in fill", ["did not come to an end", "not taken in"]),
+        ("brings nothing", ["brings nothing"]),
+        ("taken name", ["'samet'", "rename it"]),
+        ("no name", ["'my structure:1'", "letters, digits"]),
+        ("reserved", ["'all'", "letters, digits"]),
+        ("name given twice", ["'faulty'", "rename it"]),
+        ("taken scene", ["'balls'", "rename it"]),
+        ("taken ending", ["'.obj'", "read already"]),
+        ("no summary", ["without a summary"]),
+        ("no function", ["without a function to build"]),
+        ("default out of range", ["defaults it would refuse", "leaf"]),
+    ],
+)
+def test_it_is_refused_by_name(faulty: Path, fault: str, words: list[str]) -> None:
+    done = call("--plugin", faulty, "list", fault=fault)
+    assert done.returncode == 2, (done.stdout, done.stderr)
+    assert done.stdout == ""
+    message = done.stderr.splitlines()[-1]
+    assert message.startswith(f"beambench: the plug-in {faulty}")
+    for word in words:
+        assert word in message
+
+
+def test_what_is_no_plug_in_is_refused(faulty_folder: Path, tmp_path: Path) -> None:
+    refused(call("list", "--plugin"), ["--plugin needs a file"])
+    refused(call("--plugin", tmp_path / "nowhere.so", "list"), ["nowhere.so", "is not there"])
+    refused(call("--plugin", tmp_path, "list"), ["is not a file"])
+    text = tmp_path / "text.so"
+    text.write_text("not a shared object")
+    refused(call("--plugin", text, "list"), ["text.so", "cannot be loaded"])
+    stranger = faulty_folder / "libstranger.so"
+    refused(call("--plugin", stranger, "list"), ["libstranger.so", "no plug-in of beambench"])
+
+
+def test_another_interface_is_refused_by_its_stamp(template: Path, tmp_path: Path) -> None:
+    code = template.read_bytes()
+    stamp = code.index(b"beambenc\1\0\0\0")
+
+    def refusal_of(offset: int, words: list[str]) -> None:
+        changed = bytearray(code)
+        changed[stamp + offset] ^= 2
+        file = tmp_path / "libchanged.so"
+        file.write_bytes(changed)
+        refused(call("--plugin", file, "list"), ["libchanged.so", *words])
+
+    refusal_of(0, ["no plug-in of beambench"])
+    refusal_of(8, ["version 3 of the interface", "this program has 1", "build it again"])
+    refusal_of(16, ["other types", "build it again"])
+
+
+# What is survived
+
+
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        ("throw in build", ["threw when 'faulty' was built", "no memory of that"]),
+        ("throw a number in build", ["threw when 'faulty' was built", "no std::exception"]),
+        ("nothing built", ["built no 'faulty", "nullptr"]),
+        ("parameter ignored", ["'faulty' was built", "leaf"]),
+        ("throw in trace", ["threw when 'faulty' was asked", "lost the way"]),
+        ("throw in statistics", ["threw when 'faulty' was asked", "never counted"]),
+        ("crash in build", ["building 'faulty'", "crashed", "SIGSEGV"]),
+        ("crash in trace", ["asking 'faulty'", "crashed", "SIGSEGV"]),
+        ("abort in trace", ["asking 'faulty'", "crashed", "SIGABRT"]),
+        ("exit in trace", ["asking 'faulty'", "ended the process"]),
+    ],
+)
+def test_a_sweep_says_in_the_row_what_went_wrong_and_goes_on(
+    faulty: Path, tmp_path: Path, fault: str, words: list[str]
+) -> None:
+    structures = ["exhaustive", "faulty:leaf=3"]
+    code, rows, messages = sweep(tmp_path, faulty, fault, structures=structures)
+    assert code == 1, messages
+    verdicts = {(row["structure"], row["verdict"]) for row in rows}
+    assert verdicts == {("exhaustive", "ok"), ("faulty", "error")}
+    assert len(rows) == 4
+    for row in rows:
+        assert (row["trace_ms_median"] == "") == (row["structure"] == "faulty")
+    cells = [json.loads(path.read_text()) for path in (tmp_path / "run/cells").iterdir()]
+    told = [cell["message"] for cell in cells if "faulty" in cell["name"]]
+    assert len(told) == 2
+    for message in told:
+        assert str(faulty) in message
+        for word in words:
+            assert word in message
+
+
+@pytest.mark.parametrize("fault", ["primitive out of range", "t is no number", "answers nothing"])
+def test_nonsense_is_no_result(faulty: Path, tmp_path: Path, fault: str) -> None:
+    code, rows, _ = sweep(tmp_path, faulty, fault)
+    assert code == 1
+    faults = [row for row in rows if row["structure"] == "faulty"]
+    assert {row["verdict"] for row in faults} == {"mismatch"}
+    assert {row["trace_ms_median"] for row in faults} == {""}
+    done = call("--plugin", faulty, "verify", "row", "--accel", "faulty", fault=fault)
+    assert done.returncode == 1
+    assert "mismatch" in done.stdout
+    assert f"replay beambench --plugin {faulty} trace row" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("fault", "words"),
+    [
+        ("throw in trace", ["threw when 'faulty' was asked"]),
+        ("crash in build", ["building 'faulty' over row", "crashed (SIGSEGV", "gdb"]),
+        ("crash in trace", ["asking 'faulty' over row", "crashed (SIGSEGV"]),
+        ("primitive out of range", ["answers nonsense", "4000000000"]),
+        ("throw in scene", ["threw when it made the scene row", "no idea"]),
+        ("crash in scene", ["making the scene row", "crashed"]),
+        ("scene beyond its arrays", ["broken scene row", "primitive 0", "not there"]),
+    ],
+)
+def test_a_picture_of_it_fails_by_name(
+    faulty: Path, tmp_path: Path, fault: str, words: list[str]
+) -> None:
+    picture = tmp_path / "out.png"
+    done = call("--plugin", faulty, "render", "row", "--accel", "faulty", "-o", picture,
+                "--shade", "whitted", fault=fault)  # fmt: skip
+    assert done.returncode == 1, done.stderr
+    assert not picture.exists()
+    message = done.stderr.splitlines()[-1]
+    assert message.startswith(f"beambench: the plug-in {faulty}")
+    for word in words:
+        assert word in message
