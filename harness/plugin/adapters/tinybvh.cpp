@@ -1,0 +1,110 @@
+// Jacco Bikker's tinybvh (https://github.com/jbikker/tinybvh, MIT) as a plug-in.
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#define NO_THREADED_BUILDS  // one thread for everyone
+#define TINYBVH_IMPLEMENTATION
+#include <glm/geometric.hpp>
+#include <tiny_bvh.h>
+
+#include "scene_triangles.hpp"
+
+namespace {
+
+using namespace beambench;
+
+tinybvh::bvhvec3 vec3(const glm::vec3& v) { return {v.x, v.y, v.z}; }
+
+/// One of tinybvh's layouts over the triangles of a scene. It normalises directions and knows no
+/// t_min, so rays begin at their t_min and t is scaled back.
+template <class Layout>
+class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
+ public:
+  TinyBvh(const Scene& scene, bool high_quality, bool confirm) : scene_(&scene), confirm_(confirm) {
+    for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
+      for (const glm::vec3& corner : adapters::corners(scene, i)) {
+        vertices_.push_back({corner.x, corner.y, corner.z, 0.0F});
+      }
+    }
+    const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
+    if (triangles == 0) return;
+    if (high_quality) {
+      layout_.BuildHQ(vertices_.data(), triangles);
+    } else {
+      layout_.Build(vertices_.data(), triangles);
+    }
+  }
+
+  template <class Counting>
+  std::optional<Hit> find_closest(const Ray& ray, Counting&) const {
+    if (vertices_.empty() || ray.t_min > ray.t_max) return std::nullopt;
+    const float length = glm::length(ray.direction);
+    tinybvh::Ray asked = begun(ray, length);
+    const float end = asked.hit.t;
+    layout_.Intersect(asked);
+    if (!(asked.hit.t < end)) return std::nullopt;
+    if (confirm_) return adapters::confirmed(*scene_, ray, asked.hit.prim);
+    return Hit{ray.t_min + asked.hit.t / length, scene_->triangles[asked.hit.prim].primitive};
+  }
+
+  template <class Counting>
+  bool find_any(const Ray& ray, Counting&) const {
+    if (vertices_.empty() || ray.t_min > ray.t_max) return false;
+    return layout_.IsOccluded(begun(ray, glm::length(ray.direction)));
+  }
+
+  Statistics statistics() const override {
+    Statistics statistics;
+    statistics.nodes = layout_.usedNodes;
+    statistics.references = layout_.idxCount;
+    statistics.bytes = vertices_.capacity() * sizeof(tinybvh::bvhvec4);
+    return statistics;
+  }
+
+ private:
+  static tinybvh::Ray begun(const Ray& ray, float length) {
+    const float reach = (ray.t_max - ray.t_min) * length;
+    return {vec3(ray.origin + ray.direction * ray.t_min), vec3(ray.direction),
+            reach < BVH_FAR ? reach : BVH_FAR};
+  }
+
+  const Scene* scene_;
+  bool confirm_;
+  std::vector<tinybvh::bvhvec4> vertices_;  // tinybvh keeps pointers into it
+  Layout layout_;
+};
+
+std::unique_ptr<Accelerator> build(const Scene& scene, const Parameters& parameters,
+                                   const Workload&) {
+  adapters::require_triangles_only(scene, "tinybvh");
+  const std::string& layout = parameters.choice("layout");
+  const bool high_quality = parameters.flag("hq");
+  const bool confirm = parameters.flag("confirm");
+  if (layout == "bvh2")
+    return std::make_unique<TinyBvh<tinybvh::BVH>>(scene, high_quality, confirm);
+#ifdef BVH_USEAVX2
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
+    throw InputError("tinybvh:layout=bvh8 needs AVX2 and FMA; take tinybvh:layout=bvh2");
+  }
+  return std::make_unique<TinyBvh<tinybvh::BVH8_CPU>>(scene, high_quality, confirm);
+#else
+  throw InputError("this plug-in was built without AVX2 and FMA; take tinybvh:layout=bvh2");
+#endif
+}
+
+}  // namespace
+
+const Plugin beambench_plugin{
+    .description = "Jacco Bikker's tinybvh", .fill = [](PluginContents& contents) {
+      contents.structures.push_back(
+          {"tinybvh",
+           "Bikker's library of one header: a binned SAH hierarchy of two or eight children a node",
+           Conformance::kTolerance,
+           {choice_parameter("layout", "bvh8", {"bvh8", "bvh2"}, "children a node; bvh8: by AVX2"),
+            flag_parameter("hq", false, "build with spatial splits"),
+            adapters::confirm_parameter()},
+           build});
+    }};
