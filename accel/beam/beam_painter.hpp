@@ -111,8 +111,11 @@ class BeamPainter {
   /// A ray goes on alone behind a leaf (thesis, section 3.6.2).
   void follow(const OctreeCursor& place, const CellRay& way, LeafBatch::Sample& sample) {
     ClosestHit closest = sample.closest;  // nobody else's: it can stay in registers
+    double t = leaf_exit(way, place).t;
     walk_leaves_behind(place, octree(), tracer_->neighbours(), sample.ray, way, counting_,
                        [&](const OctreeNode& leaf, double exit_t) {
+                         if (watch_->leaves_part(leaf, t)) return true;
+                         t = exit_t;
                          return test_references(*scene_, octree().references(leaf), exit_t,
                                                 counting_, closest);
                        });

@@ -2,8 +2,6 @@
 
 #include <array>
 
-#include "accel/octree/octree_cursor.hpp"
-
 namespace beambench {
 namespace {
 
@@ -68,7 +66,9 @@ class Entry {
   }
 
   void append(const OctreeCursor& leaf, const Beam& beam) const {
-    if (!beam.outline.empty()) push_at(leaf, beam, *queue_);
+    if (beam.outline.empty()) return;
+    if (queue_->border != nullptr && queue_->border->takes(leaf.index(), face_, beam)) return;
+    push_at(leaf, beam, *queue_);
   }
 
   const EyeView* view_;
@@ -219,6 +219,11 @@ void continue_beam(const Octree& octree, const EyeView& view, const Beam& beam, 
       Entry(view, face, queue).divide(cursor, part);
     }
   }
+}
+
+void enter_node(const EyeView& view, const Crossing& face, const OctreeCursor& node,
+                const Beam& beam, BeamQueue& queue) {
+  Entry(view, face, queue).divide(node, beam);
 }
 
 }  // namespace beambench

@@ -6,8 +6,20 @@
 #include "accel/beam/beam.hpp"
 #include "accel/beam/beam_stack.hpp"
 #include "accel/octree/octree.hpp"
+#include "accel/octree/octree_cursor.hpp"
 
 namespace beambench {
+
+/// Where an octree is only a part of one: takes beams that come to leaves of others.
+class BeamBorder {
+ public:
+  BeamBorder() = default;
+  BeamBorder(const BeamBorder&) = delete;
+  BeamBorder& operator=(const BeamBorder&) = delete;
+  virtual ~BeamBorder() = default;
+  /// A beam enters a leaf by a face. Returns whether it is taken, and waits no more here.
+  virtual bool takes(std::uint32_t leaf, const Crossing& face, const Beam& beam) = 0;
+};
 
 /// Beams that wait to be traced, and what finding them took.
 struct BeamQueue {
@@ -15,6 +27,7 @@ struct BeamQueue {
   std::uint64_t clips = 0;
   std::uint64_t neighbour_searches = 0;
   std::uint64_t passed_whole = 0;  ///< beams that went on into one leaf, undivided
+  BeamBorder* border = nullptr;    ///< where there is one
 };
 
 /// Appends the beams at which tracing begins (thesis, section 3.4), through a convex `part` of the
@@ -27,5 +40,9 @@ void begin_beams(const Octree& octree, const EyeView& view, const ImagePolygon& 
 /// Appends the beams that leave a leaf (thesis, section 3.5): divided among the faces by which its
 /// rays leave, then among the leaves behind each face.
 void continue_beam(const Octree& octree, const EyeView& view, const Beam& beam, BeamQueue& queue);
+
+/// Appends a beam that enters a node by a face, divided among the node's leaves there.
+void enter_node(const EyeView& view, const Crossing& face, const OctreeCursor& node,
+                const Beam& beam, BeamQueue& queue);
 
 }  // namespace beambench

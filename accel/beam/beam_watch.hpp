@@ -32,6 +32,8 @@ enum class RayReason {
 /// - how many samples left the root (`left`) or were tested in a leaf (`tested`) with a beam, and
 ///   each that goes on as a ray (`handed_over`),
 /// - that no beam is being seen to until the next is met (`resting`),
+/// - each leaf that a ray of its own enters, at t: is it another process's (`leaves_part`)? There
+///   the ray ends, and `painted` follows with the best it found,
 /// - at the end, what dividing beams took (`divided`), and that it is the end (`finished`),
 /// and takes from it the policy of individual rays (`rays`) and which of the image's samples the
 /// beam that was met last shall have (`chosen`).
@@ -44,6 +46,7 @@ struct NoBeamWatch {
   static constexpr void tested(std::uint64_t) {}
   static constexpr void handed_over(RayReason) {}
   static constexpr void resting() {}
+  static constexpr bool leaves_part(const OctreeNode&, double) { return false; }
   static constexpr void divided(const BeamQueue&) {}
   static constexpr void finished() {}
   NoCounting rays() const { return {}; }
@@ -84,6 +87,7 @@ class CountingBeamWatch {
   /// A leaving beam had so many samples.
   void left(std::uint64_t samples) { left_ += samples; }
   void tested(std::uint64_t samples) { tested_ += samples; }
+  static constexpr bool leaves_part(const OctreeNode&, double) { return false; }
   void handed_over(RayReason reason) { ++reasons_[static_cast<std::size_t>(reason)]; }
   void resting() {
     stop_clock();

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,16 @@ struct OctreeOptions {
   static OctreeOptions from(const Parameters& parameters);
 };
 
+/// The finest cells of an octree of these options over a scene: its root, divided evenly.
+CellGrid octree_grid(const Scene& scene, const OctreeOptions& options);
+
+/// A part of an octree, where a scene is divided among several processes: all cells of `level` are
+/// there, those that are not `own` as empty leaves, whatever is in them.
+struct OctreePart {
+  int level;  ///< not deeper than the octree's `max_level`
+  std::function<bool(const glm::ivec3& cell)> own;
+};
+
 /// A node: interior (its eight children stand together, child i at first + i, i = x + 2 y + 4 z) or
 /// a leaf (its references).
 struct OctreeNode {
@@ -59,6 +70,10 @@ class Octree {
   /// The same as `Octree(scene, options)`, made faster from the octree of a lower `max_level` and
   /// otherwise equal options.
   Octree(const Scene& scene, const OctreeOptions& options, const Octree& coarser);
+
+  /// A part of an octree, over a scene that has at least all primitives that reach into its own
+  /// cells.
+  Octree(const Scene& scene, const OctreeOptions& options, const OctreePart& part);
 
   /// The finest cells, as many along each axis: 2^(max_level - 1).
   const CellGrid& grid() const { return grid_; }

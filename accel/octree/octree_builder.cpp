@@ -25,7 +25,10 @@ struct Pending {
   std::int32_t size;  ///< in finest cells an axis
 };
 
-CellGrid make_grid(const Scene& scene, const OctreeOptions& options, double tolerance) {
+}  // namespace
+
+CellGrid octree_grid(const Scene& scene, const OctreeOptions& options) {
+  const double tolerance = overlap_tolerance(scene);
   glm::dvec3 size(0.0);
   if (!scene.bounds.empty()) size = glm::dvec3(scene.bounds.upper) - glm::dvec3(scene.bounds.lower);
   if (options.root == OctreeOptions::Root::kCube) {
@@ -36,16 +39,17 @@ CellGrid make_grid(const Scene& scene, const OctreeOptions& options, double tole
   return make_cell_grid(scene.bounds, size, margin, glm::ivec3(1 << (options.max_level - 1)));
 }
 
-}  // namespace
-
 /// Depth-first subdivision. Each level keeps the lists of the eight children being worked on in one
 /// array, so nothing is allocated for a node.
 class OctreeBuilder {
  public:
-  OctreeBuilder(const Scene& scene, const OctreeOptions& options, Octree& octree)
+  /// `part`, if given, outlives the builder.
+  OctreeBuilder(const Scene& scene, const OctreeOptions& options, Octree& octree,
+                const OctreePart* part = nullptr)
       : scene_(scene),
         options_(options),
         octree_(octree),
+        part_(part),
         tolerance_(overlap_tolerance(scene)),
         lists_(static_cast<std::size_t>(options.max_level) + 1),
         octants_(static_cast<std::size_t>(options.max_level) + 1) {}
@@ -67,7 +71,7 @@ class OctreeBuilder {
 
  private:
   void begin() {
-    octree_.grid_ = make_grid(scene_, options_, tolerance_);
+    octree_.grid_ = octree_grid(scene_, options_);
     const auto count = static_cast<PrimitiveId>(scene_.primitives.size());
     ranges_.reserve(count);
     for (PrimitiveId id = 0; id < count; ++id) {
@@ -112,7 +116,9 @@ class OctreeBuilder {
 
   void subdivide(const Pending& pending, std::span<const PrimitiveId> primitives) {
     octree_.deepest_level_ = std::max(octree_.deepest_level_, pending.level);
-    if (primitives.size() <= options_.max_objects || pending.level >= options_.max_level) {
+    if (is_foreign(pending)) primitives = {};
+    if (!must_be_split(pending) &&
+        (primitives.size() <= options_.max_objects || pending.level >= options_.max_level)) {
       make_leaf(pending.node, primitives);
       return;
     }
@@ -124,6 +130,14 @@ class OctreeBuilder {
       subdivide(child_of(pending, first_child, octant),
                 std::span(list).subspan(begin, ends[octant] - begin));
     }
+  }
+
+  bool is_foreign(const Pending& pending) const {
+    return part_ != nullptr && pending.level == part_->level &&
+           !part_->own(pending.corner / pending.size);
+  }
+  bool must_be_split(const Pending& pending) const {
+    return part_ != nullptr && pending.level < part_->level;
   }
 
   void make_leaf(std::uint32_t node, std::span<const PrimitiveId> primitives) {
@@ -205,6 +219,7 @@ class OctreeBuilder {
   const Scene& scene_;
   const OctreeOptions& options_;
   Octree& octree_;
+  const OctreePart* part_;
   double tolerance_;
   std::vector<CellRange> ranges_;                   ///< in finest cells, by primitive
   std::vector<std::vector<PrimitiveId>> lists_;     ///< by level
@@ -217,6 +232,10 @@ Octree::Octree(const Scene& scene, const OctreeOptions& options) {
 
 Octree::Octree(const Scene& scene, const OctreeOptions& options, const Octree& coarser) {
   OctreeBuilder(scene, options, *this).deepen(coarser);
+}
+
+Octree::Octree(const Scene& scene, const OctreeOptions& options, const OctreePart& part) {
+  OctreeBuilder(scene, options, *this, &part).build();
 }
 
 }  // namespace beambench

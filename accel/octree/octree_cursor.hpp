@@ -102,4 +102,11 @@ class OctreeCursor {
   std::int32_t cells_;
 };
 
+/// At the node of `size` at `corner`, which must be in the octree.
+inline OctreeCursor cursor_of(const Octree& octree, const glm::ivec3& corner, std::int32_t size) {
+  OctreeCursor cursor(octree);
+  while (cursor.size() > size) cursor.enter_child(corner & glm::ivec3(-(cursor.size() / 2)));
+  return cursor;
+}
+
 }  // namespace beambench

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/cli/inputs.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/record/build_info.hpp"
 #include "scenes/error.hpp"
@@ -32,6 +33,12 @@ std::string read_version(ByteReader& reader) {
 
 }  // namespace
 
+ImageOfRays job_image(const Job& job, const Scene& scene) {
+  ImageRequest request{"", job.camera, job.samples};
+  if (job.width > 0) request.resolution = to_string(Resolution{job.width, job.height});
+  return choose_image(scene, request);
+}
+
 Bytes write_job(const Job& job) {
   Bytes bytes;
   ByteWriter writer(bytes);
@@ -46,6 +53,7 @@ Bytes write_job(const Job& job) {
   writer.put(job.whitted.max_depth);
   writer.put(job.whitted.least_weight);
   writer.put(static_cast<std::int32_t>(job.whitted.shadows));
+  writer.put(job.split_level);
   writer.put(job.alive_every);
   return bytes;
 }
@@ -69,6 +77,7 @@ Job read_job(std::span<const std::byte> bytes) {
   job.whitted.max_depth = reader.get<int>();
   job.whitted.least_weight = reader.get<double>();
   job.whitted.shadows = static_cast<ShadowMethod>(reader.get<std::int32_t>());
+  job.split_level = reader.get<int>();
   job.alive_every = reader.get<double>();
   return job;
 }

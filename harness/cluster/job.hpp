@@ -6,6 +6,7 @@
 #include <string>
 
 #include "harness/cluster/bytes.hpp"
+#include "harness/rays/question.hpp"
 #include "harness/shade/whitted_options.hpp"
 #include "scenes/scene.hpp"
 
@@ -21,8 +22,12 @@ struct Job {
   int samples = 1;
   bool light = false;  ///< light is followed by the consumers; else they find hits
   WhittedOptions whitted;
+  int split_level = 0;  ///< the scene is divided by the cells of this level; 0: everybody has it
   double alive_every = 1.0;  ///< seconds between signs of life in long tasks
 };
+
+/// The image of a job over its scene, which must outlive it.
+ImageOfRays job_image(const Job& job, const Scene& scene);
 
 /// As bytes, with the version of this program before them.
 Bytes write_job(const Job& job);

@@ -11,6 +11,7 @@
 #include "harness/cluster/consumer.hpp"
 #include "harness/cluster/image_worker.hpp"
 #include "harness/cluster/sample_results.hpp"
+#include "harness/cluster/split/split_run.hpp"
 #include "harness/cluster/studio.hpp"
 #include "harness/cluster/task_sources.hpp"
 #include "harness/files/pending_file.hpp"
@@ -92,13 +93,6 @@ ClusterRun describe(const ClusterRequest& request, const Studio& studio, int pro
   return run;
 }
 
-void send_all_home(Transport& transport) {
-  for (ProcessId process = kProducer + 1; process < transport.processes(); ++process) {
-    transport.send(process, Tag::kEnd, {});
-  }
-  transport.flush();
-}
-
 /// Why this process cannot work is told instead of how it is.
 Introduction excuse(std::string problem) {
   Introduction introduction;
@@ -107,14 +101,21 @@ Introduction excuse(std::string problem) {
   return introduction;
 }
 
+}  // namespace
+
+void send_all_home(Transport& transport) {
+  for (ProcessId process = kProducer + 1; process < transport.processes(); ++process) {
+    transport.send(process, Tag::kEnd, {});
+  }
+  transport.flush();
+}
+
 void wait_for_end(Transport& transport) {
   while (true) {
     const auto message = transport.wait(Transport::kForever);
     if (message && message->tag == Tag::kEnd) return;
   }
 }
-
-}  // namespace
 
 ClusterRun lead(const ClusterRequest& request, Transport& transport) {
   std::optional<Studio> studio;
@@ -153,6 +154,7 @@ void follow(Transport& transport) {
   Introduction introduction;
   try {
     job = read_job(bytes);
+    if (job.split_level > 0) return follow_split(job, transport);
     studio.emplace(job);
     introduction = studio->introduction();
   } catch (const InputError& error) {

@@ -11,6 +11,7 @@
 #include "harness/cluster/lead.hpp"
 #include "harness/cluster/mpi_transport.hpp"
 #include "harness/cluster/request.hpp"
+#include "harness/cluster/split/split_run.hpp"
 #include "scenes/error.hpp"
 
 namespace beambench {
@@ -34,6 +35,10 @@ int lead_run(int argc, char** argv, Transport& transport) {
   }
   transport.broadcast(job);
   if (!request) return kSuccess;
+  if (request->job.split_level > 0) {
+    fmt::print(stderr, "beambench-cluster: {}\n", summary(lead_split(*request, transport)));
+    return kSuccess;
+  }
   const ClusterRun run = lead(*request, transport);
   for (const std::string& remark : run.report.remarks) complain(remark, 0);
   fmt::print(stderr, "beambench-cluster: {}\n", summary(run));
@@ -47,6 +52,9 @@ int run(int argc, char** argv, Transport& transport) {
     if (transport.self() == kProducer) return lead_run(argc, argv, transport);
     follow(transport);
     return kSuccess;
+  } catch (const LostProcess& error) {
+    complain(error.what(), kWrongRequest);
+    MpiSession::abort(kWrongRequest);
   } catch (const InputError& error) {
     return complain(error.what(), kWrongRequest);
   } catch (const std::exception& error) {

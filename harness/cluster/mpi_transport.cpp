@@ -36,7 +36,7 @@ class Patience {
   }
 
  private:
-  static constexpr int kBusy = 20;
+  static constexpr int kBusy = 200;
   static constexpr int kLongest = 200;
   int tries_ = 0;
   int moment_ = 10;

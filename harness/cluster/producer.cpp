@@ -195,9 +195,8 @@ void Producer::handle(const Message& message) {
     case Tag::kAlive:
       crew_.heard(message.from, now);
       break;
-    case Tag::kTasks:
-    case Tag::kEnd:
-      throw ProtocolError(fmt::format("process {} sent the producer's messages", message.from));
+    default:
+      throw ProtocolError(fmt::format("process {} sent what no consumer sends", message.from));
   }
 }
 

@@ -51,6 +51,10 @@ void add_options(CLI::App& app, Typed& typed, ClusterRequest& request) {
   app.add_option("--work", typed.work, "beams, or blocks of the image traced by individual rays")
       ->capture_default_str()
       ->check(CLI::IsMember({"beams", "blocks"}));
+  app.add_option("--split", request.job.split_level,
+                 "Divide the scene instead: each process has the primitives in its share of the "
+                 "octree's cells of this level, and beams and rays are handed over at borders")
+      ->check(CLI::Range(2, 7));
   app.add_option("--block", request.block_size, "Pixels along the side of a block")
       ->capture_default_str()
       ->check(CLI::Range(1, 4096));
@@ -71,6 +75,20 @@ void add_options(CLI::App& app, Typed& typed, ClusterRequest& request) {
   app.add_option("--tasks", request.tasks, "CSV: cost and size of each beam or block");
 }
 
+/// Who shades must have what was hit.
+void require_hits_alone(const ClusterRequest& request) {
+  const bool needs_scene = request.shading != Shading::kId && request.shading != Shading::kDepth;
+  if (!request.picture.empty() && needs_scene) {
+    throw InputError(
+        "--split makes pictures of what was hit and how far away it is, for no process has the "
+        "whole scene; give --shade id or --shade depth");
+  }
+  if (request.blocks || !request.tasks.empty()) {
+    throw InputError(
+        "--split divides the scene, not the work; leave out --work blocks and --tasks");
+  }
+}
+
 void fill(const Typed& typed, ClusterRequest& request) {
   request.shading = parse_shading(typed.shading);
   request.blocks = typed.work == "blocks";
@@ -88,6 +106,7 @@ void fill(const Typed& typed, ClusterRequest& request) {
   job.light = request.shading == Shading::kWhitted;
   job.whitted = whitted_options(typed.whitted);
   job.alive_every = std::min(1.0, 0.25 * request.producer.timeout);
+  if (job.split_level > 0) require_hits_alone(request);
   if (!request.picture.empty()) image_format(request.picture);
   for (const std::string& file : {request.picture, request.report, request.tasks}) {
     if (!file.empty()) require_writable(file);

@@ -15,9 +15,7 @@ namespace beambench {
 
 Studio::Studio(const Job& job, std::vector<std::string>* warnings)
     : scene_(load_scene(job.scene, warnings)) {
-  ImageRequest request{"", job.camera, job.samples};
-  if (job.width > 0) request.resolution = to_string(Resolution{job.width, job.height});
-  const ImageOfRays image = choose_image(scene_, request);
+  const ImageOfRays image = job_image(job, scene_);
   rays_.emplace(image.camera, image.resolution.width, image.resolution.height, image.samples);
   const StructureChoice choice = choose_one("--accel", job.structure);
   const CpuTimer timer;

@@ -30,8 +30,7 @@ struct BlockTask {
   int height;
 };
 
-/// As bytes. The leaf is named by its code; of the cuts only the planes are told, for their lines
-/// follow from them: a beam takes about 200 bytes.
+/// As bytes. The leaf is named by its code: a beam takes about 150 bytes.
 void write_task(const BeamTask& task, const Octree& octree, Bytes& bytes);
 void write_task(const BlockTask& task, Bytes& bytes);
 

@@ -10,12 +10,17 @@ namespace beambench {
 
 /// What a message is.
 enum class Tag {
-  kReady,    ///< consumer: I have built my octree, and this is what it is like
-  kTasks,    ///< producer: a parcel of work
-  kResults,  ///< consumer: what came of a parcel
-  kAlive,    ///< consumer: I am still at it
-  kEnd,      ///< producer: there is no more work
-  kFarewell  ///< consumer: what I did
+  kReady,     ///< consumer: I have built my octree, and this is what it is like
+  kTasks,     ///< producer: a parcel of work
+  kResults,   ///< consumer: what came of a parcel
+  kAlive,     ///< consumer: I am still at it
+  kEnd,       ///< producer: there is no more work
+  kFarewell,  ///< consumer: what I did; of a divided scene, with what was found
+  // Of a divided scene (split/):
+  kGo,     ///< process 0: all have the same scene; begin
+  kCross,  ///< to any process: beams and rays that come into your part
+  kAsk,    ///< process 0: when you have nothing to do, tell how many of these you sent and got
+  kCount   ///< that
 };
 
 /// What processes call themselves among each other: 0 is the producer.

@@ -158,6 +158,8 @@ def refused(done: subprocess.CompletedProcess[str], words: list[str]) -> None:
         (["tetra", "--samples", "3"], ["3"]),
         (["tetra", "-o", "/no/such/folder/a.png"], ["/no/such/folder"]),
         (["tetra", "--batch", "0"], ["--batch"]),
+        (["tetra", "--split", "3", "-o", "a.png"], ["--split", "--shade id"]),
+        (["tetra", "--split", "7"], ["max_level"]),
     ],
 )
 def test_wrong_requests_are_refused_in_one_sentence(arguments: list[str], words: list[str]) -> None:
@@ -220,6 +222,24 @@ def test_a_full_disk_leaves_no_half_picture(full_disk: Path) -> None:
     refused(run, ["tetra.png", "disk", "full"])
     assert full_disk.read_text() == "the picture before"
     assert {file.name for file in full_disk.parent.iterdir()} == {"filler", "tetra.png"}
+
+
+def test_a_divided_scene_gives_the_same_picture(tmp_path: Path) -> None:
+    one, parts, record = tmp_path / "one.png", tmp_path / "parts.png", tmp_path / "run.json"
+    asked = ["--shade", "id", "--resolution", "200x150"]
+    output_of("render", "tetra:n=4", "--accel", "beam", "-o", one, *asked)
+    run = mpirun(
+        "-n", 3, CLUSTER, "tetra:n=4", "--split", 3, "-o", parts, "--report", record, *asked
+    )
+    assert run.returncode == 0, run.stderr
+    assert parts.read_bytes() == one.read_bytes()
+    report = json.loads(record.read_text())
+    sums = {
+        way: sum(process[way]["bytes"] for process in report["each"])
+        for way in ("crossings_out", "crossings_in")
+    }
+    assert sums["crossings_out"] == sums["crossings_in"] > 0
+    assert all(part["primitives"] < report["whole_primitives"] for part in report["each"])
 
 
 def test_help_and_version_end_all_processes() -> None:

@@ -1,0 +1,57 @@
+#pragma once
+// Who has which part of a scene that is divided among processes.
+
+#include <cstdint>
+#include <vector>
+
+#include "accel/cell_grid.hpp"
+#include "accel/octree/octree.hpp"
+#include "harness/cluster/transport.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench {
+
+/// The cells of one level of an octree, divided among processes. Cells that follow each other in
+/// Morton's order go together, so that a process's cells are neighbours, and about as many
+/// primitives go to each process. All processes that see the same scene divide it alike.
+class SceneSplit {
+ public:
+  /// Cells of `level`, at most 7 and not deeper than the octree of `options`.
+  SceneSplit(const Scene& scene, const OctreeOptions& options, int level, int processes);
+
+  int level() const { return level_; }
+  /// Along each axis.
+  std::int32_t cells() const { return cells_; }
+  std::uint32_t index(const glm::ivec3& cell) const {
+    return static_cast<std::uint32_t>((cell.z * cells_ + cell.y) * cells_ + cell.x);
+  }
+  glm::ivec3 cell(std::uint32_t index) const {
+    const auto i = static_cast<std::int32_t>(index);
+    return {i % cells_, i / cells_ % cells_, i / (cells_ * cells_)};
+  }
+  std::uint32_t cell_count() const { return static_cast<std::uint32_t>(owners_.size()); }
+  ProcessId owner(std::uint32_t index) const { return owners_[index]; }
+
+  /// Does the primitive's box reach into a cell of the process? Not after `forget_primitives`.
+  bool reaches(ProcessId process, PrimitiveId id) const;
+  /// Gives up the memory that grows with the scene.
+  void forget_primitives() { ranges_ = {}; }
+
+ private:
+  int level_;
+  std::int32_t cells_;
+  std::vector<std::uint16_t> owners_;  ///< by cell
+  std::vector<CellRange> ranges_;      ///< by primitive
+};
+
+/// What one process keeps of a scene.
+struct ScenePart {
+  /// Its primitives, in their order; bounds, cameras, surfaces and lights are those of the whole.
+  Scene scene;
+  /// The ids that they have in the whole scene, ascending.
+  std::vector<PrimitiveId> global;
+};
+
+ScenePart part_of(const Scene& scene, const SceneSplit& split, ProcessId process);
+
+}  // namespace beambench

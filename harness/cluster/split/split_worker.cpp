@@ -1,0 +1,193 @@
+#include "harness/cluster/split/split_worker.hpp"
+
+#include <utility>
+
+#include "scenes/error.hpp"
+
+namespace beambench {
+namespace {
+
+constexpr Hit kNothing{kInfinity, kNoPrimitive};
+
+OctreePart own_cells(const SceneSplit& split, ProcessId self) {
+  return {split.level(), [&split, self](const glm::ivec3& cell) {
+            return split.owner(split.index(cell)) == self;
+          }};
+}
+
+BeamOptions checked(const BeamOptions& options, const SceneSplit& split) {
+  if (!options.continue_with_rays || options.share_corners) {
+    throw InputError(
+        "beams over a scene in parts need continue=rays and share_corners=false; leave them out");
+  }
+  if (options.octree.max_level < split.level()) {
+    throw InputError(
+        "the scene cannot be split by cells that are deeper than max_level; choose a "
+        "fixed max_level that is not less than the level of the cells");
+  }
+  return options;
+}
+
+}  // namespace
+
+ForeignLeaves::ForeignLeaves(const Octree& octree, const SceneSplit& split, ProcessId self)
+    : cells_(octree.nodes().size(), kOwn) {
+  const std::int32_t finest = octree.grid().cells.x / split.cells();
+  for (std::uint32_t cell = 0; cell < split.cell_count(); ++cell) {
+    if (split.owner(cell) == self) continue;
+    cells_[cursor_of(octree, split.cell(cell) * finest, finest).index()] = cell;
+  }
+}
+
+SplitWorker::SplitWorker(ScenePart part, const SceneSplit& split, ProcessId self,
+                         const BeamOptions& options, const PrimaryRays& rays, BorderPost& post)
+    : part_(std::move(part)),
+      split_(&split),
+      self_(self),
+      rays_(&rays),
+      post_(&post),
+      tracer_(part_.scene,
+              Octree(part_.scene, checked(options, split).octree, own_cells(split, self)), options),
+      foreign_(tracer_.octree(), split, self),
+      view_(tracer_.octree().grid(), rays),
+      found_here_(rays.width(), rays.height(), rays.samples()),
+      found_(rays.width(), rays.height(), rays.samples()),
+      watch_(tracer_.octree(), foreign_),
+      painter_(part_.scene, tracer_, tracer_.options(), view_, rays, sight_, found_here_, {},
+               watch_),
+      samples_(static_cast<double>(rays.count())) {
+  queue_.border = this;
+  begin_beams(tracer_.octree(), view_, view_.screen(), queue_);
+  beginning_ = false;
+}
+
+void SplitWorker::take(const CrossingBeam& beam) {
+  enter_node(view_, beam.face, cell_cursor(beam.cell), beam.beam, queue_);
+}
+
+void SplitWorker::take(const CrossingRay& ray) {
+  if (ray.sample >= found_.size()) throw ProtocolError("a ray of a sample outside of the image");
+  waiting_.push_back(ray);
+}
+
+bool SplitWorker::work() {
+  if (!waiting_.empty()) {
+    for (std::size_t i = 0; i < kRaysAtOnce && !waiting_.empty(); ++i) {
+      const CrossingRay ray = waiting_.front();
+      waiting_.pop_front();
+      trace_ray(ray);
+    }
+    return true;
+  }
+  if (queue_.waiting.empty()) return false;
+  BeamStep step;
+  queue_.waiting.pop(step);
+  trace_beam(step);
+  return true;
+}
+
+/// A beam that begins in a foreign leaf is begun there.
+bool SplitWorker::takes(std::uint32_t leaf, const Crossing& face, const Beam& beam) {
+  const auto cell = foreign_.cell_at(leaf);
+  if (cell && !beginning_) post_->hand_over(CrossingBeam{*cell, face, beam});
+  return cell.has_value();
+}
+
+void SplitWorker::trace_beam(const BeamStep& step) {
+  const Beam& beam = step.beam;
+  if (step.kind == BeamKind::kLeaving) return;
+  if (foreign_.cell_at(beam.node)) return;  // the eye's leaf, and not ours
+  const auto handover = static_cast<double>(tracer_.options().handover);
+  if (step.kind == BeamKind::kOccupied) {
+    painter_.test_leaf(beam);
+  } else if (beam.crowded()) {
+    painter_.hand_over(beam, RayReason::kCrowded);
+  } else if (handover > 0.0 && area(beam.outline) * samples_ < handover) {
+    painter_.hand_over(beam, RayReason::kHandover);
+  } else {
+    continue_beam(tracer_.octree(), view_, beam, queue_);
+    return;
+  }
+  see_to_samples();
+}
+
+void SplitWorker::see_to_samples() {
+  for (const std::uint32_t sample : watch_.decided) {
+    settle(sample, global(found_here_.get(sample)));
+  }
+  for (const BorderWatch::Crossed& each : watch_.crossed) {
+    const Hit best = global(found_here_.get(each.sample));
+    post_->hand_over(CrossingRay{each.cell, each.sample, each.t, best.t, best.primitive});
+  }
+  watch_.decided.clear();
+  watch_.crossed.clear();
+}
+
+/// Goes on where the ray came in. What it found before limits what is looked for: nothing farther
+/// is kept, and an equal t is compared by the whole scene's ids.
+void SplitWorker::trace_ray(const CrossingRay& crossing) {
+  const Ray ray = ray_of(crossing.sample);
+  const CellRay way(tracer_.octree().grid(), ray);
+  ClosestHit closest(ray);
+  closest.ray.t_max = crossing.best_t;
+  NoCounting none;
+  std::optional<CrossingRay> next;
+  double t = crossing.t;
+  const OctreeNode* nodes = tracer_.octree().nodes().data();
+  walk_leaves_from(
+      cell_cursor(crossing.cell), t, 0, tracer_.octree(), tracer_.neighbours(), ray, way, none,
+      [&](const OctreeNode& leaf, double exit_t) {
+        if (const auto cell = foreign_.cell_at(static_cast<std::uint32_t>(&leaf - nodes))) {
+          next = CrossingRay{*cell, crossing.sample, t, 0.0F, 0};
+          return true;
+        }
+        t = exit_t;
+        return test_references(part_.scene, tracer_.octree().references(leaf), exit_t, none,
+                               closest);
+      });
+  Hit best{crossing.best_t, crossing.best};
+  if (const Hit here = global(closest.result()); precedes(here, best)) best = here;
+  if (!next) return settle(crossing.sample, best);
+  next->best_t = best.t;
+  next->best = best.primitive;
+  post_->hand_over(*next);
+}
+
+void SplitWorker::settle(std::uint32_t sample, const Hit& best) {
+  if (best.primitive != kNoPrimitive) found_.set(sample, best);
+}
+
+Hit SplitWorker::global(const std::optional<Hit>& local) const {
+  if (!local) return kNothing;
+  return {local->t, part_.global[local->primitive]};
+}
+
+OctreeCursor SplitWorker::cell_cursor(std::uint32_t cell) const {
+  if (cell >= split_->cell_count() || split_->owner(cell) != self_) {
+    throw ProtocolError("something came to a cell that is another process's");
+  }
+  const std::int32_t finest = tracer_.octree().grid().cells.x / split_->cells();
+  return cursor_of(tracer_.octree(), split_->cell(cell) * finest, finest);
+}
+
+Ray SplitWorker::ray_of(std::uint32_t sample) const {
+  const auto each = static_cast<std::uint32_t>(rays_->samples());
+  const auto width = static_cast<std::uint32_t>(rays_->width());
+  const std::uint32_t pixel = sample / each;
+  return rays_->ray(static_cast<int>(pixel % width), static_cast<int>(pixel / width),
+                    static_cast<int>(sample % each));
+}
+
+std::vector<std::uint32_t> SplitWorker::hit_samples() const {
+  std::vector<std::uint32_t> samples;
+  for (std::size_t i = 0; i < found_.size(); ++i) {
+    if (found_.primitive()[i] != kNoPrimitive) samples.push_back(static_cast<std::uint32_t>(i));
+  }
+  return samples;
+}
+
+std::uint64_t SplitWorker::structure_bytes() const {
+  return tracer_.statistics().bytes + foreign_.memory_bytes();
+}
+
+}  // namespace beambench

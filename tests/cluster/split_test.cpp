@@ -1,0 +1,228 @@
+// What must be true of a divided scene: its parts hold it all, and together its processes find what
+// one finds.
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "harness/cluster/lead.hpp"
+#include "harness/cluster/sample_results.hpp"
+#include "harness/cluster/split/split_member.hpp"
+#include "harness/cluster/split/split_run.hpp"
+#include "harness/rays/fingerprint.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/error.hpp"
+#include "tests/cluster/local_network.hpp"
+#include "tests/random_scene.hpp"
+
+namespace beambench {
+namespace {
+
+using testing::LocalNetwork;
+using testing::random_scene;
+
+BeamOptions options_with(int max_level, std::int64_t handover = 0) {
+  BeamOptions options;
+  options.octree.max_level = max_level;
+  options.handover = handover;
+  return options;
+}
+
+TEST(SceneSplit, GivesEveryCellToOneProcessAndWorkToEach) {
+  const Scene scene = load_scene("tetra:n=4");
+  for (const int processes : {1, 2, 3, 7}) {
+    const SceneSplit split(scene, options_with(6).octree, 4, processes);
+    ASSERT_EQ(split.cell_count(), 512U);
+    std::map<ProcessId, int> cells;
+    for (std::uint32_t i = 0; i < split.cell_count(); ++i) {
+      EXPECT_EQ(split.index(split.cell(i)), i);
+      ++cells[split.owner(i)];
+    }
+    EXPECT_EQ(cells.size(), static_cast<std::size_t>(processes));
+    std::vector<std::size_t> sizes;
+    for (ProcessId process = 0; process < processes; ++process) {
+      sizes.push_back(part_of(scene, split, process).global.size());
+    }
+    const auto [least, most] = std::ranges::minmax(sizes);
+    EXPECT_LT(most, 3 * least + 20) << processes;
+  }
+}
+
+TEST(ScenePart, IsTheSameGeometryUnderLocalIds) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const Scene scene = random_scene(seed, 60);
+    const SceneSplit split(scene, options_with(5).octree, 3, 3);
+    std::set<PrimitiveId> all;
+    for (ProcessId process = 0; process < 3; ++process) {
+      const ScenePart part = part_of(scene, split, process);
+      ASSERT_EQ(part.global.size(), part.scene.primitives.size());
+      EXPECT_TRUE(std::ranges::is_sorted(part.global));
+      for (PrimitiveId id = 0; id < part.global.size(); ++id) {
+        all.insert(part.global[id]);
+        const Bounds here = primitive_bounds(part.scene, id);
+        const Bounds there = primitive_bounds(scene, part.global[id]);
+        EXPECT_EQ(here.lower, there.lower);
+        EXPECT_EQ(here.upper, there.upper);
+        EXPECT_EQ(part.scene.primitives[id].surface, scene.primitives[part.global[id]].surface);
+      }
+      EXPECT_EQ(part.scene.bounds.lower, scene.bounds.lower);
+    }
+    EXPECT_EQ(all.size(), scene.primitives.size());
+  }
+}
+
+/// Traces an image by several processes that are threads.
+HitBuffer traced_in_parts(const Scene& scene, const BeamOptions& options, const PrimaryRays& rays,
+                          int level, int processes, unsigned seed,
+                          std::vector<SplitAccount>* accounts = nullptr) {
+  LocalNetwork network(processes, seed, 0.0003);
+  const SceneSplit split(scene, options.octree, level, processes);
+  HitBuffer hits(rays.width(), rays.height(), rays.samples());
+  std::mutex mutex;
+  const auto trace = [&](ProcessId self) {
+    Outbox outbox(network.at(self), split);
+    SplitWorker worker(part_of(scene, split, self), split, self, options, rays, outbox);
+    SplitMember member(network.at(self), worker, outbox, 20.0,
+                       [](ProcessId, std::span<const std::byte>) {});
+    if (self == kProducer) {
+      member.lead();
+    } else {
+      network.at(self).send(kProducer, Tag::kReady, {});
+      member.follow([] { return Bytes{}; });
+    }
+    const std::lock_guard lock(mutex);
+    for (const std::uint32_t sample : worker.hit_samples()) {
+      EXPECT_FALSE(hits.get(sample)) << "found twice";
+      hits.set(sample, worker.hits().get(sample));
+    }
+    if (accounts != nullptr) accounts->push_back(member.account());
+  };
+  std::vector<std::jthread> others;
+  for (ProcessId process = 1; process < processes; ++process) others.emplace_back(trace, process);
+  trace(kProducer);
+  others.clear();  // joins
+  return hits;
+}
+
+TEST(SplitScene, GivesTheHitsOfOneProcessBitForBit) {
+  for (unsigned seed = 0; seed < 12; ++seed) {
+    const Scene scene = random_scene(seed, 60);
+    const BeamOptions options = options_with(5, seed % 3 == 0 ? 50 : 0);
+    const PrimaryRays rays(scene.cameras.front(), 61, 43, seed % 2 == 0 ? 1 : 5);
+    HitBuffer expected(rays.width(), rays.height(), rays.samples());
+    BeamTracer(scene, options).trace(rays, expected);
+    for (const int processes : {1, 2, 5}) {
+      const int level = 2 + static_cast<int>(seed) % 4;
+      EXPECT_TRUE(traced_in_parts(scene, options, rays, level, processes, seed) == expected)
+          << "seed " << seed << ", level " << level << ", " << processes << " processes";
+    }
+  }
+}
+
+TEST(SplitScene, SeesTheSameFromInside) {
+  const Scene scene = random_scene(1, 40);
+  const auto size = glm::vec3(scene.bounds.upper - scene.bounds.lower);
+  const auto middle = scene.bounds.lower + 0.5F * size;
+  for (const glm::vec3 place :
+       {middle, middle + 0.1F * size, middle - glm::vec3(0.2F, 0.0F, 0.3F) * size}) {
+    Camera camera;
+    camera.from = place;
+    camera.at = place + glm::vec3(1.0F, 0.3F, -0.2F);
+    camera.angle = 100.0F;
+    const PrimaryRays rays(camera, 60, 60, 1);
+    HitBuffer expected(60, 60, 1);
+    BeamTracer(scene, options_with(5)).trace(rays, expected);
+    EXPECT_TRUE(traced_in_parts(scene, options_with(5), rays, 3, 4, 1) == expected);
+  }
+}
+
+TEST(SplitScene, AccountsForWhatCrossed) {
+  const Scene scene = random_scene(2, 200);
+  const PrimaryRays rays(scene.cameras.front(), 80, 60, 1);
+  std::vector<SplitAccount> accounts;
+  traced_in_parts(scene, options_with(6), rays, 3, 3, 1, &accounts);
+  Traffic out;
+  Traffic in;
+  std::uint64_t travellers = 0;
+  for (const SplitAccount& account : accounts) {
+    out.messages += account.crossings_out.messages;
+    out.bytes += account.crossings_out.bytes;
+    in.messages += account.crossings_in.messages;
+    in.bytes += account.crossings_in.bytes;
+    travellers += account.beams_out + account.rays_out;
+    EXPECT_LT(account.primitives, scene.primitives.size());
+    EXPECT_GT(account.structure_bytes, 0U);
+  }
+  EXPECT_GT(travellers, 0U);
+  EXPECT_EQ(out.messages, in.messages);
+  EXPECT_EQ(out.bytes, in.bytes);
+  EXPECT_GE(out.bytes, 25 * travellers);
+}
+
+TEST(SplitScene, RunsFromACommandLineToItsEnd) {
+  const Scene scene = load_scene("tetra:n=3");
+  HitBuffer expected(40, 30, 1);
+  BeamTracer(scene, options_with(6)).trace(PrimaryRays(scene.cameras.front(), 40, 30, 1), expected);
+  ClusterRequest request;
+  request.job.scene = "tetra:n=3";
+  request.job.structure = "beam:max_level=6";
+  request.job.width = 40;
+  request.job.height = 30;
+  request.job.split_level = 3;
+  LocalNetwork network(3, 1, 0.0);
+  std::vector<std::jthread> others;
+  for (const ProcessId process : {1, 2}) {
+    others.emplace_back([&network, process] { follow(network.at(process)); });
+  }
+  Bytes job = write_job(request.job);
+  network.at(0).broadcast(job);
+  EXPECT_EQ(lead_split(request, network.at(0)).result_hash, fingerprint(expected));
+}
+
+TEST(SplitScene, EndsWithAnErrorWhereAProcessIsSilent) {
+  const Scene scene = random_scene(2, 60);
+  const BeamOptions options = options_with(5);
+  const PrimaryRays rays(scene.cameras.front(), 60, 60, 1);
+  const SceneSplit split(scene, options.octree, 3, 2);
+  LocalNetwork network(2, 1, 0.0);
+  network.mute_after(1, 1);  // it says that it is ready
+  std::jthread other([&] {
+    Outbox outbox(network.at(1), split);
+    SplitWorker worker(part_of(scene, split, 1), split, 1, options, rays, outbox);
+    network.at(1).send(kProducer, Tag::kReady, {});
+    SplitMember(network.at(1), worker, outbox, 0.2, [](ProcessId, std::span<const std::byte>) {
+    }).follow([] { return Bytes{}; });
+  });
+  Outbox outbox(network.at(0), split);
+  SplitWorker worker(part_of(scene, split, 0), split, 0, options, rays, outbox);
+  SplitMember member(network.at(0), worker, outbox, 0.2,
+                     [](ProcessId, std::span<const std::byte>) {});
+  EXPECT_THROW(member.lead(), LostProcess);
+}
+
+TEST(SplitScene, RefusesOptionsThatNeedTheWholeImage) {
+  const Scene scene = random_scene(2, 10);
+  const PrimaryRays rays(scene.cameras.front(), 10, 10, 5);
+  LocalNetwork network(1, 1, 0.0);
+  BeamOptions options = options_with(3);
+  const SceneSplit split(scene, options.octree, 4, 1);
+  Outbox outbox(network.at(0), split);
+  const auto make = [&] {
+    const SplitWorker worker(part_of(scene, split, 0), split, 0, options, rays, outbox);
+  };
+  EXPECT_THROW(make(), InputError);  // cells deeper than the octree
+  options = options_with(5);
+  options.continue_with_rays = false;
+  EXPECT_THROW(make(), InputError);
+  options = options_with(5);
+  options.share_corners = true;
+  EXPECT_THROW(make(), InputError);
+}
+
+}  // namespace
+}  // namespace beambench
