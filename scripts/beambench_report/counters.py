@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pandas as pd
+from matplotlib.figure import Figure
 
 from beambench_report.bars import BAR_HEIGHT, Bar, draw_bars
 from beambench_report.dictionary import COUNTER_SUFFIX
@@ -17,38 +18,49 @@ _COLUMNS = 2
 
 
 def counters(run: Run) -> list[Plot]:
-    """The figures of all views for which anything was counted."""
-    all_looks = looks(run.rows)
+    """The figures of all views for which anything was counted; whole pictures have two."""
     plots = []
     for title, stem in file_stems(run.views).items():
         finest = run.finest(title)
-        shown = {
-            name: rows
-            for name in run.counters
-            if not (rows := finest.dropna(subset=[name])).empty and (rows[name] != 0).any()
-        }
-        if not shown:
-            continue
-        lines = -(-len(shown) // _COLUMNS)
-        bars = max(len(rows) for rows in shown.values())
-        figure, panels = new_figure(lines * (PANEL_MARGIN + BAR_HEIGHT * bars), lines, _COLUMNS)
-        for panel in panels[len(shown) :]:
-            panel.set_axis_off()
-        for panel, (name, rows) in zip(panels, shown.items(), strict=False):
-            panel.set_title(name.removesuffix(COUNTER_SUFFIX).replace("_", " "))
-            draw_bars(panel, _bars(rows, name), all_looks, "a ray")
-        first = finest.iloc[0]
-        size = f"{first['width']:.0f}x{first['height']:.0f}"
-        figure.suptitle(f"{title}: work a ray at {size}", x=0.01, ha="left", weight="bold")
-        caption(
-            figure,
-            finest,
-            "Counted in a pass of its own, not in the timed code. A structure that does not count "
-            "its work is left out.",
-            times=False,
-        )
-        plots.append(Plot(f"counters-{stem}", figure, f"{title}: counters a ray", title))
+        for names, words, prefix in (
+            (run.counters, "work a ray", "counters"),
+            (run.counters_by_kind, "work a ray by kind of rays", "counters-by-kind"),
+        ):
+            shown = _worth_showing(finest, names)
+            if not shown:
+                continue
+            figure = _draw(run, finest, shown, f"{title}: {words}")
+            plots.append(Plot(f"{prefix}-{stem}", figure, f"{title}: {words}", title))
     return plots
+
+
+def _worth_showing(finest: pd.DataFrame, names: list[str]) -> dict[str, pd.DataFrame]:
+    """The rows that have a counter, by its name."""
+    having = {name: finest.dropna(subset=[name]) for name in names}
+    return {name: rows for name, rows in having.items() if (rows[name] != 0).any()}
+
+
+def _draw(run: Run, finest: pd.DataFrame, shown: dict[str, pd.DataFrame], heading: str) -> Figure:
+    all_looks = looks(run.rows)
+    lines = -(-len(shown) // _COLUMNS)
+    bars = max(len(rows) for rows in shown.values())
+    figure, panels = new_figure(lines * (PANEL_MARGIN + BAR_HEIGHT * bars), lines, _COLUMNS)
+    for panel in panels[len(shown) :]:
+        panel.set_axis_off()
+    for panel, (name, rows) in zip(panels, shown.items(), strict=False):
+        panel.set_title(name.removesuffix(COUNTER_SUFFIX).replace("_", " "))
+        draw_bars(panel, _bars(rows, name), all_looks, "a ray")
+    first = finest.iloc[0]
+    size = f"{first['width']:.0f}x{first['height']:.0f}"
+    figure.suptitle(f"{heading} at {size}", x=0.01, ha="left", weight="bold")
+    caption(
+        figure,
+        finest,
+        "Counted in a pass of its own, not in the timed code. A structure that does not count "
+        "its work is left out.",
+        times=False,
+    )
+    return figure
 
 
 def _bars(rows: pd.DataFrame, name: str) -> list[Bar]:

@@ -36,6 +36,11 @@ class Column:
         """Does it stand for many columns, as for all counters that families of structures add?"""
         return "<" in self.name
 
+    @property
+    def is_of_a_kind(self) -> bool:
+        """Does it tell of one kind of the rays of a whole picture?"""
+        return "<kind>" in self.name
+
     def is_that(self, name: str) -> bool:
         """Is this the entry of a column of a file?"""
         pattern = self.name.replace("<kind>", _KINDS).replace("<counter>", "[a-z_]+")
@@ -71,7 +76,7 @@ class Dictionary:
 
 def _width(column: Column) -> int:
     """How much a pattern covers: one that tells the kind of rays is narrower than any counter."""
-    return 0 if not column.is_pattern else 1 if "<kind>" in column.name else 2
+    return 0 if not column.is_pattern else 1 if column.is_of_a_kind else 2
 
 
 @cache

@@ -43,6 +43,15 @@ class Run:
     @property
     def counters(self) -> list[str]:
         """The counter columns that hold anything, in the order of the file."""
+        return [name for name in self._all_counters if not _is_of_a_kind(name)]
+
+    @property
+    def counters_by_kind(self) -> list[str]:
+        """Those of whole pictures that are of one kind of their rays."""
+        return [name for name in self._all_counters if _is_of_a_kind(name)]
+
+    @property
+    def _all_counters(self) -> list[str]:
         names = [name for name in self.rows if str(name).endswith(COUNTER_SUFFIX)]
         return [name for name in names if self.rows[name].notna().any()]
 
@@ -54,6 +63,11 @@ class Run:
         """The rows of one view at the highest number of rays."""
         rows = self.view(title)
         return rows[rows["rays"] == rows["rays"].max()]
+
+
+def _is_of_a_kind(name: str) -> bool:
+    column = dictionary().find(name)
+    return column is not None and column.is_of_a_kind
 
 
 def read_run(directory: Path) -> Run:
@@ -78,6 +92,7 @@ def read_run(directory: Path) -> Run:
             rows[name] = rows[name].astype(str).where(rows[name].notna(), "")
     _require_values(rows, path, ("scene", "structure", "rays"))
 
+    rows = rows.copy()  # in one piece: pandas warns of many columns that were set one by one
     rows["contender"] = contender_labels(rows)
     rows["view"] = view_titles(rows)
     rows["timed"] = rows["verdict"].isin(TIMED_VERDICTS) & rows["total_ms_median"].notna()

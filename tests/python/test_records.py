@@ -42,6 +42,14 @@ def test_a_column_of_the_family_s_own_is_a_counter(tmp_path: Path) -> None:
     assert "neighbour_climbs_per_ray" in read_run(write_run(tmp_path, rows)).counters
 
 
+def test_counters_of_a_kind_of_rays_are_told_apart(tmp_path: Path) -> None:
+    rows = [{**row, "shadow_rays": 9, "shadow_box_tests_per_ray": 3.5} for row in made_up_rows()]
+    run = read_run(write_run(tmp_path, rows))
+    assert run.counters_by_kind == ["shadow_box_tests_per_ray"]
+    assert "shadow_box_tests_per_ray" not in run.counters
+    assert run.rows["shadow_rays"].eq(9).all()
+
+
 def test_finest_gives_the_highest_number_of_rays(run_folder: Path) -> None:
     rows = read_run(run_folder).finest("escena1")
     assert set(rows["rays"]) == {1280 * 1024}
