@@ -24,7 +24,8 @@ using Line = Activity::Line;
 
 constexpr int kFound = 1;
 constexpr int kWrongRequest = 2;
-constexpr int kNotRun = 127;  // as shells report it
+constexpr int kNotRun = 127;       // as shells report it
+constexpr int kInterrupted = 130;  // harness/cli/interruption.hpp
 
 constexpr const char* kVariable = "BEAMBENCH_GUARD";  // the descriptor of an Activity
 
@@ -93,7 +94,8 @@ pid_t start(char** arguments, const Activity& activity, const HeldSignals& signa
 /// `crashed (SIGSEGV: Segmentation fault)`; nothing where the process ended as it should.
 std::optional<std::string> breakdown(int status, const Activity& activity) {
   if (WIFEXITED(status)) {
-    if (activity.read(Line::kForeign).empty()) return std::nullopt;
+    const bool interrupted = WEXITSTATUS(status) == kInterrupted;
+    if (interrupted || activity.read(Line::kForeign).empty()) return std::nullopt;
     return fmt::format("ended the process (exit code {})", WEXITSTATUS(status));
   }
   const int signal = WTERMSIG(status);

@@ -4,13 +4,17 @@ from __future__ import annotations
 
 import csv
 import json
+import os
 import re
+import signal
+import subprocess
+import time
 from pathlib import Path
 
 import pytest
 
 from plugins import BUILD, SOURCES, built, call, installed
-from program import refused
+from program import BINARY, refused
 
 SWEEP = {
     "name": "plugged",
@@ -257,6 +261,27 @@ def test_a_sweep_says_in_the_row_what_went_wrong_and_goes_on(
         assert str(faulty) in message
         for word in words:
             assert word in message
+
+
+def test_a_sweep_that_is_interrupted_in_a_plug_in_says_how_to_go_on(
+    faulty: Path, tmp_path: Path
+) -> None:
+    config, folder = tmp_path / "sweep.json", tmp_path / "run"
+    config.write_text(json.dumps(SWEEP))
+    with subprocess.Popen(
+        [BINARY, "--plugin", faulty, "run", config, "-o", folder],
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "FAULT": "hang in trace"},
+    ) as running:
+        for _ in range(600):
+            if (folder / "manifest.json").exists():
+                break
+            time.sleep(0.1)
+        running.send_signal(signal.SIGINT)
+        _, messages = running.communicate(timeout=60)
+    assert running.returncode == 130
+    assert f"beambench --plugin {faulty} run --resume {folder}" in messages.splitlines()[-1]
 
 
 @pytest.mark.parametrize("fault", ["primitive out of range", "t is no number", "answers nothing"])

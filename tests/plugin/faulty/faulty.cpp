@@ -21,6 +21,11 @@ bool fault_is(std::string_view name) {
 
 void crash() { std::raise(SIGSEGV); }  // as a wild pointer would
 
+void hang() {
+  for (volatile bool forever = true; forever;) {
+  }
+}
+
 /// Wrong before anything of it was called.
 struct AtLoad {
   AtLoad() {
@@ -45,6 +50,7 @@ class Faulty : public TraversalAccelerator<Faulty> {
     if (fault_is("crash in trace")) crash();
     if (fault_is("abort in trace")) std::abort();
     if (fault_is("exit in trace")) std::exit(0);
+    if (fault_is("hang in trace")) hang();
     if (fault_is("primitive out of range")) return Hit{1.0F, 4'000'000'000U};
     if (fault_is("t is no number")) return Hit{std::numeric_limits<float>::quiet_NaN(), 0};
     if (fault_is("answers nothing")) return std::nullopt;
@@ -95,10 +101,7 @@ Scene read(const std::filesystem::path& file, std::vector<std::string>& warnings
 
 void fill(PluginContents& contents) {
   if (fault_is("throw in fill")) throw std::runtime_error("not ready");
-  if (fault_is("hang in fill")) {
-    for (volatile bool forever = true; forever;) {
-    }
-  }
+  if (fault_is("hang in fill")) hang();
   if (fault_is("brings nothing")) return;
   const std::string name = fault_is("taken name") ? "samet"
                            : fault_is("no name")  ? "my structure:1"
