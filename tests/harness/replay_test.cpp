@@ -9,6 +9,7 @@
 
 #include "harness/differ/differ.hpp"
 #include "harness/differ/judge_ray.hpp"
+#include "harness/files/shell_word.hpp"
 #include "scenes/catalogue.hpp"
 #include "tests/harness/temporary_folder.hpp"
 
