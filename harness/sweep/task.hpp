@@ -31,7 +31,9 @@ class Task {
 
   const Scene& scene() const { return *group_.scene; }
   const RaySetFacts& facts() const { return facts_; }
-  Workload workload() const { return {group_.camera, static_cast<std::size_t>(facts_.rays), group_.threads}; }
+  Workload workload() const {
+    return {group_.camera, static_cast<std::size_t>(facts_.rays), group_.threads};
+  }
 
   /// What should be known of the rays themselves; nothing where they are as one expects.
   virtual std::optional<std::string> warning() const { return std::nullopt; }

@@ -24,6 +24,7 @@ CellGroup group_of(Scene scene, const std::string& rays = "whitted") {
           {40, 30},
           1,
           parse_ray_choice(rays),
+          1,
           {}};
 }
 
