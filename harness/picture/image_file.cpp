@@ -5,7 +5,9 @@
 #include <cmath>
 #include <memory>
 #include <stdexcept>
+#include <string_view>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
@@ -78,16 +80,21 @@ void require_complete(const Image& image, std::span<const DataChannel> data) {
   }
 }
 
-void write(const std::filesystem::path& path, const OIIO::ImageSpec& spec,
-           const OIIO::TypeDesc& type, const std::vector<std::uint8_t>& pixels,
-           const std::filesystem::path& target) {
-  const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(path.string());
-  const bool written = output && output->open(path.string(), spec) &&
+/// Encoded in memory and written by us: OpenImageIO does not notice when a disk is full.
+void write(const std::filesystem::path& target, const OIIO::ImageSpec& spec,
+           const OIIO::TypeDesc& type, const std::vector<std::uint8_t>& pixels) {
+  OIIO::Filesystem::IOVecOutput memory;
+  const std::unique_ptr<OIIO::ImageOutput> output =
+      OIIO::ImageOutput::create(target.string(), &memory);
+  const bool encoded = output && output->open(target.string(), spec) &&
                        output->write_image(type, pixels.data()) && output->close();
-  if (written) return;
-  const std::string why = output ? output->geterror() : OIIO::geterror();
-  throw InputError(fmt::format("cannot write the picture '{}': {}; choose another place or format",
-                               target.string(), why));
+  if (!encoded) {
+    const std::string why = output ? output->geterror() : OIIO::geterror();
+    throw InputError(fmt::format(
+        "cannot write the picture '{}': {}; choose another place or format", target.string(), why));
+  }
+  const std::vector<unsigned char>& bytes = memory.buffer();
+  write_file(target, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
 }
 
 }  // namespace
@@ -106,16 +113,14 @@ void write_image(const std::filesystem::path& file, const Image& image,
                  std::span<const DataChannel> data) {
   const ImageFormat format = image_format(file);
   require_complete(image, data);
-  PendingFile pending(file);
   if (format == ImageFormat::kPng) {
     OIIO::ImageSpec spec(image.width(), image.height(), 3, OIIO::TypeDesc::UINT8);
     spec.attribute("oiio:ColorSpace", "sRGB");
-    write(pending.path(), spec, OIIO::TypeDesc::UINT8, png_pixels(image), file);
+    write(file, spec, OIIO::TypeDesc::UINT8, png_pixels(image));
   } else {
     // TypeUnknown: the values are in the channels' own types already.
-    write(pending.path(), exr_spec(image, data), OIIO::TypeUnknown, exr_pixels(image, data), file);
+    write(file, exr_spec(image, data), OIIO::TypeUnknown, exr_pixels(image, data));
   }
-  pending.commit();
 }
 
 }  // namespace beambench

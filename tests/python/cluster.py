@@ -40,7 +40,7 @@ def start(*arguments: str | Path, cwd: Path | None = None) -> subprocess.Popen[s
 
 
 def finish(run: subprocess.Popen[str]) -> subprocess.CompletedProcess[str]:
-    output, errors = run.communicate(timeout=120)
+    output, errors = run.communicate(timeout=300)
     return subprocess.CompletedProcess(run.args, run.returncode, output, errors)
 
 
