@@ -7,6 +7,7 @@ import sys
 from pathlib import Path
 
 from beambench_report.beat.command import beat_text, write_beat
+from beambench_report.cluster.command import add_cluster_command, cluster
 from beambench_report.contact_sheet import write_contact_sheet
 from beambench_report.dictionary import as_markdown, dictionary
 from beambench_report.files import write_text
@@ -126,7 +127,13 @@ def _parser() -> argparse.ArgumentParser:
     claims = commands.add_parser(
         "ledger", help="say whether the claims of the thesis hold, by its figures and ours"
     )
-    claims.add_argument("runs", type=Path, nargs="*", metavar="RUN", help="folder of a run")
+    claims.add_argument(
+        "runs",
+        type=Path,
+        nargs="*",
+        metavar="RUN",
+        help="folder of a run, or of the simulated cluster",
+    )
     claims.add_argument("--cells", action="store_true", help="list every cell, too")
     claims.add_argument(
         "-o", "--output", type=Path, metavar="FILE.md", help="if not given, it is printed"
@@ -153,6 +160,7 @@ def _parser() -> argparse.ArgumentParser:
     sampling.add_argument("-o", "--output", type=Path, required=True, metavar="DIR")
     add_thesis_command(commands, _BUILT)
     add_nightly_command(commands, _BUILT)
+    add_cluster_command(commands, _BUILT.parent)
     _add_comparisons(commands)
     commands.add_parser("columns", help="print results/README.md: what every column means")
     return parser
@@ -195,6 +203,8 @@ def _write(options: argparse.Namespace) -> list[Path]:
         return write_levels(options.runs, options.output)
     if options.command == "beat":
         return write_beat(options.runs, options.output)
+    if options.command == "cluster":
+        return cluster(options)
     if options.command == "sampling":
         return write_sampling(options.files, options.output)
     if options.command == "plots":

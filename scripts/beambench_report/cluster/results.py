@@ -103,7 +103,7 @@ def _write(path: Path, rows: pd.DataFrame) -> Path:
 def _read(path: Path, columns: tuple[str, ...]) -> pd.DataFrame:
     remedy = "write it with: python -m beambench_report cluster simulate DIR"
     try:
-        rows = pd.read_csv(path)
+        rows = pd.read_csv(path, dtype={"era": str})
     except FileNotFoundError:
         raise Problem(f"{path}: there is no such file; {remedy}") from None
     except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:

@@ -6,12 +6,18 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.cluster.results import THESIS_OPTIONS, read_processes, read_simulations
+from beambench_report.cluster.results import (
+    EQUAL_MACHINES,
+    THESIS_OPTIONS,
+    read_processes,
+    read_simulations,
+)
 from beambench_report.ledger.cluster_evidence import FIGURES, ClusterEvidence
 
 STATIONS = 15
 _ALIKE = 0.01  # a maximum this flat has no one place
 _SATURATED = 0.9
+_MANY = 4 * STATIONS  # who does not saturate the producer by then does so later than the other
 
 
 def cluster_evidence(folder: Path) -> ClusterEvidence:
@@ -21,7 +27,11 @@ def cluster_evidence(folder: Path) -> ClusterEvidence:
     """
     simulations = read_simulations(folder)
     processes = read_processes(folder)
-    thesis = simulations[simulations["options"].eq(THESIS_OPTIONS) & simulations["era"].eq("1999")]
+    thesis = simulations[
+        simulations["options"].eq(THESIS_OPTIONS)
+        & simulations["machines"].eq(EQUAL_MACHINES)
+        & simulations["era"].eq("1999")
+    ]
     rows: list[dict[str, object]] = []
     for (scene, network), group in thesis.groupby(["scene", "network"], sort=False):
         own = processes[processes["simulation"].isin(group["simulation"])]
@@ -74,6 +84,9 @@ def _bottleneck(group: pd.DataFrame) -> dict[str, _Interval]:
     if not all_busy.empty:
         figures["producer_busy"] = _exact(all_busy.iloc[0])
     saturated = group.loc[group["producer_busy"] >= _SATURATED, "consumers"]
+    most = group["consumers"].max()
     if not saturated.empty:
         figures["consumers_that_saturate"] = _exact(saturated.min())
+    elif most >= _MANY:
+        figures["consumers_that_saturate"] = _exact(most + 1)  # or more, or never
     return figures

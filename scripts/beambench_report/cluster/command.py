@@ -1,0 +1,68 @@
+"""`python -m beambench_report cluster record|simulate|write DIR`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from beambench_report.cluster.plan import simulations
+from beambench_report.cluster.record import SCENES, Picture, record
+from beambench_report.cluster.report import write_report
+from beambench_report.cluster.simulate import simulate
+from beambench_report.problem import Problem
+
+
+def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) -> None:
+    """Adds `cluster` with its steps; `programs` is where the built ones are."""
+    cluster = commands.add_parser(
+        "cluster", help="simulate the thesis's cluster (chapter 6) with the costs of real beams"
+    )
+    steps = cluster.add_subparsers(dest="step", required=True)
+    first = steps.add_parser("record", help="what every beam of two scenes takes, in one process")
+    second = steps.add_parser("simulate", help="the same beams on clusters of 2 to 1,024 processes")
+    third = steps.add_parser("write", help="write DIR/report.md and its figures")
+    for step in (first, second, third):
+        step.add_argument("folder", type=Path, metavar="DIR")
+    first.add_argument(
+        "--program",
+        type=Path,
+        default=programs / "beambench-cluster",
+        metavar="PROGRAM",
+        help="the built beambench-cluster; if not given, build/release/bin/beambench-cluster",
+    )
+    first.add_argument("--repeats", type=int, default=3, metavar="N", help="medians of N runs; 3")
+    first.add_argument(
+        "--resolution", default="1280x1024", metavar="WxH", help="1280x1024, as in the thesis"
+    )
+    second.add_argument(
+        "--program",
+        type=Path,
+        default=programs / "beambench-cluster-simulated",
+        metavar="PROGRAM",
+        help="if not given, build/release/bin/beambench-cluster-simulated",
+    )
+    second.add_argument(
+        "--most", type=int, default=1024, metavar="N", help="no more than N processes; 1024"
+    )
+
+
+def cluster(options: argparse.Namespace) -> list[Path]:
+    """Runs one step; returns what was written."""
+    if options.step != "write":
+        options.program = options.program.absolute()  # `./bc` is not the `bc` of the system
+    if options.step == "record":
+        if options.repeats < 1:
+            raise Problem("--repeats: expected 1 or more")
+        width, height = _resolution(options.resolution)
+        pictures = [Picture(scene, width, height) for scene in SCENES]
+        return record(options.folder, options.program, pictures, options.repeats)
+    if options.step == "simulate":
+        return simulate(options.folder, options.program, simulations(SCENES, most=options.most))
+    return write_report(options.folder)
+
+
+def _resolution(text: str) -> tuple[int, int]:
+    width, _, height = text.partition("x")
+    if not (width.isdecimal() and height.isdecimal()):
+        raise Problem(f"--resolution: expected WIDTHxHEIGHT, found '{text}'")
+    return int(width), int(height)

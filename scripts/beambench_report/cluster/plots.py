@@ -1,0 +1,151 @@
+"""Figures 6.3 and 6.4 of the thesis as the simulation has them, and what came beyond."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.ticker import MaxNLocator
+
+from beambench_report.cluster.plan import OLD, OPTIONS, STATIONS, TODAY
+from beambench_report.cluster.results import EQUAL_MACHINES, THESIS_OPTIONS
+from beambench_report.figure import PAGE_WIDTH, Plot, new_figure
+
+# Of Okabe and Ito, as in style.py; there they stand for structures.
+_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+_MARKERS = "osD^vP*"
+_DASHES = ("-", "--", "-.", ":")
+_IDEAL = {"color": "#777777", "linewidth": 0.8, "linestyle": (0, (1, 2)), "zorder": 1}
+
+
+def cluster_plots(simulations: pd.DataFrame, processes: pd.DataFrame) -> list[Plot]:
+    """All figures that the tables have rows for."""
+    thesis = simulations[
+        simulations["options"].eq(THESIS_OPTIONS)
+        & simulations["machines"].eq(EQUAL_MACHINES)
+        & simulations["era"].eq(OLD)
+        & (simulations["consumers"] < STATIONS)
+    ]
+    plots = []
+    if not thesis.empty:
+        plots += [_times(thesis), _balance(thesis, processes)]
+    many = simulations[
+        simulations["options"].isin(OPTIONS)
+        & simulations["machines"].eq(EQUAL_MACHINES)
+        & (simulations["consumers"] >= STATIONS // 2)
+    ]
+    plots += [_scaling(many[many["era"].eq(era)], era) for era in (OLD, TODAY)]
+    return [plot for plot in plots if plot is not None]
+
+
+def _times(rows: pd.DataFrame) -> Plot:
+    """Figure 6.3: time, speed-up and efficiency over the consumers."""
+    figure, panels = new_figure(PAGE_WIDTH * 0.95, rows=2, columns=2)
+    seconds, speed_up, counted, uncounted = panels
+    for index, ((scene, network), group) in enumerate(_lines(rows)):
+        look = _look(index) | {"label": f"{scene}, {network}"}
+        processors = group["consumers"] + 1
+        seconds.plot(processors, group["seconds"], **look)
+        speed_up.plot(processors, group["speed_up"], **look)
+        counted.plot(processors, group["efficiency"], **look)
+        uncounted.plot(group["consumers"], group["efficiency_of_consumers"], **look)
+    last = int(rows["consumers"].max()) + 1
+    speed_up.plot([1, last], [1, last], **_IDEAL)
+    for panel in (counted, uncounted):
+        panel.axhline(1, **_IDEAL)
+        panel.set_ylim(0, 1.1)
+    _name(seconds, "a) Time", "processors, the producer's among them", "seconds")
+    seconds.set_ylim(bottom=0)
+    _name(speed_up, "b) Speed-up", "processors, the producer's among them", "times")
+    _name(
+        counted, "c) Efficiency", "processors, the producer's among them", "speed-up / processors"
+    )
+    _name(uncounted, "c) Efficiency, the producer not counted", "consumers", "speed-up / consumers")
+    seconds.legend(fontsize=7.5, frameon=False)
+    return Plot("figure-6.3", figure, "time, speed-up and efficiency of 1 to 14 consumers")
+
+
+def _balance(thesis: pd.DataFrame, processes: pd.DataFrame) -> Plot | None:
+    """Figure 6.4: beams and busy time of each process, with all 15 machines."""
+    rows = thesis[thesis["consumers"].eq(STATIONS - 1)]
+    rows = rows[rows["network"].eq(rows["network"].iloc[-1])] if not rows.empty else rows
+    if rows.empty:
+        return None
+    figure, panels = new_figure(PAGE_WIDTH * 0.8, rows=2, columns=len(rows))
+    for column, row in enumerate(rows.itertuples()):
+        members = processes[processes["simulation"].eq(row.simulation)]
+        consumers = members[members["role"].eq("consumer")]
+        beams, times = panels[column], panels[column + len(rows)]
+        beams.bar(consumers["process"], consumers["tasks"], color=_COLOURS[0])
+        times.bar(consumers["process"], consumers["busy_seconds"], color=_COLOURS[0])
+        times.scatter(
+            consumers["process"],
+            consumers["last_seconds"],
+            color=_COLOURS[1],
+            marker="_",
+            s=90,
+            label="end of the last beam",
+        )
+        busy = row.producer_busy * row.traced_seconds
+        times.bar([0], [busy], color=_COLOURS[2], label="the producer, not waiting")
+        _name(beams, row.scene, "consumer", "beams")
+        _name(times, row.scene, "process", "seconds busy")
+        times.set_ylim(top=1.3 * consumers["last_seconds"].max())
+        times.legend(fontsize=7.5, frameon=False, loc="upper right")
+        for panel in (beams, times):
+            panel.xaxis.set_major_locator(MaxNLocator(integer=True))
+    network = rows["network"].iloc[0]
+    return Plot("figure-6.4", figure, f"beams and busy time of each process on {network}")
+
+
+def _scaling(rows: pd.DataFrame, era: str) -> Plot | None:
+    """Speed-up of each option, and how busy the producer is, up to 1,024 processes."""
+    if rows.empty:
+        return None
+    scenes = list(dict.fromkeys(rows["scene"]))
+    figure, panels = new_figure(PAGE_WIDTH * 0.95, rows=2, columns=len(scenes))
+    for column, scene in enumerate(scenes):
+        speed_up, busy = panels[column], panels[column + len(scenes)]
+        of_scene = rows[rows["scene"].eq(scene)]
+        for index, options in enumerate(OPTIONS):
+            group = of_scene[of_scene["options"].eq(options)].sort_values("consumers")
+            look = _look(index) | {"label": options}
+            speed_up.plot(group["consumers"] + 1, group["speed_up"], **look)
+            busy.plot(group["consumers"] + 1, 100 * group["producer_busy"], **look)
+        ends = [of_scene["consumers"].min() + 1, of_scene["consumers"].max() + 1]
+        speed_up.plot(ends, ends, **_IDEAL)
+        speed_up.set_yscale("log")
+        for panel in (speed_up, busy):
+            panel.set_xscale("log", base=2)
+            panel.xaxis.set_major_formatter("{x:.0f}")
+        _name(speed_up, f"{scene}: speed-up", "processes", "times")
+        _name(busy, f"{scene}: the producer is busy", "processes", "% of the time")
+        busy.set_ylim(0, 105)
+    panels[0].legend(fontsize=7, frameon=False)
+    machines = "machines of 1999, 100 Mbit/s" if era == OLD else "machines of today, 10 Gbit/s"
+    return Plot(f"many-processes-{era}", figure, f"speed-up and the producer's load on {machines}")
+
+
+def _lines(rows: pd.DataFrame) -> Sequence[tuple[tuple[str, str], pd.DataFrame]]:
+    return [
+        (key, group.sort_values("consumers"))
+        for key, group in rows.groupby(["scene", "network"], sort=False)
+    ]
+
+
+def _look(index: int) -> dict[str, object]:
+    return {
+        "color": _COLOURS[index % len(_COLOURS)],
+        "marker": _MARKERS[index % len(_MARKERS)],
+        "linestyle": _DASHES[index % len(_DASHES)],
+        "markersize": 3.5,
+        "linewidth": 1.2,
+    }
+
+
+def _name(panel: Axes, title: str, across: str, up: str) -> None:
+    panel.set_title(title, fontsize=9)
+    panel.set_xlabel(across)
+    panel.set_ylabel(up)
+    panel.grid(alpha=0.3)

@@ -1,0 +1,120 @@
+"""Runs the simulator for every simulation of the plan."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from beambench_report.cluster.calibration import (
+    AS_OURS,
+    NONE,
+    TRACED,
+    Recorded,
+    Slowness,
+    slowness_of_1999,
+)
+from beambench_report.cluster.plan import OLD, Simulation
+from beambench_report.cluster.record import BEAMS, read_recorded, tasks_file
+from beambench_report.cluster.results import write_results
+from beambench_report.problem import Problem
+
+
+class Memory:
+    """Answers of the simulator by its arguments, in a file that grows line by line."""
+
+    def __init__(self, path: Path) -> None:
+        """Recalls what the file has."""
+        self._path = path
+        self._known: dict[tuple[str, ...], dict[str, object]] = {}
+        for line in path.read_text("utf-8").splitlines() if path.is_file() else []:
+            if line.endswith("}"):  # or it was cut off
+                entry = json.loads(line)
+                self._known[tuple(entry["arguments"])] = entry["answer"]
+
+    def answer(
+        self, arguments: list[str], ask: Callable[[], dict[str, object]]
+    ) -> dict[str, object]:
+        """What was answered before, or is now."""
+        key = tuple(arguments)
+        if key not in self._known:
+            self._known[key] = ask()
+            with self._path.open("a", encoding="utf-8") as file:
+                json.dump({"arguments": arguments, "answer": self._known[key]}, file)
+                file.write("\n")
+        return self._known[key]
+
+
+def simulate(folder: Path, program: Path, plan: Sequence[Simulation]) -> list[Path]:
+    """Writes FOLDER/simulations.csv and processes.csv from what was recorded there.
+
+    What was simulated before is not simulated again: FOLDER/answers.jsonl remembers it.
+    """
+    recorded = read_recorded(folder)
+    memory = Memory(folder / "answers.jsonl")
+    answers = []
+    for number, simulation in enumerate(plan, 1):
+        print(f"\r{number} of {len(plan)} simulations", end="", file=sys.stderr, flush=True)
+        answers.append(_answer(folder, program, simulation, recorded, memory))
+    print(file=sys.stderr)
+    return write_results(folder, answers)
+
+
+def slowness_of(recorded: dict[tuple[str, str], Recorded], constant_is: str = AS_OURS) -> Slowness:
+    """By the scene of which the thesis tells its seconds."""
+    known = recorded.get((TRACED, BEAMS))
+    if known is None:
+        raise Problem(f"{TRACED} was not recorded, by which machines of 1999 are calibrated")
+    return slowness_of_1999(known, constant_is)
+
+
+def _answer(
+    folder: Path,
+    program: Path,
+    simulation: Simulation,
+    recorded: dict[tuple[str, str], Recorded],
+    memory: Memory,
+) -> dict[str, object]:
+    slow = slowness_of(recorded, simulation.constant_is) if simulation.era == OLD else NONE
+    build = recorded[simulation.scene, simulation.work].build_seconds * slow.build
+    arguments = [
+        *("--walk-scale", str(slow.walk)),
+        *("--work-scale", str(slow.work)),
+        *("--build-seconds", str(build)),
+        *simulation.arguments(),
+    ]
+    tasks = tasks_file(folder, simulation.scene, simulation.work)
+    answer = memory.answer(
+        [tasks.name, *arguments], lambda: _run([str(program), str(tasks), *arguments])
+    )
+    # Whatever is handed out, what it is compared with is the sequential beam tracer.
+    beams = recorded[simulation.scene, BEAMS]
+    sequential = (
+        beams.build_seconds * slow.build
+        + beams.walk_seconds * slow.walk
+        + beams.work_seconds * slow.work
+    )
+    return answer | {
+        "sequential_seconds": sequential,
+        "era": simulation.era,
+        "scene": simulation.scene,
+        "network": simulation.network.name,
+        "options": simulation.options,
+        "machines": simulation.machines,
+        "consumers": simulation.consumers,
+    }
+
+
+def _run(command: list[str]) -> dict[str, object]:
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise Problem(
+            f"{command[0]}: {error.strerror}; build beambench-cluster-simulated first "
+            "(it needs libsimgrid-dev)"
+        ) from None
+    if done.returncode != 0:
+        raise Problem(f"{' '.join(command)}: {done.stderr.strip() or 'failed'}")
+    return json.loads(done.stdout)

@@ -1,0 +1,187 @@
+"""The ledger's rules of chapter 6, by figures that nobody measured."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import pandas as pd
+import pytest
+
+from beambench_report.cluster.results import write_results
+from beambench_report.ledger.book import ALL_CLAIMS, judge, ledger
+from beambench_report.ledger.cluster_evidence import FIGURES, ClusterEvidence
+from beambench_report.ledger.cluster_rules import CLUSTER_CLAIMS
+from beambench_report.ledger.cluster_run import cluster_evidence
+from beambench_report.ledger.evidence import NOTHING, Evidence
+from beambench_report.ledger.verdict import Outcome, Verdict
+from beambench_report.problem import Problem
+
+CLAIMS = {claim.name: claim for claim in CLUSTER_CLAIMS}
+CAT, TOWER = "gato-bill", "torre-eiffel"
+
+# By these every claim holds.
+HOLDING = {
+    CAT: {
+        "best_processors": 11,
+        "best_efficiency": 0.75,
+        "mean_efficiency": 0.72,
+        "last_efficiency": 0.7,
+        "beams": 3000,
+        "fewest_beams": 150,
+        "most_beams": 300,
+        "first_end": 99,
+        "last_end": 100,
+        "producer_busy": 0.4,
+        "consumers_that_saturate": 60,
+    },
+    TOWER: {
+        "best_processors": 7,
+        "best_efficiency": 0.66,
+        "mean_efficiency": 0.62,
+        "last_efficiency": 0.5,
+        "beams": 4000,
+        "fewest_beams": 200,
+        "most_beams": 400,
+        "first_end": 49,
+        "last_end": 50,
+        "producer_busy": 0.9,
+        "consumers_that_saturate": 14,
+    },
+}
+
+# What makes each claim fail in part: a figure of a scene with another value.
+PART = {
+    "C22": [
+        (CAT, "best_processors", 4),
+        (CAT, "best_efficiency", 0.95),
+        (CAT, "last_efficiency", 0.8),
+        (TOWER, "best_processors", 14),
+        (TOWER, "best_efficiency", 0.55),
+        (TOWER, "last_efficiency", 0.7),
+    ],
+    "C23": [(CAT, "most_beams", 155), (TOWER, "first_end", 40)],
+    "C24": [
+        (TOWER, "beams", 2000),
+        (TOWER, "producer_busy", 0.3),
+        (TOWER, "consumers_that_saturate", 100),
+    ],
+}
+FAILS = {
+    "C22": {
+        CAT: {"best_processors": 3, "best_efficiency": 0.5, "last_efficiency": 0.6},
+        TOWER: {"best_processors": 15, "best_efficiency": 0.55, "last_efficiency": 0.6},
+    },
+    "C23": {
+        CAT: {"most_beams": 151, "first_end": 50},
+        TOWER: {"most_beams": 201, "first_end": 20},
+    },
+    "C24": {
+        TOWER: {"beams": 2000, "producer_busy": 0.3, "consumers_that_saturate": 100},
+    },
+}
+
+
+def evidence(changes: dict[str, dict[str, float]] | None = None) -> Evidence:
+    rows = [
+        {"scene": scene, "network": "made up", "quantity": quantity}
+        | dict.fromkeys(
+            ("value", "low", "high"), (changes or {}).get(scene, {}).get(quantity, value)
+        )
+        for scene, figures in HOLDING.items()
+        for quantity, value in figures.items()
+    ]
+    return replace(NOTHING, cluster=ClusterEvidence(pd.DataFrame(rows, columns=list(FIGURES))))
+
+
+@pytest.mark.parametrize("name", sorted(CLAIMS))
+def test_each_verdict_can_be_had(name: str) -> None:
+    claim = CLAIMS[name]
+    assert judge(claim, evidence()).verdict is Verdict.HOLDS
+    assert judge(claim, evidence(FAILS[name])).verdict is Verdict.FAILS
+    assert judge(claim, NOTHING).verdict is Verdict.NOT_TESTED
+    for scene, quantity, value in PART[name]:
+        found = judge(claim, evidence({scene: {quantity: value}}))
+        assert found.verdict is Verdict.IN_PART, (scene, quantity)
+
+
+@pytest.mark.parametrize("name", sorted(CLAIMS))
+def test_without_a_scene_nothing_is_tested(name: str) -> None:
+    rows = evidence().cluster.figures
+    cut = replace(NOTHING, cluster=ClusterEvidence(rows[rows["scene"].ne(TOWER)]))
+    assert judge(CLAIMS[name], cut).verdict is Verdict.NOT_TESTED
+
+
+def test_the_thesis_tells_part_of_its_figures() -> None:
+    (entry,) = (entry for entry in ledger([]) if entry.claim.name == "C22")
+    told = [check for check in entry.thesis.checks if check.outcome is not Outcome.MISSING]
+    assert entry.thesis.verdict is Verdict.NOT_TESTED  # its plots are lost
+    assert {check.outcome for check in told} == {Outcome.YES}
+    assert len(told) == 5
+
+
+def test_the_ledger_has_all_claims() -> None:
+    assert [claim.name for claim in ALL_CLAIMS] == [f"C{number:02}" for number in range(1, 25)]
+
+
+def answer(scene: str, consumers: int, seconds: float, busy: float, **more: object) -> dict:
+    """What the simulator says, made up."""
+    processes = [
+        {
+            "process": number,
+            "role": "consumer" if number else "producer",
+            "tasks": 10 * number,
+            "samples": 100,
+            "busy_seconds": 1.0,
+            "wait_seconds": 0.5,
+            "last_seconds": seconds - 0.01 * number if number else 0.0,
+        }
+        for number in range(consumers + 1)
+    ]
+    sums = dict.fromkeys(
+        (
+            "traced_seconds build_seconds walk_seconds work_seconds accept_seconds "
+            "messages_from_producer bytes_from_producer messages_to_producer bytes_to_producer"
+        ).split(),
+        1.0,
+    )
+    setting = {
+        "era": "1999",
+        "scene": scene,
+        "network": "made up",
+        "options": "thesis",
+        "machines": "equal",
+        "consumers": consumers,
+    }
+    told = {"tasks": 500, "seconds": seconds, "sequential_seconds": 100.0, "producer_busy": busy}
+    return sums | setting | told | {"processes": processes} | more
+
+
+def test_figures_come_from_the_simulations(tmp_path: Path) -> None:
+    # Efficiency 100 / (p T): best with 5 processors, where 20 = T.
+    answers = [
+        answer(CAT, n, 100 / ((n + 1) * (0.9 - 0.05 * abs(n - 4))), 0.06 * n) for n in range(1, 15)
+    ]
+    answers.append(answer(CAT, 31, 10.0, 0.95))
+    answers.append(answer(CAT, 14, 1.0, 0.99, options="two in flight"))
+    write_results(tmp_path, answers)
+    figures = cluster_evidence(tmp_path)
+    value = {q: figures.figure(q, CAT, "made up") for q in figures.figures["quantity"]}
+    assert figures.networks == ["made up"]
+    assert value["best_processors"].value == 5
+    assert value["best_efficiency"].value == pytest.approx(0.9)
+    assert value["last_efficiency"].value == pytest.approx(0.4)
+    assert (value["fewest_beams"].value, value["most_beams"].value) == (10, 140)
+    assert value["producer_busy"].value == pytest.approx(0.84)
+    assert value["consumers_that_saturate"].value == 31
+    assert value["beams"].value == 500
+
+
+def test_one_cluster_is_judged_at_a_time(tmp_path: Path) -> None:
+    for name in ("a", "b"):
+        (tmp_path / name).mkdir()
+        write_results(tmp_path / name, [answer(CAT, 1, 60.0, 0.1)])
+    with pytest.raises(Problem, match="another simulated cluster"):
+        ledger([tmp_path / "a", tmp_path / "b"])
+    entries = {entry.claim.name: entry.ours.verdict for entry in ledger([tmp_path / "a"])}
+    assert entries["C22"] is Verdict.NOT_TESTED

@@ -1,0 +1,190 @@
+"""The simulated cluster: its simulator with small tasks, calibration, tables, page."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from beambench_report.__main__ import main
+from beambench_report.cluster.calibration import (
+    ALL_BUILDING,
+    ALL_WALKING,
+    Recorded,
+    slowness_of_1999,
+    thesis_seconds,
+)
+from beambench_report.cluster.plan import MACHINES, OPTIONS, simulations
+from beambench_report.cluster.record import SCENES, WORKS, tasks_file
+from beambench_report.cluster.results import read_simulations
+
+BINARIES = Path(
+    os.environ.get("BEAMBENCH_BINARY", Path(__file__).parents[2] / "build/release/bin/beambench")
+).parent
+SIMULATOR = BINARIES / "beambench-cluster-simulated"
+needs_simulator = pytest.mark.skipif(
+    not SIMULATOR.is_file(), reason="beambench-cluster-simulated was not built: no libsimgrid-dev"
+)
+
+HEADER = "task,process,walk_seconds,work_seconds,accept_seconds,samples,task_bytes,result_bytes\n"
+
+
+def tasks(path: Path, works: Sequence[float], walk: float = 1e-4) -> Path:
+    rows = [f"{i},0,{walk},{work},1e-5,100,120,800\n" for i, work in enumerate(works)]
+    path.write_text(HEADER + "".join(rows) + f"end,0,{walk},0,0,0,0,0\n", "utf-8")
+    return path
+
+
+def simulated(path: Path, *arguments: str) -> dict:
+    done = subprocess.run(
+        [SIMULATOR, path, *arguments], capture_output=True, text=True, check=True, timeout=60
+    )
+    return json.loads(done.stdout)
+
+
+def refusal(path: Path) -> str:
+    done = subprocess.run([SIMULATOR, path], capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    return done.stderr
+
+
+@needs_simulator
+def test_a_cluster_of_one_takes_the_sum(tmp_path: Path) -> None:
+    path = tasks(tmp_path / "t.csv", [0.01] * 50)
+    run = simulated(path, "--consumers", "0", "--build-seconds", "2")
+    assert run["sequential_seconds"] == pytest.approx(2 + 51e-4 + 0.5)
+    assert run["seconds"] == pytest.approx(run["sequential_seconds"] + 50e-5, rel=1e-3)
+    assert run["processes"][0]["tasks"] == 50
+    assert run["messages_from_producer"] == 0
+
+
+@needs_simulator
+def test_consumers_share_the_work_and_every_task_is_done_once(tmp_path: Path) -> None:
+    path = tasks(tmp_path / "t.csv", [0.001 * (1 + i % 7) for i in range(200)])
+    seconds = []
+    for consumers in (1, 2, 4, 8):
+        run = simulated(path, "--consumers", str(consumers))
+        each = run["processes"]
+        assert sum(one["tasks"] for one in each) == run["tasks"] == 200
+        assert sum(one["samples"] for one in each) == 200 * 100
+        assert sum(one["busy_seconds"] for one in each) == pytest.approx(run["work_seconds"])
+        # A parcel a task, a greeting, an end and a farewell for everyone.
+        assert run["messages_from_producer"] == 200 + consumers
+        assert run["messages_to_producer"] == 200 + 2 * consumers
+        seconds.append(run["seconds"])
+    assert seconds == sorted(seconds, reverse=True)
+    assert seconds[0] > 0.8
+    assert seconds[2] < seconds[0] / 3
+
+
+@needs_simulator
+def test_a_shared_network_is_full_sooner(tmp_path: Path) -> None:
+    path = tasks(tmp_path / "t.csv", [0.001] * 200)
+    slow = ("--consumers", "8", "--bandwidth", "1e5", "--message-seconds", "0", "--latency", "0")
+    shared = simulated(path, "--network", "shared", *slow)
+    switched = simulated(path, "--network", "switched", *slow)
+    everything = shared["bytes_to_producer"] + shared["bytes_from_producer"]
+    assert shared["traced_seconds"] == pytest.approx(everything / 1e5, rel=0.05)
+    assert switched["traced_seconds"] < shared["traced_seconds"]
+
+
+@needs_simulator
+def test_a_slow_producer_is_busy_all_the_time(tmp_path: Path) -> None:
+    path = tasks(tmp_path / "t.csv", [0.001] * 100, walk=0.01)
+    run = simulated(path, "--consumers", "4")
+    assert run["producer_busy"] > 0.95
+    assert run["traced_seconds"] == pytest.approx(1.01, rel=0.1)
+
+
+@needs_simulator
+@pytest.mark.parametrize("arguments", [*OPTIONS.values(), *MACHINES.values()])
+def test_every_option_does_every_task(tmp_path: Path, arguments: tuple[str, ...]) -> None:
+    run = simulated(tasks(tmp_path / "t.csv", [0.002] * 100), "--consumers", "5", *arguments)
+    assert sum(one["tasks"] for one in run["processes"]) == 100
+    again = simulated(tasks(tmp_path / "t.csv", [0.002] * 100), "--consumers", "5", *arguments)
+    assert again == run
+
+
+@needs_simulator
+def test_slow_machines_get_fewer_tasks(tmp_path: Path) -> None:
+    path = tasks(tmp_path / "t.csv", [0.005] * 300)
+    run = simulated(path, "--consumers", "2", "--speeds", "1,0.25")
+    first, second = (one["tasks"] for one in run["processes"][1:])
+    assert first == pytest.approx(4 * second, rel=0.1)
+
+
+@needs_simulator
+def test_wrong_files_are_refused_with_their_line(tmp_path: Path) -> None:
+    path = tmp_path / "t.csv"
+    assert "cannot read tasks" in refusal(path)
+    path.write_text("a,b\n", "utf-8")
+    assert "t.csv:1: there is no column 'task'" in refusal(path)
+    path.write_text(HEADER + "0,0,1,x,0,1,1,1\n", "utf-8")
+    assert "t.csv:2: work_seconds is 'x'" in refusal(path)
+    path.write_text(HEADER + "0,0,1,1\n", "utf-8")
+    assert "t.csv:2: 4 fields where the first line has 8" in refusal(path)
+    path.write_text(HEADER + "0,0,1,1,1,1,1,1\n", "utf-8")
+    assert "cut off" in refusal(path)
+
+
+def test_the_parts_of_1999_come_to_what_the_thesis_prints() -> None:
+    constant, a_ray = thesis_seconds()
+    recorded = Recorded(build_seconds=0.002, walk_seconds=0.008, work_seconds=5.0, samples=10**6)
+    for constant_is in ("as ours", ALL_WALKING, ALL_BUILDING):
+        slow = slowness_of_1999(recorded, constant_is)
+        whole = 0.002 * slow.build + 0.008 * slow.walk
+        assert whole == pytest.approx(constant)
+        assert 5.0 * slow.work == pytest.approx(a_ray * 10**6)
+    assert 9 < constant < 10
+    assert 32e-6 < a_ray < 36e-6
+
+
+def test_the_plan_asks_nothing_twice() -> None:
+    plan = simulations(SCENES)
+    assert len(set(plan)) == len(plan)
+    assert max(each.consumers for each in plan) == 1023
+    assert max(each.consumers for each in simulations(SCENES, most=16)) == 15 - 1 + 1
+
+
+@needs_simulator
+def test_all_steps_write_a_page(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "tasks").mkdir()
+    recorded = {}
+    for scene in SCENES:
+        for work in WORKS:
+            path = tasks(
+                tasks_file(tmp_path, scene, work), [0.001 * (1 + i % 5) for i in range(60)]
+            )
+            recorded[f"{scene}-{work}"] = {
+                "build_seconds": 0.002,
+                "walk_seconds": 61e-4,
+                "work_seconds": 0.18,
+                "samples": 6000,
+            }
+            assert path.is_file()
+    (tmp_path / "recorded.json").write_text(json.dumps(recorded), "utf-8")
+    step = ["cluster", "simulate", str(tmp_path), "--program", str(SIMULATOR), "--most", "8"]
+    assert main(step) == 0
+    rows = read_simulations(tmp_path)
+    assert set(rows["era"]) == {"1999", "today"}
+    assert ((rows["efficiency"] > 0) & (rows["efficiency"] <= 1)).all()
+    assert main(["cluster", "write", str(tmp_path)]) == 0
+    page = (tmp_path / "report.md").read_text("utf-8")
+    for figure in ("figure-6.3", "many-processes-1999", "many-processes-today"):
+        assert f"]({figure}.png)" in page
+        assert (tmp_path / f"{figure}.svg").is_file()
+    capsys.readouterr()
+
+
+def test_what_is_missing_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["cluster", "write", str(tmp_path)]) == 2
+    assert "simulations.csv" in capsys.readouterr().err
+    assert main(["cluster", "simulate", str(tmp_path)]) == 2
+    assert "cluster record" in capsys.readouterr().err
+    assert main(["cluster", "record", str(tmp_path), "--program", str(tmp_path / "none")]) == 2
+    assert "build beambench-cluster first" in capsys.readouterr().err
