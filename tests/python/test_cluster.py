@@ -22,7 +22,7 @@ pytestmark = needs_mpi
 SMALL = ["--resolution", "120x90", "--samples", "5"]
 # Long enough to be interrupted: some seconds.
 LONG = ["balls:n=2", "--accel", "beam", "--shade", "whitted", "--depth", "8",
-        "--resolution", "640x480", "--samples", "5"]  # fmt: skip
+        "--resolution", "480x360", "--samples", "5"]  # fmt: skip
 
 
 @pytest.fixture(scope="module")

@@ -142,6 +142,10 @@ ScenePart part_of(const Scene& scene, const SceneSplit& split, ProcessId process
   for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     if (split.reaches(process, id)) builder.add(id);
   }
+  Scene& kept = part.scene;
+  const auto shrink = [](auto&... lists) { (lists.shrink_to_fit(), ...); };
+  shrink(kept.primitives, kept.spheres, kept.cones, kept.polygons, kept.triangles, kept.vertices,
+         kept.corners, kept.normals, part.global);
   return part;
 }
 
