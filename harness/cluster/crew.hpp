@@ -1,10 +1,10 @@
 #pragma once
 // The consumers as the producer sees them: who waits, who works, who is silent.
 
-#include <compare>
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "harness/cluster/transport.hpp"
@@ -56,7 +56,9 @@ class Crew {
     int load;
     std::uint64_t since;
     ProcessId consumer;
-    auto operator<=>(const Place&) const = default;
+    bool operator<(const Place& other) const {
+      return std::tie(load, since, consumer) < std::tie(other.load, other.since, other.consumer);
+    }
   };
 
   Member& at(ProcessId consumer) { return members_[static_cast<std::size_t>(consumer)]; }

@@ -31,6 +31,8 @@ class MpiTransport : public Transport {
   explicit MpiTransport(Waiting waiting);
   /// What has not left by now is given up.
   ~MpiTransport() override;
+  MpiTransport(const MpiTransport&) = delete;
+  MpiTransport& operator=(const MpiTransport&) = delete;
 
   ProcessId self() const override { return self_; }
   int processes() const override { return processes_; }

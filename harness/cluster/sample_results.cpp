@@ -20,7 +20,8 @@ template <class Color>
 glm::vec3 mean(int samples, Color color) {
   glm::dvec3 sum(0.0);
   for (int sample = 0; sample < samples; ++sample) sum += color(sample);
-  return glm::vec3((1.0 / samples) * sum);
+  const glm::vec3 result((1.0 / samples) * sum);
+  return result;
 }
 
 template <class Vector>
@@ -172,11 +173,11 @@ std::size_t ColorSink::accept_sample(ByteReader& reader) {
 
 Image ColorSink::image() const {
   Image image = image_;
-  for (const auto& [pixel, samples] : divided_) {
-    const int x = static_cast<int>(pixel) % image.width();
-    const int y = static_cast<int>(pixel) / image.width();
-    image.at(x, y) =
-        mean(samples_, [&](int sample) { return samples[static_cast<std::size_t>(sample)]; });
+  for (const auto& divided : divided_) {
+    const int x = static_cast<int>(divided.first) % image.width();
+    const int y = static_cast<int>(divided.first) / image.width();
+    image.at(x, y) = mean(
+        samples_, [&](int sample) { return divided.second[static_cast<std::size_t>(sample)]; });
   }
   return image;
 }
