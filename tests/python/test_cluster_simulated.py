@@ -8,6 +8,7 @@ import subprocess
 from collections.abc import Sequence
 from pathlib import Path
 
+import pandas as pd
 import pytest
 
 from beambench_report.__main__ import main
@@ -19,8 +20,10 @@ from beambench_report.cluster.calibration import (
     thesis_seconds,
 )
 from beambench_report.cluster.plan import MACHINES, OPTIONS, simulations
+from beambench_report.cluster.plots import cluster_plots
 from beambench_report.cluster.record import SCENES, WORKS, tasks_file
 from beambench_report.cluster.results import read_simulations
+from beambench_report.cluster.simulate import simulate
 
 BINARIES = Path(
     os.environ.get("BEAMBENCH_BINARY", Path(__file__).parents[2] / "build/release/bin/beambench")
@@ -151,23 +154,54 @@ def test_the_plan_asks_nothing_twice() -> None:
     assert max(each.consumers for each in simulations(SCENES, most=16)) == 15 - 1 + 1
 
 
-@needs_simulator
-def test_all_steps_write_a_page(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (tmp_path / "tasks").mkdir()
+def recorded_tasks(folder: Path) -> None:
+    """As `cluster record` leaves them."""
+    (folder / "tasks").mkdir()
     recorded = {}
     for scene in SCENES:
         for work in WORKS:
-            path = tasks(
-                tasks_file(tmp_path, scene, work), [0.001 * (1 + i % 5) for i in range(60)]
-            )
+            tasks(tasks_file(folder, scene, work), [0.001 * (1 + i % 5) for i in range(60)])
             recorded[f"{scene}-{work}"] = {
                 "build_seconds": 0.002,
                 "walk_seconds": 61e-4,
                 "work_seconds": 0.18,
                 "samples": 6000,
             }
-            assert path.is_file()
-    (tmp_path / "recorded.json").write_text(json.dumps(recorded), "utf-8")
+    (folder / "recorded.json").write_text(json.dumps(recorded), "utf-8")
+
+
+def counting_simulator(folder: Path) -> tuple[Path, Path]:
+    """A program that answers anything with the same, and a file with a line for each call."""
+    zeros = dict.fromkeys(
+        "tasks traced_seconds build_seconds walk_seconds work_seconds accept_seconds producer_busy "
+        "messages_from_producer bytes_from_producer messages_to_producer bytes_to_producer".split(),
+        0,
+    )
+    program, calls = folder / "simulator", folder / "calls"
+    answer = json.dumps({"seconds": 1.0, "processes": []} | zeros)
+    program.write_text(f"#!/bin/sh\necho call >> {calls}\necho '{answer}'\n", "utf-8")
+    program.chmod(0o755)
+    return program, calls
+
+
+@pytest.mark.parametrize("jobs", [1, 3])
+def test_an_interrupted_simulation_goes_on_where_it_was(tmp_path: Path, jobs: int) -> None:
+    recorded_tasks(tmp_path)
+    program, calls = counting_simulator(tmp_path)
+    plan = simulations(SCENES, most=5)[:6]
+    simulate(tmp_path, program, plan[:4], jobs)
+    answers = tmp_path / "answers.jsonl"
+    answers.write_text(answers.read_text("utf-8")[:-40], "utf-8")  # killed while it wrote
+    simulate(tmp_path, program, plan, jobs)
+    assert len(calls.read_text("utf-8").splitlines()) == 4 + 1 + 2
+    assert list(read_simulations(tmp_path)["consumers"]) == [each.consumers for each in plan]
+    simulate(tmp_path, program, plan, jobs)
+    assert len(calls.read_text("utf-8").splitlines()) == 7
+
+
+@needs_simulator
+def test_all_steps_write_a_page(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    recorded_tasks(tmp_path)
     step = ["cluster", "simulate", str(tmp_path), "--program", str(SIMULATOR), "--most", "8"]
     assert main(step) == 0
     rows = read_simulations(tmp_path)
@@ -179,6 +213,25 @@ def test_all_steps_write_a_page(tmp_path: Path, capsys: pytest.CaptureFixture[st
         assert f"]({figure}.png)" in page
         assert (tmp_path / f"{figure}.svg").is_file()
     capsys.readouterr()
+
+
+def test_a_line_of_many_processes_has_one_network() -> None:
+    """Two networks have other speed-ups for as many processes: as one line they would zigzag."""
+    rows = [
+        {"scene": "s", "era": "1999", "options": options, "machines": "equal", "network": network,
+         "consumers": consumers, "speed_up": speed_up, "producer_busy": 0.5}
+        for options, network, speed_up in (
+            ("thesis", "shared", 3.0), ("thesis", "switched", 6.0), ("two in flight", "switched", 7)
+        )
+        for consumers in (63, 15, 31)
+    ]  # fmt: skip
+    plots = {plot.stem: plot for plot in cluster_plots(pd.DataFrame(rows), pd.DataFrame())}
+    panel = plots["many-processes-1999"].figure.axes[0]
+    drawn = {line.get_label(): line for line in panel.lines if not line.get_label().startswith("_")}
+    assert list(drawn) == ["thesis", "two in flight", "thesis, shared"]
+    for name, speed_up in (("thesis", 6.0), ("two in flight", 7.0), ("thesis, shared", 3.0)):
+        assert list(drawn[name].get_xdata()) == [16, 32, 64]
+        assert set(drawn[name].get_ydata()) == {speed_up}
 
 
 def test_what_is_missing_is_told(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

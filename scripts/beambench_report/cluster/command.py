@@ -44,6 +44,9 @@ def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) ->
     second.add_argument(
         "--most", type=int, default=1024, metavar="N", help="no more than N processes; 1024"
     )
+    second.add_argument(
+        "--jobs", type=int, default=1, metavar="N", help="N simulations at a time; 1"
+    )
 
 
 def cluster(options: argparse.Namespace) -> list[Path]:
@@ -57,7 +60,10 @@ def cluster(options: argparse.Namespace) -> list[Path]:
         pictures = [Picture(scene, width, height) for scene in SCENES]
         return record(options.folder, options.program, pictures, options.repeats)
     if options.step == "simulate":
-        return simulate(options.folder, options.program, simulations(SCENES, most=options.most))
+        if options.jobs < 1:
+            raise Problem("--jobs: expected 1 or more")
+        plan = simulations(SCENES, most=options.most)
+        return simulate(options.folder, options.program, plan, options.jobs)
     return write_report(options.folder)
 
 

@@ -104,13 +104,15 @@ def _scaling(rows: pd.DataFrame, era: str) -> Plot | None:
     if rows.empty:
         return None
     scenes = list(dict.fromkeys(rows["scene"]))
+    usual = rows["network"].mode().iloc[0]
     figure, panels = new_figure(PAGE_WIDTH * 0.95, rows=2, columns=len(scenes))
     for column, scene in enumerate(scenes):
         speed_up, busy = panels[column], panels[column + len(scenes)]
         of_scene = rows[rows["scene"].eq(scene)]
-        for index, options in enumerate(OPTIONS):
-            group = of_scene[of_scene["options"].eq(options)].sort_values("consumers")
-            look = _look(index) | {"label": options}
+        lines = _option_lines(of_scene, usual)
+        for index, ((options, network), group) in enumerate(lines):
+            named = "" if network == usual else f", {network}"
+            look = _look(index) | {"label": f"{options}{named}"}
             speed_up.plot(group["consumers"] + 1, group["speed_up"], **look)
             busy.plot(group["consumers"] + 1, 100 * group["producer_busy"], **look)
         ends = [of_scene["consumers"].min() + 1, of_scene["consumers"].max() + 1]
@@ -132,6 +134,14 @@ def _lines(rows: pd.DataFrame) -> Sequence[tuple[tuple[str, str], pd.DataFrame]]
         (key, group.sort_values("consumers"))
         for key, group in rows.groupby(["scene", "network"], sort=False)
     ]
+
+
+def _option_lines(rows: pd.DataFrame, usual: str) -> Sequence[tuple[tuple[str, str], pd.DataFrame]]:
+    """A line for each option; behind them, those on another than the usual network."""
+    groups = dict(list(rows.groupby(["options", "network"], sort=False)))
+    options = list(OPTIONS)
+    order = sorted(groups, key=lambda key: (key[1] != usual, options.index(key[0])))
+    return [(key, groups[key].sort_values("consumers")) for key in order]
 
 
 def _look(index: int) -> dict[str, object]:

@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import threading
 from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from beambench_report.cluster.calibration import (
@@ -28,36 +30,49 @@ class Memory:
     def __init__(self, path: Path) -> None:
         """Recalls what the file has."""
         self._path = path
+        self._writing = threading.Lock()
         self._known: dict[tuple[str, ...], dict[str, object]] = {}
         for line in path.read_text("utf-8").splitlines() if path.is_file() else []:
-            if line.endswith("}"):  # or it was cut off
+            try:
                 entry = json.loads(line)
-                self._known[tuple(entry["arguments"])] = entry["answer"]
+            except ValueError:  # it was cut off
+                continue
+            self._known[tuple(entry["arguments"])] = entry["answer"]
 
     def answer(
         self, arguments: list[str], ask: Callable[[], dict[str, object]]
     ) -> dict[str, object]:
-        """What was answered before, or is now."""
+        """What was answered before, or is now; from any thread."""
         key = tuple(arguments)
         if key not in self._known:
-            self._known[key] = ask()
-            with self._path.open("a", encoding="utf-8") as file:
-                json.dump({"arguments": arguments, "answer": self._known[key]}, file)
-                file.write("\n")
+            answer = ask()
+            with self._writing, self._path.open("a", encoding="utf-8") as file:
+                # A line of its own, whatever was cut off before.
+                file.write("\n" + json.dumps({"arguments": arguments, "answer": answer}))
+                self._known[key] = answer
         return self._known[key]
 
 
-def simulate(folder: Path, program: Path, plan: Sequence[Simulation]) -> list[Path]:
+def simulate(folder: Path, program: Path, plan: Sequence[Simulation], jobs: int = 1) -> list[Path]:
     """Writes FOLDER/simulations.csv and processes.csv from what was recorded there.
 
-    What was simulated before is not simulated again: FOLDER/answers.jsonl remembers it.
+    `jobs` simulations at a time. What was simulated before is not simulated again:
+    FOLDER/answers.jsonl remembers it.
     """
     recorded = read_recorded(folder)
     memory = Memory(folder / "answers.jsonl")
     answers = []
-    for number, simulation in enumerate(plan, 1):
-        print(f"\r{number} of {len(plan)} simulations", end="", file=sys.stderr, flush=True)
-        answers.append(_answer(folder, program, simulation, recorded, memory))
+    with ThreadPoolExecutor(jobs) as pool:
+        asked = [
+            pool.submit(_answer, folder, program, simulation, recorded, memory)
+            for simulation in plan
+        ]
+        try:
+            for number, each in enumerate(asked, 1):
+                print(f"\r{number} of {len(plan)} simulations", end="", file=sys.stderr, flush=True)
+                answers.append(each.result())
+        finally:
+            pool.shutdown(cancel_futures=True)  # where one failed, the others are not begun
     print(file=sys.stderr)
     return write_results(folder, answers)
 
