@@ -27,6 +27,8 @@ Scene generate(const Parameters& parameters) {
   camera.up = {0.0F, 0.0F, 1.0F};
   camera.angle = 19.0F;
   camera.aspect = 1.25F;
+  camera.width = 640;
+  camera.height = 512;
   builder.add_camera(camera);
   builder.set_background({0.07, 0.30, 0.52});
   builder.add_light({-2.0, -3.0, 5.0});

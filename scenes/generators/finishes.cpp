@@ -38,6 +38,8 @@ Scene generate(const Parameters& parameters) {
   camera.up = {0.0F, 0.0F, 1.0F};
   camera.angle = 29.0F;
   camera.aspect = 1.6F;
+  camera.width = 640;
+  camera.height = 400;
   builder.add_camera(camera);
   builder.set_background({0.35, 0.5, 0.7});
   builder.add_light({9.0, -12.0, 16.0});

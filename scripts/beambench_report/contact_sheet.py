@@ -60,6 +60,7 @@ DEFAULT_GROUPS = (
             "balls tetra shells teapot gears mount rings tree jacks lattice sombrero".split(),
         ),
     ),
+    Group("Others", ("finishes", "closed-room", "tessellated-balls", "bumpy", "soup")),
 )
 
 

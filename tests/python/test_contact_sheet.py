@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import json
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from matplotlib.image import imread
 
 from beambench_report.__main__ import main
 from beambench_report.contact_sheet import DEFAULT_GROUPS
-from program import BINARY
+from program import BINARY, output_of
 
 WIDE = """v
 from 0 -5 0
@@ -93,3 +94,9 @@ def test_wrong_requests_are_one_sentence(
 def test_the_fifteen_scenes_of_the_thesis_come_first(repository: Path) -> None:
     with (repository / "results/thesis/scenes.csv").open() as file:
         assert list(DEFAULT_GROUPS[0].scenes) == [row["scene"] for row in csv.DictReader(file)]
+
+
+def test_every_scene_of_the_catalogue_stands_on_the_sheet() -> None:
+    listed = json.loads(output_of("list", "--json"))["scenes"]
+    shown = [scene for group in DEFAULT_GROUPS for scene in group.scenes]
+    assert sorted(shown) == [scene["name"] for scene in listed if scene["origin"] == "built in"]

@@ -111,6 +111,16 @@ TEST(Catalogue, ScenesAreNamedByTheirLabel) {
   EXPECT_EQ(load_scene("stetra").name, "stetra");
 }
 
+TEST(Catalogue, TheResolutionThatASceneAsksForHasSquarePixels) {
+  for (const SceneInfo& info : scene_catalogue()) {
+    for (const Camera& camera : load_scene(info.name).cameras) {
+      EXPECT_FLOAT_EQ(static_cast<float>(camera.width) / static_cast<float>(camera.height),
+                      camera.aspect)
+          << info.name << ", camera " << camera.name;
+    }
+  }
+}
+
 TEST(Catalogue, WrongRequestsNameTheRemedy) {
   EXPECT_TRUE(says(thrown_message([] { load_scene("bals:n=3"); }),
                    {"'bals'", "did you mean 'balls'", "tetra"}));
