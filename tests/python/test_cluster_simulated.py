@@ -67,6 +67,15 @@ def test_a_cluster_of_one_takes_the_sum(tmp_path: Path) -> None:
 
 
 @needs_simulator
+def test_short_tasks_take_their_time(tmp_path: Path) -> None:
+    path = tasks(tmp_path / "t.csv", [4e-7] * 1000, walk=2e-7)
+    run = simulated(path, "--consumers", "0", "--look-seconds", "3e-7")
+    # Walking, work, 1e-5 to accept each, and a look between them.
+    assert run["seconds"] > 1000 * (2e-7 + 4e-7 + 1e-5 + 3e-7)
+    assert run["seconds"] == pytest.approx(1000 * 1.09e-5, rel=0.05)
+
+
+@needs_simulator
 def test_consumers_share_the_work_and_every_task_is_done_once(tmp_path: Path) -> None:
     path = tasks(tmp_path / "t.csv", [0.001 * (1 + i % 7) for i in range(200)])
     seconds = []

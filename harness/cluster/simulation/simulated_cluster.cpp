@@ -36,6 +36,7 @@ void configure() {
   set("network/TCP-gamma:0");
   set("network/crosstraffic:no");
   set("smpi/simulate-computation:no");
+  set("smpi/cpu-threshold:0");  // or what takes less than a microsecond would take nothing
   set(fmt::format("smpi/host-speed:{}f", kSpeedOne));
   set("smpi/bw-factor:1");
   set("smpi/lat-factor:1");
