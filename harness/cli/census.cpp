@@ -9,11 +9,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/cli/census_result.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/picture_folder.hpp"
-#include "harness/cli/text.hpp"
 #include "harness/cli/whitted_request.hpp"
+#include "harness/picture/image_error.hpp"
 #include "harness/picture/image_file.hpp"
 #include "harness/plugin/check_hits.hpp"
 #include "harness/rays/answers.hpp"
@@ -33,26 +34,10 @@ struct Request {
   bool json = false;
 };
 
-/// What one scene took.
-struct Result {
-  std::string scene;
-  RayCensus census;
-  std::size_t lights;
-  double build_ms;
-  double eye_ms;
-  double preparation_ms;  ///< light buffers
-  double picture_ms;      ///< all but the eye's rays
-  std::size_t shadow_bytes;
-};
-
 using Clock = std::chrono::steady_clock;
 
 double milliseconds_since(Clock::time_point begin) {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
-double all_ms(const Result& result) {
-  return result.build_ms + result.eye_ms + result.preparation_ms + result.picture_ms;
 }
 
 /// The eye's rays by the structure's own way for images, or one by one at the corners of pixels.
@@ -70,7 +55,19 @@ HitBuffer eye_hits(const Accelerator& structure, const EyeRays& rays, const Prim
   return hits;
 }
 
-Result take_census(const Request& request, const std::string& name, Progress& progress) {
+/// The picture without `least_weight`, and how far the one with it is from it.
+FullPicture draw_full(const Scene& scene, const Accelerator& structure, const EyeRays& rays,
+                      const HitBuffer& hits, WhittedRequest request, const Image& picture,
+                      Progress& progress) {
+  request.least_weight = 0.0;
+  const Whitted tracer(scene, structure, whitted_options(request));
+  const Clock::time_point begin = Clock::now();
+  const WhittedPicture full = watched_picture(tracer, rays, hits, request, progress);
+  const double picture_ms = milliseconds_since(begin);
+  return {full.census.all_rays(), picture_ms, root_mean_square_error(picture, full.image)};
+}
+
+CensusResult take_census(const Request& request, const std::string& name, Progress& progress) {
   const StructureChoice choice = choose_one("--accel", request.structure);
   const Scene scene = open_scene(name);
   const ImageOfRays image = choose_image(scene, request.image);
@@ -78,8 +75,9 @@ Result take_census(const Request& request, const std::string& name, Progress& pr
   const bool spd = request.rules == "spd";
   progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
 
-  Result result{scene.name, {}, scene.lights.size(), 0, 0, 0, 0, 0};
-  Clock::time_point begin = Clock::now();
+  CensusResult result{scene.name, scene.lights.size(), {}, 0, 0, 0, 0, 0, {}};
+  const Clock::time_point all = Clock::now();
+  Clock::time_point begin = all;
   const auto structure = choice.build(scene, workload_of(image, primary));
   result.build_ms = milliseconds_since(begin);
   const EyeRays rays = spd ? corner_rays(image.camera) : eye_rays(primary);
@@ -98,33 +96,21 @@ Result take_census(const Request& request, const std::string& name, Progress& pr
   if (!request.pictures.empty()) {
     write_image(std::filesystem::path(request.pictures) / picture_name(scene.name), picture.image);
   }
-  progress.finish(fmt::format("{} rays in {}",
-                              picture.census.eye + picture.census.reflected +
-                                  picture.census.refracted + picture.census.shadow,
-                              format_duration(1e-3 * all_ms(result))));
+  if (request.whitted.least_weight > 0.0) {
+    result.full =
+        draw_full(scene, *structure, rays, hits, request.whitted, picture.image, progress);
+  }
+  progress.finish(fmt::format("{} rays in {}", picture.census.all_rays(),
+                              format_duration(1e-3 * milliseconds_since(all))));
   return result;
 }
 
-void print_text(const Request& request, const std::vector<Result>& results) {
-  TextTable table({"scene", "eye rays", "hits", "reflected", "refracted", "shadow", "hidden",
-                   "cached", "listed", "too faint", "build", "eye", "lists", "the rest"});
-  for (const Result& result : results) {
-    const RayCensus& census = result.census;
-    const auto number = [](std::uint64_t value) { return fmt::format("{}", value); };
-    const auto time = [](double ms) { return fmt::format("{:.4g} ms", ms); };
-    table.add({result.scene, number(census.eye), number(census.eye_hits), number(census.reflected),
-               number(census.refracted), number(census.shadow),
-               format_share(census.shadow_hidden, census.shadow),
-               format_share(census.shadow_cached, census.shadow_hidden),
-               format_share(census.shadow_listed, census.shadow), number(census.too_faint),
-               time(result.build_ms), time(result.eye_ms), time(result.preparation_ms),
-               time(result.picture_ms)});
-  }
+void print_text(const Request& request, const std::vector<CensusResult>& results) {
   fmt::print("{}, {} rules, depth {}, shadows by {}\n\n{}", request.structure, request.rules,
-             request.whitted.max_depth, request.whitted.shadows, table.text());
+             request.whitted.max_depth, request.whitted.shadows, census_text(results));
 }
 
-void print_json(const Request& request, const std::vector<Result>& results) {
+void print_json(const Request& request, const std::vector<CensusResult>& results) {
   nlohmann::ordered_json out{{"structure", request.structure},
                              {"rules", request.rules},
                              {"depth", request.whitted.max_depth},
@@ -132,28 +118,7 @@ void print_json(const Request& request, const std::vector<Result>& results) {
                              {"least_weight", request.whitted.least_weight},
                              {"threads", request.whitted.threads},
                              {"scenes", nlohmann::ordered_json::array()}};
-  for (const Result& result : results) {
-    const RayCensus& census = result.census;
-    out["scenes"].push_back({{"scene", result.scene},
-                             {"lights", result.lights},
-                             {"eye_rays", census.eye},
-                             {"eye_hits", census.eye_hits},
-                             {"reflected_rays", census.reflected},
-                             {"refracted_rays", census.refracted},
-                             {"secondary_hits", census.secondary_hits},
-                             {"too_faint", census.too_faint},
-                             {"shadow_rays", census.shadow},
-                             {"shadow_hidden", census.shadow_hidden},
-                             {"shadow_cached", census.shadow_cached},
-                             {"shadow_listed", census.shadow_listed},
-                             {"shadow_tests", census.shadow_tests},
-                             {"shadow_queries", census.shadow_queries},
-                             {"shadow_bytes", result.shadow_bytes},
-                             {"build_ms", result.build_ms},
-                             {"eye_ms", result.eye_ms},
-                             {"preparation_ms", result.preparation_ms},
-                             {"picture_ms", result.picture_ms}});
-  }
+  for (const CensusResult& result : results) out["scenes"].push_back(to_json(result));
   fmt::print("{}\n", out.dump(2));
 }
 
@@ -175,7 +140,7 @@ void census(const Request& request) {
     for (const SceneInfo& info : scene_catalogue()) scenes.push_back(info.name);
   }
   Progress progress(scenes.size());
-  std::vector<Result> results;
+  std::vector<CensusResult> results;
   results.reserve(scenes.size());
   for (const std::string& name : scenes) {
     results.push_back(take_census(request, name, progress));
@@ -210,11 +175,17 @@ void add_census_command(CLI::App& app, int&) {
       "for being faint, no shadow ray to a light behind the surface. hidden: of the shadow rays,\n"
       "those that something opaque stops; cached: of these, what the shadow cache knew; listed: "
       "of\n"
-      "the shadow rays, what light buffers answered; too faint: not traced for --least-weight.\n"
-      "Times: building, the eye's rays, making light buffers, the rest (on --threads).\n"
+      "the shadow rays, what light buffers answered. Times: building, the eye's rays, making "
+      "light\n"
+      "buffers, the rest (on --threads). With --least-weight each picture is drawn once more "
+      "without:\n"
+      "too faint: not traced; of the rays, of the rest: how much of its rays and time were "
+      "needed;\n"
+      "error: the root mean square of the pictures' difference, of 255.\n"
       "Examples:\n"
       "  beambench census tetra teapot:n=12 --rules spd\n"
       "  beambench census escena1 --accel beam --resolution 640x480 --shadows cache --json\n"
+      "  beambench census mount --least-weight 0.01\n"
       "  beambench census --resolution 1280x1024 --threads 2 --pictures whitted");
   command->callback([request] { census(*request); });
 }

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/picture/image_error.hpp"
 #include "harness/record/robust_statistics.hpp"
-#include "harness/sampling/image_error.hpp"
 #include "harness/sampling/image_space_sampling.hpp"
 #include "harness/sampling/sparse_image.hpp"
 #include "harness/shade/shading.hpp"

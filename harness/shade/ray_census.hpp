@@ -21,6 +21,9 @@ struct RayCensus {
   std::uint64_t shadow_tests = 0;    ///< ray-primitive tests of cache and light buffer
   std::uint64_t shadow_queries = 0;  ///< closest-hit and any-hit queries for shadow rays
 
+  /// Rays of all kinds.
+  std::uint64_t all_rays() const { return eye + reflected + refracted + shadow; }
+
   RayCensus& operator+=(const RayCensus& other) {
     eye += other.eye;
     eye_hits += other.eye_hits;

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/picture/image_error.hpp"
 #include "harness/sampling/compare_sampling.hpp"
-#include "harness/sampling/image_error.hpp"
 #include "harness/sampling/image_space_sampling.hpp"
 #include "harness/sampling/sparse_image.hpp"
 #include "harness/shade/shading.hpp"

@@ -174,6 +174,50 @@ TEST(Whitted, ASlabOfGlassMovesARayAside) {
   }
 }
 
+/// A glass bar along y whose section is the right angle (0, 0), (2, 2), (0, 2) of x and z, below a
+/// small white ceiling at z = 4, with the light between.
+Scene prism_below_a_ceiling(float index) {
+  SceneBuilder builder = with_light({1.0, 0.0, 3.0});
+  builder.set_surface({.diffuse = 0.0F, .transmittance = 1.0F, .refraction_index = index});
+  const auto add_side = [&](const dvec3& a, const dvec3& b) {
+    const dvec3 along(0, 9, 0);
+    builder.add_polygon(std::array<dvec3, 4>{a - along, b - along, b + along, a + along});
+  };
+  add_side({0, 0, 0}, {2, 0, 2});
+  add_side({2, 0, 2}, {0, 0, 2});
+  add_side({0, 0, 2}, {0, 0, 0});
+  builder.set_surface({.color = {1, 1, 1}, .diffuse = 1.0F});
+  builder.add_polygon(
+      std::array<dvec3, 4>{dvec3(0, -1, 4), dvec3(2, -1, 4), dvec3(2, 1, 4), dvec3(0, 1, 4)});
+  return std::move(builder).build();
+}
+
+TEST(Whitted, APrismTurnsARayByTotalReflection) {
+  // In upright at x = 0, onto the long side at 45 degrees, up and out upright at z = 2: three rays
+  // follow the eye's. The light stands straight below what they see.
+  expect_color(seen(prism_below_a_ceiling(1.5F), {-5, 0, 1}, {1, 0, 0}), dvec3(kAmbient + 1.0));
+  expect_color(seen(prism_below_a_ceiling(1.5F), {-5, 0, 1}, {1, 0, 0}, {.max_depth = 3}),
+               dvec3(0.0));
+  // With this index the critical angle is 56 degrees: the ray goes on to the sky.
+  expect_color(seen(prism_below_a_ceiling(1.2F), {-5, 0, 1}, {1, 0, 0}), linear(0.2, 0.4, 0.8));
+}
+
+TEST(Whitted, OnlyALightBeforeTheSurfaceGetsAShadowRay) {
+  for (const double height : {5.0, -5.0}) {
+    SceneBuilder builder = with_light({3.0, 1.0, height});
+    builder.set_surface({.color = {1, 1, 1}, .diffuse = 1.0F});
+    add_floor(builder, 0.0);
+    Camera camera;
+    camera.from = {0.0F, 0.0F, 9.0F};
+    builder.add_camera(camera);
+    const Scene scene = std::move(builder).build();
+    const RayCensus census = picture(scene, "sah-bvh", {}).census;
+    EXPECT_EQ(census.eye_hits, 40U * 30U);
+    EXPECT_EQ(census.shadow, height > 0.0 ? census.eye_hits : 0U);
+    EXPECT_EQ(census.shadow_hidden, 0U);
+  }
+}
+
 TEST(Whitted, ClassicStructuresGiveTheSameBits) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     SCOPED_TRACE(seed);

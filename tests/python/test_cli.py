@@ -361,6 +361,30 @@ def test_a_census_counts_rays_by_kind(tmp_path: Path) -> None:
     assert shallow["shadow_rays"] < cached["shadow_rays"]
 
 
+def test_a_census_tells_what_faint_rays_save_and_cost() -> None:
+    def scene(*options: str) -> dict:
+        arguments = ("census", "mount:n=3", "--resolution", "64x64", "--json", *options)
+        (result,) = json.loads(output_of(*arguments))["scenes"]
+        return result
+
+    def rays(result: dict) -> int:
+        return sum(result[f"{k}_rays"] for k in ("eye", "reflected", "refracted", "shadow"))
+
+    whole = scene()
+    assert "error" not in whole
+    little, much = scene("--least-weight", "0.01"), scene("--least-weight", "0.1")
+    for result in (little, much):
+        assert result["full_rays"] == rays(whole)
+        assert result["too_faint"] > 0
+    assert rays(much) < rays(little) < rays(whole)
+    assert 0 < little["error"] < much["error"] < 20
+    # A part that no ray can have less of leaves nothing out.
+    assert scene("--least-weight", "1e-9")["error"] == 0
+    text = output_of("census", "mount:n=3", "--resolution", "64x64", "--least-weight", "0.01")
+    for word in ["too faint", "of the rays", "error"]:
+        assert word in text
+
+
 def test_whole_pictures_do_not_depend_on_the_threads(tmp_path: Path) -> None:
     arguments = ("census", "finishes", "mount:n=3", "--resolution", "80x60", "--samples", "4")
 

@@ -1,4 +1,4 @@
-#include "harness/sampling/image_error.hpp"
+#include "harness/picture/image_error.hpp"
 
 #include <cmath>
 

@@ -1,0 +1,41 @@
+#pragma once
+// What `beambench census` finds out, as text and as JSON.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/shade/ray_census.hpp"
+
+namespace beambench {
+
+/// The same picture with no ray left out for being faint, to tell what that saves and costs.
+struct FullPicture {
+  std::uint64_t rays;
+  double picture_ms;
+  double error;  ///< of the picture with rays left out: `root_mean_square_error`
+};
+
+/// What one scene took.
+struct CensusResult {
+  std::string scene;
+  std::size_t lights;
+  RayCensus census;
+  double build_ms;
+  double eye_ms;
+  double preparation_ms;  ///< light buffers
+  double picture_ms;      ///< all but the eye's rays
+  std::size_t shadow_bytes;
+  std::optional<FullPicture> full;  ///< where rays may have been left out
+};
+
+/// A table with a row for each scene.
+std::string census_text(const std::vector<CensusResult>& results);
+
+nlohmann::ordered_json to_json(const CensusResult& result);
+
+}  // namespace beambench
