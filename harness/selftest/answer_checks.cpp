@@ -49,7 +49,7 @@ CheckOutcome check_random_scenes(const Subject& subject, const SelftestEffort& e
     Random random(seed);
     // Small scenes first: what fails is easy to look at.
     const auto primitives = static_cast<int>(1 + i * kMostPrimitives / effort.scenes);
-    const Scene scene = random_scene(seed, primitives);
+    const Scene scene = random_scene(seed, primitives, subject.kinds());
     const StructureChoice choice = subject.vary(random);
     std::unique_ptr<Accelerator> structure;
     try {
@@ -78,14 +78,19 @@ CheckOutcome check_random_scenes(const Subject& subject, const SelftestEffort& e
   return outcome;
 }
 
-CheckOutcome check_images(const Subject& subject, const SelftestEffort&) {
+CheckOutcome check_images(const Subject& subject, const SelftestEffort& effort) {
   CheckOutcome outcome;
+  std::vector<Scene> scenes;
   for (const char* name : {"tetra:n=3", "balls:n=2", "escena1", "escena2", "bumpy:triangles=768"}) {
-    const Scene scene = load_scene(name);
+    Scene scene = load_scene(name);
+    if (subject.kinds().include(scene)) scenes.push_back(std::move(scene));
+  }
+  if (scenes.empty()) scenes.push_back(random_scene(effort.seed, 200, subject.kinds()));
+  for (const Scene& scene : scenes) {
     const auto structure = subject.build(scene);
     for (const int samples : {1, 5}) {
       const PrimaryRays rays(scene.cameras.front(), 41, 33, samples);
-      add(outcome, rays.count(), fmt::format("{} with {} samples a pixel", name, samples),
+      add(outcome, rays.count(), fmt::format("{} with {} samples a pixel", scene.name, samples),
           Comparison(scene, subject.conformance()).image(*structure, rays));
       if (!outcome.passed()) return outcome;
     }
@@ -96,6 +101,7 @@ CheckOutcome check_images(const Subject& subject, const SelftestEffort&) {
 CheckOutcome check_smallest_scenes(const Subject& subject, const SelftestEffort& effort) {
   CheckOutcome outcome;
   for (Scene& scene : smallest_scenes()) {
+    if (!subject.kinds().include(scene)) continue;
     Random random(effort.seed);
     std::vector<Ray> rays{Ray{}};
     if (!scene.primitives.empty()) rays = random_rays(scene, random);
@@ -116,11 +122,11 @@ CheckOutcome check_faces_edges_corners(const Subject& subject, const SelftestEff
 }
 
 CheckOutcome check_heap(const Subject& subject, const SelftestEffort&) {
-  return ask_about(subject, heap_of_spheres());
+  return ask_about(subject, heap(subject.kinds()));
 }
 
 CheckOutcome check_degenerate_rays(const Subject& subject, const SelftestEffort& effort) {
-  Scene scene = random_scene(effort.seed, 40);
+  Scene scene = random_scene(effort.seed, 40, subject.kinds());
   std::vector<Ray> rays = degenerate_rays(scene, effort.seed);
   return ask_about(subject, {std::move(scene), std::move(rays)});
 }

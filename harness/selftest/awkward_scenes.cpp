@@ -87,10 +87,19 @@ SceneWithRays block_of_squares() {
   return made;
 }
 
-SceneWithRays heap_of_spheres() {
-  constexpr int kSpheres = 10'000;
+SceneWithRays heap(PrimitiveKinds kinds) {
+  constexpr int kPrimitives = 10'000;
+  const std::array<glm::dvec3, 3> triangle{{{-1.0, 0.0, 0.0}, {1.0, 0.0, 0.25}, {0.25, 2.0, 0.0}}};
   SceneBuilder builder("heap");
-  for (int i = 0; i < kSpheres; ++i) builder.add_sphere({0.25, 0.5, -0.125}, 0.5);
+  for (int i = 0; i < kPrimitives; ++i) {
+    if (kinds.spheres) {
+      builder.add_sphere({0.25, 0.5, -0.125}, 0.5);
+    } else if (kinds.cones) {
+      builder.add_cone({0.25, 0.0, 0.0}, 0.5, {0.25, 1.0, 0.0}, 0.25);
+    } else {
+      builder.add_polygon(triangle);
+    }
+  }
   SceneWithRays made{std::move(builder).build(), {}};
   Random random(1);
   for (int i = 0; i < 20; ++i) made.rays.push_back(random_ray(made.scene, random));

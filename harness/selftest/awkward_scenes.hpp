@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "accel/ray.hpp"
+#include "harness/selftest/primitive_kinds.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench {
@@ -21,8 +22,9 @@ SceneWithRays cubes_on_a_lattice();
 /// directions' zeros of both signs.
 SceneWithRays block_of_squares();
 
-/// Ten thousand equal spheres in one place: no split parts them, and the lowest id is hit.
-SceneWithRays heap_of_spheres();
+/// Ten thousand equal spheres in one place, or cones or triangles where only these are wanted: no
+/// split parts them, and the lowest id is hit.
+SceneWithRays heap(PrimitiveKinds kinds);
 
 /// Nothing; then one sphere, one cone, one triangle whose bounds have no volume.
 std::vector<Scene> smallest_scenes();

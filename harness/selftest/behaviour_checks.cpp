@@ -23,7 +23,8 @@ using Counts = std::map<std::string, std::uint64_t, std::less<>>;
 
 /// A scene and rays for all these checks: no multiple of a packet's size, some of them short.
 struct Ground {
-  explicit Ground(std::uint64_t seed) : scene(random_scene(seed, kPrimitives)) {
+  Ground(const Subject& subject, std::uint64_t seed)
+      : scene(random_scene(seed, kPrimitives, subject.kinds())) {
     Random random(seed);
     for (int i = 0; i < 503; ++i) {
       rays.push_back(random_ray(scene, random));
@@ -89,7 +90,7 @@ std::string impossible_count(const Ray& ray, bool hit, const WorkCounters& count
 }  // namespace
 
 CheckOutcome check_lists(const Subject& subject, const SelftestEffort& effort) {
-  const Ground ground(effort.seed);
+  const Ground ground(subject, effort.seed);
   const auto structure = subject.build(ground.scene);
   const std::vector<Question> all = questions(ground);
   const auto closest = std::get<HitBuffer>(asked(*structure, all[0]));
@@ -113,7 +114,7 @@ CheckOutcome check_lists(const Subject& subject, const SelftestEffort& effort) {
 }
 
 CheckOutcome check_counting(const Subject& subject, const SelftestEffort& effort) {
-  const Ground ground(effort.seed);
+  const Ground ground(subject, effort.seed);
   const auto structure = subject.build(ground.scene);
   CheckOutcome outcome;
   WorkCounters counters;
@@ -135,7 +136,7 @@ CheckOutcome check_counting(const Subject& subject, const SelftestEffort& effort
 }
 
 CheckOutcome check_two_builds(const Subject& subject, const SelftestEffort& effort) {
-  const Ground ground(effort.seed);
+  const Ground ground(subject, effort.seed);
   const auto first = subject.build(ground.scene);
   const auto second = subject.build(ground.scene);
   CheckOutcome outcome;
@@ -161,7 +162,7 @@ CheckOutcome check_two_builds(const Subject& subject, const SelftestEffort& effo
 }
 
 CheckOutcome check_threads(const Subject& subject, const SelftestEffort& effort) {
-  const Ground ground(effort.seed);
+  const Ground ground(subject, effort.seed);
   const auto structure = subject.build(ground.scene);
   const std::vector<Question> all = questions(ground);
   const Answers closest = asked(*structure, all[0]);
@@ -192,7 +193,7 @@ CheckOutcome check_threads(const Subject& subject, const SelftestEffort& effort)
 }
 
 CheckOutcome check_counters(const Subject& subject, const SelftestEffort& effort) {
-  const Ground ground(effort.seed);
+  const Ground ground(subject, effort.seed);
   const auto structure = subject.build(ground.scene);
   CheckOutcome outcome;
   WorkCounters all;
@@ -210,7 +211,7 @@ CheckOutcome check_counters(const Subject& subject, const SelftestEffort& effort
 }
 
 CheckOutcome check_statistics(const Subject& subject, const SelftestEffort& effort) {
-  const Ground ground(effort.seed);
+  const Ground ground(subject, effort.seed);
   const Statistics told = subject.build(ground.scene)->statistics();
   const auto wrong = [](std::string what) { return CheckOutcome{0, std::move(what)}; };
   if (told.leaves > told.nodes)
@@ -225,7 +226,7 @@ CheckOutcome check_statistics(const Subject& subject, const SelftestEffort& effo
 }
 
 CheckOutcome check_explanation(const Subject& subject, const SelftestEffort& effort) {
-  const Ground ground(effort.seed);
+  const Ground ground(subject, effort.seed);
   const auto structure = subject.build(ground.scene);
   CheckOutcome outcome;
   for (const Ray& ray : ground.rays) {

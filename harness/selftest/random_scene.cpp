@@ -26,7 +26,8 @@ glm::dvec3 any_direction(Random& random) {
 /// Makes the primitives of one scene.
 class Sculptor {
  public:
-  Sculptor(std::uint64_t seed, SceneBuilder& builder) : random_(seed), builder_(builder) {
+  Sculptor(std::uint64_t seed, PrimitiveKinds kinds, SceneBuilder& builder)
+      : random_(seed), kinds_(kinds), builder_(builder) {
     switch (seed % 4) {
       case 0:
         snap_ = 8.0;
@@ -57,7 +58,7 @@ class Sculptor {
 
  private:
   void add_one() {
-    switch (random_.below(6)) {
+    switch (any_kind()) {
       case 0:
       case 1:
         builder_.add_sphere(place(point_in_cube(random_)), sign() * size());
@@ -77,6 +78,17 @@ class Sculptor {
       default:
         add_triangle();
         break;
+    }
+  }
+
+  /// 0 and 1: a sphere; 2: a cone; 3: a star; 4 and 5: a triangle.
+  std::uint64_t any_kind() {
+    while (true) {
+      const std::uint64_t drawn = random_.below(6);
+      const PrimitiveKind kind = drawn < 2    ? PrimitiveKind::kSphere
+                                 : drawn == 2 ? PrimitiveKind::kCone
+                                              : PrimitiveKind::kPolygon;
+      if (kinds_.include(kind)) return drawn;
     }
   }
 
@@ -121,6 +133,7 @@ class Sculptor {
   double sign() { return random_.below(5) == 0 ? -1.0 : 1.0; }
 
   Random random_;
+  PrimitiveKinds kinds_;
   SceneBuilder& builder_;
   double snap_ = 0.0;
   bool repeat_ = false;
@@ -188,9 +201,9 @@ glm::dvec3 random_direction(const Scene& scene, const glm::dvec3& origin, Random
 
 }  // namespace
 
-Scene random_scene(std::uint64_t seed, int primitives) {
+Scene random_scene(std::uint64_t seed, int primitives, PrimitiveKinds kinds) {
   SceneBuilder builder(fmt::format("random {}", seed));
-  Sculptor sculptor(seed, builder);
+  Sculptor sculptor(seed, kinds, builder);
   for (int i = 0; i < primitives; ++i) sculptor.add_primitive();
   return std::move(builder).build();
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "accel/ray.hpp"
+#include "harness/selftest/primitive_kinds.hpp"
 #include "scenes/random.hpp"
 #include "scenes/scene.hpp"
 
@@ -13,7 +14,8 @@ namespace beambench {
 /// A scene of spheres, triangles, concave polygons and cones in and around the cube [-1, 1]^3. Of
 /// every four seeds one gives coordinates that are multiples of 1/8 (coplanar polygons, shared
 /// edges and exact ties), one repeats primitives, one lies far from the origin of the coordinates.
-Scene random_scene(std::uint64_t seed, int primitives);
+/// `kinds` leaves some kinds of primitives out.
+Scene random_scene(std::uint64_t seed, int primitives, PrimitiveKinds kinds = {});
 
 /// A ray from outside, inside or a special place (the scene's centre planes, axes and centre, which
 /// are faces, edges and corners of octree cells; a vertex), in any direction, along an axis or a

@@ -11,32 +11,34 @@ namespace beambench {
 std::span<const Check> selftest_checks() {
   static constexpr std::array<Check, 13> kChecks{{
       {"random scenes", "spheres, cones and polygons anywhere, at any of its parameters", false,
-       check_random_scenes},
-      {"smallest scenes", "nothing, one sphere, one cone, one triangle without depth", false,
+       false, check_random_scenes},
+      {"smallest scenes", "nothing, one sphere, one cone, one triangle without depth", false, false,
        check_smallest_scenes},
-      {"images", "the images of five scenes, with one and five samples a pixel", false,
+      {"images", "the images of five scenes, with one and five samples a pixel", false, false,
        check_images},
       {"faces, edges, corners", "rays in the planes, lines and points where cells and boxes meet",
-       true, check_faces_edges_corners},
-      {"degenerate rays", "directions of all lengths, nearly along axes; no interval", true,
+       true, true, check_faces_edges_corners},
+      {"degenerate rays", "directions of all lengths, nearly along axes; no interval", true, false,
        check_degenerate_rays},
-      {"heap", "ten thousand spheres in one place: the lowest id is hit", false, check_heap},
-      {"lists", "a list of rays gets what each ray gets alone", false, check_lists},
-      {"counting", "counting work changes no answer", false, check_counting},
-      {"two builds", "the same scene gives the same structure, work and answers", false,
+      {"heap", "ten thousand equal primitives in one place: the lowest id is hit", false, false,
+       check_heap},
+      {"lists", "a list of rays gets what each ray gets alone", false, false, check_lists},
+      {"counting", "counting work changes no answer", false, false, check_counting},
+      {"two builds", "the same scene gives the same structure, work and answers", false, false,
        check_two_builds},
-      {"threads", "four threads at once get what one gets", false, check_threads},
-      {"counters", "the counters of each ray can be", false, check_counters},
-      {"statistics", "the sizes that it tells can be", false, check_statistics},
-      {"explanation", "the way that it explains ends at the hit that it finds", false,
+      {"threads", "four threads at once get what one gets", false, false, check_threads},
+      {"counters", "the counters of each ray can be", false, false, check_counters},
+      {"statistics", "the sizes that it tells can be", false, false, check_statistics},
+      {"explanation", "the way that it explains ends at the hit that it finds", false, false,
        check_explanation},
   }};
   return kChecks;
 }
 
-bool applies(const Check& check, Conformance conformance) {
-  if (conformance == Conformance::kBaseline) return false;
-  return conformance == Conformance::kBitExact || !check.bit_exact_only;
+bool applies(const Check& check, const Subject& subject) {
+  if (subject.conformance() == Conformance::kBaseline) return false;
+  if (check.of_polygons && !subject.kinds().polygons) return false;
+  return subject.conformance() == Conformance::kBitExact || !check.bit_exact_only;
 }
 
 CheckOutcome run_check(const Check& check, const Subject& subject, const SelftestEffort& effort) {

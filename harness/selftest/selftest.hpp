@@ -28,14 +28,15 @@ struct Check {
   std::string_view name;
   std::string_view claim;  ///< what must be true
   bool bit_exact_only;     ///< asked of nobody who claims less
+  bool of_polygons;        ///< asked of nobody who refuses them
   CheckOutcome (*run)(const Subject& subject, const SelftestEffort& effort);
 };
 
 /// All of them, the quick and general ones first.
 std::span<const Check> selftest_checks();
 
-/// Is it asked of a structure of that conformance? Nothing is of one that answers nothing.
-bool applies(const Check& check, Conformance conformance);
+/// Is it asked of that structure? Nothing is of one that answers nothing.
+bool applies(const Check& check, const Subject& subject);
 
 /// Runs a check. What the structure throws is a failure, too.
 CheckOutcome run_check(const Check& check, const Subject& subject, const SelftestEffort& effort);

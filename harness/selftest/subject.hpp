@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "accel/registry.hpp"
+#include "harness/selftest/primitive_kinds.hpp"
 #include "scenes/random.hpp"
 
 namespace beambench {
@@ -16,11 +17,15 @@ Parameters random_parameters(const StructureInfo& info, Random& random);
 /// ones.
 class Subject {
  public:
-  explicit Subject(StructureChoice choice) : choice_(std::move(choice)) {}
+  /// Builds it over three tiny scenes, to see which primitives it takes.
+  explicit Subject(StructureChoice choice)
+      : choice_(std::move(choice)), kinds_(kinds_taken(choice_)) {}
 
   const StructureInfo& info() const { return choice_.info(); }
   Conformance conformance() const { return info().conformance; }
   const StructureChoice& choice() const { return choice_; }
+  /// What the scenes that it is asked over are made of.
+  PrimitiveKinds kinds() const { return kinds_; }
   /// With parameters of its own for each call, if it may.
   StructureChoice vary(Random& random) const;
 
@@ -28,6 +33,7 @@ class Subject {
 
  private:
   StructureChoice choice_;
+  PrimitiveKinds kinds_;
 };
 
 }  // namespace beambench

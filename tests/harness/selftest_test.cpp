@@ -122,6 +122,37 @@ TEST(Selftest, PassesWhatIsRight) {
   }
 }
 
+/// Exhaustive search that refuses all but some kinds of primitives.
+StructureInfo picky(PrimitiveKinds takes) {
+  return {"picky",
+          "not everything",
+          Conformance::kBitExact,
+          {},
+          [takes](const Scene& scene, const Parameters&, const Workload&) {
+            if (!takes.include(scene)) throw InputError("not this one");
+            return std::make_unique<Faulty>(scene, Fault::kNone);
+          }};
+}
+
+TEST(Selftest, AsksOverThePrimitivesThatAreTaken) {
+  for (const PrimitiveKinds takes :
+       {PrimitiveKinds{.cones = false}, PrimitiveKinds{false, true, false},
+        PrimitiveKinds{true, false, false}, PrimitiveKinds{false, false, true}}) {
+    const StructureInfo info = picky(takes);
+    const Subject subject(StructureChoice(info, Parameters(info.name, info.parameters, {})));
+    EXPECT_EQ(subject.kinds().names(), takes.names());
+    for (const Check& check : selftest_checks()) {
+      if (!applies(check, subject)) {
+        EXPECT_TRUE(check.of_polygons && !takes.polygons) << check.name;
+        continue;
+      }
+      const CheckOutcome outcome = run_check(check, subject, {.seed = 1, .scenes = 40});
+      EXPECT_EQ(outcome.failure, "") << check.name << " over " << takes.names().front();
+      EXPECT_TRUE(outcome.rays > 0 || check.name == "statistics") << check.name;
+    }
+  }
+}
+
 TEST(Selftest, FindsAFaultByEachCheck) {
   const std::pair<const char*, Fault> expected[] = {
       {"random scenes", Fault::kNoCones},

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -30,12 +31,19 @@ def installed(prefix: Path) -> Path:
     return prefix
 
 
-def built(source: Path, folder: Path, package: Path, *options: str) -> Path:
-    """The folder with the shared objects of an outside project, found by the package alone."""
+def configured(source: Path, folder: Path, package: Path, *options: str) -> set[str]:
+    """Makes the build folder of an outside project, and tells the shared objects to be built."""
     launcher = shutil.which("ccache")
     speed = [f"-DCMAKE_CXX_COMPILER_LAUNCHER={launcher}"] if launcher else []
     found = f"-DCMAKE_PREFIX_PATH={package}"
     run("cmake", "-G", "Ninja", "-S", source, "-B", folder, found, *speed, *options)
+    statements = (folder / "build.ninja").read_text()
+    return set(re.findall(r"^build (\S+\.so): CXX", statements, re.MULTILINE))
+
+
+def built(source: Path, folder: Path, package: Path, *options: str) -> Path:
+    """The folder with the shared objects of an outside project, found by the package alone."""
+    configured(source, folder, package, *options)
     run("cmake", "--build", folder)
     return folder
 

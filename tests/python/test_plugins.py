@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from plugins import BUILD, SOURCES, built, call, installed
+from plugins import BUILD, SOURCES, built, call, configured, installed
 from program import BINARY, refused
 
 SWEEP = {
@@ -95,6 +95,26 @@ def test_find_package_takes_no_other_version(prefix: Path, tmp_path: Path) -> No
         built(tmp_path, tmp_path / "build", prefix)
 
 
+@pytest.mark.parametrize(
+    ("variable", "header"),
+    [("BEAMBENCH_TINYBVH", "tiny_bvh.h"), ("BEAMBENCH_MADMANN91_BVH", "bvh/v2/bvh.h")],
+)
+def test_an_adapter_is_built_where_its_headers_are(
+    prefix: Path, tmp_path: Path, variable: str, header: str
+) -> None:
+    adapters = SOURCES.parents[1] / "harness/plugin/adapters"
+    libraries = configured(adapters, tmp_path / "none", prefix)
+    assert not libraries
+    folder = tmp_path / "their headers"
+    folder.mkdir()
+    with pytest.raises(AssertionError, match=f"{variable}: there is no {header} in"):
+        configured(adapters, tmp_path / "wrong", prefix, f"-D{variable}={folder}")
+    (folder / header).parent.mkdir(parents=True, exist_ok=True)
+    (folder / header).touch()
+    libraries = configured(adapters, tmp_path / "right", prefix, f"-D{variable}={folder}")
+    assert libraries == {f"plugins/lib{variable.removeprefix('BEAMBENCH_').lower()}.so"}
+
+
 # What is taken in
 
 
@@ -138,6 +158,30 @@ def test_a_sweep_measures_it_and_the_manifest_says_what_it_was(
     assert plugin["structures"] == ["mine"]
     assert plugin["scenes"] == ["helix"]
     assert plugin["optimised"]
+
+
+def test_the_self_test_ends_with_a_verdict(template: Path, faulty: Path, tmp_path: Path) -> None:
+    done = call("--plugin", template, "selftest", "--accel", "mine", "--scenes", "10")
+    assert done.returncode == 0, done.stdout
+    assert done.stdout.splitlines()[-1] == "mine: ok, it keeps its contract in all 13 checks"
+
+    def faulty_test(fault: str) -> subprocess.CompletedProcess[str]:
+        return call("--plugin", faulty, "selftest", "--accel", "faulty", "--scenes", "10",
+                    "--json", tmp_path / "selftest.json", fault=fault)  # fmt: skip
+
+    wrong = faulty_test("any hit is the other way round")
+    assert wrong.returncode == 1
+    assert "faulty: failed " in wrong.stdout.splitlines()[-1]
+    crashed = faulty_test("crash in trace")
+    assert crashed.returncode == 1
+    assert "asking 'faulty' over random 1 crashed" in crashed.stderr.splitlines()[-1]
+    some = faulty_test("refuses spheres")
+    assert some.returncode == 0, some.stdout
+    assert some.stdout.splitlines()[-1].endswith(
+        ", over cones and polygons alone: it refuses spheres"
+    )
+    told = json.loads((tmp_path / "selftest.json").read_text())
+    assert told["structures"] == [{"structure": "faulty", "primitives": ["cones", "polygons"]}]
 
 
 def test_a_run_goes_on_with_the_same_plug_ins_only(template: Path, tmp_path: Path) -> None:

@@ -46,8 +46,8 @@ bvh::v2::Bvh<Node> build_bvh(const std::vector<bvh::v2::Tri<float, 3>>& triangle
 template <bool kRobust>
 class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
  public:
-  MadmannBvh(const Scene& scene, const std::string& quality, bool confirm)
-      : scene_(&scene), confirm_(confirm) {
+  MadmannBvh(const Scene& scene, const std::string& quality, bool exact_t)
+      : scene_(&scene), exact_t_(exact_t) {
     std::vector<bvh::v2::Tri<float, 3>> triangles;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
       const auto [a, b, c] = adapters::corners(scene, i);
@@ -63,7 +63,7 @@ class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
     auto asked = converted(ray);
     const auto found = visit<false>(asked, counting);
     if (!found) return std::nullopt;
-    if (confirm_) return adapters::confirmed(*scene_, ray, *found);
+    if (exact_t_) return adapters::with_exact_t(*scene_, ray, *found, asked.tmax);
     return Hit{asked.tmax, scene_->triangles[*found].primitive};
   }
 
@@ -117,7 +117,7 @@ class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
   }
 
   const Scene* scene_;
-  bool confirm_;
+  bool exact_t_;
   bvh::v2::Bvh<Node> bvh_;
   std::vector<bvh::v2::PrecomputedTri<float>> triangles_;
 };
@@ -126,9 +126,9 @@ std::unique_ptr<Accelerator> build(const Scene& scene, const Parameters& paramet
                                    const Workload&) {
   adapters::require_triangles_only(scene, "madmann91-bvh");
   const std::string& quality = parameters.choice("quality");
-  const bool confirm = parameters.flag("confirm");
-  if (parameters.flag("robust")) return std::make_unique<MadmannBvh<true>>(scene, quality, confirm);
-  return std::make_unique<MadmannBvh<false>>(scene, quality, confirm);
+  const bool exact_t = parameters.flag("exact_t");
+  if (parameters.flag("robust")) return std::make_unique<MadmannBvh<true>>(scene, quality, exact_t);
+  return std::make_unique<MadmannBvh<false>>(scene, quality, exact_t);
 }
 
 }  // namespace
@@ -142,6 +142,6 @@ const Plugin beambench_plugin{
            {choice_parameter("quality", "high", {"high", "medium", "low"},
                              "how long the hierarchy is worked on"),
             flag_parameter("robust", true, "the box test that loses no hit (Ize 2013)"),
-            adapters::confirm_parameter()},
+            adapters::exact_t_parameter()},
            build});
     }};

@@ -3,11 +3,11 @@
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <beambench/plugin.hpp>
+#include <glm/geometric.hpp>
 
 namespace adapters {
 
@@ -24,22 +24,25 @@ inline void require_triangles_only(const beambench::Scene& scene, const std::str
                               "' holds spheres or cones; choose a scene of polygons");
 }
 
-/// Libraries compute t in float in a way of their own, and the differ would not always pass it. The
-/// canonical test of the triangle that was found tells it to the last bit, or that there is no hit
-/// after all.
-inline std::optional<beambench::Hit> confirmed(const beambench::Scene& scene,
-                                               const beambench::Ray& ray, std::size_t triangle) {
+/// The hit of a triangle that a library found. Libraries compute t in float, in a way of their own,
+/// and the differ would not always pass it; where the triangle's plane is met is told by double.
+/// Whether the triangle is hit remains the library's word: next to an edge beambench's own test may
+/// see the ray pass by, and the hit would be lost.
+inline beambench::Hit with_exact_t(const beambench::Scene& scene, const beambench::Ray& ray,
+                                   std::size_t triangle, float t) {
   const beambench::CanonicalRay canonical(ray);
   const auto [a, b, c] = corners(scene, triangle);
-  const float t = beambench::intersect_triangle(canonical, a, b, c);
-  if (!beambench::is_hit(t)) return std::nullopt;
-  return beambench::Hit{t, scene.triangles[triangle].primitive};
+  const glm::dvec3 from(a);
+  const glm::dvec3 normal = glm::cross(glm::dvec3(b) - from, glm::dvec3(c) - from);
+  const float exact = canonical.accept(glm::dot(normal, from - canonical.origin) /
+                                       glm::dot(normal, canonical.direction));
+  return {beambench::is_hit(exact) ? exact : t, scene.triangles[triangle].primitive};
 }
 
 /// The parameter that turns it off.
-inline beambench::ParameterInfo confirm_parameter() {
+inline beambench::ParameterInfo exact_t_parameter() {
   return beambench::flag_parameter(
-      "confirm", true, "t of a hit by beambench's own test of the triangle that was found");
+      "exact_t", true, "t in double, from the plane of the triangle that the library found");
 }
 
 }  // namespace adapters

@@ -1,6 +1,8 @@
 // Jacco Bikker's tinybvh (https://github.com/jbikker/tinybvh, MIT) as a plug-in.
 
+#include <cstdlib>
 #include <memory>
+#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +10,7 @@
 #define NO_THREADED_BUILDS  // one thread for everyone
 #define TINYBVH_IMPLEMENTATION
 #include <glm/geometric.hpp>
+#include <malloc.h>
 #include <tiny_bvh.h>
 
 #include "scene_triangles.hpp"
@@ -18,12 +21,26 @@ using namespace beambench;
 
 tinybvh::bvhvec3 vec3(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
+// tinybvh allocates by these, so that what it holds is known.
+void* allocate(std::size_t size, void* held) {
+  constexpr std::size_t kLine = 64;
+  if (size == 0) return nullptr;
+  void* memory = std::aligned_alloc(kLine, (size + kLine - 1) / kLine * kLine);
+  if (memory == nullptr) throw std::bad_alloc();
+  *static_cast<std::size_t*>(held) += ::malloc_usable_size(memory);
+  return memory;
+}
+void release(void* memory, void* held) {
+  *static_cast<std::size_t*>(held) -= ::malloc_usable_size(memory);
+  std::free(memory);
+}
+
 /// One of tinybvh's layouts over the triangles of a scene. It normalises directions and knows no
 /// t_min, so rays begin at their t_min and t is scaled back.
 template <class Layout>
 class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
  public:
-  TinyBvh(const Scene& scene, bool high_quality, bool confirm) : scene_(&scene), confirm_(confirm) {
+  TinyBvh(const Scene& scene, bool high_quality, bool exact_t) : scene_(&scene), exact_t_(exact_t) {
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
       for (const glm::vec3& corner : adapters::corners(scene, i)) {
         vertices_.push_back({corner.x, corner.y, corner.z, 0.0F});
@@ -46,8 +63,9 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
     const float end = asked.hit.t;
     layout_.Intersect(asked);
     if (!(asked.hit.t < end)) return std::nullopt;
-    if (confirm_) return adapters::confirmed(*scene_, ray, asked.hit.prim);
-    return Hit{ray.t_min + asked.hit.t / length, scene_->triangles[asked.hit.prim].primitive};
+    const float t = ray.t_min + asked.hit.t / length;
+    if (exact_t_) return adapters::with_exact_t(*scene_, ray, asked.hit.prim, t);
+    return Hit{t, scene_->triangles[asked.hit.prim].primitive};
   }
 
   template <class Counting>
@@ -60,7 +78,7 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
     Statistics statistics;
     statistics.nodes = layout_.usedNodes;
     statistics.references = layout_.idxCount;
-    statistics.bytes = vertices_.capacity() * sizeof(tinybvh::bvhvec4);
+    statistics.bytes = held_ + vertices_.capacity() * sizeof(tinybvh::bvhvec4);
     return statistics;
   }
 
@@ -72,9 +90,10 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
   }
 
   const Scene* scene_;
-  bool confirm_;
+  bool exact_t_;
   std::vector<tinybvh::bvhvec4> vertices_;  // tinybvh keeps pointers into it
-  Layout layout_;
+  std::size_t held_ = 0;                    // bytes; outlives what frees them
+  Layout layout_{tinybvh::BVHContext{allocate, release, &held_}};
 };
 
 std::unique_ptr<Accelerator> build(const Scene& scene, const Parameters& parameters,
@@ -82,14 +101,14 @@ std::unique_ptr<Accelerator> build(const Scene& scene, const Parameters& paramet
   adapters::require_triangles_only(scene, "tinybvh");
   const std::string& layout = parameters.choice("layout");
   const bool high_quality = parameters.flag("hq");
-  const bool confirm = parameters.flag("confirm");
+  const bool exact_t = parameters.flag("exact_t");
   if (layout == "bvh2")
-    return std::make_unique<TinyBvh<tinybvh::BVH>>(scene, high_quality, confirm);
+    return std::make_unique<TinyBvh<tinybvh::BVH>>(scene, high_quality, exact_t);
 #ifdef BVH_USEAVX2
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
     throw InputError("tinybvh:layout=bvh8 needs AVX2 and FMA; take tinybvh:layout=bvh2");
   }
-  return std::make_unique<TinyBvh<tinybvh::BVH8_CPU>>(scene, high_quality, confirm);
+  return std::make_unique<TinyBvh<tinybvh::BVH8_CPU>>(scene, high_quality, exact_t);
 #else
   throw InputError("this plug-in was built without AVX2 and FMA; take tinybvh:layout=bvh2");
 #endif
@@ -105,6 +124,6 @@ const Plugin beambench_plugin{
            Conformance::kTolerance,
            {choice_parameter("layout", "bvh8", {"bvh8", "bvh2"}, "children a node; bvh8: by AVX2"),
             flag_parameter("hq", false, "build with spatial splits"),
-            adapters::confirm_parameter()},
+            adapters::exact_t_parameter()},
            build});
     }};

@@ -76,6 +76,7 @@ std::unique_ptr<Accelerator> build(const Scene& scene, const Parameters& paramet
                                    const Workload&) {
   if (fault_is("nothing built")) return nullptr;
   if (!fault_is("parameter ignored")) parameters.integer("leaf");
+  if (fault_is("refuses spheres") && !scene.spheres.empty()) throw InputError("no spheres here");
   return std::make_unique<Faulty>(scene);
 }
 
