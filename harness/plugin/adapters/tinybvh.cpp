@@ -1,8 +1,8 @@
 // Jacco Bikker's tinybvh (https://github.com/jbikker/tinybvh, MIT) as a plug-in.
 
-#include <cstdlib>
+#include <cstddef>
+#include <cstdint>
 #include <memory>
-#include <new>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,7 +10,6 @@
 #define NO_THREADED_BUILDS  // one thread for everyone
 #define TINYBVH_IMPLEMENTATION
 #include <glm/geometric.hpp>
-#include <malloc.h>
 #include <tiny_bvh.h>
 
 #include "scene_triangles.hpp"
@@ -21,18 +20,14 @@ using namespace beambench;
 
 tinybvh::bvhvec3 vec3(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
-// tinybvh allocates by these, so that what it holds is known.
-void* allocate(std::size_t size, void* held) {
-  constexpr std::size_t kLine = 64;
-  if (size == 0) return nullptr;
-  void* memory = std::aligned_alloc(kLine, (size + kLine - 1) / kLine * kLine);
-  if (memory == nullptr) throw std::bad_alloc();
-  *static_cast<std::size_t*>(held) += ::malloc_usable_size(memory);
-  return memory;
+/// What a layout holds, which is also what it was made of: tinybvh frees nothing in between.
+std::size_t bytes_of(const tinybvh::BVH& bvh) {
+  return bvh.allocatedNodes * sizeof(tinybvh::BVH::BVHNode) +
+         bvh.idxCount * (sizeof(std::uint32_t) + sizeof(tinybvh::BVHBase::Fragment));
 }
-void release(void* memory, void* held) {
-  *static_cast<std::size_t*>(held) -= ::malloc_usable_size(memory);
-  std::free(memory);
+std::size_t bytes_of(const tinybvh::BVH8_CPU& bvh) {
+  return bvh.allocatedBlocks * sizeof(tinybvh::BVH8_CPU::CacheLine) +
+         bvh.bvh8.allocatedNodes * sizeof(tinybvh::MBVH<8>::MBVHNode) + bytes_of(bvh.bvh8.bvh);
 }
 
 /// One of tinybvh's layouts over the triangles of a scene. It normalises directions and knows no
@@ -78,7 +73,7 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
     Statistics statistics;
     statistics.nodes = layout_.usedNodes;
     statistics.references = layout_.idxCount;
-    statistics.bytes = held_ + vertices_.capacity() * sizeof(tinybvh::bvhvec4);
+    statistics.bytes = bytes_of(layout_) + vertices_.capacity() * sizeof(tinybvh::bvhvec4);
     return statistics;
   }
 
@@ -92,8 +87,7 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
   const Scene* scene_;
   bool exact_t_;
   std::vector<tinybvh::bvhvec4> vertices_;  // tinybvh keeps pointers into it
-  std::size_t held_ = 0;                    // bytes; outlives what frees them
-  Layout layout_{tinybvh::BVHContext{allocate, release, &held_}};
+  Layout layout_;
 };
 
 std::unique_ptr<Accelerator> build(const Scene& scene, const Parameters& parameters,
