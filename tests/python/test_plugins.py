@@ -322,6 +322,7 @@ def test_a_sweep_that_is_interrupted_in_a_plug_in_says_how_to_go_on(
             if (folder / "manifest.json").exists():
                 break
             time.sleep(0.1)
+        time.sleep(0.5)  # the manifest comes first, then the plug-in is asked
         running.send_signal(signal.SIGINT)
         _, messages = running.communicate(timeout=60)
     assert running.returncode == 130
