@@ -33,9 +33,13 @@ class BehindMirror {
   /// `point` and unit `normal` of the mirror's plane, the normal on the side of the real eye; rays
   /// begin `lift` above it. `part` covers the samples that see the mirror, `unwanted` has 1 for
   /// each that does not.
-  BehindMirror(const glm::dvec3& point, const glm::dvec3& normal, double lift,
-               const ImagePolygon& part, std::vector<std::uint8_t> unwanted)
-      : point_(point), normal_(normal), lift_(lift), part_(part), unwanted_(std::move(unwanted)) {}
+  BehindMirror(const glm::dvec3& point, const glm::dvec3& normal, double lift, ImagePolygon part,
+               std::vector<std::uint8_t> unwanted)
+      : point_(point),
+        normal_(normal),
+        lift_(lift),
+        part_(std::move(part)),
+        unwanted_(std::move(unwanted)) {}
 
   const ImagePolygon& part(const EyeView&) const { return part_; }
 

@@ -151,10 +151,10 @@ std::optional<MirrorView> view_in(const PlanarMirror& mirror, const Scene& scene
   // As far as rays begin from other surfaces (harness/rays/beside_surface.hpp).
   const double lift =
       64.0 * 0x1p-24 * (scene.bounds.largest_coordinate() + glm::length(dvec3(behind.eye())));
-  const ImagePolygon part = cover(ends_of_rows(hits, unwanted));
+  ImagePolygon part = cover(ends_of_rows(hits, unwanted));
   return MirrorView{
-      BehindMirror(mirror.point, side * mirror.normal, lift, part, std::move(unwanted)), behind,
-      samples};
+      BehindMirror(mirror.point, side * mirror.normal, lift, std::move(part), std::move(unwanted)),
+      behind, samples};
 }
 
 Ray ray_behind(const MirrorView& view, int x, int y, int sample) {

@@ -60,10 +60,12 @@ FullPicture draw_full(const Scene& scene, const Accelerator& structure, const Ey
                       const HitBuffer& hits, WhittedRequest request, const Image& picture,
                       Progress& progress) {
   request.least_weight = 0.0;
+  progress.start(fmt::format("{} without --least-weight", scene.name));
   const Whitted tracer(scene, structure, whitted_options(request));
   const Clock::time_point begin = Clock::now();
   const WhittedPicture full = watched_picture(tracer, rays, hits, request, progress);
   const double picture_ms = milliseconds_since(begin);
+  progress.finish(fmt::format("{} rays", full.census.all_rays()));
   return {full.census.all_rays(), picture_ms, root_mean_square_error(picture, full.image)};
 }
 
@@ -96,12 +98,12 @@ CensusResult take_census(const Request& request, const std::string& name, Progre
   if (!request.pictures.empty()) {
     write_image(std::filesystem::path(request.pictures) / picture_name(scene.name), picture.image);
   }
+  progress.finish(fmt::format("{} rays in {}", picture.census.all_rays(),
+                              format_duration(1e-3 * milliseconds_since(all))));
   if (request.whitted.least_weight > 0.0) {
     result.full =
         draw_full(scene, *structure, rays, hits, request.whitted, picture.image, progress);
   }
-  progress.finish(fmt::format("{} rays in {}", picture.census.all_rays(),
-                              format_duration(1e-3 * milliseconds_since(all))));
   return result;
 }
 
@@ -139,7 +141,8 @@ void census(const Request& request) {
   if (scenes.empty()) {
     for (const SceneInfo& info : scene_catalogue()) scenes.push_back(info.name);
   }
-  Progress progress(scenes.size());
+  const bool twice = request.whitted.least_weight > 0.0;
+  Progress progress(scenes.size() * (twice ? 2 : 1));
   std::vector<CensusResult> results;
   results.reserve(scenes.size());
   for (const std::string& name : scenes) {

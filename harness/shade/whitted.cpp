@@ -39,6 +39,14 @@ dvec3 mirrored_outward(const dvec3& incoming, const dvec3& shading, const dvec3&
   return glm::dot(direction, geometric) > 0.0 ? direction : mirrored(incoming, geometric);
 }
 
+/// The same for the inner side.
+std::optional<dvec3> refracted_inward(const dvec3& incoming, const dvec3& shading,
+                                      const dvec3& geometric, double ratio) {
+  const auto direction = refracted(incoming, shading, ratio);
+  const bool outward = direction && glm::dot(*direction, geometric) >= 0.0;
+  return outward ? refracted(incoming, geometric, ratio) : direction;
+}
+
 }  // namespace
 
 /// Who answers a kind of rays, and where it is counted.
@@ -141,7 +149,8 @@ dvec3 Whitted::transmitted(const Place& at, const Path& path, Progress& progress
     entering = glm::dot(at.point - center, at.incoming) < 0.0;
   }
   const double index = std::max(double{at.surface->refraction_index}, 1e-3);
-  const auto direction = refracted(at.incoming, at.shading, entering ? 1.0 / index : index);
+  const auto direction =
+      refracted_inward(at.incoming, at.shading, at.geometric, entering ? 1.0 / index : index);
   if (!direction) return reflected(at, path, share, progress);  // total reflection
   const Path next{path.depth + 1, path.weight * share, entering};
   constexpr Kind kRefracted{&Answerers::refracted, &RayCensus::refracted};

@@ -202,6 +202,26 @@ TEST(Whitted, APrismTurnsARayByTotalReflection) {
   expect_color(seen(prism_below_a_ceiling(1.2F), {-5, 0, 1}, {1, 0, 0}), linear(0.2, 0.4, 0.8));
 }
 
+TEST(Whitted, AShadingNormalSendsNoRefractedRayBackThroughItsSurface) {
+  SceneBuilder builder = with_light({0.0, 0.0, -4.0});
+  builder.set_surface({.diffuse = 0.0F, .transmittance = 1.0F, .refraction_index = 1.0F / 1.5F});
+  const std::array<dvec3, 3> corners{dvec3(-9, -9, 0), dvec3(9, -9, 0), dvec3(0, 9, 0)};
+  const dvec3 leaning(-0.6, 0.0, 0.8);
+  builder.add_polygon(corners, std::array<dvec3, 3>{leaning, leaning, leaning});
+  const Scene scene = std::move(builder).build();
+  // 75 degrees from the plane's normal, 38 from the shading normal, about which Snell's law has a
+  // way out, upwards. By the plane's own it has none: all is reflected.
+  const auto structure = built(scene, "exhaustive");
+  const Whitted tracer(scene, *structure, WhittedOptions{});
+  Whitted::Progress progress = tracer.begin();
+  Ray ray;
+  ray.origin = {-3.8637F, 0.0F, 1.0353F};
+  ray.direction = {0.9659258F, 0.0F, -0.2588190F};
+  tracer.eye_color(ray, structure->closest_hit(ray), progress);
+  EXPECT_EQ(progress.census.refracted, 0U);
+  EXPECT_EQ(progress.census.reflected, 1U);
+}
+
 TEST(Whitted, OnlyALightBeforeTheSurfaceGetsAShadowRay) {
   for (const double height : {5.0, -5.0}) {
     SceneBuilder builder = with_light({3.0, 1.0, height});
