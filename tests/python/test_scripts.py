@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -42,6 +43,25 @@ def test_a_wrong_request_is_one_sentence_and_exit_code_2(
     assert result.stdout == ""
     assert result.stderr.startswith("error: ")
     assert message in result.stderr
+    assert result.stderr.count("\n") == 1
+
+
+def test_setup_does_not_clear_what_a_linked_environment_points_to(
+    repository: Path, tmp_path: Path
+) -> None:
+    tree, others = tmp_path / "tree", tmp_path / "others"
+    (tree / "scripts").mkdir(parents=True)
+    shutil.copy(repository / "scripts/setup", tree / "scripts")
+    for name in ("packages.txt", "packages-test.txt", "requirements.txt"):
+        (tree / "scripts" / name).touch()  # nothing to install
+    others.mkdir()
+    (others / "precious").touch()
+    (tree / ".venv").symlink_to(others)
+    result = call(tree / "scripts/setup", directory=tmp_path)
+    assert (others / "precious").exists()
+    assert result.returncode == 2
+    assert result.stderr.startswith("error: .venv is a symbolic link")
+    assert str(others) in result.stderr
     assert result.stderr.count("\n") == 1
 
 
