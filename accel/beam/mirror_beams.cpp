@@ -18,7 +18,7 @@ using glm::dvec3;
 double size_of(const Scene& scene) { return glm::length(dvec3(scene.bounds.extent())); }
 
 dvec3 corner_of(const Scene& scene, const Polygon& polygon, std::uint32_t corner) {
-  return dvec3(scene.vertices[scene.corners[polygon.first_corner + corner]]);
+  return {scene.vertices[scene.corners[polygon.first_corner + corner]]};
 }
 
 /// Newell's normal: twice the area of the polygon's shadow along each axis.
