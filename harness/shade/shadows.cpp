@@ -86,7 +86,8 @@ double Shadows::asked_by_buffer(const Ray& to_light, std::size_t light, RayCensu
 }
 
 /// Goes from surface to surface, each time on from a little behind it, as all rays begin a little
-/// beside surfaces; where it ends at an opaque one, that is the `blocker`.
+/// beside surfaces; where it ends at an opaque one, that is the `blocker`. With an any-hit query
+/// beforehand, pictures of `gears`, `mount` and `finishes` took 1.01 to 1.25 times as long.
 double Shadows::followed(const Ray& to_light, PrimitiveId& blocker, RayCensus& census) const {
   const glm::dvec3 direction(to_light.direction);
   Ray ray = to_light;

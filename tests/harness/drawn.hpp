@@ -39,8 +39,8 @@ inline void expect_color(const glm::dvec3& color, const glm::dvec3& expected) {
 }
 
 inline glm::dvec3 linear(double r, double g, double b) {
-  return glm::dvec3(linear_from_srgb(
-      glm::vec3(static_cast<float>(r), static_cast<float>(g), static_cast<float>(b))));
+  return {linear_from_srgb(
+      glm::vec3(static_cast<float>(r), static_cast<float>(g), static_cast<float>(b)))};
 }
 
 /// A square of the plane z = height, 40 wide.

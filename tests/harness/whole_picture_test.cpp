@@ -36,7 +36,7 @@ DiffReport judged(Task& task, const std::string& spec) {
   task.poison();
   task.ask(*structure);
   const std::uint64_t timed = task.fingerprint();
-  const DiffReport report = task.judge(*structure, choice(spec)).report;
+  DiffReport report = task.judge(*structure, choice(spec)).report;
   EXPECT_EQ(task.fingerprint(), timed) << "what is judged is what was timed";
   return report;
 }
