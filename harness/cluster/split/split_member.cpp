@@ -70,12 +70,13 @@ void Outbox::send(std::size_t process) {
 }
 
 SplitMember::SplitMember(Transport& transport, SplitWorker& worker, Outbox& outbox, double timeout,
-                         Check check)
+                         Check check, Meter meter)
     : transport_(&transport),
       worker_(&worker),
       outbox_(&outbox),
       timeout_(timeout),
       check_(std::move(check)),
+      meter_(std::move(meter)),
       others_(static_cast<std::size_t>(transport.processes())),
       results_(static_cast<std::size_t>(transport.processes())),
       missing_(transport.processes() - 1),
@@ -141,14 +142,14 @@ void SplitMember::run() {
   while (!over_) {
     while (const auto message = transport_->poll()) handle(*message);
     const CpuTimer timer;
-    const bool worked = worker_->work();
-    cpu_seconds_ += timer.seconds();
-    if (worked) {
-      outbox_->send_large();
-      give_sign_of_life();
-    } else {
+    const SplitWork work = worker_->work();
+    if (work == SplitWork::kNone) {
       have_nothing_to_do();
+      continue;
     }
+    done(work, timer.seconds());
+    outbox_->send_large();
+    give_sign_of_life();
   }
 }
 
@@ -187,11 +188,18 @@ void SplitMember::handle(const Message& message) {
 
 void SplitMember::take_crossings(const Message& message) {
   received_.add(message.bytes.size());
+  const CpuTimer timer;
   ByteReader reader(message.bytes);
   while (!reader.at_end()) {
     std::visit([this](const auto& each) { worker_->take(each); },
                read_traveller(reader, worker_->view()));
   }
+  done(SplitWork::kTaking, timer.seconds());
+}
+
+void SplitMember::done(SplitWork work, double cpu_seconds) {
+  cpu_seconds_ += cpu_seconds;
+  if (meter_) meter_(work, cpu_seconds);
 }
 
 void SplitMember::have_nothing_to_do() {

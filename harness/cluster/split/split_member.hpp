@@ -26,7 +26,7 @@ struct SplitAccount {
   std::uint64_t rays_out = 0;
   Traffic crossings_out;  ///< messages with beams and rays
   Traffic crossings_in;
-  double cpu_seconds = 0.0;   ///< in tracing
+  double cpu_seconds = 0.0;   ///< in tracing, and in taking what others handed over
   double wait_seconds = 0.0;  ///< for messages, wall time
 };
 void write_account(const SplitAccount& account, ByteWriter& writer);
@@ -74,11 +74,13 @@ struct Wave {
 class SplitMember {
  public:
   using Check = std::function<void(ProcessId, std::span<const std::byte>)>;
+  /// Is told what processor time each piece of work took, when it is done.
+  using Meter = std::function<void(SplitWork, double cpu_seconds)>;
 
   /// `timeout`: seconds of silence after which process 0 throws LostProcess; `check` is told what
   /// others say of themselves and throws InputError (see Producer).
   SplitMember(Transport& transport, SplitWorker& worker, Outbox& outbox, double timeout,
-              Check check);
+              Check check, Meter meter = nullptr);
 
   /// On process 0: what the others sent at the end, by process. It sends all home, whatever it
   /// throws.
@@ -94,6 +96,7 @@ class SplitMember {
   void run();
   void handle(const Message& message);
   void take_crossings(const Message& message);
+  void done(SplitWork work, double cpu_seconds);
   void take_count(const Message& message);
   void have_nothing_to_do();
   void answer();
@@ -108,6 +111,7 @@ class SplitMember {
   Outbox* outbox_;
   double timeout_;
   Check check_;
+  Meter meter_;
   Traffic received_;
   double cpu_seconds_ = 0.0;
   double wait_seconds_ = 0.0;

@@ -4,13 +4,12 @@
 #include <cstdio>
 #include <memory>
 #include <new>
-#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
-#include "harness/cli/inputs.hpp"
 #include "harness/cluster/lead.hpp"
-#include "harness/cluster/sample_results.hpp"
+#include "harness/cluster/split/split_studio.hpp"
 #include "harness/cluster/studio.hpp"
 #include "harness/files/pending_file.hpp"
 #include "harness/picture/image_file.hpp"
@@ -23,57 +22,18 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What a process makes for itself of a job: its part, ready to be traced.
-class Workplace {
- public:
-  Workplace(const Job& job, Transport& transport, std::vector<std::string>* warnings) {
-    ScenePart part;
-    {
-      const Scene whole = load_scene(job.scene, warnings);
-      identity_ = {look_hash(whole), whole.primitives.size(), 0};
-      whole_bytes_ = memory_bytes(whole);
-      options_ = BeamOptions::from(choose_one("--accel", job.structure).parameters());
-      const ImageOfRays image = job_image(job, whole);
-      rays_.emplace(image.camera, image.resolution.width, image.resolution.height, image.samples);
-      split_.emplace(whole, options_.octree, job.split_level, transport.processes());
-      part = part_of(whole, *split_, transport.self());
-    }
-    outbox_ = std::make_unique<Outbox>(transport, *split_);
-    worker_ = std::make_unique<SplitWorker>(std::move(part), *split_, transport.self(), options_,
-                                            *rays_, *outbox_);
-    split_->forget_primitives();
-  }
-
-  const Identity& identity() const { return identity_; }
-  std::uint64_t whole_bytes() const { return whole_bytes_; }
-  const PrimaryRays& rays() const { return *rays_; }
-  SplitWorker& worker() { return *worker_; }
-  Outbox& outbox() { return *outbox_; }
-
- private:
-  Identity identity_;
-  std::uint64_t whole_bytes_ = 0;
-  BeamOptions options_;
-  std::optional<PrimaryRays> rays_;
-  std::optional<SceneSplit> split_;
-  std::unique_ptr<Outbox> outbox_;
-  std::unique_ptr<SplitWorker> worker_;
+/// A process's part, and what it says of the whole.
+struct Workplace {
+  Identity identity;
+  std::uint64_t whole_bytes = 0;
+  std::unique_ptr<SplitStudio> studio;
 };
 
-Bytes result_of(Workplace& place, const SplitMember& member) {
-  Bytes bytes;
-  ByteWriter writer(bytes);
-  write_account(member.account(), writer);
-  const std::vector<std::uint32_t> samples = place.worker().hit_samples();
-  write_hits(samples, place.worker().hits(), bytes);
-  return bytes;
-}
-
-SplitAccount take_result(std::span<const std::byte> result, HitBuffer& hits) {
-  ByteReader reader(result);
-  const SplitAccount account = read_split_account(reader);
-  HitSink(hits).accept(reader.rest());
-  return account;
+Workplace set_up(const Job& job, Transport& transport, std::vector<std::string>* warnings) {
+  auto whole = std::make_shared<const Scene>(load_scene(job.scene, warnings));
+  Workplace place{{look_hash(*whole), whole->primitives.size(), 0}, memory_bytes(*whole), nullptr};
+  place.studio = std::make_unique<SplitStudio>(std::move(whole), job, transport);
+  return place;
 }
 
 Bytes introduce(const Identity& identity, const std::string& problem) {
@@ -103,10 +63,10 @@ Json to_json(const SplitAccount& account) {
 }  // namespace
 
 SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
-  std::optional<Workplace> place;
+  Workplace place;
   std::vector<std::string> warnings;
   try {
-    place.emplace(request.job, transport, &warnings);
+    place = set_up(request.job, transport, &warnings);
   } catch (...) {
     send_all_home(transport);
     throw;
@@ -114,17 +74,18 @@ SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
   for (const std::string& warning : warnings)
     fmt::print(stderr, "beambench-cluster: {}\n", warning);
   const auto check = [&](ProcessId process, std::span<const std::byte> introduction) {
-    read_introduction(process, introduction, place->identity());
+    read_introduction(process, introduction, place.identity);
   };
   SplitRun run;
   run.job = request.job;
-  run.whole_scene_bytes = place->whole_bytes();
-  run.whole_primitives = place->identity().nodes;
+  run.whole_scene_bytes = place.whole_bytes;
+  run.whole_primitives = place.identity.nodes;
   const double begin = transport.seconds();
-  SplitMember member(transport, place->worker(), place->outbox(), request.producer.timeout, check);
+  SplitStudio& studio = *place.studio;
+  SplitMember member(transport, studio.worker(), studio.outbox(), request.producer.timeout, check);
   std::vector<Bytes> results = member.lead();
-  results[kProducer] = result_of(*place, member);
-  const PrimaryRays& rays = place->rays();
+  results[kProducer] = write_result(member.account(), studio.worker());
+  const PrimaryRays& rays = studio.rays();
   HitBuffer hits(rays.width(), rays.height(), rays.samples());
   for (const Bytes& result : results) run.accounts.push_back(take_result(result, hits));
   run.seconds = transport.seconds() - begin;
@@ -132,31 +93,31 @@ SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
   run.job.width = rays.width();
   run.job.height = rays.height();
   if (!request.picture.empty()) {
-    write_image(request.picture, shade(place->worker().scene(), rays, hits, request.shading));
+    write_image(request.picture, shade(studio.worker().scene(), rays, hits, request.shading));
   }
   if (!request.report.empty()) write_file(request.report, to_json(run).dump(2) + "\n");
   return run;
 }
 
 void follow_split(const Job& job, Transport& transport) {
-  std::optional<Workplace> place;
+  Workplace place;
   std::string problem;
   try {
-    place.emplace(job, transport, nullptr);
+    place = set_up(job, transport, nullptr);
   } catch (const InputError& error) {
     problem = error.what();
   } catch (const std::bad_alloc&) {
     problem = "the memory does not suffice for this scene";
   }
-  transport.send(kProducer, Tag::kReady,
-                 introduce(place ? place->identity() : Identity{}, problem));
-  if (!place) {
+  transport.send(kProducer, Tag::kReady, introduce(place.identity, problem));
+  if (!place.studio) {
     wait_for_end(transport);
     return;
   }
-  SplitMember member(transport, place->worker(), place->outbox(), 5.0 * job.alive_every,
+  SplitWorker& worker = place.studio->worker();
+  SplitMember member(transport, worker, place.studio->outbox(), 5.0 * job.alive_every,
                      [](ProcessId, std::span<const std::byte>) {});
-  member.follow([&] { return result_of(*place, member); });
+  member.follow([&] { return write_result(member.account(), worker); });
 }
 
 nlohmann::ordered_json to_json(const SplitRun& run) {

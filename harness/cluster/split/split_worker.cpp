@@ -62,28 +62,54 @@ SplitWorker::SplitWorker(ScenePart part, const SceneSplit& split, ProcessId self
 }
 
 void SplitWorker::take(const CrossingBeam& beam) {
-  enter_node(view_, beam.face, cell_cursor(beam.cell), beam.beam, queue_);
+  require_own(beam.cell);
+  entering_.push_back(beam);
 }
 
 void SplitWorker::take(const CrossingRay& ray) {
+  require_own(ray.cell);
   if (ray.sample >= found_.size()) throw ProtocolError("a ray of a sample outside of the image");
   waiting_.push_back(ray);
 }
 
-bool SplitWorker::work() {
+SplitWork SplitWorker::work() {
   if (!waiting_.empty()) {
-    for (std::size_t i = 0; i < kRaysAtOnce && !waiting_.empty(); ++i) {
-      const CrossingRay ray = waiting_.front();
-      waiting_.pop_front();
-      trace_ray(ray);
-    }
-    return true;
+    trace_rays();
+    return SplitWork::kTesting;
   }
+  std::size_t walked = 0;
+  for (; walked < kBeamsAtOnce && (!entering_.empty() || has_next()); ++walked) {
+    if (!entering_.empty()) {
+      const CrossingBeam& beam = entering_.front();
+      enter_node(view_, beam.face, cell_cursor(beam.cell), beam.beam, queue_);
+      entering_.pop_front();
+    } else if (const auto end = end_of_walk(*next_)) {
+      if (walked > 0) break;
+      test(next_->beam, *end);
+      next_.reset();
+      return SplitWork::kTesting;
+    } else {
+      walk(*next_);
+      next_.reset();
+    }
+  }
+  return walked > 0 ? SplitWork::kWalking : SplitWork::kNone;
+}
+
+/// Sees to it that `next_` is a beam, if there is any.
+bool SplitWorker::has_next() {
+  if (next_) return true;
   if (queue_.waiting.empty()) return false;
-  BeamStep step;
-  queue_.waiting.pop(step);
-  trace_beam(step);
+  queue_.waiting.pop(next_.emplace());
   return true;
+}
+
+void SplitWorker::trace_rays() {
+  for (std::size_t i = 0; i < kRaysAtOnce && !waiting_.empty(); ++i) {
+    const CrossingRay ray = waiting_.front();
+    waiting_.pop_front();
+    trace_ray(ray);
+  }
 }
 
 /// A beam that begins in a foreign leaf is begun there.
@@ -93,20 +119,27 @@ bool SplitWorker::takes(std::uint32_t leaf, const Crossing& face, const Beam& be
   return cell.has_value();
 }
 
-void SplitWorker::trace_beam(const BeamStep& step) {
-  const Beam& beam = step.beam;
-  if (step.kind == BeamKind::kLeaving) return;
-  if (foreign_.cell_at(beam.node)) return;  // the eye's leaf, and not ours
+/// Why a beam's samples are looked for now; nothing where the beam goes on.
+std::optional<SplitWorker::EndOfWalk> SplitWorker::end_of_walk(const BeamStep& step) const {
+  if (step.kind == BeamKind::kLeaving || is_foreign(step.beam)) return std::nullopt;
+  if (step.kind == BeamKind::kOccupied) return EndOfWalk::kOccupied;
+  if (step.beam.crowded()) return EndOfWalk::kCrowded;
   const auto handover = static_cast<double>(tracer_.options().handover);
-  if (step.kind == BeamKind::kOccupied) {
+  if (handover > 0.0 && area(step.beam.outline) * samples_ < handover) return EndOfWalk::kHandover;
+  return std::nullopt;
+}
+
+void SplitWorker::walk(const BeamStep& step) {
+  if (step.kind == BeamKind::kLeaving || is_foreign(step.beam)) return;
+  continue_beam(tracer_.octree(), view_, step.beam, queue_);
+}
+
+void SplitWorker::test(const Beam& beam, EndOfWalk end) {
+  if (end == EndOfWalk::kOccupied) {
     painter_.test_leaf(beam);
-  } else if (beam.crowded()) {
-    painter_.hand_over(beam, RayReason::kCrowded);
-  } else if (handover > 0.0 && area(beam.outline) * samples_ < handover) {
-    painter_.hand_over(beam, RayReason::kHandover);
   } else {
-    continue_beam(tracer_.octree(), view_, beam, queue_);
-    return;
+    painter_.hand_over(beam,
+                       end == EndOfWalk::kCrowded ? RayReason::kCrowded : RayReason::kHandover);
   }
   see_to_samples();
 }
@@ -162,10 +195,13 @@ Hit SplitWorker::global(const std::optional<Hit>& local) const {
   return {local->t, part_.global[local->primitive]};
 }
 
-OctreeCursor SplitWorker::cell_cursor(std::uint32_t cell) const {
+void SplitWorker::require_own(std::uint32_t cell) const {
   if (cell >= split_->cell_count() || split_->owner(cell) != self_) {
     throw ProtocolError("something came to a cell that is another process's");
   }
+}
+
+OctreeCursor SplitWorker::cell_cursor(std::uint32_t cell) const {
   const std::int32_t finest = tracer_.octree().grid().cells.x / split_->cells();
   return cursor_of(tracer_.octree(), split_->cell(cell) * finest, finest);
 }

@@ -75,6 +75,14 @@ class BorderPost {
   virtual void hand_over(const CrossingRay& ray) = 0;
 };
 
+/// What a piece of work was.
+enum class SplitWork {
+  kNone,
+  kWalking,  ///< of beams through empty leaves
+  kTesting,  ///< of samples in occupied leaves, and of the rays behind them
+  kTaking,   ///< of what others handed over, out of a message
+};
+
 /// The beam tracer over a part of a scene: beams and rays that come to the border are handed over,
 /// rays with the best they found, and others' go on here. Together, the processes find for each
 /// sample what one process with the whole scene finds, bit for bit: beams are divided by the same
@@ -90,12 +98,13 @@ class SplitWorker : private BeamBorder {
   SplitWorker& operator=(const SplitWorker&) = delete;
   ~SplitWorker() override = default;
 
-  /// What others handed over. Throws ProtocolError where its cell is not this process's.
+  /// What others handed over, to be worked at later. Throws ProtocolError where its cell is not
+  /// this process's.
   void take(const CrossingBeam& beam);
   void take(const CrossingRay& ray);
 
-  /// Does a part of what there is to do; false where there is nothing.
-  bool work();
+  /// Does a part of what there is to do, if anything, and says what it was.
+  SplitWork work();
 
   /// The samples that were found here to hit something, ascending, and what they hit.
   std::vector<std::uint32_t> hit_samples() const;
@@ -106,13 +115,23 @@ class SplitWorker : private BeamBorder {
   std::uint64_t structure_bytes() const;
 
  private:
-  /// Rays that are traced between two looks at the messages.
+  /// Rays that are traced, and beams that are walked, between two looks at the messages.
   static constexpr std::size_t kRaysAtOnce = 256;
+  static constexpr std::size_t kBeamsAtOnce = 32;
+
+  enum class EndOfWalk { kOccupied, kCrowded, kHandover };
 
   bool takes(std::uint32_t leaf, const Crossing& face, const Beam& beam) override;
-  void trace_beam(const BeamStep& step);
+  void trace_rays();
+  bool has_next();
+  /// The eye's leaf may be another's.
+  bool is_foreign(const Beam& beam) const { return foreign_.cell_at(beam.node).has_value(); }
+  std::optional<EndOfWalk> end_of_walk(const BeamStep& step) const;
+  void walk(const BeamStep& step);
+  void test(const Beam& beam, EndOfWalk end);
   void trace_ray(const CrossingRay& ray);
   void see_to_samples();
+  void require_own(std::uint32_t cell) const;
   void settle(std::uint32_t sample, const Hit& best);
   Hit global(const std::optional<Hit>& local) const;
   OctreeCursor cell_cursor(std::uint32_t cell) const;
@@ -134,6 +153,8 @@ class SplitWorker : private BeamBorder {
   double samples_;
   bool beginning_ = true;
   BeamQueue queue_;
+  std::optional<BeamStep> next_;  ///< of the queue, taken off
+  std::deque<CrossingBeam> entering_;
   std::deque<CrossingRay> waiting_;
 };
 
