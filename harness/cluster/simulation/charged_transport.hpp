@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "harness/cluster/simulation/replay.hpp"
+#include "harness/cluster/simulation/spend.hpp"
 #include "harness/cluster/transport.hpp"
 
 namespace beambench {

@@ -2,15 +2,14 @@
 // The roles of producer and consumers played from a record: they take the time and send the bytes
 // that the real ones did, and know nothing of scene or octree.
 
-#include <functional>
+#include <utility>
+#include <vector>
 
 #include "harness/cluster/roles.hpp"
+#include "harness/cluster/simulation/spend.hpp"
 #include "harness/cluster/simulation/task_costs.hpp"
 
 namespace beambench {
-
-/// Lets seconds of the (simulated) processor pass.
-using Spend = std::function<void(double seconds)>;
 
 /// Makes the recorded tasks in their order. A task is its number and as many bytes as it had.
 class ReplayedSource : public TaskSource {

@@ -1,180 +1,37 @@
 #include "harness/cluster/simulation/simulated_cluster.hpp"
 
-#include <algorithm>
-#include <array>
-#include <exception>
-#include <stdexcept>
-#include <string>
-
-#include <fmt/format.h>
-#include <mpi.h>
-#include <simgrid/Exception.hpp>
-#include <simgrid/kernel/ProfileBuilder.hpp>
-#include <simgrid/s4u.hpp>
-
 #include "harness/cluster/consumer.hpp"
-#include "harness/cluster/mpi_transport.hpp"
 #include "harness/cluster/simulation/replay.hpp"
 
 namespace beambench {
 namespace {
 
-namespace s4u = simgrid::s4u;
-
-/// Operations a second of a machine of speed 1; any number does.
-constexpr double kSpeedOne = 1e9;
-constexpr const char* kProgram = "beambench-cluster";
-
-/// Times and sizes are as the model has them, without SimGrid's corrections for today's clusters;
-/// what the program really computes takes no time, and MPI's calls what `ChargedTransport` says.
-void configure() {
-  const auto set = [](const std::string& option) { s4u::Engine::set_config(option); };
-  set("network/model:CM02");
-  set("network/bandwidth-factor:1");
-  set("network/latency-factor:1");
-  set("network/weight-S:0");
-  set("network/TCP-gamma:0");
-  set("network/crosstraffic:no");
-  set("smpi/simulate-computation:no");
-  set("smpi/cpu-threshold:0");  // or what takes less than a microsecond would take nothing
-  set(fmt::format("smpi/host-speed:{}f", kSpeedOne));
-  set("smpi/bw-factor:1");
-  set("smpi/lat-factor:1");
-  // Messages leave at once and wait at the receiver, whatever their size.
-  set("smpi/async-small-thresh:1073741824");
-  set("smpi/send-is-detached-thresh:1073741824");
-  set("smpi/iprobe:0");
-  set("smpi/test:0");
-  set("smpi/wtime:0");
-  set("smpi/init:0");
-}
-
-/// Full speed, and what is left of it when others use the machine.
-simgrid::kernel::profile::Profile* load_of(const std::string& name, const ClusterModel& cluster) {
-  const std::string points =
-      fmt::format("0 1\n{} {}\n", 0.5 * cluster.load_period, cluster.loaded_share);
-  return simgrid::kernel::profile::ProfileBuilder::from_string(name, points, cluster.load_period);
-}
-
-std::vector<s4u::Host*> make_machines(const ClusterModel& cluster) {
-  auto* zone = s4u::create_star_zone("cluster");
-  s4u::Link* medium = nullptr;
-  if (cluster.network == ClusterModel::Network::kShared) {
-    medium = zone->create_link("medium", cluster.bytes_per_second);
-    medium->set_latency(cluster.latency_seconds)->seal();
-  }
-  std::vector<s4u::Host*> machines;
-  for (std::size_t i = 0; i < cluster.speeds.size(); ++i) {
-    const std::string name = fmt::format("machine-{}", i);
-    auto* machine = zone->create_host(name, cluster.speeds[i] * kSpeedOne);
-    if (i + cluster.loaded >= cluster.speeds.size()) {
-      machine->set_speed_profile(load_of(name + "-load", cluster));
-    }
-    machine->seal();
-    if (medium != nullptr) {
-      // Once on the way, whoever sends.
-      zone->add_route(machine->get_netpoint(), nullptr, nullptr, nullptr,
-                      {s4u::LinkInRoute(medium)}, false);
-      zone->add_route(nullptr, machine->get_netpoint(), nullptr, nullptr,
-                      std::vector<s4u::LinkInRoute>{}, false);
-    } else {
-      auto* line = zone->create_split_duplex_link(name + "-line", cluster.bytes_per_second);
-      line->set_latency(0.5 * cluster.latency_seconds)->seal();
-      zone->add_route(machine->get_netpoint(), nullptr, nullptr, nullptr,
-                      {s4u::LinkInRoute(line, s4u::LinkInRoute::Direction::UP)}, true);
-    }
-    machines.push_back(machine);
-  }
-  zone->seal();
-  return machines;
-}
-
-/// What the processes share while they are simulated, one at a time.
-struct Stage {
-  const TaskCosts& costs;
-  MessageCost message_cost;
-  double build_seconds;
-  const ProducerOptions& options;
-  SimulatedRun run;
-  std::exception_ptr problem;
-};
-
-void play_producer(Transport& transport, Stage& stage) {
-  ReplayedSource source(stage.costs, smpi_execute);
-  ReplayedWorker own(stage.costs, smpi_execute);
-  ReplayedSink sink(stage.costs, smpi_execute);
+ClusterReport play_producer(Transport& transport, const Spend& spend, const TaskCosts& costs,
+                            const ProducerOptions& options) {
+  ReplayedSource source(costs, spend);
+  ReplayedWorker own(costs, spend);
+  ReplayedSink sink(costs, spend);
   const auto welcome = [](ProcessId, std::span<const std::byte>) {};
-  stage.run.report = Producer(transport, source, sink, own, welcome, stage.options).run();
-}
-
-void play_consumer(Transport& transport, Stage& stage) {
-  ReplayedWorker worker(stage.costs, smpi_execute);
-  Consumer(transport, worker, stage.options.timeout).run({});
-}
-
-void play_role(Stage& stage) {
-  smpi_execute(stage.build_seconds);
-  MpiTransport carrier(MpiTransport::Waiting::kBlocking);
-  ChargedTransport transport(carrier, stage.message_cost, smpi_execute);
-  if (transport.self() == kProducer) {
-    play_producer(transport, stage);
-  } else {
-    play_consumer(transport, stage);
-  }
-  stage.run.seconds = std::max(stage.run.seconds, transport.seconds());
-  // What has left but not arrived would be lost with its sender.
-  MPI_Comm everybody = MPI_COMM_NULL;
-  MPI_Comm_dup(MPI_COMM_WORLD, &everybody);
-  MPI_Barrier(everybody);
-}
-
-/// One process. A problem ends them all, without MPI_Finalize, where each would wait for the
-/// others.
-void play(Stage& stage) {
-  try {
-    MPI_Init(nullptr, nullptr);
-    play_role(stage);
-    MPI_Finalize();
-  } catch (const simgrid::ForcefulKillException&) {
-    throw;  // SimGrid's own way to end a process
-  } catch (...) {
-    stage.problem = std::current_exception();
-    s4u::Actor::kill_all();
-    s4u::this_actor::exit();
-  }
+  return Producer(transport, source, sink, own, welcome, options).run();
 }
 
 }  // namespace
 
 SimulatedRun simulate(const ClusterModel& cluster, const TaskCosts& costs, double build_seconds,
                       const ProducerOptions& options, const char* program) {
-  std::string name(program);
-  std::string quiet("--log=root.thres:warning");
-  std::array<char*, 3> arguments{name.data(), quiet.data(), nullptr};
-  int count = 2;
-  s4u::Engine engine(&count, arguments.data());
-  configure();
-  SMPI_init();
-  const std::vector<s4u::Host*> machines = make_machines(cluster);
-  const int processes = static_cast<int>(machines.size());
-  SMPI_app_instance_register(kProgram, nullptr, processes);
   ProducerOptions patient = options;  // nobody dies here, and long tasks send no sign of life
   patient.timeout = patient.patience = Transport::kForever;
-  Stage stage{costs, cluster.message_cost, build_seconds, patient, {}, nullptr};
-  for (int i = 0; i < processes; ++i) {
-    const auto process =
-        s4u::Actor::init(fmt::format("process-{}", i), machines[static_cast<std::size_t>(i)]);
-    process->set_property("instance_id", kProgram);
-    process->set_property("rank", std::to_string(i));
-    process->start([&stage] { play(stage); });
-  }
-  engine.run();
-  SMPI_finalize();
-  if (stage.problem) std::rethrow_exception(stage.problem);
-  if (stage.run.report.tasks.size() != costs.tasks.size()) {
-    throw std::runtime_error("the simulated processes waited for each other; that is a fault");
-  }
-  return std::move(stage.run);
+  SimulatedRun run;
+  run.seconds = run_on(cluster, program, [&](Transport& transport, const Spend& spend) {
+    spend(build_seconds);
+    if (transport.self() == kProducer) {
+      run.report = play_producer(transport, spend, costs, patient);
+    } else {
+      ReplayedWorker worker(costs, spend);
+      Consumer(transport, worker, patient.timeout).run({});
+    }
+  });
+  return run;
 }
 
 }  // namespace beambench

@@ -1,14 +1,13 @@
 // beambench-cluster-simulated: how long a recorded picture takes on a cluster that is described.
 
-#include <algorithm>
 #include <cstdio>
 #include <string>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/cluster/simulation/cluster_options.hpp"
 #include "harness/cluster/simulation/simulated_cluster.hpp"
 #include "scenes/error.hpp"
 
@@ -20,25 +19,13 @@ using Json = nlohmann::ordered_json;
 struct Request {
   std::string tasks;
   int consumers = 14;
-  std::string network = "switched";
   double walk_scale = 1.0;
   double work_scale = 1.0;
   double build_seconds = 0.0;
   double bytes_a_sample = 0.0;
-  std::vector<double> speeds;
-  ClusterModel cluster;
+  ClusterRequested cluster;
   ProducerOptions options;
 };
-
-/// The producer's speed and the consumers'; those that are given are repeated.
-std::vector<double> all_speeds(const Request& request) {
-  std::vector<double> speeds{1.0};
-  for (int i = 0; i < request.consumers; ++i) {
-    const std::size_t given = request.speeds.size();
-    speeds.push_back(given == 0 ? 1.0 : request.speeds[static_cast<std::size_t>(i) % given]);
-  }
-  return speeds;
-}
 
 Json process_json(std::size_t number, const ProcessReport& process) {
   return {{"process", number},
@@ -78,16 +65,13 @@ Json to_json(const TaskCosts& costs, double build_seconds, const SimulatedRun& r
           {"processes", processes}};
 }
 
-int run(Request& request, const char* program) {
+int run(const Request& request, const char* program) {
   TaskCosts costs = slowed(read_task_costs(request.tasks), request.walk_scale, request.work_scale);
   if (request.bytes_a_sample > 0.0) {
     costs = with_results_of(request.bytes_a_sample, std::move(costs));
   }
-  request.cluster.network = request.network == "shared" ? ClusterModel::Network::kShared
-                                                        : ClusterModel::Network::kSwitched;
-  request.cluster.speeds = all_speeds(request);
-  const SimulatedRun result =
-      simulate(request.cluster, costs, request.build_seconds, request.options, program);
+  const SimulatedRun result = simulate(cluster_of(request.cluster, request.consumers + 1), costs,
+                                       request.build_seconds, request.options, program);
   fmt::print("{}\n", to_json(costs, request.build_seconds, result).dump(1));
   return 0;
 }
@@ -110,39 +94,7 @@ void add_options(CLI::App& app, Request& request) {
   app.add_option("--sample-bytes", request.bytes_a_sample,
                  "Results have so many bytes a sample; if not given, as many as were recorded")
       ->check(positive);
-  app.add_option("--network", request.network,
-                 "shared: one medium for all; switched: a line in both directions for each machine")
-      ->capture_default_str()
-      ->check(CLI::IsMember({"shared", "switched"}));
-  ClusterModel& cluster = request.cluster;
-  app.add_option("--bandwidth", cluster.bytes_per_second, "Bytes a second, of the medium or a line")
-      ->capture_default_str()
-      ->check(positive);
-  app.add_option("--latency", cluster.latency_seconds, "Seconds between two machines")
-      ->capture_default_str()
-      ->check(not_negative);
-  app.add_option("--message-seconds", cluster.message_cost.message_seconds,
-                 "Of the processor for a message, of the sender's and of the receiver's")
-      ->capture_default_str()
-      ->check(not_negative);
-  app.add_option("--byte-seconds", cluster.message_cost.byte_seconds, "... and for each byte of it")
-      ->capture_default_str()
-      ->check(not_negative);
-  app.add_option("--look-seconds", cluster.message_cost.look_seconds,
-                 "Of the processor to look for messages where there is none")
-      ->capture_default_str()
-      ->check(positive);
-  app.add_option("--speeds", request.speeds, "Of the consumers' machines, repeated: 1,0.5")
-      ->delimiter(',')
-      ->check(positive);
-  app.add_option("--loaded", cluster.loaded, "So many machines are used by others now and then");
-  app.add_option("--loaded-share", cluster.loaded_share, "What others leave of them")
-      ->capture_default_str()
-      ->check(CLI::Range(1e-3, 1.0));
-  app.add_option("--load-period", cluster.load_period,
-                 "Seconds, in the second half of which others use them")
-      ->capture_default_str()
-      ->check(positive);
+  add_cluster_options(app, request.cluster);
   app.add_option("--batch", request.options.batch, "Tasks in a message")
       ->capture_default_str()
       ->check(CLI::Range(1, 1'000'000));

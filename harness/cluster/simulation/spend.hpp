@@ -1,0 +1,11 @@
+#pragma once
+// The time of a processor that is not there.
+
+#include <functional>
+
+namespace beambench {
+
+/// Lets seconds of the (simulated) processor pass.
+using Spend = std::function<void(double seconds)>;
+
+}  // namespace beambench
