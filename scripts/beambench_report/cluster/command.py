@@ -1,4 +1,4 @@
-"""`python -m beambench_report cluster record|simulate|write DIR`."""
+"""`python -m beambench_report cluster record|simulate|split|write DIR`."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from beambench_report.cluster.plan import simulations
 from beambench_report.cluster.record import SCENES, Picture, record
 from beambench_report.cluster.report import write_report
 from beambench_report.cluster.simulate import simulate
+from beambench_report.cluster.split import simulate_split
 from beambench_report.problem import Problem
 
 
@@ -20,8 +21,9 @@ def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) ->
     steps = cluster.add_subparsers(dest="step", required=True)
     first = steps.add_parser("record", help="what every beam of two scenes takes, in one process")
     second = steps.add_parser("simulate", help="the same beams on clusters of 2 to 1,024 processes")
-    third = steps.add_parser("write", help="write DIR/report.md and its figures")
-    for step in (first, second, third):
+    split = steps.add_parser("split", help="scenes divided among simulated machines, 1 to 64 parts")
+    last = steps.add_parser("write", help="write DIR/report.md and its figures")
+    for step in (first, second, split, last):
         step.add_argument("folder", type=Path, metavar="DIR")
     first.add_argument(
         "--program",
@@ -47,15 +49,25 @@ def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) ->
     second.add_argument(
         "--jobs", type=int, default=1, metavar="N", help="N simulations at a time; 1"
     )
+    split.add_argument(
+        "--program",
+        type=Path,
+        default=programs / "beambench-split-simulated",
+        metavar="PROGRAM",
+        help="if not given, build/release/bin/beambench-split-simulated",
+    )
+    split.add_argument("--repeats", type=int, default=3, metavar="N", help="medians of N runs; 3")
+    split.add_argument("--resolution", default="1280x1024", metavar="WxH", help="1280x1024")
+    split.add_argument("--most", type=int, default=64, metavar="N", help="no more than N parts; 64")
 
 
 def cluster(options: argparse.Namespace) -> list[Path]:
     """Runs one step; returns what was written."""
     if options.step != "write":
         options.program = options.program.absolute()  # `./bc` is not the `bc` of the system
+    if getattr(options, "repeats", 1) < 1:
+        raise Problem("--repeats: expected 1 or more")
     if options.step == "record":
-        if options.repeats < 1:
-            raise Problem("--repeats: expected 1 or more")
         width, height = _resolution(options.resolution)
         pictures = [Picture(scene, width, height) for scene in SCENES]
         return record(options.folder, options.program, pictures, options.repeats)
@@ -64,6 +76,11 @@ def cluster(options: argparse.Namespace) -> list[Path]:
             raise Problem("--jobs: expected 1 or more")
         plan = simulations(SCENES, most=options.most)
         return simulate(options.folder, options.program, plan, options.jobs)
+    if options.step == "split":
+        _resolution(options.resolution)
+        return simulate_split(
+            options.folder, options.program, options.resolution, options.repeats, options.most
+        )
     return write_report(options.folder)
 
 

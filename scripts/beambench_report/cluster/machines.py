@@ -21,6 +21,14 @@ class Network:
     bytes_per_second: float
     latency_seconds: float
 
+    def arguments(self) -> list[str]:
+        """The simulator's."""
+        return [
+            *("--network", self.kind),
+            *("--bandwidth", str(self.bytes_per_second)),
+            *("--latency", str(self.latency_seconds)),
+        ]
+
 
 @dataclass(frozen=True)
 class Messages:
@@ -29,6 +37,14 @@ class Messages:
     message_seconds: float
     byte_seconds: float
     look_seconds: float
+
+    def arguments(self) -> list[str]:
+        """The simulator's."""
+        return [
+            *("--message-seconds", str(self.message_seconds)),
+            *("--byte-seconds", str(self.byte_seconds)),
+            *("--look-seconds", str(self.look_seconds)),
+        ]
 
     def times(self, factor: float) -> Messages:
         """So many times as much."""

@@ -64,12 +64,8 @@ class Simulation:
         pixels = self.era == OLD and not self.own_messages
         return [
             *("--consumers", str(self.consumers)),
-            *("--network", self.network.kind),
-            *("--bandwidth", str(self.network.bytes_per_second)),
-            *("--latency", str(self.network.latency_seconds)),
-            *("--message-seconds", str(self.messages.message_seconds)),
-            *("--byte-seconds", str(self.messages.byte_seconds)),
-            *("--look-seconds", str(self.messages.look_seconds)),
+            *self.network.arguments(),
+            *self.messages.arguments(),
             *(("--sample-bytes", str(BYTES_A_SAMPLE_OF_1999)) if pixels else ()),
             *OPTIONS.get(self.options, ()),
             *MACHINES[self.machines],

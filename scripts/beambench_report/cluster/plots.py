@@ -16,7 +16,7 @@ from beambench_report.figure import PAGE_WIDTH, Plot, new_figure
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 _MARKERS = "osD^vP*"
 _DASHES = ("-", "--", "-.", ":")
-_IDEAL = {"color": "#777777", "linewidth": 0.8, "linestyle": (0, (1, 2)), "zorder": 1}
+IDEAL = {"color": "#777777", "linewidth": 0.8, "linestyle": (0, (1, 2)), "zorder": 1}
 
 
 def cluster_plots(simulations: pd.DataFrame, processes: pd.DataFrame) -> list[Plot]:
@@ -44,24 +44,26 @@ def _times(rows: pd.DataFrame) -> Plot:
     figure, panels = new_figure(PAGE_WIDTH * 0.95, rows=2, columns=2)
     seconds, speed_up, counted, uncounted = panels
     for index, ((scene, network), group) in enumerate(_lines(rows)):
-        look = _look(index) | {"label": f"{scene}, {network}"}
+        look = line_look(index) | {"label": f"{scene}, {network}"}
         processors = group["consumers"] + 1
         seconds.plot(processors, group["seconds"], **look)
         speed_up.plot(processors, group["speed_up"], **look)
         counted.plot(processors, group["efficiency"], **look)
         uncounted.plot(group["consumers"], group["efficiency_of_consumers"], **look)
     last = int(rows["consumers"].max()) + 1
-    speed_up.plot([1, last], [1, last], **_IDEAL)
+    speed_up.plot([1, last], [1, last], **IDEAL)
     for panel in (counted, uncounted):
-        panel.axhline(1, **_IDEAL)
+        panel.axhline(1, **IDEAL)
         panel.set_ylim(0, 1.1)
-    _name(seconds, "a) Time", "processors, the producer's among them", "seconds")
+    name_panel(seconds, "a) Time", "processors, the producer's among them", "seconds")
     seconds.set_ylim(bottom=0)
-    _name(speed_up, "b) Speed-up", "processors, the producer's among them", "times")
-    _name(
+    name_panel(speed_up, "b) Speed-up", "processors, the producer's among them", "times")
+    name_panel(
         counted, "c) Efficiency", "processors, the producer's among them", "speed-up / processors"
     )
-    _name(uncounted, "c) Efficiency, the producer not counted", "consumers", "speed-up / consumers")
+    name_panel(
+        uncounted, "c) Efficiency, the producer not counted", "consumers", "speed-up / consumers"
+    )
     seconds.legend(fontsize=7.5, frameon=False)
     return Plot("figure-6.3", figure, "time, speed-up and efficiency of 1 to 14 consumers")
 
@@ -89,8 +91,8 @@ def _balance(thesis: pd.DataFrame, processes: pd.DataFrame) -> Plot | None:
         )
         busy = row.producer_busy * row.traced_seconds
         times.bar([0], [busy], color=_COLOURS[2], label="the producer, not waiting")
-        _name(beams, row.scene, "consumer", "beams")
-        _name(times, row.scene, "process", "seconds busy")
+        name_panel(beams, row.scene, "consumer", "beams")
+        name_panel(times, row.scene, "process", "seconds busy")
         times.set_ylim(top=1.3 * consumers["last_seconds"].max())
         times.legend(fontsize=7.5, frameon=False, loc="upper right")
         for panel in (beams, times):
@@ -112,17 +114,17 @@ def _scaling(rows: pd.DataFrame, era: str) -> Plot | None:
         lines = _option_lines(of_scene, usual)
         for index, ((options, network), group) in enumerate(lines):
             named = "" if network == usual else f", {network}"
-            look = _look(index) | {"label": f"{options}{named}"}
+            look = line_look(index) | {"label": f"{options}{named}"}
             speed_up.plot(group["consumers"] + 1, group["speed_up"], **look)
             busy.plot(group["consumers"] + 1, 100 * group["producer_busy"], **look)
         ends = [of_scene["consumers"].min() + 1, of_scene["consumers"].max() + 1]
-        speed_up.plot(ends, ends, **_IDEAL)
+        speed_up.plot(ends, ends, **IDEAL)
         speed_up.set_yscale("log")
         for panel in (speed_up, busy):
             panel.set_xscale("log", base=2)
             panel.xaxis.set_major_formatter("{x:.0f}")
-        _name(speed_up, f"{scene}: speed-up", "processes", "times")
-        _name(busy, f"{scene}: the producer is busy", "processes", "% of the time")
+        name_panel(speed_up, f"{scene}: speed-up", "processes", "times")
+        name_panel(busy, f"{scene}: the producer is busy", "processes", "% of the time")
         busy.set_ylim(0, 105)
     panels[0].legend(fontsize=7, frameon=False)
     machines = "machines of 1999, 100 Mbit/s" if era == OLD else "machines of today, 10 Gbit/s"
@@ -144,7 +146,8 @@ def _option_lines(rows: pd.DataFrame, usual: str) -> Sequence[tuple[tuple[str, s
     return [(key, groups[key].sort_values("consumers")) for key in order]
 
 
-def _look(index: int) -> dict[str, object]:
+def line_look(index: int) -> dict[str, object]:
+    """Of the line of that number: told apart by colour, marker and dashes."""
     return {
         "color": _COLOURS[index % len(_COLOURS)],
         "marker": _MARKERS[index % len(_MARKERS)],
@@ -154,7 +157,8 @@ def _look(index: int) -> dict[str, object]:
     }
 
 
-def _name(panel: Axes, title: str, across: str, up: str) -> None:
+def name_panel(panel: Axes, title: str, across: str, up: str) -> None:
+    """Its title and axes."""
     panel.set_title(title, fontsize=9)
     panel.set_xlabel(across)
     panel.set_ylabel(up)

@@ -20,6 +20,8 @@ from beambench_report.cluster.results import (
     read_simulations,
 )
 from beambench_report.cluster.simulate import slowness_of
+from beambench_report.cluster.split import read_split
+from beambench_report.cluster.split_page import split_plot, split_section
 from beambench_report.figure import house_style, write_plot
 from beambench_report.files import write_text
 from beambench_report.quantities import number
@@ -31,9 +33,12 @@ def write_report(folder: Path) -> list[Path]:
     """Writes FOLDER/report.md and the figures that it shows."""
     simulations = read_simulations(folder)
     recorded = read_recorded(folder)
+    split = read_split(folder)
     written = []
     with house_style():
         plots = cluster_plots(simulations, read_processes(folder))
+        if split is not None:
+            plots.append(split_plot(split))
         for plot in plots:
             written += write_plot(plot, folder)
     shown = {plot.stem: f"![{plot.summary}]({plot.stem}.png)\n" for plot in plots}
@@ -64,6 +69,7 @@ def write_report(folder: Path) -> list[Path]:
             "seconds that do not grow with the rays taken for walking alone, or for building "
             "alone.\n",
             _assumptions(simulations),
+            *([split_section(split)] if split is not None else []),
         ]
     )
     return [*written, write_text(folder / "report.md", text)]

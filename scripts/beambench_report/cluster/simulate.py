@@ -102,7 +102,7 @@ def _answer(
     ]
     tasks = tasks_file(folder, simulation.scene, simulation.work)
     answer = memory.answer(
-        [tasks.name, *arguments], lambda: _run([str(program), str(tasks), *arguments])
+        [tasks.name, *arguments], lambda: run_simulator([str(program), str(tasks), *arguments])
     )
     # Whatever is handed out, what it is compared with is the sequential beam tracer.
     beams = recorded[simulation.scene, BEAMS]
@@ -122,12 +122,13 @@ def _answer(
     }
 
 
-def _run(command: list[str]) -> dict[str, object]:
+def run_simulator(command: list[str]) -> dict:
+    """What it prints. Raises Problem where it is not there, or fails."""
     try:
         done = subprocess.run(command, capture_output=True, text=True, check=False)
     except OSError as error:
         raise Problem(
-            f"{command[0]}: {error.strerror}; build beambench-cluster-simulated first "
+            f"{command[0]}: {error.strerror}; build {Path(command[0]).name} first "
             "(it needs libsimgrid-dev)"
         ) from None
     if done.returncode != 0:

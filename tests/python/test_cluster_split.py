@@ -1,0 +1,136 @@
+"""Divided scenes on simulated clusters: the simulator, the table, the page."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from beambench_report.__main__ import main
+from beambench_report.cluster.split import SCENES, read_split
+from beambench_report.cluster.split_page import split_plot, split_section
+from cluster import CLUSTER, mpirun, needs_mpi
+from program import BINARY
+
+SIMULATOR = BINARY.resolve().with_name("beambench-split-simulated")
+needs_simulator = pytest.mark.skipif(
+    not SIMULATOR.is_file(), reason="beambench-split-simulated was not built: no libsimgrid-dev"
+)
+ASKED = ["--accel", "beam:max_level=6", "--split", "3", "--resolution", "80x60"]
+
+
+def simulated(processes: int, *arguments: str) -> dict:
+    done = subprocess.run(
+        [SIMULATOR, "tetra:n=4", *ASKED, "--processes", str(processes), *arguments],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=120,
+    )
+    return json.loads(done.stdout)
+
+
+@needs_simulator
+def test_parts_give_the_picture_of_the_whole() -> None:
+    runs = {processes: simulated(processes) for processes in (1, 2, 5)}
+    assert len({run["result_hash"] for run in runs.values()}) == 1
+    alone = runs[1]["processes"][0]
+    assert alone["messages_out"] == alone["beams_out"] == alone["rays_out"] == 0
+    for processes, run in list(runs.items())[1:]:
+        assert len(run["processes"]) == processes
+        assert all(each["primitives"] < run["primitives"] for each in run["processes"])
+        assert sum(each["bytes_out"] for each in run["processes"]) > 0
+
+
+@needs_simulator
+@needs_mpi
+def test_the_real_program_finds_the_same_and_hands_over_the_same(tmp_path: Path) -> None:
+    report = tmp_path / "run.json"
+    run = mpirun("-n", 3, CLUSTER, "tetra:n=4", *ASKED, "--report", report)
+    assert run.returncode == 0, run.stderr
+    real, simulation = json.loads(report.read_text()), simulated(3)
+    assert simulation["result_hash"] == real["result_hash"]
+    for here, there in zip(simulation["processes"], real["each"], strict=True):
+        for quantity in ("primitives", "beams_out", "rays_out"):
+            assert here[quantity] == there[quantity]
+
+
+@needs_simulator
+def test_time_is_what_work_and_messages_take() -> None:
+    run = simulated(1, "--build-scale", "1e5", "--walk-scale", "1e4", "--work-scale", "1e3",
+                    "--look-seconds", "1e-9")  # fmt: skip
+    (each,) = run["processes"]
+    walked, rest = each["walk_seconds"], each["test_seconds"] + each["take_seconds"]
+    expected = 1e5 * each["build_seconds"] + 1e4 * walked + 1e3 * rest
+    assert run["seconds"] == pytest.approx(expected, rel=1e-3)
+    assert run["traced_seconds"] == pytest.approx(1e4 * walked + 1e3 * rest, rel=1e-3)
+    # Where messages take long, nothing else matters.
+    slow = simulated(2, "--latency", "1000")
+    assert slow["seconds"] > 5000
+
+
+@needs_simulator
+def test_wrong_requests_are_refused() -> None:
+    for arguments, word in (
+        (["no-such-scene"], "no-such-scene"),
+        (["tetra:n=2", "--split", "7", "--accel", "beam:max_level=4"], "max_level"),
+        (["tetra:n=2", "--accel", "sah-bvh"], "sah-bvh"),
+    ):
+        done = subprocess.run(
+            [SIMULATOR, *arguments], capture_output=True, text=True, check=False, timeout=60
+        )
+        assert done.returncode == 2
+        assert word in done.stderr
+        assert done.stdout == ""
+
+
+def pretended_simulator(folder: Path, wrong_picture_of: int = 0) -> Path:
+    """Takes 8 s for one part, and is twice as fast by twice as many."""
+    program = folder / "simulator"
+    program.write_text(
+        f"""#!/usr/bin/env python3
+import json, sys
+parts = int(sys.argv[sys.argv.index("--processes") + 1])
+part = dict.fromkeys("beams_out rays_out messages_out bytes_out take_seconds".split(), parts - 1)
+part |= dict(primitives=64 // parts, bytes=6400 // parts, build_seconds=0.001, walk_seconds=0.01,
+             test_seconds=0.1, busy=1.0)
+print(json.dumps(dict(
+    primitives=64, scene_bytes=5000, seconds=8 / parts, traced_seconds=6 / parts,
+    result_hash="beef" if parts == {wrong_picture_of} else "cafe", processes=[part] * parts)))
+""",
+        "utf-8",
+    )
+    program.chmod(0o755)
+    return program
+
+
+def divide(folder: Path, program: Path) -> int:
+    asked = ["--resolution", "40x30", "--repeats", "2", "--most", "4", "--program", str(program)]
+    return main(["cluster", "split", str(folder), *asked])
+
+
+def test_the_table_has_speed_ups_and_the_page_shows_them(tmp_path: Path) -> None:
+    assert divide(tmp_path, pretended_simulator(tmp_path)) == 0
+    rows = read_split(tmp_path)
+    assert rows is not None
+    assert list(rows["processes"]) == [1, 2, 4] * 2 * len(SCENES)
+    assert (rows["speed_up"] == rows["processes"]).all()
+    assert (rows["efficiency"] == 1).all()
+    assert (rows["balance"] == 1).all()
+    page = split_section(rows)
+    assert "| 8 s | 2.0 (1.00) | 4.0 (1.00) |" in page
+    assert "| tetra:n=7 | 4 |" in page
+    labels = [line.get_label() for line in split_plot(rows).figure.axes[0].lines]
+    assert labels[: len(SCENES)] == [each.scene for each in SCENES]
+    answers = tmp_path / "split-answers.jsonl"
+    remembered = answers.read_text("utf-8")
+    assert divide(tmp_path, tmp_path / "simulator") == 0
+    assert answers.read_text("utf-8") == remembered
+
+
+def test_another_picture_is_a_fault(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert divide(tmp_path, pretended_simulator(tmp_path, wrong_picture_of=4)) == 2
+    assert "gato-bill in 4 parts is another picture" in capsys.readouterr().err
+    assert read_split(tmp_path) is None
