@@ -120,7 +120,7 @@ def test_the_table_has_speed_ups_and_the_page_shows_them(tmp_path: Path) -> None
     assert (rows["efficiency"] == 1).all()
     assert (rows["balance"] == 1).all()
     page = split_section(rows)
-    assert "| 8 s | 2.0 (1.00) | 4.0 (1.00) |" in page
+    assert "| 6 s | 2.0 (1.00) | 4.0 (1.00) |" in page
     assert "| tetra:n=7 | 4 |" in page
     labels = [line.get_label() for line in split_plot(rows).figure.axes[0].lines]
     assert labels[: len(SCENES)] == [each.scene for each in SCENES]

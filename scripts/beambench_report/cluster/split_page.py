@@ -54,8 +54,8 @@ def split_section(rows: pd.DataFrame) -> str:
             f"`--split {CELLS_LEVEL}`: each machine has the primitives in its share of the "
             f"octree's {8 ** (CELLS_LEVEL - 1)} cells of that level; {resolution}, one sample a "
             "pixel. The scene is really traced while it is simulated, and every run gave the hits "
-            "of one process, bit for bit. Times are from the whole scene in memory to the picture: "
-            "dividing, building, tracing, and gathering what was found.\n",
+            "of one process, bit for bit. Times are from when all parts are "
+            "built to the picture: tracing, and gathering what was found.\n",
             f"![{_SUMMARY}]({STEM}.png)\n",
             _speed_ups(rows),
             _costs(rows),
@@ -99,9 +99,8 @@ def _speed_ups(rows: pd.DataFrame) -> str:
     for (era, scene), group in rows.groupby(["era", "scene"], sort=False):
         first, *others = group.itertuples()
         cells = [f"{each.speed_up:.1f} ({each.efficiency:.2f})" for each in others]
-        lines.append(
-            f"| {_machines(era)} | {scene} | {' | '.join([f'{first.seconds:.3g} s', *cells])} |"
-        )
+        cells.insert(0, f"{first.traced_seconds:.3g} s")
+        lines.append(f"| {_machines(era)} | {scene} | {' | '.join(cells)} |")
     return "\n".join([*lines, ""])
 
 
@@ -112,8 +111,8 @@ def _costs(rows: pd.DataFrame) -> str:
         f"What it costs ({_machines(last['era'].iloc[0])}). Work: processor time of tracing, of "
         "what one part takes. Balance: how busy a machine is on average, of what the busiest "
         "is.\n",
-        "| scene | parts | work | balance | messages | MB | beams | rays | primitives of the "
-        "largest part | its memory |",
+        "| scene | parts | work | balance | messages | MB | beams | rays | "
+        "primitives of the largest part | its memory |",
         "|---|---|---|---|---|---|---|---|---|---|",
     ]
     for scene, group in last.groupby("scene", sort=False):
