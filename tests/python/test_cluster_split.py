@@ -107,6 +107,8 @@ print(json.dumps(dict(
 
 
 def divide(folder: Path, program: Path) -> int:
+    sums = {"build_seconds": 0.002, "walk_seconds": 0.006, "work_seconds": 5, "samples": 6553600}
+    (folder / "recorded.json").write_text(json.dumps({"gato-bill-beams": sums}), "utf-8")
     asked = ["--resolution", "40x30", "--repeats", "2", "--most", "4", "--program", str(program)]
     return main(["cluster", "split", str(folder), *asked])
 

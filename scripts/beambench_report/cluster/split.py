@@ -1,8 +1,8 @@
 """A divided scene (`--split`) on simulated clusters: how time, traffic and memory grow with parts.
 
 It is really traced while it is simulated, so the times of one run are those of this machine at that
-time: medians of several runs are kept. Machines of 1999 are calibrated as for the other simulations
-(`calibration.py`), by one process with the thesis's gato-bill.
+time: medians of several runs are kept. Machines of 1999 are those of the other simulations
+(`calibration.py`).
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from statistics import median
 
 import pandas as pd
 
-from beambench_report.cluster.calibration import NONE, TRACED, Recorded, Slowness, slowness_of_1999
+from beambench_report.cluster.calibration import NONE, TRACED, Slowness
 from beambench_report.cluster.machines import (
     MESSAGES_OF_1999,
     MESSAGES_OF_TODAY,
@@ -22,7 +22,8 @@ from beambench_report.cluster.machines import (
     SWITCHED,
 )
 from beambench_report.cluster.plan import OLD, TODAY
-from beambench_report.cluster.simulate import Memory, run_simulator
+from beambench_report.cluster.record import read_recorded
+from beambench_report.cluster.simulate import Memory, run_simulator, slowness_of
 from beambench_report.files import write_text
 from beambench_report.problem import Problem
 
@@ -83,18 +84,13 @@ class SplitRow:
 def simulate_split(
     folder: Path, program: Path, resolution: str, repeats: int, most: int
 ) -> list[Path]:
-    """Writes FOLDER/split.csv.
+    """Writes FOLDER/split.csv, with machines of 1999 by what was recorded there.
 
     What was simulated before is not simulated again: FOLDER/split-answers.jsonl remembers it.
     Raises Problem where parts give another picture than the whole.
     """
-    folder.mkdir(parents=True, exist_ok=True)
     asker = _Asker(program, resolution, repeats, Memory(folder / "split-answers.jsonl"))
-    alone = asker.median(TODAY, SCENES[0], 1, NONE)
-    slow_by_era = {
-        OLD: split_slowness(_row(TODAY, SCENES[0], resolution, alone, alone)),
-        TODAY: NONE,
-    }
+    slow_by_era = {OLD: slowness_of(read_recorded(folder)), TODAY: NONE}
     rows: list[SplitRow] = []
     for era, slow in slow_by_era.items():
         for divided in SCENES:
@@ -123,19 +119,6 @@ def read_split(folder: Path) -> pd.DataFrame | None:
                 "python -m beambench_report cluster split DIR"
             )
     return rows
-
-
-def split_slowness(row: SplitRow) -> Slowness:
-    """Of machines of 1999, by what one process took here for the scene that the thesis timed."""
-    width, _, height = row.resolution.partition("x")
-    return slowness_of_1999(
-        Recorded(
-            row.build_seconds,
-            row.walk_cpu_seconds,
-            row.test_cpu_seconds + row.take_cpu_seconds,
-            int(width) * int(height),
-        )
-    )
 
 
 class _Asker:

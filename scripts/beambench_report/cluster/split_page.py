@@ -4,12 +4,10 @@ from __future__ import annotations
 
 import pandas as pd
 
-from beambench_report.cluster.calibration import TRACED
-from beambench_report.cluster.plan import OLD, TODAY
+from beambench_report.cluster.plan import OLD
 from beambench_report.cluster.plots import IDEAL, line_look, name_panel
-from beambench_report.cluster.split import CELLS_LEVEL, split_slowness
+from beambench_report.cluster.split import CELLS_LEVEL
 from beambench_report.figure import PAGE_WIDTH, Plot, new_figure
-from beambench_report.quantities import number
 
 STEM = "divided-scenes"
 _SUMMARY = "divided scenes: speed-up, memory of the largest part, traffic"
@@ -59,24 +57,11 @@ def split_section(rows: pd.DataFrame) -> str:
             f"![{_SUMMARY}]({STEM}.png)\n",
             _speed_ups(rows),
             _costs(rows),
-            f"Assumed: what messages cost, as above; {_calibration(rows)}. Left out: to read the "
-            "scene, the same for all and only from the whole can parts be cut; two buffers of the "
-            "image's hits, 16 bytes a sample, which each process has beside its part; caches: here "
-            "all processes share one core's.\n",
+            "Assumed: machines and messages of 1999, as above. Left out: to read the scene, the "
+            "same for all and only from the whole can parts be cut; two buffers of the image's "
+            "hits, 16 bytes a sample, which each process has beside its part; caches: here all "
+            "processes share one core's.\n",
         ]
-    )
-
-
-def _calibration(rows: pd.DataFrame) -> str:
-    """How machines of 1999 were made."""
-    of_thesis = rows[
-        rows["era"].eq(TODAY) & rows["scene"].eq(TRACED) & rows["processes"].eq(1)
-    ].itertuples()
-    slow = split_slowness(next(of_thesis))
-    return (
-        f"that machines of 1999 take {number(slow.walk)} times as long as this one to divide, "
-        f"build and walk, and {number(slow.work)} times for all else, by which {TRACED} by one "
-        "process takes what the thesis says (of the first factor the thesis says least)"
     )
 
 
