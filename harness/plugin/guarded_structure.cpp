@@ -37,6 +37,8 @@ class GuardedStructure : public Accelerator {
         name_(std::move(name)),
         when_asked_("when '" + name_ + "' was asked"),
         activity_(&activity) {}
+  GuardedStructure(const GuardedStructure&) = delete;
+  GuardedStructure& operator=(const GuardedStructure&) = delete;
 
   std::optional<Hit> closest_hit(const Ray& ray) const override {
     return sound(call([&] { return structure_->closest_hit(ray); }));

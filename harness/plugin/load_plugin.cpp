@@ -121,6 +121,7 @@ PluginContents contents_of(const std::string& file, const Plugin& plugin) {
 template <class Thing>
 std::vector<std::string> names_of(const std::vector<Thing>& things, std::string Thing::*name) {
   std::vector<std::string> names;
+  names.reserve(things.size());
   for (const Thing& thing : things) names.push_back(thing.*name);
   return names;
 }

@@ -20,6 +20,7 @@ constexpr int kRays = 300;
 
 std::vector<Ray> random_rays(const Scene& scene, Random& random) {
   std::vector<Ray> rays;
+  rays.reserve(kRays);
   for (int i = 0; i < kRays; ++i) rays.push_back(random_ray(scene, random));
   return rays;
 }

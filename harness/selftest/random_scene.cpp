@@ -1,5 +1,6 @@
 #include "harness/selftest/random_scene.hpp"
 
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -95,9 +96,9 @@ class Sculptor {
   void add_triangle() {
     const glm::dvec3 center = point_in_cube(random_);
     const double radius = random_.below(8) == 0 ? 1.5 : 2.0 * size();
-    const glm::dvec3 corners[3] = {place(center + point_in_cube(random_) * radius),
-                                   place(center + point_in_cube(random_) * radius),
-                                   place(center + point_in_cube(random_) * radius)};
+    const std::array<glm::dvec3, 3> corners{place(center + point_in_cube(random_) * radius),
+                                            place(center + point_in_cube(random_) * radius),
+                                            place(center + point_in_cube(random_) * radius)};
     builder_.add_polygon(corners);
   }
 
