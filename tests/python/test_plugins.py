@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import platform
 import re
 import signal
 import subprocess
@@ -84,6 +85,36 @@ def test_the_installed_program_takes_the_template_in(prefix: Path, template: Pat
                 program=program)  # fmt: skip
     assert done.returncode == 0, done.stdout + done.stderr
     assert done.stdout.count(" ok") == 6
+
+
+def test_the_template_needs_40_lines_beyond_the_algorithm() -> None:
+    lines = [
+        line
+        for name in ("plugin.cpp", "CMakeLists.txt")
+        for line in (SOURCES / "template" / name).read_text().splitlines()
+        if line.strip() and not line.strip().startswith("//")
+    ]
+    assert 10 < len(lines) <= 40
+
+
+@pytest.mark.skipif(platform.machine() != "x86_64", reason="reads another machine's code")
+def test_no_traversal_of_the_template_calls_through_a_pointer(template: Path) -> None:
+    text = subprocess.run(
+        ["objdump", "-dC", "--no-show-raw-insn", template],
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout
+    asked = re.compile(r"(find_closest|find_any|find_each_\w+|closest_hits?|any_hits?|trace)[<(]")
+    timed = {}
+    for function in re.split(r"\n\n(?=[0-9a-f]+ <)", text):
+        name = function.splitlines()[0]
+        if "MedianBvh" in name and "_Function_handler" not in name and asked.search(name):
+            timed[name] = function
+    for query in ("::closest_hits(", "::any_hits(", "::trace("):
+        assert any(query in name for name in timed)
+    for name, code in timed.items():
+        assert not re.search(r"\bcall\s+\*", code), name
 
 
 def test_find_package_takes_no_other_version(prefix: Path, tmp_path: Path) -> None:
@@ -340,6 +371,25 @@ def test_nonsense_is_no_result(faulty: Path, tmp_path: Path, fault: str) -> None
     assert done.returncode == 1
     assert "mismatch" in done.stdout
     assert f"replay beambench --plugin {faulty} trace row" in done.stdout
+
+
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["verify", "row", "--accel", "exhaustive,faulty"],
+        ["stats", "row", "--accel", "faulty"],
+        ["trace", "row", "--accel", "faulty", "--pixel", "160,100"],
+    ],
+    ids=lambda command: command[0],
+)
+def test_other_commands_end_by_name_when_it_crashes(faulty: Path, command: list[str]) -> None:
+    done = call("--plugin", faulty, *command, fault="crash in trace")
+    assert done.returncode == 1, done.stderr
+    message = done.stderr.splitlines()[-1]
+    assert message.startswith(
+        f"beambench: the plug-in {faulty}: asking 'faulty' over row:n=3 crashed"
+    )
+    assert "nothing of what it answered was kept" in message
 
 
 @pytest.mark.parametrize(
