@@ -105,21 +105,26 @@ void add_options(CLI::App& app, Request& request) {
                "The producer does a task itself when no consumer waits");
 }
 
+int answer(int argc, char** argv) {
+  CLI::App app("How long a recorded picture takes on a described cluster: JSON on stdout");
+  Request request;
+  add_options(app, request);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return run(request, argv[0]);
+}
+
 }  // namespace
 }  // namespace beambench
 
 int main(int argc, char** argv) {
-  CLI::App app("How long a recorded picture takes on a described cluster: JSON on stdout");
-  beambench::Request request;
-  beambench::add_options(app, request);
   try {
-    app.parse(argc, argv);
-    return beambench::run(request, argv[0]);
-  } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : 2;
+    return beambench::answer(argc, argv);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 2;
+    std::fprintf(stderr, "error: %s\n", error.what());
   }
+  return 2;
 }

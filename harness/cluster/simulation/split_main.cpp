@@ -92,29 +92,33 @@ void add_options(CLI::App& app, Request& request) {
   add_cluster_options(app, request.cluster);
 }
 
+int answer(int argc, char** argv) {
+  CLI::App app(
+      "How long a divided scene takes on a described cluster: JSON on stdout.\n"
+      "It is really traced, and what it takes of this machine's processor is scaled.");
+  Request request;
+  request.job.structure = "beam";
+  request.job.split_level = 4;
+  add_options(app, request);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  return run(request, argv[0]);
+}
+
 }  // namespace
 }  // namespace beambench
 
 int main(int argc, char** argv) {
-  CLI::App app(
-      "How long a divided scene takes on a described cluster: JSON on stdout.\n"
-      "It is really traced, and what it takes of this machine's processor is scaled.");
-  beambench::Request request;
-  request.job.structure = "beam";
-  request.job.split_level = 4;
-  beambench::add_options(app, request);
   try {
-    app.parse(argc, argv);
-    return beambench::run(request, argv[0]);
-  } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : 2;
+    return beambench::answer(argc, argv);
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr,
-               "error: the memory does not suffice; choose a smaller scene or resolution\n");
-    return 2;
+    std::fputs("error: the memory does not suffice; choose a smaller scene or resolution\n",
+               stderr);
   } catch (const std::exception& error) {
-    fmt::print(stderr, "error: {}\n", error.what());
-    return 2;
+    std::fprintf(stderr, "error: %s\n", error.what());
   }
+  return 2;
 }
