@@ -1,16 +1,13 @@
 #include "harness/cluster/lead.hpp"
 
-#include <cstdio>
 #include <memory>
-#include <new>
 #include <optional>
 #include <string_view>
-
-#include <fmt/format.h>
 
 #include "harness/cluster/consumer.hpp"
 #include "harness/cluster/image_worker.hpp"
 #include "harness/cluster/sample_results.hpp"
+#include "harness/cluster/set_up.hpp"
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/cluster/studio.hpp"
 #include "harness/cluster/task_sources.hpp"
@@ -93,44 +90,15 @@ ClusterRun describe(const ClusterRequest& request, const Studio& studio, int pro
   return run;
 }
 
-/// Why this process cannot work is told instead of how it is.
-Introduction excuse(std::string problem) {
-  Introduction introduction;
-  introduction.host = host_name();
-  introduction.problem = std::move(problem);
-  return introduction;
-}
-
 }  // namespace
-
-void send_all_home(Transport& transport) {
-  for (ProcessId process = kProducer + 1; process < transport.processes(); ++process) {
-    transport.send(process, Tag::kEnd, {});
-  }
-  transport.flush();
-}
-
-void wait_for_end(Transport& transport) {
-  while (true) {
-    const auto message = transport.wait(Transport::kForever);
-    if (message && message->tag == Tag::kEnd) return;
-  }
-}
 
 ClusterRun lead(const ClusterRequest& request, Transport& transport) {
   std::optional<Studio> studio;
   std::unique_ptr<TaskSource> source;
-  try {
-    std::vector<std::string> warnings;
+  set_up_to_lead(transport, [&](std::vector<std::string>& warnings) {
     studio.emplace(request.job, &warnings);
-    for (const std::string& warning : warnings) {
-      fmt::print(stderr, "beambench-cluster: {}\n", warning);
-    }
     source = make_source(request, *studio);
-  } catch (...) {
-    send_all_home(transport);
-    throw;
-  }
+  });
   ClusterRun run = describe(request, *studio, transport.processes());
   const auto check = [&, mine = studio->identity()](ProcessId process,
                                                     std::span<const std::byte> introduction) {
@@ -149,26 +117,14 @@ void follow(Transport& transport) {
   Bytes bytes;
   transport.broadcast(bytes);
   if (bytes.empty()) return;
-  std::optional<Studio> studio;
-  Job job;
-  Introduction introduction;
-  try {
-    job = read_job(bytes);
-    if (job.split_level > 0) return follow_split(job, transport);
-    studio.emplace(job);
-    introduction = studio->introduction();
-  } catch (const InputError& error) {
-    introduction = excuse(error.what());
-  } catch (const std::bad_alloc&) {
-    introduction = excuse("the memory does not suffice for this scene");
-  }
-  if (!introduction.problem.empty()) {
-    transport.send(kProducer, Tag::kReady, write_introduction(introduction));
-    wait_for_end(transport);
-    return;
-  }
-  ImageWorker worker(studio->tracer(), studio->rays(), studio->light());
-  Consumer(transport, worker, job.alive_every).run(write_introduction(introduction));
+  const auto job = set_up_to_follow(transport, [&] { return read_job(bytes); });
+  if (!job) return;
+  if (job->split_level > 0) return follow_split(*job, transport);
+  const auto studio = set_up_to_follow(transport, [&] { return std::make_unique<Studio>(*job); });
+  if (!studio) return;
+  const Studio& built = **studio;
+  ImageWorker worker(built.tracer(), built.rays(), built.light());
+  Consumer(transport, worker, job->alive_every).run(write_introduction(built.introduction()));
 }
 
 }  // namespace beambench

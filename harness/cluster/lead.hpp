@@ -12,10 +12,6 @@ namespace beambench {
 /// before.
 ClusterRun lead(const ClusterRequest& request, Transport& transport);
 
-/// Ends the waiting of all others, and waits for such an end.
-void send_all_home(Transport& transport);
-void wait_for_end(Transport& transport);
-
 /// Is told the job and works on it to its end. What keeps this process from working is told to
 /// process 0, which ends the run.
 void follow(Transport& transport);

@@ -1,14 +1,12 @@
 #include "harness/cluster/split/split_run.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
-#include <new>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "harness/cluster/lead.hpp"
+#include "harness/cluster/set_up.hpp"
 #include "harness/cluster/split/split_studio.hpp"
 #include "harness/cluster/studio.hpp"
 #include "harness/files/pending_file.hpp"
@@ -36,14 +34,6 @@ Workplace set_up(const Job& job, Transport& transport, std::vector<std::string>*
   return place;
 }
 
-Bytes introduce(const Identity& identity, const std::string& problem) {
-  Introduction introduction;
-  introduction.host = host_name();
-  introduction.problem = problem;
-  introduction.identity = identity;
-  return write_introduction(introduction);
-}
-
 Json to_json(const Traffic& traffic) {
   return {{"messages", traffic.messages}, {"bytes", traffic.bytes}};
 }
@@ -64,15 +54,9 @@ Json to_json(const SplitAccount& account) {
 
 SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
   Workplace place;
-  std::vector<std::string> warnings;
-  try {
+  set_up_to_lead(transport, [&](std::vector<std::string>& warnings) {
     place = set_up(request.job, transport, &warnings);
-  } catch (...) {
-    send_all_home(transport);
-    throw;
-  }
-  for (const std::string& warning : warnings)
-    fmt::print(stderr, "beambench-cluster: {}\n", warning);
+  });
   const auto check = [&](ProcessId process, std::span<const std::byte> introduction) {
     read_introduction(process, introduction, place.identity);
   };
@@ -100,22 +84,14 @@ SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
 }
 
 void follow_split(const Job& job, Transport& transport) {
-  Workplace place;
-  std::string problem;
-  try {
-    place = set_up(job, transport, nullptr);
-  } catch (const InputError& error) {
-    problem = error.what();
-  } catch (const std::bad_alloc&) {
-    problem = "the memory does not suffice for this scene";
-  }
-  transport.send(kProducer, Tag::kReady, introduce(place.identity, problem));
-  if (!place.studio) {
-    wait_for_end(transport);
-    return;
-  }
-  SplitWorker& worker = place.studio->worker();
-  SplitMember member(transport, worker, place.studio->outbox(), 5.0 * job.alive_every,
+  const auto place = set_up_to_follow(transport, [&] { return set_up(job, transport, nullptr); });
+  if (!place) return;
+  Introduction introduction;
+  introduction.host = host_name();
+  introduction.identity = place->identity;
+  transport.send(kProducer, Tag::kReady, write_introduction(introduction));
+  SplitWorker& worker = place->studio->worker();
+  SplitMember member(transport, worker, place->studio->outbox(), 5.0 * job.alive_every,
                      [](ProcessId, std::span<const std::byte>) {});
   member.follow([&] { return write_result(member.account(), worker); });
 }
