@@ -25,40 +25,32 @@ def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) ->
     last = steps.add_parser("write", help="write DIR/report.md and its figures")
     for step in (first, second, split, last):
         step.add_argument("folder", type=Path, metavar="DIR")
-    first.add_argument(
-        "--program",
-        type=Path,
-        default=programs / "beambench-cluster",
-        metavar="PROGRAM",
-        help="the built beambench-cluster; if not given, build/release/bin/beambench-cluster",
-    )
-    first.add_argument("--repeats", type=int, default=3, metavar="N", help="medians of N runs; 3")
-    first.add_argument(
-        "--resolution", default="1280x1024", metavar="WxH", help="1280x1024, as in the thesis"
-    )
-    second.add_argument(
-        "--program",
-        type=Path,
-        default=programs / "beambench-cluster-simulated",
-        metavar="PROGRAM",
-        help="if not given, build/release/bin/beambench-cluster-simulated",
-    )
-    second.add_argument(
-        "--most", type=int, default=1024, metavar="N", help="no more than N processes; 1024"
-    )
+    for step, program in (
+        (first, "beambench-cluster"),
+        (second, "beambench-cluster-simulated"),
+        (split, "beambench-split-simulated"),
+    ):
+        step.add_argument(
+            "--program",
+            type=Path,
+            default=programs / program,
+            metavar="PROGRAM",
+            help=f"if not given, build/release/bin/{program}",
+        )
+    for step in (first, split):
+        step.add_argument(
+            "--repeats", type=int, default=3, metavar="N", help="medians of N runs; 3"
+        )
+        step.add_argument(
+            "--resolution", default="1280x1024", metavar="WxH", help="1280x1024, as in the thesis"
+        )
+    for step, most, things in ((second, 1024, "processes"), (split, 64, "parts")):
+        step.add_argument(
+            "--most", type=int, default=most, metavar="N", help=f"no more than N {things}; {most}"
+        )
     second.add_argument(
         "--jobs", type=int, default=1, metavar="N", help="N simulations at a time; 1"
     )
-    split.add_argument(
-        "--program",
-        type=Path,
-        default=programs / "beambench-split-simulated",
-        metavar="PROGRAM",
-        help="if not given, build/release/bin/beambench-split-simulated",
-    )
-    split.add_argument("--repeats", type=int, default=3, metavar="N", help="medians of N runs; 3")
-    split.add_argument("--resolution", default="1280x1024", metavar="WxH", help="1280x1024")
-    split.add_argument("--most", type=int, default=64, metavar="N", help="no more than N parts; 64")
 
 
 def cluster(options: argparse.Namespace) -> list[Path]:

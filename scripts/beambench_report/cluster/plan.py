@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from beambench_report.cluster.calibration import ALL_BUILDING, ALL_WALKING, AS_OURS
 from beambench_report.cluster.machines import (
@@ -118,38 +118,29 @@ def _unlike(scene: str) -> list[Simulation]:
 
 def _assumptions(scene: str) -> list[Simulation]:
     """What messages were assumed to cost, halved and doubled; and larger results."""
+    usual = {
+        network: [
+            Simulation(OLD, scene, network, MESSAGES_OF_1999, consumers)
+            for consumers in (STATIONS // 2, STATIONS - 1)
+        ]
+        for network in (SHARED, SWITCHED)
+    }
     return [
         *(
-            Simulation(OLD, scene, network, MESSAGES_OF_1999.times(factor), consumers, label)
-            for network in (SHARED, SWITCHED)
+            replace(each, messages=MESSAGES_OF_1999.times(factor), options=label)
+            for network in usual
             for factor, label in ((0.5, "messages at half the cost"), (2, "at twice the cost"))
-            for consumers in (STATIONS // 2, STATIONS - 1)
+            for each in usual[network]
         ),
         *(
-            Simulation(
-                OLD,
-                scene,
-                network,
-                MESSAGES_OF_1999,
-                consumers,
-                "8 bytes a sample",
-                own_messages=True,
-            )
-            for network in (SHARED, SWITCHED)
-            for consumers in (STATIONS // 2, STATIONS - 1)
+            replace(each, options="8 bytes a sample", own_messages=True)
+            for network in usual
+            for each in usual[network]
         ),
         *(
-            Simulation(
-                OLD,
-                scene,
-                network,
-                MESSAGES_OF_1999,
-                consumers,
-                f"constant {constant}",
-                constant_is=constant,
-            )
-            for network in (SHARED, SWITCHED)
+            replace(each, options=f"constant {constant}", constant_is=constant)
+            for network in usual
             for constant in (ALL_WALKING, ALL_BUILDING)
-            for consumers in (STATIONS // 2, STATIONS - 1)
+            for each in usual[network]
         ),
     ]

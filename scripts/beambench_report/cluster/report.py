@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -101,21 +102,13 @@ def _efficiencies(simulations: pd.DataFrame) -> str:
         & simulations["era"].eq(OLD)
         & simulations["consumers"].isin(_SHOWN)
     ]
-    lines = [
-        "Efficiency with the producer counted / not counted:\n",
-        f"| scene | network | {' | '.join(f'{n} consumers' for n in _SHOWN)} |",
-        "|---|---|" + "---|" * len(_SHOWN),
-    ]
-    for (scene, network), group in rows.groupby(["scene", "network"], sort=False):
-        by = group.set_index("consumers")
-        cells = [
-            f"{by.loc[n, 'efficiency']:.2f} / {by.loc[n, 'efficiency_of_consumers']:.2f}"
-            if n in by.index
-            else ""
-            for n in _SHOWN
-        ]
-        lines.append(f"| {scene} | {network} | {' | '.join(cells)} |")
-    return "\n".join([*lines, ""])
+    return _by_consumers(
+        "Efficiency with the producer counted / not counted:",
+        rows,
+        "network",
+        _SHOWN,
+        lambda run: f"{run['efficiency']:.2f} / {run['efficiency_of_consumers']:.2f}",
+    )
 
 
 def _options(simulations: pd.DataFrame, era: str) -> str:
@@ -127,20 +120,32 @@ def _options(simulations: pd.DataFrame, era: str) -> str:
         & ~simulations["network"].str.startswith("shared")
     ]
     counts = sorted(set(rows["consumers"]) & {STATIONS // 2, STATIONS - 1, 31, 63, 127, 255, 1023})
+    return _by_consumers(
+        f"Speed-up, {era} (in brackets: how busy the producer is):",
+        rows,
+        "options",
+        counts,
+        lambda run: f"{run['speed_up']:.1f} ({run['producer_busy']:.0%})",
+    )
+
+
+def _by_consumers(
+    title: str,
+    rows: pd.DataFrame,
+    by: str,
+    counts: Sequence[int],
+    cell: Callable[[pd.Series], str],
+) -> str:
+    """A column for each number of consumers, a row for each scene and what stands in `by`."""
     lines = [
-        f"Speed-up, {era} (in brackets: how busy the producer is):\n",
-        f"| scene | options | {' | '.join(f'{n} consumers' for n in counts)} |",
+        f"{title}\n",
+        f"| scene | {by} | {' | '.join(f'{n} consumers' for n in counts)} |",
         "|---|---|" + "---|" * len(counts),
     ]
-    for (scene, options), group in rows.groupby(["scene", "options"], sort=False):
-        by = group.drop_duplicates("consumers").set_index("consumers")
-        cells = [
-            f"{by.loc[n, 'speed_up']:.1f} ({by.loc[n, 'producer_busy']:.0%})"
-            if n in by.index
-            else ""
-            for n in counts
-        ]
-        lines.append(f"| {scene} | {options} | {' | '.join(cells)} |")
+    for (scene, which), group in rows.groupby(["scene", by], sort=False):
+        runs = group.drop_duplicates("consumers").set_index("consumers")
+        cells = [cell(runs.loc[n]) if n in runs.index else "" for n in counts]
+        lines.append(f"| {scene} | {which} | {' | '.join(cells)} |")
     return "\n".join([*lines, ""])
 
 
