@@ -19,12 +19,14 @@
 #include "harness/shade/whitted_picture.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/error.hpp"
+#include "tests/cluster/followers.hpp"
 #include "tests/cluster/local_network.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench {
 namespace {
 
+using testing::led;
 using testing::LocalNetwork;
 using testing::random_scene;
 
@@ -252,13 +254,7 @@ TEST(Cluster, RunsFromACommandLineToItsEnd) {
   request.job.height = 30;
   request.job.samples = 4;
   LocalNetwork network(3, 1, 0.0001);
-  std::vector<std::jthread> others;
-  for (const ProcessId process : {1, 2}) {
-    others.emplace_back([&network, process] { follow(network.at(process)); });
-  }
-  Bytes job = write_job(request.job);
-  network.at(0).broadcast(job);
-  const ClusterRun run = lead(request, network.at(0));
+  const ClusterRun run = led(lead, request, network);
   EXPECT_EQ(run.result_hash, fingerprint(expected));
   EXPECT_EQ(run.introductions[2].identity, run.introductions[0].identity);
 }
@@ -268,10 +264,7 @@ TEST(Cluster, SendsAllHomeWhereTheSceneIsMissing) {
   request.job.scene = "no-such-scene";
   request.job.structure = "beam";
   LocalNetwork network(2, 1, 0.001);
-  std::jthread other([&network] { follow(network.at(1)); });
-  Bytes job = write_job(request.job);
-  network.at(0).broadcast(job);
-  EXPECT_THROW(lead(request, network.at(0)), InputError);
+  EXPECT_THROW(led(lead, request, network), InputError);
 }
 
 }  // namespace

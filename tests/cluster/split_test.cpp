@@ -10,19 +10,20 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/cluster/lead.hpp"
 #include "harness/cluster/sample_results.hpp"
 #include "harness/cluster/split/split_member.hpp"
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/error.hpp"
+#include "tests/cluster/followers.hpp"
 #include "tests/cluster/local_network.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench {
 namespace {
 
+using testing::led;
 using testing::LocalNetwork;
 using testing::random_scene;
 
@@ -175,13 +176,7 @@ TEST(SplitScene, RunsFromACommandLineToItsEnd) {
   request.job.height = 30;
   request.job.split_level = 3;
   LocalNetwork network(3, 1, 0.0);
-  std::vector<std::jthread> others;
-  for (const ProcessId process : {1, 2}) {
-    others.emplace_back([&network, process] { follow(network.at(process)); });
-  }
-  Bytes job = write_job(request.job);
-  network.at(0).broadcast(job);
-  EXPECT_EQ(lead_split(request, network.at(0)).result_hash, fingerprint(expected));
+  EXPECT_EQ(led(lead_split, request, network).result_hash, fingerprint(expected));
 }
 
 TEST(SplitScene, EndsWithAnErrorWhereAProcessIsSilent) {
