@@ -20,8 +20,30 @@ def validator() -> jsonschema.Draft202012Validator:
     return jsonschema.Draft202012Validator(schema)
 
 
-def test_there_is_a_default_sweep() -> None:
-    assert "default.json" in {path.name for path in SWEEPS}
+def structures_of(sweep: dict) -> dict[str, list[dict]]:
+    """The bare names of a sweep's structures, each with the parameters of its entries."""
+    found: dict[str, list[dict]] = {}
+    for entry in sweep["structures"]:
+        if isinstance(entry, str):
+            name, _, text = entry.partition(":")
+            parameters = dict(item.split("=") for item in text.split(",") if item)
+        else:
+            name, parameters = entry["structure"], entry.get("parameters", {})
+        found.setdefault(name, []).append(parameters)
+    return found
+
+
+def test_the_default_sweep_has_every_structure_and_the_modes_of_embree() -> None:
+    sweep = json.loads((REPOSITORY / "harness" / "sweeps" / "default.json").read_text())
+    structures = structures_of(sweep)
+    assert set(structures) == {
+        "null", "exhaustive", "samet", "samet-net", "voxel-grid", "goldsmith-salmon",
+        "beam", "tile-beam", "sah-bvh", "embree",
+    }  # fmt: skip
+    (embree,) = structures["embree"]
+    assert embree["mode"] == ["single", "packet4", "packet8", "packet16"]
+    assert {"structure": "exhaustive", "primitives_above": 1000} in sweep["exclude"]
+    assert sweep["budget_seconds"] < 5 * 60
 
 
 @pytest.mark.parametrize("path", SWEEPS, ids=lambda path: path.name)
