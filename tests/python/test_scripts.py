@@ -2,13 +2,25 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
+import os
+import shlex
 import shutil
+import signal
 import subprocess
+import time
 from pathlib import Path
 
 import pandas as pd
 import pytest
+
+PACKAGE_LISTS = [
+    "packages.txt",
+    "packages-cluster.txt",
+    "packages-test.txt",
+    "packages-browser.txt",
+]
 
 
 def call(*command: str | Path, directory: Path) -> subprocess.CompletedProcess[str]:
@@ -17,7 +29,7 @@ def call(*command: str | Path, directory: Path) -> subprocess.CompletedProcess[s
     )
 
 
-@pytest.mark.parametrize("script", ["run", "test", "meshes"])
+@pytest.mark.parametrize("script", ["run", "test", "meshes", "setup"])
 def test_help_is_given(script: str, repository: Path) -> None:
     result = call(repository / "scripts" / script, "--help", directory=repository)
     assert result.returncode == 0
@@ -30,6 +42,11 @@ def test_help_is_given(script: str, repository: Path) -> None:
         ("run", ["--swep", "x"], "unknown argument '--swep'"),
         ("run", ["--sweep"], "--sweep needs a file"),
         ("run", ["--sweep", "no/such.json"], "no/such.json is not a file that can be read"),
+        ("run", ["--resume"], "--resume needs the folder of a run"),
+        ("run", ["--resume", "no/such"], "no/such is not the folder of a run"),
+        ("run", ["--resume=a", "--output=b"], "--resume excludes --sweep and --output"),
+        ("setup", ["--jobs"], "knows no job '--jobs', only beambench, cluster and all"),
+        ("setup", ["all", "cluster"], "takes one job, not 2"),
         ("test", ["--quick"], "takes no argument"),
         ("meshes", ["--all"], "unknown argument '--all'"),
         ("meshes", ["--beambench", "no/such"], "no/such is not a program"),
@@ -52,8 +69,8 @@ def test_setup_does_not_clear_what_a_linked_environment_points_to(
     tree, others = tmp_path / "tree", tmp_path / "others"
     (tree / "scripts").mkdir(parents=True)
     shutil.copy(repository / "scripts/setup", tree / "scripts")
-    for name in ("packages.txt", "packages-test.txt", "requirements.txt"):
-        (tree / "scripts" / name).touch()  # nothing to install
+    for path in [*PACKAGE_LISTS, "requirements.txt"]:
+        (tree / "scripts" / path).touch()  # nothing to install
     others.mkdir()
     (others / "precious").touch()
     (tree / ".venv").symlink_to(others)
@@ -65,12 +82,156 @@ def test_setup_does_not_clear_what_a_linked_environment_points_to(
     assert result.stderr.count("\n") == 1
 
 
+@pytest.fixture
+def bare_tree(repository: Path, tmp_path: Path) -> Path:
+    """A tree in which scripts/setup has nothing to install and whose build prints its arguments."""
+    tree, tools = tmp_path / "bare", tmp_path / "tools"
+    (tree / "scripts").mkdir(parents=True)
+    tools.mkdir()
+    shutil.copy(repository / "scripts/setup", tree / "scripts")
+    for path in [*PACKAGE_LISTS, "requirements.txt"]:
+        (tree / "scripts" / path).touch()
+    version = call("/usr/bin/python3", "--version", directory=tree).stdout
+    (tree / ".venv/bin").mkdir(parents=True)
+    (tree / ".venv/bin/python").symlink_to("/usr/bin/python3")
+    (tree / ".venv/beambench-fingerprint").write_text(
+        f"{hashlib.sha256(version.encode()).hexdigest()}  -\n"
+    )
+    cmake = tools / "cmake"
+    cmake.write_text('#!/bin/sh\necho "cmake $*"\n[ "$1" != --build ] || sleep 1\n')
+    cmake.chmod(0o755)
+    return tree
+
+
+def set_up(tree: Path, *arguments: str) -> subprocess.Popen[str]:
+    return subprocess.Popen(
+        [tree / "scripts/setup", *arguments],
+        env={**os.environ, "PATH": f"{tree.parent / 'tools'}:{os.environ['PATH']}"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+    )
+
+
+@pytest.mark.parametrize(
+    ("job", "targets"),
+    [
+        ("beambench", "beambench"),
+        ("cluster", "beambench-cluster beambench-cluster-simulated beambench-split-simulated"),
+        ("all", "all"),
+    ],
+)
+def test_setup_builds_only_what_the_job_needs(bare_tree: Path, job: str, targets: str) -> None:
+    output, _ = set_up(bare_tree, job).communicate(timeout=120)
+    assert f"cmake --build --preset release --target {targets}\n" in output
+
+
+def test_two_set_ups_of_one_tree_take_turns(bare_tree: Path) -> None:
+    first = set_up(bare_tree, "beambench")
+    while not (bare_tree / "build/setup.lock").exists():
+        time.sleep(0.01)
+    second = set_up(bare_tree, "beambench")
+    outputs = [process.communicate(timeout=120)[0] for process in (first, second)]
+    assert [process.returncode for process in (first, second)] == [0, 0]
+    assert sum("Another scripts/setup works in this tree" in output for output in outputs) == 1
+
+
+def test_scripts_run_installs_nothing_that_only_tests_or_the_cluster_need(repository: Path) -> None:
+    needed = (repository / "scripts/packages.txt").read_text()
+    for package in ("libgtest-dev", "librapidcheck-dev", "libopenmpi-dev", "libsimgrid-dev"):
+        assert package not in needed
+    assert "scripts/setup beambench\n" in (repository / "scripts/run").read_text()
+
+
+def test_ctrl_c_ends_the_tests_instead_of_going_on_with_the_next_check(
+    repository: Path, tmp_path: Path
+) -> None:
+    tree = tmp_path / "tree"
+    (tree / "scripts").mkdir(parents=True)
+    shutil.copy(repository / "scripts/test", tree / "scripts")
+    tools = tmp_path / "tools"
+    tools.mkdir()
+    for path in (tree / "scripts/setup", tools / "ctest"):
+        path.write_text("#!/bin/sh\n")
+        path.chmod(0o755)
+    # As pytest does: ends by itself on SIGINT, with an exit code of its own.
+    python = tree / ".venv/bin/python"
+    python.parent.mkdir(parents=True)
+    python.write_text(
+        "#!/bin/bash\ntrap 'exit 2' INT\necho started\nfor i in {1..100}; do sleep 0.1; done\n"
+    )
+    python.chmod(0o755)
+    tests = subprocess.Popen(
+        [tree / "scripts/test"],
+        env={**os.environ, "PATH": f"{tools}:{os.environ['PATH']}"},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.STDOUT,
+        text=True,
+        start_new_session=True,
+    )
+    assert tests.stdout is not None
+    for line in tests.stdout:
+        if line == "started\n":
+            break
+    os.killpg(tests.pid, signal.SIGINT)  # as a terminal sends it, to the whole group
+    rest = tests.stdout.read()
+    assert tests.wait(timeout=30) == 130
+    assert "interrupted" in rest
+    assert "== C++ format" not in rest
+
+
 def test_the_lists_of_packages_name_each_once(repository: Path) -> None:
-    lists = [repository / "scripts" / name for name in ("packages.txt", "packages-test.txt")]
+    lists = [repository / "scripts" / name for name in PACKAGE_LISTS]
     lines = [line for path in lists for line in path.read_text().splitlines()]
     packages = [line.split("#")[0].strip() for line in lines]
     packages = [package for package in packages if package]
     assert len(packages) == len(set(packages)) > 10
+
+
+def test_an_interrupted_run_is_resumed_with_its_plots_and_page(
+    repository: Path, tmp_path: Path
+) -> None:
+    if not (repository / "build/release/bin/beambench").exists():
+        pytest.skip("beambench is not built; run scripts/setup")
+    sweep = tmp_path / "long.json"
+    sweep.write_text(
+        json.dumps(
+            {
+                "name": "long",
+                "scenes": ["stetra"],
+                "structures": ["samet", "null"],
+                "resolutions": ["32x20"],
+                "precision": 1e-9,
+                "repetitions": {"minimum": 20, "maximum": 100000},
+                "budget_seconds": 6,
+            }
+        )
+    )
+    run = tmp_path / "a run"
+    begun = subprocess.Popen(
+        [repository / "scripts/run", "--sweep", sweep, "--output", run],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        start_new_session=True,
+    )
+    for _ in range(600):
+        if (run / "config.json").exists():
+            break
+        time.sleep(0.1)
+    time.sleep(1)
+    os.killpg(begun.pid, signal.SIGINT)
+    _, messages = begun.communicate(timeout=60)
+    assert begun.returncode == 130, messages
+    hint = messages.strip().splitlines()[-1]
+    assert hint.startswith("Resume, with pictures, plots and the page: ")
+    command = shlex.split(hint.split(": ", 1)[1])
+    assert command == [str(repository / "scripts/run"), "--resume", str(run)]
+
+    resumed = call(*command, directory=tmp_path)
+    assert resumed.returncode == 0, resumed.stderr
+    assert (run / "results.csv").exists()
+    assert (run / "report.html").exists()
 
 
 def test_a_small_sweep_leaves_records_pictures_plots_and_a_page(
