@@ -30,7 +30,7 @@ using LaneBits = std::uint32_t;
 
 /// Calls `test(lane)` for the first lane of each register and joins the masks it returns.
 template <class Test>
-LaneBits for_each_register(Test test) {
+LaneBits test_registers(Test test) {
   const Tag tag;
   LaneBits bits = 0;
   for (std::size_t lane = 0; lane < kBvhLanes; lane += hn::Lanes(tag)) {
@@ -45,7 +45,7 @@ LaneBits for_each_register(Test test) {
 inline LaneBits meet_children(const WideNode& node, const ProbeRay& ray, float limit,
                               float* enter_t) {
   const Tag tag;
-  return for_each_register([&](std::size_t lane) {
+  return test_registers([&](std::size_t lane) {
     const auto plane_t = [&](std::size_t row, std::size_t axis) {
       const Floats plane = hn::Load(tag, node.planes[row].data() + lane);
       return hn::Mul(hn::Sub(plane, hn::Set(tag, ray.origin[axis])),
@@ -73,7 +73,7 @@ inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray
   struct Corner {
     Floats x, y, z;
   };
-  return for_each_register([&](std::size_t lane) {
+  return test_registers([&](std::size_t lane) {
     const auto corner = [&](std::size_t which) -> Corner {
       const auto from_origin = [&](std::size_t axis) {
         return hn::Sub(hn::Load(tag, block.coordinates[3 * which + axis].data() + lane),
@@ -113,7 +113,7 @@ inline LaneBits probe_spheres(const PrimitiveBlock& block, const ProbeRay& ray, 
               ray.direction[2] * ray.direction[2]);
   const float per_length = std::sqrt(per_square);
   const Floats margin = hn::Set(tag, 32.0F * ray.rounding);
-  return for_each_register([&](std::size_t lane) {
+  return test_registers([&](std::size_t lane) {
     const auto row = [&](std::size_t index) {
       return hn::Load(tag, block.coordinates[index].data() + lane);
     };

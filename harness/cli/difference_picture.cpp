@@ -40,7 +40,7 @@ std::vector<DiffClass> gravest(std::span<const DiffClass> classes, std::size_t s
   return pixels;
 }
 
-CategoryMap map_of(const std::vector<DiffClass>& pixels, const Comparison& comparison) {
+CategoryMap map_of(const std::vector<DiffClass>& pixels, const ComparedNames& comparison) {
   CategoryMap map{fmt::format("{} against {}", comparison.judged, comparison.reference),
                   {{"tie", okabe_ito::kSkyBlue},
                    {"graze", okabe_ito::kYellow},
@@ -64,7 +64,7 @@ Image preview_of(const ReferenceHits& reference) {
 }  // namespace
 
 void write_difference(const std::filesystem::path& file, const ReferenceHits& reference,
-                      std::span<const DiffClass> classes, const Comparison& comparison) {
+                      std::span<const DiffClass> classes, const ComparedNames& comparison) {
   const std::vector<DiffClass> pixels =
       gravest(classes, static_cast<std::size_t>(reference.question().image()->samples()));
   const Image ground = preview_of(reference);

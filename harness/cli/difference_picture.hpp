@@ -10,7 +10,7 @@
 namespace beambench {
 
 /// Who was compared with whom.
-struct Comparison {
+struct ComparedNames {
   std::string judged;     ///< whose errors are `DiffClass::kEngineError`
   std::string reference;  ///< whose errors are `DiffClass::kEmbreeError`
 };
@@ -23,7 +23,7 @@ inline constexpr const char* kOracleName = "oracle";
 /// legend; an .exr the preview in colours and the classes as numbers (0 agree, 1 tie, 2 graze, 3
 /// the judged is wrong, 4 the reference is).
 void write_difference(const std::filesystem::path& file, const ReferenceHits& reference,
-                      std::span<const DiffClass> classes, const Comparison& comparison);
+                      std::span<const DiffClass> classes, const ComparedNames& comparison);
 
 /// A structure's hits as reference; answers that are none count as misses.
 ReferenceHits reference_from(const Scene& scene, const Question& question, const Answers& answers);

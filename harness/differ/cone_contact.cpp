@@ -51,7 +51,7 @@ struct Profile {
 /// The line in the quadric of the cone: a t^2 + 2 b t + c, t counted from the line's point closest
 /// to the frustum's middle.
 struct LineEquation {
-  LineEquation(const Line& line, const Profile& profile) : direction(line.direction) {
+  LineEquation(const RayLine& line, const Profile& profile) : direction(line.direction) {
     const dvec3 middle = profile.base + 0.5 * profile.height * profile.axis;
     start = middle - line.across(middle);
     const double along = glm::dot(direction, profile.axis);
@@ -73,7 +73,7 @@ struct LineEquation {
 
 /// How near the line comes to touching the surface without crossing it, or to having its entry and
 /// exit in one point.
-double silhouette_distance(const Line& line, const Profile& profile) {
+double silhouette_distance(const RayLine& line, const Profile& profile) {
   const LineEquation equation(line, profile);
   if (equation.a == 0.0) return kFar;
   const dvec3 turning_point = equation.at(-equation.b / equation.a);
@@ -84,7 +84,7 @@ double silhouette_distance(const Line& line, const Profile& profile) {
 
 /// The distance from the line to a rim: exact where the line crosses the rim's plane or the cone's
 /// surface close to the rim, which is where it is asked for.
-double rim_distance(const Line& line, const Profile& profile, double rim_height) {
+double rim_distance(const RayLine& line, const Profile& profile, double rim_height) {
   const LineEquation equation(line, profile);
   double nearest = kFar;
   const auto consider = [&](double t) {
@@ -104,13 +104,13 @@ double rim_distance(const Line& line, const Profile& profile, double rim_height)
 
 }  // namespace
 
-double cone_boundary_distance(const Line& line, const Cone& cone) {
+double cone_boundary_distance(const RayLine& line, const Cone& cone) {
   const Profile profile(cone);
   return std::min({silhouette_distance(line, profile), rim_distance(line, profile, 0.0),
                    rim_distance(line, profile, profile.height)});
 }
 
-Contact cone_contact(const Line& line, const dvec3& point, const Cone& cone, double grazing) {
+Contact cone_contact(const RayLine& line, const dvec3& point, const Cone& cone, double grazing) {
   const Profile profile(cone);
   const double h = profile.height_of(point);
   const double within = std::clamp(h, 0.0, profile.height);

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "harness/differ/cone_contact.hpp"
-#include "harness/differ/line.hpp"
+#include "harness/differ/ray_line.hpp"
 
 namespace beambench {
 namespace {
@@ -24,14 +24,14 @@ Corners corners_of(const Scene& scene, const Triangle& triangle) {
           dvec3(scene.vertices[triangle.vertex[2]])};
 }
 
-double edge_distance(const Line& line, const Corners& corners) {
+double edge_distance(const RayLine& line, const Corners& corners) {
   return std::min({line.distance_to_segment(corners[0], corners[1]),
                    line.distance_to_segment(corners[1], corners[2]),
                    line.distance_to_segment(corners[2], corners[0])});
 }
 
 /// By how much the line passes beside the triangle; 0 through it.
-double lateral_distance(const Line& line, const Corners& corners) {
+double lateral_distance(const RayLine& line, const Corners& corners) {
   const dvec3 a = line.across(corners[0]);
   const dvec3 b = line.across(corners[1]);
   const dvec3 c = line.across(corners[2]);
@@ -42,7 +42,7 @@ double lateral_distance(const Line& line, const Corners& corners) {
   return edge_distance(line, corners);
 }
 
-Contact contact_with(const Line& line, const dvec3& point, const Corners& corners) {
+Contact contact_with(const RayLine& line, const dvec3& point, const Corners& corners) {
   const dvec3 normal = glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
   const double off_plane = std::abs(glm::dot(normal, point - corners[0]));
   return {std::max(off_plane, lateral_distance(line, corners)),
@@ -50,7 +50,7 @@ Contact contact_with(const Line& line, const dvec3& point, const Corners& corner
 }
 
 /// Of a polygon, the triangle that the claim fits best.
-Contact contact_with(const Scene& scene, const Line& line, const dvec3& point,
+Contact contact_with(const Scene& scene, const RayLine& line, const dvec3& point,
                      const Polygon& polygon) {
   Contact best{kFar, 0.0, false};
   for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
@@ -61,11 +61,12 @@ Contact contact_with(const Scene& scene, const Line& line, const dvec3& point,
   return best;
 }
 
-double silhouette_distance(const Line& line, const Sphere& sphere) {
+double silhouette_distance(const RayLine& line, const Sphere& sphere) {
   return std::abs(glm::length(line.across(dvec3(sphere.center))) - sphere.radius);
 }
 
-Contact contact_with(const Line& line, const dvec3& point, const Sphere& sphere, double grazing) {
+Contact contact_with(const RayLine& line, const dvec3& point, const Sphere& sphere,
+                     double grazing) {
   const dvec3 from_center = point - dvec3(sphere.center);
   const double distance = glm::length(from_center);
   const double along = glm::dot(from_center, line.direction);
@@ -79,7 +80,7 @@ Contact contact_with(const Line& line, const dvec3& point, const Sphere& sphere,
 }  // namespace
 
 Contact contact(const Scene& scene, const Ray& ray, const ExactHit& hit, double grazing) {
-  const Line line(ray);
+  const RayLine line(ray);
   const dvec3 point = dvec3(ray.origin) + hit.t * dvec3(ray.direction);
   const Primitive& primitive = scene.primitives[hit.primitive];
   switch (primitive.kind) {
@@ -94,7 +95,7 @@ Contact contact(const Scene& scene, const Ray& ray, const ExactHit& hit, double 
 }
 
 double boundary_distance(const Scene& scene, const Ray& ray, PrimitiveId id) {
-  const Line line(ray);
+  const RayLine line(ray);
   const Primitive& primitive = scene.primitives[id];
   switch (primitive.kind) {
     case PrimitiveKind::kSphere:

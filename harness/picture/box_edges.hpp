@@ -14,7 +14,7 @@ namespace beambench {
 
 /// An edge on the image: of what lies in front of the eye.
 struct SeenEdge {
-  Line line;
+  PixelSegment line;
   double from_depth;
   double to_depth;
 

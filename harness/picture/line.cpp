@@ -6,8 +6,8 @@
 
 namespace beambench {
 
-std::optional<std::pair<double, double>> part_on_image(const Line& line, int width, int height,
-                                                       double margin) {
+std::optional<std::pair<double, double>> part_on_image(const PixelSegment& line, int width,
+                                                       int height, double margin) {
   const glm::dvec2 way = line.to - line.from;
   const std::array<double, 2> sizes{static_cast<double>(width), static_cast<double>(height)};
   double first = 0.0;
@@ -34,7 +34,7 @@ float line_strength(double pixels) {
   return static_cast<float>(std::clamp(pixels / kClear, kFaintest, 1.0));
 }
 
-void LineLayer::add(const Line& line, double thickness, float strength) {
+void LineLayer::add(const PixelSegment& line, double thickness, float strength) {
   for_each_pixel(line, thickness, width_, height_,
                  [&](int x, int y, float coverage, double) { add(x, y, coverage, strength); });
 }

@@ -17,21 +17,22 @@
 namespace beambench {
 
 /// A line on an image, in pixels; (0, 0) is the image's top left corner.
-struct Line {
+struct PixelSegment {
   glm::dvec2 from;
   glm::dvec2 to;
 };
 
 /// The part [first, second] of a line's [0, 1] that lies less than `margin` outside the image
 /// (Liang and Barsky, "A new concept and method for line clipping", 1984); nothing where none does.
-std::optional<std::pair<double, double>> part_on_image(const Line& line, int width, int height,
-                                                       double margin);
+std::optional<std::pair<double, double>> part_on_image(const PixelSegment& line, int width,
+                                                       int height, double margin);
 
 /// Calls `visit(x, y, coverage, along)` for the pixels of an image that a line of the given
 /// thickness covers: `coverage` in (0, 1] is the pixel's covered share, near enough, by the
 /// distance of its centre from the line; `along` in [0, 1] is the point of the line next to it.
 template <class Visit>
-void for_each_pixel(const Line& line, double thickness, int width, int height, Visit visit) {
+void for_each_pixel(const PixelSegment& line, double thickness, int width, int height,
+                    Visit visit) {
   const double reach = 0.5 * thickness + 0.5;
   const auto part = part_on_image(line, width, height, reach);
   if (!part) return;
@@ -88,7 +89,7 @@ class LineLayer {
     pixel.coverage = std::max(pixel.coverage, coverage);
     pixel.strength = std::max(pixel.strength, coverage * strength);
   }
-  void add(const Line& line, double thickness, float strength);
+  void add(const PixelSegment& line, double thickness, float strength);
 
   /// Draws the lines over an image. Where they run nothing shines through but `ground`, though they
   /// be faint: else they would mix with the lines of the layers below. All are of one size.

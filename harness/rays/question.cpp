@@ -26,7 +26,7 @@ std::vector<Ray> made_rays(const Scene& scene, const PrimaryRays& primary,
         "for rays of another kind",
         scene.name));
   }
-  const std::vector<SurfacePoint> points = surface_points(scene, primary);
+  const std::vector<PrimaryHitPoint> points = surface_points(scene, primary);
   switch (choice.kind) {
     case RayKind::kShadow:
       return shadow_rays(scene, points);

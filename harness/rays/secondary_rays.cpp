@@ -17,18 +17,18 @@ namespace {
 
 using glm::dvec3;
 
-SurfacePoint point_of(const Scene& scene, const Ray& ray, const ExactHit& hit) {
+PrimaryHitPoint point_of(const Scene& scene, const Ray& ray, const ExactHit& hit) {
   const dvec3 direction(ray.direction);
   return {dvec3(ray.origin) + hit.t * direction,
           geometric_normal(scene, ray, {static_cast<float>(hit.t), hit.primitive}),
           glm::normalize(direction)};
 }
 
-dvec3 above(const Scene& scene, const SurfacePoint& at) {
+dvec3 above(const Scene& scene, const PrimaryHitPoint& at) {
   return beside_surface(scene, at.point, at.normal);
 }
 
-Ray ray_from(const Scene& scene, const SurfacePoint& at, const dvec3& direction) {
+Ray ray_from(const Scene& scene, const PrimaryHitPoint& at, const dvec3& direction) {
   Ray ray;
   ray.origin = glm::vec3(above(scene, at));
   ray.direction = glm::vec3(direction);
@@ -37,9 +37,9 @@ Ray ray_from(const Scene& scene, const SurfacePoint& at, const dvec3& direction)
 
 }  // namespace
 
-std::vector<SurfacePoint> surface_points(const Scene& scene, const PrimaryRays& rays) {
+std::vector<PrimaryHitPoint> surface_points(const Scene& scene, const PrimaryRays& rays) {
   const EmbreeOracle oracle(scene, glm::length(dvec3(rays.eye())));
-  std::vector<std::vector<SurfacePoint>> rows(static_cast<std::size_t>(rays.height()));
+  std::vector<std::vector<PrimaryHitPoint>> rows(static_cast<std::size_t>(rays.height()));
   tbb::parallel_for(0, rays.height(), [&](int y) {
     for (int x = 0; x < rays.width(); ++x) {
       for (int sample = 0; sample < rays.samples(); ++sample) {
@@ -49,14 +49,14 @@ std::vector<SurfacePoint> surface_points(const Scene& scene, const PrimaryRays& 
       }
     }
   });
-  std::vector<SurfacePoint> points;
+  std::vector<PrimaryHitPoint> points;
   for (const auto& row : rows) points.insert(points.end(), row.begin(), row.end());
   return points;
 }
 
-std::vector<Ray> shadow_rays(const Scene& scene, const std::vector<SurfacePoint>& points) {
+std::vector<Ray> shadow_rays(const Scene& scene, const std::vector<PrimaryHitPoint>& points) {
   std::vector<Ray> rays;
-  for (const SurfacePoint& at : points) {
+  for (const PrimaryHitPoint& at : points) {
     for (const Light& light : scene.lights) {
       const dvec3 to_light = dvec3(light.position) - above(scene, at);
       if (glm::dot(to_light, at.normal) <= 0.0) continue;
@@ -67,21 +67,21 @@ std::vector<Ray> shadow_rays(const Scene& scene, const std::vector<SurfacePoint>
   return rays;
 }
 
-std::vector<Ray> reflection_rays(const Scene& scene, const std::vector<SurfacePoint>& points) {
+std::vector<Ray> reflection_rays(const Scene& scene, const std::vector<PrimaryHitPoint>& points) {
   std::vector<Ray> rays;
   rays.reserve(points.size());
-  for (const SurfacePoint& at : points) {
+  for (const PrimaryHitPoint& at : points) {
     rays.push_back(ray_from(scene, at, mirrored(at.incoming, at.normal)));
   }
   return rays;
 }
 
-std::vector<Ray> diffuse_rays(const Scene& scene, const std::vector<SurfacePoint>& points,
+std::vector<Ray> diffuse_rays(const Scene& scene, const std::vector<PrimaryHitPoint>& points,
                               std::uint64_t seed) {
   Random random(seed);
   std::vector<Ray> rays;
   rays.reserve(points.size());
-  for (const SurfacePoint& at : points) {
+  for (const PrimaryHitPoint& at : points) {
     rays.push_back(ray_from(scene, at, cosine_direction(at.normal, random)));
   }
   return rays;

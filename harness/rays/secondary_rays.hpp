@@ -12,7 +12,7 @@
 namespace beambench {
 
 /// Where a primary ray meets a surface.
-struct SurfacePoint {
+struct PrimaryHitPoint {
   glm::dvec3 point;
   glm::dvec3 normal;    ///< unit length, geometric, on the side that the ray comes from
   glm::dvec3 incoming;  ///< the ray's direction, unit length
@@ -20,18 +20,18 @@ struct SurfacePoint {
 
 /// Where the primary rays hit, in their order, by the oracle (on all cores): so the rays that start
 /// here are the same whatever structure is asked.
-std::vector<SurfacePoint> surface_points(const Scene& scene, const PrimaryRays& rays);
+std::vector<PrimaryHitPoint> surface_points(const Scene& scene, const PrimaryRays& rays);
 
 /// All secondary rays start `beside_surface`, on the side of the primary ray.
 ///
 /// To each light that the surface faces, point by point: t in [0, 1], the light being at 1.
-std::vector<Ray> shadow_rays(const Scene& scene, const std::vector<SurfacePoint>& points);
+std::vector<Ray> shadow_rays(const Scene& scene, const std::vector<PrimaryHitPoint>& points);
 
 /// The mirror direction of the incoming ray, of unit length.
-std::vector<Ray> reflection_rays(const Scene& scene, const std::vector<SurfacePoint>& points);
+std::vector<Ray> reflection_rays(const Scene& scene, const std::vector<PrimaryHitPoint>& points);
 
 /// One direction a point with density cos / pi about the normal, of unit length.
-std::vector<Ray> diffuse_rays(const Scene& scene, const std::vector<SurfacePoint>& points,
+std::vector<Ray> diffuse_rays(const Scene& scene, const std::vector<PrimaryHitPoint>& points,
                               std::uint64_t seed);
 
 }  // namespace beambench

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "harness/selftest/awkward_scenes.hpp"
-#include "harness/selftest/comparison.hpp"
+#include "harness/selftest/hit_comparison.hpp"
 #include "harness/selftest/random_scene.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/error.hpp"
@@ -35,7 +35,7 @@ CheckOutcome ask_about(const Subject& subject, const SceneWithRays& made) {
   CheckOutcome outcome;
   const auto structure = subject.build(made.scene);
   add(outcome, made.rays.size(), made.scene.name,
-      Comparison(made.scene, subject.conformance()).single_rays(*structure, made.rays));
+      HitComparison(made.scene, subject.conformance()).single_rays(*structure, made.rays));
   return outcome;
 }
 
@@ -60,7 +60,7 @@ CheckOutcome check_random_scenes(const Subject& subject, const SelftestEffort& e
       continue;
     }
     const std::vector<Ray> rays = random_rays(scene, random);
-    const Comparison comparison(scene, subject.conformance());
+    const HitComparison comparison(scene, subject.conformance());
     hits += comparison.count_hits(rays);
     add(outcome, rays.size(),
         fmt::format("random scene of seed {} with {} primitives, {}", seed, primitives,
@@ -92,7 +92,7 @@ CheckOutcome check_images(const Subject& subject, const SelftestEffort& effort) 
     for (const int samples : {1, 5}) {
       const PrimaryRays rays(scene.cameras.front(), 41, 33, samples);
       add(outcome, rays.count(), fmt::format("{} with {} samples a pixel", scene.name, samples),
-          Comparison(scene, subject.conformance()).image(*structure, rays));
+          HitComparison(scene, subject.conformance()).image(*structure, rays));
       if (!outcome.passed()) return outcome;
     }
   }

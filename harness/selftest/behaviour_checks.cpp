@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include "harness/rays/answers.hpp"
-#include "harness/selftest/comparison.hpp"
+#include "harness/selftest/hit_comparison.hpp"
 #include "harness/selftest/random_scene.hpp"
 
 namespace beambench {

@@ -41,7 +41,7 @@ class PatchMesh {
  private:
   GridPoint evaluate(const BezierPatch& patch, std::int64_t i, std::int64_t j) {
     const auto n = static_cast<double>(n_);
-    const SurfacePoint at =
+    const PatchPoint at =
         evaluate_patch(patch, static_cast<double>(i) / n, static_cast<double>(j) / n);
     // Only the lid's tip and the middle of the bottom lie on the axis; there the patch's first row
     // is one point and has no normal of its own.

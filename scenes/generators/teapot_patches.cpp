@@ -111,7 +111,7 @@ std::vector<BezierPatch> teapot_patches() {
   return patches;
 }
 
-SurfacePoint evaluate_patch(const BezierPatch& patch, double s, double t) {
+PatchPoint evaluate_patch(const BezierPatch& patch, double s, double t) {
   const CubicBasis row = cubic_basis(s);
   const CubicBasis column = cubic_basis(t);
   glm::dvec3 position(0.0);

@@ -15,10 +15,10 @@ using BezierPatch = std::array<std::array<glm::dvec3, 4>, 4>;
 /// +x, 3.15 high: the SPD's, not lowered by Blinn's factor of 1.3.
 std::vector<BezierPatch> teapot_patches();
 
-struct SurfacePoint {
+struct PatchPoint {
   glm::dvec3 position;
   glm::dvec3 normal;  ///< of any length; 0 where the surface has none
 };
-SurfacePoint evaluate_patch(const BezierPatch& patch, double s, double t);
+PatchPoint evaluate_patch(const BezierPatch& patch, double s, double t);
 
 }  // namespace beambench

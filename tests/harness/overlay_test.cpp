@@ -72,7 +72,7 @@ RC_GTEST_PROP(Line, VisitsJustThePixelsNearIt, ()) {
   const auto coordinate = [] {
     return *rc::gen::element(1.0, 1.0, 1e4) * (*rc::gen::inRange(-300, 500) / 10.0);
   };
-  const Line line{{coordinate(), coordinate()}, {coordinate(), coordinate()}};
+  const PixelSegment line{{coordinate(), coordinate()}, {coordinate(), coordinate()}};
   const double thickness = *rc::gen::inRange(5, 40) / 10.0;
   std::vector<int> visits(20 * 15, 0);
   for_each_pixel(line, thickness, 20, 15, [&](int x, int y, float coverage, double along) {

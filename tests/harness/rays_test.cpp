@@ -47,7 +47,7 @@ Scene lonely_sphere() {
   return std::move(builder).build();
 }
 
-std::vector<SurfacePoint> points_of(const Scene& scene) {
+std::vector<PrimaryHitPoint> points_of(const Scene& scene) {
   return surface_points(scene, {scene.cameras.front(), 64, 48, 1});
 }
 

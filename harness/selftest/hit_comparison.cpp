@@ -1,4 +1,4 @@
-#include "harness/selftest/comparison.hpp"
+#include "harness/selftest/hit_comparison.hpp"
 
 #include <utility>
 
@@ -36,7 +36,7 @@ std::string show(const Ray& ray) {
       ray.t_max);
 }
 
-std::string Comparison::same_bits(const Accelerator& structure, const Ray& ray) const {
+std::string HitComparison::same_bits(const Accelerator& structure, const Ray& ray) const {
   const auto expected = exhaustive_.closest_hit(ray);
   const auto found = structure.closest_hit(ray);
   if (found != expected) {
@@ -50,7 +50,8 @@ std::string Comparison::same_bits(const Accelerator& structure, const Ray& ray) 
   return "";
 }
 
-std::string Comparison::single_rays(const Accelerator& structure, std::span<const Ray> rays) const {
+std::string HitComparison::single_rays(const Accelerator& structure,
+                                       std::span<const Ray> rays) const {
   if (conformance_ != Conformance::kBitExact) return by_the_differ(structure, rays);
   for (const Ray& ray : rays) {
     if (std::string wrong = same_bits(structure, ray); !wrong.empty()) return wrong;
@@ -67,8 +68,8 @@ std::string Comparison::single_rays(const Accelerator& structure, std::span<cons
   return "";
 }
 
-std::string Comparison::by_the_differ(const Accelerator& structure,
-                                      std::span<const Ray> rays) const {
+std::string HitComparison::by_the_differ(const Accelerator& structure,
+                                         std::span<const Ray> rays) const {
   for (const Query query : {Query::kClosestHit, Query::kAnyHit}) {
     const Question question(RaySet{"selftest", query, 0, std::nullopt, {rays.begin(), rays.end()}});
     Answers answers = room_for(question);
@@ -80,7 +81,7 @@ std::string Comparison::by_the_differ(const Accelerator& structure,
   return "";
 }
 
-std::string Comparison::image(const Accelerator& structure, const PrimaryRays& rays) const {
+std::string HitComparison::image(const Accelerator& structure, const PrimaryRays& rays) const {
   const Question question(rays);
   Answers answers = room_for(question);
   poison(answers);
@@ -101,7 +102,7 @@ std::string Comparison::image(const Accelerator& structure, const PrimaryRays& r
   return "";
 }
 
-std::size_t Comparison::count_hits(std::span<const Ray> rays) const {
+std::size_t HitComparison::count_hits(std::span<const Ray> rays) const {
   std::size_t hits = 0;
   for (const Ray& ray : rays) hits += exhaustive_.any_hit(ray) ? 1 : 0;
   return hits;

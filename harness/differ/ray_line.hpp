@@ -11,8 +11,8 @@
 namespace beambench {
 
 /// The line of a ray, in double and with a direction of unit length.
-struct Line {
-  explicit Line(const Ray& ray)
+struct RayLine {
+  explicit RayLine(const Ray& ray)
       : origin(ray.origin), direction(glm::normalize(glm::dvec3(ray.direction))) {}
 
   /// From the line to the point, perpendicular to the line.

@@ -18,9 +18,9 @@ std::string show(const std::optional<Hit>& hit);
 /// The right answers over a scene, by what the structure claims: every bit those of exhaustive
 /// search, or right by the differ's classes. Each method tells the first wrong answer in a
 /// sentence, or nothing when all are right. The scene outlives it.
-class Comparison {
+class HitComparison {
  public:
-  Comparison(const Scene& scene, Conformance conformance)
+  HitComparison(const Scene& scene, Conformance conformance)
       : scene_(&scene), exhaustive_(scene), conformance_(conformance) {}
 
   /// Closest and any hits of single rays. Where every bit must be equal, each ray is asked once
