@@ -13,6 +13,16 @@ void push_at(const OctreeCursor& leaf, Beam beam, BeamQueue& queue) {
   queue.waiting.push(leaf.node().count == 0 ? BeamKind::kNonTerminal : BeamKind::kOccupied, beam);
 }
 
+/// Counts what became of a beam that went on in so many parts.
+void count_parts(std::uint64_t parts, BeamQueue& queue) {
+  if (parts == 1) {
+    ++queue.passed_whole;
+  } else if (parts > 1) {
+    ++queue.divided;
+    queue.made += parts;
+  }
+}
+
 /// A beam on its way into what lies behind a face that all its rays cross.
 class Entry {
  public:
@@ -67,6 +77,7 @@ class Entry {
 
   void append(const OctreeCursor& leaf, const Beam& beam) const {
     if (beam.outline.empty()) return;
+    ++queue_->appended;
     if (queue_->border != nullptr && queue_->border->takes(leaf.index(), face_, beam)) return;
     push_at(leaf, beam, *queue_);
   }
@@ -171,6 +182,7 @@ class Exits {
 
 void begin_beams(const Octree& octree, const EyeView& view, const ImagePolygon& part,
                  BeamQueue& queue) {
+  const std::uint64_t before = queue.appended;
   bool inside = true;
   for (int axis = 0; axis < 3; ++axis) {
     const std::int32_t cells = octree.grid().cells[axis];
@@ -183,7 +195,10 @@ void begin_beams(const Octree& octree, const EyeView& view, const ImagePolygon& 
                         static_cast<std::int16_t>(below ? 1 : -1)};
     enter_root(octree, view, part, face, queue);
   }
-  if (!inside) return;
+  if (!inside) {
+    queue.made += queue.appended - before;
+    return;
+  }
   OctreeCursor cursor(octree);
   while (!cursor.node().is_leaf()) {
     glm::ivec3 corner = cursor.corner();
@@ -196,9 +211,12 @@ void begin_beams(const Octree& octree, const EyeView& view, const ImagePolygon& 
   Beam beam;
   beam.outline = part;
   push_at(cursor, beam, queue);
+  ++queue.appended;
+  ++queue.made;
 }
 
 void continue_beam(const Octree& octree, const EyeView& view, const Beam& beam, BeamQueue& queue) {
+  const std::uint64_t before = queue.appended;
   const Exits exits(view, beam);
   for (std::size_t i = 0; i < exits.count(); ++i) {
     const auto cuts = exits.cuts(i);
@@ -214,11 +232,12 @@ void continue_beam(const Octree& octree, const EyeView& view, const Beam& beam, 
     ++queue.neighbour_searches;
     if (cursor.move_to_neighbour(step) == 0) {
       queue.waiting.push(BeamKind::kLeaving, part);
+      ++queue.appended;
     } else {
-      if (exits.count() == 1 && cursor.node().is_leaf()) ++queue.passed_whole;
       Entry(view, face, queue).divide(cursor, part);
     }
   }
+  count_parts(queue.appended - before, queue);
 }
 
 void enter_node(const EyeView& view, const Crossing& face, const OctreeCursor& node,

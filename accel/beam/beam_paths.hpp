@@ -22,11 +22,18 @@ class BeamBorder {
 };
 
 /// Beams that wait to be traced, and what finding them took.
+///
+/// The thesis counts a beam when one is created: at the beginning, and for each part of a beam that
+/// is cut. A beam that goes on whole is the same beam in another leaf (section 4.4.2: `PasaPor`
+/// against the constructor; graphic 3.4: "the standard beam is not modified").
 struct BeamQueue {
   BeamStack waiting;
   std::uint64_t clips = 0;
   std::uint64_t neighbour_searches = 0;
-  std::uint64_t passed_whole = 0;  ///< beams that went on into one leaf, undivided
+  std::uint64_t appended = 0;      ///< to `waiting`, or taken at the border
+  std::uint64_t made = 0;          ///< those at the beginning, and the parts of divided beams
+  std::uint64_t divided = 0;       ///< beams that went on in several parts
+  std::uint64_t passed_whole = 0;  ///< beams that went on undivided: into one leaf, or out
   BeamBorder* border = nullptr;    ///< where there is one
 };
 

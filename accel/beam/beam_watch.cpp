@@ -24,6 +24,8 @@ void CountingBeamWatch::finished() {
   counters_->add("beams", beams);
   counters_->add("beam_edges", edges_);
   counters_->add("beam_clips", clips_);
+  counters_->add("beams_made", made_);
+  counters_->add("beams_divided", divided_);
   counters_->add("beams_passed_whole", passed_whole_);
   counters_->add("neighbour_searches", neighbour_searches_);
   counters_->add("samples_leaving", left_);

@@ -96,6 +96,8 @@ class CountingBeamWatch {
   void divided(const BeamQueue& queue) {
     clips_ += queue.clips;
     neighbour_searches_ += queue.neighbour_searches;
+    made_ += queue.made;
+    divided_ += queue.divided;
     passed_whole_ += queue.passed_whole;
   }
   /// The image is done: the sums go to the counters.
@@ -118,6 +120,8 @@ class CountingBeamWatch {
   std::uint64_t edges_ = 0;
   std::uint64_t clips_ = 0;
   std::uint64_t neighbour_searches_ = 0;
+  std::uint64_t made_ = 0;
+  std::uint64_t divided_ = 0;
   std::uint64_t passed_whole_ = 0;
   std::uint64_t left_ = 0;
   std::uint64_t tested_ = 0;

@@ -226,11 +226,63 @@ TEST(Beam, MakesTheSameBeamsAtEveryResolution) {
                              PrimaryRays(camera, 640, 480, 5)}) {
       const auto counters = counters_of(scene, options_with(6), rays);
       for (const char* counter : {"beams", "beams_nonterminal", "beams_occupied", "beams_leaving",
-                                  "beam_edges", "beam_clips", "neighbour_searches"}) {
+                                  "beams_made", "beams_divided", "beams_passed_whole", "beam_edges",
+                                  "beam_clips", "neighbour_searches"}) {
         EXPECT_EQ(counters.at(counter), expected.at(counter)) << counter;
         EXPECT_GT(counters.at(counter), 0U) << counter;
       }
     }
+  }
+}
+
+/// Every beam that was made ends: it is divided, or it reaches an occupied leaf or the root's end.
+TEST(Beam, CountsABeamWhenItIsMade) {
+  for (const char* name : {"tetra:n=5", "escena1", "escena2", "habitacion", "closed-room"}) {
+    SCOPED_TRACE(name);
+    const Scene scene = load_scene(name);
+    const PrimaryRays rays(scene.cameras.front(), 16, 16, 1);
+    const auto beams = counters_of(scene, options_with(6), rays);
+    EXPECT_EQ(beams.at("beams_made"),
+              beams.at("beams_divided") + beams.at("beams_occupied") + beams.at("beams_leaving"));
+    EXPECT_EQ(beams.at("beams_nonterminal"),
+              beams.at("beams_divided") + beams.at("beams_passed_whole"));
+    EXPECT_GE(beams.at("beams"), beams.at("beams_made"));
+    // One that is divided gives two at least, and all but the first come from one.
+    EXPECT_GT(beams.at("beams_made"), 2 * beams.at("beams_divided"));
+  }
+}
+
+// The thesis prints 8,701 and 4,071 beams for level 6, 37,718 and 17,751 for level 7 (5.3.3).
+TEST(Beam, CountsTheBeamsOfMaceta) {
+  struct Counts {
+    int level;
+    std::uint64_t entered, nonterminal, made, divided, passed_whole;
+  };
+  const Scene scene = load_scene("maceta");
+  const PrimaryRays rays(scene.cameras.front(), 16, 16, 1);
+  for (const Counts& expected : {Counts{6, 38'947, 30'619, 15'012, 6'684, 23'935},
+                                 Counts{7, 406'956, 347'007, 111'054, 51'105, 295'902}}) {
+    SCOPED_TRACE(expected.level);
+    const auto beams = counters_of(scene, options_with(expected.level), rays);
+    EXPECT_EQ(beams.at("beams"), expected.entered);
+    EXPECT_EQ(beams.at("beams_nonterminal"), expected.nonterminal);
+    EXPECT_EQ(beams.at("beams_made"), expected.made);
+    EXPECT_EQ(beams.at("beams_divided"), expected.divided);
+    EXPECT_EQ(beams.at("beams_passed_whole"), expected.passed_whole);
+  }
+}
+
+TEST(Beam, CountsTheSameOnSeveralThreads) {
+  const Scene scene = load_scene("escena1");
+  const PrimaryRays rays(scene.cameras.front(), 64, 48, 1);
+  const auto alone = counters_of(scene, options_with(6), rays);
+  const BeamTracer tracer(scene, options_with(6));
+  HitBuffer buffer(rays.width(), rays.height(), rays.samples());
+  WorkCounters counters;
+  tracer.trace_shared(rays, buffer, counters);
+  const auto shared = counters.by_name();
+  for (const char* counter : {"beams", "beams_made", "beams_divided", "beams_passed_whole"}) {
+    EXPECT_EQ(shared.at(counter), alone.at(counter)) << counter;
   }
 }
 
