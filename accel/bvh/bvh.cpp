@@ -8,8 +8,8 @@ namespace beambench {
 
 void register_bvh(Registry& registry) {
   registry.add({"goldsmith-salmon",
-                "the hierarchy of bounding volumes of the thesis: Goldsmith and Salmon's insertion "
-                "(1987), Kay and Kajiya's queue (1986)",
+                "a hierarchy of bounding volumes: Goldsmith and Salmon's insertion (1987), Kay and "
+                "Kajiya's queue (1986); the thesis's with insert=terminal",
                 Conformance::kBitExact, GoldsmithSalmonOptions::parameters(),
                 [](const Scene& scene, const Parameters& parameters, const Workload&) {
                   return std::make_unique<GoldsmithSalmon>(

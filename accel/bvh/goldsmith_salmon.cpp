@@ -35,7 +35,7 @@ InsertionHierarchy build(const Scene& scene, const GoldsmithSalmonOptions& optio
   if (options.order == GoldsmithSalmonOptions::Order::kSorted) {
     sort_along_longest_axis(order, scene, boxes);
   }
-  return build_by_insertion(boxes, order);
+  return build_by_insertion(boxes, order, options.insertion);
 }
 
 }  // namespace
@@ -47,7 +47,11 @@ std::vector<ParameterInfo> GoldsmithSalmonOptions::parameters() {
           integer_parameter("seed", 1, 0, 1'000'000'000, "seed of order=shuffled"),
           choice_parameter("queue", "heap", {"heap", "stack"},
                            "what waits for the closest hit: Kay and Kajiya's priority queue by "
-                           "distance, or a stack with each volume's children in order")};
+                           "distance, or a stack with each volume's children in order"),
+          choice_parameter("insert", "everywhere", {"everywhere", "terminal"},
+                           "where on its way down an object may be placed: wherever it costs least "
+                           "(Goldsmith and Salmon 1987), or only beside the terminal node at the "
+                           "end (thesis, section 4.3)")};
 }
 
 GoldsmithSalmonOptions GoldsmithSalmonOptions::from(const Parameters& parameters) {
@@ -57,6 +61,7 @@ GoldsmithSalmonOptions GoldsmithSalmonOptions::from(const Parameters& parameters
   if (order == "sorted") options.order = Order::kSorted;
   options.seed = static_cast<std::uint64_t>(parameters.integer("seed"));
   if (parameters.choice("queue") == "stack") options.queue = Queue::kStack;
+  if (parameters.choice("insert") == "terminal") options.insertion = Insertion::kTerminal;
   return options;
 }
 

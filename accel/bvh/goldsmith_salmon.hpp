@@ -23,6 +23,7 @@ struct GoldsmithSalmonOptions {
   Order order = Order::kGiven;  ///< sorted: by centre along the scene's longest axis
   std::uint64_t seed = 1;       ///< of the shuffle
   Queue queue = Queue::kHeap;
+  Insertion insertion = Insertion::kEverywhere;
 
   static std::vector<ParameterInfo> parameters();
   static GoldsmithSalmonOptions from(const Parameters& parameters);
@@ -95,9 +96,10 @@ class OrderedStack {
   std::size_t sorted_ = 0;
 };
 
-/// The hierarchy of the thesis (sections 4.3 and 5.4.2): built by Goldsmith and Salmon's insertion,
-/// walked by Kay and Kajiya's queue for the closest hit and by plain depth-first search for any
-/// hit. Volumes and objects alike have a box, which is tested before they are entered.
+/// A hierarchy built by Goldsmith and Salmon's insertion, walked by Kay and Kajiya's queue for the
+/// closest hit and by plain depth-first search for any hit. Volumes and objects alike have a box,
+/// which is tested before they are entered. With `Insertion::kTerminal` it is the hierarchy of the
+/// thesis (sections 4.3 and 5.4.2).
 class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon> {
  public:
   GoldsmithSalmon(const Scene& scene, const GoldsmithSalmonOptions& options);

@@ -44,8 +44,8 @@ struct Choice {
 
 class Inserter {
  public:
-  explicit Inserter(std::span<const Bounds> boxes)
-      : boxes_(boxes), next_object_(boxes.size(), kNone) {}
+  Inserter(std::span<const Bounds> boxes, Insertion insertion)
+      : boxes_(boxes), insertion_(insertion), next_object_(boxes.size(), kNone) {}
 
   void insert(PrimitiveId object) {
     if (volumes_.empty()) {
@@ -55,7 +55,7 @@ class Inserter {
     }
     object_ = object;
     object_area_ = half_area(boxes_[object]);
-    place(find_cheapest());
+    place(insertion_ == Insertion::kTerminal ? find_terminal() : find_cheapest());
   }
 
   /// The finished hierarchy. Volumes are not visited recursively: nothing bounds their depth.
@@ -133,6 +133,48 @@ class Inserter {
         best = {cost, Choice::Kind::kBesideObject, index, list, before, path_.size()};
       }
     }
+  }
+
+  /// The place beside the terminal node to which the way of least growth leads.
+  Choice find_terminal() {
+    path_.clear();
+    std::uint32_t index = 0;
+    double area = area_with_object(volumes_[0].box);  // of the volume with the object
+    while (true) {
+      path_.push_back(index);
+      const Volume& volume = volumes_[index];
+      double below = 0.0;
+      const std::uint32_t child = least_growing(volume, below);
+      const double growth = child == kNone ? kNever : below - volumes_[child].area;
+      const Choice terminal = least_growing_object(index, growth, below);
+      if (terminal.cost == kNever) {
+        index = child;
+        area = below;
+        continue;
+      }
+      // The growth of the volumes on the way is the same for both.
+      if (terminal.cost < area) return terminal;
+      return {.cost = area, .kind = Choice::Kind::kChild, .volume = index, .depth = path_.size()};
+    }
+  }
+
+  /// The pair with the object of a volume that grows least, if by less than `growth`, or as much to
+  /// less than `area`; otherwise it costs kNever.
+  Choice least_growing_object(std::uint32_t index, double growth, double area) {
+    Choice best;
+    for (std::uint32_t list = 0; list < volumes_[index].objects.size(); ++list) {
+      std::uint32_t before = kNone;
+      for (std::uint32_t partner = volumes_[index].objects[list].first; partner != kNone;
+           before = partner, partner = next_object_[partner]) {
+        const double grown = area_with_object(boxes_[partner]);
+        const double by = grown - half_area(boxes_[partner]);
+        if (by > growth || (by == growth && grown >= area)) continue;
+        growth = by;
+        area = grown;
+        best = {2.0 * grown, Choice::Kind::kBesideObject, index, list, before, path_.size()};
+      }
+    }
+    return best;
   }
 
   /// The child volume whose area grows least, of several the smallest; sets its new area.
@@ -225,6 +267,7 @@ class Inserter {
   }
 
   std::span<const Bounds> boxes_;
+  Insertion insertion_;
   std::vector<std::uint32_t> next_object_;
   std::vector<Volume> volumes_;        ///< the root is the first
   std::vector<std::uint32_t> path_;    ///< volumes the search has entered
@@ -248,8 +291,8 @@ double hierarchy_cost(std::span<const HierarchyEntry> entries) {
 }
 
 InsertionHierarchy build_by_insertion(std::span<const Bounds> boxes,
-                                      std::span<const PrimitiveId> order) {
-  Inserter inserter(boxes);
+                                      std::span<const PrimitiveId> order, Insertion insertion) {
+  Inserter inserter(boxes, insertion);
   for (const PrimitiveId object : order) inserter.insert(object);
   return inserter.finish();
 }

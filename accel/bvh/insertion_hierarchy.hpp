@@ -35,19 +35,25 @@ struct InsertionHierarchy {
 /// k the number of direct children, A the surface area (Goldsmith and Salmon 1987; thesis, 4.3).
 double hierarchy_cost(std::span<const HierarchyEntry> entries);
 
-/// Inserts the objects one by one in the given order, each where it raises the cost least
-/// (Goldsmith and Salmon, "Automatic Creation of Object Hierarchies for Ray Tracing", 1987).
-/// Nothing is moved afterwards.
-///
-/// The search goes down from the root, always into the volume that would grow least, and weighs
-/// three choices on its way, k and A being a volume's children and area, A' its area with the
-/// object:
-/// - the object becomes one more child of the volume: (k + 1) A' - k A;
-/// - object and a child of the volume become the two children of a new volume in that child's
-///   place: k (A' - A) for the volume and 2 A'' for the new one;
-/// - the object goes further down: k (A' - A), and what it costs there.
-/// `boxes[i]` is the box of primitive i.
+/// Where an object may be placed on its way down, which goes always into what would grow least.
+enum class Insertion {
+  /// Wherever on the way it raises the cost least (Goldsmith and Salmon, "Automatic Creation of
+  /// Object Hierarchies for Ray Tracing", 1987). k and A being a volume's children and area, A' its
+  /// area with the object, three choices are weighed at every volume:
+  /// - the object becomes one more child of the volume: (k + 1) A' - k A;
+  /// - object and a child of the volume become the two children of a new volume in that child's
+  ///   place: k (A' - A) for the volume and 2 A'' for the new one;
+  /// - the object goes further down: k (A' - A), and what it costs there.
+  kEverywhere,
+  /// Only at the end of the way, as the thesis describes it (section 4.3). A terminal node is an
+  /// object with its box: there the object becomes one more child of the terminal node's volume, or
+  /// both become the children of a new volume, whichever of the first two choices costs less.
+  kTerminal
+};
+
+/// Inserts the objects one by one in the given order. Nothing is moved afterwards. `boxes[i]` is
+/// the box of primitive i.
 InsertionHierarchy build_by_insertion(std::span<const Bounds> boxes,
-                                      std::span<const PrimitiveId> order);
+                                      std::span<const PrimitiveId> order, Insertion insertion);
 
 }  // namespace beambench
