@@ -261,7 +261,7 @@ TEST(GoldsmithSalmon, BuildingIsFarFromQuadratic) {
   const Scene large_scene = load_scene("bumpy:triangles=64000");
   // 16 times as many; when this was written, the work a primitive grew 2.0 times at most where the
   // object may be placed anywhere, 3.6 times where the terminal node decides.
-  for (const auto [insertion, growth] :
+  for (const auto& [insertion, growth] :
        {std::pair(Insertion::kEverywhere, 3.0), std::pair(Insertion::kTerminal, 4.5)}) {
     for (const Order order : {Order::kGiven, Order::kShuffled, Order::kSorted}) {
       const double small = work_a_primitive(small_scene, options_for(order, insertion));
