@@ -14,9 +14,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::HWY_NAMESPACE {
 
-/// The 1/t of boxes that reach behind the eye.
-inline constexpr float kNearestOfAll = 1e30F;
-
 /// A view's planes as the boxes' test wants them: which corner of a box lies farthest along each.
 class BoxProbe {
  public:

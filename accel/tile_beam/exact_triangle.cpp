@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "accel/intersect_triangle.hpp"
+
 namespace beambench {
 namespace {
 
@@ -62,22 +64,55 @@ std::optional<SampleRectangle> box_of(const TileView& view, const std::array<glm
   return SampleRectangle{small(x.low), small(x.high), small(y.low), small(y.high)};
 }
 
+/// How the eye lies to a triangle, to within what the canonical test may err by.
+enum class Eye { kOff, kInPlane, kOnTriangle };
+
+Eye place_of_eye(const std::array<glm::dvec3, 3>& from_eye) {
+  const glm::dvec3 normal = glm::cross(from_eye[1] - from_eye[0], from_eye[2] - from_eye[0]);
+  double reach_squared = 0.0;
+  for (const glm::dvec3& corner : from_eye) {
+    reach_squared = std::max(reach_squared, glm::dot(corner, corner));
+  }
+  const double height = glm::dot(normal, from_eye[0]);
+  if (height * height > kHitSlack * kHitSlack * reach_squared * glm::dot(normal, normal)) {
+    return Eye::kOff;
+  }
+  const bool on = near_triangle(glm::dvec3(0.0), from_eye, normal, std::sqrt(reach_squared));
+  return on ? Eye::kOnTriangle : Eye::kInPlane;
+}
+
+ExactTriangle left_to_rays(const SampleRectangle& box) { return {{}, {}, box, true}; }
+
+SampleRectangle whole(const TileView& view) {
+  return {0, static_cast<std::uint8_t>(view.width - 1), 0,
+          static_cast<std::uint8_t>(view.height - 1)};
+}
+
 }  // namespace
 
 std::optional<ExactTriangle> exact_triangle(const TileView& view,
                                             const std::array<glm::vec3, 3>& corners) {
+  std::array<glm::dvec3, 3> from_eye;
   std::array<glm::dvec3, 3> seen;
   for (std::size_t i = 0; i < 3; ++i) {
-    const glm::dvec3 corner = glm::dvec3(corners[i]) - glm::dvec3(view.eye);
-    seen[i] = {glm::dot(view.exact_x, corner), glm::dot(view.exact_y, corner),
-               glm::dot(view.exact_depth, corner)};
+    from_eye[i] = glm::dvec3(corners[i]) - glm::dvec3(view.eye);
+    seen[i] = {glm::dot(view.exact_x, from_eye[i]), glm::dot(view.exact_y, from_eye[i]),
+               glm::dot(view.exact_depth, from_eye[i])};
+  }
+  switch (place_of_eye(from_eye)) {
+    case Eye::kOnTriangle:
+      return left_to_rays(whole(view));
+    case Eye::kInPlane:  // rays in its plane miss
+      return std::nullopt;
+    case Eye::kOff:
+      break;
   }
   if (std::max({seen[0].z, seen[1].z, seen[2].z}) <= 0.0) return std::nullopt;
   const auto box = box_of(view, seen);
   if (!box) return std::nullopt;
 
   const double volume = glm::dot(seen[0], glm::cross(seen[1], seen[2]));
-  if (volume == 0.0) return std::nullopt;  // the eye is in its plane: rays in it miss
+  if (volume == 0.0) return std::nullopt;
   const double inward = volume > 0.0 ? 1.0 : -1.0;
   ExactTriangle triangle{};
   triangle.box = *box;
@@ -93,7 +128,7 @@ std::optional<ExactTriangle> exact_triangle(const TileView& view,
   }
   const glm::dvec3 plane = glm::cross(seen[1] - seen[0], seen[2] - seen[0]) / volume;
   if (largest(plane, view) <= 0.0) return std::nullopt;
-  if (!(glm::length(plane) < 1e30)) return std::nullopt;
+  if (!(glm::length(plane) < kNearestOfAll)) return left_to_rays(*box);
   triangle.plane = rounded(plane);
   return triangle;
 }

@@ -18,18 +18,20 @@ struct TileLine {
   float constant;
 };
 
-/// What a sample must fulfil to hit a triangle: edges that are not negative. Then 1/t is given by
-/// the plane.
+/// What a sample of the box must fulfil to hit a triangle: edges that are not negative. Then 1/t is
+/// given by the plane.
 struct ExactTriangle {
   std::array<TileLine, 3> edges;
   TileLine plane;
   SampleRectangle box;
+  bool at_eye;  ///< the triangle has no image: edges and plane are not set, rays have to decide
 };
 
 /// For any triangle: one that crosses the plane through the eye at right angles to the view, one
 /// that reaches far beyond the tile, a sliver. Homogeneous coordinates need no clipping (Olano and
 /// Greer, "Triangle Scan Conversion using 2D Homogeneous Coordinates", 1997). Nothing where no
-/// sample of the tile can hit it. The edges are moved outward by kEdgeWidening.
+/// sample of the tile can hit it. The edges are moved outward by kEdgeWidening. One that the eye
+/// lies on is hit at t = 0 in whatever direction, and has no image.
 std::optional<ExactTriangle> exact_triangle(const TileView& view,
                                             const std::array<glm::vec3, 3>& corners);
 

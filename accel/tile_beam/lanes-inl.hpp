@@ -39,13 +39,15 @@ HWY_INLINE LaneBits bits_of(Mask mask) {
   return stored[0] | static_cast<LaneBits>(stored[1]) << 8U;
 }
 
-/// 1 / values, to within two roundings; infinity for 0.
+/// 1 / values, to within two roundings; infinity for 0, and 0 for infinity.
 template <class D>
 HWY_INLINE hn::Vec<D> reciprocal(D d, hn::Vec<D> values) {
 #if HWY_MAX_BYTES == 64  // one of Newton's steps is faster than a division
   const auto about = hn::ApproximateReciprocal(values);
   const auto rest = hn::NegMulAdd(about, values, hn::Set(d, 1.0F));
-  return hn::IfThenElse(hn::Eq(values, hn::Zero(d)), about, hn::MulAdd(about, rest, about));
+  // The first guess is exact where it or the value is 0 or infinite. The rest is then NaN or -inf,
+  // which no comparison with -1 holds for; of all others it is nearly 0.
+  return hn::IfThenElse(hn::Gt(rest, hn::Set(d, -1.0F)), hn::MulAdd(about, rest, about), about);
 #else
   return hn::Div(hn::Set(d, 1.0F), values);
 #endif

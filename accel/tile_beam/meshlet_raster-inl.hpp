@@ -9,7 +9,9 @@
 
 #include <bit>
 
+#include "accel/intersect_triangle.hpp"
 #include "accel/tile_beam/exact_triangle.hpp"
+#include "accel/tile_beam/ray_raster-inl.hpp"
 #include "accel/tile_beam/triangle_blocks-inl.hpp"
 #include "accel/tile_beam/triangle_fragments-inl.hpp"
 #include "accel/tile_beam/triangle_painter-inl.hpp"
@@ -19,15 +21,22 @@ namespace beambench::HWY_NAMESPACE {
 
 /// Made in double, one by one.
 inline void draw_exactly(const Meshlet& meshlet, std::size_t first, Mask which,
-                         const TileView& view, TileImage& image) {
+                         const TileRays& rays, TileImage& image) {
   for (LaneBits left = bits_of(which); left != 0; left &= left - 1) {
     const std::size_t triangle = first + static_cast<std::size_t>(std::countr_zero(left));
-    const auto exact = exact_triangle(
-        view,
-        {meshlet.corner(0, triangle), meshlet.corner(1, triangle), meshlet.corner(2, triangle)});
+    const std::array<glm::vec3, 3> corners{meshlet.corner(0, triangle), meshlet.corner(1, triangle),
+                                           meshlet.corner(2, triangle)};
+    const auto exact = exact_triangle(rays.view, corners);
     if (!exact) continue;
-    BlockPainter(exact->edges, exact->plane, meshlet.primitives[triangle], exact->box)
-        .paint<true>(image);
+    if (exact->at_eye) {
+      draw_by_rays(rays, exact->box, kNearestOfAll, meshlet.primitives[triangle], image,
+                   [&](const CanonicalRay& ray) {
+                     return intersect_triangle(ray, corners[0], corners[1], corners[2]);
+                   });
+    } else {
+      BlockPainter(exact->edges, exact->plane, meshlet.primitives[triangle], exact->box)
+          .paint<true>(image);
+    }
   }
 }
 
@@ -98,13 +107,13 @@ HWY_INLINE void draw_triangles(const TriangleImages& images, const PrimitiveId* 
 }
 
 /// Draws a meshlet. What lies behind `farthest` (1/t) is not drawn.
-inline void draw_meshlet(const Meshlet& meshlet, const TileView& view, float farthest,
+inline void draw_meshlet(const Meshlet& meshlet, const TileRays& rays, float farthest,
                          TileImage& image) {
   SeenVertices seen;
-  see_vertices(meshlet, view, seen);
+  see_vertices(meshlet, rays.view, seen);
   for (std::size_t first = 0; first < meshlet.triangle_count; first += kLanes) {
-    const TriangleImages images = see_triangles(meshlet, seen, first, view, farthest);
-    draw_exactly(meshlet, first, images.needs_exact, view, image);
+    const TriangleImages images = see_triangles(meshlet, seen, first, rays.view, farthest);
+    draw_exactly(meshlet, first, images.needs_exact, rays, image);
     draw_triangles(images, meshlet.primitives.data() + first, image);
   }
 }

@@ -8,9 +8,11 @@
 #endif
 
 #include <bit>
+#include <cmath>
 
+#include "accel/intersect_sphere.hpp"
+#include "accel/tile_beam/ray_raster-inl.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
-#include "accel/tile_beam/tile_raster-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace beambench::HWY_NAMESPACE {
@@ -88,7 +90,8 @@ HWY_INLINE void see_spheres(const SphereBlock& block, const TileView& view, Sphe
     store(box_right, &boxes.box[1][lane]);
     store(box_top, &boxes.box[2][lane]);
     store(box_bottom, &boxes.box[3][lane]);
-    store(hn::IfThenElse(before, hn::Div(all(1.0F), near), all(1e30F)), &boxes.nearest[lane]);
+    store(hn::IfThenElse(before, hn::Div(all(1.0F), near), all(kNearestOfAll)),
+          &boxes.nearest[lane]);
     const Mask in_front = hn::Ge(hn::Add(depth, radius), none);
     return hn::And(in_front, hn::And(hn::Le(box_left, box_right), hn::Le(box_top, box_bottom)));
   });
@@ -132,7 +135,7 @@ HWY_INLINE void draw_sphere(const glm::vec3& from_eye, float radius, bool inside
         const Mask leaves = hn::Or(take_far, hn::Lt(near_t, hn::Zero(Tag())));
         const Floats t = hn::IfThenElse(leaves, hn::Add(middle_t, half_chord), near_t);
         const Mask hit = hn::And(hn::Ge(left_over, hn::Zero(Tag())), hn::Ge(t, hn::Zero(Tag())));
-        keep_nearer(image, at, hn::Div(all(1.0F), t), hit, primitive);
+        keep_nearer(image, at, hn::Div(all(1.0F), hn::Abs(t)), hit, primitive);  // t may be -0
       }
     }
   }
@@ -148,9 +151,19 @@ inline std::size_t nearest_of(const SphereBoxes& boxes, LaneBits lanes) {
   return nearest;
 }
 
+/// Is the eye so near to a sphere's surface that float cannot decide on which side it is? Half of
+/// the hits at t = 0 would be lost.
+HWY_INLINE bool is_at_eye(const glm::vec3& from_eye, float radius) {
+  const float distance_squared = glm::dot(from_eye, from_eye);
+  const float radius_squared = radius * radius;
+  return std::abs(distance_squared - radius_squared) <=
+         0x1p-19F * (distance_squared + radius_squared);
+}
+
 /// Draws the spheres of a block, the nearest first. What lies behind `farthest` (1/t) is not drawn.
-inline void draw_spheres(const SphereBlock& block, const TileView& view, float farthest,
-                         TileImage& image) {
+inline void draw_spheres(const SphereBlock& block, const Scene& scene, const TileRays& rays,
+                         float farthest, TileImage& image) {
+  const TileView& view = rays.view;
   SphereBoxes boxes;
   see_spheres(block, view, boxes);
   for (LaneBits left = boxes.seen; left != 0;) {
@@ -160,9 +173,16 @@ inline void draw_spheres(const SphereBlock& block, const TileView& view, float f
     if (nearest < farthest) return;
     const SampleRectangle box = boxes.rectangle(lane);
     if (hides(image, box, nearest)) continue;
+    const PrimitiveId primitive = block.primitives[lane];
     const glm::vec3 center(block.center[0][lane], block.center[1][lane], block.center[2][lane]);
-    draw_sphere(center - view.eye, block.radius[lane], (block.inside_only >> lane & 1U) != 0,
-                block.primitives[lane], box, nearest, view, image);
+    if (is_at_eye(center - view.eye, block.radius[lane])) {
+      const Sphere& sphere = scene.spheres[scene.primitives[primitive].index];
+      draw_by_rays(rays, box, nearest, primitive, image,
+                   [&](const CanonicalRay& ray) { return intersect_sphere(ray, sphere); });
+    } else {
+      draw_sphere(center - view.eye, block.radius[lane], (block.inside_only >> lane & 1U) != 0,
+                  primitive, box, nearest, view, image);
+    }
     mark_stale(image, box);
   }
 }

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
@@ -12,8 +13,8 @@
 namespace beambench {
 
 /// Samples lie in blocks of 4 x 4, which fill a 512-bit register; blocks lie row by row. Of a hit
-/// 1/t is kept, which is linear on the screen for points of a plane; 0 is the background. Samples
-/// beyond the raster's ends hold infinity: nothing is nearer.
+/// 1/t is kept, which is linear on the screen for points of a plane; 0 is the background, and
+/// infinity a hit at t = 0. Samples beyond the raster's ends hold infinity: nothing is nearer.
 struct TileImage {
   static constexpr int kBlockColumns = kTileWidth / 4;
   static constexpr int kBlockRows = kTileHeight / 4;
@@ -42,6 +43,12 @@ struct TileImage {
   std::array<std::uint32_t, kSquareRows> stale;  ///< one bit a square of a row
   bool touched;                                  ///< false: all background, and not even cleared
 };
+
+/// The 1/t of what reaches to the eye or behind it: nearer than any two places are told apart.
+inline constexpr float kNearestOfAll = 1e30F;
+
+/// What is kept of a hit. t may be -0, which is as near as 0.
+inline float inverse_of(float t) { return 1.0F / std::abs(t); }
 
 /// Samples [left, right] x [top, bottom] of a tile.
 struct SampleRectangle {

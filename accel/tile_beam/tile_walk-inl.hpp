@@ -14,6 +14,7 @@
 #include "accel/tile_beam/box_probe-inl.hpp"
 #include "accel/tile_beam/cone_raster-inl.hpp"
 #include "accel/tile_beam/meshlet_raster-inl.hpp"
+#include "accel/tile_beam/ray_raster-inl.hpp"
 #include "accel/tile_beam/ray_walk-inl.hpp"
 #include "accel/tile_beam/sphere_raster-inl.hpp"
 #include "accel/tile_beam/tile_kernels.hpp"
@@ -31,8 +32,7 @@ class TileWalk {
   TileWalk(const TilePicture& picture, const TileView& view, TileImage& image, Counting& counting)
       : hierarchy_(&picture.hierarchy),
         scene_(&picture.scene),
-        rays_(&picture.rays),
-        raster_(&picture.raster),
+        rays_{picture.rays, picture.raster, view},
         view_(&view),
         probe_(view),
         image_(&image),
@@ -124,19 +124,19 @@ class TileWalk {
       case TileChild::Kind::kMeshlet: {
         const Meshlet& meshlet = hierarchy_->meshlets[entry.child.index()];
         counting_->add(Counter::kPrimitiveTests, meshlet.triangle_count);
-        draw_meshlet(meshlet, *view_, farthest_, *image_);
+        draw_meshlet(meshlet, rays_, farthest_, *image_);
         break;
       }
       case TileChild::Kind::kSpheres: {
         const SphereBlock& block = hierarchy_->spheres[entry.child.index()];
         counting_->add(Counter::kPrimitiveTests, block.count);
-        draw_spheres(block, *view_, farthest_, *image_);
+        draw_spheres(block, *scene_, rays_, farthest_, *image_);
         break;
       }
       case TileChild::Kind::kCones: {
         const ConeBlock& block = hierarchy_->cones[entry.child.index()];
         counting_->add(Counter::kPrimitiveTests, block.count);
-        draw_cones(block, *scene_, *rays_, *raster_, *view_, probe_, farthest_, *image_);
+        draw_cones(block, *scene_, rays_, probe_, farthest_, *image_);
         break;
       }
       case TileChild::Kind::kNode:
@@ -153,11 +153,11 @@ class TileWalk {
         const std::size_t at = TileImage::place(x, y);
         if (image_->inverse_t[at] > entry.nearest) continue;
         counting_->add("handed_over_rays");
-        Ray ray = raster_->ray(*rays_, view_->left + x, view_->top + y);
+        Ray ray = rays_.at(x, y);
         ray.t_max = 1.0F / image_->inverse_t[at];
         const auto hit = closest_below(*hierarchy_, *scene_, entry.child, ray, *counting_);
         if (!hit) continue;
-        image_->inverse_t[at] = 1.0F / hit->t;
+        image_->inverse_t[at] = inverse_of(hit->t);
         image_->primitive[at] = hit->primitive;
       }
     }
@@ -175,8 +175,7 @@ class TileWalk {
 
   const TileHierarchy* hierarchy_;
   const Scene* scene_;
-  const PrimaryRays* rays_;
-  const SampleRaster* raster_;
+  TileRays rays_;
   const TileView* view_;
   BoxProbe probe_;
   TileImage* image_;

@@ -163,6 +163,145 @@ TEST(TileBeam, ImagesOfCatalogueScenesAreThoseOfExhaustive) {
   }
 }
 
+/// An eye that touches what it looks at: hits at t = 0 lie in the interval.
+struct Touching {
+  std::string name;
+  Scene scene;
+  glm::vec3 eye;
+};
+
+std::vector<Touching> touching_eyes() {
+  std::vector<Touching> all;
+  const auto add = [&](const char* name, SceneBuilder builder, const glm::vec3& eye) {
+    all.push_back({name, std::move(builder).build(), eye});
+  };
+  const std::vector<glm::dvec3> square{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  const std::vector<glm::dvec3> leaning{{-1, -1, -1}, {1, 0, 0}, {0, 1, 2}};
+  const std::vector<glm::dvec3> angle{{0, 0, 0}, {2, 0, 0}, {2, 1, 0},
+                                      {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};  // concave
+  const auto polygon = [](const std::vector<glm::dvec3>& corners) {
+    SceneBuilder builder("polygon");
+    builder.add_polygon(corners);
+    builder.add_sphere({0.0, 0.0, 5.0}, 1.0);
+    return builder;
+  };
+  add("in a square", polygon(square), {0, 0, 0});
+  add("on the diagonal of a square's two triangles", polygon(square), {0.5F, 0.5F, 0});
+  add("on the edge of a square", polygon(square), {1, 0.25F, 0});
+  add("at the corner of a square", polygon(square), {-1, 1, 0});
+  add("beside a square, in its plane", polygon(square), {1.5F, 0, 0});
+  add("at the corner of a triangle", polygon(leaning), {1, 0, 0});
+  add("in the middle of a triangle's edge", polygon(leaning), {0.5F, 0.5F, 1});
+  add("in a concave polygon", polygon(angle), {0.5F, 1.5F, 0});
+  add("at the corner where it is concave", polygon(angle), {1, 1, 0});
+  add("where it is cut out", polygon(angle), {1.5F, 1.5F, 0});
+
+  const auto sphere = [](double radius) {
+    SceneBuilder builder("sphere");
+    builder.add_sphere({1.0, 0.0, 0.0}, radius);
+    return builder;
+  };
+  add("on a sphere", sphere(1.0), {0, 0, 0});
+  add("on a sphere seen from the inside only", sphere(-1.0), {0, 0, 0});
+  SceneBuilder kissing("kissing spheres");
+  for (const glm::dvec3& center :
+       {glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 0), glm::dvec3(0, 1, 1)}) {
+    kissing.add_sphere(center, 0.5);
+  }
+  add("where spheres touch", std::move(kissing), {0.5F, 0, 0});
+
+  const auto cone = [](double apex_radius) {
+    SceneBuilder builder("cone");
+    builder.add_cone({0.0, 0.0, 0.0}, 1.0, {0.0, 2.0, 0.0}, apex_radius);
+    return builder;
+  };
+  add("on a cylinder", cone(1.0), {1, 0.5F, 0});
+  add("on the rim of a cylinder", cone(1.0), {0, 2, 1});
+  add("on a cone", cone(0.0), {0.5F, 1, 0});
+  add("at the tip of a cone", cone(0.0), {0, 2, 0});
+  return all;
+}
+
+/// Looking along an axis, a diagonal, and neither.
+std::vector<Camera> cameras_at(const glm::vec3& eye) {
+  std::vector<Camera> cameras;
+  for (const glm::vec3& way : {glm::vec3(1, 0, 0), glm::vec3(0, 0, -1), glm::vec3(-1, 1, 0),
+                               glm::vec3(0.3F, -0.8F, 0.4F)}) {
+    Camera camera;
+    camera.from = eye;
+    camera.at = eye + way;
+    camera.up = std::abs(way.y) < 0.75F ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
+    camera.angle = 70.0F;
+    cameras.push_back(camera);
+  }
+  return cameras;
+}
+
+/// Sample for sample what exhaustive search finds at the eye. Elsewhere float may differ.
+std::size_t wrong_at_eye(const Scene& scene, const PrimaryRays& rays, const HitBuffer& image) {
+  const Exhaustive exhaustive(scene);
+  std::size_t wrong = 0;
+  for (int y = 0; y < rays.height(); ++y) {
+    for (int x = 0; x < rays.width(); ++x) {
+      for (int sample = 0; sample < rays.samples(); ++sample) {
+        const auto expected = exhaustive.closest_hit(rays.ray(x, y, sample));
+        const auto actual = image.get(image.index(x, y, sample));
+        const auto at_eye = [](const auto& hit) { return hit && !(hit->t > 1e-5F); };
+        if (!at_eye(expected) && !at_eye(actual)) continue;
+        // Of several at one place either may be named.
+        if (!expected || !actual || !(std::abs(expected->t - actual->t) <= 1e-12F)) ++wrong;
+      }
+    }
+  }
+  return wrong;
+}
+
+TEST(TileBeam, FindsHitsAtTheEye) {
+  std::size_t at_zero = 0;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    const testing::OnlyTarget only(target);
+    for (const Touching& touching : touching_eyes()) {
+      const TileBeam structure(touching.scene, {});
+      for (const Camera& camera : cameras_at(touching.eye)) {
+        for (const auto& [width, samples] : {std::pair{33, 1}, {16, 1}, {9, 1}, {19, 5}, {8, 4}}) {
+          const PrimaryRays rays(camera, width, 20, samples);
+          const HitBuffer image = image_of(structure, rays);
+          ASSERT_EQ(wrong_at_eye(touching.scene, rays, image), 0U)
+              << "eye " << touching.name << ", " << width << " x " << samples;
+          EXPECT_EQ(compare(touching.scene, rays, image).errors, 0U)
+              << "eye " << touching.name << ", " << width << " x " << samples;
+          at_zero +=
+              static_cast<std::size_t>(std::count(image.t(), image.t() + image.size(), 0.0F));
+        }
+      }
+    }
+  }
+  EXPECT_GT(at_zero, 100'000U);
+}
+
+TEST(TileBeam, FindsHitsAtTheOriginOfSingleRays) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    const testing::OnlyTarget only(target);
+    for (const Touching& touching : touching_eyes()) {
+      const TileBeam structure(touching.scene, {});
+      const Exhaustive exhaustive(touching.scene);
+      Random random(3);
+      for (int i = 0; i < 200; ++i) {
+        Ray ray = random_ray(touching.scene, random);
+        ray.origin = touching.eye;
+        ray.t_min = 0.0F;
+        for (const float t_max : {kInfinity, 1.0F, 0.0F}) {
+          ray.t_max = t_max;
+          const auto hit = exhaustive.closest_hit(ray);
+          ASSERT_EQ(structure.closest_hit(ray), hit) << "eye " << touching.name;
+          ASSERT_EQ(structure.any_hit(ray), hit.has_value()) << "eye " << touching.name;
+        }
+      }
+    }
+  }
+}
+
 TEST(TileBeam, OnePixelIsAnImage) {
   const Scene scene = load_scene("tetra:n=3");
   const TileBeam structure(scene, {});
