@@ -14,6 +14,8 @@ from pathlib import Path
 
 import pytest
 
+from beambench_report.cluster.measured import measure, measured_section
+from beambench_report.cluster.record import Picture
 from cluster import CLUSTER, finish, mpirun, needs_mpi, processes_of, start
 from program import beambench, output_of
 
@@ -87,6 +89,26 @@ def test_the_record_adds_up(tmp_path: Path) -> None:
     assert report["to_producer"]["messages"] == len(tasks) + 4
     assert 0.0 < report["producer_busy_share"] < 1.0
     assert report["lost"] == []
+
+
+def test_what_processes_of_this_machine_take_is_measured_and_shown(tmp_path: Path) -> None:
+    written = measure(tmp_path, CLUSTER, [Picture("stetra", 32, 20, 1)], repeats=1)
+    assert written == [tmp_path / "measured.csv"]
+    rows = list(csv.DictReader(written[0].read_text().splitlines()))
+    assert [row["setting"] for row in rows][:3] == [
+        "one process alone",
+        "1 consumer",
+        "2 consumers",
+    ]
+    for row in rows:
+        assert 0 < float(row["seconds_min"]) <= float(row["seconds"]) <= float(row["seconds_max"])
+        assert (int(row["messages_from_producer"]) > 0) == (int(row["processes"]) > 1)
+    batched = next(row for row in rows if row["options"] == "--batch 8")
+    assert int(batched["messages_from_producer"]) < int(rows[2]["messages_from_producer"])
+    section = measured_section(tmp_path)
+    assert section is not None
+    assert section.count("\n| stetra |") == len(rows)
+    assert measured_section(tmp_path / "elsewhere") is None
 
 
 def test_the_same_tasks_whoever_does_them(tmp_path: Path) -> None:

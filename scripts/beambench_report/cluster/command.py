@@ -1,10 +1,11 @@
-"""`python -m beambench_report cluster record|simulate|split|write DIR`."""
+"""`python -m beambench_report cluster record|simulate|split|measure|write DIR`."""
 
 from __future__ import annotations
 
 import argparse
 from pathlib import Path
 
+from beambench_report.cluster.measured import measure
 from beambench_report.cluster.plan import simulations
 from beambench_report.cluster.record import SCENES, Picture, record
 from beambench_report.cluster.report import write_report
@@ -22,11 +23,13 @@ def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) ->
     first = steps.add_parser("record", help="what every beam of two scenes takes, in one process")
     second = steps.add_parser("simulate", help="the same beams on clusters of 2 to 1,024 processes")
     split = steps.add_parser("split", help="scenes divided among simulated machines, 1 to 64 parts")
+    real = steps.add_parser("measure", help="the same program by mpirun on 1 to 3 processes, timed")
     last = steps.add_parser("write", help="write DIR/report.md and its figures")
-    for step in (first, second, split, last):
+    for step in (first, second, split, real, last):
         step.add_argument("folder", type=Path, metavar="DIR")
     for step, program in (
         (first, "beambench-cluster"),
+        (real, "beambench-cluster"),
         (second, "beambench-cluster-simulated"),
         (split, "beambench-split-simulated"),
     ):
@@ -37,7 +40,7 @@ def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) ->
             metavar="PROGRAM",
             help=f"if not given, build/release/bin/{program}",
         )
-    for step in (first, split):
+    for step in (first, split, real):
         step.add_argument(
             "--repeats", type=int, default=3, metavar="N", help="medians of N runs; 3"
         )
@@ -59,10 +62,11 @@ def cluster(options: argparse.Namespace) -> list[Path]:
         options.program = options.program.absolute()  # `./bc` is not the `bc` of the system
     if getattr(options, "repeats", 1) < 1:
         raise Problem("--repeats: expected 1 or more")
-    if options.step == "record":
+    if options.step in ("record", "measure"):
         width, height = _resolution(options.resolution)
         pictures = [Picture(scene, width, height) for scene in SCENES]
-        return record(options.folder, options.program, pictures, options.repeats)
+        step = record if options.step == "record" else measure
+        return step(options.folder, options.program, pictures, options.repeats)
     if options.step == "simulate":
         if options.jobs < 1:
             raise Problem("--jobs: expected 1 or more")

@@ -11,6 +11,7 @@ from beambench_report.cluster.calibration import (
     Slowness,
     thesis_seconds,
 )
+from beambench_report.cluster.measured import measured_section
 from beambench_report.cluster.plan import OLD, OPTIONS, STATIONS, TODAY
 from beambench_report.cluster.plots import cluster_plots
 from beambench_report.cluster.record import read_recorded
@@ -35,6 +36,7 @@ def write_report(folder: Path) -> list[Path]:
     simulations = read_simulations(folder)
     recorded = read_recorded(folder)
     split = read_split(folder)
+    measured = measured_section(folder)
     written = []
     with house_style():
         plots = cluster_plots(simulations, read_processes(folder))
@@ -71,6 +73,7 @@ def write_report(folder: Path) -> list[Path]:
             "alone.\n",
             _assumptions(simulations),
             *([split_section(split)] if split is not None else []),
+            *([measured] if measured is not None else []),
         ]
     )
     return [*written, write_text(folder / "report.md", text)]
