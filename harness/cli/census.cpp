@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "harness/cli/census_result.hpp"
@@ -55,15 +56,24 @@ HitBuffer eye_hits(const Accelerator& structure, const EyeRays& rays, const Prim
   return hits;
 }
 
+bool by_spd(const Request& request) { return request.rules == "spd"; }
+
+WhittedOptions options_of(const Request& request, const WhittedRequest& whitted) {
+  WhittedOptions options = whitted_options(whitted);
+  options.glass_always_mirrors = by_spd(request);
+  return options;
+}
+
 /// The picture without `least_weight`, and how far the one with it is from it.
 FullPicture draw_full(const Scene& scene, const Accelerator& structure, const EyeRays& rays,
-                      const HitBuffer& hits, WhittedRequest request, const Image& picture,
+                      const HitBuffer& hits, const Request& request, const Image& picture,
                       Progress& progress) {
-  request.least_weight = 0.0;
+  WhittedRequest whitted = request.whitted;
+  whitted.least_weight = 0.0;
   progress.start(fmt::format("{} without --least-weight", scene.name));
-  const Whitted tracer(scene, structure, whitted_options(request));
+  const Whitted tracer(scene, structure, options_of(request, whitted));
   const Clock::time_point begin = Clock::now();
-  const WhittedPicture full = watched_picture(tracer, rays, hits, request, progress);
+  const WhittedPicture full = watched_picture(tracer, rays, hits, whitted, progress);
   const double picture_ms = milliseconds_since(begin);
   progress.finish(fmt::format("{} rays", full.census.all_rays()));
   return {full.census.all_rays(), picture_ms, root_mean_square_error(picture, full.image)};
@@ -74,7 +84,7 @@ CensusResult take_census(const Request& request, const std::string& name, Progre
   const Scene scene = open_scene(name);
   const ImageOfRays image = choose_image(scene, request.image);
   const PrimaryRays primary = choose_rays(scene, request.image);
-  const bool spd = request.rules == "spd";
+  const bool spd = by_spd(request);
   progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
 
   CensusResult result{scene.name, scene.lights.size(), {}, 0, 0, 0, 0, 0, {}};
@@ -88,7 +98,7 @@ CensusResult take_census(const Request& request, const std::string& name, Progre
   result.eye_ms = milliseconds_since(begin);
   check_hits(hits, scene, choice.info());
   begin = Clock::now();
-  const Whitted tracer(scene, *structure, whitted_options(request.whitted));
+  const Whitted tracer(scene, *structure, options_of(request, request.whitted));
   result.preparation_ms = milliseconds_since(begin);
   begin = Clock::now();
   const WhittedPicture picture = watched_picture(tracer, rays, hits, request.whitted, progress);
@@ -101,15 +111,30 @@ CensusResult take_census(const Request& request, const std::string& name, Progre
   progress.finish(fmt::format("{} rays in {}", picture.census.all_rays(),
                               format_duration(1e-3 * milliseconds_since(all))));
   if (request.whitted.least_weight > 0.0) {
-    result.full =
-        draw_full(scene, *structure, rays, hits, request.whitted, picture.image, progress);
+    result.full = draw_full(scene, *structure, rays, hits, request, picture.image, progress);
   }
   return result;
+}
+
+/// How the request departs from the rules of SPD, which explains other counts than the published.
+std::string departure(const Request& request) {
+  std::vector<std::string> ways;
+  const int published_depth = WhittedOptions{}.max_depth;
+  if (request.whitted.max_depth != published_depth) {
+    ways.push_back(fmt::format("--depth {}", request.whitted.max_depth));
+  }
+  if (request.whitted.least_weight > 0.0) {
+    ways.push_back(fmt::format("--least-weight {}", request.whitted.least_weight));
+  }
+  return fmt::format("{}", fmt::join(ways, ", "));
 }
 
 void print_text(const Request& request, const std::vector<CensusResult>& results) {
   fmt::print("{}, {} rules, depth {}, shadows by {}\n\n{}", request.structure, request.rules,
              request.whitted.max_depth, request.whitted.shadows, census_text(results));
+  if (!by_spd(request)) return;
+  const std::string beside = published_text(results, departure(request));
+  if (!beside.empty()) fmt::print("\n{}", beside);
 }
 
 void print_json(const Request& request, const std::vector<CensusResult>& results) {
@@ -120,16 +145,18 @@ void print_json(const Request& request, const std::vector<CensusResult>& results
                              {"least_weight", request.whitted.least_weight},
                              {"threads", request.whitted.threads},
                              {"scenes", nlohmann::ordered_json::array()}};
-  for (const CensusResult& result : results) out["scenes"].push_back(to_json(result));
+  for (const CensusResult& result : results) {
+    out["scenes"].push_back(by_spd(request) ? to_json_beside_published(result) : to_json(result));
+  }
   fmt::print("{}\n", out.dump(2));
 }
 
 void census(const Request& request) {
-  if (request.rules != "spd" && request.rules != "image") {
+  if (!by_spd(request) && request.rules != "image") {
     throw InputError(
         fmt::format("there are no rules '{}'; choose from: spd, image", request.rules));
   }
-  if (request.rules == "spd" && (!request.image.resolution.empty() || request.image.samples != 1)) {
+  if (by_spd(request) && (!request.image.resolution.empty() || request.image.samples != 1)) {
     throw InputError(
         "the rules of SPD fix the rays, 513x513 through the corners of pixels; "
         "leave out --resolution and --samples");
@@ -175,7 +202,10 @@ void add_census_command(CLI::App& app, int&) {
   command->footer(
       "The rules of SPD: 513x513 rays through the corners of pixels, rays of depth 5, none left "
       "out\n"
-      "for being faint, no shadow ray to a light behind the surface. hidden: of the shadow rays,\n"
+      "for being faint, a mirror ray from all glass, even where the picture takes nothing from "
+      "it,\n"
+      "one ray at total reflection, no shadow ray to a light behind the surface; the counts that\n"
+      "Haines published are printed beside. hidden: of the shadow rays,\n"
       "those that something opaque stops; cached: of these, what the shadow cache knew; listed: "
       "of\n"
       "the shadow rays, what light buffers answered. Times: building, the eye's rays, making "

@@ -1,10 +1,15 @@
 #include "harness/cli/census_result.hpp"
 
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "harness/cli/text.hpp"
+#include "harness/shade/spd_counts.hpp"
 
 namespace beambench {
 namespace {
@@ -38,7 +43,66 @@ Cells row_of(const CensusResult& result) {
   return row;
 }
 
+/// Above this a difference from a published count needs an explanation.
+constexpr double kNotablePercent = 2.0;
+
+/// One of our counts beside that of the literature.
+struct Compared {
+  std::string_view rays;
+  std::uint64_t ours;
+  std::uint64_t published;
+
+  /// Nothing where there is nothing to be a percentage of.
+  std::optional<double> percent() const {
+    if (published == 0) return ours == 0 ? std::optional(0.0) : std::nullopt;
+    return 100.0 * (static_cast<double>(ours) / static_cast<double>(published) - 1.0);
+  }
+  bool notable() const { return !percent() || std::abs(*percent()) > kNotablePercent; }
+};
+
+std::array<Compared, 4> compared(const RayCensus& ours, const PublishedCounts& theirs) {
+  return {{{"eye_hits", ours.eye_hits, theirs.eye_hits},
+           {"reflected", ours.reflected, theirs.reflected},
+           {"refracted", ours.refracted + ours.totally_reflected, theirs.refracted},
+           {"shadow", ours.shadow, theirs.shadow}}};
+}
+
 }  // namespace
+
+std::string published_text(const std::vector<CensusResult>& results, const std::string& departure) {
+  TextTable table({"scene", "rays", "here", "published", "difference", "remark"}, 2);
+  bool any = false;
+  for (const CensusResult& result : results) {
+    const PublishedCounts* theirs = find_published_counts(result.scene);
+    if (theirs == nullptr) continue;
+    for (const Compared& each : compared(result.census, *theirs)) {
+      if (each.ours == 0 && each.published == 0) continue;
+      const auto percent = each.percent();
+      const std::string remark = departure.empty() ? "unexplained" : "by " + departure;
+      table.add({result.scene, std::string(each.rays), number(each.ours), number(each.published),
+                 percent ? fmt::format("{:+.2f}%", *percent) : "-", each.notable() ? remark : ""});
+      any = true;
+    }
+  }
+  if (!any) return "";
+  return "Beside the counts that Haines published with SPD 3.14 (refracted: rays that are "
+         "reflected totally\nin place of it included):\n\n" +
+         table.text();
+}
+
+nlohmann::ordered_json to_json_beside_published(const CensusResult& result) {
+  nlohmann::ordered_json out = to_json(result);
+  const PublishedCounts* theirs = find_published_counts(result.scene);
+  if (theirs == nullptr) return out;
+  for (const Compared& each : compared(result.census, *theirs)) {
+    const auto percent = each.percent();
+    out["published"][std::string(each.rays)] = {
+        {"here", each.ours},
+        {"published", each.published},
+        {"difference_percent", percent ? nlohmann::ordered_json(*percent) : nullptr}};
+  }
+  return out;
+}
 
 std::string census_text(const std::vector<CensusResult>& results) {
   Cells header{"scene",  "eye rays", "hits",  "reflected", "refracted", "shadow",  "hidden",
@@ -61,6 +125,7 @@ nlohmann::ordered_json to_json(const CensusResult& result) {
                              {"eye_hits", census.eye_hits},
                              {"reflected_rays", census.reflected},
                              {"refracted_rays", census.refracted},
+                             {"totally_reflected", census.totally_reflected},
                              {"secondary_hits", census.secondary_hits},
                              {"too_faint", census.too_faint},
                              {"shadow_rays", census.shadow},

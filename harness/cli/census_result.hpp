@@ -36,6 +36,14 @@ struct CensusResult {
 /// A table with a row for each scene.
 std::string census_text(const std::vector<CensusResult>& results);
 
+/// Of the scenes whose counts Haines published: each count beside his, and their difference. One
+/// above 2% gets a remark: `departure` where the request departs from his rules ("depth 3"), else
+/// that it is unexplained. Empty where none of the scenes is among his.
+std::string published_text(const std::vector<CensusResult>& results, const std::string& departure);
+
 nlohmann::ordered_json to_json(const CensusResult& result);
+
+/// The same with "published": a count of his, ours and the difference in percent by kind of ray.
+nlohmann::ordered_json to_json_beside_published(const CensusResult& result);
 
 }  // namespace beambench

@@ -95,8 +95,29 @@ dvec3 Whitted::color_along(const Ray& ray, const std::optional<Hit>& hit, const 
                            Progress& progress) const {
   if (!hit) return background_;
   const Place at = place_of(ray, *hit);
-  return lit(at, path, progress) + reflected(at, path, at.surface->specular, progress) +
-         transmitted(at, path, progress);
+  return lit(at, path, progress) + spawned(at, path, progress);
+}
+
+/// Along the mirror ray and the refracted one. At total reflection the mirror ray carries both
+/// shares: it is one ray, even where the surface is a mirror as well (SPD, rule 9).
+dvec3 Whitted::spawned(const Place& at, const Path& path, Progress& progress) const {
+  const double glass = std::max(double{at.surface->transmittance}, 0.0);
+  const double mirror = std::max(double{at.surface->specular}, 0.0);
+  if (glass == 0.0) return mirror > 0.0 ? reflected(at, path, mirror, progress) : dvec3(0.0);
+  const bool entering = enters(at, path);
+  const double index = std::max(double{at.surface->refraction_index}, 1e-3);
+  const auto direction =
+      refracted_inward(at.incoming, at.shading, at.geometric, entering ? 1.0 / index : index);
+  if (!direction) {
+    if (path.depth < options_.max_depth) ++progress.census.totally_reflected;
+    return reflected(at, path, mirror + glass, progress);
+  }
+  const bool mirrors = mirror > 0.0 || options_.glass_always_mirrors;
+  const dvec3 before = mirrors ? reflected(at, path, mirror, progress) : dvec3(0.0);
+  const Path next{path.depth + 1, path.weight * glass, entering};
+  constexpr Kind kRefracted{&Answerers::refracted, &RayCensus::refracted};
+  return before + glass * traced(kRefracted, beside_surface(*scene_, at.point, -at.geometric),
+                                 *direction, next, progress);
 }
 
 Whitted::Place Whitted::place_of(const Ray& ray, const Hit& hit) const {
@@ -133,29 +154,18 @@ dvec3 Whitted::lit(const Place& at, const Path& path, Progress& progress) const 
 
 dvec3 Whitted::reflected(const Place& at, const Path& path, double share,
                          Progress& progress) const {
-  if (share <= 0.0) return dvec3(0.0);
   const Path next{path.depth + 1, path.weight * share, path.inside};
   constexpr Kind kReflected{&Answerers::reflected, &RayCensus::reflected};
   return share * traced(kReflected, beside_surface(*scene_, at.point, at.geometric),
                         mirrored_outward(at.incoming, at.shading, at.geometric), next, progress);
 }
 
-dvec3 Whitted::transmitted(const Place& at, const Path& path, Progress& progress) const {
-  const double share = at.surface->transmittance;
-  if (share <= 0.0) return dvec3(0.0);
-  bool entering = !path.inside;
-  if (at.primitive->kind == PrimitiveKind::kSphere) {
-    const dvec3 center(scene_->spheres[at.primitive->index].center);
-    entering = glm::dot(at.point - center, at.incoming) < 0.0;
-  }
-  const double index = std::max(double{at.surface->refraction_index}, 1e-3);
-  const auto direction =
-      refracted_inward(at.incoming, at.shading, at.geometric, entering ? 1.0 / index : index);
-  if (!direction) return reflected(at, path, share, progress);  // total reflection
-  const Path next{path.depth + 1, path.weight * share, entering};
-  constexpr Kind kRefracted{&Answerers::refracted, &RayCensus::refracted};
-  return share * traced(kRefracted, beside_surface(*scene_, at.point, -at.geometric), *direction,
-                        next, progress);
+/// Whether a ray that meets glass goes into it: a sphere says so itself, of polygons and cones it
+/// follows from the surfaces that the ray has passed.
+bool Whitted::enters(const Place& at, const Path& path) const {
+  if (at.primitive->kind != PrimitiveKind::kSphere) return !path.inside;
+  const dvec3 center(scene_->spheres[at.primitive->index].center);
+  return glm::dot(at.point - center, at.incoming) < 0.0;
 }
 
 dvec3 Whitted::traced(const Kind& kind, const dvec3& origin, const dvec3& direction,

@@ -25,7 +25,8 @@ struct Answerers {
 /// Recursive ray tracing (Whitted, "An improved illumination model for shaded display", CACM 23(6),
 /// 1980; chapter 4 of the thesis) with NFF's surfaces: the diffuse factor times the colour under
 /// ambient light and every light that is seen; the specular factor for highlights (Phong) and for
-/// what a mirror ray sees; the transmittance for what a ray refracted by Snell's law sees.
+/// what a mirror ray sees; the transmittance for what a ray refracted by Snell's law sees, or at
+/// total reflection, where there is no such ray, for what the mirror ray sees.
 ///
 /// Colours of scenes are display values, as they were in 1987, and are decoded to linear light. A
 /// light without a colour of its own (white) has 1 / sqrt(lights), as NFF says. All in double, in
@@ -57,8 +58,9 @@ class Whitted {
                          Progress& progress) const;
   Place place_of(const Ray& ray, const Hit& hit) const;
   glm::dvec3 lit(const Place& at, const Path& path, Progress& progress) const;
+  glm::dvec3 spawned(const Place& at, const Path& path, Progress& progress) const;
   glm::dvec3 reflected(const Place& at, const Path& path, double share, Progress& progress) const;
-  glm::dvec3 transmitted(const Place& at, const Path& path, Progress& progress) const;
+  bool enters(const Place& at, const Path& path) const;
   glm::dvec3 traced(const Kind& kind, const glm::dvec3& origin, const glm::dvec3& direction,
                     const Path& path, Progress& progress) const;
 

@@ -29,6 +29,9 @@ struct WhittedOptions {
   /// traces all.
   double least_weight = 0.0;
   ShadowMethod shadows = ShadowMethod::kRays;
+  /// Glass spawns a mirror ray even where its specular factor is 0, so that the picture takes
+  /// nothing from it: rule 8 of Haines's databases (SPD), whose counts include these rays.
+  bool glass_always_mirrors = false;
 };
 
 /// Of a whole picture that is asked for as a kind of rays: `whitted:depth=3,shadows=cache`.

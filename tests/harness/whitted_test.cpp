@@ -202,6 +202,64 @@ TEST(Whitted, APrismTurnsARayByTotalReflection) {
   expect_color(seen(prism_below_a_ceiling(1.2F), {-5, 0, 1}, {1, 0, 0}), linear(0.2, 0.4, 0.8));
 }
 
+/// Of a ray that meets a plane at 60 degrees, behind which light is 1.5 times as fast: past the
+/// critical angle of 41.8.
+RayCensus census_at_total_reflection(double specular, const WhittedOptions& options) {
+  SceneBuilder builder = with_light({0.0, 0.0, -50.0});
+  builder.set_background({1, 1, 1});
+  builder.set_surface({.diffuse = 0.0F,
+                       .specular = static_cast<float>(specular),
+                       .transmittance = 0.5F,
+                       .refraction_index = 1.0F / 1.5F});
+  add_floor(builder, 0.0);
+  const Scene scene = std::move(builder).build();
+  const auto structure = built(scene, "exhaustive");
+  const Whitted tracer(scene, *structure, options);
+  Whitted::Progress progress = tracer.begin();
+  Ray ray;
+  ray.origin = {-3.4641016F, 0.0F, 2.0F};
+  ray.direction = {0.8660254F, 0.0F, -0.5F};
+  const dvec3 color = tracer.eye_color(ray, structure->closest_hit(ray), progress);
+  const bool followed = options.max_depth > 1;
+  expect_color(color, followed ? dvec3(specular + 0.5) : dvec3(0.0));
+  return progress.census;
+}
+
+TEST(Whitted, TotalReflectionIsOneRayThatCarriesBothShares) {
+  for (const double specular : {0.0, 0.25}) {
+    SCOPED_TRACE(specular);
+    const RayCensus census = census_at_total_reflection(specular, {});
+    EXPECT_EQ(census.reflected, 1U);
+    EXPECT_EQ(census.totally_reflected, 1U);
+    EXPECT_EQ(census.refracted, 0U);
+    const RayCensus spd = census_at_total_reflection(specular, {.glass_always_mirrors = true});
+    EXPECT_EQ(spd, census);
+  }
+  EXPECT_EQ(census_at_total_reflection(0.25, {.max_depth = 1}).totally_reflected, 0U)
+      << "no ray is spawned at the last depth";
+}
+
+TEST(Whitted, ByTheRulesOfSpdGlassSpawnsAMirrorRayThatThePictureTakesNothingFrom) {
+  SceneBuilder builder = with_light({0.0, 0.0, -50.0});
+  builder.set_surface({.diffuse = 0.0F, .transmittance = 0.5F, .refraction_index = 1.5F});
+  add_floor(builder, 0.0);
+  const Scene scene = std::move(builder).build();
+  const auto structure = built(scene, "exhaustive");
+  Ray ray;
+  ray.origin = {0.0F, 0.0F, 5.0F};
+  ray.direction = {0.3F, 0.0F, -1.0F};
+  const auto asked = [&](const WhittedOptions& options) {
+    const Whitted tracer(scene, *structure, options);
+    Whitted::Progress progress = tracer.begin();
+    expect_color(tracer.eye_color(ray, structure->closest_hit(ray), progress),
+                 0.5 * linear(0.2, 0.4, 0.8));
+    return progress.census;
+  };
+  EXPECT_EQ(asked({}).reflected, 0U);
+  EXPECT_EQ(asked({.glass_always_mirrors = true}).reflected, 1U);
+  EXPECT_EQ(asked({.glass_always_mirrors = true}).refracted, 1U);
+}
+
 TEST(Whitted, AShadingNormalSendsNoRefractedRayBackThroughItsSurface) {
   SceneBuilder builder = with_light({0.0, 0.0, -4.0});
   builder.set_surface({.diffuse = 0.0F, .transmittance = 1.0F, .refraction_index = 1.0F / 1.5F});

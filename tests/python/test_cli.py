@@ -415,6 +415,30 @@ def test_mirrors_are_shown_by_beams_and_by_rays() -> None:
 def test_the_rules_of_spd_fix_the_rays() -> None:
     (tetra,) = json.loads(output_of("census", "tetra:n=2", "--rules", "spd", "--json"))["scenes"]
     assert tetra["eye_rays"] == 513 * 513
+    assert "published" not in tetra, "Haines published the counts of tetra:n=6"
+
+
+def test_the_census_of_spd_is_printed_beside_what_haines_published() -> None:
+    text = output_of("census", "tetra", "shells:n=2", "--rules", "spd")
+    assert re.search(r"tetra:n=6 +eye_hits +\d+ +49788 +[+-]0\.\d\d%\n", text), text
+    assert re.search(r"tetra:n=6 +shadow +\d+ +46112 +[+-]0\.\d\d%\n", text), text
+    assert "explained" not in text
+    (tetra,) = json.loads(output_of("census", "tetra", "--rules", "spd", "--json"))["scenes"]
+    hits = tetra["published"]["eye_hits"]
+    assert (hits["here"], hits["published"]) == (tetra["eye_hits"], 49788)
+    assert hits["difference_percent"] == pytest.approx(100 * (tetra["eye_hits"] / 49788 - 1))
+    assert "Haines published" not in output_of("census", "tetra", "--resolution", "16x16")
+
+
+def test_a_census_says_why_it_is_far_from_what_haines_published() -> None:
+    text = output_of("census", "mount", "--rules", "spd", "--depth", "2")
+    assert re.search(r"mount:n=6 +reflected +\d+ +354769 +-\d+\.\d\d% +by --depth 2\n", text), text
+    by_rays = [line for line in text.splitlines() if " eye_hits " in line]
+    assert "--depth" not in by_rays[0], "they do not depend on it"
+    faint = output_of("census", "mount", "--rules", "spd", "--least-weight", "0.2")
+    assert re.search(r"reflected .* by --least-weight 0.2\n", faint), faint
+    wrong = output_of("census", "tetra", "--rules", "spd", "--accel", "null")
+    assert re.search(r"eye_hits +0 +49788 +-100\.00% +unexplained\n", wrong), wrong
 
 
 def test_stats_tell_parameters_apart() -> None:
