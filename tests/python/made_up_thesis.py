@@ -21,7 +21,7 @@ CANONICAL = {
     "samet": _OCTREE,
     "samet-net": _OCTREE,
     "voxel-grid": "resolution=auto,density=4,fill=eager,mailboxes=false,max_voxels=100000000",
-    "goldsmith-salmon": "order=given,seed=1,queue=heap",
+    "goldsmith-salmon": "order=given,seed=1,queue=heap,insert=everywhere",
     "sah-bvh": "max_leaf=8,parallel=false",
     "embree": "mode=single,quality=high,robust=true,coherent=true",
 }

@@ -49,7 +49,7 @@ def test_a_dry_run_lists_sweeps_cells_and_time(capsys: pytest.CaptureFixture[str
     assert run_thesis("--dry-run") == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 15
-    assert lines[0].split() == ["synthetic", "70", "cells", "1", "min", "30", "s"]
+    assert lines[0].split() == ["synthetic", "80", "cells", "1", "min", "38", "s"]
     assert lines[-1].startswith("in all")
     assert run_thesis("--dry-run", "--table", "5.4", "--quick") == 0
     assert len(capsys.readouterr().out.splitlines()) == 3
@@ -85,7 +85,7 @@ def test_each_sweep_is_run_once_and_a_finished_one_never_again(
     assert calls(stand_in) == [
         f"run {run}/sweeps/{name}.json -o {run}/{name}" for name in ("synthetic", "best-synthetic")
     ]
-    assert "== run 1 of 2: synthetic: 70 cells" in capsys.readouterr().err
+    assert "== run 1 of 2: synthetic: 80 cells" in capsys.readouterr().err
     # Cut off in its middle: that one goes on, the finished one is left alone.
     (run / "best-synthetic" / "manifest.json").write_text('{"finished_utc": null}')
     assert run_thesis("--resume", run, "--dry-run") == 0

@@ -79,6 +79,22 @@ def test_a_cell_holds_both_times_and_both_shapes_over_the_first_row_at_320x200(
     ]
 
 
+def test_the_thesiss_hierarchy_places_objects_beside_terminal_nodes_and_the_other_is_an_extra(
+    everything: Path,
+) -> None:
+    for part in (*parts_of("5.6"), *parts_of("5.7"), *parts_of("5.8")):
+        lines = fill(part, cells_in(everything), nothing).lines
+        of_hierarchies = [line for line in lines if line.structure == "goldsmith-salmon"]
+        assert [(line.label, line.is_reference) for line in of_hierarchies] == [
+            ("hierarchy (Bounding Box)", False),
+            ("hierarchy, insert=everywhere (Goldsmith and Salmon 1987)", True),
+        ]
+        for line, insertion in zip(of_hierarchies, ("terminal", "everywhere"), strict=True):
+            for entry in line.entries:
+                wanted = {"order": "given", "queue": "heap", "insert": insertion}
+                assert wanted.items() <= entry.ours.parameters.items()
+
+
 def test_leaves_and_pixels_stand_beside_table_5_3(everything: Path) -> None:
     lines = fill(parts_of("5.3")[0], cells_in(everything), nothing).lines
     assert lines[2].label == "level 6"
@@ -167,7 +183,7 @@ def test_the_page_holds_everything_and_every_number_leads_to_its_row(page: str) 
     for claim in range(1, 22):
         assert f'id="claim-C{claim:02}"' in page
     planned = sum(len(sweep.cells()) for sweep in PLAN.sweeps)
-    assert f"{planned} cells in 14 runs, all of them right." in page
+    assert f"{planned:,} cells in 14 runs, all of them right." in page
 
 
 def test_a_row_of_the_list_names_file_line_and_cell(everything: Path, page: str) -> None:
@@ -226,7 +242,7 @@ def test_a_run_that_cannot_be_read_is_told_and_the_others_are_shown(tmp_path: Pa
     write_report(run, plan)
     text = (run / "report.html").read_text()
     assert "best-synthetic/results.csv" in text
-    assert "70 cells in 1 runs" in text
+    assert "80 cells in 1 runs" in text
 
 
 def test_a_plan_is_read_as_it_was_kept(everything: Path, tmp_path: Path) -> None:

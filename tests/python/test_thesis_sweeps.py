@@ -17,10 +17,10 @@ from beambench_report.thesis.sweeps import FOLDER, PlannedCell, quick, read_swee
 from program import BINARY, beambench
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-DEFAULTS = {"max_level": "6", "max_objects": "0", "handover": "0"}
+DEFAULTS = {"max_level": "6", "max_objects": "0", "handover": "0", "insert": "everywhere"}
 THESIS = {
     "voxel-grid": {"resolution": "32", "fill": "lazy"},
-    "goldsmith-salmon": {"order": "given", "queue": "heap"},
+    "goldsmith-salmon": {"order": "given", "queue": "heap", "insert": "terminal"},
 }
 
 
@@ -75,6 +75,20 @@ def test_every_row_of_a_table_has_its_cell_in_the_tables_own_sweeps(table) -> No
     assert len(rows) >= 20
     for row in rows:
         assert sum(is_wanted(cell, row) for cell in cells) == 1, row
+
+
+def test_where_the_thesiss_hierarchy_is_goldsmith_and_salmons_own_stands_beside_it() -> None:
+    cells = [cell for cell in cells_of(*SWEEPS) if cell.structure == "goldsmith-salmon"]
+    views = {(cell.scene, cell.resolution) for cell in cells}
+    assert len(views) == 7 * 5
+    for insertion in ("terminal", "everywhere"):
+        wanted = THESIS["goldsmith-salmon"] | {"insert": insertion}
+        there = {
+            (cell.scene, cell.resolution)
+            for cell in cells
+            if all(parameters(cell).get(name) == value for name, value in wanted.items())
+        }
+        assert there == views, insertion
 
 
 def test_no_cell_is_measured_twice() -> None:

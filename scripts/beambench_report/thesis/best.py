@@ -105,10 +105,15 @@ def _is_edge(best: Cell, timed: Sequence[Cell]) -> bool:
 
 
 def _pools(structure: str) -> list[tuple[str, dict[str, str]]]:
-    """A contender, and the thesis's form of the beams, which hand nothing over, beside the best."""
+    """A contender; the thesis's form of it beside the best where we have others.
+
+    The thesis's beams hand nothing over; its hierarchy places objects beside terminal nodes.
+    """
+    title = contender_title(structure)
     if structure == "beam":
-        thesis = (f"{contender_title(structure)}, handover=0", {"handover": "0"})
-        return [thesis, (f"{contender_title(structure)}, any handover", {})]
+        return [(f"{title}, handover=0", {"handover": "0"}), (f"{title}, any handover", {})]
+    if structure == "goldsmith-salmon":
+        return [(f"{title}, insert=terminal", {"insert": "terminal"}), (f"{title}, any insert", {})]
     return [(contender_title(structure), {})]
 
 

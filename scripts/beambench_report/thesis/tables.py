@@ -17,6 +17,11 @@ Reasons = Callable[[str], str]
 REFERENCES = ("sah-bvh", "embree")
 """Contenders of today, which the thesis's tables do not have."""
 
+_HIERARCHY = "goldsmith-salmon"
+_WITHOUT_TERMINAL = {"order": "given", "queue": "heap", "insert": "everywhere"}
+"""The thesis's hierarchy but for the insertion, which is the one of Goldsmith and Salmon's paper.
+It is an extra beside the thesis's, which places objects beside terminal nodes alone (4.3)."""
+
 
 @dataclass(frozen=True)
 class Entry:
@@ -65,6 +70,8 @@ class PartTable:
 def fill(part: PrintedPart, cells: Cells, why: Reasons) -> PartTable:
     """Puts what was measured into a part."""
     lines = [_line(part, row, cells, why) for row in part.rows]
+    if _HIERARCHY in part.structures:
+        lines.append(_everywhere(part, cells, why))
     lines += [_reference(part, structure, cells, why) for structure in REFERENCES]
     lines = [line for line in lines if not line.is_reference or any(e.ours for e in line.entries)]
     return PartTable(part, RESOLUTIONS, tuple(lines), _base(part, cells))
@@ -82,12 +89,34 @@ def _line(part: PrintedPart, row: PrintedRow, cells: Cells, why: Reasons) -> Lin
 
 
 def _reference(part: PrintedPart, structure: str, cells: Cells, why: Reasons) -> Line:
+    return _not_printed(part, structure, f"{structure} (of today)", {}, cells, why)
+
+
+def _everywhere(part: PrintedPart, cells: Cells, why: Reasons) -> Line:
+    label = "hierarchy, insert=everywhere (Goldsmith and Salmon 1987)"
+    return _not_printed(part, _HIERARCHY, label, _WITHOUT_TERMINAL, cells, why)
+
+
+def _not_printed(
+    part: PrintedPart,
+    structure: str,
+    label: str,
+    wanted: dict[str, str],
+    cells: Cells,
+    why: Reasons,
+) -> Line:
+    """A row that the thesis does not have: the first cell of the structure with the parameters."""
     base = _base(part, cells)
     entries = []
     for resolution in RESOLUTIONS:
-        ours = next(iter(cells.of(part.scene, structure, resolution)), None)
-        entries.append(_entry(ours, base, Entry(None, None, missing=why(resolution))))
-    return Line(f"{structure} (of today)", structure, tuple(entries), is_reference=True)
+        found = (
+            cell
+            for cell in cells.of(part.scene, structure, resolution)
+            # Runs before the parameter `insert` lack it: they inserted everywhere.
+            if all(cell.parameters.get(name, value) == value for name, value in wanted.items())
+        )
+        entries.append(_entry(next(found, None), base, Entry(None, None, missing=why(resolution))))
+    return Line(label, structure, tuple(entries), is_reference=True)
 
 
 def _base(part: PrintedPart, cells: Cells) -> Cell | None:

@@ -16,8 +16,9 @@ TABLE_WORDS = (
     "time over that of the same part's first row at 320x200, the thesis's and ours. Times contain "
     "the building of the structure, as the thesis's do; our part of it is told behind the total. "
     "Parameters are the thesis's: octrees of level 6 unless the table says otherwise, 32 voxels an "
-    "axis filled lazily, objects inserted as given, Kay and Kajiya's queue, no handover. Rows "
-    "marked (of today) are not the thesis's."
+    "axis filled lazily, objects inserted as given beside terminal nodes (insert=terminal), Kay "
+    "and Kajiya's queue, no handover. Rows marked (of today) or (Goldsmith and Salmon 1987) are "
+    "not the thesis's."
 )
 BEST_WORDS = (
     "Each contender with those of its parameters that made it quickest, building included, in "
