@@ -6,7 +6,15 @@ from collections.abc import Callable
 
 import pandas as pd
 
-from beambench_report.ledger.evidence import RESOLUTIONS, TIMES, WORK, Evidence
+from beambench_report.ledger.evidence import (
+    HIERARCHY,
+    OWN_HIERARCHY,
+    PICTURE,
+    RESOLUTIONS,
+    TIMES,
+    WORK,
+    Evidence,
+)
 from beambench_report.ledger.published import primitives_by_scene, published_evidence
 
 Row = dict[str, object]
@@ -77,7 +85,10 @@ def _times() -> list[Row]:
                 _time(scene, "voxel-grid", resolution, seconds) | {"cells": cells}
                 for cells, seconds in grids.items()
             ]
-            rows.append(_time(scene, "goldsmith-salmon", resolution, _hierarchy(scene, size)))
+            rows += [
+                _time(scene, hierarchy, resolution, _hierarchy(scene, size))
+                for hierarchy in (HIERARCHY, OWN_HIERARCHY)
+            ]
     return rows
 
 
@@ -103,6 +114,7 @@ def _time(scene: str, contender: str, resolution: str, seconds: float) -> Row:
 def _work() -> list[Row]:
     printed = published_evidence().work
     rows = printed[~printed["quantity"].str.contains("seconds|share")].to_dict("records")
+    rows += [row | {"contender": OWN_HIERARCHY} for row in rows if row["contender"] == HIERARCHY]
     for index, scene in enumerate(SCENES):
         for level in (6, 7) if scene == "maceta" else (6,):
             beams = {6: 8701, 7: 37718}[level] + (0 if scene == "maceta" else 100 * index)
@@ -110,6 +122,7 @@ def _work() -> list[Row]:
             seconds = {6: 1.5, 7: 38.0}[level] if scene == "maceta" else 0.5 + 0.02 * index
             rows += [
                 _count(scene, level, "", "beams", beams),
+                _count(scene, level, "", "beams_made", beams),
                 _count(scene, level, "", "beams_occupied", 0.63 * beams),
             ]
             for resolution, rays in RAYS.items():
@@ -124,11 +137,28 @@ def _work() -> list[Row]:
                     "neighbour_searches": 1,
                     "beams_occupied": 0.63 * beams,
                     "samples_in_leaves": each * 1e5,
+                    "rays_after_leaf": each * 5e3,
                     "primitive_tests": 10 * rays,
                     "traversal_steps": 30 * rays,
                 }
                 rows += [_count(scene, level, resolution, *figure) for figure in figures.items()]
-    return rows
+    return rows + _pictures()
+
+
+def _pictures() -> list[Row]:
+    """Rays of whole pictures by kind."""
+    counts = {
+        "eye_rays": 262144,
+        "secondary_rays": 100000,
+        "shadow_hidden": 5000,
+        "shadow_cached_scan": 2500,
+        "shadow_cached_beams": 3500,
+    }
+    return [
+        _count(scene, 0, "", *count) | {"contender": PICTURE}
+        for scene in SCENES
+        for count in counts.items()
+    ]
 
 
 def _count(scene: str, level: int, resolution: str, quantity: str, value: float) -> Row:

@@ -8,10 +8,11 @@ from random import Random
 
 import pytest
 
-from beambench_report.ledger.book import judge
+from beambench_report.ledger.book import SWEPT_CLAIMS, judge, judge_formerly
 from beambench_report.ledger.claim import Claim
-from beambench_report.ledger.evidence import NOTHING
-from beambench_report.ledger.rules import CLAIMS
+from beambench_report.ledger.evidence import HIERARCHY, NOTHING, OWN_HIERARCHY, PICTURE
+from beambench_report.ledger.further_rules import FURTHER_CLAIMS
+from beambench_report.ledger.rules import CLAIMS, ON_OCTREES
 from beambench_report.ledger.verdict import Verdict
 from made_up_evidence import RAYS, SCENES, Row, holding, without
 
@@ -78,7 +79,7 @@ def work(quantity: str, factor: float | None) -> Callable[[Row], Row]:
     """A quantity of the beams' work so many times as large; by the resolution if not told."""
 
     def change(row: Row) -> Row:
-        if row.get("quantity") != quantity or row["contender"] != "beam":
+        if row.get("quantity") != quantity or row["contender"] not in ("beam", PICTURE):
             return row
         return scaled(row, RAYS.get(str(row["resolution"]), 1) if factor is None else factor)
 
@@ -106,8 +107,16 @@ def erratic() -> Callable[[Row], Row]:
     return change
 
 
+def gains_that_shrink(row: Row) -> Row:
+    """Samet's time does not grow with the rays, that of Samet-Net comes near it."""
+    if "seconds" not in row or row["contender"] not in ("samet", "samet-net"):
+        return row
+    growing = 90 + 9 * RAYS[str(row["resolution"])] / RAYS["1280x1024"]
+    return set_to(row, 100 if row["contender"] == "samet" else growing)
+
+
 def reversed_hierarchies(row: Row) -> Row:
-    hierarchy = "seconds" in row and row["contender"] == "goldsmith-salmon"
+    hierarchy = "seconds" in row and row["contender"] in (HIERARCHY, OWN_HIERARCHY)
     return set_to(row, 1e5 / float(str(row["seconds"]))) if hierarchy else row
 
 
@@ -146,8 +155,8 @@ SPOILED = {
     "C10": Spoiling(
         both(
             work("seconds_nonterminal", 0.001),
-            work("beams", 100),
-            work("beams_nonterminal", 100),
+            work("beams_made", 100),
+            work("beams_divided", 100),
         ),
         lambda row: row["level"] == 6,
     ),
@@ -157,25 +166,49 @@ SPOILED = {
     ),
     "C12": Spoiling(erratic(), lambda row: row.get("quantity") == "seconds_occupied"),
     "C13": Spoiling(times("beam", 10), scene("stetra")),
-    "C14": Spoiling(times("beam", 0.1), scene("stetra")),
+    "C14": Spoiling(times("beam", 0.1), scene(*ON_OCTREES[2:])),
     "C15": Spoiling(times("samet", 0.5), scene("stetra")),
     "C16": Spoiling(times("beam", 10), scene("gato-bill")),
     "C17": Spoiling(
-        lambda row: times("voxel-grid" if row["scene"] == "escena1" else "goldsmith-salmon", 100)(
-            row
-        ),
+        lambda row: times("voxel-grid" if row["scene"] == "escena1" else HIERARCHY, 100)(row),
         scene("escena1"),
     ),
     "C18": Spoiling(times("beam", 1000), scene("tetera")),
     "C19": Spoiling(reversed_hierarchies, scene("flamenco")),
     "C20": Spoiling(best_coarsest, scene("ajedrez")),
     "C21": Spoiling(reversed_sizes, scene("tetera")),
+    "C25": Spoiling(work("rays_after_leaf", 10), lambda row: row.get("resolution") == "320x200"),
+    "C26": Spoiling(work("rays_after_leaf", 15), scene("stetra")),
+    "C27": Spoiling(work("seconds_nonterminal", 1000), scene("stetra")),
+    "C28": Spoiling(work("seconds_leaving", 1e6), scene("stetra")),
+    "C29": Spoiling(gains_that_shrink, scene("stetra")),
+    "C30": Spoiling(work("secondary_rays", 100), scene("bola-espacial")),
+    "C31": Spoiling(work("shadow_cached_beams", 0.1), scene("stetra")),
+}
+
+# The rules that claims had before they were amended.
+FORMERLY_SPOILED = {
+    "C10": Spoiling(
+        both(
+            work("seconds_nonterminal", 0.001),
+            work("beams", 100),
+            work("beams_nonterminal", 100),
+        ),
+        lambda row: row["level"] == 6,
+    ),
+    "C11": SPOILED["C11"],
+    "C14": Spoiling(times("beam", 0.1), scene("stetra")),
+    "C17": Spoiling(
+        lambda row: times("voxel-grid" if row["scene"] == "escena1" else OWN_HIERARCHY, 100)(row),
+        scene("escena1"),
+    ),
+    **{name: SPOILED[name] for name in ("C18", "C19", "C21")},
 }
 
 
 def claims_but(*names: str) -> pytest.MarkDecorator:
     """Makes a test one of every claim, but for those named."""
-    claims = [claim for claim in CLAIMS if claim.name not in names]
+    claims = [claim for claim in SWEPT_CLAIMS if claim.name not in names]
     return pytest.mark.parametrize("claim", claims, ids=lambda claim: claim.name)
 
 
@@ -184,6 +217,10 @@ every_claim = claims_but()
 
 def test_there_is_a_rule_for_each_claim_of_chapter_five() -> None:
     assert [claim.name for claim in CLAIMS] == [f"C{number:02}" for number in range(1, 22)]
+
+
+def test_there_is_a_rule_for_each_claim_of_the_text_alone() -> None:
+    assert [claim.name for claim in FURTHER_CLAIMS] == [f"C{number}" for number in range(25, 32)]
 
 
 @every_claim
@@ -230,6 +267,71 @@ def test_a_fit_that_is_near_its_bound_is_undecided() -> None:
 @every_claim
 def test_a_claim_is_not_tested_without_any_figures(claim: Claim) -> None:
     assert judge(claim, NOTHING).verdict is Verdict.NOT_TESTED
+
+
+def amended_claims() -> pytest.MarkDecorator:
+    """Makes a test one of every claim whose rule was amended."""
+    claims = [claim for claim in SWEPT_CLAIMS if claim.amendment is not None]
+    return pytest.mark.parametrize("claim", claims, ids=lambda claim: claim.name)
+
+
+def test_what_was_amended() -> None:
+    amended = {claim.name for claim in SWEPT_CLAIMS if claim.amendment is not None}
+    assert amended == FORMERLY_SPOILED.keys()
+
+
+@amended_claims()
+def test_a_former_rule_still_comes_to_each_verdict(claim: Claim) -> None:
+    spoiling = FORMERLY_SPOILED[claim.name]
+    verdicts = {
+        Verdict.HOLDS: holding(),
+        Verdict.FAILS: holding(spoiling.fails),
+        Verdict.IN_PART: holding(spoiling.fails, spoiling.part),
+        Verdict.UNDECIDED: holding(vague),
+        Verdict.NOT_TESTED: NOTHING,
+    }
+    for verdict, evidence in verdicts.items():
+        found = judge_formerly(claim, evidence)
+        assert found is not None
+        assert found.verdict is verdict, found.checks
+
+
+def test_a_claim_that_was_not_amended_has_no_former_verdict() -> None:
+    assert judge_formerly(CLAIMS[0], holding()) is None
+
+
+@pytest.mark.parametrize("name", ["C17", "C18", "C19", "C21"])
+def test_only_the_hierarchy_of_section_4_3_is_judged_as_the_thesis_s(name: str) -> None:
+    (claim,) = (claim for claim in CLAIMS if claim.name == name)
+    evidence = without(lambda row: row.get("contender") == HIERARCHY)
+    assert judge(claim, evidence).verdict is Verdict.NOT_TESTED
+    former = judge_formerly(claim, evidence)
+    assert former is not None
+    assert former.verdict is Verdict.HOLDS
+
+
+@pytest.mark.parametrize("name", ["C10", "C11"])
+def test_beams_are_counted_where_cutting_makes_them(name: str) -> None:
+    (claim,) = (claim for claim in CLAIMS if claim.name == name)
+    counted_anew_in_each_leaf = holding(both(work("beams", 8), work("beams_nonterminal", 8)))
+    assert judge(claim, counted_anew_in_each_leaf).verdict is Verdict.HOLDS
+    former = judge_formerly(claim, counted_anew_in_each_leaf)
+    assert former is not None
+    assert former.verdict is Verdict.IN_PART
+
+
+def test_rays_can_win_where_one_scene_of_each_table_shows_it() -> None:
+    (claim,) = (claim for claim in CLAIMS if claim.name == "C14")
+    lost = ("escena2", "casa-de-campo", "gato-bill", "misil")
+    found = judge(claim, holding(times("beam", 0.1), scene(*lost)))
+    assert found.verdict is Verdict.HOLDS, found.checks
+
+
+def test_a_scene_without_hidden_shadow_rays_says_nothing_of_the_cache() -> None:
+    (claim,) = (claim for claim in FURTHER_CLAIMS if claim.name == "C31")
+    found = judge(claim, holding(work("shadow_hidden", 0), scene("stetra")))
+    assert found.verdict is Verdict.HOLDS
+    assert not any("stetra" in check.cell for check in found.checks)
 
 
 @claims_but("C09")  # which asks whatever scenes were measured

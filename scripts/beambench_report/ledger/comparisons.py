@@ -1,7 +1,8 @@
-"""What several rules ask: who beats whom, how a time grows, where a sweep is best."""
+"""What several rules need: who beats whom, how a time grows, where a sweep is best."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from itertools import product
 
 from beambench_report.ledger.evidence import COARSEST, FINEST, LEVEL, RESOLUTIONS, Evidence
@@ -109,10 +110,20 @@ def most(cell: str, shares: dict[str, Measured | None], bound: float, of: int) -
     return Check(cell, outcome or Outcome.UNDECIDED, f"{surely} of {of}: {figures}")
 
 
+def any_of(cell: str, checks: Sequence[Check]) -> Check:
+    """Does one of several cells or more say yes?"""
+    outcomes = {check.outcome for check in checks}
+    figures = ", ".join(f"{check.cell}: {check.figures}" for check in checks if check.figures)
+    for outcome in (Outcome.MISSING, Outcome.YES, Outcome.UNDECIDED):
+        if outcome in outcomes:
+            return Check(cell, outcome, figures)
+    return Check(cell, Outcome.NO, figures)
+
+
 def seconds_a_beam(e: Evidence, level: int) -> Measured | None:
-    """What a non-terminal beam of maceta costs at 320x200."""
+    """What a non-terminal beam of maceta, in the thesis's counting, costs at 320x200."""
     seconds = e.worked("seconds_nonterminal", "maceta", COARSEST, level=level)
-    return ratio_of(seconds, e.worked("beams_nonterminal", "maceta", level=level))
+    return ratio_of(seconds, e.worked("beams_divided", "maceta", level=level))
 
 
 def formula(e: Evidence, task: str, quantities: tuple[str, ...]) -> list[Check]:
@@ -154,8 +165,3 @@ def best_place(sweep: dict[int, Measured]) -> Measured | None:
     best = min(sweep, key=lambda cells: sweep[cells].value)
     alike = [cells for cells, time in sweep.items() if time.low <= sweep[best].high]
     return Measured(best, min(alike), max(alike))
-
-
-def size(e: Evidence, what: str, scene: str) -> Measured | None:
-    """The boxes or the cost of the hierarchy over a scene."""
-    return e.worked(what, scene, contender="goldsmith-salmon")

@@ -20,6 +20,15 @@ TIMES = ("table", *SETTING, "seconds", "low", "high")
 WORK = (*SETTING, "quantity", "value", "low", "high")
 OCTREES = ("scene", "level", "objects", "occupied_leaves", "exit_pixels")
 
+# The hierarchy of the thesis descends by least growth to a terminal node, and only there weighs
+# adding the object against a new volume (section 4.3): `goldsmith-salmon:insert=terminal`. Every
+# other way of inserting is beambench's own.
+HIERARCHY = "goldsmith-salmon"
+OWN_HIERARCHY = "goldsmith-salmon, beambench's insertion"
+
+# Whole pictures, whose rays a census counts by kind.
+PICTURE = "picture"
+
 # The thesis's parameters wherever it does not vary them.
 LEVEL, OBJECTS, CELLS = 6, 0, 32
 

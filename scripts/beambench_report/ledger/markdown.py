@@ -18,15 +18,18 @@ def as_markdown(entries: Sequence[Entry], *, cells: bool = False) -> str:
         "|---|---|---|---|---|---|",
     ]
     for entry in entries:
-        figures = "; ".join(
-            f"{whose}: {told}"
+        parts = [
+            f"{whose}: {found}"
             for whose, finding in (("thesis", entry.thesis), ("ours", entry.ours))
-            if (told := summary(finding))
-        )
+            if (found := summary(finding))
+        ]
+        parts += [sentence for sentence in (amendment(entry),) if sentence]
         bound = " (it is these figures)" if entry.claim.is_figures else ""
+        former = f" (formerly: {entry.formerly.verdict.value})" if entry.formerly else ""
         lines.append(
             f"| {entry.claim.name} | {entry.claim.where} | {entry.claim.says} "
-            f"| {entry.thesis.verdict.value}{bound} | {entry.ours.verdict.value} | {figures} |"
+            f"| {entry.thesis.verdict.value}{bound} | {entry.ours.verdict.value}{former} "
+            f"| {'; '.join(parts)} |"
         )
     if cells:
         for entry in entries:
@@ -50,6 +53,16 @@ def summary(finding: Finding) -> str:
         f"beside it: {check.cell}: {check.outcome.value} ({check.figures})" for check in asides
     ]
     return "; ".join(parts)
+
+
+def amendment(entry: Entry) -> str:
+    """Why the claim has another rule than it had, and what the former one finds; else nothing."""
+    if entry.claim.amendment is None or entry.formerly is None:
+        return ""
+    found = summary(entry.formerly)
+    return f"rule amended: {entry.claim.amendment.why}" + (
+        f"; ours by the former rule: {found}" if found else ""
+    )
 
 
 def _range_of(checks: Sequence[Check]) -> str:
@@ -86,4 +99,10 @@ def _cells(entry: Entry) -> list[str]:
             f"| {cell} | {theirs.outcome.value} | {theirs.figures} "
             f"| {own.outcome.value} | {own.figures} |"
         )
+    if entry.formerly is not None:
+        lines += ["", "By the former rule, ours:", "", "| cell | ours | figures |", "|---|---|---|"]
+        lines += [
+            f"| {check.cell} | {check.outcome.value} | {check.figures} |"
+            for check in entry.formerly.checks
+        ]
     return lines

@@ -50,6 +50,15 @@ def smallest(figures: Sequence[Measured]) -> Measured:
     )
 
 
+def largest(figures: Sequence[Measured]) -> Measured:
+    """The greatest of several: its true value is no less than the greatest lower end."""
+    return Measured(
+        max(each.value for each in figures),
+        max(each.low for each in figures),
+        max(each.high for each in figures),
+    )
+
+
 def total(figures: Sequence[Measured]) -> Measured:
     """The sum."""
     return Measured(

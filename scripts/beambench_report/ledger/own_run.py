@@ -8,7 +8,16 @@ from pathlib import Path
 import pandas as pd
 
 from beambench_report.dictionary import COUNTER_SUFFIX
-from beambench_report.ledger.evidence import FINEST, NOTHING, OCTREES, TIMES, WORK, Evidence
+from beambench_report.ledger.evidence import (
+    FINEST,
+    HIERARCHY,
+    NOTHING,
+    OCTREES,
+    OWN_HIERARCHY,
+    TIMES,
+    WORK,
+    Evidence,
+)
 from beambench_report.ledger.published import primitives_by_scene
 from beambench_report.records import read_run
 
@@ -20,7 +29,7 @@ _THESIS = {
     "samet": _OCTREE,
     "samet-net": _OCTREE,
     "voxel-grid": {"fill": "lazy", "mailboxes": "false"},
-    "goldsmith-salmon": {"order": "given", "queue": "heap"},
+    HIERARCHY: {"order": "given", "queue": "heap"},
 }
 
 # Between two runs the virtual machine's clock was up to 14% apart (results/published/README.md).
@@ -28,7 +37,7 @@ _THESIS = {
 UNKNOWN_SPREAD = 0.15
 
 _TASKS = ("nonterminal", "occupied", "leaving")
-_BEAM_COUNTS = ("beams", "beams_nonterminal", "beams_occupied")
+_BEAM_COUNTS = ("beams", "beams_nonterminal", "beams_occupied", "beams_made", "beams_divided")
 
 
 def measured_evidence(directories: Sequence[Path]) -> Evidence:
@@ -86,6 +95,8 @@ def setting_of(row: dict[str, object]) -> dict[str, object] | None:
     }
     if not all(value.isdecimal() for value in numbers.values()):
         return None  # chosen automatically
+    if contender == HIERARCHY and given.get("insert") != "terminal":
+        contender = OWN_HIERARCHY
     return {
         "scene": scene,
         "contender": contender,
@@ -123,7 +134,7 @@ def seconds_of(row: dict[str, object]) -> dict[str, float]:
 
 def _work(row: dict[str, object]) -> list[dict[str, object]]:
     """Counts of the whole image, times of its tasks in the counting pass; sizes of a hierarchy."""
-    if row["structure"] == "goldsmith-salmon":
+    if row["structure"] == HIERARCHY:
         sizes = {"boxes": _number(row, "nodes"), "cost": _number(row, "tree_cost")}
         return [
             _entry(name, size) | {"resolution": ""}
@@ -143,7 +154,11 @@ def _work(row: dict[str, object]) -> list[dict[str, object]]:
         if not name.endswith("_ns") and pd.notna(value)
     ]
     # Beams do not depend on the resolution (C09 asks whether): one count stands for all.
-    entries += [_entry(name, round(counts[name])) | {"resolution": ""} for name in _BEAM_COUNTS]
+    entries += [
+        _entry(name, round(counts[name])) | {"resolution": ""}
+        for name in _BEAM_COUNTS
+        if pd.notna(counts.get(name))
+    ]
     seconds = {task: counts.get(f"beams_{task}_ns", float("nan")) / 1e9 for task in _TASKS}
     seconds["build"] = _number(row, "build_ms_median") / 1e3
     return entries + [

@@ -13,6 +13,10 @@ from beambench_report.problem import Problem
 
 FOLDER = Path(__file__).resolve().parents[3] / "results/thesis"
 _OCTREE_STRUCTURES = ("beam", "samet", "samet-net")
+# What the thesis calls beams and non-terminal beams are those that its constructor made, and those
+# of them that were cut: a beam that lies wholly inside the next leaf is only placed there
+# (section 4.4.2, `PasaPor`; graphic 3.4).
+_MADE_BY_CUTTING = {"beams": "beams_made", "beams_nonterminal": "beams_divided"}
 
 
 @cache
@@ -66,7 +70,9 @@ def _work(text: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
     text["resolution"] = _resolution(text)
     text["low"] = text["high"] = text["value"]
     rows = text[list(WORK)]
-    return pd.concat([rows, _seconds_of_shares(rows, times)], ignore_index=True)
+    cut = rows[rows["quantity"].isin(_MADE_BY_CUTTING)]
+    cut = cut.assign(quantity=cut["quantity"].map(_MADE_BY_CUTTING))
+    return pd.concat([rows, cut, _seconds_of_shares(rows, times)], ignore_index=True)
 
 
 def _seconds_of_shares(work: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:

@@ -12,7 +12,7 @@ from markupsafe import Markup
 
 from beambench_report import page
 from beambench_report.ledger.book import Entry
-from beambench_report.ledger.markdown import summary
+from beambench_report.ledger.markdown import amendment, summary
 from beambench_report.ledger.verdict import Check, Outcome
 from beambench_report.quantities import duration_in_words, number
 from beambench_report.style import structure_colour
@@ -48,6 +48,7 @@ def as_page(report: Report) -> str:
         "colour": structure_colour,
         "duration": duration_in_words,
         "summary": summary,
+        "amendment": amendment,
         "slug": _slug,
     }
     environment.globals |= {

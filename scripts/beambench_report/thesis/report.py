@@ -11,8 +11,8 @@ from pathlib import Path
 from beambench_report.figure import house_style, write_plot
 from beambench_report.files import write_text, write_whole
 from beambench_report.ledger.book import Entry as LedgerEntry
-from beambench_report.ledger.book import ledger
-from beambench_report.ledger.rules import CLAIMS
+from beambench_report.ledger.book import SWEPT_CLAIMS, ledger
+from beambench_report.ledger.census_run import is_census_folder
 from beambench_report.page.manifest import Manifest, read_manifest
 from beambench_report.thesis.best import BestTable, best_table
 from beambench_report.thesis.catalogue import TABLES, Table
@@ -28,6 +28,9 @@ from beambench_report.thesis.sections import extra_sweeps, sections_of
 from beambench_report.thesis.sweeps import LEVELS, Sweep
 from beambench_report.thesis.tables import PartTable, fill
 from beambench_report.thesis.work import WorkTable, work_of_lines
+
+CENSUS = "census"
+"""The folder of what `beambench census --json` counted (`ledger.census_run`)."""
 
 _PICTURES = "5.9"
 
@@ -110,7 +113,7 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
         tuple((table, _parts(table, cells, directory, plan)) for table in shown),
         tuple(make_figures(plan.figures, cells)),
         pictures,
-        tuple(ledger(cells.runs, CLAIMS)),
+        tuple(ledger([*cells.runs, *_censuses(directory)], SWEPT_CLAIMS)),
         tuple(sections),
         tuple(_summary(directory, sweeps, every)),
     )
@@ -118,7 +121,7 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
 
 def write_report(directory: Path, plan: Plan, beambench: Path | None = None) -> Written:
     """Writes DIRECTORY/report.html and report.md, the figures, and the list of rows."""
-    # They know the report; it would know them in a circle.
+    # These two import this module: importing them above would be circular.
     from beambench_report.thesis.markdown import as_markdown
     from beambench_report.thesis.page import as_page
 
@@ -136,6 +139,12 @@ def write_report(directory: Path, plan: Plan, beambench: Path | None = None) -> 
         _write_rows(report.cells, directory / "rows.csv"),
     )
     return Written(paths, len(report.cells.cells), len(report.cells.wrong))
+
+
+def _censuses(directory: Path) -> list[Path]:
+    """The folder of censuses, where there is one."""
+    folder = directory / CENSUS
+    return [folder] if is_census_folder(folder) else []
 
 
 def _parts(table: Table, cells: Cells, directory: Path, plan: Plan) -> tuple[Part, ...]:
