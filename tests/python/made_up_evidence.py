@@ -8,7 +8,7 @@ import pandas as pd
 
 from beambench_report.ledger.evidence import (
     HIERARCHY,
-    OWN_HIERARCHY,
+    PAPER_HIERARCHY,
     PICTURE,
     RESOLUTIONS,
     TIMES,
@@ -87,7 +87,7 @@ def _times() -> list[Row]:
             ]
             rows += [
                 _time(scene, hierarchy, resolution, _hierarchy(scene, size))
-                for hierarchy in (HIERARCHY, OWN_HIERARCHY)
+                for hierarchy in (HIERARCHY, PAPER_HIERARCHY)
             ]
     return rows
 
@@ -114,7 +114,7 @@ def _time(scene: str, contender: str, resolution: str, seconds: float) -> Row:
 def _work() -> list[Row]:
     printed = published_evidence().work
     rows = printed[~printed["quantity"].str.contains("seconds|share")].to_dict("records")
-    rows += [row | {"contender": OWN_HIERARCHY} for row in rows if row["contender"] == HIERARCHY]
+    rows += [row | {"contender": PAPER_HIERARCHY} for row in rows if row["contender"] == HIERARCHY]
     for index, scene in enumerate(SCENES):
         for level in (6, 7) if scene == "maceta" else (6,):
             beams = {6: 8701, 7: 37718}[level] + (0 if scene == "maceta" else 100 * index)

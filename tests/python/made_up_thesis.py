@@ -79,6 +79,8 @@ def row_of(cell: PlannedCell) -> Row:
         "beams_per_ray": 0.1,
         "beams_nonterminal_per_ray": 0.05,
         "beams_occupied_per_ray": 0.03,
+        "beams_made_per_ray": 0.06,
+        "beams_divided_per_ray": 0.025,
         "samples_leaving_per_ray": 0.2,
     }
     return {

@@ -11,7 +11,7 @@ from beambench_report.__main__ import main
 from beambench_report.ledger.book import ALL_CLAIMS, SWEPT_CLAIMS, judge, ledger
 from beambench_report.ledger.census_run import census_work
 from beambench_report.ledger.claim import Claim
-from beambench_report.ledger.evidence import COARSEST, FINEST, HIERARCHY, OWN_HIERARCHY
+from beambench_report.ledger.evidence import COARSEST, FINEST, HIERARCHY, PAPER_HIERARCHY
 from beambench_report.ledger.fit import fit_costs, fit_line
 from beambench_report.ledger.measured import Measured, share, smallest
 from beambench_report.ledger.own_run import UNKNOWN_SPREAD, measured_evidence
@@ -287,8 +287,8 @@ def test_only_inserting_at_terminal_nodes_is_the_thesis_s(tmp_path: Path, insert
     found = measured_evidence([tmp_path])
     assert found.time("escena1", HIERARCHY, COARSEST) is None
     assert found.worked("boxes", "escena1", contender=HIERARCHY) is None
-    assert found.time("escena1", OWN_HIERARCHY, COARSEST) is not None
-    assert found.worked("boxes", "escena1", contender=OWN_HIERARCHY) == Measured.exact(296)
+    assert found.time("escena1", PAPER_HIERARCHY, COARSEST) is not None
+    assert found.worked("boxes", "escena1", contender=PAPER_HIERARCHY) == Measured.exact(296)
 
 
 # Whole pictures

@@ -10,7 +10,7 @@ import pytest
 
 from beambench_report.ledger.book import SWEPT_CLAIMS, judge, judge_formerly
 from beambench_report.ledger.claim import Claim
-from beambench_report.ledger.evidence import HIERARCHY, NOTHING, OWN_HIERARCHY, PICTURE
+from beambench_report.ledger.evidence import HIERARCHY, NOTHING, PAPER_HIERARCHY, PICTURE
 from beambench_report.ledger.further_rules import FURTHER_CLAIMS
 from beambench_report.ledger.rules import CLAIMS, ON_OCTREES
 from beambench_report.ledger.verdict import Verdict
@@ -116,7 +116,7 @@ def gains_that_shrink(row: Row) -> Row:
 
 
 def reversed_hierarchies(row: Row) -> Row:
-    hierarchy = "seconds" in row and row["contender"] in (HIERARCHY, OWN_HIERARCHY)
+    hierarchy = "seconds" in row and row["contender"] in (HIERARCHY, PAPER_HIERARCHY)
     return set_to(row, 1e5 / float(str(row["seconds"]))) if hierarchy else row
 
 
@@ -199,7 +199,7 @@ FORMERLY_SPOILED = {
     "C11": SPOILED["C11"],
     "C14": Spoiling(times("beam", 0.1), scene("stetra")),
     "C17": Spoiling(
-        lambda row: times("voxel-grid" if row["scene"] == "escena1" else OWN_HIERARCHY, 100)(row),
+        lambda row: times("voxel-grid" if row["scene"] == "escena1" else PAPER_HIERARCHY, 100)(row),
         scene("escena1"),
     ),
     **{name: SPOILED[name] for name in ("C18", "C19", "C21")},

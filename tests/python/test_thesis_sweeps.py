@@ -142,7 +142,7 @@ def test_quick_is_low_and_short() -> None:
 
 @pytest.mark.parametrize("kind", ["table", "figure"])
 def test_what_the_thesis_does_not_have_is_refused(kind: str) -> None:
-    given = {"table": (["5.9"], []), "figure": ([], ["5.4"])}[kind]
+    given = {"table": (["5.9"], []), "figure": ([], ["5.3"])}[kind]
     with pytest.raises(Problem, match=rf"there is no {kind} '5\.\d'; there are 5\.\d"):
         make_plan(*given, False)
 

@@ -21,10 +21,10 @@ WORK = (*SETTING, "quantity", "value", "low", "high")
 OCTREES = ("scene", "level", "objects", "occupied_leaves", "exit_pixels")
 
 # The hierarchy of the thesis descends by least growth to a terminal node, and only there weighs
-# adding the object against a new volume (section 4.3): `goldsmith-salmon:insert=terminal`. Every
-# other way of inserting is beambench's own.
+# adding the object against a new volume (section 4.3): `insert=terminal`. Goldsmith and Salmon's own
+# insertion weighs at every level.
 HIERARCHY = "goldsmith-salmon"
-OWN_HIERARCHY = "goldsmith-salmon, beambench's insertion"
+PAPER_HIERARCHY = "goldsmith-salmon, insert=everywhere"
 
 # Whole pictures, whose rays a census counts by kind.
 PICTURE = "picture"

@@ -13,7 +13,7 @@ from beambench_report.ledger.evidence import (
     HIERARCHY,
     NOTHING,
     OCTREES,
-    OWN_HIERARCHY,
+    PAPER_HIERARCHY,
     TIMES,
     WORK,
     Evidence,
@@ -96,7 +96,7 @@ def setting_of(row: dict[str, object]) -> dict[str, object] | None:
     if not all(value.isdecimal() for value in numbers.values()):
         return None  # chosen automatically
     if contender == HIERARCHY and given.get("insert") != "terminal":
-        contender = OWN_HIERARCHY
+        contender = PAPER_HIERARCHY
     return {
         "scene": scene,
         "contender": contender,

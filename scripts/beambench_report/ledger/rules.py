@@ -37,7 +37,7 @@ from beambench_report.ledger.evidence import (
     COARSEST,
     FINEST,
     HIERARCHY,
-    OWN_HIERARCHY,
+    PAPER_HIERARCHY,
     RESOLUTIONS,
     Evidence,
 )
@@ -412,8 +412,8 @@ def beams_win_at_best_levels(e: Evidence) -> list[Check]:
 
 _INSERTION = (
     "the hierarchy of section 4.3 descends to a terminal node before it weighs a new volume "
-    "(insert=terminal); the former rule judged beambench's own insertion, which weighs at every "
-    "level"
+    "(insert=terminal); the former rule judged Goldsmith and Salmon's own insertion, which weighs "
+    "at every level"
 )
 
 
@@ -430,7 +430,7 @@ def _distribution(e: Evidence, hierarchy: str) -> list[Check]:
     "C17",
     "5.4.2, table 5.6",
     "In escena1 the grid beats the hierarchy by far; in escena2 the hierarchy beats the grid.",
-    amended=Amendment(lambda e: _distribution(e, OWN_HIERARCHY), _INSERTION),
+    amended=Amendment(lambda e: _distribution(e, PAPER_HIERARCHY), _INSERTION),
 )
 def distribution_decides(e: Evidence) -> list[Check]:
     """With the thesis's hierarchy."""
@@ -448,7 +448,7 @@ def _beams_before_others(e: Evidence, hierarchy: str) -> list[Check]:
     "C18",
     "5.4.2, tables 5.6, 5.7",
     "At 1280x1024 the beams beat grid and hierarchy in escena1, escena2, tetera, bola-espacial.",
-    amended=Amendment(lambda e: _beams_before_others(e, OWN_HIERARCHY), _INSERTION),
+    amended=Amendment(lambda e: _beams_before_others(e, PAPER_HIERARCHY), _INSERTION),
 )
 def beams_win_against_other_structures(e: Evidence) -> list[Check]:
     """With the thesis's hierarchy."""
@@ -470,7 +470,7 @@ def _falling_behind(e: Evidence, hierarchy: str) -> list[Check]:
     "C19",
     "5.4.2, tables 5.7, 5.8",
     "The hierarchy falls behind as objects grow.",
-    amended=Amendment(lambda e: _falling_behind(e, OWN_HIERARCHY), _INSERTION),
+    amended=Amendment(lambda e: _falling_behind(e, PAPER_HIERARCHY), _INSERTION),
 )
 def hierarchy_falls_behind(e: Evidence) -> list[Check]:
     """With the thesis's hierarchy."""
@@ -537,7 +537,7 @@ def _sizes(e: Evidence, hierarchy: str) -> list[Check]:
     "5.4.2",
     "Hierarchies: bola-espacial 1,154 boxes, cost 372; tetera 731 and 130; escena1 cost 4.64.",
     is_figures=True,
-    amended=Amendment(lambda e: _sizes(e, OWN_HIERARCHY), _INSERTION),
+    amended=Amendment(lambda e: _sizes(e, PAPER_HIERARCHY), _INSERTION),
 )
 def sizes_of_hierarchies(e: Evidence) -> list[Check]:
     """With the thesis's hierarchy."""

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from beambench_report.figure import house_style, write_plot
 from beambench_report.files import write_text, write_whole
-from beambench_report.ledger.book import Entry as LedgerEntry
 from beambench_report.ledger.book import SWEPT_CLAIMS, ledger
+from beambench_report.ledger.book import Entry as LedgerEntry
 from beambench_report.ledger.census_run import is_census_folder
 from beambench_report.page.manifest import Manifest, read_manifest
 from beambench_report.thesis.best import BestTable, best_table

@@ -14,7 +14,7 @@ TABLE_WORDS = (
     "Beside the thesis's seconds (a Pentium of 350 MHz, 1999) stand our milliseconds; seconds of "
     "so different machines are not to be compared. What compares are the shapes, in brackets: each "
     "time over that of the same part's first row at 320x200, the thesis's and ours. Times contain "
-    "the building of the structure, as the thesis's do; our part of it is told behind the total. "
+    "the building of the structure, as the thesis's do; our part of it stands behind the total. "
     "Parameters are the thesis's: octrees of level 6 unless the table says otherwise, 32 voxels an "
     "axis filled lazily, objects inserted as given beside terminal nodes (insert=terminal), Kay "
     "and Kajiya's queue, no handover. Rows marked (of today) or (Goldsmith and Salmon 1987) are "

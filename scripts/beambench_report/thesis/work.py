@@ -22,6 +22,8 @@ _AN_IMAGE = {
     "beams": "beams",
     "beams_nonterminal": "non-terminal beams",
     "beams_occupied": "beams at occupied leaves",
+    "beams_made": "beams made by cutting",
+    "beams_divided": "of these cut again",
 }
 
 
