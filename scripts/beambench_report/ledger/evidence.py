@@ -21,8 +21,8 @@ WORK = (*SETTING, "quantity", "value", "low", "high")
 OCTREES = ("scene", "level", "objects", "occupied_leaves", "exit_pixels")
 
 # The hierarchy of the thesis descends by least growth to a terminal node, and only there weighs
-# adding the object against a new volume (section 4.3): `insert=terminal`. Goldsmith and Salmon's own
-# insertion weighs at every level.
+# adding the object against a new volume (section 4.3): `insert=terminal`. Goldsmith and Salmon's
+# own insertion weighs at every level.
 HIERARCHY = "goldsmith-salmon"
 PAPER_HIERARCHY = "goldsmith-salmon, insert=everywhere"
 
