@@ -38,7 +38,8 @@ class Contender {
   /// a second trace of the same structure.
   void repeat(const Instruments& instruments, int round, int position);
 
-  static constexpr std::size_t kWarmTraces = 5;
+  /// The fewest whose median has a 95% interval (see median_interval).
+  static constexpr std::size_t kWarmTraces = 6;
 
   const CellId& id() const { return cell_->id; }
   bool failed() const { return failed_; }

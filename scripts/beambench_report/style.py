@@ -1,7 +1,8 @@
 """The looks of a contender: one colour a structure, the same in every plot of every run.
 
-Colours of Okabe and Ito ("Color Universal Design", 2008), told apart by colour-blind readers, and
-two greys. Variants of one structure share its colour and differ in marker and dashes.
+Colours of Okabe and Ito ("Color Universal Design", 2008), which colour-blind readers can
+distinguish, their yellow darkened so that it can be seen on white, and two greys. Variants of one
+structure share its colour and differ in marker and dashes.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ _COLOURS = {
     "goldsmith-salmon": "#cc79a7",
     "sah-bvh": "#e69f00",
     "beam": "#d55e00",
-    "tile-beam": "#f0e442",
+    "tile-beam": "#8a7f00",
 }
 _MARKERS = "osD^vP*X<>"
 _DASHES = ("-", "--", "-.", ":")

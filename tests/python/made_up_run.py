@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from collections.abc import Sequence
 from pathlib import Path
 
 from beambench_report.dictionary import dictionary
@@ -65,12 +66,35 @@ def write_cell(
     examples: tuple[str, ...] = (),
 ) -> None:
     """Writes the file of one cell, as `beambench run` does beside results.csv."""
-    cells = folder / "cells"
-    cells.mkdir(exist_ok=True)
     repetitions = [
         {"round": turn, "position": 0, "build_ms": 0.25 * total, "trace_ms": 0.75 * total}
         for turn, total in (total_ms or {}).items()
     ]
+    _write_cell(folder, row, repetitions, message, examples)
+
+
+def write_trace_cell(
+    folder: Path, row: dict[str, object], trace: Sequence[float], warm: Sequence[float]
+) -> None:
+    """The file of a cell by its first traces, and by the second ones of the first rounds."""
+    repetitions: list[dict[str, float]] = [
+        {"round": turn, "position": 0, "build_ms": 1.0, "trace_ms": time}
+        for turn, time in enumerate(trace)
+    ]
+    for repetition, time in zip(repetitions, warm, strict=False):
+        repetition["warm_trace_ms"] = time
+    _write_cell(folder, row, repetitions)
+
+
+def _write_cell(
+    folder: Path,
+    row: dict[str, object],
+    repetitions: list[dict[str, float]],
+    message: str = "",
+    examples: tuple[str, ...] = (),
+) -> None:
+    cells = folder / "cells"
+    cells.mkdir(exist_ok=True)
     cell = {"row": row, "message": message, "examples": examples, "repetitions": repetitions}
     (cells / f"{len(list(cells.iterdir())):016x}.json").write_text(json.dumps(cell))
 

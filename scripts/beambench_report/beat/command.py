@@ -31,7 +31,7 @@ def write_beat(runs: Sequence[Path], file: Path) -> list[Path]:
 
 def _duels_of(runs: Sequence[Path]) -> list[Duel]:
     """Raises Problem where a run cannot be read, or none has both."""
-    found = duels(read_run(run).rows for run in runs)
+    found = duels(read_run(run) for run in runs)
     if not found:
         names = ", ".join(str(run) for run in runs)
         raise Problem(

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from math import prod
 
 import pandas as pd
+
+from beambench_report.page.cell_files import CellFile, Identity, identity, read_cell_files
+from beambench_report.problem import Problem
+from beambench_report.ratio import Median, Ratio, paired_ratio, unpaired_ratio
+from beambench_report.records import Run
 
 _STRUCTURES = ("tile-beam", "embree")
 _BEST = "best"
@@ -16,26 +20,22 @@ Row = dict[str, object]
 
 @dataclass(frozen=True)
 class Trace:
-    """A contender's time for one image, in ms, and who it is."""
+    """A contender's times for one image, in ms, and who it is."""
 
     contender: str
-    median: float
-    low: float | None
-    """Of the median's 95% interval; none below six repetitions."""
-    high: float | None
-    warm: float | None
-    """A second trace of the same structure."""
+    first: Median
+    """The first trace after a build."""
+    second: float | None
+    """The median of a second trace of the same structure."""
+    build: float
+    """The median of building."""
     isa: str
     """The instruction set that it ran on, as it names it."""
 
-
-@dataclass(frozen=True)
-class Ratio:
-    """How many times as fast tile beams are; its interval where both medians have one."""
-
-    value: float
-    low: float | None = None
-    high: float | None = None
+    @property
+    def median(self) -> float:
+        """Of the first traces."""
+        return self.first.value
 
 
 @dataclass(frozen=True)
@@ -43,6 +43,7 @@ class Duel:
     """Both at the same image."""
 
     scene: str
+    camera: str
     primitives: int
     resolution: str
     rays: int
@@ -51,53 +52,53 @@ class Duel:
     """What both are held to: `best`, or the parameter isa."""
     tile: Trace
     embree: Trace
-    """The fastest of Embree's modes whose hits were right."""
+    """The fastest of Embree's modes whose hits were right, by its first traces."""
+    ratio: Ratio
+    """Embree's time over that of tile beams, of first traces, without the builds."""
+    second_ratio: Ratio | None
+    """The same of second traces."""
+    run_id: str
+    machine: str
     origin: str
     """Run, commit and machine."""
 
     @property
-    def ratio(self) -> Ratio:
-        """Of the traces, without the builds.
-
-        Its ends are those of both medians at the worst ends of their 95% intervals, so that it
-        holds with 90% at the very least.
-        """
-        value = self.embree.median / self.tile.median
-        ends = (self.embree.low, self.embree.high, self.tile.low, self.tile.high)
-        if any(end is None for end in ends):
-            return Ratio(value)
-        return Ratio(value, self.embree.low / self.tile.high, self.embree.high / self.tile.low)
-
-    @property
-    def warm_ratio(self) -> float | None:
-        """Of the second traces."""
-        if self.tile.warm is None or self.embree.warm is None:
-            return None
-        return self.embree.warm / self.tile.warm
+    def image(self) -> tuple[str, str, str, int, str]:
+        """What was asked, whatever the run."""
+        return (self.scene, self.camera, self.resolution, self.samples, self.isa)
 
 
-def duels(tables: Iterable[pd.DataFrame]) -> list[Duel]:
-    """Every image that tile beams and Embree both traced rightly, in the order of the rows."""
+def duels(runs: Iterable[Run]) -> list[Duel]:
+    """Every image that tile beams and Embree both traced rightly, once, in the order of the rows.
+
+    Of an image that several runs measured the newest one counts. Raises Problem where the runs are
+    of several machines, whose ratios one table must not mix.
+    """
+    found: dict[tuple, Duel] = {}
+    for run in runs:
+        for duel in _duels_of(run):
+            earlier = found.get(duel.image)
+            if earlier is None or duel.run_id > earlier.run_id:
+                found[duel.image] = duel
+    machines = dict.fromkeys(duel.machine for duel in found.values())
+    if len(machines) > 1:
+        raise Problem(
+            f"the runs are of {len(machines)} machines ({', '.join(machines)}), whose ratios must "
+            "not be mixed in one table; give the runs of one"
+        )
+    return list(found.values())
+
+
+def _duels_of(run: Run) -> list[Duel]:
     images: dict[tuple, dict[str, list[Row]]] = {}
-    for table in tables:
-        right = table[(table["verdict"] == "ok") & (table["ray_kind"] == "primary")]
-        for row in right.to_dict("records"):
-            if row["structure"] in _STRUCTURES and row["trace_ms_median"] > 0:
-                found = images.setdefault(_image(row), {name: [] for name in _STRUCTURES})
-                found[row["structure"]].append(row)
-    return [_duel(image, *found.values()) for image, found in images.items() if all(found.values())]
-
-
-def geometric_mean(ratios: Sequence[Ratio]) -> Ratio:
-    """Of at least one; its ends are the means of the ends."""
-
-    def mean(values: Sequence[float | None]) -> float | None:
-        known = [value for value in values if value is not None]
-        return prod(known) ** (1 / len(known)) if len(known) == len(values) else None
-
-    value = mean([ratio.value for ratio in ratios])
-    assert value is not None
-    return Ratio(value, mean([r.low for r in ratios]), mean([r.high for r in ratios]))
+    right = run.rows[(run.rows["verdict"] == "ok") & (run.rows["ray_kind"] == "primary")]
+    for row in right.to_dict("records"):
+        if row["structure"] in _STRUCTURES and row["trace_ms_median"] > 0:
+            both = images.setdefault(_image(row), {name: [] for name in _STRUCTURES})
+            both[row["structure"]].append(row)
+    whole = {image: both for image, both in images.items() if all(both.values())}
+    files = read_cell_files(run.directory) if whole else {}
+    return [_duel(image, *both.values(), files) for image, both in whole.items()]
 
 
 def _image(row: Row) -> tuple:
@@ -106,20 +107,36 @@ def _image(row: Row) -> tuple:
     return (*(row[name] for name in names), _parameters(row).get("isa", _BEST))
 
 
-def _duel(image: tuple, tiles: Sequence[Row], modes: Sequence[Row]) -> Duel:
-    tile = min(tiles, key=lambda row: row["trace_ms_median"])
+def _duel(
+    image: tuple, tiles: Sequence[Row], modes: Sequence[Row], files: Mapping[Identity, CellFile]
+) -> Duel:
+    tile_row = min(tiles, key=lambda row: row["trace_ms_median"])
     fastest = min(modes, key=lambda row: row["trace_ms_median"])
+    tile, embree = _trace(tile_row, "tile-beam"), _trace(fastest, _mode_name(fastest))
+    ratio, second = None, None
+    tile_file, embree_file = files.get(identity(tile_row)), files.get(identity(fastest))
+    if tile_file and embree_file:
+        ratio = paired_ratio(embree_file.trace_ms, tile_file.trace_ms)
+        second = paired_ratio(embree_file.warm_ms, tile_file.warm_ms)
+    if second is None and embree.second and tile.second:
+        second = Ratio(embree.second / tile.second)
     return Duel(
-        str(tile["scene"]),
-        int(tile["primitives"]),
-        f"{tile['width']:.0f}x{tile['height']:.0f}",
-        int(tile["rays"]),
-        int(tile["samples"]),
+        str(tile_row["scene"]),
+        str(tile_row["camera"]),
+        int(tile_row["primitives"]),
+        f"{tile_row['width']:.0f}x{tile_row['height']:.0f}",
+        int(tile_row["rays"]),
+        int(tile_row["samples"]),
         str(image[-1]),
-        _trace(tile, "tile-beam"),
-        _trace(fastest, _mode_name(fastest)),
-        f"run {tile['run_id']}, commit {tile['commit'][:12]}"
-        f"{' (modified)' if tile['dirty'] == 'true' else ''}, machine {tile['machine_id'][:8]}",
+        tile,
+        embree,
+        ratio or unpaired_ratio(embree.first, tile.first),
+        second,
+        str(tile_row["run_id"]),
+        str(tile_row["machine_id"]),
+        f"run {tile_row['run_id']}, commit {tile_row['commit'][:12]}"
+        f"{' (modified)' if tile_row['dirty'] == 'true' else ''}, "
+        f"machine {tile_row['machine_id'][:8]}",
     )
 
 
@@ -129,12 +146,17 @@ def _mode_name(row: Row) -> str:
 
 
 def _trace(row: Row, contender: str) -> Trace:
-    low, high, warm = (
+    low, high, second = (
         None if pd.isna(row.get(name)) else float(row[name])
         for name in ("trace_ms_ci_low", "trace_ms_ci_high", "trace_warm_ms_median")
     )
-    isa = row.get("structure_isa")
-    return Trace(contender, float(row["trace_ms_median"]), low, high, warm, str(isa or ""))
+    return Trace(
+        contender,
+        Median(float(row["trace_ms_median"]), low, high),
+        second,
+        float(row["build_ms_median"]),
+        str(row.get("structure_isa") or ""),
+    )
 
 
 def _parameters(row: Row) -> dict[str, str]:

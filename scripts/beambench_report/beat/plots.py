@@ -9,17 +9,25 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, NullLocator
 
-from beambench_report.beat.aims import groups
-from beambench_report.beat.duels import Duel, Ratio, Trace
+from beambench_report.beat.aims import LARGE, MIDDLE, SMALL, groups
+from beambench_report.beat.duels import Duel, Trace
 from beambench_report.beat.report import part_of_aims
 from beambench_report.figure import Plot, new_figure
+from beambench_report.ratio import Ratio
 from beambench_report.style import structure_colour
 
-_ROW_HEIGHT = 0.3  # inches
-# Of Okabe and Ito; the coarsest image first.
-_COLOURS = ("#cc79a7", "#56b4e9", "#0072b2", "#e69f00", "#d55e00")
-_MARKERS = "vsoD^"
+_LINE_HEIGHT = 0.12  # inches, of one marker; a row has one for each resolution
+# Colours of Okabe and Ito, the same for a resolution in every figure.
+_LOOKS = {
+    "80x50": ("#cc79a7", "v"),
+    "160x100": ("#56b4e9", "s"),
+    SMALL: ("#0072b2", "o"),
+    MIDDLE: ("#e69f00", "D"),
+    LARGE: ("#d55e00", "^"),
+}
+_AIM_HEIGHT = 0.4  # of the tick that stands for an aim, in lines, to each side
 _TICKS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
+_READING = "First traces after a build. Line: 95% interval; hollow: too few repetitions; tick: aim."
 _LEAST_SIZES = 5
 """A line of fewer sizes shows little growth."""
 
@@ -50,7 +58,10 @@ def plots(found: Sequence[Duel]) -> list[Plot]:
 
 
 def _ratios(isa: str, found: Sequence[Duel]) -> Plot | None:
-    """A panel a group, a row a scene, a marker a resolution; the aims are bars in its colour."""
+    """A panel a group, a row a scene, a marker a resolution, its aim a tick of the same colour.
+
+    The ticks stand in the line of their marker, so that none hides another one.
+    """
     shown = [duel for duel in found if duel.isa == isa]
     panels_of = []
     for group in groups():
@@ -61,40 +72,46 @@ def _ratios(isa: str, found: Sequence[Duel]) -> Plot | None:
             panels_of.append((group, own))
     if not panels_of:
         return None
-    sizes = sorted({(duel.rays, duel.resolution) for _, own in panels_of for duel in own})
-    resolutions = [resolution for _, resolution in sizes]
-    heights = [_ROW_HEIGHT * len({duel.scene for duel in own}) + 0.5 for _, own in panels_of]
+    shown = [duel for _, own in panels_of for duel in own]
+    heights = [
+        _LINE_HEIGHT * (len(_resolutions(own)) + 0.5) * len({duel.scene for duel in own}) + 0.5
+        for _, own in panels_of
+    ]
     figure, panels = new_figure(sum(heights) + 0.8, len(panels_of), height_ratios=heights)
     for panel, (group, own) in zip(panels, panels_of, strict=True):
         scenes = [scene for scene in group.scenes if any(duel.scene == scene for duel in own)]
+        resolutions = _resolutions(own)
+        line = 1 / (len(resolutions) + 0.5)
         for duel in own:
-            size = resolutions.index(duel.resolution)
-            shift = 0.13 * (size - (len(resolutions) - 1) / 2)
-            _draw_ratio(panel, duel.ratio, scenes.index(duel.scene) + shift, size)
-        for resolution, aim in group.aims.items():
-            if any(duel.resolution == resolution for duel in own):
-                colour = _COLOURS[resolutions.index(resolution) % len(_COLOURS)]
-                panel.axvline(part_of_aims(isa) * aim, color=colour, linewidth=1, linestyle="--")
+            shift = line * (resolutions.index(duel.resolution) - (len(resolutions) - 1) / 2)
+            aim = part_of_aims(isa) * group.aims[duel.resolution]
+            _draw_ratio(panel, duel, scenes.index(duel.scene) + shift, aim, line * _AIM_HEIGHT)
         panel.set_title(group.title)
         panel.set_yticks(range(len(scenes)), [group.scenes[scene] for scene in scenes])
         panel.set_ylim(len(scenes) - 0.4, -0.6)
         _axis_of_ratios(panel, shown)
-    panels[-1].set_xlabel("times as fast as Embree's fastest mode; dashed: aims")
-    _legend(figure, resolutions)
-    _tell_origin(figure, shown)
+    panels[-1].set_xlabel("times as fast as Embree's fastest mode")
+    _legend(figure, _resolutions(shown))
+    _name_origin(figure, shown, _READING)
     stem = "beat-embree" if isa == "best" else f"beat-embree-{isa}"
     return Plot(stem, figure, "how many times as fast as Embree tile beams are")
 
 
-def _draw_ratio(panel: Axes, ratio: Ratio, at: float, size: int) -> None:
-    colour = _COLOURS[size % len(_COLOURS)]
-    if ratio.low is not None and ratio.high is not None:
-        panel.plot([ratio.low, ratio.high], [at, at], color=colour, linewidth=1.5)
-    panel.plot(ratio.value, at, _MARKERS[size % len(_MARKERS)], color=colour, markersize=4.5)
+def _draw_ratio(panel: Axes, duel: Duel, at: float, aim: float, half: float) -> None:
+    colour, marker = _LOOKS[duel.resolution]
+    ratio: Ratio = duel.ratio
+    if ratio.interval:
+        panel.plot(ratio.interval, [at, at], color=colour, linewidth=1.5)
+    inside = colour if ratio.interval else "white"
+    panel.plot(
+        ratio.value, at, marker, color=colour, markerfacecolor=inside, markersize=4.5, zorder=3
+    )
+    ends = [at - half, at + half]
+    panel.plot([aim, aim], ends, color=colour, linewidth=2, solid_capstyle="butt", zorder=2.5)
 
 
 def _axis_of_ratios(panel: Axes, found: Sequence[Duel]) -> None:
-    values = [duel.ratio.value for duel in found]
+    values = [end for duel in found for end in duel.ratio.interval or (duel.ratio.value,)]
     panel.set_xscale("log")
     panel.set_xlim(min(0.6, 0.8 * min(values)), max(20.0, 1.3 * max(values)))
     panel.set_xticks(
@@ -108,24 +125,23 @@ def _axis_of_ratios(panel: Axes, found: Sequence[Duel]) -> None:
 
 def _legend(figure: Figure, resolutions: Sequence[str]) -> None:
     handles = [
-        Line2D(
-            [],
-            [],
-            marker=_MARKERS[index % len(_MARKERS)],
-            color=_COLOURS[index % len(_COLOURS)],
-            linestyle="none",
-            label=resolution,
-        )
-        for index, resolution in enumerate(resolutions)
+        Line2D([], [], marker=marker, color=colour, linestyle="none", label=resolution)
+        for resolution, (colour, marker) in _LOOKS.items()
+        if resolution in resolutions
     ]
     figure.legend(
         handles=handles, loc="outside upper center", ncols=len(handles), frameon=False, fontsize=8
     )
 
 
-def _tell_origin(figure: Figure, found: Sequence[Duel]) -> None:
-    origins = dict.fromkeys(duel.origin for duel in found)
-    figure.supxlabel("\n".join(origins), x=0.01, ha="left", fontsize=7.5, color="#333333")
+def _resolutions(found: Sequence[Duel]) -> list[str]:
+    """Those that there are, the coarsest first."""
+    return [size for size in _LOOKS if any(duel.resolution == size for duel in found)]
+
+
+def _name_origin(figure: Figure, found: Sequence[Duel], reading: str) -> None:
+    lines = [reading, *dict.fromkeys(duel.origin for duel in found)]
+    figure.supxlabel("\n".join(lines), x=0.01, ha="left", fontsize=7.5, color="#333333")
 
 
 def _growth(
@@ -152,13 +168,16 @@ def _growth(
         panel.set_title(", ".join(name))
         panel.set_xscale("log")
         panel.set_yscale("log")
-        panel.set_ylabel("trace, ms")
+        panel.set_ylabel("first trace, ms")
         panel.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
         panel.grid(axis="y", color="#dddddd", linewidth=0.6)
     panels[0].legend(frameon=False, fontsize=8)
     panels[-1].set_xlabel(axis)
-    _tell_origin(figure, [duel for own in long.values() for duel in own])
-    return Plot(stem, figure, f"time of tile beams and of Embree over the number of {axis}")
+    drawn = [duel for own in long.values() for duel in own]
+    _name_origin(figure, drawn, "First traces after a build; 95% intervals of the medians.")
+    return Plot(
+        stem, figure, f"time of tile beams and of Embree over the number of {axis}, 95% intervals"
+    )
 
 
 def _draw_times(
@@ -169,13 +188,19 @@ def _draw_times(
     size: Callable[[Duel], int],
     trace: Callable[[Duel], Trace],
 ) -> None:
-    panel.plot(
+    traces = [trace(duel).first for duel in own]
+    errors = [
+        [0.0 if one.low is None else one.value - one.low for one in traces],
+        [0.0 if one.high is None else one.high - one.value for one in traces],
+    ]
+    panel.errorbar(
         [size(duel) for duel in own],
-        [trace(duel).median for duel in own],
+        [one.value for one in traces],
+        yerr=errors,
+        capsize=2.5,
+        elinewidth=1.2,
         marker="o" if structure == "embree" else "D",
         markersize=4.5,
-        markeredgecolor="#333333",
-        markeredgewidth=0.6,
         linewidth=1.4,
         color=structure_colour(structure),
         label=label,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from beambench_report.problem import Problem
@@ -32,6 +32,10 @@ class CellFile:
     examples: tuple[Example, ...]
     total_ms: Mapping[int, float]
     """Build and trace of each repetition, by the round in which it had its turn."""
+    trace_ms: Mapping[int, float] = field(default_factory=dict)
+    """The first trace after each build, likewise."""
+    warm_ms: Mapping[int, float] = field(default_factory=dict)
+    """The second trace of the same structure, in the rounds that had one."""
 
 
 def identity(row: Mapping[str, object]) -> Identity:
@@ -50,12 +54,15 @@ def read_cell_files(directory: Path) -> dict[Identity, CellFile]:
 def _read(path: Path) -> tuple[Identity, CellFile]:
     try:
         source = json.loads(path.read_text("utf-8"))
-        repetitions = {
-            repetition["round"]: repetition["build_ms"] + repetition["trace_ms"]
-            for repetition in source["repetitions"]
-        }
+        total, trace, warm = {}, {}, {}
+        for repetition in source["repetitions"]:
+            turn = repetition["round"]
+            trace[turn] = repetition["trace_ms"]
+            total[turn] = repetition["build_ms"] + trace[turn]
+            if "warm_trace_ms" in repetition:
+                warm[turn] = repetition["warm_trace_ms"]
         examples = tuple(_example(text) for text in source["examples"])
-        return identity(source["row"]), CellFile(source["message"], examples, repetitions)
+        return identity(source["row"]), CellFile(source["message"], examples, total, trace, warm)
     except (ValueError, KeyError, TypeError) as error:
         raise Problem(
             f"{path}: is not a cell of a run ({type(error).__name__}: {error}); remove it"

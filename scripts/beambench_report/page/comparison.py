@@ -6,9 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import log2
 
-from beambench_report.page.ratios import Compared, Ratio
+from beambench_report.page.ratios import Compared
 from beambench_report.page.table import Field
 from beambench_report.page.view_table import MISSING, ratio_field
+from beambench_report.ratio import Ratio
 from beambench_report.style import structure_colour
 
 _DEEPEST = 4.0  # doublings at which the shade is full

@@ -1,32 +1,18 @@
-"""Ratios of times to those of a reference contender, paired round by round.
-
-Contenders take turns, so the repetitions of one round ran side by side: a slow moment of the
-machine is in both of them, and their ratio knows less noise than the ratio of the medians.
-"""
+"""Ratios of times to those of a reference contender: see beambench_report.ratio."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
-from math import comb
-from statistics import median
 
 import pandas as pd
 
 from beambench_report.page.cell_files import CellFile, Identity, identity
 from beambench_report.problem import Problem
+from beambench_report.ratio import Median, Ratio, paired_ratio, unpaired_ratio
 from beambench_report.records import Run
 
 _FAVOURITE = "embree"
-
-
-@dataclass(frozen=True)
-class Ratio:
-    """How many times the reference's time; the interval where there were rounds enough for one."""
-
-    value: float
-    low: float | None = None
-    high: float | None = None
 
 
 @dataclass(frozen=True)
@@ -75,32 +61,16 @@ def _ratios(
         file = files.get(identity(row))
         if contender == reference:
             result[contender] = Ratio(1.0)
-        elif file and base_file and (rounds := file.total_ms.keys() & base_file.total_ms.keys()):
-            result[contender] = _summary(
-                [file.total_ms[turn] / base_file.total_ms[turn] for turn in rounds]
-            )
+        elif file and base_file and (ratio := paired_ratio(file.total_ms, base_file.total_ms)):
+            result[contender] = ratio
         elif base["total_ms_median"] > 0:
-            result[contender] = Ratio(row["total_ms_median"] / base["total_ms_median"])
+            result[contender] = unpaired_ratio(_total(row), _total(base))
     return result
 
 
-def _summary(samples: Sequence[float]) -> Ratio:
-    ordered = sorted(samples)
-    rank = interval_rank(len(ordered))
-    if rank == 0:
-        return Ratio(median(ordered))
-    return Ratio(median(ordered), ordered[rank - 1], ordered[-rank])
-
-
-def interval_rank(count: int) -> int:
-    """The rank of the lower end of the median's 95% interval; 0 where there is none.
-
-    The number of samples below the median is binomial, whatever their distribution.
-    """
-    rank, below = 0, 0.0
-    while rank < count:
-        below += comb(count, rank) / 2**count
-        if below > 0.025:
-            break
-        rank += 1
-    return rank
+def _total(row: pd.Series) -> Median:
+    low, high = (
+        None if pd.isna(row[name]) else float(row[name])
+        for name in ("total_ms_ci_low", "total_ms_ci_high")
+    )
+    return Median(float(row["total_ms_median"]), low, high)

@@ -7,9 +7,9 @@ from collections.abc import Mapping
 import pandas as pd
 
 from beambench_report.dictionary import COUNTER_SUFFIX
-from beambench_report.page.ratios import Ratio
 from beambench_report.page.table import Field, Heading, Line, Table
 from beambench_report.quantities import number, size_in_words
+from beambench_report.ratio import Ratio
 from beambench_report.style import structure_colour
 
 MISSING = Field("–", None)  # noqa: RUF001
@@ -42,10 +42,13 @@ def view_table(
 
 
 def ratio_field(ratio: Ratio | None) -> Field:
-    """A ratio with its interval."""
+    """A ratio with its interval; one that is not paired says so."""
     if ratio is None:
         return MISSING
-    note = "" if ratio.low is None else f"{number(ratio.low)} to {number(ratio.high)}"
+    note = ""
+    if ratio.interval:
+        note = f"{number(ratio.low)} to {number(ratio.high)}"
+        note += "" if ratio.paired else ", not paired"
     return Field(number(ratio.value), ratio.value, note)
 
 
