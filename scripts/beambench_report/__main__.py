@@ -189,6 +189,7 @@ def _compare(options: argparse.Namespace) -> int:
     runs = measure_in_turns(tuple(options.programs), options.sweep, options.output, options.turns)
     outcome = compare_turns(*runs)
     print(outcome.table())
+    print(f"\n{outcome.verdict()}")
     return 1 if outcome.is_regression else 0
 
 

@@ -13,12 +13,13 @@ import pandas as pd
 import pytest
 
 from beambench_report.__main__ import main
-from beambench_report.nightly.compare import compare_turns
+from beambench_report.nightly.compare import compare_turns, measure_in_turns
 from beambench_report.nightly.diff import diff
 from beambench_report.nightly.home import Home
 from beambench_report.nightly.lock import only_one
 from beambench_report.nightly.run import _free_folder
 from beambench_report.problem import Problem
+from beambench_report.ratio import Ratio
 from beambench_report.records import read_run
 from made_up_nights import add_all, counting, nothing, slower, write_night, write_nights, wrong
 from program import BINARY
@@ -68,7 +69,8 @@ def test_help_is_given(script: str, repository: Path) -> None:
     [
         (["HEAD"], "two commits are needed"),
         (["HEAD", "no-such-commit"], "'no-such-commit' is no commit"),
-        (["HEAD", "HEAD", "--turns", "3"], "--turns must be a number from 4 on"),
+        (["HEAD", "HEAD", "--turns", "4"], "--turns must be an even number from 6 on"),
+        (["HEAD", "HEAD", "--turns", "13"], "--turns must be an even number from 6 on"),
         (["HEAD", "HEAD", "--sweep", "no/such"], "no/such is not a file"),
         (["HEAD", "HEAD", "--fast"], "unknown argument '--fast'"),
     ],
@@ -188,6 +190,11 @@ def test_a_slow_down_by_5_percent_is_told_by_turns(tmp_path: Path) -> None:
     assert len(outcome.slower) >= 1
     assert outcome.is_regression
     assert "SLOWER" in outcome.table()
+    named = outcome.slower[0]
+    assert outcome.verdict().startswith(f"SLOWER: {len(outcome.slower)} of 24 cells, by more than")
+    assert f"{named.title} by {named.ratio.value - 1:.1%} ({named.ratio.low - 1:+.1%}" in (
+        outcome.verdict()
+    )
 
 
 def test_turns_of_noise_tell_nothing(tmp_path: Path) -> None:
@@ -196,16 +203,53 @@ def test_turns_of_noise_tell_nothing(tmp_path: Path) -> None:
     outcome = compare_turns(first, second)
     assert outcome.slower == []
     assert outcome.sentences == []
-    with pytest.raises(Problem, match="four or more each"):
-        compare_turns(first[:3], second[:3])
+    assert outcome.verdict().startswith("No cell is slower by more than 1%")
+    assert "not ruled out" in outcome.verdict()
+    assert outcome.table().splitlines()[-1].endswith("all cells together")
+    with pytest.raises(Problem, match="6 or more of each; these are 5 and 5"):
+        compare_turns(first[:5], second[:5])
+
+
+def test_turns_without_noise_leave_nothing_open(tmp_path: Path) -> None:
+    first = write_nights(Home(tmp_path / "a"), 6, nothing, seed=1)
+    second = write_nights(Home(tmp_path / "b"), 6, nothing, seed=1)
+    outcome = compare_turns(first, second)
+    assert outcome.together == Ratio(1.0, 1.0, 1.0, paired=True)
+    assert outcome.verdict().endswith("over 24 cells).")
+
+
+def test_ratios_on_one_side_by_a_common_cause_are_no_verdict(tmp_path: Path) -> None:
+    """As the same program against itself gave: all ratios below 1, for a turn is one event."""
+
+    def moment(night: int, row: dict) -> dict:
+        factor = (0.97, 1.02, 0.95, 0.96, 1.01, 0.98)[night]
+        return row | {name: row[name] * factor for name in row if _is_timed(name, row)}
+
+    first = write_nights(Home(tmp_path / "a"), 6, nothing, seed=1)
+    outcome = compare_turns(first, write_nights(Home(tmp_path / "b"), 6, moment, seed=1))
+    assert all(cell.ratio.value < 1 for cell in outcome.cells)
+    assert outcome.together.low < 1 < outcome.together.high
+    assert outcome.slower == []
+
+
+def _is_timed(name: str, row: dict) -> bool:
+    return ("_ms_" in name or "_mcycles_" in name) and row[name] != ""
+
+
+def test_each_program_goes_first_equally_often(tmp_path: Path, sweep: Path) -> None:
+    for turns in (5, 7, 4):
+        with pytest.raises(Problem, match=f"{turns} turns: give an even number from 6 on"):
+            measure_in_turns((Path("/bin/true"), Path("/bin/true")), sweep, tmp_path, turns)
 
 
 def test_turns_tell_of_work_and_of_wrong_hits(tmp_path: Path) -> None:
-    first = write_nights(Home(tmp_path / "a"), 4, nothing)
-    more = counting("samet", "escena1", [1.1] * 4)
+    first = write_nights(Home(tmp_path / "a"), 6, nothing)
+    more = counting("samet", "escena1", [1.1] * 6)
     bad = wrong("exhaustive", "escena1", 0)
-    second = write_nights(Home(tmp_path / "b"), 4, lambda n, row: bad(n, more(n, row)))
-    sentences = compare_turns(first, second).sentences
+    second = write_nights(Home(tmp_path / "b"), 6, lambda n, row: bad(n, more(n, row)))
+    outcome = compare_turns(first, second)
+    sentences = outcome.sentences
+    assert f"WORSE: hits or work, in {len(sentences)} places" in outcome.verdict()
     assert "exhaustive in escena1 at 320x200: hits are not right any more (mismatch)" in sentences
     assert any("traversal steps a ray from 11.5 to 12.65" in one for one in sentences)
 
@@ -294,7 +338,7 @@ def test_compare_builds_each_commit_and_measures_in_turns(
     python.write_text(f'#!/bin/sh\nPYTHONPATH={clone}/scripts exec {sys.executable} "$@"\n')
     python.chmod(0o755)
     done = subprocess.run(
-        ["bash", "-c", f"PATH={tools}:$PATH scripts/compare HEAD~1 HEAD --sweep {sweep} --turns 4"],
+        ["bash", "-c", f"PATH={tools}:$PATH scripts/compare HEAD~1 HEAD --sweep {sweep} --turns 6"],
         cwd=clone,
         capture_output=True,
         text=True,
@@ -303,6 +347,7 @@ def test_compare_builds_each_commit_and_measures_in_turns(
     assert done.returncode in (0, 1), done.stderr  # times of a busy machine are not judged here
     assert done.stdout.startswith("    B/A  95% interval")
     assert "samet in stetra at 32x20" in done.stdout
+    assert done.stdout.splitlines()[-1].startswith(("No cell is slower", "SLOWER"))
     turns = [line for line in done.stderr.splitlines() if line.startswith("== turn")]
-    assert [line[-1] for line in turns] == list("ABBAABBA")
-    assert len(list((clone / "results/runs").glob("compare-*/?-0?/results.csv"))) == 8
+    assert [line[-1] for line in turns] == list("ABBAABBAABBA")
+    assert len(list((clone / "results/runs").glob("compare-*/?-0?/results.csv"))) == 12

@@ -1,7 +1,15 @@
 """Two commits of this machine, measured in turns: what scripts/compare runs once both are built.
 
-The history needs a dozen nights to tell a slow-down from noise. Two programs that take turns on one
-machine tell within minutes: each turn gives a pair of figures that the machine treated alike.
+The history needs a dozen nights to separate a slow-down from noise. Two programs that take turns
+on one machine need minutes: each turn gives a pair of figures that the machine treated alike. The
+order is A B, B A, A B, ..., each first as often as the other, so that neither a drift of the
+machine nor the place within a turn favors one of them.
+
+The cells of a turn are not independent: they share a process and a moment of the machine (the same
+program against itself, 12 turns beside builds: a mean correlation of 0.28 between cells). Most
+ratios, or all, may thus lie on one side of 1 by chance, and some intervals exclude 1 together.
+Cells are therefore judged together, by Holm's correction, and the ratio of all of them is made turn
+by turn.
 """
 
 from __future__ import annotations
@@ -10,7 +18,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import sqrt
+from math import inf, sqrt
 from pathlib import Path
 
 import numpy as np
@@ -21,11 +29,13 @@ from beambench_report.names import contender_labels
 from beambench_report.nightly.night import cycles, keys_of
 from beambench_report.page.cell_files import IDENTITY
 from beambench_report.problem import Problem
+from beambench_report.ratio import Ratio, paired_ratio
 from beambench_report.records import TIMED_VERDICTS, read_run
 
 LEVEL = 0.01
 TOLERANCE = 0.01
-_RESAMPLES = 4000
+LEAST_TURNS = 6
+"""The fewest pairs whose median has a 95% interval."""
 
 
 @dataclass(frozen=True)
@@ -34,12 +44,20 @@ class Comparison:
 
     title: str
     pairs: int
-    ratio: float
+    ratio: Ratio
     """B's time over A's: above 1, B is slower."""
-    low: float
-    high: float
     p_value: float
     """That B is no slower, before Holm's correction."""
+
+    @property
+    def is_decided(self) -> bool:
+        """Does the interval rule out that B is slower by more than TOLERANCE?"""
+        return self.high <= 1 + TOLERANCE
+
+    @property
+    def high(self) -> float:
+        """The upper end of the interval; infinite where there is none."""
+        return inf if self.ratio.high is None else self.ratio.high
 
 
 @dataclass(frozen=True)
@@ -50,7 +68,9 @@ class Outcome:
     slower: list[Comparison]
     """Slower by more than chance and TOLERANCE explain, over all cells together."""
     sentences: list[str]
-    """Work and verdicts that differ."""
+    """Work and verdicts that got worse."""
+    together: Ratio
+    """Of the geometric mean of all cells, turn by turn."""
 
     @property
     def is_regression(self) -> bool:
@@ -61,17 +81,63 @@ class Outcome:
         """A line for each cell, the one that got slowest first."""
         named = {cell.title for cell in self.slower}
         lines = [f"{'B/A':>7}  {'95% interval':<17} {'turns':>5}  cell"]
-        for cell in sorted(self.cells, key=lambda cell: -cell.ratio):
+        for cell in sorted(self.cells, key=lambda cell: -cell.ratio.value):
             mark = "  SLOWER" if cell.title in named else ""
-            interval = f"{cell.low:.4f} to {cell.high:.4f}"
-            lines.append(f"{cell.ratio:7.4f}  {interval:<17} {cell.pairs:>5}  {cell.title}{mark}")
+            lines.append(f"{_line(cell.ratio)} {cell.pairs:>5}  {cell.title}{mark}")
+        lines.append(f"{_line(self.together)}        all cells together")
         return "\n".join([*lines, *self.sentences])
+
+    def verdict(self) -> str:
+        """What the table comes to, in a sentence or two."""
+        rule = (
+            f"by more than {TOLERANCE:.0%} and by more than chance explains (paired t test, Holm's "
+            f"correction to {LEVEL:.0%} over {len(self.cells)} cells)"
+        )
+        if self.slower:
+            worst = sorted(self.slower, key=lambda cell: -cell.ratio.value)
+            named = "; ".join(f"{cell.title} by {_percent(cell.ratio)}" for cell in worst)
+            text = f"SLOWER: {len(worst)} of {len(self.cells)} cells, {rule}: {named}."
+        else:
+            text = f"No cell is slower {rule}.{self._undecided()}"
+        if self.sentences:
+            text += f" WORSE: hits or work, in {len(self.sentences)} places named above."
+        return text
+
+    def _undecided(self) -> str:
+        """What the turns were too few, or the machine too noisy, to rule out."""
+        open_cells = [cell for cell in self.cells if not cell.is_decided]
+        if not open_cells:
+            return ""
+        widest = max(open_cells, key=lambda cell: cell.high)
+        return (
+            f" For {len(open_cells)} of them a slow-down by more than {TOLERANCE:.0%} is not ruled "
+            f"out: the widest interval reaches {widest.high - 1:+.1%} ({widest.title}). More turns "
+            "narrow it."
+        )
+
+
+def _line(ratio: Ratio) -> str:
+    interval = "none" if ratio.interval is None else f"{ratio.low:.4f} to {ratio.high:.4f}"
+    return f"{ratio.value:7.4f}  {interval:<17}"
+
+
+def _percent(ratio: Ratio) -> str:
+    interval = "" if ratio.interval is None else f" ({ratio.low - 1:+.1%} to {ratio.high - 1:+.1%})"
+    return f"{ratio.value - 1:.1%}{interval}"
 
 
 def measure_in_turns(
     programs: tuple[Path, Path], sweep: Path, directory: Path, turns: int
 ) -> tuple[list[Path], list[Path]]:
-    """Runs the sweep by A and B, B and A, ...; returns the folders of their runs."""
+    """Runs the sweep by A and B, B and A, ...; returns the folders of their runs.
+
+    Raises Problem where `turns` is odd or below LEAST_TURNS, or a program cannot be run.
+    """
+    if turns < LEAST_TURNS or turns % 2:
+        raise Problem(
+            f"{turns} turns: give an even number from {LEAST_TURNS} on, so that each program goes "
+            "first equally often and the ratios have intervals"
+        )
     folders: tuple[list[Path], list[Path]] = ([], [])
     for turn in range(turns):
         order = (0, 1) if turn % 2 == 0 else (1, 0)  # neither is always the one that warms up
@@ -86,19 +152,30 @@ def measure_in_turns(
 
 def compare_turns(first: list[Path], second: list[Path]) -> Outcome:
     """Pairs the runs of A and B by turns."""
-    if len(first) != len(second) or len(first) < 4:
-        raise Problem("a comparison needs as many runs of one as of the other, four or more each")
+    if len(first) != len(second) or len(first) < LEAST_TURNS:
+        raise Problem(
+            "a comparison needs as many runs of one as of the other, "
+            f"{LEAST_TURNS} or more of each; these are {len(first)} and {len(second)}"
+        )
     times_a, rows_a = _table(first)
     times_b, rows_b = _table(second)
-    cells = [key for key in times_a.columns if key in times_b.columns]
     labels = _titles(rows_b)
+    shared = [key for key in times_a.columns if key in times_b.columns]
+    cells = [key for key in shared if labels[key][1] != "baseline"]
     compared = []
     for key in cells:
-        logs = np.log(times_b[key].to_numpy()) - np.log(times_a[key].to_numpy())
-        logs = logs[np.isfinite(logs)]
-        if len(logs) >= 4 and labels[key][1] != "baseline":
-            compared.append(_compare(labels[key][0], logs))
-    return Outcome(compared, _slower(compared), _differences(rows_a, rows_b, labels))
+        ratio, logs = _ratio(times_b[key], times_a[key])
+        if ratio and ratio.interval:
+            compared.append(Comparison(labels[key][0], len(logs), ratio, _p_value(logs)))
+    if not compared:
+        raise Problem("no cell has times in enough turns of both programs; were their hits right?")
+    together, _ = _ratio(_mean_cell(times_b[cells]), _mean_cell(times_a[cells]))
+    return Outcome(
+        compared,
+        _slower(compared),
+        _differences(rows_a, rows_b, labels),
+        together or Ratio(float("nan")),
+    )
 
 
 def _call(command: list[str], run: Callable = subprocess.run) -> None:
@@ -128,18 +205,26 @@ def _titles(rows: pd.DataFrame) -> dict[tuple, tuple[str, str]]:
     }
 
 
-def _compare(title: str, logs: np.ndarray) -> Comparison:
-    random = np.random.default_rng(1999)
-    drawn = random.choice(logs, (_RESAMPLES, len(logs)))
-    low, high = np.quantile(np.median(drawn, axis=1), (0.025, 0.975))
+def _ratio(times_b: pd.Series, times_a: pd.Series) -> tuple[Ratio | None, np.ndarray]:
+    """Paired by turns; and the logarithm of each turn's ratio."""
+    known = times_b.notna() & times_a.notna()
+    over, under = times_b[known], times_a[known]
+    logs = np.log(over.to_numpy()) - np.log(under.to_numpy())
+    return paired_ratio(over.to_dict(), under.to_dict()), logs
+
+
+def _mean_cell(times: pd.DataFrame) -> pd.Series:
+    """The geometric mean of the cells in each turn; unknown in turns that lack one."""
+    return pd.Series(np.exp(np.log(times.to_numpy(float)).mean(axis=1)), index=times.index)
+
+
+def _p_value(logs: np.ndarray) -> float:
     error = max(float(logs.std(ddof=1)) / sqrt(len(logs)), 1e-6)
-    p_value = float(stats.t.sf((logs.mean() - TOLERANCE) / error, len(logs) - 1))
-    middle = float(np.exp(np.median(logs)))
-    return Comparison(title, len(logs), middle, float(np.exp(low)), float(np.exp(high)), p_value)
+    return float(stats.t.sf((logs.mean() - TOLERANCE) / error, len(logs) - 1))
 
 
 def _slower(compared: list[Comparison]) -> list[Comparison]:
-    """Holm's procedure; the test asks for more than TOLERANCE already."""
+    """Holm's procedure; the test is of more than TOLERANCE already."""
     kept = []
     for rank, cell in enumerate(sorted(compared, key=lambda cell: cell.p_value)):
         if cell.p_value > LEVEL / (len(compared) - rank):
