@@ -2,12 +2,20 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from beambench_report.nightly.calibration import Noise, calibrate, count_alarms, made_up_nights
+from beambench_report.nightly.calibration import (
+    Effort,
+    Noise,
+    calibrate,
+    count_alarms,
+    made_up_nights,
+    share_interval,
+)
 from beambench_report.nightly.history import Alarm, History
 from beambench_report.nightly.home import Home
 from beambench_report.nightly.judge import doubt, judge, sentence
@@ -110,11 +118,54 @@ def test_a_hundred_nights_of_noise_over_all_series_raise_at_most_one_alarm() -> 
 
 
 def test_calibration_finds_what_is_large_and_counts_what_is_false() -> None:
-    told = calibrate(noise(), nights=40, slowdowns=(0.001, 0.05), trials=5)
+    progress: list[str] = []
+    effort = Effort(precision=0.001, trials=36)
+    told = calibrate(noise(), 40, (0.001, 0.05), effort, report=progress.append)
     assert told.alarms == 0
-    assert [one.found for one in told.power] == [0.0, 1.0]
+    # None in 40 nights is at most 3.69 with 97.5% (Poisson).
+    assert (told.alarms_low, told.alarms_high) == pytest.approx((0, 3.689), abs=1e-3)
+    assert [(one.found, one.trials) for one in told.power] == [(0.0, 36), (1.0, 36)]
+    assert told.power[0].low == 0.0
+    assert told.power[1].low == pytest.approx(36 / (36 + 1.959964**2))  # Wilson's, for all of n
     assert told.smallest_found == 0.05
-    assert "found with 90% power: 5.0%" in told.summary()
+    assert "100.0% of 36 trials (95% interval 90.4% to 100.0%)" in told.summary()
+    assert json.loads(told.as_json())["power"][1]["low"] == told.power[1].low
+
+
+def test_trials_end_when_the_powers_are_known_well_enough() -> None:
+    told = calibrate(noise(), 24, (0.0005, 0.08), Effort(precision=0.1, trials=500))
+    # At shares of 0 and 1 Wilson's interval is 0.2 wide after 16 trials.
+    assert {one.trials for one in told.power} == {16}
+    assert all(one.high - one.low <= 0.2 for one in told.power)
+
+
+def test_trials_end_when_the_time_is_up() -> None:
+    told = calibrate(noise(), 24, (0.02,), Effort(precision=0.001, trials=10**6, seconds=0.5))
+    assert 1 <= told.power[0].trials < 10**4
+
+
+def test_a_larger_slow_down_is_never_found_less_often() -> None:
+    """Every size is planted into the same noise: with few trials of their own, chance decided."""
+    told = calibrate(noise(), 24, (0.01, 0.02, 0.03, 0.04), Effort(precision=0.01, trials=25))
+    found = [one.found for one in told.power]
+    assert found == sorted(found)
+    assert found[0] < found[-1]
+
+
+@pytest.mark.parametrize(
+    ("found", "trials", "low", "high"),
+    # Newcombe, "Two-sided confidence intervals for the single proportion" (1998), table I
+    [
+        (81, 263, 0.2553, 0.3662),
+        (15, 148, 0.0624, 0.1605),
+        (0, 20, 0, 0.1611),
+        (1, 29, 0.0061, 0.1718),
+    ],
+)
+def test_the_interval_of_a_share_is_the_tabulated_one(
+    found: int, trials: int, low: float, high: float
+) -> None:
+    assert share_interval(found, trials) == pytest.approx((low, high), abs=5e-5)
 
 
 def test_nights_that_are_missing_are_no_reason_to_raise_or_to_fall_silent() -> None:

@@ -8,11 +8,13 @@ reference. Nights are then judged one by one, each with those before it, as `scr
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
-from math import log1p
+from math import log1p, sqrt
+from time import monotonic
 
 import numpy as np
+from scipy import stats
 
 from beambench_report.nightly.nights import Nights
 from beambench_report.nightly.steps import Rule, find_steps
@@ -21,6 +23,7 @@ BLOCK = 5
 SCENES = 15
 _LEAST_NIGHTS = 2 * BLOCK
 _WAIT = 24
+_REPORT_SECONDS = 10.0
 
 
 @dataclass(frozen=True)
@@ -43,6 +46,10 @@ class Power:
 
     slowdown: float
     found: float
+    low: float
+    """Of the 95% interval of `found`."""
+    high: float
+    trials: int
     nights_until: float
     """The median number of nights after the change until it was."""
 
@@ -54,6 +61,9 @@ class Calibration:
     nights: int
     series: int
     alarms: int
+    alarms_low: float
+    """Of the 95% interval of the number of alarms, were they independent of each other."""
+    alarms_high: float
     noise: float
     noise_nights: int
     rule: Rule
@@ -61,8 +71,8 @@ class Calibration:
 
     @property
     def smallest_found(self) -> float | None:
-        """The smallest slow-down that is found with 90% power."""
-        return min((one.slowdown for one in self.power if one.found >= 0.9), default=None)
+        """The smallest slow-down whose power is 90% or more by the low end of its interval."""
+        return min((one.slowdown for one in self.power if one.low >= 0.9), default=None)
 
     def as_json(self) -> str:
         """For a file."""
@@ -73,19 +83,42 @@ class Calibration:
         """For people."""
         lines = [
             f"{self.alarms} alarms in {self.nights} nights of pure noise over {self.series} series "
-            f"together ({100 * self.alarms / self.nights:.2g} in 100 nights); the noise was drawn "
-            f"from {self.noise_nights} nights, {100 * self.noise:.2g}% (standard deviation of a "
-            "usual series)."
+            f"together ({self._in_100_nights(self.alarms)} in 100 nights, 95% interval "
+            f"{self._in_100_nights(self.alarms_low)} to {self._in_100_nights(self.alarms_high)}); "
+            f"the noise was drawn from {self.noise_nights} nights, {100 * self.noise:.2g}% "
+            "(standard deviation of a usual series)."
         ]
         lines += [
-            f"A slow-down by {one.slowdown:.1%} was found and named in {one.found:.0%} of the "
-            f"trials, after {one.nights_until:.0f} nights."
+            f"A slow-down by {one.slowdown:.1%} was found and named in {one.found:.1%} of "
+            f"{one.trials} trials (95% interval {one.low:.1%} to {one.high:.1%}), after "
+            f"{one.nights_until:.0f} nights."
             for one in self.power
         ]
         smallest = self.smallest_found
         told = f"{smallest:.1%}" if smallest is not None else "none of these"
-        lines.append(f"The smallest slow-down found with 90% power: {told}.")
+        lines.append(
+            "The smallest of these that is found with 90% power, by the low end of the interval: "
+            f"{told}."
+        )
         return "\n".join(lines)
+
+    def _in_100_nights(self, alarms: float) -> str:
+        return f"{100 * alarms / self.nights:.2g}"
+
+
+@dataclass(frozen=True)
+class Effort:
+    """How long power is looked for."""
+
+    precision: float = 0.03
+    """Enough trials when no 95% interval of a power is wider than this to either side."""
+    trials: int = 1200
+    """At most so many: the precision needs 1,067 where the power is a half."""
+    seconds: float = 3600.0
+    """Nor longer than this; the intervals are then what they are."""
+
+
+Report = Callable[[str], None]
 
 
 def noise_of(nights: Nights) -> Noise:
@@ -128,21 +161,27 @@ def count_alarms(values: np.ndarray, rule: Rule) -> list[tuple[int, int, int]]:
 def calibrate(
     noise: Noise,
     nights: int = 1000,
-    slowdowns: Iterable[float] = (0.01, 0.015, 0.02, 0.03, 0.05),
-    trials: int = 100,
+    slowdowns: Sequence[float] = (0.01, 0.015, 0.02, 0.03, 0.05),
+    effort: Effort | None = None,
     rule: Rule | None = None,
     seed: int = 1999,
+    report: Report | None = None,
 ) -> Calibration:
-    """Lets noise, and noise with a slow-down of one series, be judged."""
+    """Lets noise, and noise with a slow-down of one series, be judged; `report` gets progress."""
     rule = rule or Rule()
     random = np.random.default_rng(seed)
     values = made_up_nights(noise, nights, random)
-    alarms = count_alarms(values, rule)
-    power = tuple(_power(noise, slowdown, trials, rule, random) for slowdown in slowdowns)
+    alarms = len(count_alarms(values, rule))
+    # The exact interval of a Poisson count (Garwood 1936).
+    low = float(stats.chi2.ppf(0.025, 2 * alarms) / 2) if alarms else 0.0
+    high = float(stats.chi2.ppf(0.975, 2 * alarms + 2) / 2)
+    power = _powers(noise, slowdowns, effort or Effort(), rule, random, report)
     return Calibration(
         nights,
         values.shape[1],
-        len(alarms),
+        alarms,
+        low,
+        high,
         noise.standard_deviation,
         noise.nights,
         rule,
@@ -150,19 +189,64 @@ def calibrate(
     )
 
 
-def _power(
-    noise: Noise, slowdown: float, trials: int, rule: Rule, random: np.random.Generator
-) -> Power:
-    """Sees whether the series is named within `_WAIT` nights after it got slower."""
-    waits = []
+def share_interval(found: int, trials: int) -> tuple[float, float]:
+    """The 95% interval of a share (Wilson 1927): right for shares near 0 and 1 as well."""
+    z = 1.959964
+    share = found / trials
+    center = (share + z * z / (2 * trials)) / (1 + z * z / trials)
+    half = z / (1 + z * z / trials)
+    half *= sqrt(share * (1 - share) / trials + z * z / (4 * trials * trials))
+    return max(0.0, center - half), min(1.0, center + half)
+
+
+def _powers(
+    noise: Noise,
+    slowdowns: Sequence[float],
+    effort: Effort,
+    rule: Rule,
+    random: np.random.Generator,
+    report: Report | None,
+) -> tuple[Power, ...]:
+    """Each trial plants every slow-down into the same noise, so that chance orders none of them."""
+    waits: dict[float, list[int]] = {slowdown: [] for slowdown in slowdowns}
+    begun, reported, trials = monotonic(), monotonic(), 0
     before = rule.window - _WAIT
-    for _ in range(trials):
+    while trials < effort.trials and monotonic() - begun < effort.seconds:
         values = made_up_nights(noise, rule.window, random)
         series = int(random.integers(values.shape[1]))
-        values[before:, series] += log1p(slowdown)
-        # The others are as they were: they count by making Holm's correction what it is.
-        for night in range(before + rule.side, rule.window + 1):
-            if any(step.series == series for step in find_steps(values[:night], None, rule)):
-                waits.append(night - before)
-                break
-    return Power(slowdown, len(waits) / trials, float(np.median(waits)) if waits else float("nan"))
+        for slowdown, found in waits.items():
+            if wait := _nights_until_found(values, series, before, slowdown, rule):
+                found.append(wait)
+        trials += 1
+        intervals = [share_interval(len(found), trials) for found in waits.values()]
+        widest = max((high - low for low, high in intervals), default=0.0) / 2
+        if report and monotonic() - reported > _REPORT_SECONDS:
+            reported = monotonic()
+            report(
+                f"{trials} trials, {reported - begun:.0f} s: powers are known to "
+                f"{100 * widest:.1f} points, {100 * effort.precision:g} wanted"
+            )
+        if widest <= effort.precision:
+            break
+    return tuple(_power(slowdown, found, trials) for slowdown, found in waits.items())
+
+
+def _power(slowdown: float, waits: Sequence[int], trials: int) -> Power:
+    low, high = share_interval(len(waits), trials)
+    until = float(np.median(waits)) if waits else float("nan")
+    return Power(slowdown, len(waits) / trials, low, high, trials, until)
+
+
+def _nights_until_found(
+    values: np.ndarray, series: int, before: int, slowdown: float, rule: Rule
+) -> int:
+    """How many nights after it got slower the series was named; 0 where it was not in `_WAIT`.
+
+    The others are as they were: they count by making Holm's correction what it is.
+    """
+    slower = values.copy()
+    slower[before:, series] += log1p(slowdown)
+    for night in range(before + rule.side, len(slower) + 1):
+        if any(step.series == series for step in find_steps(slower[:night], None, rule)):
+            return night - before
+    return 0

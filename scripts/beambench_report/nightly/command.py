@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import argparse
+import sys
 from pathlib import Path
 
 from beambench_report.files import write_text
-from beambench_report.nightly.calibration import calibrate, has_enough, noise_of
+from beambench_report.nightly.calibration import Effort, calibrate, has_enough, noise_of
 from beambench_report.nightly.history import History, rebuild
 from beambench_report.nightly.home import HOME, KEEP_SAMPLES, Home, adopt, prune
 from beambench_report.nightly.lock import only_one
@@ -62,7 +63,25 @@ def _add_calibrate(parts: argparse._SubParsersAction) -> None:
         "--samples", action="store_true", help="draw nights from the raw samples of the runs"
     )
     parser.add_argument("--nights", type=int, default=1000, metavar="N")
-    parser.add_argument("--trials", type=int, default=100, metavar="N")
+    usual = Effort()
+    parser.add_argument(
+        "--precision",
+        type=float,
+        default=usual.precision,
+        metavar="PART",
+        help="half the width that the 95%% intervals of the powers should have; %(default)s if not "
+        "given",
+    )
+    parser.add_argument(
+        "--trials", type=int, default=usual.trials, metavar="N", help="at most; %(default)s"
+    )
+    parser.add_argument(
+        "--seconds",
+        type=float,
+        default=usual.seconds,
+        metavar="S",
+        help="at most, for the trials; %(default)s",
+    )
     parser.add_argument(
         "--slowdowns",
         type=float,
@@ -137,7 +156,16 @@ def _calibrate(options: argparse.Namespace) -> int:
             f"{noise.nights} nights are too few to draw noise from; ten are needed, or raw samples "
             "of a run: --samples RUN"
         )
-    result = calibrate(noise, options.nights, options.slowdowns, options.trials)
+    if options.trials < 1 or options.seconds <= 0 or options.precision <= 0:
+        raise Problem("--trials must be at least 1, --seconds and --precision above 0")
+    effort = Effort(options.precision, options.trials, options.seconds)
+    result = calibrate(
+        noise,
+        options.nights,
+        options.slowdowns,
+        effort,
+        report=lambda text: print(text, file=sys.stderr, flush=True),
+    )
     print(result.summary())
     if options.output:
         write_text(options.output, result.as_json())
