@@ -1,11 +1,13 @@
 #include "harness/record/machine.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -67,6 +69,22 @@ std::string cpu_model() {
   return "unknown";
 }
 
+/// What stays the same until the system is installed anew.
+std::string installation() {
+  for (const char* file : {"/etc/machine-id", "/var/lib/dbus/machine-id"}) {
+    std::string id = first_line(file);
+    if (!id.empty() && id != "uninitialized") return id;
+  }
+  struct utsname system {};
+  ::uname(&system);
+  return system.nodename;
+}
+
+std::string whole_file(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(file), {});
+}
+
 unsigned usable_cores() {
   cpu_set_t cores;
   CPU_ZERO(&cores);
@@ -93,17 +111,14 @@ double load_average() {
   return ::getloadavg(load.data(), 1) == 1 ? load[0] : 0.0;
 }
 
-std::uint64_t executable_fingerprint() {
-  std::ifstream file("/proc/self/exe", std::ios::binary);
-  return fingerprint(std::string(std::istreambuf_iterator<char>(file), {}));
-}
+std::uint64_t executable_fingerprint() { return fingerprint(whole_file("/proc/self/exe")); }
 
 }  // namespace
 
 Machine inspect_machine() {
   struct utsname system {};
   ::uname(&system);
-  return {hex_digits(fingerprint(std::string_view(system.nodename))),
+  return {machine_id(processor_identity(whole_file("/proc/cpuinfo")), installation()),
           cpu_model(),
           usable_cores(),
           memory_size(),
@@ -116,6 +131,24 @@ Machine inspect_machine() {
           turbo_state(),
           load_average(),
           executable_fingerprint()};
+}
+
+std::string machine_id(std::string_view processor, std::string_view installation) {
+  return hex_digits(fingerprint(fmt::format("{}\n{}", processor, installation)));
+}
+
+std::string processor_identity(std::string_view cpuinfo) {
+  // Of x86; then of ARM, which has other words.
+  constexpr std::array<std::string_view, 10> kWords{
+      "vendor_id",       "cpu family",       "model",       "model name", "stepping",
+      "CPU implementer", "CPU architecture", "CPU variant", "CPU part",   "CPU revision"};
+  std::string identity;
+  std::istringstream lines{std::string(cpuinfo)};
+  for (std::string line; std::getline(lines, line) && !line.empty();) {  // an empty one ends a core
+    const std::string_view word = std::string_view(line).substr(0, line.find_first_of("\t:"));
+    if (std::ranges::find(kWords, word) != kWords.end()) identity += line + '\n';
+  }
+  return identity;
 }
 
 std::vector<std::string> disturbances(const Machine& machine) {

@@ -3,12 +3,13 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace beambench {
 
 struct Machine {
-  std::string id;  ///< fingerprint of the host's name: tells machines apart without naming them
+  std::string id;  ///< see machine_id
   std::string cpu;
   unsigned cores;  ///< that this process may use
   std::uint64_t memory_bytes;
@@ -24,6 +25,16 @@ struct Machine {
 };
 
 Machine inspect_machine();
+
+/// Sixteen hexadecimal digits that differ between machines, without naming them: a fingerprint of
+/// the processor (maker, family, model and stepping, not its name alone, which virtual machines
+/// share) and of the installation (machine-id(5), else the host's name). A machine whose processor
+/// or system is exchanged is another one, for its times are.
+std::string machine_id(std::string_view processor, std::string_view installation);
+
+/// What identifies the first processor in a text laid out as Linux's /proc/cpuinfo, line by line;
+/// empty where the text has nothing of that.
+std::string processor_identity(std::string_view cpuinfo);
 
 /// What of it disturbs timings and cannot be controlled from here, a sentence each.
 std::vector<std::string> disturbances(const Machine& machine);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -381,6 +382,38 @@ TEST(Preflight, ShowsTheMachineAndEachWarning) {
   EXPECT_TRUE(says(noise_warning(0.125).value_or(""), {"disturbed", "12%"}));
   EXPECT_FALSE(noise_warning(0.01));
   EXPECT_FALSE(noise_warning(std::nullopt));
+}
+
+/// As Linux writes it, of a machine with two cores.
+std::string cpuinfo(std::string_view maker, int model, double mhz) {
+  const std::string core = fmt::format(
+      "vendor_id\t: {}\ncpu family\t: 6\nmodel\t\t: {}\nmodel name\t: Processor\n"
+      "stepping\t: 3\ncpu MHz\t\t: {}\nflags\t\t: fpu sse\n",
+      maker, model, mhz);
+  return fmt::format("processor\t: 0\n{0}\nprocessor\t: 1\n{0}\n", core);
+}
+
+TEST(Machine, ProcessorsOfOneNameAreToldApartByMakerAndModel) {
+  const std::string xeon = processor_identity(cpuinfo("GenuineIntel", 143, 2000));
+  EXPECT_EQ(xeon,
+            "vendor_id\t: GenuineIntel\ncpu family\t: 6\nmodel\t\t: 143\n"
+            "model name\t: Processor\nstepping\t: 3\n");
+  EXPECT_EQ(xeon, processor_identity(cpuinfo("GenuineIntel", 143, 2750.5)))
+      << "its clock changes from minute to minute";
+  EXPECT_NE(xeon, processor_identity(cpuinfo("AuthenticAMD", 143, 2000)));
+  EXPECT_NE(xeon, processor_identity(cpuinfo("GenuineIntel", 106, 2000)));
+  EXPECT_EQ(processor_identity("CPU implementer\t: 0x41\nCPU part\t: 0xd0c\nBogoMIPS\t: 50\n"),
+            "CPU implementer\t: 0x41\nCPU part\t: 0xd0c\n");
+  EXPECT_EQ(processor_identity(""), "");
+}
+
+TEST(Machine, TheIdIsOfProcessorAndInstallation) {
+  const std::string id = machine_id("xeon", "3d1219c7");
+  EXPECT_EQ(id.size(), 16U);
+  EXPECT_EQ(id, machine_id("xeon", "3d1219c7"));
+  EXPECT_NE(id, machine_id("epyc", "3d1219c7")) << "a cloned system on another processor";
+  EXPECT_NE(id, machine_id("xeon", "0e24aa01")) << "two machines of one make";
+  EXPECT_NE(machine_id("ab", "c"), machine_id("a", "bc"));
 }
 
 TEST(Machine, TellsWhatItCan) {
