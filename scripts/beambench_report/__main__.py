@@ -173,7 +173,8 @@ def _add_comparisons(commands: argparse._SubParsersAction) -> None:
     two.add_argument(
         "--relative",
         action=argparse.BooleanOptionalAction,
-        help="by the ratio to Embree in each file; if not given, where the machines differ",
+        help="by the ratio to a contender that both files have; if not given, where the machines "
+        "differ, whose milliseconds are refused",
     )
     compare = commands.add_parser("compare", help="run two programs in turns: is B slower?")
     compare.add_argument("programs", type=Path, nargs=2, metavar="PROGRAM")

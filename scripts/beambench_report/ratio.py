@@ -21,6 +21,8 @@ from dataclasses import dataclass
 from math import comb, exp, hypot, log
 from statistics import median
 
+import pandas as pd
+
 
 @dataclass(frozen=True)
 class Ratio:
@@ -45,6 +47,13 @@ class Median:
     value: float
     low: float | None = None
     high: float | None = None
+
+
+def median_of(row: Mapping[str, object], phase: str) -> Median:
+    """The median of a phase, "total" or "trace", of a row of results.csv, with its interval."""
+    middle, low, high = (row.get(f"{phase}_ms_{what}") for what in ("median", "ci_low", "ci_high"))
+    known = [None if end is None or pd.isna(end) else float(end) for end in (low, high)]
+    return Median(float(middle), *known)
 
 
 def paired_ratio(over: Mapping[int, float], under: Mapping[int, float]) -> Ratio | None:

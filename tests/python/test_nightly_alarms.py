@@ -106,6 +106,17 @@ def test_nights_of_another_machine_are_another_history(home: Home) -> None:
     assert flat(add_all(home, write_nights(home, 2, plant))) == []
 
 
+def test_nights_of_another_processor_under_the_same_id_are_another_history(home: Home) -> None:
+    def plant(night: int, row: dict) -> dict:
+        return row if night == 0 else {**row, "traversal_steps_per_ray": 99}
+
+    folders = write_nights(home, 2, plant)
+    for folder, name in zip(folders, ("Xeon", "EPYC"), strict=True):
+        manifest = json.loads((folder / "manifest.json").read_text())
+        (folder / "manifest.json").write_text(json.dumps(manifest | {"machine": {"cpu": name}}))
+    assert flat(add_all(home, folders)) == []
+
+
 def noise(nights: int = 200, scenes: int = 3, size: float = 0.01) -> Noise:
     random = np.random.default_rng(3)
     return Noise(tuple(random.normal(0, size, (nights, 7)) for _ in range(scenes)), nights)

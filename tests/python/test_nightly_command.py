@@ -22,6 +22,7 @@ from beambench_report.problem import Problem
 from beambench_report.ratio import Ratio
 from beambench_report.records import read_run
 from made_up_nights import add_all, counting, nothing, slower, write_night, write_nights, wrong
+from made_up_run import without_times
 from program import BINARY
 
 TINY = {
@@ -266,22 +267,61 @@ def test_diff_puts_two_files_beside_each_other(
     assert "in milliseconds" in told
     pairs = {pair.title: pair for pair in diff(a, renamed).pairs}
     slow = pairs["exhaustive in escena1 at 320x200"]
-    assert slow.low < 2.0 < slow.high
-    assert slow.ratio == pytest.approx(2.0, rel=0.05)
-    assert pairs["exhaustive in tetra:n=6 at 320x200"].ratio == pytest.approx(1.0, rel=0.05)
+    assert slow.ratio.low < 2.0 < slow.ratio.high
+    assert slow.ratio.value == pytest.approx(2.0, rel=0.05)
+    assert pairs["exhaustive in tetra:n=6 at 320x200"].ratio.value == pytest.approx(1.0, rel=0.05)
 
 
-def test_files_of_two_machines_are_compared_by_ratios(tmp_path: Path) -> None:
-    def elsewhere(_night: int, row: dict) -> dict:
-        times = {name: 3 * row[name] for name in row if "_ms_" in name and row[name] != ""}
-        return {**row, **times, "machine_id": "b"}
+def elsewhere(_night: int, row: dict) -> dict:
+    """On a machine that takes three times as long."""
+    times = {name: 3 * row[name] for name in row if "_ms_" in name and row[name] != ""}
+    return {**row, **times, "machine_id": "b"}
 
+
+def test_files_of_two_machines_are_compared_by_ratios_alone(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     [a] = write_nights(Home(tmp_path / "a"), 1, nothing)
     [b] = write_nights(Home(tmp_path / "b"), 1, elsewhere)
     told = diff(a, b)
-    assert "over Embree's single rays" in told.what
-    assert all(pair.ratio == pytest.approx(1.0, rel=0.1) for pair in told.pairs)
-    assert all(pair.ratio > 2.5 for pair in diff(a, b, relative=False).pairs)
+    assert "over that of embree mode=single in the same file" in told.what
+    assert all(pair.ratio.value == pytest.approx(1.0, rel=0.1) for pair in told.pairs)
+    assert "embree" not in {pair.structure for pair in told.pairs}
+    assert told.text().startswith(
+        "WARNING: two machines. A is of machine 0123456789abcdef, B of b."
+    )
+    assert main(["diff", "--no-relative", str(a), str(b)]) == 2
+    assert "milliseconds of two machines cannot be compared" in capsys.readouterr().err
+
+
+def processor(folder: Path, name: str) -> None:
+    manifest = json.loads((folder / "manifest.json").read_text())
+    (folder / "manifest.json").write_text(json.dumps(manifest | {"machine": {"cpu": name}}))
+
+
+def test_one_id_and_two_processors_are_two_machines(tmp_path: Path) -> None:
+    """A Xeon and an EPYC shared an id that was of the host's name."""
+    [a] = write_nights(Home(tmp_path / "a"), 1, nothing)
+    [b] = write_nights(Home(tmp_path / "b"), 1, nothing)
+    assert diff(a, b).warning == ""
+    processor(a, "Xeon")
+    assert diff(a, b).warning == "", "the other's processor is not known"
+    processor(b, "EPYC")
+    assert "0123456789abcdef (Xeon), B of 0123456789abcdef (EPYC)" in diff(a, b).warning
+    processor(b, "Xeon")
+    assert diff(a, b).warning == ""
+
+
+def test_without_embree_another_common_contender_is_the_reference(tmp_path: Path) -> None:
+    def without_embree(night: int, row: dict) -> dict:
+        row = elsewhere(night, row)
+        return without_times(row, "error") if row["structure"] == "embree" else row
+
+    [a] = write_nights(Home(tmp_path / "a"), 1, nothing)
+    [b] = write_nights(Home(tmp_path / "b"), 1, without_embree)
+    told = diff(a, b)
+    assert "over that of samet max_level=6,max_objects=0 in the same file" in told.what
+    assert all(pair.ratio.value == pytest.approx(1.0, rel=0.1) for pair in told.pairs)
 
 
 def test_diff_refuses_what_it_cannot_read(tmp_path: Path) -> None:

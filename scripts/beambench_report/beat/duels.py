@@ -9,7 +9,7 @@ import pandas as pd
 
 from beambench_report.page.cell_files import CellFile, Identity, identity, read_cell_files
 from beambench_report.problem import Problem
-from beambench_report.ratio import Median, Ratio, paired_ratio, unpaired_ratio
+from beambench_report.ratio import Median, Ratio, median_of, paired_ratio, unpaired_ratio
 from beambench_report.records import Run
 
 _STRUCTURES = ("tile-beam", "embree")
@@ -146,14 +146,11 @@ def _mode_name(row: Row) -> str:
 
 
 def _trace(row: Row, contender: str) -> Trace:
-    low, high, second = (
-        None if pd.isna(row.get(name)) else float(row[name])
-        for name in ("trace_ms_ci_low", "trace_ms_ci_high", "trace_warm_ms_median")
-    )
+    second = row.get("trace_warm_ms_median")
     return Trace(
         contender,
-        Median(float(row["trace_ms_median"]), low, high),
-        second,
+        median_of(row, "trace"),
+        None if pd.isna(second) else float(second),
         float(row["build_ms_median"]),
         str(row.get("structure_isa") or ""),
     )

@@ -1,29 +1,40 @@
-"""Two result files of any two machines or versions, cell by cell, with intervals."""
+"""Two result files of any two machines or versions, cell by cell, with intervals.
+
+Milliseconds of two machines are not comparable. Where the files are of two, each time is divided by
+that of a contender that both files have, in the same file: what is compared are ratios.
+"""
 
 from __future__ import annotations
 
 import tempfile
+from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import exp, log, sqrt
 from pathlib import Path
 
 import pandas as pd
 
+from beambench_report.machine import Machine, machine_of
 from beambench_report.names import contender_labels
 from beambench_report.nightly.night import VIEW, keys_of
+from beambench_report.page.cell_files import CellFile, Identity, identity, read_cell_files
 from beambench_report.problem import Problem
+from beambench_report.ratio import Median, Ratio, median_of, paired_ratio, unpaired_ratio
 from beambench_report.records import read_run
+
+Key = tuple
+Contender = tuple[str, str]
+"""Structure and parameters."""
 
 
 @dataclass(frozen=True)
 class Pair:
-    """One cell of both files; `low` and `high` are NaN where a file tells no interval."""
+    """One cell of both files."""
 
     structure: str
     title: str
-    ratio: float
-    low: float
-    high: float
+    ratio: Ratio
     same_input: bool
 
 
@@ -32,6 +43,8 @@ class Difference:
     """B beside A."""
 
     what: str
+    warning: str
+    """Empty where both files are of one machine."""
     pairs: list[Pair]
     only_a: int
     only_b: int
@@ -39,105 +52,154 @@ class Difference:
 
     def text(self) -> str:
         """Structure by structure: a line for all its cells, then each cell."""
-        lines = [self.what]
+        lines = [*([self.warning, ""] if self.warning else []), self.what]
         structures = dict.fromkeys(pair.structure for pair in self.pairs)
         for structure in structures:
             own = [pair for pair in self.pairs if pair.structure == structure]
-            ratio, low, high = _overall(own)
-            lines += ["", f"{structure}: {ratio:.3f}{_interval(low, high)} over {len(own)} cells"]
-            for pair in sorted(own, key=lambda pair: -pair.ratio):
+            overall = _overall(own)
+            lines += [
+                "",
+                f"{structure}: {overall.value:.3f}{_interval(overall)} over {len(own)} cells",
+            ]
+            for pair in sorted(own, key=lambda pair: -pair.ratio.value):
                 note = "" if pair.same_input else "  (other rays or scene)"
                 lines.append(
-                    f"  {pair.ratio:8.3f}{_interval(pair.low, pair.high)}  {pair.title}{note}"
+                    f"  {pair.ratio.value:8.3f}{_interval(pair.ratio)}  {pair.title}{note}"
                 )
         if self.only_a or self.only_b:
             lines += ["", f"Only in A: {self.only_a} cells; only in B: {self.only_b}."]
         return "\n".join([*lines, *self.wrong]) + "\n"
 
 
-def diff(first: Path, second: Path, *, relative: bool | None = None) -> Difference:
-    """Compares two CSVs. `relative`: by the ratio to Embree in each file, as other machines need.
+@dataclass(frozen=True)
+class _File:
+    """What was read of one file."""
 
-    If not given, it is so where the machines differ. Raises Problem where nothing can be compared.
+    rows: pd.DataFrame
+    cells: Mapping[Identity, CellFile]
+    machine: Machine
+
+
+def diff(first: Path, second: Path, *, relative: bool | None = None) -> Difference:
+    """Compares two CSVs. `relative`: by the ratio to a contender that both files have.
+
+    If not given, it is so where the machines differ; there milliseconds are refused. Raises Problem
+    where nothing can be compared.
     """
-    rows_a, rows_b = _read(first), _read(second)
-    if relative is None:
-        relative = set(rows_a["machine_id"]) != set(rows_b["machine_id"])
-    known_a, known_b = _figures(rows_a, relative), _figures(rows_b, relative)
-    titles = _titles(rows_b)
+    file_a, file_b = _read(first), _read(second)
+    warning = ""
+    if file_a.machine.differs_from(file_b.machine):
+        if relative is False:
+            raise Problem(
+                f"{first} is of machine {file_a.machine}, {second} of {file_b.machine}: "
+                "milliseconds of two machines cannot be compared; leave out --no-relative"
+            )
+        relative = True
+        warning = (
+            f"WARNING: two machines. A is of machine {file_a.machine}, B of {file_b.machine}. "
+            "Their milliseconds cannot be compared; shown are ratios to a contender that both files have."
+        )
+    reference = _reference(file_a.rows, file_b.rows) if relative else None
+    known_a, known_b = _figures(file_a, reference), _figures(file_b, reference)
+    titles = _titles(file_b.rows)
     pairs = []
     for key in known_a.keys() & known_b.keys():
-        (a, error_a, inputs_a), (b, error_b, inputs_b) = known_a[key], known_b[key]
-        error = sqrt(error_a**2 + error_b**2)
-        middle = b - a
-        pairs.append(
-            Pair(
-                key[2],
-                titles[key],
-                exp(middle),
-                exp(middle - error),
-                exp(middle + error),
-                inputs_a == inputs_b,
-            )
-        )
+        (a, inputs_a), (b, inputs_b) = known_a[key], known_b[key]
+        pairs.append(Pair(key[2], titles[key], unpaired_ratio(b, a), inputs_a == inputs_b))
     if not pairs:
         raise Problem(f"{first} and {second} have no cell in common that has times")
     pairs.sort(key=lambda pair: (pair.structure, pair.title))
-    how = "over Embree's single rays in the same file" if relative else "in milliseconds"
+    how = f"over that of {' '.join(reference)} in the same file" if reference else "in milliseconds"
     what = f"B over A: total {how}; above 1, B is slower. A is {first}, B is {second}."
     return Difference(
         what,
+        warning,
         pairs,
         len(known_a.keys() - known_b.keys()),
         len(known_b.keys() - known_a.keys()),
-        _wrong(rows_a, "A") + _wrong(rows_b, "B"),
+        _wrong(file_a.rows, "A") + _wrong(file_b.rows, "B"),
     )
 
 
-def _read(path: Path) -> pd.DataFrame:
+def _read(path: Path) -> _File:
     """A CSV, or the folder that holds one; whatever its name."""
     if path.is_dir() or path.name == "results.csv":
-        return read_run(path if path.is_dir() else path.parent).rows
-    with tempfile.TemporaryDirectory() as folder:
-        link = Path(folder) / "results.csv"
+        folder = path if path.is_dir() else path.parent
+        rows = read_run(folder).rows
+        return _File(rows, read_cell_files(folder), machine_of(rows, folder))
+    with tempfile.TemporaryDirectory() as temporary:
+        link = Path(temporary) / "results.csv"
         if not path.is_file():
             raise Problem(f"{path}: is not a file that can be read")
         link.symlink_to(path.resolve())
         try:
-            return read_run(Path(folder)).rows
+            rows = read_run(Path(temporary)).rows
         except Problem as problem:
             raise Problem(str(problem).replace(str(link), str(path))) from None
+    return _File(rows, {}, machine_of(rows, path.parent))
 
 
-def _figures(rows: pd.DataFrame, relative: bool) -> dict[tuple, tuple[float, float, str]]:
-    """Logarithm of the time of each cell, half its 95% interval, and what was asked."""
-    timed = rows[rows["timed"] & (rows["verdict"] != "baseline") & (rows["total_ms_median"] > 0)]
-    views = [tuple(row) for row in timed[list(VIEW)].to_numpy().tolist()]
-    figures, references = {}, {}
-    for view, key, (_, row) in zip(views, keys_of(timed), timed.iterrows(), strict=True):
-        inputs = f"{row.get('scene_hash', '')} {row.get('rays_hash', '')}"
-        figures[key] = (view, log(row["total_ms_median"]), _half_width(row), inputs)
-        if row["structure"] == "embree" and ("mode=single" in row["parameters"]):
-            references[view] = (key, figures[key])
-    if not relative:
-        return {key: (time, error, inputs) for key, (_, time, error, inputs) in figures.items()}
-    result = {}
-    for key, (view, time, error, inputs) in figures.items():
-        reference = references.get(view)
-        if reference is None or reference[0] == key:
-            continue
-        _, base, base_error, _ = reference[1]
-        result[key] = (time - base, sqrt(error**2 + base_error**2), inputs)
-    return result
+def _timed(rows: pd.DataFrame) -> pd.DataFrame:
+    return rows[rows["timed"] & (rows["verdict"] != "baseline") & (rows["total_ms_median"] > 0)]
 
 
-def _half_width(row: pd.Series) -> float:
-    """NaN for a cell of too few repetitions: an interval must not be made up."""
-    low, high = row["total_ms_ci_low"], row["total_ms_ci_high"]
-    if pd.isna(low) or pd.isna(high) or low <= 0:
-        return float("nan")
-    middle = log(row["total_ms_median"])
-    return max(log(high) - middle, middle - log(low))
+def _reference(rows_a: pd.DataFrame, rows_b: pd.DataFrame) -> Contender:
+    """Whom both files have in the most views; Embree's single rays where they are among these.
+
+    Raises Problem where they have no contender in common.
+    """
+    views_a, views_b = (
+        {(*view, *who) for view, who in zip(_views(rows), _contenders(rows), strict=True)}
+        for rows in (_timed(rows_a), _timed(rows_b))
+    )
+    counts = Counter((key[-2], key[-1]) for key in views_a & views_b)
+    if not counts:
+        raise Problem("the files are of two machines and have no contender with times in common")
+
+    def preference(who: Contender) -> tuple[bool, int, Contender]:
+        return (who[0] == "embree" and "mode=single" in who[1], counts[who], who)
+
+    return max(counts, key=preference)
+
+
+def _figures(file: _File, reference: Contender | None) -> dict[Key, tuple[Median, str]]:
+    """The time of each cell, or its ratio to the reference, and what was asked."""
+    timed = _timed(file.rows)
+    rows = [row for _, row in timed.iterrows()]
+    keys = keys_of(timed)
+    inputs = [f"{row.get('scene_hash', '')} {row.get('rays_hash', '')}" for row in rows]
+    if reference is None:
+        return {
+            key: (median_of(row, "total"), asked)
+            for key, row, asked in zip(keys, rows, inputs, strict=True)
+        }
+    views, contenders = _views(timed), _contenders(timed)
+    bases = {
+        view: row
+        for view, who, row in zip(views, contenders, rows, strict=True)
+        if who == reference
+    }
+    return {
+        key: (_over(row, bases[view], file.cells), asked)
+        for key, view, who, row, asked in zip(keys, views, contenders, rows, inputs, strict=True)
+        if view in bases and who != reference
+    }
+
+
+def _over(row: pd.Series, base: pd.Series, cells: Mapping[Identity, CellFile]) -> Median:
+    """A cell over the reference of its run: paired by rounds where the repetitions are there."""
+    file, base_file = cells.get(identity(row)), cells.get(identity(base))
+    ratio = paired_ratio(file.total_ms, base_file.total_ms) if file and base_file else None
+    ratio = ratio or unpaired_ratio(median_of(row, "total"), median_of(base, "total"))
+    return Median(ratio.value, ratio.low, ratio.high)
+
+
+def _views(rows: pd.DataFrame) -> list[tuple]:
+    return [tuple(row) for row in rows[list(VIEW)].to_numpy().tolist()]
+
+
+def _contenders(rows: pd.DataFrame) -> list[Contender]:
+    return list(zip(rows["structure"], rows["parameters"], strict=True))
 
 
 def _titles(rows: pd.DataFrame) -> dict[tuple, str]:
@@ -148,17 +210,17 @@ def _titles(rows: pd.DataFrame) -> dict[tuple, str]:
     }
 
 
-def _overall(pairs: list[Pair]) -> tuple[float, float, float]:
+def _overall(pairs: list[Pair]) -> Ratio:
     """The geometric mean; its interval by the spread over cells, which are no repetitions."""
-    logs = pd.Series([log(pair.ratio) for pair in pairs])
+    logs = pd.Series([log(pair.ratio.value) for pair in pairs])
     if len(logs) < 2:
-        return exp(logs.mean()), pairs[0].low, pairs[0].high
+        return pairs[0].ratio
     half = 1.96 * logs.std() / sqrt(len(logs))
-    return exp(logs.mean()), exp(logs.mean() - half), exp(logs.mean() + half)
+    return Ratio(exp(logs.mean()), exp(logs.mean() - half), exp(logs.mean() + half))
 
 
-def _interval(low: float, high: float) -> str:
-    return "" if low != low else f" ({low:.3f} to {high:.3f})"
+def _interval(ratio: Ratio) -> str:
+    return "" if ratio.interval is None else f" ({ratio.low:.3f} to {ratio.high:.3f})"
 
 
 def _wrong(rows: pd.DataFrame, name: str) -> list[str]:

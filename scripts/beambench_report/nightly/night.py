@@ -10,6 +10,7 @@ from pathlib import Path
 import pandas as pd
 
 from beambench_report.dictionary import COUNTER_SUFFIX
+from beambench_report.machine import machine_of
 from beambench_report.page.cell_files import IDENTITY
 from beambench_report.problem import Problem
 from beambench_report.records import TIMED_VERDICTS, Run
@@ -44,6 +45,7 @@ class Night:
     commit: str
     dirty: bool
     machine_id: str
+    """With the processor where a manifest names it: nights of two machines are never mixed."""
     csv_sha256: str
     figures: tuple[Figure, ...]
 
@@ -86,7 +88,7 @@ def night_of(run: Run) -> Night:
         str(rows["time_utc"].max()) if "time_utc" in rows else "",
         last["commit"],
         (rows["dirty"] == "true").any(),
-        last["machine_id"],
+        str(machine_of(rows, run.directory)),
         hashlib.sha256((run.directory / "results.csv").read_bytes()).hexdigest(),
         tuple(figures),
     )

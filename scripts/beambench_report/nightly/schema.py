@@ -7,6 +7,9 @@ work        counters a ray as JSON, sorted by name; they repeat from night to ni
 figures     a row for each cell of each night; NULL is not measured, or not judged right
 alarms      what a night raised its voice about, kept so that no later night does so again
 
+`machine_id` of a night is the column's, with the processor behind it where the run's manifest names
+it: a series holds nights of one machine only.
+
 `ratio` is the total, in clock cycles during which the thread ran (see night.cycles), over that of
 the contender `reference` of the same run and the same rays.
 """

@@ -26,6 +26,7 @@ class Facts:
 class Manifest:
     """What was measured by what, and where."""
 
+    run_id: str = ""
     sweep: str = ""
     begun: str = ""
     seconds: float | None = None
@@ -45,6 +46,7 @@ def read_manifest(directory: Path) -> Manifest | None:
         return None
     begun, finished = source.get("time_utc"), source.get("finished_utc")
     return Manifest(
+        run_id=source.get("run_id", ""),
         sweep=source.get("sweep", ""),
         begun=begun or "",
         seconds=_seconds_between(begun, finished),

@@ -9,7 +9,7 @@ import pandas as pd
 
 from beambench_report.page.cell_files import CellFile, Identity, identity
 from beambench_report.problem import Problem
-from beambench_report.ratio import Median, Ratio, paired_ratio, unpaired_ratio
+from beambench_report.ratio import Ratio, median_of, paired_ratio, unpaired_ratio
 from beambench_report.records import Run
 
 _FAVOURITE = "embree"
@@ -64,13 +64,5 @@ def _ratios(
         elif file and base_file and (ratio := paired_ratio(file.total_ms, base_file.total_ms)):
             result[contender] = ratio
         elif base["total_ms_median"] > 0:
-            result[contender] = unpaired_ratio(_total(row), _total(base))
+            result[contender] = unpaired_ratio(median_of(row, "total"), median_of(base, "total"))
     return result
-
-
-def _total(row: pd.Series) -> Median:
-    low, high = (
-        None if pd.isna(row[name]) else float(row[name])
-        for name in ("total_ms_ci_low", "total_ms_ci_high")
-    )
-    return Median(float(row["total_ms_median"]), low, high)
