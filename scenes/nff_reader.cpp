@@ -2,15 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <fstream>
+#include <new>
 #include <optional>
-#include <sstream>
-#include <system_error>
 
 #include <fmt/format.h>
 
 #include "scenes/error.hpp"
+#include "scenes/input_file.hpp"
 #include "scenes/nff_notes.hpp"
 #include "scenes/nff_tokens.hpp"
 #include "scenes/nff_view.hpp"
@@ -231,19 +229,14 @@ NffResult parse_nff(std::string_view text, const std::string& file, NffOptions o
 }
 
 NffResult read_nff(const std::filesystem::path& path, NffOptions options) {
-  const std::string file = path.string();
-  if (std::filesystem::is_directory(path)) {
-    throw InputError(file + ": this is a folder; name an NFF file in it");
+  const std::string text = read_input(path);
+  try {
+    return parse_nff(text, path.string(), options);
+  } catch (const std::bad_alloc&) {
+    throw InputError(fmt::format(
+        "{}: out of memory for its primitives; close other programs, or divide the scene",
+        path.string()));
   }
-  errno = 0;
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  if (stream && stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
-  if (!stream.is_open() || stream.bad() || text.bad()) {
-    throw InputError(fmt::format("{}: the file cannot be read ({}); check the path", file,
-                                 std::generic_category().message(errno)));
-  }
-  return parse_nff(text.view(), file, options);
 }
 
 }  // namespace beambench

@@ -2,13 +2,17 @@
 
 #include <bit>
 #include <charconv>
-#include <fstream>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 
 #include "harness/files/pending_file.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/error.hpp"
+#include "scenes/input_file.hpp"
 
 namespace beambench {
 namespace {
@@ -17,6 +21,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kFirstLine = "beambench-rays 1";
 constexpr std::uint64_t kMostRays = std::uint64_t{1} << 28U;
+constexpr std::uint64_t kMostBytes = kMostRays * sizeof(Ray) + (1U << 20U);  // and a header
 
 static_assert(std::endian::native == std::endian::little, "rays are written as they lie in memory");
 static_assert(sizeof(Ray) == 8 * sizeof(float));
@@ -45,7 +50,7 @@ std::optional<std::uint64_t> read_hash(const std::filesystem::path& path, const 
   return value;
 }
 
-Header read_header(const std::filesystem::path& path, const std::string& line) {
+Header read_header(const std::filesystem::path& path, std::string_view line) {
   const Json json = Json::parse(line, nullptr, false);
   if (!json.is_object()) fail(path, "the second line is not a JSON object");
   Header header;
@@ -67,20 +72,24 @@ Header read_header(const std::filesystem::path& path, const std::string& line) {
   return header;
 }
 
-std::vector<Ray> read_rays(const std::filesystem::path& path, std::istream& file,
-                           std::uint64_t count) {
+/// Takes the first line off a text; none when the text has no end of a line.
+std::optional<std::string_view> take_line(std::string_view& text) {
+  const std::size_t end = text.find('\n');
+  if (end == std::string_view::npos) return std::nullopt;
+  const std::string_view line = text.substr(0, end);
+  text.remove_prefix(end + 1);
+  return line;
+}
+
+std::vector<Ray> rays_of(const std::filesystem::path& path, std::string_view bytes,
+                         std::uint64_t count) {
   // The length first: a header that promises too much must not cost the memory for it.
-  const auto begin = file.tellg();
-  file.seekg(0, std::ios::end);
-  const auto bytes = static_cast<std::uint64_t>(file.tellg() - begin);
-  file.seekg(begin);
-  if (bytes != count * sizeof(Ray)) {
-    fail(path, fmt::format("{} bytes of rays follow the header, not the {} of {} rays", bytes,
-                           count * sizeof(Ray), count));
+  if (bytes.size() != count * sizeof(Ray)) {
+    fail(path, fmt::format("{} bytes of rays follow the header, not the {} of {} rays",
+                           bytes.size(), count * sizeof(Ray), count));
   }
   std::vector<Ray> rays(count);
-  file.read(reinterpret_cast<char*>(rays.data()), static_cast<std::streamsize>(bytes));
-  if (!file) fail(path, "the rays cannot be read");
+  std::memcpy(rays.data(), bytes.data(), bytes.size());
   return rays;
 }
 
@@ -112,17 +121,15 @@ void write_ray_file(const std::filesystem::path& path, const RaySet& set,
 }
 
 RaySet read_ray_file(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::string line;
-  if (!file || !std::filesystem::is_regular_file(path)) {
-    throw InputError(fmt::format("cannot open the ray file '{}'; check its name", path.string()));
-  }
-  if (!std::getline(file, line) || line != kFirstLine) {
+  const std::string text = read_input(path, kMostBytes);
+  std::string_view rest = text;
+  if (take_line(rest) != kFirstLine) {
     fail(path, fmt::format("this is no file of rays: its first line is not '{}'", kFirstLine));
   }
-  if (!std::getline(file, line)) fail(path, "the second line is not a JSON object");
-  Header header = read_header(path, line);
-  header.set.rays = read_rays(path, file, header.rays);
+  const std::optional<std::string_view> line = take_line(rest);
+  if (!line) fail(path, "the second line is not a JSON object");
+  Header header = read_header(path, *line);
+  header.set.rays = rays_of(path, rest, header.rays);
   if (header.hash && *header.hash != fingerprint(header.set.rays)) {
     fail(path, "the rays are not those that were written: their hash differs from the header's");
   }

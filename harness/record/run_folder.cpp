@@ -1,6 +1,5 @@
 #include "harness/record/run_folder.hpp"
 
-#include <fstream>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -8,6 +7,7 @@
 #include "harness/files/pending_file.hpp"
 #include "harness/record/csv.hpp"
 #include "scenes/error.hpp"
+#include "scenes/input_file.hpp"
 
 namespace beambench {
 namespace {
@@ -29,13 +29,16 @@ void make_folder(const fs::path& path) {
 }
 
 Json parse_file(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  Json document = Json::parse(file, nullptr, /*allow_exceptions=*/false);
-  if (!document.is_discarded()) return document;
-  throw InputError(
-      fmt::format("cannot read '{}', which a run should have left whole; remove a cell's file to "
-                  "have the cell measured again, or begin a new run with -o",
-                  path.string()));
+  constexpr const char* kRemedy =
+      "remove a cell's file to have the cell measured again, or begin a new run with -o";
+  try {
+    Json document = Json::parse(read_input(path), nullptr, /*allow_exceptions=*/false);
+    if (!document.is_discarded()) return document;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}; {}", error.what(), kRemedy));
+  }
+  throw InputError(fmt::format("cannot read '{}', which a run should have left whole; {}",
+                               path.string(), kRemedy));
 }
 
 void remove_left_behind(const fs::path& folder) {

@@ -1,28 +1,18 @@
 #include "harness/sweep/json_node.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "scenes/input_file.hpp"
 #include "scenes/nearest_name.hpp"
 
 namespace beambench {
 namespace {
 
 using nlohmann::json;
-
-std::string read_text(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file || std::filesystem::is_directory(path)) {
-    throw InputError(
-        fmt::format("cannot read '{}': give the path of a sweep's JSON file", path.string()));
-  }
-  return {std::istreambuf_iterator<char>(file), {}};
-}
 
 /// nlohmann's message without its own prefix and position.
 std::string_view plain_message(std::string_view what) {
@@ -74,7 +64,7 @@ std::string shown(const json& value) {
 }  // namespace
 
 json read_json_file(const std::filesystem::path& path) {
-  const std::string text = read_text(path);
+  const std::string text = read_input(path);
   try {
     return json::parse(text, DuplicateKeys(path.string()));
   } catch (const json::parse_error& error) {

@@ -1,15 +1,13 @@
 #include "scenes/meshes/mesh_bytes.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <limits>
 
 #include <fmt/format.h>
 #include <zlib.h>
 
 #include "scenes/error.hpp"
+#include "scenes/input_file.hpp"
 
 namespace beambench {
 namespace {
@@ -84,21 +82,17 @@ std::filesystem::path companion_folder(const std::filesystem::path& path) {
 }
 
 std::string read_bytes(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) refuse(path, "it is a folder, not a file");
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
-  if (!file || ignored) {
-    refuse(path, fmt::format("it cannot be read ({}); check the path and its permissions",
-                             errno == 0 ? "not a regular file" : std::strerror(errno)));
+  namespace fs = std::filesystem;
+  std::error_code unknown;
+  const fs::file_status status = fs::status(path, unknown);
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
+    refuse(path, "it is not a regular file; a mesh is read from a file of its own");
   }
-  if (size == 0) refuse(path, "the file is empty; export the mesh again");
-  if (size > kLargestMeshFile) refuse_size(path);
-  std::string bytes(size, '\0');
-  if (!file.read(bytes.data(), static_cast<std::streamsize>(size))) {
-    refuse(path, "reading it failed half-way; try a copy on another disk");
+  if (fs::is_regular_file(status) && fs::file_size(path, unknown) > kLargestMeshFile && !unknown) {
+    refuse_size(path);
   }
+  std::string bytes = read_input(path, kLargestMeshFile);
+  if (bytes.empty()) refuse(path, "the file is empty; export the mesh again");
   return bytes;
 }
 

@@ -1,7 +1,6 @@
 #include "scenes/meshes/mesh_registry.hpp"
 
 #include <algorithm>
-#include <fstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -9,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scenes/error.hpp"
+#include "scenes/input_file.hpp"
 #include "scenes/meshes/cache_folder.hpp"
 #include "scenes/meshes/mesh_format.hpp"
 #include "scenes/nearest_name.hpp"
@@ -55,8 +55,7 @@ void read_axis(const Json& json, const char* key, glm::dvec3& axis, const fs::pa
 }
 
 RegisteredMesh read_entry(const std::string& name, const fs::path& entry) {
-  std::ifstream file(entry);
-  const Json json = Json::parse(file, nullptr, false);
+  const Json json = Json::parse(read_input(entry), nullptr, false);
   if (!json.is_object()) refuse_entry(entry, "it is not a JSON object");
   RegisteredMesh mesh;
   mesh.name = name;

@@ -134,9 +134,9 @@ TEST_F(Config, MalformedJsonNamesLineAndColumn) {
 
 TEST_F(Config, AMissingFileIsNamed) {
   EXPECT_TRUE(says(thrown_message([&] { read_sweep("no/such.json", registry()); }),
-                   {"cannot read 'no/such.json'"}));
+                   {"no/such.json: cannot be read: No such file"}));
   EXPECT_TRUE(says(thrown_message([&] { read_sweep(folder_.path(), registry()); }),
-                   {"cannot read", folder_.path().string()}));
+                   {folder_.path().string() + ": cannot be read: it is a folder"}));
 }
 
 TEST_F(Config, TooManyCombinationsAreRefused) {

@@ -315,7 +315,7 @@ TEST_F(RayFile, ThatIsDamagedIsRefused) {
 
 TEST_F(RayFile, ThatIsNoneIsRefused) {
   std::filesystem::remove(path_);
-  EXPECT_TRUE(says(refusal(), {"cannot open", "some.rays"}));
+  EXPECT_TRUE(says(refusal(), {"some.rays: cannot be read: No such file"}));
   for (const char* text :
        {"", "v\nfrom 0 0 0\n", "beambench-rays 2\n{}\n", "beambench-rays 1",
         "beambench-rays 1\n[]\n", "beambench-rays 1\n{\"query\":\"all\",\"rays\":1}\n",

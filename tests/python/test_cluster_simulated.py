@@ -133,6 +133,8 @@ def test_slow_machines_get_fewer_tasks(tmp_path: Path) -> None:
 @needs_simulator
 def test_wrong_files_are_refused_with_their_line(tmp_path: Path) -> None:
     path = tmp_path / "t.csv"
+    assert "t.csv: cannot be read: No such file" in refusal(path)
+    path.write_text("", "utf-8")
     assert "cannot read tasks" in refusal(path)
     path.write_text("a,b\n", "utf-8")
     assert "t.csv:1: there is no column 'task'" in refusal(path)

@@ -4,14 +4,15 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
+#include <sstream>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "scenes/error.hpp"
+#include "scenes/input_file.hpp"
 
 namespace beambench {
 namespace {
@@ -82,6 +83,14 @@ double sum(const std::vector<TaskCost>& tasks, Value value) {
   return total;
 }
 
+std::string read_tasks(const std::filesystem::path& path) {
+  try {
+    return read_input(path);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}; {}", error.what(), kRemedy));
+  }
+}
+
 }  // namespace
 
 double TaskCosts::walk_seconds() const {
@@ -91,7 +100,7 @@ double TaskCosts::work_seconds() const { return sum(tasks, &TaskCost::work_secon
 double TaskCosts::accept_seconds() const { return sum(tasks, &TaskCost::accept_seconds); }
 
 TaskCosts read_task_costs(const std::filesystem::path& path) {
-  std::ifstream file(path);
+  std::istringstream file(read_tasks(path));
   std::string text;
   if (!std::getline(file, text)) {
     throw InputError(fmt::format("cannot read tasks from '{}'; {}", path.string(), kRemedy));

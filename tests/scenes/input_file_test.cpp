@@ -1,0 +1,102 @@
+#include "scenes/input_file.hpp"
+
+#include <array>
+#include <string>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include "scenes/nff_reader.hpp"
+#include "tests/harness/temporary_folder.hpp"
+#include "tests/scenes/thrown_message.hpp"
+
+namespace beambench {
+namespace {
+
+/// A terminal of our own: what is written at its one end can be read at the other, and when the
+/// first end is closed, reading on is an input error (EIO), as of a disk that gives up.
+class HungUpTerminal {
+ public:
+  explicit HungUpTerminal(const std::string& text) : reader_(::posix_openpt(O_RDWR | O_NOCTTY)) {
+    if (reader_ < 0 || ::grantpt(reader_) != 0 || ::unlockpt(reader_) != 0) return;
+    const int writer = ::open(::ptsname(reader_), O_RDWR | O_NOCTTY);
+    termios settings{};
+    works_ = writer >= 0 && ::tcgetattr(writer, &settings) == 0;
+    ::cfmakeraw(&settings);  // ends of lines stay as they are
+    works_ = works_ && ::tcsetattr(writer, TCSANOW, &settings) == 0 &&
+             ::write(writer, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+    ::close(writer);
+  }
+  ~HungUpTerminal() { ::close(reader_); }
+  HungUpTerminal(const HungUpTerminal&) = delete;
+  HungUpTerminal& operator=(const HungUpTerminal&) = delete;
+
+  bool works() const { return works_; }
+  int descriptor() const { return reader_; }
+
+ private:
+  int reader_;
+  bool works_ = false;
+};
+
+TEST(Input, IsReadWhole) {
+  const TemporaryFolder folder;
+  std::string text(300000, 'x');
+  text[70000] = '\0';
+  EXPECT_EQ(read_input(folder.write("a", text)), text);
+  EXPECT_EQ(read_input(folder.write("empty", "")), "");
+  EXPECT_EQ(read_input("/dev/null"), "");
+  EXPECT_FALSE(read_input("/proc/self/status").empty()) << "a file that names no length";
+}
+
+TEST(Input, ComesThroughPipes) {
+  std::array<int, 2> ends{};
+  ASSERT_EQ(::pipe(ends.data()), 0);
+  ASSERT_EQ(::write(ends[1], "s 0 0 0 1\n", 10), 10);
+  ::close(ends[1]);
+  EXPECT_EQ(read_input("/dev/fd/" + std::to_string(ends[0])), "s 0 0 0 1\n");
+  ::close(ends[0]);
+}
+
+TEST(Input, IsReadFromWhereADescriptorStands) {
+  const TemporaryFolder folder;
+  const int file = ::open(folder.write("a", "0123456789").c_str(), O_RDONLY);
+  ASSERT_EQ(::lseek(file, 4, SEEK_SET), 4);
+  EXPECT_EQ(read_input(file, "a"), "456789");
+  EXPECT_EQ(read_input(file, "a"), "") << "at the end";
+  ::close(file);
+}
+
+TEST(Input, CutByAnInputErrorIsRefused) {
+  EXPECT_TRUE(says(thrown_message([] { read_input("/proc/self/mem"); }),
+                   {"/proc/self/mem: cannot be read: Input/output error"}));
+  const HungUpTerminal terminal("s 0 0 0 1\n");
+  if (!terminal.works()) GTEST_SKIP() << "no pseudo terminals here";
+  EXPECT_TRUE(says(thrown_message([&] { read_input(terminal.descriptor(), "a.nff"); }),
+                   {"a.nff: cannot be read: Input/output error"}));
+}
+
+TEST(Input, ThatIsNoneIsRefused) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(says(thrown_message([] { read_input("/no/such/file"); }),
+                   {"/no/such/file: cannot be read: No such file or directory", "check the path"}));
+  EXPECT_TRUE(says(thrown_message([&] { read_input(folder.path()); }),
+                   {folder.path().string() + ": cannot be read: it is a folder"}));
+  const std::string file = folder.write("a", "12345").string();
+  EXPECT_EQ(read_input(file, 5), "12345");
+  EXPECT_TRUE(says(thrown_message([&] { read_input(file, 4); }),
+                   {file + ": cannot be read: it holds more than 4 bytes"}));
+  EXPECT_TRUE(says(thrown_message([] { read_input("/dev/zero", 1U << 20U); }),
+                   {"/dev/zero: cannot be read: it holds more than 1048576 bytes"}));
+}
+
+TEST(Input, OfASceneIsRefusedInTheSameWords) {
+  EXPECT_TRUE(says(thrown_message([] { read_nff("/proc/self/mem"); }),
+                   {"/proc/self/mem: cannot be read: Input/output error"}));
+}
+
+}  // namespace
+}  // namespace beambench
