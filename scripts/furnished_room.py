@@ -221,9 +221,10 @@ def write(meshes: list[Mesh], output: Path) -> None:
                 material = name
             lines.append("f " + " ".join(str(first + corner) for corner in corners))
         first += len(mesh.vertices)
-    pending = output.with_name(f".pending-{output.name}")
+    target = output.resolve()  # of a link, what it leads to
+    pending = target.with_name(f".pending-{target.name}")
     pending.write_text("\n".join(lines) + "\n")
-    pending.replace(output)
+    pending.replace(target)
 
 
 def main(arguments: list[str]) -> int:

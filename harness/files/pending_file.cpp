@@ -1,6 +1,7 @@
 #include "harness/files/pending_file.hpp"
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -9,6 +10,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "harness/files/descriptor_buffer.hpp"
+#include "harness/files/output_target.hpp"
 #include "scenes/error.hpp"
 
 namespace beambench {
@@ -48,13 +51,68 @@ bool reaches_disk(const fs::path& path) {
   return synced;
 }
 
+/// Refuses folders.
+OutputTarget target_of(const fs::path& target) {
+  if (!target.has_filename()) refuse(target, "it names a folder", "add a file name");
+  try {
+    OutputTarget found = find_output_target(target);
+    if (found.kind != OutputTarget::Kind::kFolder) return found;
+  } catch (const fs::filesystem_error& error) {
+    refuse(target, error.code().message(), "choose another place");
+  }
+  refuse(target, "it is a folder", "add a file name");
+}
+
+void write_into(int descriptor, const fs::path& target,
+                const std::function<void(std::ostream&)>& write) {
+  DescriptorBuffer buffer(descriptor);
+  std::ostream stream(&buffer);
+  write(stream);
+  stream.flush();
+  if (stream) return;
+  refuse(target, buffer.error() == 0 ? "the writing failed" : std::strerror(buffer.error()),
+         "choose another place");
+}
+
+/// A device or pipe that is open for writing, closed at the end.
+class OpenNode {
+ public:
+  explicit OpenNode(const fs::path& path)
+      : descriptor_(::open(path.c_str(), O_WRONLY | O_TRUNC | O_NOCTTY | O_CLOEXEC)) {
+    if (descriptor_ < 0) refuse_by_error(path, errno);
+  }
+  ~OpenNode() { ::close(descriptor_); }
+  OpenNode(const OpenNode&) = delete;
+  OpenNode& operator=(const OpenNode&) = delete;
+
+  int descriptor() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+/// Writes into what is not replaced. What has gone into it cannot be taken back.
+void write_through(const fs::path& target, const OutputTarget& found,
+                   const std::function<void(std::ostream&)>& write) {
+  if (found.kind == OutputTarget::Kind::kOpen) {
+    std::fflush(nullptr);  // what was printed before comes first
+    write_into(found.descriptor, target, write);
+  } else {
+    write_into(OpenNode(target).descriptor(), target, write);
+  }
+}
+
 }  // namespace
 
 void require_writable(const fs::path& target) {
+  const OutputTarget found = target_of(target);
+  if (found.kind == OutputTarget::Kind::kOpen) return;
+  if (found.kind == OutputTarget::Kind::kNode) {
+    if (::access(target.c_str(), W_OK) != 0) refuse_by_error(target, errno);
+    return;
+  }
   std::error_code ignored;
-  const fs::path folder = folder_of(target);
-  if (!target.has_filename()) refuse(target, "it names a folder", "add a file name");
-  if (fs::is_directory(target, ignored)) refuse(target, "it is a folder", "add a file name");
+  const fs::path folder = folder_of(found.path);
   if (!fs::exists(folder, ignored)) {
     refuse(target, fmt::format("the folder '{}' does not exist", folder.string()),
            "create it or choose another");
@@ -68,8 +126,8 @@ void require_writable(const fs::path& target) {
   }
 }
 
-PendingFile::PendingFile(fs::path target) : target_(std::move(target)) {
-  require_writable(target_);
+PendingFile::PendingFile(const fs::path& target) : target_(target_of(target).path) {
+  require_writable(target);
   path_ = folder_of(target_) / fmt::format(".{}.{}{}{}", target_.stem().string(), ::getpid(),
                                            kPartial, target_.extension().string());
   const int file = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
@@ -104,6 +162,11 @@ void write_file(const fs::path& target, std::string_view text) {
 }
 
 void write_file(const fs::path& target, const std::function<void(std::ostream&)>& write) {
+  const OutputTarget found = target_of(target);
+  if (found.kind != OutputTarget::Kind::kFile) {
+    write_through(target, found, write);
+    return;
+  }
   PendingFile pending(target);
   errno = 0;
   std::ofstream file(pending.path(), std::ios::binary);

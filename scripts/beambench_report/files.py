@@ -1,4 +1,7 @@
-"""Writing files whole: beside their place first, then renamed, so that none is ever half there."""
+"""Writing files whole: beside their place first, then renamed, so that none is ever half there.
+
+Symbolic links stay links: what they lead to is replaced. Devices and pipes are written into.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +11,14 @@ from pathlib import Path
 
 def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
     """Lets `write` fill a file beside `path` and puts it there; returns `path`."""
-    pending = path.with_name(f".pending-{path.name}")
+    if path.exists() and not path.is_file() and not path.is_dir():
+        write(path)
+        return path
+    target = path.resolve()
+    pending = target.with_name(f".pending-{target.name}")
     try:
         write(pending)
-        pending.replace(path)
+        pending.replace(target)
     finally:
         pending.unlink(missing_ok=True)
     return path

@@ -1,0 +1,50 @@
+"""What the reports' writers do with links, pipes and folders."""
+
+from __future__ import annotations
+
+import os
+import stat
+import threading
+from pathlib import Path
+
+import pytest
+
+from beambench_report.files import write_text
+
+
+def test_a_file_is_replaced_whole(tmp_path: Path) -> None:
+    file = tmp_path / "a.txt"
+    assert write_text(file, "old") == file
+    assert write_text(file, "new") == file
+    assert file.read_text() == "new"
+    assert list(tmp_path.iterdir()) == [file]
+
+
+def test_a_link_stays_and_what_it_leads_to_is_replaced(tmp_path: Path) -> None:
+    folder = tmp_path / "elsewhere"
+    folder.mkdir()
+    link = tmp_path / "a.txt"
+    link.symlink_to("elsewhere/b.txt")
+    for text in ("new", "newer"):  # first the link dangles
+        assert write_text(link, text) == link
+        assert link.is_symlink()
+        assert (folder / "b.txt").read_text() == text
+    assert list(folder.iterdir()) == [folder / "b.txt"]
+
+
+def test_a_named_pipe_is_written_into(tmp_path: Path) -> None:
+    pipe = tmp_path / "a.txt"
+    os.mkfifo(pipe)
+    read: list[str] = []
+    reader = threading.Thread(target=lambda: read.append(pipe.read_text()), daemon=True)
+    reader.start()
+    write_text(pipe, "text")
+    reader.join(timeout=5)
+    assert read == ["text"]
+    assert stat.S_ISFIFO(pipe.stat().st_mode)
+
+
+def test_a_folder_is_not_replaced(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="directory"):
+        write_text(tmp_path, "text")
+    assert list(tmp_path.iterdir()) == []
