@@ -17,8 +17,8 @@
 #include "harness/cli/whitted_request.hpp"
 #include "harness/picture/image_error.hpp"
 #include "harness/picture/image_file.hpp"
-#include "harness/plugin/check_hits.hpp"
 #include "harness/rays/answers.hpp"
+#include "harness/rays/hit_check.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/error.hpp"
 
@@ -65,13 +65,13 @@ WhittedOptions options_of(const Request& request, const WhittedRequest& whitted)
 }
 
 /// The picture without `least_weight`, and how far the one with it is from it.
-FullPicture draw_full(const Scene& scene, const Accelerator& structure, const EyeRays& rays,
-                      const HitBuffer& hits, const Request& request, const Image& picture,
-                      Progress& progress) {
+FullPicture draw_full(const Scene& scene, const Accelerator& structure, const HitCheck& check,
+                      const EyeRays& rays, const HitBuffer& hits, const Request& request,
+                      const Image& picture, Progress& progress) {
   WhittedRequest whitted = request.whitted;
   whitted.least_weight = 0.0;
   progress.start(fmt::format("{} without --least-weight", scene.name));
-  const Whitted tracer(scene, structure, options_of(request, whitted));
+  const Whitted tracer(scene, structure, options_of(request, whitted), check);
   const Clock::time_point begin = Clock::now();
   const WhittedPicture full = watched_picture(tracer, rays, hits, whitted, progress);
   const double picture_ms = milliseconds_since(begin);
@@ -96,9 +96,10 @@ CensusResult take_census(const Request& request, const std::string& name, Progre
   begin = Clock::now();
   const HitBuffer hits = eye_hits(*structure, rays, spd ? nullptr : &primary);
   result.eye_ms = milliseconds_since(begin);
-  check_hits(hits, scene, choice.info());
+  const HitCheck check(scene, choice);
+  check.require(hits, rays.ray);
   begin = Clock::now();
-  const Whitted tracer(scene, *structure, options_of(request, request.whitted));
+  const Whitted tracer(scene, *structure, options_of(request, request.whitted), check);
   result.preparation_ms = milliseconds_since(begin);
   begin = Clock::now();
   const WhittedPicture picture = watched_picture(tracer, rays, hits, request.whitted, progress);
@@ -111,7 +112,7 @@ CensusResult take_census(const Request& request, const std::string& name, Progre
   progress.finish(fmt::format("{} rays in {}", picture.census.all_rays(),
                               format_duration(1e-3 * milliseconds_since(all))));
   if (request.whitted.least_weight > 0.0) {
-    result.full = draw_full(scene, *structure, rays, hits, request, picture.image, progress);
+    result.full = draw_full(scene, *structure, check, rays, hits, request, picture.image, progress);
   }
   return result;
 }

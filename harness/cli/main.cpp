@@ -18,6 +18,7 @@
 #include "harness/plugin/guard.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "harness/plugin/requested_plugins.hpp"
+#include "harness/rays/hit_check.hpp"
 #include "harness/record/build_info.hpp"
 #include "scenes/error.hpp"
 #include "scenes/nearest_name.hpp"
@@ -116,6 +117,8 @@ int run_command_line(const Arguments& arguments, const std::vector<std::string>&
   } catch (const InputError& error) {
     return complain(error.what(), kWrongRequest);
   } catch (const PluginError& error) {
+    return complain(error.what(), kFound);
+  } catch (const InvalidHit& error) {
     return complain(error.what(), kFound);
   } catch (const std::bad_alloc&) {
     return complain(

@@ -13,6 +13,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
+#include "harness/rays/hit_check.hpp"
 #include "harness/record/robust_statistics.hpp"
 #include "scenes/error.hpp"
 
@@ -159,6 +160,7 @@ bool show_mirrors(const Request& request) {
   }
   HitBuffer hits(rays.width(), rays.height(), rays.samples());
   tracer->trace(rays, hits);
+  HitCheck(scene, choice).require(hits, rays);
   const std::vector<PlanarMirror> mirrors = planar_mirrors(scene);
   std::vector<Result> results;
   std::size_t different = 0;

@@ -19,7 +19,7 @@
 #include "harness/cli/work_picture.hpp"
 #include "harness/files/pending_file.hpp"
 #include "harness/picture/image_file.hpp"
-#include "harness/plugin/check_hits.hpp"
+#include "harness/rays/hit_check.hpp"
 #include "harness/shade/shading.hpp"
 
 namespace beambench {
@@ -73,11 +73,13 @@ std::string describe(const std::vector<LegendEntry>& legend) {
   return text;
 }
 
-Image shaded(const Request& request, const Accelerator& accelerator, const Scene& scene,
-             const PrimaryRays& rays, const HitBuffer& hits, Progress& progress) {
+Image shaded(const Request& request, const StructureChoice& choice, const Accelerator& accelerator,
+             const Scene& scene, const PrimaryRays& rays, const HitBuffer& hits,
+             Progress& progress) {
   const Shading shading = parse_shading(request.shading);
   if (shading != Shading::kWhitted) return shade(scene, rays, hits, shading);
-  const Whitted tracer(scene, accelerator, whitted_options(request.whitted));
+  const Whitted tracer(scene, accelerator, whitted_options(request.whitted),
+                       HitCheck(scene, choice));
   return watched_picture(tracer, eye_rays(rays), hits, request.whitted, progress).image;
 }
 
@@ -87,7 +89,7 @@ std::string write_shaded(const Request& request, const StructureChoice& choice,
                          std::optional<Overlay> overlay, const Accelerator& accelerator,
                          const Scene& scene, const PrimaryRays& rays, const HitBuffer& hits,
                          Progress& progress) {
-  Image image = shaded(request, accelerator, scene, rays, hits, progress);
+  Image image = shaded(request, choice, accelerator, scene, rays, hits, progress);
   std::vector<LegendEntry> legend;
   if (overlay) legend = draw_overlay(*overlay, image, accelerator, rays);
   if (overlay && image_format(request.file) == ImageFormat::kPng) {
@@ -121,6 +123,7 @@ ReferenceHits find_reference(const Request& request, const Scene& scene, const P
   const StructureChoice other = choose_one("--difference", request.difference);
   Answers answers = room_for(rays);
   ask(*other.build(scene, workload_of(choose_image(scene, request.image), rays)), rays, answers);
+  HitCheck(scene, other).require(std::get<HitBuffer>(answers), rays);
   return reference_from(scene, rays, answers);
 }
 
@@ -157,15 +160,17 @@ void render(const Request& request) {
       scene, workload_of(choose_image(scene, request.image), rays, request.whitted.threads));
   Answers answers = room_for(rays);
   auto& hits = std::get<HitBuffer>(answers);
+  const HitCheck check(scene, choice);
   std::string found;
   if (!request.heatmap.empty()) {
     const HeatMap map = count_work(*accelerator, rays, request.heatmap, hits, progress);
+    check.require(hits, rays);
     write_heat_map(request, map, hits);
     found = share_of_hits(hits) + remark_on(map, choice);
   } else {
     watched_ask(*accelerator, rays, answers, request.whitted.threads, progress);
     if (request.difference.empty()) {
-      check_hits(hits, scene, choice.info());
+      check.require(hits, rays);
       found = share_of_hits(hits) +
               write_shaded(request, choice, overlay, *accelerator, scene, rays, hits, progress);
     } else {

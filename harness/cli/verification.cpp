@@ -10,6 +10,7 @@
 #include "harness/cli/difference_picture.hpp"
 #include "harness/cli/picture_folder.hpp"
 #include "harness/cli/watched_ask.hpp"
+#include "harness/rays/hit_check.hpp"
 #include "harness/rays/share_warning.hpp"
 #include "scenes/error.hpp"
 #include "scenes/plugin_error.hpp"
@@ -146,6 +147,8 @@ std::vector<VerifiedCell> verify_each(const Scene& scene, const std::string& ray
     } catch (const InputError& error) {  // a cap was exceeded: this cell fails, the others go on
       fail(cell, error);
     } catch (const PluginError& error) {
+      fail(cell, error);
+    } catch (const InvalidHit& error) {  // nothing can be traced on from there
       fail(cell, error);
     }
     progress.finish(cell.message.empty() ? cell.verdict

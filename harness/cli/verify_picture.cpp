@@ -25,7 +25,8 @@ class PictureVerifier {
     const auto structure = choice.build(scene_, workload_);
     HitBuffer hits(rays_.width(), rays_.height(), rays_.samples());
     structure->trace(rays_, hits);
-    RecordedPicture picture = record_picture(scene_, *structure, rays_, std::move(hits), options_);
+    RecordedPicture picture = record_picture(scene_, *structure, rays_, std::move(hits), options_,
+                                             HitCheck(scene_, choice));
     if (choice.info().conformance == Conformance::kBitExact) compare_bits(picture.image, cell);
     const auto judged = judge_picture(eye_, std::move(picture), choice.info().conformance);
     cell.report = sum_of(judged);

@@ -14,6 +14,7 @@
 #include "harness/files/pending_file.hpp"
 #include "harness/picture/image_file.hpp"
 #include "harness/rays/fingerprint.hpp"
+#include "harness/rays/hit_check.hpp"
 #include "harness/shade/preview.hpp"
 #include "scenes/error.hpp"
 
@@ -48,6 +49,7 @@ class Result {
 
   Image picture(const Studio& studio, Shading shading) const {
     if (color_sink_) return color_sink_->image();
+    HitCheck(studio.scene(), "structure 'beam'").require(hits_, studio.rays());
     return shade(studio.scene(), studio.rays(), hits_, shading);
   }
 

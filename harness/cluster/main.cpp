@@ -12,6 +12,7 @@
 #include "harness/cluster/mpi_transport.hpp"
 #include "harness/cluster/request.hpp"
 #include "harness/cluster/split/split_run.hpp"
+#include "harness/rays/hit_check.hpp"
 #include "scenes/error.hpp"
 
 namespace beambench {
@@ -57,6 +58,9 @@ int run(int argc, char** argv, Transport& transport) {
     MpiSession::abort(kWrongRequest);
   } catch (const InputError& error) {
     return complain(error.what(), kWrongRequest);
+  } catch (const InvalidHit& error) {  // the others wait for results that will not come
+    complain(error.what(), kFound);
+    MpiSession::abort(kFound);
   } catch (const std::exception& error) {
     const auto* memory = dynamic_cast<const std::bad_alloc*>(&error);
     complain(memory != nullptr ? "the memory does not suffice; choose a smaller scene or resolution"

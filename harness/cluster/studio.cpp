@@ -28,7 +28,7 @@ Studio::Studio(const Job& job, std::vector<std::string>* warnings)
                     "'beam' and its parameters",
                     choice.info().name));
   }
-  if (job.light) light_.emplace(scene_, *structure_, job.whitted);
+  if (job.light) light_.emplace(scene_, *structure_, job.whitted, HitCheck(scene_, choice));
 }
 
 Identity Studio::identity() const {

@@ -19,9 +19,10 @@ class GuardedStructure : public Accelerator {
 
   void require_primitive(PrimitiveId id) const {
     if (id < primitives_) return;
-    throw PluginError(fmt::format(
-        "the plug-in {} answers nonsense: '{}' names primitive {}, but the scene has {} of them",
-        file_, name_, id, primitives_));
+    throw PluginError(
+        fmt::format("the plug-in {}: structure '{}' returned an invalid hit: primitive {}, but the "
+                    "scene has {} of them",
+                    file_, name_, id, primitives_));
   }
   std::optional<Hit> sound(const std::optional<Hit>& hit) const {
     if (hit) require_primitive(hit->primitive);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 
 #include <glm/geometric.hpp>
@@ -95,8 +96,12 @@ glm::dvec3 facing_normal(const Scene& scene, const Ray& ray, const Hit& hit, boo
       normal = polygon_normal(scene, scene.polygons[primitive.index], point, smooth);
       break;
   }
+  const glm::dvec3 direction(ray.direction);
+  const double length = glm::length(normal);
+  // What is smaller than the rounding of t can be hit in its very center: it faces the ray.
+  if (!(length > 0.0 && std::isfinite(length))) return -glm::normalize(direction);
   normal = glm::normalize(normal);
-  return glm::dot(normal, glm::dvec3(ray.direction)) > 0.0 ? -normal : normal;
+  return glm::dot(normal, direction) > 0.0 ? -normal : normal;
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "harness/picture/image_error.hpp"
+#include "harness/rays/hit_check.hpp"
 #include "harness/record/robust_statistics.hpp"
 #include "harness/sampling/image_space_sampling.hpp"
 #include "harness/sampling/sparse_image.hpp"
@@ -37,6 +38,7 @@ class Sampler {
     const PrimaryRays rays = primary(samples);
     HitBuffer hits(rays.width(), rays.height(), samples);
     const double ms = timed([&] { tracer_->trace(rays, hits); });
+    HitCheck(*scene_, "structure 'beam'").require(hits, rays);
     const double traced = static_cast<double>(rays.count()) - leaving(rays);
     return {ms, traced, shade(*scene_, rays, hits, Shading::kPreview)};
   }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "harness/picture/srgb.hpp"
+#include "harness/rays/hit_check.hpp"
 #include "harness/shade/shading.hpp"
 
 namespace beambench {
@@ -66,6 +67,7 @@ SparseSamples trace_image_space(const BeamTracer& tracer, const Scene& scene, co
   const PrimaryRays first(camera, rays.width(), rays.height(), 1);
   HitBuffer hits(rays.width(), rays.height(), 1);
   tracer.trace(first, hits);
+  HitCheck(scene, "structure 'beam'").require(hits, first);
 
   SparseSamples samples{HitBuffer(rays.width(), rays.height(), rays.samples()), {}};
   samples.number.resize(samples.hits.size(), 0);

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 
+#include "harness/rays/hit_check.hpp"
 #include "harness/shade/preview.hpp"
 
 namespace beambench {
 
 Image sparse_image(const Scene& scene, const PrimaryRays& rays, const SparseSamples& samples) {
+  HitCheck(scene, "structure 'beam'").require(samples.hits, rays);
   const glm::vec3 miss = background_color(scene);
   Image image(rays.width(), rays.height());
   for (int y = 0; y < rays.height(); ++y) {

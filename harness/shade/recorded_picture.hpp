@@ -28,9 +28,10 @@ struct RecordedPicture {
   RayCensus census;
 };
 
-/// Draws the picture that `eye` begins, on this thread alone; some 50 bytes a ray.
+/// Draws the picture that `eye` begins, on this thread alone; some 50 bytes a ray. Throws
+/// InvalidHit.
 RecordedPicture record_picture(const Scene& scene, const Accelerator& structure,
                                const PrimaryRays& rays, HitBuffer eye,
-                               const WhittedOptions& options);
+                               const WhittedOptions& options, HitCheck check);
 
 }  // namespace beambench

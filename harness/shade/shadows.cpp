@@ -1,6 +1,7 @@
 #include "harness/shade/shadows.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -19,9 +20,11 @@ float transmittance_of(const Scene& scene, PrimitiveId id) {
 
 }  // namespace
 
-Shadows::Shadows(const Scene& scene, const Accelerator& structure, const WhittedOptions& options)
+Shadows::Shadows(const Scene& scene, const Accelerator& structure, const WhittedOptions& options,
+                 HitCheck check)
     : scene_(&scene),
       structure_(&structure),
+      check_(std::move(check)),
       method_(options.shadows),
       all_opaque_(std::none_of(scene.surfaces.begin(), scene.surfaces.end(),
                                [](const Surface& s) { return s.transmittance > 0.0F; })) {
@@ -96,6 +99,7 @@ double Shadows::followed(const Ray& to_light, PrimitiveId& blocker, RayCensus& c
     ++census.shadow_queries;
     const std::optional<Hit> hit = structure_->closest_hit(ray);
     if (!hit) return part;
+    check_.require(ray, *hit);
     const float through = transmittance_of(*scene_, hit->primitive);
     if (through <= 0.0F) {
       blocker = hit->primitive;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "accel/accelerator.hpp"
+#include "harness/rays/hit_check.hpp"
 #include "harness/shade/light_buffer.hpp"
 #include "harness/shade/ray_census.hpp"
 #include "harness/shade/whitted_options.hpp"
@@ -27,11 +28,13 @@ struct ShadowCache {
 class Shadows {
  public:
   /// Makes light buffers where the options ask for them. Scene and structure must outlive this.
-  Shadows(const Scene& scene, const Accelerator& structure, const WhittedOptions& options);
+  Shadows(const Scene& scene, const Accelerator& structure, const WhittedOptions& options,
+          HitCheck check);
 
   /// The part of a light that comes through: 0 behind an opaque primitive, the product of the
   /// transmittances of transparent surfaces before it, 1 where nothing is. `to_light` begins at a
-  /// point, `depth` rays from the eye (the eye's ray is 1), and has the light at t = 1.
+  /// point, `depth` rays from the eye (the eye's ray is 1), and has the light at t = 1. Throws
+  /// InvalidHit.
   double transmitted(const Ray& to_light, std::size_t light, int depth, ShadowCache& cache,
                      RayCensus& census) const;
 
@@ -45,6 +48,7 @@ class Shadows {
 
   const Scene* scene_;
   const Accelerator* structure_;
+  HitCheck check_;
   ShadowMethod method_;
   bool all_opaque_;
   std::vector<LightBuffer> buffers_;  ///< one a light, or none

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -72,11 +73,13 @@ struct Whitted::Place {
   dvec3 shading;
 };
 
-Whitted::Whitted(const Scene& scene, const Answerers& answerers, const WhittedOptions& options)
+Whitted::Whitted(const Scene& scene, const Answerers& answerers, const WhittedOptions& options,
+                 HitCheck check)
     : scene_(&scene),
       answerers_(answerers),
+      check_(std::move(check)),
       options_(options),
-      shadows_(scene, *answerers.shadow, options),
+      shadows_(scene, *answerers.shadow, options, check_),
       textures_(scene),
       light_colors_(light_colors(scene)),
       background_(background_color(scene)) {}
@@ -121,6 +124,7 @@ dvec3 Whitted::spawned(const Place& at, const Path& path, Progress& progress) co
 }
 
 Whitted::Place Whitted::place_of(const Ray& ray, const Hit& hit) const {
+  check_.require(ray, hit);
   const Primitive& primitive = scene_->primitives[hit.primitive];
   const dvec3 direction(ray.direction);
   return {&scene_->surfaces[primitive.surface],          &primitive,

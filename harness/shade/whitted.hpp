@@ -2,11 +2,13 @@
 // The whole ray tracer: light, shadow, mirrors and glass over any structure.
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "accel/accelerator.hpp"
+#include "harness/rays/hit_check.hpp"
 #include "harness/shade/ray_census.hpp"
 #include "harness/shade/shadows.hpp"
 #include "harness/shade/texture.hpp"
@@ -33,10 +35,14 @@ struct Answerers {
 /// one order: structures that return the same hits give the same bits.
 class Whitted {
  public:
-  /// Scene and structure must outlive this.
+  /// Scene and structure must outlive this. `check` names the structure where it fails.
   Whitted(const Scene& scene, const Accelerator& structure, const WhittedOptions& options)
-      : Whitted(scene, {&structure, &structure, &structure}, options) {}
-  Whitted(const Scene& scene, const Answerers& answerers, const WhittedOptions& options);
+      : Whitted(scene, structure, options, HitCheck(scene)) {}
+  Whitted(const Scene& scene, const Accelerator& structure, const WhittedOptions& options,
+          HitCheck check)
+      : Whitted(scene, {&structure, &structure, &structure}, options, std::move(check)) {}
+  Whitted(const Scene& scene, const Answerers& answerers, const WhittedOptions& options,
+          HitCheck check);
 
   /// What a part of a picture, made by one thread in one order, remembers and counts.
   struct Progress {
@@ -45,7 +51,8 @@ class Whitted {
   };
   Progress begin() const;
 
-  /// Linear light along a ray of the eye that found `hit`.
+  /// Linear light along a ray of the eye that found `hit`. Throws InvalidHit for a hit that its ray
+  /// cannot have, this one or that of a ray that follows.
   glm::dvec3 eye_color(const Ray& ray, const std::optional<Hit>& hit, Progress& progress) const;
 
   const Shadows& shadows() const { return shadows_; }
@@ -66,6 +73,7 @@ class Whitted {
 
   const Scene* scene_;
   Answerers answerers_;
+  HitCheck check_;
   WhittedOptions options_;
   Shadows shadows_;
   TextureSpace textures_;

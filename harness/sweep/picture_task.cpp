@@ -66,8 +66,9 @@ PictureTask::PictureTask(const CellGroup& group, std::uint64_t scene_hash, int c
 /// picture takes without a structure.
 void PictureTask::learn_facts(std::uint64_t scene_hash, int core) {
   const EmbreeOracle oracle(scene(), glm::length(glm::dvec3(rays_.eye())));
-  const RecordedPicture picture = record_picture(scene(), OracleQueries(oracle), rays_,
-                                                 rounded(eye_reference_, rays_), options_);
+  const RecordedPicture picture =
+      record_picture(scene(), OracleQueries(oracle), rays_, rounded(eye_reference_, rays_),
+                     options_, HitCheck(scene(), "the oracle"));
   const RayCensus& census = picture.census;
   facts_.scene_hash = scene_hash;
   facts_.rays_hash = hash_of(rays_, picture);
@@ -88,7 +89,8 @@ void PictureTask::learn_facts(std::uint64_t scene_hash, int core) {
 }
 
 RayCensus PictureTask::draw(const Answerers& answerers) {
-  return draw_in_order(Whitted(scene(), answerers, options_), eye_rays(rays_), eye_, image_);
+  return draw_in_order(Whitted(scene(), answerers, options_, HitCheck(scene())), eye_rays(rays_),
+                       eye_, image_);
 }
 
 void PictureTask::poison() {
@@ -132,7 +134,7 @@ Judgement PictureTask::judge(const Accelerator& structure, const StructureChoice
   RecordedPicture picture = [&] {
     const MeasuringFloatMode mode;  // as it was timed
     structure.trace(rays_, eye_);
-    return record_picture(scene(), structure, rays_, eye_, options_);
+    return record_picture(scene(), structure, rays_, eye_, options_, HitCheck(scene(), choice));
   }();
   image_ = picture.image;
   const std::vector<JudgedRays> judged =

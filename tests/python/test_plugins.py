@@ -398,7 +398,11 @@ def test_other_commands_end_by_name_when_it_crashes(faulty: Path, command: list[
         ("throw in trace", ["threw when 'faulty' was asked"]),
         ("crash in build", ["building 'faulty' over row", "crashed (SIGSEGV", "gdb"]),
         ("crash in trace", ["asking 'faulty' over row", "crashed (SIGSEGV"]),
-        ("primitive out of range", ["answers nonsense", "4000000000"]),
+        ("primitive out of range", ["structure 'faulty' returned an invalid hit", "4000000000"]),
+        (
+            "t is no number",
+            ["structure 'faulty' returned an invalid hit", "t = nan", "pixel (0, 0)"],
+        ),
         ("throw in scene", ["threw when it made the scene row", "no idea"]),
         ("crash in scene", ["making the scene row", "crashed"]),
         ("scene beyond its arrays", ["broken scene row", "primitive 0", "not there"]),
@@ -416,3 +420,30 @@ def test_a_picture_of_it_fails_by_name(
     assert message.startswith(f"beambench: the plug-in {faulty}")
     for word in words:
         assert word in message
+
+
+@pytest.mark.parametrize("fault", ["t is no number", "primitive out of range"])
+@pytest.mark.parametrize(
+    "command",
+    [
+        ["verify", "row", "--accel", "exhaustive,faulty", "--rays", "whitted"],
+        ["census", "row", "--accel", "faulty"],
+        ["render", "row", "--accel", "faulty", "--shade", "whitted", "-o", "out.png"],
+        ["render", "row", "--accel", "faulty", "--heatmap", "leaves", "-o", "out.png"],
+        ["render", "row", "--accel", "exhaustive", "--difference", "faulty", "-o", "out.png"],
+    ],
+    ids=lambda command: " ".join(word for word in command if word != "row"),
+)
+def test_nothing_is_made_of_hits_that_cannot_be(
+    faulty: Path, tmp_path: Path, command: list[str], fault: str
+) -> None:
+    words = [str(tmp_path / word) if word == "out.png" else word for word in command]
+    done = call("--plugin", faulty, *words, "--resolution", "32x32", fault=fault)
+    assert done.returncode == 1, done.stderr
+    assert "crashed" not in done.stderr
+    message = next(line for line in done.stderr.splitlines() if "invalid hit" in line)
+    assert f"the plug-in {faulty}: structure 'faulty' returned an invalid hit: " in message
+    assert ("t = nan" if fault == "t is no number" else "primitive 4000000000") in message
+    assert not (tmp_path / "out.png").exists()
+    if command[0] == "verify":  # the others are judged all the same
+        assert "exhaustive over row:n=3, whitted rays: ok" in done.stderr

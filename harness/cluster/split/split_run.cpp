@@ -12,6 +12,7 @@
 #include "harness/files/pending_file.hpp"
 #include "harness/picture/image_file.hpp"
 #include "harness/rays/fingerprint.hpp"
+#include "harness/rays/hit_check.hpp"
 #include "harness/record/build_info.hpp"
 #include "scenes/catalogue.hpp"
 
@@ -77,6 +78,7 @@ SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
   run.job.width = rays.width();
   run.job.height = rays.height();
   if (!request.picture.empty()) {
+    HitCheck(studio.worker().scene(), "structure 'beam'").require(hits, rays);
     write_image(request.picture, shade(studio.worker().scene(), rays, hits, request.shading));
   }
   if (!request.report.empty()) write_file(request.report, to_json(run).dump(2) + "\n");
