@@ -4,7 +4,7 @@
 
 namespace beambench {
 
-/// `bola-espacial`: the thesis's Bola espacial, a space ball that fills its volume evenly.
+/// `bola-espacial`: the thesis's Bola espacial, a space ball that nearly fills its cube.
 SceneInfo bola_espacial_scene();
 
 }  // namespace beambench

@@ -167,8 +167,8 @@ TEST(GoldsmithSalmon, HasTheseSizesInScenesOfTheThesis) {
   };
   for (const Sizes& expected : {Sizes{"tetera", Insertion::kEverywhere, 449, 25.749},
                                 Sizes{"tetera", Insertion::kTerminal, 385, 70.362},
-                                Sizes{"bola-espacial", Insertion::kEverywhere, 705, 61.673},
-                                Sizes{"bola-espacial", Insertion::kTerminal, 522, 86.096},
+                                Sizes{"bola-espacial", Insertion::kEverywhere, 825, 57.483},
+                                Sizes{"bola-espacial", Insertion::kTerminal, 890, 103.104},
                                 Sizes{"escena1", Insertion::kEverywhere, 296, 56.212},
                                 Sizes{"escena1", Insertion::kTerminal, 293, 59.849}}) {
     SCOPED_TRACE(expected.scene);

@@ -4,7 +4,9 @@
 #include <array>
 #include <memory>
 #include <set>
+#include <string>
 #include <tuple>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -218,6 +220,33 @@ TEST(Habitacion, IsClosed) {
     ray.direction =
         glm::vec3(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
     ASSERT_TRUE(structure->any_hit(ray)) << "ray " << i;
+  }
+}
+
+// Section 5.4.2: when a beam comes to an occupied leaf, nearly all of its rays hit there. Section
+// 5.3.3: 63% of the beams are at occupied leaves.
+TEST(BolaEspacial, LetsMostRaysHitWhereTheirBeamEnds) {
+  const Scene scene = load_scene("bola-espacial");
+  const PrimaryRays rays(scene.cameras.front(), 1280, 1024, 1);
+  const auto samples = static_cast<double>(rays.count());
+  for (const auto& [level, least_share] : {std::pair(5, 0.79), std::pair(6, 0.70)}) {
+    SCOPED_TRACE(level);
+    const auto structure =
+        registry().choose({"beam", {{"max_level", std::to_string(level)}}}).build(scene);
+    HitBuffer buffer(1280, 1024, 1);
+    WorkCounters work;
+    structure->trace(rays, buffer, work);
+    const auto counters = work.by_name();
+    const auto count = [&](const char* name) { return static_cast<double>(counters.at(name)); };
+    // Hardly a ray leaves the root without an occupied leaf on its way.
+    EXPECT_LT(count("samples_leaving"), 0.01 * samples);
+    EXPECT_GT(count("samples_in_leaves"), 0.9 * samples);
+    const double first = 1.0 - count("rays_after_leaf") / count("samples_in_leaves");
+    EXPECT_GT(first, least_share);
+    EXPECT_LT(first, least_share + 0.04) << "better: pin the new share";
+    const double occupied = count("beams_occupied") / count("beams_made");
+    EXPECT_GT(occupied, 0.5);
+    EXPECT_LT(occupied, 0.85);
   }
 }
 
