@@ -8,11 +8,19 @@
 namespace beambench {
 namespace {
 
-constexpr std::array kCounts{
-    &RayCensus::eye,           &RayCensus::eye_hits,       &RayCensus::reflected,
-    &RayCensus::refracted,     &RayCensus::secondary_hits, &RayCensus::too_faint,
-    &RayCensus::shadow,        &RayCensus::shadow_hidden,  &RayCensus::shadow_cached,
-    &RayCensus::shadow_listed, &RayCensus::shadow_tests,   &RayCensus::shadow_queries};
+constexpr std::array kCounts{&RayCensus::eye,
+                             &RayCensus::eye_hits,
+                             &RayCensus::reflected,
+                             &RayCensus::refracted,
+                             &RayCensus::totally_reflected,
+                             &RayCensus::secondary_hits,
+                             &RayCensus::too_faint,
+                             &RayCensus::shadow,
+                             &RayCensus::shadow_hidden,
+                             &RayCensus::shadow_cached,
+                             &RayCensus::shadow_listed,
+                             &RayCensus::shadow_tests,
+                             &RayCensus::shadow_queries};
 static_assert(sizeof(RayCensus) == kCounts.size() * sizeof(std::uint64_t), "a count is missing");
 
 }  // namespace
