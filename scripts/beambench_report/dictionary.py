@@ -91,6 +91,20 @@ def dictionary() -> Dictionary:
     return Dictionary(source["schema_version"], groups)
 
 
+_READING = (
+    "Readers that take `null` for a missing value lose that structure's rows; in pandas:",
+    "",
+    "```python",
+    "import pandas as pd",
+    "",
+    'rows = pd.read_csv("results.csv", keep_default_na=False, na_values=[""])',
+    'by_structure = rows.groupby(["structure", "parameters"], dropna=False)',
+    'print(by_structure["trace_ms_median"].median())',
+    "```",
+)
+"""A test runs it."""
+
+
 def as_markdown(known: Dictionary) -> str:
     """The dictionary as the text of results/README.md."""
     introduction = (
@@ -104,6 +118,8 @@ def as_markdown(known: Dictionary) -> str:
         "<!-- Written by `python -m beambench_report columns` from columns.json: edit that. -->",
         "",
         textwrap.fill(introduction, 100),
+        "",
+        *_READING,
     ]
     for group in known.groups:
         lines += [

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import csv
 import json
+import re
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -94,6 +96,47 @@ def test_a_kind_of_rays_of_a_whole_picture_has_patterns_of_its_own() -> None:
     assert dictionary().find("rays").name == "rays"
     assert dictionary().find("primary_rays") is None
     assert dictionary().find("box_tests_per_ray").name == "box_tests_per_ray"
+
+
+def examples(text: str) -> list[str]:
+    """The Python examples of a text in Markdown."""
+    return re.findall(r"^```python\n(.*?)^```", text, re.MULTILINE | re.DOTALL)
+
+
+def test_the_example_of_reading_keeps_the_rows_of_null(repository: Path, run_folder: Path) -> None:
+    [example] = examples((repository / "results/README.md").read_text())
+    done = subprocess.run(
+        [sys.executable, "-c", example], cwd=run_folder, capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+    [null] = [line.split() for line in done.stdout.splitlines() if line.startswith("null")]
+    assert float(null[-1]) == pytest.approx(4e-6 * 640 * 480, rel=1e-3)
+    by_default = example.replace(', keep_default_na=False, na_values=[""]', "")
+    assert by_default != example
+    program = by_default + 'assert not (rows["structure"] == "null").any()'
+    subprocess.run([sys.executable, "-c", program], cwd=run_folder, check=True)  # what was wrong
+
+
+def test_every_example_and_reader_of_results_keeps_the_name_null(repository: Path) -> None:
+    """Only results.csv has that name in it; other CSVs are read as pandas does."""
+    texts = subprocess.run(
+        ["git", "ls-files", "*.md", "*.j2", "tests/python/*.py", "scripts/*.py"],
+        cwd=repository,
+        capture_output=True,
+        text=True,
+        check=False,
+    ).stdout.split()
+    if not texts:
+        pytest.skip("this is no repository")
+    calls = [
+        call
+        for name in texts
+        if (repository / name).is_file()
+        for call in re.findall(r"read_csv\([^)]*\)", (repository / name).read_text())
+    ]
+    of_results = [call for call in calls if "results.csv" in call or "dtype=texts" in call]
+    assert len(of_results) >= 3
+    assert [call for call in of_results if "keep_default_na=False" not in call] == []
 
 
 def test_the_written_dictionary_is_up_to_date(repository: Path) -> None:
