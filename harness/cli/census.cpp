@@ -19,6 +19,7 @@
 #include "harness/picture/image_file.hpp"
 #include "harness/rays/answers.hpp"
 #include "harness/rays/hit_check.hpp"
+#include "harness/shade/shading_order.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/error.hpp"
 
@@ -29,6 +30,7 @@ struct Request {
   std::vector<std::string> scenes;
   std::string structure = "sah-bvh";
   std::string rules = "image";
+  std::string order = "rows";
   ImageRequest image;
   WhittedRequest whitted;
   std::string pictures;  ///< a folder; empty: none are kept
@@ -62,6 +64,20 @@ WhittedOptions options_of(const Request& request, const WhittedRequest& whitted)
   WhittedOptions options = whitted_options(whitted);
   options.glass_always_mirrors = by_spd(request);
   return options;
+}
+
+/// The picture in the order that was asked for.
+WhittedPicture draw(const Whitted& tracer, const Accelerator& structure, const PrimaryRays& primary,
+                    const EyeRays& rays, const HitBuffer& hits, const Request& request,
+                    Progress& progress) {
+  const ShadingOrder order = parse_shading_order(request.order);
+  if (order == ShadingOrder::kRows) {
+    return watched_picture(tracer, rays, hits, request.whitted, progress);
+  }
+  const auto places =
+      order == ShadingOrder::kBeams ? beam_order(structure, primary) : scan_order(primary);
+  return whitted_picture_along(places, tracer, rays, hits,
+                               [&](double part) { progress.advance(part); });
 }
 
 /// The picture without `least_weight`, and how far the one with it is from it.
@@ -102,7 +118,7 @@ CensusResult take_census(const Request& request, const std::string& name, Progre
   const Whitted tracer(scene, *structure, options_of(request, request.whitted), check);
   result.preparation_ms = milliseconds_since(begin);
   begin = Clock::now();
-  const WhittedPicture picture = watched_picture(tracer, rays, hits, request.whitted, progress);
+  const WhittedPicture picture = draw(tracer, *structure, primary, rays, hits, request, progress);
   result.picture_ms = milliseconds_since(begin);
   result.census = picture.census;
   result.shadow_bytes = tracer.shadows().memory_bytes();
@@ -143,6 +159,7 @@ void print_json(const Request& request, const std::vector<CensusResult>& results
                              {"rules", request.rules},
                              {"depth", request.whitted.max_depth},
                              {"shadows", request.whitted.shadows},
+                             {"order", request.order},
                              {"least_weight", request.whitted.least_weight},
                              {"threads", request.whitted.threads},
                              {"scenes", nlohmann::ordered_json::array()}};
@@ -161,6 +178,9 @@ void census(const Request& request) {
     throw InputError(
         "the rules of SPD fix the rays, 513x513 through the corners of pixels; "
         "leave out --resolution and --samples");
+  }
+  if (parse_shading_order(request.order) != ShadingOrder::kRows && by_spd(request)) {
+    throw InputError("the rules of SPD have rows of corners of pixels; leave out --order");
   }
   choose_one("--accel", request.structure);
   whitted_options(request.whitted);
@@ -195,6 +215,12 @@ void add_census_command(CLI::App& app, int&) {
       ->add_option("--rules", request->rules,
                    "image: rays as for 'render'; spd: Haines's Standard Procedural Databases")
       ->capture_default_str();
+  command
+      ->add_option("--order", request->order,
+                   "In which order pixels are shaded, which a shadow cache depends on: rows, the "
+                   "cache begins anew in each; scan: along the rows with one cache, on one thread; "
+                   "beams: the same, beam by beam")
+      ->capture_default_str();
   add_image_options(*command, request->image);
   add_whitted_options(*command, request->whitted);
   command->add_option("--pictures", request->pictures,
@@ -219,6 +245,7 @@ void add_census_command(CLI::App& app, int&) {
       "Examples:\n"
       "  beambench census tetra teapot:n=12 --rules spd\n"
       "  beambench census escena1 --accel beam --resolution 640x480 --shadows cache --json\n"
+      "  beambench census maceta --accel beam --shadows cache --order beams\n"
       "  beambench census mount --least-weight 0.01\n"
       "  beambench census --resolution 1280x1024 --threads 2 --pictures whitted");
   command->callback([request] { census(*request); });

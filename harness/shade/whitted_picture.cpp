@@ -5,6 +5,7 @@
 #include <future>
 #include <vector>
 
+#include <glm/vec3.hpp>
 #include <tbb/parallel_for.h>
 
 namespace beambench {
@@ -49,6 +50,33 @@ WhittedPicture whitted_picture(const Whitted& tracer, const EyeRays& rays, const
     draw();
   }
   for (const RayCensus& row : rows) picture.census += row;
+  return picture;
+}
+
+WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const Whitted& tracer,
+                                     const EyeRays& rays, const HitBuffer& hits,
+                                     const PictureWatch& watch) {
+  constexpr std::size_t kBetweenLooks = 1 << 14;
+  const auto samples = static_cast<std::size_t>(rays.samples);
+  const auto width = static_cast<std::size_t>(rays.width);
+  std::vector<glm::dvec3> sums(places.size() / samples, glm::dvec3(0.0));
+  Whitted::Progress progress = tracer.begin();
+  std::size_t done = 0;
+  for (const std::size_t place : places) {
+    const std::size_t pixel = place / samples;
+    const Ray ray = rays.ray(static_cast<int>(pixel % width), static_cast<int>(pixel / width),
+                             static_cast<int>(place % samples));
+    sums[pixel] += tracer.eye_color(ray, hits.get(place), progress);
+    if (++done % kBetweenLooks == 0 && watch) {
+      watch(static_cast<double>(done) / static_cast<double>(places.size()));
+    }
+  }
+  WhittedPicture picture{Image(rays.width, rays.height), progress.census};
+  const double share = 1.0 / rays.samples;
+  for (std::size_t pixel = 0; pixel < sums.size(); ++pixel) {
+    picture.image.at(static_cast<int>(pixel % width), static_cast<int>(pixel / width)) =
+        glm::vec3(share * sums[pixel]);
+  }
   return picture;
 }
 

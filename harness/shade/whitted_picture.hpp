@@ -1,7 +1,9 @@
 #pragma once
 // Pictures by the whole ray tracer, on all threads.
 
+#include <cstddef>
 #include <functional>
+#include <span>
 
 #include "accel/hit_buffer.hpp"
 #include "harness/picture/image.hpp"
@@ -23,6 +25,13 @@ using PictureWatch = std::function<void(double part)>;
 /// Rows are shared among TBB's threads; picture and census do not depend on how many there are.
 WhittedPicture whitted_picture(const Whitted& tracer, const EyeRays& rays, const HitBuffer& hits,
                                const PictureWatch& watch = {});
+
+/// The same picture (but for rounding, with several samples a pixel) with its samples shaded in the
+/// order of `places` in the hit buffer, each of which is there once: on this thread alone, with one
+/// shadow cache, which all that is counted of the cache depends on.
+WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const Whitted& tracer,
+                                     const EyeRays& rays, const HitBuffer& hits,
+                                     const PictureWatch& watch = {});
 
 /// The same picture into `image`, which has its size, on this thread alone; returns its census.
 RayCensus draw_in_order(const Whitted& tracer, const EyeRays& rays, const HitBuffer& hits,

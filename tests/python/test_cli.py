@@ -361,6 +361,23 @@ def test_a_census_counts_rays_by_kind(tmp_path: Path) -> None:
     assert shallow["shadow_rays"] < cached["shadow_rays"]
 
 
+def test_a_census_by_beams_asks_the_shadow_cache_in_another_order() -> None:
+    arguments = ("census", "maceta", "--accel", "beam", "--resolution", "80x64", "--json")
+    scan, beams = (
+        json.loads(output_of(*arguments, "--shadows", "cache", "--order", order))
+        for order in ("scan", "beams")
+    )
+    assert (scan["order"], beams["order"]) == ("scan", "beams")
+    (scan,), (beams,) = scan["scenes"], beams["scenes"]
+    same = ("eye_rays", "reflected_rays", "shadow_rays", "shadow_hidden")
+    assert [scan[name] for name in same] == [beams[name] for name in same]
+    assert scan["shadow_cached"] != beams["shadow_cached"]
+    for wrong in (("--accel", "samet"), ("--rules", "spd", "--accel", "beam")):
+        done = beambench("census", "tetra:n=1", "--order", "beams", *wrong)
+        assert done.returncode == 2
+        assert "--order" in done.stderr
+
+
 def test_a_census_tells_what_faint_rays_save_and_cost() -> None:
     def scene(*options: str) -> dict:
         arguments = ("census", "mount:n=3", "--resolution", "64x64", "--json", *options)
