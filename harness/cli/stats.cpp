@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -17,6 +18,7 @@
 #include "harness/progress/progress.hpp"
 #include "harness/rays/answers.hpp"
 #include "harness/rays/fingerprint.hpp"
+#include "harness/rays/level_visits.hpp"
 #include "scenes/error.hpp"
 
 namespace beambench {
@@ -30,6 +32,7 @@ struct Request {
   std::string resolution = "320x200";
   std::string camera;
   std::string rays = "primary";
+  bool levels = false;
   bool json = false;
 };
 
@@ -40,10 +43,11 @@ struct Finding {
   double build_ms = 0.0;
   std::uint64_t hits = 0;
   std::map<std::string, std::uint64_t, std::less<>> counters;
+  std::vector<LevelVisits> levels;
 };
 
 Finding examine(const StructureChoice& choice, const Scene& scene, const ImageOfRays& image,
-                const Question& question) {
+                const Question& question, bool levels) {
   const auto begin = std::chrono::steady_clock::now();
   const auto accelerator = choice.build(scene, workload_of(image, question));
   const std::chrono::duration<double, std::milli> building =
@@ -52,8 +56,9 @@ Finding examine(const StructureChoice& choice, const Scene& scene, const ImageOf
   Answers answers = room_for(question);
   WorkCounters counters;
   ask(*accelerator, question, answers, counters);
-  Finding finding{choice, accelerator->statistics(), building.count(), 0, counters.by_name()};
+  Finding finding{choice, accelerator->statistics(), building.count(), 0, counters.by_name(), {}};
   for (std::size_t i = 0; i < question.size(); ++i) finding.hits += is_hit_at(answers, i);
+  if (levels) finding.levels = count_level_visits(*accelerator, question);
   return finding;
 }
 
@@ -128,6 +133,19 @@ void add_work(StatisticsTable& table, const std::vector<Finding>& findings, std:
   }
 }
 
+std::string levels_text(const Finding& finding) {
+  TextTable table({"level", "nodes", "leaves", "occupied", "node visits", "leaf visits", "beams"},
+                  0);
+  for (const LevelVisits& level : finding.levels) {
+    table.add({fmt::format("{}", level.level), or_dash(level.nodes), or_dash(level.leaves),
+               or_dash(level.occupied_leaves), or_dash(level.node_visits),
+               or_dash(level.leaf_visits), or_dash(level.beams)});
+  }
+  return fmt::format(
+      "\n{} by level (visits: rays that pass through a node, up to their first hit)\n{}",
+      finding.choice.short_label(), table.text());
+}
+
 void print_text(const Scene& scene, const ImageOfRays& image, const Question& question,
                 const std::vector<Finding>& findings) {
   fmt::print("{}: {} primitives, {} {} rays ({}), coherence {:.3f}\n\n", scene.name,
@@ -138,6 +156,9 @@ void print_text(const Scene& scene, const ImageOfRays& image, const Question& qu
   add_work(table, findings, question.size());
   fmt::print("{}\n(1) of this one build, for information; 'beambench run' measures\n",
              table.text());
+  for (const Finding& finding : findings) {
+    if (!finding.levels.empty()) fmt::print("{}", levels_text(finding));
+  }
 }
 
 Json to_json(const Finding& finding, std::size_t rays) {
@@ -161,6 +182,15 @@ Json to_json(const Finding& finding, std::size_t rays) {
            {"per_ray", Json::object()}};
   for (const auto& [name, value] : sizes.more) out["more"][name] = value;
   for (const auto& [name, count] : finding.counters) out["per_ray"][name] = per_ray(count);
+  for (const LevelVisits& level : finding.levels) {
+    out["levels"].push_back({{"level", level.level},
+                             {"nodes", level.nodes},
+                             {"leaves", level.leaves},
+                             {"occupied_leaves", level.occupied_leaves},
+                             {"node_visits", level.node_visits},
+                             {"leaf_visits", level.leaf_visits},
+                             {"beams", level.beams}});
+  }
   return out;
 }
 
@@ -199,7 +229,7 @@ int show_statistics(const Request& request) {
   for (const StructureChoice& choice : contenders.choices) {
     progress.start(choice.info().name);
     try {
-      findings.push_back(examine(choice, scene, image, question));
+      findings.push_back(examine(choice, scene, image, question, request.levels));
       progress.finish(fmt::format("built in {:.3g} ms", findings.back().build_ms));
     } catch (const InputError& error) {
       if (contenders.choices.size() == 1) throw;
@@ -226,12 +256,15 @@ void add_stats_command(CLI::App& app, int& exit_code) {
       ->add_option("--rays", request->rays, "Kind of rays (see 'beambench list') or a .rays file")
       ->capture_default_str();
   command->add_option("--camera", request->camera, "By name (default: the scene's first)");
+  command->add_flag("--levels", request->levels,
+                    "Also, of octrees, how often rays and beams come to nodes of each level");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "Examples:\n"
       "  beambench stats escena1 --accel all\n"
       "  beambench stats tetra:n=5 --accel samet:max_level=5,samet:max_level=7\n"
       "  beambench stats escena1 --accel all --rays shadow\n"
+      "  beambench stats maceta --accel beam:max_level=8 --levels\n"
       "  beambench stats balls --accel samet --resolution 640x480 --json");
   command->callback([request, &exit_code] { exit_code = show_statistics(*request); });
 }

@@ -1,0 +1,89 @@
+#include "harness/rays/level_visits.hpp"
+
+#include <bit>
+#include <limits>
+
+#include "accel/beam/beam_tracer.hpp"
+#include "accel/octree/samet.hpp"
+#include "accel/octree/samet_net.hpp"
+
+namespace beambench {
+namespace {
+
+const Octree* octree_of(const Accelerator& structure) {
+  if (const auto* samet = dynamic_cast<const Samet*>(&structure)) return &samet->octree();
+  if (const auto* net = dynamic_cast<const SametNet*>(&structure)) return &net->octree();
+  return nullptr;
+}
+
+/// The level of each node. A parent stands before its children.
+std::vector<int> levels_of(const Octree& octree) {
+  std::vector<int> levels(octree.nodes().size(), 1);
+  for (std::size_t i = 1; i < levels.size(); ++i) {
+    levels[i] = levels[octree.nodes()[i].parent] + 1;
+  }
+  return levels;
+}
+
+/// Counts each beam at the level of the leaf that it comes to.
+class BeamsByLevel : public NoBeamWatch {
+ public:
+  BeamsByLevel(const std::vector<int>& levels, std::vector<LevelVisits>& visits)
+      : levels_(&levels), visits_(&visits) {}
+
+  void met(BeamKind kind, const Beam& beam) {
+    if (kind == BeamKind::kLeaving) return;  // it is in no leaf any more
+    ++(*visits_)[static_cast<std::size_t>((*levels_)[beam.node] - 1)].beams;
+  }
+
+ private:
+  const std::vector<int>* levels_;
+  std::vector<LevelVisits>* visits_;
+};
+
+}  // namespace
+
+std::vector<LevelVisits> count_level_visits(const Accelerator& structure,
+                                            const Question& question) {
+  const Octree* octree = octree_of(structure);
+  if (octree == nullptr) return {};
+  const std::span<const OctreeNode> nodes = octree->nodes();
+  const std::vector<int> levels = levels_of(*octree);
+
+  std::vector<LevelVisits> visits;
+  const auto at = [&](std::size_t node) -> LevelVisits& {
+    return visits[static_cast<std::size_t>(levels[node] - 1)];
+  };
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    while (visits.size() < static_cast<std::size_t>(levels[node])) {
+      visits.push_back({.level = static_cast<int>(visits.size()) + 1});
+    }
+    ++at(node).nodes;
+    if (!nodes[node].is_leaf()) continue;
+    ++at(node).leaves;
+    at(node).occupied_leaves += nodes[node].count > 0 ? 1 : 0;
+  }
+
+  constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+  std::vector<std::size_t> last_ray(nodes.size(), kNone);
+  for (std::size_t ray = 0; ray < question.size(); ++ray) {
+    for (const TraceStep& step : structure.explain(question.ray(ray))) {
+      ++at(step.index).leaf_visits;
+      for (std::size_t node = step.index; last_ray[node] != ray; node = nodes[node].parent) {
+        last_ray[node] = ray;
+        ++at(node).node_visits;
+      }
+    }
+  }
+
+  const auto* beams = dynamic_cast<const BeamTracer*>(&structure);
+  if (beams != nullptr && question.image() != nullptr) {
+    const PrimaryRays& image = *question.image();
+    HitBuffer buffer(image.width(), image.height(), image.samples());
+    BeamsByLevel watch(levels, visits);
+    beams->trace_watched(image, buffer, watch);
+  }
+  return visits;
+}
+
+}  // namespace beambench

@@ -1,0 +1,30 @@
+#pragma once
+// How often rays and beams come to the nodes of an octree, by level.
+
+#include <cstdint>
+#include <vector>
+
+#include "accel/accelerator.hpp"
+#include "harness/rays/question.hpp"
+
+namespace beambench {
+
+/// One level of an octree. McNeill, Shah, Hebert, Lister and Grimsdale ("Performance of space
+/// subdivision techniques in ray tracing", Computer Graphics Forum 11(4), 1992) count visits by
+/// level; the thesis takes its level 6 from them (section 5.3.1).
+struct LevelVisits {
+  int level = 1;                      ///< the root being level 1
+  std::uint64_t nodes = 0;            ///< leaves and interior nodes
+  std::uint64_t leaves = 0;           ///< empty ones included
+  std::uint64_t occupied_leaves = 0;  ///< leaves with references
+  std::uint64_t node_visits = 0;  ///< a ray and a node that it passes through, up to its first hit
+  std::uint64_t leaf_visits = 0;  ///< those of leaves
+  std::uint64_t beams = 0;        ///< a beam and a leaf that it comes to; of an image, by `beam`
+};
+
+/// All levels, from the root to the deepest; empty for a structure that has no octree. The rays are
+/// traced by themselves, as Samet's, and then, in `beam`, as beams. Takes time and memory for each
+/// leaf on a ray's way.
+std::vector<LevelVisits> count_level_visits(const Accelerator& structure, const Question& question);
+
+}  // namespace beambench
