@@ -24,6 +24,7 @@ from beambench_report.plots import write_plots
 from beambench_report.problem import Problem
 from beambench_report.records import read_run
 from beambench_report.repeatability import repeatability
+from beambench_report.repetitions import write_repetitions
 from beambench_report.thesis.command import add_thesis_command, thesis
 from beambench_report.thesis.levels.command import levels_text, write_levels
 from beambench_report.thesis.sampling.section import write_sampling
@@ -97,6 +98,18 @@ def _parser() -> argparse.ArgumentParser:
         metavar="CONTENDER",
         help="whose times are 1 in the ratios, as the plots call it; if not given, the contender "
         "that was right in the most views, Embree rather than others",
+    )
+    repetitions = commands.add_parser(
+        "repetitions",
+        help="write every repetition of a run into one file, for a run that is published",
+    )
+    repetitions.add_argument("run", type=Path, metavar="RUN", help="folder of a run")
+    repetitions.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE.csv",
+        help="if not given, RUN/repetitions.csv; beside a published results.csv it is read as such",
     )
     growth = commands.add_parser(
         "growth", help="draw what beambench scene NAME --growth --csv wrote"
@@ -195,6 +208,8 @@ def _compare(options: argparse.Namespace) -> int:
 
 
 def _write(options: argparse.Namespace) -> list[Path]:
+    if options.command == "repetitions":
+        return [write_repetitions(options.run, options.output)]
     if options.command == "growth":
         return write_growth(options.files, options.output)
     if options.command == "contact-sheet":

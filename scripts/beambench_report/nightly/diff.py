@@ -97,8 +97,7 @@ def diff(first: Path, second: Path, *, relative: bool | None = None) -> Differen
         relative = True
         warning = (
             f"WARNING: two machines. A is of machine {file_a.machine}, B of {file_b.machine}. "
-            "Their milliseconds cannot be compared; shown are ratios to a contender that both files "
-            "have."
+            "Their milliseconds cannot be compared; shown are ratios to a contender of both files."
         )
     reference = _reference(file_a.rows, file_b.rows) if relative else None
     known_a, known_b = _figures(file_a, reference), _figures(file_b, reference)

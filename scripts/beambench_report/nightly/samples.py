@@ -1,6 +1,7 @@
 """Nights made of the raw samples of quiet runs, for calibration.
 
-A run keeps every repetition in its cells/*.json, with the round in which it had its turn. A made-up
+A run keeps every repetition in its cells/*.json, a published one in repetitions.csv, with the round
+in which it had its turn. A made-up
 night is a block of consecutive rounds, the same for all contenders of a view, and each contender's
 median of it. What two processes differ by is in no single run; PROCESS is added for it.
 """
@@ -15,6 +16,12 @@ from pathlib import Path
 import numpy as np
 
 from beambench_report.nightly.calibration import Noise
+from beambench_report.page.cell_files import (
+    REPETITIONS,
+    Repetition,
+    Row,
+    published_repetitions,
+)
 from beambench_report.problem import Problem
 
 PROCESS = 0.004
@@ -35,8 +42,8 @@ def noise_of_samples(folders: Iterable[Path], seed: int = 1999) -> Noise:
             scenes.setdefault(f"{folder}/{scene}", []).append(nights)
     if not scenes:
         raise Problem(
-            f"no run has a view with Embree, others, and {_ROUNDS} repetitions in cells/*.json; "
-            "give runs whose raw samples were not pruned"
+            f"no run has a view with Embree, others, and {_ROUNDS} repetitions in cells/*.json "
+            f"or {REPETITIONS}; give runs whose raw samples were not pruned"
         )
     parts = []
     for views in scenes.values():
@@ -53,16 +60,14 @@ def _views(folder: Path) -> Iterable[tuple[str, list[dict[int, float]]]]:
     """Scene and contenders of each view, Embree's single rays first."""
     views: dict[tuple, list[tuple[bool, dict[int, float]]]] = {}
     scenes: dict[tuple, str] = {}
-    for path in sorted(folder.glob("cells/*.json")):
+    for place, row, repetitions in _cells(folder):
         try:
-            cell = json.loads(path.read_text("utf-8"))
-            row, repetitions = cell["row"], cell["repetitions"]
             if len(repetitions) < _ROUNDS or row["structure"] == "null":
                 continue
             view = tuple(row[name] for name in "scene camera width height samples ray_kind".split())
             logs = {one["round"]: log(_cycles(one)) for one in repetitions}
         except (ValueError, KeyError, TypeError) as error:
-            raise Problem(f"{path}: is not a cell of a run ({error}); remove it") from None
+            raise Problem(f"{place}: is not a cell of a run ({error}); remove it") from None
         is_reference = row["structure"] == "embree" and "mode=single" in row["parameters"]
         views.setdefault(view, []).append((is_reference, logs))
         scenes[view] = row["scene"]
@@ -70,6 +75,20 @@ def _views(folder: Path) -> Iterable[tuple[str, list[dict[int, float]]]]:
         cells.sort(key=lambda cell: not cell[0])
         if cells[0][0] and len(cells) > 1:
             yield scenes[view], [logs for _, logs in cells]
+
+
+def _cells(folder: Path) -> Iterable[tuple[Path, Row, list[Repetition]]]:
+    """The file, row and repetitions of each cell."""
+    paths = sorted(folder.glob("cells/*.json"))
+    for path in paths:
+        try:
+            cell = json.loads(path.read_text("utf-8"))
+            yield path, cell["row"], cell["repetitions"]
+        except (ValueError, KeyError, TypeError) as error:
+            raise Problem(f"{path}: is not a cell of a run ({error}); remove it") from None
+    if not paths:
+        for row, repetitions in published_repetitions(folder):
+            yield folder / REPETITIONS, row, repetitions
 
 
 def _cycles(repetition: dict) -> float:

@@ -1,19 +1,33 @@
-"""What the files of single cells tell beyond results.csv: messages, examples, every repetition."""
+"""What the files of single cells state beyond results.csv: messages, examples, every repetition.
+
+A published run has no such files. Its repetitions may stand in one compact file beside results.csv:
+see beambench_report.repetitions.
+"""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from math import isclose
 from pathlib import Path
+from statistics import median
+
+import pandas as pd
 
 from beambench_report.problem import Problem
+from beambench_report.records import read_run
 
 # A run has some hundreds of cells. Thousands of files would be read for longer than anybody waits.
 MOST_FILES = 5000
 
 IDENTITY = ("scene", "camera", "structure", "parameters", "width", "height", "samples", "ray_kind")
 Identity = tuple[str, ...]
+Row = dict[str, object]
+Repetition = dict[str, float]
+"""A member for each figure, as in the file of a cell; `round` is its turn."""
+
+REPETITIONS = "repetitions.csv"
 
 
 @dataclass(frozen=True)
@@ -44,29 +58,78 @@ def identity(row: Mapping[str, object]) -> Identity:
 
 
 def read_cell_files(directory: Path) -> dict[Identity, CellFile]:
-    """Every cell's file; none where there are no files, or too many to be read."""
+    """Every cell's file; none where there are too many to be read.
+
+    Where there are no files, what the compact file of repetitions holds; it has no messages.
+    """
     paths = [path for path in directory.glob("cells/*.json") if not path.name.startswith(".")]
     if len(paths) > MOST_FILES:
         return {}
-    return dict(_read(path) for path in paths)
+    if paths:
+        return dict(_read(path) for path in paths)
+    return {
+        identity(row): _cell_file("", (), repetitions)
+        for row, repetitions in published_repetitions(directory)
+    }
+
+
+def published_repetitions(directory: Path) -> list[tuple[Row, list[Repetition]]]:
+    """Rows of DIRECTORY/results.csv with their repetitions, of DIRECTORY/repetitions.csv.
+
+    None where there is no such file. Raises Problem where the two files are not of one run.
+    """
+    path = directory / REPETITIONS
+    if not path.is_file():
+        return []
+    try:
+        table = pd.read_csv(path)
+        by_line = {
+            int(line): own.drop(columns="line").to_dict("records")
+            for line, own in table.groupby("line", sort=False)
+        }
+        rows = read_run(directory).rows
+        found = [(rows.loc[line - 2].to_dict(), own) for line, own in by_line.items()]
+        for row, own in found:
+            if not isclose(
+                row["trace_ms_median"], median(o["trace_ms"] for o in own), rel_tol=1e-4
+            ):
+                raise ValueError(f"the repetitions of {row['contender']} are not those of its row")
+    except (ValueError, KeyError) as error:
+        raise Problem(
+            f"{path}: does not belong to the results.csv beside it ({error}); write it again: "
+            "python -m beambench_report repetitions RUN"
+        ) from None
+    return [(row, [_without_gaps(one) for one in own]) for row, own in found]
+
+
+def _without_gaps(repetition: Repetition) -> Repetition:
+    known = {name: value for name, value in repetition.items() if not pd.isna(value)}
+    return known | {"round": int(repetition["round"])}
 
 
 def _read(path: Path) -> tuple[Identity, CellFile]:
     try:
         source = json.loads(path.read_text("utf-8"))
-        total, trace, warm = {}, {}, {}
-        for repetition in source["repetitions"]:
-            turn = repetition["round"]
-            trace[turn] = repetition["trace_ms"]
-            total[turn] = repetition["build_ms"] + trace[turn]
-            if "warm_trace_ms" in repetition:
-                warm[turn] = repetition["warm_trace_ms"]
         examples = tuple(_example(text) for text in source["examples"])
-        return identity(source["row"]), CellFile(source["message"], examples, total, trace, warm)
+        file = _cell_file(source["message"], examples, source["repetitions"])
+        return identity(source["row"]), file
     except (ValueError, KeyError, TypeError) as error:
         raise Problem(
             f"{path}: is not a cell of a run ({type(error).__name__}: {error}); remove it"
         ) from None
+
+
+def _cell_file(
+    message: str, examples: tuple[Example, ...], repetitions: list[Repetition]
+) -> CellFile:
+    total, trace, warm = {}, {}, {}
+    for repetition in repetitions:
+        turn = repetition["round"]
+        trace[turn] = repetition["trace_ms"]
+        total[turn] = repetition["build_ms"] + trace[turn]
+        if "warm_trace_ms" in repetition:
+            warm[turn] = repetition["warm_trace_ms"]
+    return CellFile(message, examples, total, trace, warm)
 
 
 def _example(text: str) -> Example:
