@@ -7,9 +7,9 @@ machine nor the place within a turn favors one of them.
 
 The cells of a turn are not independent: they share a process and a moment of the machine (the same
 program against itself, twice 12 turns beside builds: a mean correlation of 0.28 and 0.23 between
-cells, and no effect of the place within a turn: -1.9% and +0.5%). Most ratios, or all, may thus lie on one side of 1 by chance, and some intervals exclude 1 together.
-Cells are therefore judged together, by Holm's correction, and the ratio of all of them is made turn
-by turn.
+cells, and no effect of the place within a turn, -1.9% and +0.5%). Most ratios, or all, may thus lie
+on one side of 1 by chance, and some intervals exclude 1 together. Cells are therefore judged
+together, by Holm's correction, and the ratio of all of them is made turn by turn.
 """
 
 from __future__ import annotations
