@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import pandas as pd
 
+from beambench_report.machine import machine_of
 from beambench_report.page.cell_files import IDENTITY
 from beambench_report.problem import Problem
 from beambench_report.records import Run
@@ -43,7 +44,13 @@ class Repeatability:
 
 
 def repeatability(first: Run, second: Run) -> Repeatability:
-    """Compares cell by cell. Raises Problem when no cell can be compared."""
+    """Compares cell by cell. Raises Problem when none can be, or the runs are of two machines."""
+    machines = [machine_of(run.rows, run.directory) for run in (first, second)]
+    if machines[0].differs_from(machines[1]):
+        raise Problem(
+            f"{first.directory} is of machine {machines[0]}, {second.directory} of {machines[1]}: "
+            "a run is repeated on one machine; ratios of two are compared by `diff`"
+        )
     keys = list(IDENTITY)
     again = second.rows[second.rows["timed"]][[*keys, "total_mcycles_median"]]
     known = first.rows[first.rows["timed"] & first.rows["total_mcycles_repeat_low"].notna()]

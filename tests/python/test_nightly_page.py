@@ -12,6 +12,8 @@ import pytest
 
 from beambench_report.nightly.history import History
 from beambench_report.nightly.home import Home
+from beambench_report.nightly.night import night_of
+from beambench_report.nightly.page.changes import compare_nights
 from beambench_report.nightly.page.series import pack, pareto_front
 from beambench_report.nightly.page.write import write_night_page
 from beambench_report.nightly.pictures import picture_mismatches
@@ -78,6 +80,20 @@ def test_it_says_first_what_is_wrong(page: Path) -> None:
     assert "samet max_level=5 in escena1 at 640x480: traversal steps a ray from 11.5 to" in head
     assert "Times are not judged yet: this machine has 3 nights" in head
     assert "6 cells counted other work" in text
+
+
+def test_a_night_of_another_machine_is_named_as_such(tmp_path: Path) -> None:
+    def elsewhere(_night: int, row: dict) -> dict:
+        return row | {"machine_id": "feedfeedfeedfeed"}
+
+    runs = {
+        name: read_run(write_nights(Home(tmp_path / name), 1, plant)[0])
+        for name, plant in (("here", nothing), ("again", nothing), ("there", elsewhere))
+    }
+    tonight, again, there = (night_of(run) for run in runs.values())
+    sentences = compare_nights("the published run", tonight, there, runs["here"].rows).sentences
+    assert "Of another machine: tonight 0123456789abcdef, then feedfeedfeedfeed." in sentences[0]
+    assert compare_nights("yesterday", tonight, again, runs["here"].rows).sentences == []
 
 
 def test_a_fine_night_says_so(tmp_path: Path) -> None:

@@ -55,3 +55,11 @@ def test_runs_of_different_sweeps_are_refused(tmp_path: Path) -> None:
     second = read_run(run_in(tmp_path / "b", rows[5:]))
     with pytest.raises(Problem, match="no cell in common"):
         repeatability(first, second)
+
+
+def test_runs_of_two_machines_are_refused(tmp_path: Path) -> None:
+    rows = made_up_rows()
+    first = read_run(run_in(tmp_path / "a", rows))
+    second = read_run(run_in(tmp_path / "b", [row | {"machine_id": "b"} for row in rows]))
+    with pytest.raises(Problem, match=r"machine 0123456789abcdef, .* of b: a run is repeated"):
+        repeatability(first, second)

@@ -68,7 +68,13 @@ def compare_nights(name: str, tonight: Night, other: Night, rows: pd.DataFrame) 
                 Change(row["contender"], row["view"], size_of(row), then.ratio, now.ratio)
             )
     new = len(tonight.figures) - (len(other.figures) - len(known))
-    told = verdicts[:_MOST]
+    told = []
+    if other.machine_id != tonight.machine_id:
+        told.append(
+            f"Of another machine: tonight {tonight.machine_id}, then {other.machine_id}. Ratios "
+            "depend on the processor, so these changes are not the program's alone."
+        )
+    told += verdicts[:_MOST]
     told += _counted(more, "cells counted other work than then.", "cell counted other work.")
     told += _counted(other_inputs, "cells asked other rays or scenes; they are not compared.")
     told += _counted(new, "cells are new.", "cell is new.")
