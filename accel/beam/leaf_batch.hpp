@@ -54,7 +54,9 @@ class LeafBatch {
         const auto i = static_cast<std::size_t>(std::countr_zero(left));
         ClosestHit& closest = samples_[i].closest;
         counting.add(Counter::kPrimitiveTests);
-        if (is_hit(closest.test(scene, id))) places_.inverse_t[i] = limit(closest);
+        const float t = closest.test(scene, id);
+        counting.tested(id, t);
+        if (is_hit(t)) places_.inverse_t[i] = limit(closest);
       }
     }
   }

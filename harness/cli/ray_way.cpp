@@ -1,8 +1,10 @@
 #include "harness/cli/ray_way.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -72,14 +74,16 @@ std::string tests_text(const std::vector<TestOutcome>& outcomes) {
                            more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-std::string step_text(std::size_t number, const TraceStep& step, Account& account) {
+std::string step_text(std::size_t number, const TraceStep& step, std::string_view untested,
+                      Account& account) {
   std::string head = fmt::format("{:4}  {}", number, step.place);
   if (step.box) head += fmt::format(" {}", step.index);
   if (step.level > 0) head += fmt::format(", level {}", step.level);
   if (step.box) head += fmt::format(", {} to {}", text(step.box->lower), text(step.box->upper));
   head += fmt::format(", t in [{:.9g}, {:.9g}]\n", step.t_enter, step.t_exit);
 
-  std::string body = step.tests.empty() ? "nothing to test\n" : tests_text(account.take(step));
+  std::string body =
+      step.tests.empty() ? std::string(untested) + "\n" : tests_text(account.take(step));
   if (account.best()) {
     body += fmt::format("best so far: primitive {} at t = {}\n", account.best()->primitive,
                         account.best()->t);
@@ -93,12 +97,69 @@ std::string step_text(std::size_t number, const TraceStep& step, Account& accoun
   return out;
 }
 
+std::string plane_text(const CrossedPlane& plane) {
+  return fmt::format("{} = {:.9g}", "xyz"[plane.axis], plane.at);
+}
+
+constexpr std::array<std::string_view, 3> kBeamMeets{"empty leaf", "occupied leaf", "leaves leaf"};
+constexpr std::array<std::string_view, 3> kBeamKinds{"non-terminal", "occupied", "leaving"};
+
+/// Why there is no further beam.
+std::string_view end_text(const BeamPassage& last) {
+  switch (last.kind) {
+    case BeamKind::kLeaving:
+      return "terminal: the scene's end, the background";
+    case BeamKind::kOccupied:
+      return "terminal: its samples become rays";
+    case BeamKind::kNonTerminal:
+      return "its samples become rays here (handover)";
+  }
+  return "";
+}
+
+std::string passage_text(std::size_t number, const BeamPassage& beam, bool is_last) {
+  std::string out = fmt::format("{:4}  {} {}, level {}, {} to {}", number,
+                                kBeamMeets[static_cast<std::size_t>(beam.kind)], beam.node,
+                                beam.level, text(beam.cell.lower), text(beam.cell.upper));
+  if (beam.entered) {
+    out += fmt::format(", by {}", plane_text(*beam.entered));
+  } else {
+    out += ", the eye is in it";
+  }
+  out += fmt::format(
+      "\n        {} samples; {}\n", beam.samples,
+      is_last ? end_text(beam)
+              : (beam.kind == BeamKind::kOccupied ? "goes on behind it" : "non-terminal"));
+  if (beam.cuts.empty()) out += "        not cut\n";
+  for (const PlaneOrder& cut : beam.cuts) {
+    out += fmt::format("        cut: crosses {} before {}\n", plane_text(cut.first),
+                       plane_text(cut.second));
+  }
+  std::vector<std::string> corners;
+  for (const glm::dvec2& corner : beam.corners) {
+    corners.push_back(fmt::format("({:.2f}, {:.2f})", corner.x, corner.y));
+  }
+  return out + fmt::format("        outline: {}\n", fmt::join(corners, " "));
+}
+
+std::string beams_text(const RayWay& way) {
+  if (way.beams.empty()) return "";
+  std::string out = fmt::format("The sample's beams, {} {}; outlines in pixels:\n",
+                                way.beams.size(), way.beams.size() == 1 ? "leaf" : "leaves");
+  for (std::size_t i = 0; i < way.beams.size(); ++i) {
+    out += passage_text(i + 1, way.beams[i], i + 1 == way.beams.size());
+  }
+  return out + (way.steps.empty() ? "" : "\nThe sample as a ray:\n");
+}
+
 std::string counters_text(const RayWay& way) {
   std::vector<std::string> parts;
   for (const auto& [name, count] : way.counters) {
     if (count > 0) parts.push_back(fmt::format("{} {}", name, count));
   }
-  return parts.empty() ? "" : fmt::format("  work   {}\n", fmt::join(parts, ", "));
+  if (parts.empty()) return "";
+  return fmt::format("  work   {}{}\n",
+                     way.beams.empty() ? "" : "without beams: ", fmt::join(parts, ", "));
 }
 
 bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
@@ -128,6 +189,29 @@ Json vector_json(const Vector& v) {
 /// What is infinite has no number in JSON.
 Json number_json(float value) { return std::isinf(value) ? Json() : Json(value); }
 
+Json plane_json(const CrossedPlane& plane) {
+  return {{"axis", std::string(1, "xyz"[plane.axis])}, {"at", plane.at}};
+}
+
+Json passage_json(const BeamPassage& beam) {
+  Json out{
+      {"kind", kBeamKinds[static_cast<std::size_t>(beam.kind)]},
+      {"index", beam.node},
+      {"level", beam.level},
+      {"box", {{"lower", vector_json(beam.cell.lower)}, {"upper", vector_json(beam.cell.upper)}}},
+      {"entered", beam.entered ? plane_json(*beam.entered) : Json()},
+      {"samples", beam.samples},
+      {"outline", Json::array()},
+      {"cuts", Json::array()}};
+  for (const glm::dvec2& corner : beam.corners) {
+    out["outline"].push_back(Json::array({corner.x, corner.y}));
+  }
+  for (const PlaneOrder& cut : beam.cuts) {
+    out["cuts"].push_back({{"first", plane_json(cut.first)}, {"second", plane_json(cut.second)}});
+  }
+  return out;
+}
+
 Json step_json(const TraceStep& step, Account& account) {
   Json out{{"place", step.place}};
   if (step.box) {
@@ -155,11 +239,18 @@ std::string to_text(const Scene& scene, const RayWay& way) {
       fmt::format("{} by {}, {} rays, {} pixels with {} {} each\n\n", scene.name, way.structure,
                   way.question.label(), to_string(way.image.resolution), samples,
                   samples == 1 ? "sample" : "samples");
+  out += beams_text(way);
   Account account(scene, way.judgement.ray);
   for (std::size_t i = 0; i < way.steps.size(); ++i) {
-    out += step_text(i + 1, way.steps[i], account);
+    // In the leaf where its beam ends, the images of the primitives on the screen are looked at
+    // first.
+    const bool by_images = i == 0 && !way.beams.empty();
+    out += step_text(i + 1, way.steps[i],
+                     by_images ? "no test: the sample lies outside of the primitives' images"
+                               : "nothing to test",
+                     account);
   }
-  if (way.steps.empty()) {
+  if (way.steps.empty() && way.beams.empty()) {
     out += fmt::format("{} tells no steps: it entered nothing, or cannot tell\n", way.structure);
   }
   return out + '\n' + describe(scene, way.question, way.judgement) + alone_text(way) +
@@ -185,6 +276,10 @@ nlohmann::ordered_json to_json(const Scene& scene, const RayWay& way) {
                 {"direction", vector_json(ray.direction)},
                 {"t_min", ray.t_min},
                 {"t_max", number_json(ray.t_max)}};
+  if (!way.beams.empty()) {
+    out["beams"] = Json::array();
+    for (const BeamPassage& beam : way.beams) out["beams"].push_back(passage_json(beam));
+  }
   out["steps"] = Json::array();
   out["counters"] = way.counters;
   if (judgement.query == Query::kAnyHit) {

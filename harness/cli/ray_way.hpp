@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accel/accelerator.hpp"
+#include "accel/beam/sample_way.hpp"
 #include "harness/differ/differ.hpp"
 
 namespace beambench {
@@ -25,6 +26,8 @@ struct RayWay {
   Mismatch judgement;
   std::optional<Hit> alone;  ///< its closest hit, asked alone
   bool asked_all = true;     ///< were all rays of the question asked?
+  /// With beams: those that the sample belongs to. The steps are then of the sample with its beams.
+  std::vector<BeamPassage> beams;
 };
 
 /// For people: one paragraph for each step.

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -114,12 +115,20 @@ int trace(const Request& request) {
 
   const auto accelerator = choice.build(scene, workload_of(image, question));
   const EmbreeOracle oracle(scene, question.reach());
-  RayWay way{choice.short_label(), image, question, {}, {}, {}, {}};
+  RayWay way{choice.short_label(), image, question, {}, {}, {}, {}, true, {}};
   way.asked_all = !request.alone;
   WorkCounters counters;
   accelerator->closest_hit(ray, counters);
   way.counters = counters.by_name();
-  way.steps = accelerator->explain(ray);
+  const auto* beams = dynamic_cast<const BeamTracer*>(accelerator.get());
+  if (beams != nullptr && question.image() != nullptr && !request.alone) {
+    const PixelSample at = *question.pixel(index);
+    SampleWay with_beams = way_of_sample(*beams, *question.image(), at.x, at.y, at.sample);
+    way.beams = std::move(with_beams.beams);
+    way.steps = std::move(with_beams.steps);
+  } else {
+    way.steps = accelerator->explain(ray);
+  }
   way.alone = accelerator->closest_hit(ray);
   Answers answers = room_for(question);
   if (request.alone) {
@@ -164,7 +173,14 @@ void add_trace_command(CLI::App& app, int& exit_code) {
       "verify --help' tells. Of primary rays t is view depth. Of shadow rays the way to the "
       "closest\n"
       "hit is told, though any would do. Exits with 1 where the structure is wrong.\n"
+      "With --accel beam, a primary ray is shown with its image: the beams that the sample "
+      "belongs\n"
+      "to, from the first to the one it ends in, each with its leaf, the planes that cut it, its\n"
+      "outline in pixels and its number of samples; then the sample's own tests. --alone shows "
+      "the\n"
+      "ray without beams, by Samet's traversal.\n"
       "Examples:\n"
+      "  beambench trace delfines --accel beam --pixel 30,30 --resolution 64x64\n"
       "  beambench trace escena1 --accel samet --pixel 160,100 --resolution 320x200\n"
       "  beambench trace tetra:n=4 --accel samet:max_level=4 --pixel 256,300 --json\n"
       "  beambench trace balls --accel embree --pixel 8,9 --resolution 64x64 --samples 4 --sample "

@@ -1,0 +1,137 @@
+// The beams of one sample: those that the image's samples are in, and the same hit.
+
+#include "accel/beam/sample_way.hpp"
+
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "scenes/catalogue.hpp"
+
+namespace beambench {
+namespace {
+
+BeamOptions options_with(int level) {
+  BeamOptions options;
+  options.octree.max_level = level;
+  return options;
+}
+
+/// Which beam, in which leaf: what it meets, the leaf and the outline name it.
+using Name = std::tuple<BeamKind, std::uint32_t, std::vector<std::pair<double, double>>>;
+
+Name name_of(const BeamPassage& passage) {
+  std::vector<std::pair<double, double>> corners;
+  for (const glm::dvec2& corner : passage.corners) corners.emplace_back(corner.x, corner.y);
+  return {passage.kind, passage.node, std::move(corners)};
+}
+
+struct Case {
+  const char* scene;
+  BeamOptions options;
+  int samples;
+};
+
+std::vector<Case> cases() {
+  std::vector<Case> all{{"tetra:n=4", options_with(5), 1},
+                        {"escena1", options_with(5), 1},
+                        {"escena2", options_with(5), 5},
+                        {"closed-room:detail=1", options_with(5), 1}};
+  all.push_back({"escena1", options_with(5), 1});
+  all.back().options.handover = 30;
+  all.push_back({"escena1", options_with(5), 1});
+  all.back().options.continue_with_rays = false;
+  all.push_back({"tetra:n=3", options_with(4), 5});
+  all.back().options.share_corners = true;
+  return all;
+}
+
+class SampleWays : public ::testing::TestWithParam<Case> {};
+
+TEST_P(SampleWays, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
+  const Scene scene = load_scene(GetParam().scene);
+  const BeamOptions& options = GetParam().options;
+  const BeamTracer tracer(scene, options);
+  const PrimaryRays rays(scene.cameras.front(), 10, 8, GetParam().samples);
+  HitBuffer hits(10, 8, GetParam().samples);
+  tracer.trace(rays, hits);
+  const bool shared = options.share_corners;
+  std::map<Name, std::pair<std::uint64_t, std::uint64_t>> samples;  // expected, found
+  for (int y = 0; y < 8; ++y) {
+    for (int x = 0; x < 10; ++x) {
+      for (int sample = 0; sample < GetParam().samples; ++sample) {
+        SCOPED_TRACE(::testing::Message() << x << "," << y << " sample " << sample);
+        const SampleWay way = way_of_sample(tracer, rays, x, y, sample);
+        ASSERT_EQ(way.hit, hits.get(hits.index(x, y, sample)));
+        const Ray ray = rays.ray(x, y, sample);
+        const std::vector<TraceStep> alone = tracer.explain(ray);
+        if (alone.empty()) {
+          EXPECT_TRUE(way.beams.empty());
+          continue;
+        }
+        ASSERT_FALSE(way.beams.empty());
+        for (std::size_t i = 0; i < way.beams.size(); ++i) {
+          const BeamPassage& beam = way.beams[i];
+          ++samples[name_of(beam)].second;
+          samples[name_of(beam)].first = beam.samples;
+          if (beam.kind == BeamKind::kLeaving) {
+            EXPECT_EQ(i + 1, way.beams.size());
+            EXPECT_TRUE(way.steps.empty() || !options.continue_with_rays);
+            continue;
+          }
+          // The leaves of the ray's own way, as long as it is in beams.
+          ASSERT_LT(i, alone.size());
+          EXPECT_EQ(beam.node, alone[i].index);
+          EXPECT_EQ(beam.level, alone[i].level);
+          const bool last = i + 1 == way.beams.size();
+          EXPECT_EQ(beam.kind == BeamKind::kOccupied, !alone[i].tests.empty());
+          if (options.handover == 0 && options.continue_with_rays) {
+            EXPECT_EQ(last, beam.kind == BeamKind::kOccupied);
+          }
+        }
+        if (way.beams.back().kind == BeamKind::kOccupied && options.continue_with_rays) {
+          ASSERT_FALSE(way.steps.empty());
+          EXPECT_EQ(way.steps.front().index, way.beams.back().node);
+          EXPECT_EQ(way.reason.has_value(), way.steps.size() > 1 || !way.hit);
+        }
+      }
+    }
+  }
+  EXPECT_GT(samples.size(), 10U);
+  for (const auto& [name, counts] : samples) {
+    if (shared) continue;  // a corner is one sample of the beam, and found from four pixels
+    EXPECT_EQ(counts.first, counts.second) << "leaf " << std::get<1>(name);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SampleWays, ::testing::ValuesIn(cases()));
+
+// What goes on whole has no new cut and the same outline; what is cut has both.
+TEST(SampleWay, NamesTheCutsOfADividedBeamOnly) {
+  const Scene scene = load_scene("escena2");
+  const BeamTracer tracer(scene, options_with(6));
+  const PrimaryRays rays(scene.cameras.front(), 16, 12, 1);
+  int whole = 0;
+  int divided = 0;
+  for (int x = 0; x < 16; ++x) {
+    const SampleWay way = way_of_sample(tracer, rays, x, 6, 0);
+    for (std::size_t i = 1; i < way.beams.size(); ++i) {
+      const bool is_same = way.beams[i].corners == way.beams[i - 1].corners;
+      EXPECT_EQ(way.beams[i].cuts.empty(), is_same);
+      ++(is_same ? whole : divided);
+      EXPECT_LE(way.beams[i].samples, way.beams[i - 1].samples);
+      for (const PlaneOrder& cut : way.beams[i].cuts) {
+        EXPECT_TRUE(cut.first.axis != cut.second.axis || cut.first.at != cut.second.at);
+      }
+    }
+  }
+  EXPECT_GT(whole, 0);
+  EXPECT_GT(divided, 0);
+}
+
+}  // namespace
+}  // namespace beambench
