@@ -820,3 +820,20 @@ def test_a_full_disk_is_reported() -> None:
         )
     assert done.returncode == 2
     assert "cannot write" in done.stderr
+
+
+def test_trace_with_beams_prints_those_of_the_sample() -> None:
+    command = ["trace", "delfines", "--accel", "beam:max_level=5", "--pixel", "30,30"]
+    command += ["--resolution", "64x64"]
+    way = json.loads(beambench(*command, "--json").stdout)
+    kinds = [beam["kind"] for beam in way["beams"]]
+    assert kinds == ["non-terminal"] * (len(kinds) - 1) + ["occupied"]
+    assert way["beams"][-1]["index"] == way["steps"][0]["index"]
+    assert all(beam["samples"] >= 1 and len(beam["outline"]) >= 3 for beam in way["beams"])
+    assert any(beam["cuts"] for beam in way["beams"])
+    text = beambench(*command).stdout
+    assert f"The sample's beams, {len(kinds)} leaves; outlines in pixels:" in text
+    assert "terminal: its samples become rays" in text
+    alone = json.loads(beambench(*command, "--json", "--alone").stdout)
+    assert "beams" not in alone
+    assert alone["hit"] == way["hit"]
