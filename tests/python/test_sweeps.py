@@ -10,6 +10,7 @@ import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 SWEEPS = sorted((REPOSITORY / "harness" / "sweeps").glob("*.json"))
+LIBRARIES = REPOSITORY / "harness" / "plugin" / "adapters" / "libraries.json"
 
 
 @pytest.fixture(scope="module")
@@ -64,3 +65,60 @@ def test_a_committed_sweep_is_valid(path: Path, validator: jsonschema.Draft20201
 def test_the_schema_refuses(change: dict, validator: jsonschema.Draft202012Validator) -> None:
     sweep = json.loads((REPOSITORY / "harness" / "sweeps" / "default.json").read_text())
     assert not validator.is_valid(sweep | change)
+
+
+def values_of(parameters: dict, name: str, default: object) -> list:
+    """What a parameter takes in turn."""
+    value = parameters.get(name, default)
+    return value if isinstance(value, list) else [value]
+
+
+def embree_modes(sweep: dict) -> set[tuple]:
+    """The modes of Embree in a sweep, each with its coherence flag."""
+    return {
+        (mode, coherent)
+        for parameters in structures_of(sweep).get("embree", [])
+        for mode in values_of(parameters, "mode", "single")
+        for coherent in values_of(parameters, "coherent", True)
+    }
+
+
+@pytest.mark.parametrize("path", [*SWEEPS, LIBRARIES], ids=lambda path: path.name)
+def test_only_the_beat_embree_sweeps_ask_for_streams_which_embree_4_has_not(path: Path) -> None:
+    modes = {mode for mode, _ in embree_modes(json.loads(path.read_text()))}
+    assert ("stream" in modes) == path.name.startswith("beat-embree")
+
+
+@pytest.mark.parametrize(
+    "path",
+    [
+        path
+        for path in [*SWEEPS, LIBRARIES]
+        if "shadow" in json.loads(path.read_text()).get("rays", [])
+    ],
+    ids=lambda path: path.name,
+)
+def test_of_lists_of_rays_embree_has_every_width_with_both_flags(path: Path) -> None:
+    packets = {(f"packet{n}", coherent) for n in (4, 8, 16) for coherent in (True, False)}
+    assert embree_modes(json.loads(path.read_text())) >= packets | {("single", True)}
+
+
+JUDGED = ("beat-embree", "beat-embree-scenes", "beat-embree-soup", "beat-embree-avx2")
+
+
+def test_sweeps_whose_verdicts_are_judged_repeat_often_enough_for_an_interval() -> None:
+    for path in SWEEPS:
+        if path.name.startswith("beat-embree"):
+            assert json.loads(path.read_text())["repetitions"]["minimum"] >= 6, path.name
+
+
+def test_no_image_is_judged_twice_against_embree() -> None:
+    seen: set[tuple] = set()
+    for name in JUDGED:
+        sweep = json.loads((REPOSITORY / "harness" / "sweeps" / f"{name}.json").read_text())
+        (tile_beam,) = structures_of(sweep)["tile-beam"]
+        isa = tile_beam.get("isa", "best")
+        for scene in sweep["scenes"]:
+            for resolution in sweep["resolutions"]:
+                assert (scene, resolution, isa) not in seen
+                seen.add((scene, resolution, isa))

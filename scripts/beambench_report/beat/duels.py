@@ -142,7 +142,10 @@ def _duel(
 
 def _mode_name(row: Row) -> str:
     own = _parameters(row)
-    return f"{own.get('mode', 'single')}{', robust' if own.get('robust') == 'true' else ''}"
+    mode = own.get("mode", "single")
+    robust = ", robust" if own.get("robust") == "true" else ""
+    apart = ", not coherent" if mode != "single" and own.get("coherent") == "false" else ""
+    return f"{mode}{robust}{apart}"
 
 
 def _trace(row: Row, contender: str) -> Trace:
