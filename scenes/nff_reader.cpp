@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <new>
 #include <optional>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
+#include "scenes/degenerate_primitive.hpp"
 #include "scenes/error.hpp"
 #include "scenes/input_file.hpp"
 #include "scenes/nff_notes.hpp"
@@ -30,14 +33,16 @@ class NffReader {
     std::string_view word;
     void (NffReader::*read)();
   };
-  static const std::array<Command, 8> kCommands;
+  static const std::array<Command, 9> kCommands;
   std::optional<Command> next_command() const;
+  bool at_area_light() const;
   void skip_unknown();
   void note(std::size_t line, const std::string& cause, const std::string& more = "");
 
   void read_view();
   void read_background();
   void read_light();
+  void read_area_light();
   void read_surface();
   void read_finish();
   void read_surface_fields(Surface surface);
@@ -57,6 +62,20 @@ class NffReader {
     }
   }
 
+  /// The same for a primitive: a degenerate one is skipped where the options allow it.
+  template <typename Add>
+  void add_primitive(Add call) {
+    add([&] {
+      try {
+        call();
+      } catch (const DegeneratePrimitive& degenerate) {
+        skip_degenerate(degenerate.what());
+      }
+    });
+  }
+  void skip_degenerate(const std::string& why);
+  void require_remains() const;
+
   NffTokens tokens_;
   SceneBuilder builder_;
   NffOptions options_;
@@ -64,14 +83,20 @@ class NffReader {
   NffToken command_;          // the one being read
   bool any_command_ = false;  // what precedes the first command may be the header of an e-mail
   std::size_t view_count_ = 0;
+  std::size_t degenerate_count_ = 0;
+  std::size_t first_degenerate_line_ = 0;
+  std::string first_degenerate_;
 };
 
-const std::array<NffReader::Command, 8> NffReader::kCommands = {{
+const std::array<NffReader::Command, 9> NffReader::kCommands = {{
     {"p", &NffReader::read_polygon},
     {"pp", &NffReader::read_smooth_polygon},
     {"s", &NffReader::read_sphere},
     {"c", &NffReader::read_cone},
     {"f", &NffReader::read_surface},
+    // A course's ray tracer (github.com/mfandre/raytracer, Scene.cc) shades surfaces of `f` flatly
+    // and those of `fp` by Phong; both have the fields of NFF's `f`.
+    {"fp", &NffReader::read_surface},
     {"l", &NffReader::read_light},
     {"b", &NffReader::read_background},
     {"v", &NffReader::read_view},
@@ -97,6 +122,7 @@ NffResult NffReader::read() && {
   if (!any_command_) {
     tokens_.refuse(1, "there is no NFF command (v, b, l, f, s, c, p or pp) in the file");
   }
+  require_remains();
   return {std::move(builder_).build(), notes_.messages()};
 }
 
@@ -107,7 +133,21 @@ std::optional<NffReader::Command> NffReader::next_command() const {
                                            [&](const Command& c) { return c.word == token.text; });
   if (command != kCommands.end()) return *command;
   if (find_finish(token.text)) return Command{token.text, &NffReader::read_finish};
+  if (at_area_light()) return Command{token.text, &NffReader::read_area_light};
   return std::nullopt;
+}
+
+/// `la` with as many numbers as a path tracer and its exporter from Blender have it
+/// (`do_area_light` of its nff2scene, `WriteAreaLamp` of the exporter): a corner, two edges and, if
+/// any, a colour. With fewer at the end of the file it is cut off; any other `la` is another's
+/// word.
+bool NffReader::at_area_light() const {
+  if (tokens_.peek().text != "la") return false;
+  NffTokens ahead = tokens_;
+  ahead.take();
+  std::size_t numbers = 0;
+  for (; ahead.at_number(); ++numbers) ahead.take();
+  return numbers == 9 || numbers == 12 || (numbers < 12 && ahead.at_end());
 }
 
 void NffReader::skip_unknown() {
@@ -131,6 +171,26 @@ void NffReader::note(std::size_t line, const std::string& cause, const std::stri
   notes_.add(cause, tokens_.located(line, cause + more));
 }
 
+void NffReader::skip_degenerate(const std::string& why) {
+  if (options_.strict) {
+    throw InputError(why + "; correct the file, or read it without --strict");
+  }
+  if (degenerate_count_++ == 0) {
+    first_degenerate_line_ = command_.line;
+    first_degenerate_ = why;
+  }
+  notes_.add("degenerate",
+             tokens_.located(command_.line, "a degenerate primitive is skipped: " + why));
+}
+
+/// A file from which everything was skipped is no scene.
+void NffReader::require_remains() const {
+  if (degenerate_count_ == 0 || builder_.primitive_count() > 0) return;
+  tokens_.refuse(first_degenerate_line_,
+                 fmt::format("{}; no primitive remains of the file, {} degenerate ones are skipped",
+                             first_degenerate_, degenerate_count_));
+}
+
 void NffReader::read_view() {
   Camera camera = read_nff_view(tokens_, command_);
   if (camera.name.empty()) {
@@ -152,6 +212,25 @@ void NffReader::read_light() {
   add([&] { builder_.add_light(position, color); });
 }
 
+/// Our lights are points. The rectangle of an area light shines to the side of the normal
+/// edge x edge, so the point stands a little on that side of its middle: the ceiling that the
+/// rectangle may lie in does not hide it.
+void NffReader::read_area_light() {
+  constexpr double kOffset = 1e-3;  // of the side of a square of the same area
+  const glm::dvec3 corner = tokens_.triple("the area light's corner");
+  const glm::dvec3 edge = tokens_.triple("the area light's first edge");
+  const glm::dvec3 other_edge = tokens_.triple("the area light's second edge");
+  glm::dvec3 color(1.0);
+  if (tokens_.at_number()) color = tokens_.triple("the area light's colour");
+  const glm::dvec3 normal = glm::cross(edge, other_edge);
+  const double area = glm::length(normal);
+  glm::dvec3 position = corner + 0.5 * (edge + other_edge);
+  if (area > 0.0) position += kOffset / std::sqrt(area) * normal;
+  note(command_.line, "an area light is read as a point light at its middle",
+       "; its shadows have no soft edges, and it is not seen itself");
+  add([&] { builder_.add_light(position, color); });
+}
+
 void NffReader::read_surface() {
   if (!tokens_.at_number()) tokens_.number("the colour");  // refuses
   read_surface_fields({});
@@ -170,7 +249,8 @@ void NffReader::read_surface_fields(Surface surface) {
     *field = tokens_.number("a factor of the surface");
   }
   if (tokens_.at_number()) {
-    note(command_.line, "the ninth field of a surface has no known meaning and is ignored");
+    // "Extensions of the Neutral File Format", 1993 (paulbourke.net/dataformats/nff/enff.html).
+    note(command_.line, "the ninth field of a surface, ENFF's ambient factor, is ignored");
     tokens_.number("the ninth field of the surface");
   }
   add([&] { builder_.set_surface(surface); });
@@ -179,7 +259,7 @@ void NffReader::read_surface_fields(Surface surface) {
 void NffReader::read_sphere() {
   const glm::dvec3 center = tokens_.triple("the sphere's centre");
   const double radius = tokens_.number("the sphere's radius");
-  add([&] { builder_.add_sphere(center, radius); });
+  add_primitive([&] { builder_.add_sphere(center, radius); });
 }
 
 void NffReader::read_cone() {
@@ -187,12 +267,12 @@ void NffReader::read_cone() {
   const double base_radius = tokens_.number("the cone's base radius");
   const glm::dvec3 apex = tokens_.triple("the cone's apex");
   const double apex_radius = tokens_.number("the cone's apex radius");
-  add([&] { builder_.add_cone(base, base_radius, apex, apex_radius); });
+  add_primitive([&] { builder_.add_cone(base, base_radius, apex, apex_radius); });
 }
 
 void NffReader::read_corners(bool smooth) {
   const long count = tokens_.integer("the number of vertices");
-  if (count < 3) {
+  if (count < 1) {  // fewer than 3 are degenerate
     tokens_.refuse(command_.line,
                    fmt::format("a polygon of {} vertices; it must have at least 3", count));
   }
@@ -212,7 +292,7 @@ void NffReader::read_corners(bool smooth) {
     if (smooth) normals.emplace_back(tokens_.triple("a normal"));
   }
   const Repairs before = builder_.repairs();
-  add([&] { builder_.add_polygon(vertices, normals); });
+  add_primitive([&] { builder_.add_polygon(vertices, normals); });
   const Repairs& after = builder_.repairs();
   if (after.merged_corners > before.merged_corners) {
     note(command_.line, "a polygon has consecutive corners at the same place, taken as one");

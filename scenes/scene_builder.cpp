@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "scenes/degenerate_primitive.hpp"
 #include "scenes/error.hpp"
 #include "scenes/triangulate.hpp"
 
@@ -24,8 +25,16 @@ struct Subject {
   std::size_t number;
 };
 
+std::string message(const Subject& subject, const std::string& why) {
+  return fmt::format(fmt::runtime(subject.words), subject.number) + ": " + why;
+}
+
 [[noreturn]] void refuse(const Subject& subject, const std::string& why) {
-  throw InputError(fmt::format(fmt::runtime(subject.words), subject.number) + ": " + why);
+  throw InputError(message(subject, why));
+}
+
+[[noreturn]] void refuse_degenerate(const Subject& subject, const std::string& why) {
+  throw DegeneratePrimitive(message(subject, why));
 }
 
 /// The one rounding to float; -0 becomes 0, so that equal scenes have equal bits.
@@ -213,9 +222,10 @@ void SceneBuilder::add_sphere(const glm::dvec3& center, double radius) {
   const glm::vec3 place = rounded(center, subject, "centre");
   const float size = rounded(radius, subject, "radius");
   if (size == 0.0F) {
-    refuse(subject,
-           "the radius is 0 in single precision, but must be positive, or negative for a "
-           "sphere seen from the inside only");
+    refuse_degenerate(
+        subject,
+        "the radius is 0 in single precision, but must be positive, or negative for a "
+        "sphere seen from the inside only");
   }
   add_primitive(PrimitiveKind::kSphere, scene_.spheres.size());
   scene_.spheres.push_back({place, std::abs(size), size < 0.0F});
@@ -229,7 +239,7 @@ void SceneBuilder::add_cone(const glm::dvec3& base, double base_radius, const gl
   const float from_radius = rounded(base_radius, subject, "base radius");
   const float to_radius = rounded(apex_radius, subject, "apex radius");
   if (from_radius == 0.0F && to_radius == 0.0F) {
-    refuse(subject, "both radii are 0 in single precision, but one must not be");
+    refuse_degenerate(subject, "both radii are 0 in single precision, but one must not be");
   }
   const auto [least, largest] = std::minmax(from_radius, to_radius);
   if (least < 0.0F && largest > 0.0F) {
@@ -238,7 +248,8 @@ void SceneBuilder::add_cone(const glm::dvec3& base, double base_radius, const gl
                                 base_radius, apex_radius));
   }
   if (from == to) {
-    refuse(subject, "base and apex are the same point in single precision; move one of them");
+    refuse_degenerate(subject,
+                      "base and apex are the same point in single precision; move one of them");
   }
   add_primitive(PrimitiveKind::kCone, scene_.cones.size());
   scene_.cones.push_back({from, std::abs(from_radius), to, std::abs(to_radius), least < 0.0F});
@@ -256,7 +267,8 @@ void SceneBuilder::add_polygon(std::span<const std::uint32_t> vertices,
   if (vertices.size() == 3 && normals.empty() && add_flat_triangle(vertices)) return;
   const Subject subject{"polygon (primitive {})", primitive_count()};
   if (vertices.size() < 3) {
-    refuse(subject, fmt::format("it has {} corners, but must have at least 3", vertices.size()));
+    refuse_degenerate(subject,
+                      fmt::format("it has {} corners, but must have at least 3", vertices.size()));
   }
   if (!normals.empty() && normals.size() != vertices.size()) {
     refuse(subject,
@@ -265,12 +277,14 @@ void SceneBuilder::add_polygon(std::span<const std::uint32_t> vertices,
   }
   const MergedCorners corners = merge_corners(vertices, scene_.vertices, subject);
   if (corners.vertices.size() < 3) {
-    refuse(subject, fmt::format("only {} of its {} corners differ in single precision, but 3 must",
-                                corners.vertices.size(), vertices.size()));
+    refuse_degenerate(
+        subject, fmt::format("only {} of its {} corners differ in single precision, but 3 must",
+                             corners.vertices.size(), vertices.size()));
   }
   const auto triangles = triangulate(corners.positions);
   if (triangles.empty()) {
-    refuse(subject, "it has no area: its corners lie on a line, or it crosses itself; remove it");
+    refuse_degenerate(subject,
+                      "it has no area: its corners lie on a line, or it crosses itself; remove it");
   }
   std::size_t replaced = 0;
   std::vector<glm::vec3> kept_normals;

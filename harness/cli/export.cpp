@@ -43,7 +43,8 @@ void add_export_command(CLI::App& app, int&) {
   command->add_option("SCENE", request->scene, "Catalogue name or path of an NFF file")->required();
   command->add_option("-o", request->file, "File to write, .nff")->required();
   command->add_flag("--strict", request->options.strict,
-                    "Refuse a file with unknown words, ignored fields or polygons to repair");
+                    "Refuse a file with unknown words, ignored fields, degenerate primitives or "
+                    "polygons to repair");
   command->footer(
       "The file reads back as the same scene, bit for bit.\n"
       "Examples:\n"

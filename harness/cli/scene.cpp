@@ -138,8 +138,8 @@ void add_scene_command(CLI::App& app, int&) {
       ->required();
   CLI::Option* json = command->add_flag("--json", request->json, "Print JSON instead of text");
   command->add_flag("--strict", request->options.strict,
-                    "Refuse a file with unknown words, ignored fields, polygons to repair or "
-                    "triangles without area");
+                    "Refuse a file with unknown words, ignored fields, degenerate primitives or "
+                    "polygons to repair");
   CLI::Option* growth =
       command->add_flag("--growth", request->growth,
                         "Generate it in growing sizes: primitives, bytes and seconds of each");

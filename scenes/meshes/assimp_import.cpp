@@ -102,8 +102,9 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::string& name,
   refuse(path, fmt::format("it cannot be read as a mesh ({})", importer.GetErrorString()), kRemedy);
 }
 
-void warn_of(std::vector<std::string>& warnings, std::size_t count, std::string_view what) {
-  if (count > 0) warnings.push_back(fmt::format("{} {} left out", count, what));
+void warn_of(std::vector<std::string>& warnings, std::size_t count, std::string_view what,
+             std::string_view more = "") {
+  if (count > 0) warnings.push_back(fmt::format("{} {} left out{}", count, what, more));
 }
 
 }  // namespace
@@ -135,7 +136,8 @@ ImportedMesh import_mesh(std::string_view bytes, const std::string& ending,
     throw InputError(fmt::format("{}: {}", path.string(), error.what()));
   }
   ImportedMesh result;
-  warn_of(result.warnings, collector.degenerate(), "triangles without area were");
+  warn_of(result.warnings, collector.degenerate(), "triangles without area were",
+          fmt::format(", the first of them triangle {}", collector.first_degenerate()));
   warn_of(result.warnings, others, "points and lines were");
   result.mesh = std::move(collector).finish();
   result.companions = opened.companions();

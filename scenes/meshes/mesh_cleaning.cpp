@@ -40,7 +40,7 @@ void MeshCollector::add(const std::array<glm::vec3, 3>& corners) {
   std::array<glm::vec3, 3> places{};
   for (std::size_t i = 0; i < 3; ++i) places[i] = checked(corners[i], number);
   if (!has_area(places[0], places[1], places[2])) {
-    ++degenerate_;
+    if (degenerate_++ == 0) first_degenerate_ = number;
     return;
   }
   if (mesh_.triangles.size() >= kFree / 3) {

@@ -20,7 +20,9 @@ class MeshCollector {
   /// when 32-bit indices do not suffice.
   void add(const std::array<glm::vec3, 3>& corners);
 
+  /// How many triangles were left out, and which was the first (counted from 0 as they were added).
   std::size_t degenerate() const { return degenerate_; }
+  std::size_t first_degenerate() const { return first_degenerate_; }
   TriangleMesh finish() &&;
 
  private:
@@ -31,6 +33,7 @@ class MeshCollector {
   Surface surface_;
   std::vector<std::uint32_t> slots_;  // an open hash table of indices into mesh_.vertices
   std::size_t degenerate_ = 0;
+  std::size_t first_degenerate_ = 0;
 };
 
 }  // namespace beambench

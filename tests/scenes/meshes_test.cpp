@@ -122,7 +122,9 @@ TEST_F(Meshes, WhatHasNoAreaIsLeftOutAndCounted) {
     const Scene scene = load_scene(path, &warnings);
     EXPECT_EQ(scene.polygons.size(), 2U);
     ASSERT_EQ(warnings.size(), 2U);
-    EXPECT_TRUE(says(warnings[0], {"some.obj: ", "2 triangles without area were left out"}));
+    EXPECT_TRUE(says(
+        warnings[0],
+        {"some.obj: ", "2 triangles without area were left out, the first of them triangle 1"}));
     EXPECT_TRUE(says(warnings[1], {"some.obj: ", "2 points and lines were left out"}));
   }
   EXPECT_TRUE(says(thrown_message([&] { load_scene(path, nullptr, {.strict = true}); }),

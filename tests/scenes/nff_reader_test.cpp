@@ -191,6 +191,72 @@ TEST(NffReader, NumbersAreRoundedOnce) {
   EXPECT_EQ(parse("s -" + tiny + " 0 0 1\n").scene.spheres[0].center.x, 0.0F);
 }
 
+TEST(NffReader, DegeneratePrimitivesAreSkippedAndCounted) {
+  const char* text =
+      "s 0 0 0 1\n"
+      "p 3\n0 0 0\n1 1 1\n2 2 2\n"
+      "s 1 1 1 1e-60\n"
+      "c 0 0 0 0 1 1 1 0\n"
+      "c 1 1 1 1 1 1 1 1\n"
+      "p 2\n0 0 0\n1 1 1\n"
+      "pp 4\n0 0 0 0 0 1\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 0 0 0 0 1\n"
+      "s 3 0 0 2\n";
+  const NffResult result = parse(text);
+  ASSERT_EQ(result.scene.primitives.size(), 2U);
+  EXPECT_EQ(result.scene.spheres[1].radius, 2.0F);
+  EXPECT_TRUE(result.scene.vertices.empty()) << "of a skipped polygon nothing is left";
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_TRUE(says(result.warnings[0], {"test.nff:2: ", "degenerate", "skipped",
+                                        "polygon (primitive 1)", "no area", "(and 5 more)"}));
+  EXPECT_TRUE(says(thrown_message([&] { parse_nff(text, "test.nff", {.strict = true}); }),
+                   {"test.nff:2: polygon (primitive 1): ", "no area", "--strict"}));
+}
+
+TEST(NffReader, OneDegenerateTriangleOfManyRefusesNoFile) {
+  std::string text;
+  for (int i = 0; i < 1844; ++i) {
+    const std::string x = std::to_string(i);
+    text += "p 3\n" + x + " 0 0\n" + x + " 1 0\n" + x + (i == 900 ? " 2 0\n" : " 0 1\n");
+  }
+  const NffResult result = parse(text);
+  EXPECT_EQ(result.scene.primitives.size(), 1843U);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_TRUE(says(result.warnings[0], {"test.nff:3601: ", "polygon (primitive 900)"}));
+}
+
+// Words of dialects
+
+TEST(NffReader, FillOfPhongSurfacesHasTheFieldsOfF) {
+  const std::string fields = " .2 .4 .6 .1 .9 64 0.5 1.5\ns 0 0 0 1\n";
+  const NffResult result = parse("fp" + fields);
+  EXPECT_TRUE(result.warnings.empty());
+  EXPECT_EQ(result.scene.surfaces, parse("f" + fields).scene.surfaces);
+  EXPECT_EQ(result.scene.surfaces[0].color, glm::vec3(.2F, .4F, .6F));
+}
+
+TEST(NffReader, AreaLightsBecomePointsBeforeTheirMiddles) {
+  const NffResult result =
+      parse("la 4 10 4  2 0 0  0 0 8  5 4 3\nla 0 0 0 1 0 0 0 1 0\ns 0 0 0 1\nl 1 2 3\n");
+  const std::vector<Light>& lights = result.scene.lights;
+  ASSERT_EQ(lights.size(), 3U);
+  EXPECT_EQ(lights[0].color, glm::vec3(5, 4, 3));
+  // x edge cross z edge points down: the lamp in a ceiling shines into the room.
+  EXPECT_EQ(lights[0].position, glm::vec3(5.0F, 9.996F, 8.0F));
+  EXPECT_EQ(lights[1].color, glm::vec3(1.0F));
+  EXPECT_EQ(lights[1].position, glm::vec3(0.5F, 0.5F, 0.001F));
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_TRUE(
+      says(result.warnings[0], {"test.nff:1: ", "area light", "point light", "(and 1 more)"}));
+  EXPECT_EQ(parse("s 0 0 0 1\nla 0 0 0 1 0 0 0 1 0").scene.lights.size(), 1U);
+}
+
+TEST(NffReader, ALightWordOfAnotherDialectIsSkipped) {
+  const NffResult result = parse("la 0 0 0 5\nl 1 2 3\ns 0 0 0 1\n");
+  EXPECT_EQ(result.scene.lights.size(), 1U);
+  ASSERT_EQ(result.warnings.size(), 1U);
+  EXPECT_TRUE(says(result.warnings[0], {"test.nff:1: ", "unknown word 'la'"}));
+}
+
 TEST(NffReader, CountsAreNotRoundedToFloat) {
   EXPECT_TRUE(says(thrown_message([] { parse("p 16777217\n0 0 0\n"); }), {"16777217"}));
 }
@@ -292,7 +358,17 @@ INSTANTIATE_TEST_SUITE_P(
         Malformed{"count_missing", "p\nfoo", 2, "number of vertices"},
         Malformed{"count_too_small", "p 3\n0 0 0\n1 0 0\n1 1 0\n0 1 0\ns 0 0 0 1\n", 5,
                   "line 1 takes fewer numbers"},
-        Malformed{"polygon_without_area", "s 0 0 0 1\np 3\n0 0 0\n1 1 1\n2 2 2\n", 2, "no area"},
+        Malformed{"only_polygons_without_area", "b 0 0 0\np 3\n0 0 0\n1 1 1\n2 2 2\n", 2,
+                  "no area"},
+        Malformed{"nothing_remains", "c 0 0 0 0\n1 1 1 0\ns 0 0 0 0\n", 1,
+                  "no primitive remains of the file, 2 degenerate"},
+        Malformed{"nan_in_what_would_be_skipped", "s 0 0 0 1\nc 0 0 0 0\n1 nan 1 0\n", 3, "'nan'"},
+        Malformed{"cut_in_what_would_be_skipped", "s 0 0 0 1\np 3\n0 0 0\n0 0 0\n0 0", 2,
+                  "cut off"},
+        Malformed{"polygon_of_none", "s 0 0 0 1\np 0\n", 2, "at least 3"},
+        Malformed{"area_light_cut_off", "s 0 0 0 1\nla 0 0 0 1 0 0 0 1\n", 3, "second edge"},
+        Malformed{"area_light_cut_in_its_colour", "la 0 0 0 1 0 0 0 1 0 .5 .5", 1, "colour"},
+        Malformed{"area_light_nan", "s 0 0 0 1\nla 0 0 0 1 0 0 0 1 nan\nb 0 0 0\n", 2, "'nan'"},
         Malformed{"polygon_in_one_place", "p 3\n0 0 0\n0 0 0\n0 0 0\n", 1, "only 1 of its 3"},
         Malformed{"too_many_surface_fields", "f 1 1 1 1 1 1 1 1 1\n2\n", 2, "'2'"},
         Malformed{"too_few_surface_fields", "f 1 1\ns 0 0 0 1\n", 2, "the colour"},
