@@ -18,9 +18,11 @@
 #include "harness/cli/whitted_request.hpp"
 #include "harness/cli/work_picture.hpp"
 #include "harness/files/pending_file.hpp"
+#include "harness/picture/exposure.hpp"
 #include "harness/picture/image_file.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/shade/shading.hpp"
+#include "scenes/error.hpp"
 
 namespace beambench {
 namespace {
@@ -35,6 +37,7 @@ struct Request {
   std::string shading = "preview";
   std::string overlay;
   WhittedRequest whitted;
+  double exposure = 0.0;
 };
 
 /// Depth and id of each pixel, those of its nearest sample.
@@ -80,7 +83,21 @@ Image shaded(const Request& request, const StructureChoice& choice, const Accele
   if (shading != Shading::kWhitted) return shade(scene, rays, hits, shading);
   const Whitted tracer(scene, accelerator, whitted_options(request.whitted),
                        HitCheck(scene, choice));
-  return watched_picture(tracer, eye_rays(rays), hits, request.whitted, progress).image;
+  Image image = watched_picture(tracer, eye_rays(rays), hits, request.whitted, progress).image;
+  if (request.exposure != 0.0) expose(image, request.exposure);
+  return image;
+}
+
+/// Lights of other programs' files fall off with the distance; ours do not. An EXR keeps all light.
+std::string remark_on_light(const Request& request, const Image& image) {
+  constexpr double kWorthSaying = 0.05;
+  if (parse_shading(request.shading) != Shading::kWhitted) return "";
+  if (image_format(request.file) != ImageFormat::kPng) return "";
+  const Overexposure found = overexposure(image);
+  if (found.share <= kWorthSaying) return "";
+  return fmt::format(
+      "; {:.0f}% of the pixels are brighter than white; '--exposure {:.1f}' leaves 1%",
+      100.0 * found.share, request.exposure + found.remedy);
 }
 
 /// Shades the hits and draws over them what is asked for; returns what the picture tells of it. A
@@ -90,6 +107,7 @@ std::string write_shaded(const Request& request, const StructureChoice& choice,
                          const Scene& scene, const PrimaryRays& rays, const HitBuffer& hits,
                          Progress& progress) {
   Image image = shaded(request, choice, accelerator, scene, rays, hits, progress);
+  const std::string remark = remark_on_light(request, image);
   std::vector<LegendEntry> legend;
   if (overlay) legend = draw_overlay(*overlay, image, accelerator, rays);
   if (overlay && image_format(request.file) == ImageFormat::kPng) {
@@ -99,7 +117,7 @@ std::string write_shaded(const Request& request, const StructureChoice& choice,
   } else {
     write_image(request.file, image, hit_channels(hits));
   }
-  return describe(legend);
+  return describe(legend) + remark;
 }
 
 std::string share_of_hits(const HitBuffer& hits) {
@@ -141,7 +159,10 @@ std::string compare(const Request& request, const StructureChoice& choice, const
 }
 
 void render(const Request& request) {
-  parse_shading(request.shading);
+  const Shading shading = parse_shading(request.shading);
+  if (request.exposure != 0.0 && shading != Shading::kWhitted) {
+    throw InputError("--exposure is of the light that --shade whitted follows; name both");
+  }
   whitted_options(request.whitted);
   image_format(request.file);
   require_writable(request.file);
@@ -197,6 +218,11 @@ void add_render_command(CLI::App& app, int&) {
                    "preview, normals, id, depth, or whitted: lights, shadows, mirrors and glass")
       ->capture_default_str();
   add_whitted_options(*command, request->whitted);
+  command
+      ->add_option("--exposure", request->exposure,
+                   "Of --shade whitted, in stops: -1 halves the light, 1 doubles it")
+      ->check(CLI::Range(-32.0, 32.0))
+      ->capture_default_str();
   CLI::Option* heatmap = command->add_option("--heatmap", request->heatmap,
                                              "Instead of shading: a work counter in colours");
   CLI::Option* difference =

@@ -13,6 +13,7 @@
 
 #include "harness/picture/category_map.hpp"
 #include "harness/picture/color_map.hpp"
+#include "harness/picture/exposure.hpp"
 #include "harness/picture/heat_map.hpp"
 #include "harness/picture/image_file.hpp"
 #include "harness/picture/srgb.hpp"
@@ -88,6 +89,29 @@ TEST(Png, HoldsTheSrgbBytesOfEveryPixel) {
       EXPECT_EQ(bytes[next++], std::lround(255.0F * encoded.z));
     }
   }
+}
+
+TEST(Exposure, ScalesLinearLight) {
+  Image image(2, 1);
+  image.at(0, 0) = {0.25F, 8.0F, 0.0F};
+  image.at(1, 0) = {1.0F, 0.5F, 3.0F};
+  expose(image, -2.0);
+  EXPECT_EQ(image.at(0, 0), glm::vec3(0.0625F, 2.0F, 0.0F));
+  EXPECT_EQ(image.at(1, 0), glm::vec3(0.25F, 0.125F, 0.75F));
+}
+
+TEST(Exposure, OfAPictureThatIsTooBrightIsFound) {
+  Image image(20, 10, glm::vec3(0.5F));
+  EXPECT_EQ(overexposure(image).share, 0.0);
+  EXPECT_EQ(overexposure(image).remedy, 0.0);
+  for (int x = 0; x < 20; ++x) image.at(x, 0) = {0.0F, 0.1F, 5.0F};
+  image.at(0, 0) = image.at(1, 0) = glm::vec3(1e6F);  // one of a hundred may stay too bright
+  const Overexposure found = overexposure(image);
+  EXPECT_DOUBLE_EQ(found.share, 0.1);
+  EXPECT_NEAR(found.remedy, -2.4, 1e-9);  // log2(5) is 2.32
+  expose(image, found.remedy);
+  EXPECT_DOUBLE_EQ(overexposure(image).share, 0.01);
+  EXPECT_EQ(overexposure(image).remedy, 0.0);
 }
 
 TEST(Exr, HoldsLinearColorsDepthsAndIdsExactly) {

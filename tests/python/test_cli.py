@@ -837,3 +837,73 @@ def test_trace_with_beams_prints_those_of_the_sample() -> None:
     alone = json.loads(beambench(*command, "--json", "--alone").stdout)
     assert "beams" not in alone
     assert alone["hit"] == way["hit"]
+
+
+# Files of other programs
+
+
+CORNELL = """b 0 0 0
+v
+from 275 275 -800
+at 275 275 0
+up 0 1 0
+angle 40
+hither 0.1
+resolution 48 48
+la 200 550 200  150 0 0  0 0 150  1 1 1
+f 0.7 0.7 0.7 1 0 0 0 1
+p 4 550 0 0   0 0 0   0 0 550   550 0 550
+p 4 550 550 0   550 550 550   0 550 550   0 550 0
+p 4 550 0 550   0 0 550   0 550 550   550 550 550
+"""
+
+
+def test_a_cornell_box_is_not_black(tmp_path: Path) -> None:
+    """Its only light is a rectangle in the ceiling, which is `la` in a dialect of NFF."""
+    file = tmp_path / "cornell.nff"
+    file.write_text(CORNELL)
+    picture = tmp_path / "cornell.png"
+    done = beambench("render", file, "--accel", "samet", "--shade", "whitted", "-o", picture)
+    assert done.returncode == 0, done.stderr
+    assert f"{file}:9: an area light is read as a point light" in done.stderr
+    with Image.open(picture) as image:
+        floor = image.convert("L").getpixel((24, 44))
+        assert floor > 150
+        assert count_colors(image) > 50
+
+
+def test_a_picture_that_is_too_bright_names_the_exposure_that_it_needs(tmp_path: Path) -> None:
+    file = tmp_path / "shells.nff"
+    file.write_text(VIEW + "l 0 0 5 20 20 20\nfp 1 0.5 0.5 .9 0 64 0 1\ns 0 0 0 1.5\n")
+    picture = tmp_path / "shells.png"
+    render = ["render", file, "--accel", "samet", "--shade", "whitted", "--resolution", "64x64"]
+    done = beambench(*render, "-o", picture)
+    assert done.returncode == 0, done.stderr
+    found = re.search(r"(\d+)% of the pixels are brighter .*'(--exposure) (-[\d.]+)'", done.stderr)
+    assert found
+    assert int(found[1]) > 20
+    done = beambench(*render, "-o", picture, found[2], found[3])
+    assert done.returncode == 0, done.stderr
+    assert "brighter" not in done.stderr
+    with Image.open(picture) as image:
+        red, green, _ = image.convert("RGB").getpixel((32, 32))
+        assert red > green + 40, "the surface's own colour is seen"
+    refused(
+        beambench("render", file, "--accel", "samet", "-o", picture, "--exposure", "1"),
+        ["--exposure", "--shade whitted"],
+    )
+
+
+def test_a_file_with_degenerate_primitives_is_read_without_them(tmp_path: Path) -> None:
+    file = tmp_path / "found.nff"
+    file.write_text("s 0 0 0 1\np 3\n0 0 0\n1 1 1\n2 2 2\ns 1 1 1 0\n")
+    done = beambench("scene", file, "--json")
+    assert done.returncode == 0
+    assert json.loads(done.stdout)["primitives"] == 1
+    assert f"{file}:2: a degenerate primitive is skipped: polygon (primitive 1)" in done.stderr
+    assert "(and 1 more)" in done.stderr
+    again = tmp_path / "clean.nff"
+    for command in (["scene", file], ["export", file, "-o", again]):
+        refused(beambench(*command, "--strict"), ["found.nff:2", "polygon (primitive 1)"])
+    output_of("export", file, "-o", again)
+    output_of("scene", again, "--strict")
