@@ -33,9 +33,9 @@ class NffReader {
     std::string_view word;
     void (NffReader::*read)();
   };
-  static const std::array<Command, 9> kCommands;
+  static const std::array<Command, 8> kCommands;
   std::optional<Command> next_command() const;
-  bool at_area_light() const;
+  std::optional<Command> dialect_command() const;
   void skip_unknown();
   void note(std::size_t line, const std::string& cause, const std::string& more = "");
 
@@ -88,15 +88,12 @@ class NffReader {
   std::string first_degenerate_;
 };
 
-const std::array<NffReader::Command, 9> NffReader::kCommands = {{
+const std::array<NffReader::Command, 8> NffReader::kCommands = {{
     {"p", &NffReader::read_polygon},
     {"pp", &NffReader::read_smooth_polygon},
     {"s", &NffReader::read_sphere},
     {"c", &NffReader::read_cone},
     {"f", &NffReader::read_surface},
-    // A course's ray tracer (github.com/mfandre/raytracer, Scene.cc) shades surfaces of `f` flatly
-    // and those of `fp` by Phong; both have the fields of NFF's `f`.
-    {"fp", &NffReader::read_surface},
     {"l", &NffReader::read_light},
     {"b", &NffReader::read_background},
     {"v", &NffReader::read_view},
@@ -133,21 +130,28 @@ std::optional<NffReader::Command> NffReader::next_command() const {
                                            [&](const Command& c) { return c.word == token.text; });
   if (command != kCommands.end()) return *command;
   if (find_finish(token.text)) return Command{token.text, &NffReader::read_finish};
-  if (at_area_light()) return Command{token.text, &NffReader::read_area_light};
-  return std::nullopt;
+  return dialect_command();
 }
 
-/// `la` with as many numbers as a path tracer and its exporter from Blender have it
-/// (`do_area_light` of its nff2scene, `WriteAreaLamp` of the exporter): a corner, two edges and, if
-/// any, a colour. With fewer at the end of the file it is cut off; any other `la` is another's
-/// word.
-bool NffReader::at_area_light() const {
-  if (tokens_.peek().text != "la") return false;
+/// Words of other programs whose meaning is known, where they have as many numbers as there; cut
+/// off by the end of the file, they have fewer.
+/// - `fp`: the fields of `f`, of surfaces that are shaded by Phong where those of `f` are flat
+///   (github.com/mfandre/raytracer, Scene.cc);
+/// - `la`: a rectangular light's corner, two edges and, if any, colour (of a path tracer,
+///   `do_area_light` in its nff2scene, and its exporter from Blender, `WriteAreaLamp`).
+std::optional<NffReader::Command> NffReader::dialect_command() const {
+  const std::string_view word = tokens_.peek().text;
+  if (word != "fp" && word != "la") return std::nullopt;
   NffTokens ahead = tokens_;
   ahead.take();
   std::size_t numbers = 0;
   for (; ahead.at_number(); ++numbers) ahead.take();
-  return numbers == 9 || numbers == 12 || (numbers < 12 && ahead.at_end());
+  const auto has = [&](std::size_t all) {
+    return numbers == all || (numbers < all && ahead.at_end());
+  };
+  if (word == "fp" && has(8)) return Command{word, &NffReader::read_surface};
+  if (word == "la" && (numbers == 9 || has(12))) return Command{word, &NffReader::read_area_light};
+  return std::nullopt;
 }
 
 void NffReader::skip_unknown() {
