@@ -75,6 +75,8 @@ TABLES = (
 )
 
 FIGURES = (
+    Figure("5.4", "Octrees of Maceta by different criteria of division", ("division",)),
+    Figure("5.5", "Octrees of Delfines by different criteria of division", ("division",)),
     Figure("5.6", "Total time by the objects that may lie in a leaf", ("division",)),
     Figure("5.7", "Total time by the level of the octree", ("division",)),
     Figure("5.8", "Time of the beams in Escena 1 and Escena 2", ("synthetic",)),

@@ -8,6 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from beambench_report.problem import Problem
+from beambench_report.thesis.facts.gather import gather_facts
 from beambench_report.thesis.plan import Plan, add_levels, keep_plan, make_plan, read_plan
 from beambench_report.thesis.report import write_report
 from beambench_report.thesis.runner import describe, run_sweeps
@@ -64,6 +65,9 @@ def thesis(options: argparse.Namespace) -> int:
         for name in outcome.not_made:
             _say(f"the sweep '{name}' could not be run (see above); the report goes without it")
         code = outcome.exit_code
+        if plan.is_everything:
+            for sentence in gather_facts(directory, options.beambench):
+                _say(f"{sentence}; the report goes without it")
     report = write_report(directory, plan, options.beambench)
     if report.wrong and not code:
         code = 1

@@ -40,11 +40,11 @@ def as_markdown(report: Report) -> str:
         image = f"figures/figure-{figure.number}.png"
         lines += [f"### Figure {figure.number}: {figure.title}", "", f"![{figure.title}]({image})"]
         lines += ["", figure.caption, ""]
-    if report.pictures:
-        lines += ["### Figure 5.9: octrees", ""]
-        for picture in report.pictures:
-            image = f"![{picture.caption}](pictures/{picture.path.name})" if picture.path else ""
-            lines += [f"{image} {picture.caption}".strip(), ""]
+    for picture in report.pictures:
+        lines += [f"### Figure {picture.number}: {picture.title}", ""]
+        if picture.path:
+            lines += [f"![{picture.title}](figures/{picture.path.name})", ""]
+        lines += [picture.caption, ""]
     lines += [section_as_markdown(section) for section in report.sections]
     lines += ["## Runs", "", *_runs(report), "", "## Every cell of the ledger", ""]
     lines += [ledger_as_markdown(report.ledger, cells=True).split("\n\n", 1)[-1]]

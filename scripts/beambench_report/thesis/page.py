@@ -75,8 +75,7 @@ def as_page(report: Report) -> str:
             for figure in section.figures
         },
         pictures=[
-            (_image(picture.path) if picture.path else "", picture.caption)
-            for picture in report.pictures
+            (_image(picture.path) if picture.path else "", picture) for picture in report.pictures
         ],
         machine=next((run.manifest.machine for run in report.runs if run.manifest.machine), ""),
         uncontrolled=list(

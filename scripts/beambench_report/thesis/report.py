@@ -18,8 +18,9 @@ from beambench_report.thesis.best import BestTable, best_table
 from beambench_report.thesis.catalogue import TABLES, Table
 from beambench_report.thesis.cells import Cell, Cells, read_cells
 from beambench_report.thesis.drawing import FigureData, draw
+from beambench_report.thesis.facts.gather import CENSUS
 from beambench_report.thesis.figures import make_figures
-from beambench_report.thesis.pictures import Picture, octree_pictures
+from beambench_report.thesis.pictures import PictureFigure, octree_figures
 from beambench_report.thesis.plan import Plan
 from beambench_report.thesis.printed import parts_of
 from beambench_report.thesis.runner import state_of
@@ -28,11 +29,6 @@ from beambench_report.thesis.sections import extra_sweeps, sections_of
 from beambench_report.thesis.sweeps import LEVELS, Sweep
 from beambench_report.thesis.tables import PartTable, fill
 from beambench_report.thesis.work import WorkTable, work_of_lines
-
-CENSUS = "census"
-"""The folder of what `beambench census --json` counted (`ledger.census_run`)."""
-
-_PICTURES = "5.9"
 
 
 @dataclass(frozen=True)
@@ -74,7 +70,7 @@ class Report:
     cells: Cells
     tables: tuple[tuple[Table, tuple[Part, ...]], ...]
     figures: tuple[FigureData, ...]
-    pictures: tuple[Picture, ...]
+    pictures: tuple[PictureFigure, ...]
     ledger: tuple[LedgerEntry, ...]
     sections: tuple[Section, ...]
     """What goes beyond the thesis's own tables and figures."""
@@ -104,8 +100,8 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
     sections, unread = sections_of(directory, every)
     shown = [table for table in TABLES if table.number in plan.tables]
     pictures = ()
-    if _PICTURES in plan.figures and beambench is not None and cells.cells:
-        pictures = tuple(octree_pictures(directory, beambench))
+    if beambench is not None and cells.cells:
+        pictures = tuple(octree_figures(plan.figures, directory, beambench))
     return Report(
         directory,
         plan,

@@ -7,6 +7,9 @@ from pathlib import Path
 
 from beambench_report.thesis.cells import Cells
 from beambench_report.thesis.cost.section import cost_section
+from beambench_report.thesis.facts.camera import camera_section
+from beambench_report.thesis.facts.scenes import scenes_section
+from beambench_report.thesis.facts.visits import visits_section
 from beambench_report.thesis.levels.section import levels_section
 from beambench_report.thesis.plan import Plan
 from beambench_report.thesis.sampling.section import readable_comparisons, sampling_section
@@ -29,9 +32,12 @@ def extra_sweeps(directory: Path, plan: Plan) -> list[Sweep]:
 
 
 def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]]:
-    """Costs, levels and sampling; and a sentence for each file that could not be read."""
+    """All that were measured, and a sentence for each file that could not be read."""
     comparisons, unread = readable_comparisons(sorted((directory / SAMPLING).glob("*.json")))
     sections = (
+        scenes_section(directory),
+        visits_section(directory),
+        camera_section(directory),
         cost_section(cells.cells),
         levels_section(cells.cells),
         sampling_section(comparisons),
