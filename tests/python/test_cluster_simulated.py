@@ -22,7 +22,7 @@ from beambench_report.cluster.calibration import (
 from beambench_report.cluster.plan import MACHINES, OPTIONS, simulations
 from beambench_report.cluster.plots import cluster_plots
 from beambench_report.cluster.record import SCENES, WORKS, tasks_file
-from beambench_report.cluster.results import read_simulations
+from beambench_report.cluster.results import read_processes, read_simulations
 from beambench_report.cluster.simulate import simulate
 
 BINARIES = Path(
@@ -224,6 +224,30 @@ def test_all_steps_write_a_page(tmp_path: Path, capsys: pytest.CaptureFixture[st
         assert f"]({figure}.png)" in page
         assert (tmp_path / f"{figure}.svg").is_file()
     capsys.readouterr()
+
+
+def test_figures_6_3_and_6_4_name_each_panel_and_show_the_thesis(repository: Path) -> None:
+    published = repository / "results/published/cluster"
+    simulations, processes = read_simulations(published), read_processes(published)
+    plots = {plot.stem: plot.figure for plot in cluster_plots(simulations, processes)}
+    panels = plots["figure-6.3"].axes
+    assert [panel.get_title(loc="left") or panel.get_title() for panel in panels] == [
+        "a) Time",
+        "b) Speed-up",
+        "c) Efficiency",
+        "d) Efficiency, the producer not counted",
+    ]
+    marks = {
+        line.get_label(): line.get_xydata().tolist()
+        for line in panels[2].get_lines()
+        if line.get_marker() == "*"
+    }
+    assert marks == {
+        "thesis, gato-bill: best": [[11, 0.75]],
+        "thesis, torre-eiffel: mean, at best": [[7, 0.65]],
+    }
+    # What differs between consumers is seen: no axis of times begins at 0.
+    assert all(panel.get_ylim()[0] > 0 for panel in plots["figure-6.4"].axes[2:])
 
 
 def test_a_line_of_many_processes_has_one_network() -> None:

@@ -59,7 +59,7 @@ def test_a_dry_run_lists_sweeps_cells_and_time(capsys: pytest.CaptureFixture[str
     ("arguments", "message"),
     [
         (["--table", "5.9"], "there is no table '5.9'; there are 5.2, 5.3"),
-        (["--figure", "5.5"], "there is no figure '5.5'; there are 5.6, 5.7"),
+        (["--figure", "5.3"], "there is no figure '5.3'; there are 5.4, 5.5"),
         (["--resume", "no/such"], "give the folder that an earlier scripts/thesis wrote"),
         (["--resume", "x", "--quick"], "--resume goes on with what was begun"),
         (["--report-only"], "--report-only needs the folder of a run"),

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from beambench_report.ledger.measured import Measured
 from beambench_report.problem import Problem
 from beambench_report.thesis.best import best_table, choose
 from beambench_report.thesis.cells import Cells, read_cells, setting
@@ -216,7 +217,13 @@ def test_figures_are_drawn_as_multiples_of_the_same_base(everything: Path) -> No
     five = figures["5.11"].panels[0]
     assert len(five.left.lines) == len(five.right.lines) == 4
     assert [place for place, _ in figures["5.14"].panels[0].right.lines[0].at] == [4, 5, 6, 7, 8]
-    grids = figures["5.17"].panels[1].right.lines[0].at
+    flamenco = {line.label: line.at for line in figures["5.17"].panels[0].right.lines}
+    # The thesis's 93 s with 13 cells and 516 s with 32, over the latter.
+    assert flamenco["thesis"] == [
+        (13.0, Measured.exact(pytest.approx(93 / 516))),
+        (32.0, Measured.exact(1.0)),
+    ]
+    grids = flamenco["ours, grid filled lazily"]
     assert [place for place, _ in grids] == [8, 10, 13, 15, 16, 20, 24, 32, 48]
 
 

@@ -11,6 +11,7 @@ from matplotlib.ticker import MaxNLocator
 from beambench_report.cluster.plan import OLD, OPTIONS, STATIONS, TODAY
 from beambench_report.cluster.results import EQUAL_MACHINES, THESIS_OPTIONS
 from beambench_report.figure import PAGE_WIDTH, Plot, new_figure
+from beambench_report.ledger.published import published_evidence
 
 # Of Okabe and Ito, as in style.py; there they stand for structures.
 _COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
@@ -55,6 +56,7 @@ def _times(rows: pd.DataFrame) -> Plot:
     for panel in (counted, uncounted):
         panel.axhline(1, **IDEAL)
         panel.set_ylim(0, 1.1)
+    _overlay_thesis(counted, list(dict.fromkeys(rows["scene"])))
     name_panel(seconds, "a) Time", "processors, the producer's among them", "seconds")
     seconds.set_ylim(bottom=0)
     name_panel(speed_up, "b) Speed-up", "processors, the producer's among them", "times")
@@ -62,10 +64,37 @@ def _times(rows: pd.DataFrame) -> Plot:
         counted, "c) Efficiency", "processors, the producer's among them", "speed-up / processors"
     )
     name_panel(
-        uncounted, "c) Efficiency, the producer not counted", "consumers", "speed-up / consumers"
+        uncounted, "d) Efficiency, the producer not counted", "consumers", "speed-up / consumers"
     )
     seconds.legend(fontsize=7.5, frameon=False)
     return Plot("figure-6.3", figure, "time, speed-up and efficiency of 1 to 14 consumers")
+
+
+def _overlay_thesis(efficiency: Axes, scenes: Sequence[str]) -> None:
+    """Where the thesis's efficiency is best; of torre-eiffel only the mean is known."""
+    cluster = published_evidence().cluster
+    marks = []
+    for scene in scenes:
+        figures = {
+            name: cluster.figure(name, scene, network)
+            for network in cluster.networks
+            for name in ("best_processors", "best_efficiency", "mean_efficiency")
+        }
+        best, height = figures["best_processors"], figures["best_efficiency"]
+        height, what = (height, "best") if height else (figures["mean_efficiency"], "mean, at best")
+        if best is None or height is None:
+            continue
+        marks += efficiency.plot(
+            best.value,
+            height.value,
+            "*",
+            markersize=11,
+            markerfacecolor="none",
+            color="#000000" if what == "best" else "#777777",
+            label=f"thesis, {scene}: {what}",
+        )
+    if marks:
+        efficiency.legend(handles=marks, fontsize=7, frameon=False, loc="lower center")
 
 
 def _balance(thesis: pd.DataFrame, processes: pd.DataFrame) -> Plot | None:
@@ -79,22 +108,25 @@ def _balance(thesis: pd.DataFrame, processes: pd.DataFrame) -> Plot | None:
         members = processes[processes["simulation"].eq(row.simulation)]
         consumers = members[members["role"].eq("consumer")]
         beams, times = panels[column], panels[column + len(rows)]
-        beams.bar(consumers["process"], consumers["tasks"], color=_COLOURS[0])
-        times.bar(consumers["process"], consumers["busy_seconds"], color=_COLOURS[0])
-        times.scatter(
+        # Points and no bars: the differences are a small part of the whole.
+        beams.plot(consumers["process"], consumers["tasks"], "o", color=_COLOURS[0])
+        times.plot(
+            consumers["process"], consumers["busy_seconds"], "o", color=_COLOURS[0], label="busy"
+        )
+        times.plot(
             consumers["process"],
             consumers["last_seconds"],
+            "_",
             color=_COLOURS[1],
-            marker="_",
-            s=90,
+            markersize=9,
             label="end of the last beam",
         )
-        busy = row.producer_busy * row.traced_seconds
-        times.bar([0], [busy], color=_COLOURS[2], label="the producer, not waiting")
         name_panel(beams, row.scene, "consumer", "beams")
-        name_panel(times, row.scene, "process", "seconds busy")
-        times.set_ylim(top=1.3 * consumers["last_seconds"].max())
-        times.legend(fontsize=7.5, frameon=False, loc="upper right")
+        producer = f"{row.scene}, the producer busy {row.producer_busy:.0%}"
+        name_panel(times, producer, "consumer", "seconds")
+        low, high = times.get_ylim()
+        times.set_ylim(top=high + 0.3 * (high - low))
+        times.legend(fontsize=7.5, frameon=False, loc="upper right", ncols=2)
         for panel in (beams, times):
             panel.xaxis.set_major_locator(MaxNLocator(integer=True))
     network = rows["network"].iloc[0]

@@ -14,6 +14,10 @@ from beambench_report.thesis.report import write_report
 from beambench_report.thesis.runner import describe, run_sweeps
 
 _ROOT = Path(__file__).resolve().parents[3]
+_QUICK = (
+    "320x200 and 640x480 only, few repetitions; enough for the claims C12, C14, C21, C30 and C31 "
+    "alone, the others need higher resolutions"
+)
 _EXAMPLES = """examples:
   scripts/thesis                            everything, within an hour
   scripts/thesis --quick                    the two lowest resolutions, within five minutes
@@ -36,7 +40,7 @@ def add_thesis_command(commands: argparse._SubParsersAction, built: Path) -> Non
     add = parser.add_argument
     add("--table", action="append", default=[], metavar="5.4", help="only what this table needs")
     add("--figure", action="append", default=[], metavar="5.8", help="only what this figure needs")
-    add("--quick", action="store_true", help="320x200 and 640x480 only, few repetitions")
+    add("--quick", action="store_true", help=_QUICK)
     add("--levels", action="store_true", help="also how well max_level=auto chooses: 8 min or more")
     add("--dry-run", action="store_true", help="list the sweeps, their cells and their time; stop")
     add("--report-only", action="store_true", help="measure nothing; write the report anew")
@@ -73,6 +77,8 @@ def thesis(options: argparse.Namespace) -> int:
         code = 1
     if report.wrong:
         _say(f"{report.wrong} of {report.cells} cells have no times: their hits were not right")
+    if report.notice:
+        _say(report.notice)
     for path in report.paths:
         print(path)
     return code

@@ -87,7 +87,7 @@ def draw(data: FigureData) -> Plot:
         right.sharex(left)
         for axis, side in ((left, panel.left), (right, panel.right)):
             _draw_side(axis, side)
-            axis.set_title(f"{panel.title}, {side.title}" if side.title else panel.title)
+            axis.set_title(", ".join(words for words in (panel.title, side.title) if words))
             _label(axis, data, is_last=row == len(data.panels) - 1)
         left.set_ylabel(panel.unit)
         right.tick_params(labelleft=False)

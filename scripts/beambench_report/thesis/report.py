@@ -89,6 +89,8 @@ class Written:
     paths: tuple[Path, ...]
     cells: int
     wrong: int
+    notice: str
+    """What a reader must know before reading it; nothing where all was measured in full."""
 
 
 def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report:
@@ -117,7 +119,8 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
 
 def write_report(directory: Path, plan: Plan, beambench: Path | None = None) -> Written:
     """Writes DIRECTORY/report.html and report.md, the figures, and the list of rows."""
-    # These two import this module: importing them above would be circular.
+    # These import this module: importing them above would be circular.
+    from beambench_report.thesis import words
     from beambench_report.thesis.markdown import as_markdown
     from beambench_report.thesis.page import as_page
 
@@ -134,7 +137,7 @@ def write_report(directory: Path, plan: Plan, beambench: Path | None = None) -> 
         write_text(directory / "report.md", as_markdown(report)),
         _write_rows(report.cells, directory / "rows.csv"),
     )
-    return Written(paths, len(report.cells.cells), len(report.cells.wrong))
+    return Written(paths, len(report.cells.cells), len(report.cells.wrong), words.notice(report))
 
 
 def _censuses(directory: Path) -> list[Path]:

@@ -43,11 +43,21 @@ def notice(report: Report) -> str:
     if report.plan.is_quick:
         sentences.append(
             "This was a quick run: low resolutions and few repetitions, for a look, not for "
-            "verdicts."
+            f"verdicts. {decided(report)}"
         )
     elif not report.plan.is_everything:
         sentences.append("Only some tables and figures were asked for.")
     return " ".join(sentences)
+
+
+def decided(report: Report) -> str:
+    """Which claims have all their cells; the others need what was not measured."""
+    names = [e.claim.name for e in report.ledger if e.ours.verdict is not Verdict.NOT_TESTED]
+    which = f": {', '.join(names)}" if names else ""
+    return (
+        f"Its cells are enough for {len(names)} of {len(report.ledger)} claims{which}; the others "
+        "need cells that were not measured."
+    )
 
 
 def verdict_counts(report: Report) -> str:

@@ -16,7 +16,7 @@ from beambench_report.thesis.printed import scene_title
 
 _ROW_HEIGHT = 0.24  # inches
 _MARKERS = ("o", "s", "D", "^", "v")
-_TICKS = (-50, -10, 0, 10, 100, 1000, 10000)
+_TICKS = (-50, -20, -10, -5, 0, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000)
 
 
 def draw_losses(stem: str, choices: Sequence[LevelChoice]) -> Plot:
@@ -79,8 +79,9 @@ def _draw(
     )
     panel.set_yticks(range(len(scenes)), [scene_title(scene) for scene in scenes])
     panel.set_ylim(len(scenes) - 0.4, -0.6)
-    panel.grid(axis="y", color="#dddddd", linewidth=0.6)
+    panel.grid(color="#dddddd", linewidth=0.6)
     panel.tick_params(labelsize=8)
+    panel.tick_params(axis="x", labelrotation=60)
     panel.set_xlabel("loss against the best level")
 
 

@@ -31,7 +31,7 @@ _WORDS = (
 )
 _CAPTION = (
     "Filled: with the choosing; hollow: the chosen level by itself, where it was measured. Grey: a "
-    "loss of more than a tenth. Beyond 10% the axis is logarithmic."
+    "loss of more than a tenth. The axis is linear to 10% and logarithmic beyond."
 )
 
 

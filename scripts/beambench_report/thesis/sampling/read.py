@@ -67,6 +67,17 @@ class Comparison:
         """
         return _between([(way.error, way.milliseconds) for way in self.of(method)], error)
 
+    def reached(self, method: str, error: float) -> tuple[float, bool] | None:
+        """The least time in which a method reaches an error or a smaller one; is it that error
+        between two settings, and not a smaller one of a setting that was tried? None where every
+        setting has a larger error.
+        """
+        crossing = self.time_at_error(method, error)
+        settings = [way.milliseconds for way in self.of(method) if way.error <= error]
+        if crossing is not None and (not settings or crossing <= min(settings)):
+            return crossing, True
+        return (min(settings), False) if settings else None
+
     def error_at_time(self, method: str, milliseconds: float) -> float | None:
         """The error that a method reaches in a time; None beyond what was tried."""
         return _between([(way.milliseconds, way.error) for way in self.of(method)], milliseconds)
