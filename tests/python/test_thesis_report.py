@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -12,7 +13,7 @@ from beambench_report.ledger.measured import Measured
 from beambench_report.problem import Problem
 from beambench_report.thesis.best import best_table, choose
 from beambench_report.thesis.cells import Cells, read_cells, setting
-from beambench_report.thesis.plan import Plan, make_plan, read_plan
+from beambench_report.thesis.plan import Plan, keep_plan, make_plan, read_plan
 from beambench_report.thesis.printed import parts_of, printed_parts
 from beambench_report.thesis.report import gather, write_report
 from beambench_report.thesis.tables import fill
@@ -250,6 +251,12 @@ def test_a_run_that_cannot_be_read_is_told_and_the_others_are_shown(tmp_path: Pa
     text = (run / "report.html").read_text()
     assert "best-synthetic/results.csv" in text
     assert "80 cells in 1 runs" in text
+
+
+def test_a_plan_of_before_a_figure_was_drawn_shows_it_too(tmp_path: Path) -> None:
+    plan = make_plan(["5.2"], [], False)
+    keep_plan(replace(plan, figures=("5.6",)), tmp_path)
+    assert read_plan(tmp_path) == plan
 
 
 def test_a_plan_is_read_as_it_was_kept(everything: Path, tmp_path: Path) -> None:

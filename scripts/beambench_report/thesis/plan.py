@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -51,8 +51,7 @@ def make_plan(
     chosen_tables = [table for table in TABLES if table.number in tables]
     wanted = {name for table in chosen_tables for name in (*table.first, *table.best)}
     wanted |= {name for figure in FIGURES if figure.number in figures for name in figure.sweeps}
-    # A figure that a table's sweeps are enough for costs nothing more.
-    shown = [figure.number for figure in FIGURES if wanted.issuperset(figure.sweeps)]
+    shown = _figures_of(wanted)
     read = [read_sweep(name, folder or sweep_files.FOLDER) for name in SWEEPS if name in wanted]
     made = [quick(sweep) if is_quick else sweep for sweep in read]
     plan = Plan(
@@ -89,11 +88,13 @@ def read_plan(directory: Path) -> Plan:
     path = directory / _PLAN
     try:
         source = json.loads(path.read_text("utf-8"))
+        sweeps = tuple(Sweep(entry["name"], entry["sweep"]) for entry in source["sweeps"])
+        shown = set(source["figures"]) | set(_figures_of({sweep.name for sweep in sweeps}))
         return Plan(
             tuple(source["tables"]),
-            tuple(source["figures"]),
+            tuple(figure.number for figure in FIGURES if figure.number in shown),
             source["quick"],
-            tuple(Sweep(entry["name"], entry["sweep"]) for entry in source["sweeps"]),
+            sweeps,
         )
     except FileNotFoundError:
         raise Problem(
@@ -101,6 +102,11 @@ def read_plan(directory: Path) -> Plan:
         ) from None
     except (ValueError, KeyError, TypeError) as error:
         raise Problem(f"{path}: is not the plan of a run ({error}); begin anew with -o") from None
+
+
+def _figures_of(sweeps: Set[str]) -> list[str]:
+    """Those that some sweeps are enough for: they cost nothing more."""
+    return [figure.number for figure in FIGURES if sweeps >= set(figure.sweeps)]
 
 
 def _require_known(kind: str, given: Sequence[str], known: Sequence[str]) -> None:
