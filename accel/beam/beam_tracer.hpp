@@ -46,6 +46,13 @@ class BeamTracer : public Samet {
   void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
                     WorkCounters& counters) const override;
 
+  /// Samples become rays at occupied leaves only, so that not all of an image's rays are made.
+  Statistics statistics() const override {
+    Statistics statistics = Samet::statistics();
+    statistics.image_rays = ImageRays::kOwn;
+    return statistics;
+  }
+
   std::vector<BeamOutline> beam_outlines(const PrimaryRays& rays) const override {
     OutlineBeamWatch watch(rays.width(), rays.height());
     HitBuffer buffer(rays.width(), rays.height(), rays.samples());

@@ -40,11 +40,12 @@ inline void look_for_any_hit(const int* valid, RTCScene scene, Context& context,
   rtcOccluded16(valid, scene, &context, &rays);
 }
 
-/// A stream of packets of 16 in one go; rays with tfar < tnear are left out.
-inline void intersect_stream(RTCScene scene, Context& context, RTCRayHit16* queries,
-                             unsigned count) {
-  rtcIntersectNM(scene, &context, reinterpret_cast<RTCRayHitN*>(queries), 16, count,
-                 sizeof(RTCRayHit16));
+/// A stream of packets (RTCRayHit4, 8 or 16) in one go; rays with tfar < tnear are left out.
+template <class Packet>
+void intersect_stream(RTCScene scene, Context& context, Packet* packets, unsigned count) {
+  constexpr unsigned kLanes = sizeof(packets->ray.tfar) / sizeof(float);
+  rtcIntersectNM(scene, &context, reinterpret_cast<RTCRayHitN*>(packets), kLanes, count,
+                 sizeof(Packet));
 }
 
 }  // namespace beambench::embree

@@ -45,11 +45,9 @@ class EmbreeContender : public Accelerator {
     (tracers_.*mode_.trace)(scene_, context, rays, {0, rays.height()}, buffer);
   }
   void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const override {
-    const int bands = (rays.height() + embree::kTile - 1) / embree::kTile;
-    share_rows(bands, [&](int begin, int end) {
+    share_rows(embree::tile_rows(rays), [&](int begin, int end) {
       embree::Context context(coherent_);
-      const embree::Band band{begin * embree::kTile, std::min(end * embree::kTile, rays.height())};
-      (tracers_.*mode_.trace)(scene_, context, rays, band, buffer);
+      (tracers_.*mode_.trace)(scene_, context, rays, embree::band_of(rays, begin, end), buffer);
     });
   }
   void closest_hits(std::span<const Ray> rays, HitBuffer& buffer) const override {
@@ -84,6 +82,8 @@ class EmbreeContender : public Accelerator {
     Statistics statistics;
     statistics.bytes = scene_.bytes();
     statistics.instruction_set = isa_;
+    statistics.image_rays = ImageRays::kSimd;
+    statistics.library_geometry = scene_.geometry_types();
     statistics.more = {{"triangles", static_cast<double>(scene_.triangle_count())},
                        {"sphere_points", static_cast<double>(scene_.sphere_count())},
                        {"user_primitives", static_cast<double>(scene_.user_count())}};

@@ -69,9 +69,11 @@ class Block {
     }
   }
 
-  void write(const NativeScene& scene, const Query& query, int x, HitBuffer& buffer) const {
+  /// Always inline: as a function of its own GCC 12 warns of a loop in it that would not end.
+  HWY_INLINE void write(const OwnerTable& table, const Query& query, int x,
+                        HitBuffer& buffer) const {
     alignas(64) std::array<PrimitiveId, N> owners;
-    find_owners(scene, query, owners.data());
+    find_owners(table, query, owners.data());
     if (rays_.samples() == 1 && is_on_image(x)) {
       for (int row = 0; row < kHeight; ++row) {
         const std::size_t index = buffer.index(x, y_ + row, 0);
@@ -142,10 +144,9 @@ class Block {
     }
   }
 
-  static void find_owners(const NativeScene& scene, const Query& query, PrimitiveId* owners) {
+  static void find_owners(const OwnerTable& table, const Query& query, PrimitiveId* owners) {
     const hn::CappedTag<PrimitiveId, N> words;
     const hn::RebindToSigned<decltype(words)> numbers;
-    const OwnerTable& table = scene.owners();
     for (std::size_t lane = 0; lane < N; lane += hn::Lanes(words)) {
       const auto geometry = hn::Load(words, query.hit.geomID + lane);
       const auto hit = hn::Ne(geometry, hn::Set(words, RTC_INVALID_GEOMETRY_ID));
@@ -181,7 +182,7 @@ void for_each_tile(const PrimaryRays& rays, const Band& band, TraceTile trace_ti
 
 /// Traces a band block by block; `trace_block(query, valid)` finds the closest hits of a packet.
 template <int N, class TraceBlock>
-void trace_blocks(const NativeScene& scene, const PrimaryRays& rays, const Band& band,
+void trace_blocks(const OwnerTable& owners, const PrimaryRays& rays, const Band& band,
                   HitBuffer& buffer, TraceBlock trace_block) {
   typename Block<N>::Query query;
   Block<N>::prepare(rays, query);
@@ -193,7 +194,7 @@ void trace_blocks(const NativeScene& scene, const PrimaryRays& rays, const Band&
         for (int x = left; x < right; x += Block<N>::kWidth) {
           block.aim(x, query, valid.data());
           trace_block(query, valid.data());
-          block.write(scene, query, x, buffer);
+          block.write(owners, query, x, buffer);
         }
       }
     }
@@ -203,7 +204,7 @@ void trace_blocks(const NativeScene& scene, const PrimaryRays& rays, const Band&
 template <int N>
 void trace_packets(const NativeScene& scene, Context& context, const PrimaryRays& rays,
                    const Band& band, HitBuffer& buffer) {
-  trace_blocks<N>(scene, rays, band, buffer,
+  trace_blocks<N>(scene.owners(), rays, band, buffer,
                   [&](typename Packet<N>::Query& query, const int* valid) {
                     intersect(valid, scene.get(), context, query);
                   });
@@ -213,7 +214,7 @@ void trace_single(const NativeScene& scene, Context& context, const PrimaryRays&
                   const Band& band, HitBuffer& buffer) {
   constexpr int kLanes = 16;
   RTCRayHit one = to_embree_query({.origin = rays.eye()});
-  trace_blocks<kLanes>(scene, rays, band, buffer,
+  trace_blocks<kLanes>(scene.owners(), rays, band, buffer,
                        [&](Packet<kLanes>::Query& query, const int* valid) {
                          for (int lane = 0; lane < kLanes; ++lane) {
                            if (valid[lane] == 0) continue;
@@ -233,11 +234,14 @@ void trace_single(const NativeScene& scene, Context& context, const PrimaryRays&
 #if BEAMBENCH_EMBREE_MAJOR == 3
 void trace_stream(const NativeScene& scene, Context& context, const PrimaryRays& rays,
                   const Band& band, HitBuffer& buffer) {
-  using Block = Block<16>;
-  constexpr std::size_t kBlocks = kTile * kTile / 16;
-  std::vector<Block::Query> queries(kBlocks);
-  for (Block::Query& query : queries) Block::prepare(rays, query);
-  alignas(64) std::array<int, 16> valid;  // which streams tell by the interval alone
+  // Of another width Embree copies the rays ray by ray (kernels/bvh/bvh_intersector_stream_filters,
+  // filterSOA); its own is that of its registers: 4, 8 or 16.
+  constexpr int kLanes = std::max(4, static_cast<int>(hn::MaxLanes(hn::CappedTag<float, 16>())));
+  using Block = Block<kLanes>;
+  constexpr std::size_t kBlocks = kTile * kTile / kLanes;
+  std::vector<typename Block::Query> queries(kBlocks);
+  for (typename Block::Query& query : queries) Block::prepare(rays, query);
+  alignas(64) std::array<int, kLanes> valid;  // streams go by the interval alone
 
   for_each_tile(rays, band, [&](int left, int top, int right, int bottom) {
     for (int sample = 0; sample < rays.samples(); ++sample) {
@@ -254,7 +258,7 @@ void trace_stream(const NativeScene& scene, Context& context, const PrimaryRays&
       });
       intersect_stream(scene.get(), context, queries.data(), count);
       each_block([&](const Block& block, int x, const Block::Query& query) {
-        block.write(scene, query, x, buffer);
+        block.write(scene.owners(), query, x, buffer);
       });
     }
   });
@@ -263,9 +267,20 @@ void trace_stream(const NativeScene& scene, Context& context, const PrimaryRays&
 constexpr ImageTracers::Trace trace_stream = nullptr;
 #endif
 
+void trace_nothing(const OwnerTable& owners, const PrimaryRays& rays, const Band& band,
+                   HitBuffer& buffer) {
+  constexpr int kLanes = 16;
+  trace_blocks<kLanes>(owners, rays, band, buffer,
+                       [](Packet<kLanes>::Query& query, const int* valid) {
+                         // As if an answer depended on all of it.
+                         asm volatile("" : "+m"(query) : "r"(valid) : "memory");
+                       });
+}
+
 const ImageTracers& tracers() {
   static constexpr ImageTracers kTracers{trace_single,      trace_packets<4>, trace_packets<8>,
-                                         trace_packets<16>, trace_stream,     HWY_TARGET};
+                                         trace_packets<16>, trace_stream,     trace_nothing,
+                                         HWY_TARGET};
   return kTracers;
 }
 
@@ -276,6 +291,12 @@ HWY_AFTER_NAMESPACE();
 namespace beambench::embree {
 
 HWY_EXPORT(tracers);
+
+int tile_rows(const PrimaryRays& rays) { return (rays.height() + kTile - 1) / kTile; }
+
+Band band_of(const PrimaryRays& rays, int begin, int end) {
+  return {begin * kTile, std::min(end * kTile, rays.height())};
+}
 
 const ImageTracers& image_tracers(std::int64_t targets) {
   return pick_target(HWY_DISPATCH_TABLE(tracers), targets)();

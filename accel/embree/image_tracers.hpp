@@ -19,6 +19,11 @@ struct Band {
 /// An image is traced tile by tile, so that what a tile needs of the scene stays in the caches.
 inline constexpr int kTile = 16;
 
+/// Rows of tiles in an image.
+int tile_rows(const PrimaryRays& rays);
+/// The rows of pixels in tile rows `begin` to before `end`.
+Band band_of(const PrimaryRays& rays, int begin, int end);
+
 /// The tracers of images for one instruction set. The rays are those of `PrimaryRays::ray`, bit for
 /// bit: computed in double by the same operations, each component rounded once to float.
 struct ImageTracers {
@@ -29,7 +34,12 @@ struct ImageTracers {
   Trace packet4;
   Trace packet8;
   Trace packet16;
-  Trace stream;         ///< a tile's rays at once, as packets of 16; nullptr in Embree 4
+  /// A tile's rays at once, in packets as wide as the instruction set's registers, for which alone
+  /// Embree need not copy them first; nullptr in Embree 4.
+  Trace stream;
+  /// Makes the rays in packets of 16 and stores a miss for each, with nothing in between.
+  void (*untraced)(const OwnerTable& owners, const PrimaryRays& rays, const Band& band,
+                   HitBuffer& buffer);
   std::int64_t target;  ///< HWY_TARGET: hwy::TargetName gives its name
 };
 

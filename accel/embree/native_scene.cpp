@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <glm/vec4.hpp>
 #include <tbb/global_control.h>
 
@@ -89,6 +91,14 @@ GeometryHandle NativeScene::make_spheres(const Scene& scene) {
     points[i] = glm::vec4(sphere.center, sphere.radius);
   }
   return geometry;
+}
+
+std::string NativeScene::geometry_types() const {
+  std::vector<const char*> types;
+  if (triangle_count() > 0) types.push_back("triangles");
+  if (sphere_count() > 0) types.push_back("points");
+  if (user_count() > 0) types.push_back("callbacks");
+  return fmt::format("{}", fmt::join(types, "+"));
 }
 
 std::uint64_t NativeScene::bytes() const {

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "accel/embree/device.hpp"
@@ -46,6 +47,9 @@ class NativeScene {
   std::size_t triangle_count() const { return owners_.first[kSpheres]; }
   std::size_t sphere_count() const { return owners_.first[kUser] - owners_.first[kSpheres]; }
   std::size_t user_count() const { return user_.ids().size(); }
+  /// Of the scene, joined by '+': "triangles"; "points", which are spheres; "callbacks" of user
+  /// geometry, for cones and for spheres seen from the inside only.
+  std::string geometry_types() const;
   std::uint64_t bytes() const;
 
  private:

@@ -1,12 +1,16 @@
-// A structure that answers nothing: what remains of a measurement is the harness's own overhead.
+// A structure that answers nothing: what remains of a measurement is the harness's own share.
 
+#include "accel/embree/image_tracers.hpp"
+#include "accel/instruction_set.hpp"
 #include "accel/registry.hpp"
+#include "accel/share_rows.hpp"
 #include "accel/traversal_accelerator.hpp"
 
 namespace beambench {
 
 namespace {
 
+/// Rays one by one: what structures pay that trace an image by `PrimaryRays::ray`, or a list.
 class Null : public TraversalAccelerator<Null> {
  public:
   Statistics statistics() const override { return {}; }
@@ -27,15 +31,52 @@ class Null : public TraversalAccelerator<Null> {
   static void take(const Ray& ray) { asm volatile("" : : "g"(&ray) : "memory"); }
 };
 
+/// Images in packets made by SIMD: what `embree` pays at least, whichever its mode.
+class SimdNull : public Null {
+ public:
+  explicit SimdNull(std::int64_t targets) : tracers_(&embree::image_tracers(targets)) {}
+
+  void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
+    tracers_->untraced(owners_, rays, {0, rays.height()}, buffer);
+  }
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const override {
+    share_rows(embree::tile_rows(rays), [&](int begin, int end) {
+      tracers_->untraced(owners_, rays, embree::band_of(rays, begin, end), buffer);
+    });
+  }
+  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters&) const override {
+    trace(rays, buffer);
+  }
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters&) const override {
+    trace_shared(rays, buffer);
+  }
+
+  Statistics statistics() const override {
+    Statistics statistics;
+    statistics.image_rays = ImageRays::kSimd;
+    return statistics;
+  }
+
+ private:
+  const embree::ImageTracers* tracers_;
+  embree::OwnerTable owners_;  ///< of nothing
+};
+
 }  // namespace
 
 void register_null(Registry& registry) {
   registry.add(
       {"null",
-       "returns a miss at once: measures the harness's own overhead",
+       "returns a miss at once: measures the harness's own share",
        Conformance::kBaseline,
-       {},
-       [](const Scene&, const Parameters&, const Workload&) { return std::make_unique<Null>(); }});
+       {choice_parameter("rays", "single", {"single", "simd"},
+                         "how an image's rays are made and its hits are stored: one by one, as for "
+                         "most structures, or by SIMD, as for embree")},
+       [](const Scene&, const Parameters& parameters,
+          const Workload&) -> std::unique_ptr<Accelerator> {
+         if (parameters.choice("rays") == "single") return std::make_unique<Null>();
+         return std::make_unique<SimdNull>(targets_of("best"));
+       }});
 }
 
 }  // namespace beambench

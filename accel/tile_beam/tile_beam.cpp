@@ -34,6 +34,7 @@ Statistics TileBeam::statistics() const {
                      hierarchy_.spheres.capacity() * sizeof(SphereBlock) +
                      hierarchy_.cones.capacity() * sizeof(ConeBlock);
   statistics.instruction_set = instruction_set();
+  statistics.image_rays = ImageRays::kOwn;
   statistics.more = {{"cost", hierarchy_.cost},
                      {"meshlets", static_cast<double>(hierarchy_.meshlets.size())}};
   return statistics;

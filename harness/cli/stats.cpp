@@ -175,6 +175,7 @@ Json to_json(const Finding& finding, std::size_t rays) {
            {"depth", sizes.depth},
            {"memory_bytes", sizes.bytes},
            {"instruction_set", sizes.instruction_set},
+           {"library_geometry", sizes.library_geometry},
            {"more", Json::object()},
            {"build_ms", finding.build_ms},
            {"hits", finding.hits},

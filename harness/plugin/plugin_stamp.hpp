@@ -15,7 +15,7 @@ namespace beambench {
 
 /// Counted up when a header that is installed changes so that a plug-in made with the old one would
 /// err: a virtual function, a type, the meaning of a call.
-inline constexpr std::uint32_t kPluginInterface = 1;
+inline constexpr std::uint32_t kPluginInterface = 2;
 
 /// Says which build made a plug-in. The first two members stand where they stand for ever.
 struct PluginStamp {

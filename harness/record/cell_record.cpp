@@ -43,6 +43,8 @@ void add_run(Row& row, const RunFacts& run, const CellRecord& cell) {
   row["isa"] = run.isa;
   const bool chose = cell.statistics && !cell.statistics->instruction_set.empty();
   row["structure_isa"] = chose ? Json(cell.statistics->instruction_set) : Json();
+  const bool of_library = cell.statistics && !cell.statistics->library_geometry.empty();
+  row["library_geometry"] = of_library ? Json(cell.statistics->library_geometry) : Json();
   row["threads"] = run.threads;
 }
 
@@ -60,6 +62,7 @@ void add_identity(Row& row, const CellRecord& cell) {
   row["samples"] = cell.id.samples;
   row["ray_kind"] = cell.id.rays;
   row["query"] = to_string(cell.rays.query);
+  row["query_path"] = cell.harness ? Json(to_string(cell.harness->path)) : Json();
   row["rays"] = cell.rays.rays;
   const auto known = [](const std::optional<double>& figure) {
     return figure ? Json(*figure) : Json();
@@ -83,18 +86,20 @@ void add_wall_time(Row& row, const std::string& phase, const std::vector<double>
   row[phase + "_ms_mad"] = known ? Json(median_absolute_deviation(samples)) : Json();
 }
 
-Json median_warm_trace(const CellRecord& cell) {
+std::vector<double> warm_traces(const CellRecord& cell) {
   std::vector<double> warm;
   for (const Repetition& repetition : cell.repetitions) {
     if (repetition.warm_trace_ms) warm.push_back(*repetition.warm_trace_ms);
   }
-  return warm.empty() ? Json() : Json(median(warm));
+  return warm;
 }
 
-/// Nothing where nothing is left: such a structure does not make the rays that `null` makes.
+/// Nothing where nothing is left: of `null`, and of a plug-in that does not say that it makes no
+/// rays one by one.
 Json net_of_harness(const CellRecord& cell) {
-  const double net = median(collect(cell, &Repetition::trace_ms)) - cell.rays.harness_ms;
-  return net > 0.0 && cell.verdict != "baseline" ? Json(net) : Json();
+  if (!cell.harness || cell.verdict == "baseline") return {};
+  const double net = median(collect(cell, &Repetition::trace_ms)) - cell.harness->ms;
+  return net > 0.0 ? Json(net) : Json();
 }
 
 void add_times(Row& row, const CellRecord& cell) {
@@ -110,8 +115,10 @@ void add_times(Row& row, const CellRecord& cell) {
   add_wall_time(row, "build", samples(&Repetition::build_ms));
   add_wall_time(row, "trace", samples(&Repetition::trace_ms));
   add_interval(row, "trace", samples(&Repetition::trace_ms));
-  row["trace_warm_ms_median"] = known ? median_warm_trace(cell) : Json();
-  row["harness_ms"] = known ? Json(cell.rays.harness_ms) : Json();
+  const std::vector<double> warm = known ? warm_traces(cell) : std::vector<double>();
+  row["trace_warm_ms_median"] = warm.empty() ? Json() : Json(median(warm));
+  add_interval(row, "trace_warm", warm);
+  row["harness_ms"] = known && cell.harness ? Json(cell.harness->ms) : Json();
   row["trace_net_ms_median"] = known ? net_of_harness(cell) : Json();
   const std::vector<double> totals = samples(&Repetition::total_ms);
   add_wall_time(row, "total", totals);

@@ -12,6 +12,7 @@
 #include "harness/rays/resolution.hpp"
 #include "harness/record/csv.hpp"
 #include "harness/record/hardware_counts.hpp"
+#include "harness/record/query_path.hpp"
 
 namespace beambench {
 
@@ -93,8 +94,6 @@ struct RaySetFacts {
   /// By the oracle: of the rays that ask for the closest hit, and of those that ask for any.
   std::optional<double> hit_share{}, occluded_share{};
   std::optional<double> coherence{};  ///< between neighbours
-  /// The harness's own part of a trace: what it takes when answers cost nothing.
-  double harness_ms = 0.0;
 };
 
 /// Work by name.
@@ -125,6 +124,8 @@ struct CellRecord {
   std::optional<Statistics> statistics;
   /// By how much the heap grew when it was built (harness/sweep/heap.hpp).
   std::optional<std::uint64_t> allocated_bytes;
+  /// Absent where the structure could not be built.
+  std::optional<HarnessShare> harness;
   std::vector<Repetition> repetitions;
   std::optional<StopReason> stop_reason;
   /// The judgement of the timed buffer, and its fingerprint. Absent where there is none.

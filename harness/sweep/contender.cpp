@@ -59,6 +59,7 @@ void Contender::count() {
     record_.work = task_->count(*structure);
     counted_hits_ = task_->fingerprint();
     record_.statistics = structure->statistics();
+    record_.harness = task_->harness_share(*structure);
   } catch (const std::exception& error) {
     fail(kError, message_of(error));
   }

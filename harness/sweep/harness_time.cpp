@@ -9,7 +9,7 @@
 namespace beambench {
 
 double harness_ms(int core, const std::function<void()>& trace) {
-  constexpr int kTraces = 5;
+  constexpr int kTraces = 9;
   const PinnedThread pin(core);
   const MeasuringFloatMode mode;
   trace();

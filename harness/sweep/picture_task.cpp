@@ -80,7 +80,7 @@ void PictureTask::learn_facts(std::uint64_t scene_hash, int core) {
   if (census.shadow > 0) facts_.occluded_share = share(census.shadow_hidden, census.shadow);
   eye_ = picture.eye;
   const auto& [reflected, refracted, shadow] = picture.asked;
-  facts_.harness_ms = harness_ms(core, [&] {
+  shading_ms_ = harness_ms(core, [&] {
     const ReplayedAnswers mirrors(reflected);
     const ReplayedAnswers glass(refracted);
     const ReplayedAnswers lights(shadow);

@@ -23,6 +23,8 @@ class PictureTask : public Task {
   Judgement judge(const Accelerator& structure, const StructureChoice& choice) override;
 
  private:
+  QueryPath path_of(const Accelerator&) const override { return QueryPath::kPicture; }
+  double measure_harness_ms(QueryPath) override { return shading_ms_; }
   void learn_facts(std::uint64_t scene_hash, int core);
   RayCensus draw(const Answerers& answerers);
 
@@ -31,6 +33,7 @@ class PictureTask : public Task {
   ReferenceHits eye_reference_;
   HitBuffer eye_;
   Image image_;
+  double shading_ms_ = 0.0;
 };
 
 }  // namespace beambench

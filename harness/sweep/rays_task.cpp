@@ -28,10 +28,20 @@ RaySetFacts facts_of(const ReferenceHits& reference, std::uint64_t scene_hash) {
 RaysTask::RaysTask(const CellGroup& group, std::uint64_t scene_hash, int core)
     : Task(group),
       reference_(*group.scene, make_question(*group.scene, group.image(), group.rays)),
-      answers_(room_for(question())) {
+      answers_(room_for(question())),
+      core_(core) {
   facts_ = facts_of(reference_, scene_hash);
-  const auto null = registry().choose({"null", {}}).build(scene());
-  facts_.harness_ms = harness_ms(core, [&] { ask(*null); });
+}
+
+QueryPath RaysTask::path_of(const Accelerator& structure) const {
+  if (question().image() == nullptr) return QueryPath::kList;
+  return image_path(structure.statistics().image_rays);
+}
+
+double RaysTask::measure_harness_ms(QueryPath path) {
+  const char* const rays = path == QueryPath::kImageSimd ? "simd" : "single";
+  const auto null = registry().choose({"null", {{"rays", rays}}}).build(scene());
+  return harness_ms(core_, [&] { ask(*null); });
 }
 
 std::optional<std::string> RaysTask::warning() const {

@@ -18,10 +18,14 @@ class RaysTask : public Task {
   Judgement judge(const Accelerator& structure, const StructureChoice& choice) override;
 
  private:
+  QueryPath path_of(const Accelerator& structure) const override;
+  double measure_harness_ms(QueryPath path) override;
+
   const Question& question() const { return reference_.question(); }
 
   ReferenceHits reference_;
   Answers answers_;
+  int core_;
 };
 
 }  // namespace beambench

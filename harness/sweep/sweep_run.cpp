@@ -31,12 +31,23 @@ int pinnable_core() {
   return PinnedThread(core).pinned() ? core : -1;
 }
 
-/// `build 1.23 ms, trace 35.1 ms, 37.0 Mrays/s, ok after 12 repetitions (precision)`.
+/// `35.1 ms [34.9, 35.6]`: a median, and its interval where there is one.
+std::string with_interval(const Row& row, const std::string& name) {
+  std::string text = fmt::format("{:.4g} ms", row.at(name + "_ms_median").get<double>());
+  const Json& low = row.at(name + "_ms_ci_low");
+  if (low.is_null()) return text;
+  return fmt::format("{} [{:.4g}, {:.4g}]", text, low.get<double>(),
+                     row.at(name + "_ms_ci_high").get<double>());
+}
+
+/// `build 1.23 ms, trace 35.1 ms [34.9, 35.6], second trace 34.0 ms [33.8, 34.3], 37.0 Mrays/s, ok
+/// after 12 repetitions (precision)`.
 std::string result_line(const CellRecord& cell, const Row& row) {
   if (!cell.keeps_times()) return fmt::format("{}: {}", cell.verdict, cell.message);
   return fmt::format(
-      "build {:.4g} ms, trace {:.4g} ms, {:.4g} Mrays/s, {} after {} repetitions ({})",
-      row.at("build_ms_median").get<double>(), row.at("trace_ms_median").get<double>(),
+      "build {:.4g} ms, trace {}, second trace {}, {:.4g} Mrays/s, {} after {} repetitions ({})",
+      row.at("build_ms_median").get<double>(), with_interval(row, "trace"),
+      with_interval(row, "trace_warm"),
       row.at("mrays_per_s").is_null() ? 0.0 : row.at("mrays_per_s").get<double>(), cell.verdict,
       cell.repetitions.size(), to_string(*cell.stop_reason));
 }
@@ -199,11 +210,11 @@ class SweepRun {
   SweepOutcome close() {
     const std::vector<Json> cells = folder_.cells();
     manifest_.finished_utc = utc_now();
-    const std::optional<Overhead> overhead = largest_overhead(cells);
-    manifest_.overhead = to_json(overhead);
-    if (overhead) fmt::print(messages_, "{}\n", describe(*overhead));
-    if (overhead && overhead->part > kWantedOverhead) {
-      manifest_.uncontrolled.push_back(fmt::format("The {}.", describe(*overhead)));
+    const std::vector<Overhead> overheads = largest_overheads(cells);
+    manifest_.overhead = to_json(overheads);
+    if (!overheads.empty()) fmt::print(messages_, "{}\n", describe(overheads));
+    if (!overheads.empty() && overheads.front().part > kWantedOverhead) {
+      manifest_.uncontrolled.push_back(fmt::format("The {}.", describe(overheads)));
     }
     folder_.write_text("google-benchmark.json", google_benchmark_json(cells, benchmark_context()));
     folder_.write_json("manifest.json", to_json(manifest_));

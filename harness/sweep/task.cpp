@@ -5,6 +5,14 @@
 
 namespace beambench {
 
+HarnessShare Task::harness_share(const Accelerator& structure) {
+  const QueryPath path = path_of(structure);
+  if (path == QueryPath::kImageOwn) return {path, 0.0};
+  const auto [entry, is_new] = harness_ms_.try_emplace(path);
+  if (is_new) entry->second = measure_harness_ms(path);
+  return {path, entry->second};
+}
+
 std::unique_ptr<Task> make_task(const CellGroup& group, std::uint64_t scene_hash, int core) {
   if (group.rays.kind == RayKind::kWhitted) {
     return std::make_unique<PictureTask>(group, scene_hash, core);

@@ -49,12 +49,23 @@ class Task {
   /// Judges the answers; may ask `structure`, which `choice` has built, again for them.
   virtual Judgement judge(const Accelerator& structure, const StructureChoice& choice) = 0;
 
+  /// How `structure` is asked, and the harness's own share of a trace by that way, which is
+  /// measured when it is wanted first. Overwrites all answers.
+  HarnessShare harness_share(const Accelerator& structure);
+
  protected:
   /// The group must outlive it.
   explicit Task(const CellGroup& group) : group_(group) {}
 
+  virtual QueryPath path_of(const Accelerator& structure) const = 0;
+  /// What a trace by `path`, which is not the structure's own, takes where answers cost nothing.
+  virtual double measure_harness_ms(QueryPath path) = 0;
+
   const CellGroup& group_;
   RaySetFacts facts_;
+
+ private:
+  std::map<QueryPath, double> harness_ms_;
 };
 
 /// The task of a group. `core` is to measure the harness's own time on (-1: any). Throws as

@@ -294,6 +294,55 @@ TEST(Embree, IsHeldToAnInstructionSet) {
   EXPECT_EQ(embree("mode=single", scene)->statistics().instruction_set, embree_isa());
 }
 
+// Streams are made in packets as wide as the instruction set's registers: 4, 8 or 16 rays.
+TEST(Embree, OfEachInstructionSetEveryModeGivesTheHitsOfSingleRays) {
+  const Scene scene = load_scene("tetra:n=3");
+  const PrimaryRays rays(scene.cameras.front(), 45, 35, 5);  // tiles and blocks that are cut off
+  for (const char* isa : {"best", "avx2", "sse4"}) {
+    HitBuffer single(45, 35, 5);
+    embree(fmt::format("mode=single,isa={}", isa), scene)->trace(rays, single);
+    for (const std::string& mode : embree_modes()) {
+      HitBuffer hits(45, 35, 5);
+      embree(fmt::format("mode={},isa={}", mode, isa), scene)->trace(rays, hits);
+      for (std::size_t i = 0; i < hits.size(); ++i) {
+        ASSERT_EQ(hits.get(i).has_value(), single.get(i).has_value()) << mode << " " << isa;
+        if (!hits.get(i)) continue;
+        ASSERT_NEAR(hits.t()[i], single.t()[i], 1e-5F) << mode << " " << isa;
+      }
+    }
+  }
+}
+
+TEST(Embree, NamesTheTypesOfItsGeometry) {
+  const auto types = [](const Scene& scene) {
+    return embree("mode=single", scene)->statistics().library_geometry;
+  };
+  EXPECT_EQ(types(load_scene("tetra:n=1")), "triangles");
+  EXPECT_EQ(types(load_scene("balls:n=1")), "triangles+points");
+  EXPECT_EQ(types(row_of_primitives()), "triangles+points+callbacks");
+}
+
+// What is subtracted from Embree's times is the time of making the same rays, with a miss for each.
+TEST(Embree, TheNullOfItsOwnRaysAnswersEveryRayOfAnImage) {
+  const Scene scene = load_scene("tetra:n=1");
+  const auto null = registry().choose({"null", {{"rays", "simd"}}}).build(scene);
+  EXPECT_EQ(null->statistics().image_rays, embree("mode=packet8", scene)->statistics().image_rays);
+  for (const int samples : {1, 5}) {
+    const PrimaryRays rays(scene.cameras.front(), 45, 35, samples);
+    HitBuffer alone(45, 35, samples);
+    std::fill_n(alone.t(), alone.size(), 1.0F);
+    std::fill_n(alone.primitive(), alone.size(), 0U);
+    HitBuffer shared = alone;
+    null->trace(rays, alone);
+    null->trace_shared(rays, shared);
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+      ASSERT_FALSE(alone.get(i)) << i;
+      ASSERT_EQ(alone.t()[i], kInfinity) << i;
+      ASSERT_FALSE(shared.get(i)) << i;
+    }
+  }
+}
+
 TEST(Embree, RefusesAnInstructionSetThatTheMachineLacks) {
   const Scene scene = row_of_primitives();
   const testing::OnlyTarget only(HWY_SSE4);

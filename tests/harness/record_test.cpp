@@ -178,6 +178,7 @@ CellRecord some_cell() {
   cell.verdict = "ok";
   cell.statistics.emplace();
   cell.statistics->nodes = 9;
+  cell.harness = {QueryPath::kImageSingle, 2.5};
   cell.work.counters = {{"traversal_steps", 1280}, {"clips", 64}};
   cell.allocated_bytes = 4096;
   cell.stop_reason = StopReason::kPrecision;
@@ -195,14 +196,15 @@ const RunFacts kRun{"id", "abc", true, "m", "Release", "-O3", "AVX2", 1};
 /// The columns that scripts and people rely on, in order.
 const char* const kContract =
     "schema_version,run_id,time_utc,commit,dirty,machine_id,build_type,flags,isa,structure_isa,"
-    "threads,"
+    "library_geometry,threads,"
     "scene,camera,scene_hash,rays_hash,seed,primitives,"
-    "structure,parameters,width,height,samples,ray_kind,query,rays,hit_share,occluded_share,"
-    "coherence,"
+    "structure,parameters,width,height,samples,ray_kind,query,query_path,rays,hit_share,"
+    "occluded_share,coherence,"
     "repetitions,stop_reason,"
     "build_ms_median,build_ms_min,build_ms_mad,trace_ms_median,trace_ms_min,trace_ms_mad,"
     "trace_ms_ci_low,trace_ms_ci_high,"
-    "trace_warm_ms_median,harness_ms,trace_net_ms_median,"
+    "trace_warm_ms_median,trace_warm_ms_ci_low,trace_warm_ms_ci_high,"
+    "harness_ms,trace_net_ms_median,"
     "total_ms_median,total_ms_min,total_ms_mad,total_ms_ci_low,total_ms_ci_high,"
     "clock_ghz_median,total_mcycles_median,total_mcycles_repeat_low,total_mcycles_repeat_high,"
     "build_cpu_ms_median,trace_cpu_ms_median,mrays_per_s,"
@@ -258,6 +260,41 @@ TEST(CellRow, HardwareCountsAreEmptyWhereTheMachineCountsNone) {
   EXPECT_FALSE(repetition.contains("build_instructions"));
 }
 
+TEST(CellRow, TheHarnesssShareIsThatOfItsOwnPath) {
+  CellRecord cell = some_cell();
+  Row row = to_row(kRun, cell);
+  EXPECT_EQ(row.at("query_path"), "image-single");
+  EXPECT_EQ(row.at("harness_ms"), 2.5);
+  EXPECT_EQ(row.at("trace_net_ms_median"), 7.5);
+  cell.harness = {QueryPath::kImageOwn, 0.0};
+  row = to_row(kRun, cell);
+  EXPECT_EQ(row.at("query_path"), "image-own");
+  EXPECT_EQ(row.at("trace_net_ms_median"), 10.0);
+  cell.harness = std::nullopt;  // as of a structure that could not be built
+  EXPECT_TRUE(to_row(kRun, cell).at("query_path").is_null());
+}
+
+TEST(CellRow, TheFirstAndTheSecondTracesHaveAnIntervalEach) {
+  CellRecord cell = some_cell();
+  for (int i = 0; i < 6; ++i) cell.repetitions[static_cast<std::size_t>(i)].warm_trace_ms = 8.0 + i;
+  Row row = to_row(kRun, cell);
+  EXPECT_EQ(row.at("trace_ms_median"), 10.0);
+  EXPECT_EQ(row.at("trace_warm_ms_median"), 10.5);
+  EXPECT_EQ(row.at("trace_warm_ms_ci_low"), 8.0);
+  EXPECT_EQ(row.at("trace_warm_ms_ci_high"), 13.0);
+  cell.repetitions[0].warm_trace_ms = std::nullopt;
+  row = to_row(kRun, cell);
+  EXPECT_EQ(row.at("trace_warm_ms_median"), 11.0);
+  EXPECT_TRUE(row.at("trace_warm_ms_ci_low").is_null()) << "five have none";
+}
+
+TEST(CellRow, NamesTheGeometryOfALibrary) {
+  CellRecord cell = some_cell();
+  EXPECT_TRUE(to_row(kRun, cell).at("library_geometry").is_null());
+  cell.statistics->library_geometry = "triangles+points";
+  EXPECT_EQ(to_row(kRun, cell).at("library_geometry"), "triangles+points");
+}
+
 TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
   CellRecord cell = some_cell();
   cell.verdict = "mismatch";
@@ -271,7 +308,8 @@ TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
     EXPECT_EQ(value.is_null(),
               is_time || column == "leaves_per_ray" || column == "empty_leaves_per_ray" ||
                   column == "box_tests_per_ray" || column == "primitive_tests_per_ray" ||
-                  column == "structure_isa" || column == "occluded_share" || column == "tree_cost")
+                  column == "structure_isa" || column == "library_geometry" ||
+                  column == "occluded_share" || column == "tree_cost")
         << column;
   }
   EXPECT_TRUE(to_json(kRun, cell).at("repetitions").empty());

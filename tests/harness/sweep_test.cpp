@@ -192,6 +192,43 @@ TEST_F(Sweep, TheHarnessesOwnTimeIsTold) {
   EXPECT_TRUE(says(messages(), {"harness overhead: at most"}));
 }
 
+TEST_F(Sweep, EachWayOfAskingHasAShareOfItsOwn) {
+  json document =
+      config({"null:rays=single", "samet:max_level=4", "beam", "tile-beam", "embree:mode=packet8"});
+  document["resolutions"] = {"320x200"};
+  run(document);
+  const auto images = cells();
+  const auto row = [&](const char* structure) { return images.at(structure).at("row"); };
+  EXPECT_EQ(row("null")["query_path"], "image-single");
+  EXPECT_EQ(row("samet")["query_path"], "image-single");
+  EXPECT_EQ(row("samet")["harness_ms"], row("null")["harness_ms"]);
+  EXPECT_EQ(row("embree")["query_path"], "image-simd");
+  EXPECT_GT(row("embree")["harness_ms"], 0.0);
+  EXPECT_NE(row("embree")["harness_ms"], row("null")["harness_ms"]);
+  for (const char* structure : {"beam", "tile-beam"}) {
+    EXPECT_EQ(row(structure)["query_path"], "image-own") << structure;
+    EXPECT_EQ(row(structure)["harness_ms"], 0.0) << structure;
+    EXPECT_EQ(row(structure)["trace_net_ms_median"], row(structure)["trace_ms_median"])
+        << structure;
+  }
+  EXPECT_EQ(row("embree")["library_geometry"], "triangles");
+  EXPECT_TRUE(row("samet")["library_geometry"].is_null());
+  const json overhead = read_json("manifest.json")["harness_overhead"];
+  EXPECT_TRUE(overhead["by_query_path"].contains("image-single"));
+  EXPECT_FALSE(overhead["by_query_path"].contains("image-own"));
+}
+
+TEST_F(Sweep, OfAListOfRaysTheShareIsTheSameForAll) {
+  json document = config({"exhaustive", "tile-beam", "embree:mode=packet8"});
+  document["rays"] = {"diffuse"};
+  run(document);
+  const auto lists = cells();
+  for (const auto& [structure, cell] : lists) {
+    EXPECT_EQ(cell["row"]["query_path"], "list") << structure;
+    EXPECT_EQ(cell["row"]["harness_ms"], lists.at("embree")["row"]["harness_ms"]) << structure;
+  }
+}
+
 TEST_F(Sweep, TheFolderHoldsTheWholeRecord) {
   run(config({"null", "samet:max_level=4"}));
   const std::string table = read_text(results() / "results.csv");

@@ -100,7 +100,9 @@ TEST(WholePicture, ItsFactsAreThoseOfTheOraclesPicture) {
   const RaySetFacts& facts = task->facts();
   EXPECT_EQ(facts.scene_hash, 7U);
   EXPECT_EQ(facts.query, Query::kPicture);
-  EXPECT_GT(facts.harness_ms, 0.0);
+  const HarnessShare share = task->harness_share(*choice("exhaustive").build(task->scene()));
+  EXPECT_EQ(share.path, QueryPath::kPicture);
+  EXPECT_GT(share.ms, 0.0);
   EXPECT_GT(facts.hit_share.value(), 0.2);
   EXPECT_LT(facts.occluded_share.value(), 0.9);
   EXPECT_FALSE(facts.coherence);
