@@ -145,7 +145,7 @@ def _parser() -> argparse.ArgumentParser:
         type=Path,
         nargs="*",
         metavar="RUN",
-        help="folder of a run, or of the simulated cluster",
+        help="folder of a run, of the simulated cluster, or of censuses (scan.json, beams.json)",
     )
     claims.add_argument("--cells", action="store_true", help="list every cell, too")
     claims.add_argument(

@@ -12,6 +12,7 @@ from beambench_report.__main__ import main
 from beambench_report.ledger.published import primitives_by_scene
 from beambench_report.thesis.cells import Cell, read_cells
 from beambench_report.thesis.levels.choice import LevelChoice, level_choices, losses
+from beambench_report.thesis.levels.plot import draw_losses
 from beambench_report.thesis.plan import make_plan
 from beambench_report.thesis.report import gather, write_report
 from beambench_report.thesis.sweeps import LEVELS, PlannedCell, quick, read_sweep
@@ -140,6 +141,15 @@ def test_the_summary_counts_good_choices_and_lists_the_worst(tmp_path: Path) -> 
     assert losses(choices).share == 0.95
     assert losses(choices, "samet").worst[0].loss == pytest.approx(0.05)
     assert losses(choices, "samet").good == 10
+
+
+def test_the_axis_of_losses_has_ticks_where_it_is_logarithmic(tmp_path: Path) -> None:
+    write_run(tmp_path, [row("auto", 14.5, depth=6), row(6, 10), row(7, 12)])
+    (run,) = (read_cells(tmp_path.parent, [tmp_path.name]),)
+    panels = draw_losses("losses", level_choices(run.cells)).figure.axes
+    low, high = panels[0].get_xlim()
+    assert high > 45
+    assert {10, 20, 50} <= {tick for tick in panels[0].get_xticks() if low <= tick <= high}
 
 
 def test_the_command_prints_the_choices_or_writes_them(
