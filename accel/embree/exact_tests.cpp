@@ -86,40 +86,54 @@ std::optional<double> first_hit(const ExactRay& ray, const Sphere& sphere) {
 
 namespace {
 
-/// A cone's own frame: base at the origin, apex on the z axis.
+/// A cone's own frame: the middle of its axis at the origin, the apex on the z axis, and heights
+/// stretched until the surface is nowhere flatter than 45 degrees: the numbers of a cone of hardly
+/// any height would drown in its slope.
 struct ConeFrame {
-  explicit ConeFrame(const Cone& cone) : base(cone.base) {
-    const dvec3 axis = dvec3(cone.apex) - base;
-    length = glm::length(axis);
-    z = axis / length;
-    const dvec3 size = glm::abs(z);
+  explicit ConeFrame(const Cone& cone)
+      : middle(0.5 * (dvec3(cone.base) + dvec3(cone.apex))),
+        radius(0.5 * (static_cast<double>(cone.base_radius) + cone.apex_radius)) {
+    const dvec3 axis = dvec3(cone.apex) - dvec3(cone.base);
+    const double height = glm::length(axis);
+    const double taper = static_cast<double>(cone.apex_radius) - cone.base_radius;
+    const double stretched = std::max(height, std::abs(taper));
+    half_height = 0.5 * stretched;
+    slope = taper / stretched;
+    const dvec3 unit = axis / height;
+    const dvec3 size = glm::abs(unit);
     const dvec3 other = size.x <= size.y && size.x <= size.z ? dvec3(1.0, 0.0, 0.0)
                         : size.y <= size.z                   ? dvec3(0.0, 1.0, 0.0)
                                                              : dvec3(0.0, 0.0, 1.0);
-    x = glm::normalize(glm::cross(other, z));
-    y = glm::cross(z, x);
+    x = glm::normalize(glm::cross(other, unit));
+    y = glm::cross(unit, x);
+    z = stretched / height * unit;
   }
 
   dvec3 to_local(const dvec3& vector) const {
     return {glm::dot(vector, x), glm::dot(vector, y), glm::dot(vector, z)};
   }
 
-  dvec3 base, x, y, z;
-  double length;
+  dvec3 middle, x, y, z;
+  double radius;       ///< halfway up
+  double half_height;  ///< stretched
+  double slope;        ///< of the radius over the stretched height: from -1 to 1
 };
 
 }  // namespace
 
 std::optional<double> first_hit(const ExactRay& ray, const Cone& cone) {
   const ConeFrame frame(cone);
-  const double shift = closest_approach(ray, frame.base + 0.5 * frame.length * frame.z);
-  const dvec3 o = frame.to_local((ray.origin - frame.base) + shift * ray.direction);
+  const dvec3 origin = frame.to_local(ray.origin - frame.middle);
   const dvec3 d = frame.to_local(ray.direction);
+  // t counts from the ray's point closest to the middle in this frame, which is
+  // d x (origin x d) / |d|^2: written so, its height does not cancel.
+  const double square = glm::dot(d, d);
+  const double shift = -glm::dot(origin, d) / square;
+  const dvec3 o = glm::cross(d, glm::cross(origin, d)) / square;
 
   // x^2 + y^2 - r(z)^2 with the radius r(z) = r + slope z along the ray.
-  const double slope = (static_cast<double>(cone.apex_radius) - cone.base_radius) / frame.length;
-  const double r = cone.base_radius + slope * o.z;
-  const double r_grows = slope * d.z;
+  const double r = frame.radius + frame.slope * o.z;
+  const double r_grows = frame.slope * d.z;
   const double b = o.x * d.x + o.y * d.y - r * r_grows;
   const auto found =
       crossings(d.x * d.x + d.y * d.y - r_grows * r_grows, b, o.x * o.x + o.y * o.y - r * r);
@@ -131,7 +145,7 @@ std::optional<double> first_hit(const ExactRay& ray, const Cone& cone) {
   std::optional<double> nearest;
   const auto consider = [&](double t) {
     const double height = o.z + t * d.z;
-    if (!(0.0 <= height && height <= frame.length) || !ray.contains(shift + t)) return;
+    if (!(std::abs(height) <= frame.half_height) || !ray.contains(shift + t)) return;
     if (!nearest || shift + t < *nearest) nearest = shift + t;
   };
   if (!cone.inside_only) consider(found->enter);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 namespace beambench {
@@ -11,93 +12,105 @@ using glm::dvec3;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// A cone as a profile turned round its axis: radius(h) = base_radius + slope h, 0 <= h <= height.
+/// A cone as a segment that is turned round the axis, of unit direction (along_radius, along_axis)
+/// in the half plane of (distance from the axis, height over the base). Cones of hardly any height
+/// are nothing special so: nothing is divided by the height.
 struct Profile {
   explicit Profile(const Cone& cone) : base(cone.base), base_radius(cone.base_radius) {
     const dvec3 span = dvec3(cone.apex) - base;
-    height = glm::length(span);
+    const double height = glm::length(span);
+    const double taper = static_cast<double>(cone.apex_radius) - cone.base_radius;
     axis = span / height;
-    slope = (static_cast<double>(cone.apex_radius) - cone.base_radius) / height;
-    slant = std::sqrt(1.0 + slope * slope);
+    length = std::hypot(taper, height);
+    along_radius = taper / length;
+    along_axis = height / length;
   }
 
   double height_of(const dvec3& point) const { return glm::dot(point - base, axis); }
-  double radius_at(double h) const { return base_radius + slope * h; }
-  /// The unit vector from the axis to the point; any one for a point on the axis.
+  /// From the axis to the point, perpendicular to the axis.
+  dvec3 radial(const dvec3& point) const { return point - base - height_of(point) * axis; }
+  /// The unit vector from the axis to the point; 0 for a point on the axis.
   dvec3 outward(const dvec3& point) const {
-    const dvec3 offset = point - base;
-    const dvec3 radial = offset - glm::dot(offset, axis) * axis;
-    const double length = glm::length(radial);
-    return length > 0.0 ? radial / length : dvec3(0.0);
-  }
-  double distance_from_axis(const dvec3& point) const {
-    const dvec3 offset = point - base;
-    return glm::length(offset - glm::dot(offset, axis) * axis);
+    const dvec3 across = radial(point);
+    const double distance = glm::length(across);
+    return distance > 0.0 ? across / distance : dvec3(0.0);
   }
   /// Distance of a point from the surface continued beyond its rims; negative inside.
   double signed_distance(const dvec3& point) const {
-    return (distance_from_axis(point) - radius_at(height_of(point))) / slant;
+    return (glm::length(radial(point)) - base_radius) * along_axis -
+           height_of(point) * along_radius;
   }
-  /// The rim's point on the same side of the axis as `point`.
-  dvec3 rim_point(const dvec3& point, double rim_height) const {
-    return base + rim_height * axis + radius_at(rim_height) * outward(point);
+  /// Where on the surface, continued beyond its rims, the point is nearest: from 0 at the base to
+  /// `length` at the apex.
+  double place(const dvec3& point) const {
+    return (glm::length(radial(point)) - base_radius) * along_radius +
+           height_of(point) * along_axis;
   }
+  /// The rim at a place of 0 or `length`: its point on the same side of the axis as `point`.
+  dvec3 rim_point(const dvec3& point, double rim) const {
+    return base + rim * along_axis * axis + rim_radius(rim) * outward(point);
+  }
+  double rim_radius(double rim) const { return base_radius + rim * along_radius; }
 
   dvec3 base;
   dvec3 axis;
-  double base_radius, height, slope, slant;
+  double base_radius, length, along_radius, along_axis;
 };
 
-/// The line in the quadric of the cone: a t^2 + 2 b t + c, t counted from the line's point closest
-/// to the frustum's middle.
-struct LineEquation {
-  LineEquation(const RayLine& line, const Profile& profile) : direction(line.direction) {
-    const dvec3 middle = profile.base + 0.5 * profile.height * profile.axis;
+/// A line seen from a cone's axis: at t from the line's point closest to the axis, its distance
+/// from the axis is sqrt(speed^2 t^2 + gap^2), and its height grows with `climb`.
+struct LineByAxis {
+  LineByAxis(const RayLine& line, const Profile& profile) : direction(line.direction) {
+    climb = glm::dot(direction, profile.axis);
+    const dvec3 across = direction - climb * profile.axis;
+    const dvec3 middle = profile.base + 0.5 * profile.length * profile.along_axis * profile.axis;
+    speed = glm::length(across);
     start = middle - line.across(middle);
-    const double along = glm::dot(direction, profile.axis);
-    const double r = profile.radius_at(profile.height_of(start));
-    const double r_slope = profile.slope * along;
-    const dvec3 offset = start - profile.base;
-    const dvec3 radial = offset - glm::dot(offset, profile.axis) * profile.axis;
-    const dvec3 radial_slope = direction - along * profile.axis;
-    a = glm::dot(radial_slope, radial_slope) - r_slope * r_slope;
-    b = glm::dot(radial, radial_slope) - r * r_slope;
-    c = glm::dot(radial, radial) - r * r;
+    if (speed > 0.0) start -= glm::dot(profile.radial(start), across) / (speed * speed) * direction;
+    gap = glm::length(profile.radial(start));
   }
   dvec3 at(double t) const { return start + t * direction; }
 
   dvec3 start;
   dvec3 direction;
-  double a, b, c;
+  double climb, speed, gap;
 };
 
 /// How near the line comes to touching the surface without crossing it, or to having its entry and
-/// exit in one point.
+/// exit in one point. The signed distance of the line's points from the surface is convex in t, so
+/// it turns once, or never where the line is steeper than the surface.
 double silhouette_distance(const RayLine& line, const Profile& profile) {
-  const LineEquation equation(line, profile);
-  if (equation.a == 0.0) return kFar;
-  const dvec3 turning_point = equation.at(-equation.b / equation.a);
-  const double h = profile.height_of(turning_point);
-  if (!(0.0 <= h && h <= profile.height)) return kFar;
+  const LineByAxis seen(line, profile);
+  const double rise = seen.climb * profile.along_radius;
+  const double spread = seen.speed * profile.along_axis;
+  const double square = (spread - rise) * (spread + rise);
+  if (!(square > 0.0)) return kFar;
+  const dvec3 turning_point = seen.at(rise * seen.gap / (seen.speed * std::sqrt(square)));
+  const double place = profile.place(turning_point);
+  if (!(0.0 <= place && place <= profile.length)) return kFar;
   return std::abs(profile.signed_distance(turning_point));
 }
 
-/// The distance from the line to a rim: exact where the line crosses the rim's plane or the cone's
-/// surface close to the rim, which is where it is asked for.
-double rim_distance(const RayLine& line, const Profile& profile, double rim_height) {
-  const LineEquation equation(line, profile);
+/// The distance from the line to a rim: from where it crosses the rim's plane, and from where it
+/// passes over the rim or is closest to the axis, each improved by looking for the rim's point next
+/// to the line and the line's next to that in turn. Never too small.
+double rim_distance(const RayLine& line, const Profile& profile, double rim) {
+  constexpr int kTurns = 8;
+  const LineByAxis seen(line, profile);
+  const double radius = profile.rim_radius(rim);
+  const double over_rim =
+      std::sqrt(std::max((radius - seen.gap) * (radius + seen.gap), 0.0)) / seen.speed;
+  const double in_plane = (rim * profile.along_axis - profile.height_of(seen.start)) / seen.climb;
   double nearest = kFar;
-  const auto consider = [&](double t) {
-    if (!std::isfinite(t)) return;
-    nearest = std::min(nearest, line.distance_to(profile.rim_point(equation.at(t), rim_height)));
-  };
-  const double along = glm::dot(line.direction, profile.axis);
-  consider((rim_height - profile.height_of(equation.start)) / along);
-  const double discriminant = equation.b * equation.b - equation.a * equation.c;
-  if (discriminant >= 0.0) {
-    const double q = -(equation.b + std::copysign(std::sqrt(discriminant), equation.b));
-    consider(q / equation.a);
-    consider(equation.c / q);
+  for (const double t : {in_plane, -over_rim, 0.0, over_rim}) {
+    if (!std::isfinite(t)) continue;
+    dvec3 point = seen.at(t);
+    for (int turn = 0; turn < kTurns; ++turn) {
+      const dvec3 on_rim = profile.rim_point(point, rim);
+      const dvec3 across = line.across(on_rim);
+      nearest = std::min(nearest, glm::length(across));
+      point = on_rim - across;
+    }
   }
   return nearest;
 }
@@ -107,18 +120,19 @@ double rim_distance(const RayLine& line, const Profile& profile, double rim_heig
 double cone_boundary_distance(const RayLine& line, const Cone& cone) {
   const Profile profile(cone);
   return std::min({silhouette_distance(line, profile), rim_distance(line, profile, 0.0),
-                   rim_distance(line, profile, profile.height)});
+                   rim_distance(line, profile, profile.length)});
 }
 
 Contact cone_contact(const RayLine& line, const dvec3& point, const Cone& cone, double grazing) {
   const Profile profile(cone);
-  const double h = profile.height_of(point);
-  const double within = std::clamp(h, 0.0, profile.height);
+  const double place = profile.place(point);
+  const double within = std::clamp(place, 0.0, profile.length);
   double offset = std::abs(profile.signed_distance(point));
-  if (h != within) {
+  if (place != within) {
     offset = std::max(offset, line.distance_to(profile.rim_point(point, within)));
   }
-  const dvec3 normal = (profile.outward(point) - profile.slope * profile.axis) / profile.slant;
+  const dvec3 normal =
+      profile.outward(point) * profile.along_axis - profile.along_radius * profile.axis;
   const double outward = glm::dot(normal, line.direction);
   Contact found{offset, std::abs(outward), outward > 0.0};
   if (cone.inside_only && !found.leaving && cone_boundary_distance(line, cone) > grazing) {

@@ -96,17 +96,28 @@ class Search {
     const Real a = glm::dot(y1, y1) - r1 * r1;
     const Real b = glm::dot(y0, y1) - r0 * r1;
     const Real c = glm::dot(y0, y0) - r0 * r0;
-    const auto consider = [&](Real t) {
-      const Real s = s0 + t * s1;
-      const bool leaves = a * t + b > 0.0L;
-      if (0.0L <= s && s <= 1.0L && (leaves || !cone.inside_only)) offer_(id, t);
-    };
-    const Real discriminant = b * b - a * c;
+    // b^2 - a c = |r0 y1 - r1 y0|^2 - |y0 x y1|^2, by Lagrange's identity. On a flat cone r0 and r1
+    // are huge and their products cancel, but not in s0 y1 - s1 y0 = axis x (d x x) / |axis|^2.
+    const Vector moment = glm::cross(direction_, x);
+    const Vector turned =
+        static_cast<Real>(cone.base_radius) * y1 + k * (glm::cross(axis, moment) / length_2);
+    const Real twist = glm::dot(moment, axis);
+    const Real discriminant = glm::dot(turned, turned) - twist * twist / length_2;
     if (discriminant < 0.0L) return;
     const Real root = std::sqrt(discriminant);
-    const Real sum = b < 0.0L ? b - root : b + root;
-    consider(-sum / a);
-    consider(-c / sum);
+    // A ray much steeper than the surface meets it at one height, near enough: where, its radius
+    // says best.
+    const bool steep = r1 * r1 > 2.0L * glm::dot(y1, y1);
+    const auto consider = [&](Real t, Real signed_root) {
+      const Real s = steep ? ((glm::dot(y1, turned) + r1 * signed_root) / a - cone.base_radius) / k
+                           : s0 + t * s1;
+      const bool leaves = signed_root > 0.0L;
+      if (0.0L <= s && s <= 1.0L && (leaves || !cone.inside_only)) offer_(id, t);
+    };
+    // The roots are (-b - root) / a and (-b + root) / a, written so that nothing cancels.
+    const Real outer = b < 0.0L ? root : -root;
+    consider((outer - b) / a, outer);
+    consider(c / (outer - b), -outer);
   }
 
   const Scene& scene_;
