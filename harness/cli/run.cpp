@@ -75,10 +75,15 @@ int report(const SweepOutcome& outcome) {
   if (outcome.failed > 0) {
     fmt::print(stderr, "{} of {} cells have no times: their hits were not right\n", outcome.failed,
                outcome.cells);
-  } else {
-    fmt::print(stderr, "{} cells, all judged right\n", outcome.cells);
+  } else if (outcome.without_rays < outcome.cells) {
+    fmt::print(stderr, "{} cells, all judged right\n", outcome.cells - outcome.without_rays);
+  }
+  if (outcome.without_rays > 0) {
+    fmt::print(stderr, "{} of {} cells have no rays over their scenes\n", outcome.without_rays,
+               outcome.cells);
   }
   fmt::print("{}\n", outcome.results.string());
+  if (outcome.without_rays == outcome.cells) return kWrongRequest;  // nothing was measured
   return outcome.failed > 0 ? kFound : kSuccess;
 }
 

@@ -167,6 +167,16 @@ std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
                      });
 }
 
+std::vector<VerifiedCell> cells_without_rays(const Scene& scene, const std::string& rays,
+                                             std::vector<StructureChoice> contenders,
+                                             Progress& progress, const std::string& why) {
+  return verify_each(scene, rays, std::move(contenders), progress,
+                     [&](const StructureChoice&, VerifiedCell& cell) {
+                       cell.verdict = kNoRays;
+                       cell.message = why;
+                     });
+}
+
 nlohmann::ordered_json to_json(const VerifiedCell& cell) {
   nlohmann::ordered_json out{{"scene", cell.scene},           {"ray_kind", cell.rays},
                              {"primitives", cell.primitives}, {"structure", cell.structure},

@@ -24,15 +24,17 @@ struct VerifiedCell {
   std::string parameters;  ///< all of them, canonical
   std::string label;       ///< the name and the parameters that are not at their defaults
 
-  std::optional<DiffReport> report;   ///< absent where the structure could not be built
+  std::optional<DiffReport> report;   ///< absent where nothing was judged
   std::vector<std::string> disputes;  ///< rays described, errors first
   std::string bits_reference;         ///< whose bits it was compared with; empty: nobody's
   std::uint64_t different_bits = 0;   ///< rays whose answer differs from the reference's
-  std::string verdict;                ///< a Verdict's name, or "error": it could not be built
-  std::string message;                ///< why it could not be built
+  std::string verdict;                ///< a Verdict's name, "error": it could not be built, kNoRays
+  std::string message;                ///< why nothing was judged
   std::filesystem::path picture;      ///< of the differences; empty: none was made
 
-  bool passed() const { return verdict == "ok" || verdict == "baseline"; }
+  bool has_rays() const { return verdict != kNoRays; }
+  /// Was nothing found to be wrong?
+  bool passed() const { return verdict == "ok" || verdict == "baseline" || !has_rays(); }
 };
 
 /// What the contenders over a scene are asked. The scene outlives it.
@@ -58,6 +60,11 @@ std::vector<VerifiedCell> verify_each(const Scene& scene, const std::string& ray
 std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
                                        std::vector<StructureChoice> contenders,
                                        const std::filesystem::path& pictures, Progress& progress);
+
+/// The cells of rays of a kind that the scene has none of, and why. `progress` gets each.
+std::vector<VerifiedCell> cells_without_rays(const Scene& scene, const std::string& rays,
+                                             std::vector<StructureChoice> contenders,
+                                             Progress& progress, const std::string& why);
 
 nlohmann::ordered_json to_json(const VerifiedCell& cell);
 

@@ -66,7 +66,9 @@ std::string table_text(const std::vector<VerifiedCell>& cells) {
 }
 
 void print_disputes(const VerifiedCell& cell) {
-  if (!cell.message.empty()) fmt::print("\n{} over {}: {}\n", cell.label, cell.scene, cell.message);
+  if (!cell.message.empty() && cell.has_rays()) {
+    fmt::print("\n{} over {}: {}\n", cell.label, cell.scene, cell.message);
+  }
   if (cell.disputes.empty() && cell.picture.empty()) return;
   fmt::print("\n{} over {}, {} rays:\n", cell.label, cell.scene, cell.rays);
   const std::size_t shown = std::min(cell.disputes.size(), kPrintedDisputes);
@@ -75,6 +77,16 @@ void print_disputes(const VerifiedCell& cell) {
     fmt::print("... and {} more, which --json FILE writes\n", cell.disputes.size() - shown);
   }
   if (!cell.picture.empty()) fmt::print("picture: {}\n", cell.picture.string());
+}
+
+/// Why kinds have no rays, each once: it is the same for all structures.
+void print_missing_rays(const std::vector<VerifiedCell>& cells) {
+  const std::string* last = nullptr;
+  for (const VerifiedCell& cell : cells) {
+    if (cell.has_rays() || (last != nullptr && *last == cell.message)) continue;
+    fmt::print("\n{} over {}: {}\n", cell.rays, cell.scene, cell.message);
+    last = &cell.message;
+  }
 }
 
 void write_json(const Request& request, const std::vector<VerifiedCell>& cells, bool passed) {
@@ -104,8 +116,12 @@ std::vector<VerifiedCell> verify_kind(const Scene& scene, const ImageOfRays& ima
   if (kind.kind == RayKind::kWhitted) {
     return verify_picture(scene, image, kind, contenders.choices, progress);
   }
-  const VerifiedView view{scene, image, make_question(scene, image, kind), request.threads};
-  return verify_scene(view, contenders.choices, request.pictures, progress);
+  try {
+    const VerifiedView view{scene, image, make_question(scene, image, kind), request.threads};
+    return verify_scene(view, contenders.choices, request.pictures, progress);
+  } catch (const NoRaysError& error) {  // the other kinds go on
+    return cells_without_rays(scene, kind.label, contenders.choices, progress, error.what());
+  }
 }
 
 int verify(const Request& request) {
@@ -133,11 +149,18 @@ int verify(const Request& request) {
   }
   progress.clear();
 
-  const bool passed = std::all_of(cells.begin(), cells.end(),
-                                  [](const VerifiedCell& cell) { return cell.passed(); });
+  const bool verified = std::ranges::any_of(cells, &VerifiedCell::has_rays);
+  const bool passed = verified && std::ranges::all_of(cells, &VerifiedCell::passed);
   fmt::print("{}", table_text(cells));
   for (const VerifiedCell& cell : cells) print_disputes(cell);
+  print_missing_rays(cells);
   if (!request.json.empty()) write_json(request, cells, passed);
+  if (!verified) {
+    throw InputError(
+        fmt::format("nothing was verified: there are no rays of the kinds '{}'; choose other kinds "
+                    "with --rays, or another camera or resolution",
+                    request.rays));
+  }
   return passed ? kSuccess : kFound;
 }
 
@@ -176,7 +199,9 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       "a boundary within rounding; engine error, embree error: one of both is wrong, as a search "
       "of\n"
       "all primitives in long double finds. bits: do bit-exact structures repeat exhaustive, or\n"
-      "the first of them? Exits with 1 unless every verdict is ok (baseline for 'null').\n"
+      "the first of them? Exits with 1 unless every verdict is ok (baseline for 'null'; no_rays "
+      "where\n"
+      "the scene has no rays of a kind, which is no error unless no kind has any).\n"
       "Each error is printed with the command that replays it, a 'beambench trace'.\n"
       "Examples:\n"
       "  beambench verify tetera\n"

@@ -45,6 +45,9 @@ enum class Verdict {
   kBaseline   ///< a structure that answers nothing by design, and did
 };
 std::string_view to_string(Verdict verdict);  // "ok", "mismatch", "grazes", "baseline"
+/// What a record states in place of a verdict where the scene has no rays of the kind that was
+/// asked for: nothing was judged, and nothing is wrong.
+inline constexpr std::string_view kNoRays = "no_rays";
 inline bool is_right(Verdict verdict) {
   return verdict == Verdict::kOk || verdict == Verdict::kBaseline;
 }

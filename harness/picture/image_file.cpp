@@ -67,6 +67,8 @@ OIIO::ImageSpec exr_spec(const Image& image, std::span<const DataChannel> data) 
     spec.channelformats.emplace_back(is_float ? OIIO::TypeDesc::FLOAT : OIIO::TypeDesc::UINT32);
   }
   spec.attribute("compression", "zip");
+  // OpenImageIO states the time of writing unless it is given one: equal pictures would differ.
+  spec.attribute("DateTime", "1970:01:01 00:00:00");
   return spec;
 }
 

@@ -21,7 +21,7 @@ std::vector<Ray> made_rays(const Scene& scene, const PrimaryRays& primary,
     return random_rays(scene.bounds, primary.count(), choice.seed);
   }
   if (choice.kind == RayKind::kShadow && scene.lights.empty()) {
-    throw InputError(fmt::format(
+    throw NoRaysError(fmt::format(
         "scene '{}' has no lights, so it has no shadow rays; add an 'l' line to its file or ask "
         "for rays of another kind",
         scene.name));
@@ -46,7 +46,7 @@ RaySet made_set(const Scene& scene, const PrimaryRays& primary, const RayChoice&
   RaySet set{choice.label, info_of(choice.kind).query, choice.seed, scene_hash(scene),
              made_rays(scene, primary, choice)};
   if (set.rays.empty()) {
-    throw InputError(fmt::format(
+    throw NoRaysError(fmt::format(
         "there are no {} rays over scene '{}' at {}x{}: no primary ray hits a surface for them to "
         "start from; choose another camera or resolution",
         choice.label, scene.name, primary.width(), primary.height()));

@@ -12,6 +12,7 @@
 #include "harness/rays/ray_choice.hpp"
 #include "harness/rays/ray_set.hpp"
 #include "harness/rays/resolution.hpp"
+#include "scenes/error.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench {
@@ -68,9 +69,15 @@ struct ImageOfRays {
 /// What a structure is built for: the question, the camera behind it, and the threads that ask.
 Workload workload_of(const ImageOfRays& image, const Question& question, int threads = 1);
 
-/// Makes the rays of a choice, or reads them. Throws InputError where the scene has no lights for
-/// shadow rays, where no primary ray hits anything for rays to start from, for whole pictures, and
-/// as `read_ray_file`; for a file also when it was made for another scene.
+/// There are no rays of a kind over a scene: nothing is wrong with the request's other kinds.
+class NoRaysError : public InputError {
+ public:
+  using InputError::InputError;
+};
+
+/// Makes the rays of a choice, or reads them. Throws NoRaysError where the scene has no lights for
+/// shadow rays, or no primary ray hits anything for rays to start from; InputError for whole
+/// pictures, and as `read_ray_file`; for a file also when it was made for another scene.
 Question make_question(const Scene& scene, const ImageOfRays& image, const RayChoice& choice);
 
 }  // namespace beambench

@@ -132,7 +132,7 @@ struct CellRecord {
   std::optional<DiffReport> diff;
   std::optional<std::uint64_t> hits_hash;
 
-  std::string verdict;                ///< a Verdict's name, or "error": it could not be built
+  std::string verdict;                ///< a Verdict's name, "error": it could not be built, kNoRays
   std::string message;                ///< what is wrong, in one sentence; empty when nothing is
   std::vector<std::string> examples;  ///< disputed rays, described
 

@@ -126,7 +126,7 @@ class SweepRun {
       for (const PlannedCell& cell : group.cells) {
         const auto found = broken.find(cell.id.key());
         if (found == broken.end()) continue;
-        finish(failed_cell(cell, found->second), progress);
+        finish(unmeasured_cell(group, cell, "error", found->second), progress);
         ++count;
       }
     }
@@ -137,12 +137,18 @@ class SweepRun {
   void run_group(const CellGroup& group, double share_ms, Progress& progress) {
     const auto begin = Clock::now();
     progress.start(group.name());
+    const auto give_up = [&](std::string_view verdict, const std::string& why) {
+      for (const PlannedCell& cell : group.cells) {
+        finish(unmeasured_cell(group, cell, verdict, why), progress);
+      }
+    };
     std::unique_ptr<Task> task;
     try {
       task = make_task(group, hash_of(*group.scene), core_);
-    } catch (const InputError& error) {  // there are no rays to ask: the other groups go on
-      for (const PlannedCell& cell : group.cells) finish(failed_cell(cell, error.what()), progress);
-      return;
+    } catch (const NoRaysError& error) {  // the other groups go on
+      return give_up(kNoRays, error.what());
+    } catch (const InputError& error) {
+      return give_up("error", error.what());
     }
     if (const auto warning = task->warning()) {
       warn(fmt::format("{}: {}.", group.name(), *warning), progress);
@@ -155,12 +161,15 @@ class SweepRun {
     manifest_.uncontrolled.push_back(std::move(sentence));
   }
 
-  static CellRecord failed_cell(const PlannedCell& cell, std::string message) {
+  CellRecord unmeasured_cell(const CellGroup& group, const PlannedCell& cell,
+                             std::string_view verdict, std::string message) const {
     CellRecord record{};
     record.index = cell.index;
     record.id = cell.id;
+    record.rays.scene_hash = hash_of(*group.scene);
+    record.rays.primitives = group.scene->primitives.size();
     record.time_utc = utc_now();
-    record.verdict = "error";
+    record.verdict = verdict;
     record.message = std::move(message);
     return record;
   }
@@ -218,11 +227,16 @@ class SweepRun {
     }
     folder_.write_text("google-benchmark.json", google_benchmark_json(cells, benchmark_context()));
     folder_.write_json("manifest.json", to_json(manifest_));
-    const auto failed = std::count_if(cells.begin(), cells.end(), [](const Json& cell) {
+    SweepOutcome outcome{folder_.results(), cells.size()};
+    for (const Json& cell : cells) {
       const auto verdict = cell.at("row").at("verdict").get<std::string>();
-      return verdict != "ok" && verdict != "baseline";
-    });
-    return {folder_.results(), cells.size(), static_cast<std::size_t>(failed)};
+      if (verdict == kNoRays) {
+        ++outcome.without_rays;
+      } else if (verdict != "ok" && verdict != "baseline") {
+        ++outcome.failed;
+      }
+    }
+    return outcome;
   }
 
   Json benchmark_context() const {

@@ -35,7 +35,8 @@ struct SweepOptions {
 struct SweepOutcome {
   std::filesystem::path results;  ///< results.csv
   std::size_t cells = 0;          ///< in the record, those of an earlier part of the run included
-  std::size_t failed = 0;         ///< of them, without a verdict that keeps its times
+  std::size_t failed = 0;         ///< of them, wrong or not built
+  std::size_t without_rays = 0;   ///< of them, of a kind of rays that their scene has none of
 };
 
 /// Measures all cells of `plan` that the folder does not hold yet. Progress, mismatches and notes

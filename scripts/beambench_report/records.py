@@ -22,6 +22,8 @@ NEEDED_COLUMNS = (
 VERSION_COLUMN = "schema_version"
 
 TIMED_VERDICTS = ("ok", "baseline")
+NO_RAYS = "no_rays"  # the scene has none of the kind: nothing was measured, and nothing is wrong
+FAULTLESS_VERDICTS = (*TIMED_VERDICTS, NO_RAYS)
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,14 @@
 // Pictures: what is written can be read back, and heat maps say what their colours mean.
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <span>
+#include <string_view>
+#include <thread>
 #include <vector>
 
 #include <OpenImageIO/imageio.h>
@@ -112,6 +116,23 @@ TEST(Exposure, OfAPictureThatIsTooBrightIsFound) {
   expose(image, found.remedy);
   EXPECT_DOUBLE_EQ(overexposure(image).share, 0.01);
   EXPECT_EQ(overexposure(image).remedy, 0.0);
+}
+
+TEST(ImageFile, HasTheSameBytesWheneverItIsWritten) {
+  const TemporaryFolder folder;
+  Image image(3, 2);
+  image.at(1, 1) = {0.25F, 0.5F, 2.0F};
+  const DataChannel depth{"Z", std::vector<float>(6, 1.5F)};
+  for (const char* ending : {"png", "exr"}) {
+    const bool has_data = std::string_view(ending) == "exr";
+    const std::span<const DataChannel> data(&depth, has_data ? 1 : 0);
+    const fs::path first = folder.path() / ("first." + std::string(ending));
+    const fs::path second = folder.path() / ("second." + std::string(ending));
+    write_image(first, image, data);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));  // times are in whole seconds
+    write_image(second, image, data);
+    EXPECT_EQ(read_text(first), read_text(second)) << ending;
+  }
 }
 
 TEST(Exr, HoldsLinearColorsDepthsAndIdsExactly) {

@@ -380,17 +380,31 @@ TEST_F(Sweep, AWrongAnyHitLosesItsTimes) {
   EXPECT_TRUE(says(faulty["examples"][0].get<std::string>(), {"ray 0", "--rays shadow --ray 0"}));
 }
 
-TEST_F(Sweep, RaysThatCannotBeMadeAreAnErrorAndTheRunGoesOn) {
+TEST_F(Sweep, RaysThatASceneHasNoneOfAreRowsThatSaySo) {
   const auto dark = folder_.write("dark.nff",
                                   "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0.1\n"
                                   "resolution 8 8\nf 1 0 0 1 0 0 0 0\ns 0 0 0 1\n");
   json config = this->config({"exhaustive"});
   config["scenes"] = {dark.string()};
+  config["structures"] = {"exhaustive", "samet"};
   config["rays"] = {"shadow", "primary"};
-  EXPECT_EQ(run(config).failed, 1U);
+  const SweepOutcome outcome = run(config);
+  EXPECT_EQ(outcome.cells, 4U);
+  EXPECT_EQ(outcome.failed, 0U);
+  EXPECT_EQ(outcome.without_rays, 2U);
   EXPECT_TRUE(says(messages(), {"has no lights"}));
-  EXPECT_EQ(cells().size(), 1U);  // by structure: one is over the other
   EXPECT_TRUE(says(messages(), {"primary/exhaustive: build"}));
+
+  // A record of these rays alone has the rows, too.
+  std::filesystem::remove_all(results());
+  config["rays"] = {"shadow"};
+  EXPECT_EQ(run(config).without_rays, 2U);
+  const json cell = cells().at("samet");
+  EXPECT_EQ(cell["row"]["verdict"], "no_rays");
+  EXPECT_EQ(cell["row"]["rays"], 0);
+  EXPECT_EQ(cell["row"]["primitives"], 1);
+  EXPECT_TRUE(says(cell["message"].get<std::string>(), {"has no lights"}));
+  expect_times(cell, false);
 }
 
 TEST_F(Sweep, WarnsOfRaysThatNeverHit) {

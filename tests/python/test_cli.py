@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
+from beambench_report.records import read_run
 from program import BINARY, beambench, output_of, refused
 
 VIEW = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0.1\nresolution 8 8\n"
@@ -523,6 +524,77 @@ def test_verify_goes_on_past_a_structure_that_cannot_be_built(tmp_path: Path) ->
     assert [cell["verdict"] for cell in verdicts["cells"]] == ["error", "ok"]
     assert "max_references" in verdicts["cells"][0]["message"]
     assert "max_references" in done.stdout
+
+
+def write_dark_sphere(folder: Path) -> Path:
+    """A scene without lights, and so without shadow rays."""
+    file = folder / "dark.nff"
+    file.write_text(
+        "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0\nresolution 8 8\ns 0 0 0 1\n"
+    )
+    return file
+
+
+def test_verify_states_which_kinds_have_no_rays_and_judges_the_others(tmp_path: Path) -> None:
+    scene = write_dark_sphere(tmp_path)
+    file = tmp_path / "verdicts.json"
+    done = beambench(
+        *("verify", scene, "--accel", "exhaustive,samet", "--rays", "primary,shadow,random"),
+        *("--resolution", "16x16", "--json", file),
+    )
+    assert done.returncode == 0, done.stderr
+    verdicts = json.loads(file.read_text())
+    assert verdicts["passed"] is True
+    found = [(cell["ray_kind"], cell["structure"], cell["verdict"]) for cell in verdicts["cells"]]
+    assert found == [
+        (kind, structure, "no_rays" if kind == "shadow" else "ok")
+        for kind in ("primary", "shadow", "random")
+        for structure in ("exhaustive", "samet")
+    ]
+    assert "has no lights" in verdicts["cells"][2]["message"]
+    assert "rays" not in verdicts["cells"][2]
+    assert done.stdout.count("no_rays") == 2
+    assert done.stdout.count("has no lights") == 1  # the same for both structures
+
+
+def test_verify_fails_where_no_kind_has_rays(tmp_path: Path) -> None:
+    file = tmp_path / "verdicts.json"
+    done = beambench(
+        *("verify", write_dark_sphere(tmp_path), "--accel", "samet", "--rays", "shadow"),
+        *("--resolution", "16x16", "--json", file),
+    )
+    assert done.returncode == 2
+    assert "nothing was verified" in done.stderr
+    assert "'shadow'" in done.stderr
+    assert json.loads(file.read_text())["passed"] is False
+
+
+def test_run_keeps_rows_of_kinds_without_rays(tmp_path: Path) -> None:
+    scene = write_dark_sphere(tmp_path)
+    sweep = tmp_path / "dark.json"
+
+    def run(rays: list[str], folder: str) -> subprocess.CompletedProcess[str]:
+        settings = {
+            "name": "dark",
+            "scenes": [str(scene)],
+            "structures": ["exhaustive", "samet"],
+            "resolutions": ["16x16"],
+            "rays": rays,
+            "budget_seconds": 1,
+            "warm_up_seconds": 0,
+        }
+        sweep.write_text(json.dumps(settings))
+        return beambench("run", sweep, "-o", tmp_path / folder)
+
+    done = run(["primary", "shadow"], "some")
+    assert done.returncode == 0, done.stderr
+    assert "2 of 4 cells have no rays" in done.stderr
+    rows = read_run(tmp_path / "some").rows
+    assert list(rows[rows["ray_kind"] == "shadow"]["verdict"]) == ["no_rays", "no_rays"]
+    assert list(rows["timed"]) == list(rows["ray_kind"] == "primary")
+
+    assert run(["shadow"], "none").returncode == 2
+    assert set(read_run(tmp_path / "none").rows["verdict"]) == {"no_rays"}
 
 
 def test_rays_are_saved_and_asked_again(tmp_path: Path) -> None:

@@ -22,8 +22,8 @@ from beambench_report.nightly.judge import doubt, judge, sentence
 from beambench_report.nightly.samples import noise_of_samples
 from beambench_report.nightly.steps import Rule, find_steps
 from beambench_report.problem import Problem
-from made_up_nights import add_all, counting, nothing, slower, write_nights, wrong
-from made_up_run import made_up_rows, write_cell
+from made_up_nights import Row, add_all, counting, nothing, slower, write_nights, wrong
+from made_up_run import made_up_rows, without_times, write_cell
 
 NIGHTS = 30
 
@@ -58,6 +58,13 @@ def test_a_structure_slower_by_5_percent_in_one_scene_is_found_and_named_once(ho
 def test_a_structure_that_got_faster_is_no_regression(home: Home) -> None:
     plant = slower("exhaustive", "tetra:n=6", 0.9, 16)
     assert flat(add_all(home, write_nights(home, NIGHTS, plant))) == []
+
+
+def test_a_kind_of_rays_that_a_scene_has_none_of_raises_no_alarm(home: Home) -> None:
+    def without_rays(_: int, row: Row) -> Row:
+        return without_times(row, "no_rays") if row["scene"] == "tetra:n=6" else row
+
+    assert flat(add_all(home, write_nights(home, 3, without_rays))) == []
 
 
 def test_a_wrong_hit_is_found_and_named(home: Home) -> None:

@@ -113,6 +113,22 @@ def test_a_run_in_which_nothing_was_right_has_a_page(tmp_path: Path) -> None:
     assert "comparison" not in reader.ids
 
 
+def test_cells_without_rays_are_not_wrong(tmp_path: Path) -> None:
+    rows = made_up_rows()
+    rows[:3] = [{**without_times(row, "no_rays"), "ray_kind": "shadow"} for row in rows[:3]]
+    for row in rows[:3]:
+        row["rays"] = 0
+    text = page_of(write_run(tmp_path, rows)).text
+    assert "All 27 cells were right" in text
+    assert "3 cells have no rays" in text
+    assert "not right" not in text
+
+
+def test_a_run_without_any_rays_has_a_page(tmp_path: Path) -> None:
+    rows = [{**without_times(row, "no_rays"), "rays": 0} for row in made_up_rows()]
+    assert "No cell was measured" in page_of(write_run(tmp_path, rows)).text
+
+
 def test_one_cell_is_enough(tmp_path: Path) -> None:
     assert "The only cell was right" in page_of(write_run(tmp_path, made_up_rows()[3:4])).text
 

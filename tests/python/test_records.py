@@ -19,7 +19,7 @@ def test_rows_judged_ok_or_baseline_are_timed(run_folder: Path) -> None:
     assert read_run(run_folder).rows["timed"].all()
 
 
-@pytest.mark.parametrize("verdict", ["mismatch", "grazes", "error", ""])
+@pytest.mark.parametrize("verdict", ["mismatch", "grazes", "error", "no_rays", ""])
 def test_any_other_verdict_takes_a_row_out_of_the_times(tmp_path: Path, verdict: str) -> None:
     rows = made_up_rows()
     rows[4] = {**rows[4], "verdict": verdict}  # times left in: the verdict alone must decide

@@ -30,7 +30,7 @@ from beambench_report.nightly.night import cycles, keys_of
 from beambench_report.page.cell_files import IDENTITY
 from beambench_report.problem import Problem
 from beambench_report.ratio import Ratio, paired_ratio
-from beambench_report.records import TIMED_VERDICTS, read_run
+from beambench_report.records import NO_RAYS, TIMED_VERDICTS, read_run
 
 LEVEL = 0.01
 TOLERANCE = 0.01
@@ -240,7 +240,9 @@ def _differences(first: pd.DataFrame, second: pd.DataFrame, labels: dict) -> lis
     sentences = []
     for row, key in zip(both.to_dict("records"), keys_of(both), strict=True):
         title = labels[key][0]
-        if row["verdict_b"] not in TIMED_VERDICTS and row["verdict_a"] in TIMED_VERDICTS:
+        if row["verdict_b"] == NO_RAYS and row["verdict_a"] in TIMED_VERDICTS:
+            sentences.append(f"{title}: there are no such rays any more")
+        elif row["verdict_b"] not in TIMED_VERDICTS and row["verdict_a"] in TIMED_VERDICTS:
             sentences.append(f"{title}: hits are not right any more ({row['verdict_b']})")
         for name, after in row.items():
             if not name.endswith("_per_ray_b") or name.endswith("_ns_per_ray_b"):

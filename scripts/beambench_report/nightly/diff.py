@@ -21,7 +21,7 @@ from beambench_report.nightly.night import VIEW, keys_of
 from beambench_report.page.cell_files import CellFile, Identity, identity, read_cell_files
 from beambench_report.problem import Problem
 from beambench_report.ratio import Median, Ratio, median_of, paired_ratio, unpaired_ratio
-from beambench_report.records import read_run
+from beambench_report.records import NO_RAYS, read_run
 
 Key = tuple
 Contender = tuple[str, str]
@@ -224,5 +224,5 @@ def _interval(ratio: Ratio) -> str:
 
 
 def _wrong(rows: pd.DataFrame, name: str) -> list[str]:
-    wrong = int((~rows["timed"]).sum())
+    wrong = int((~rows["timed"] & (rows["verdict"] != NO_RAYS)).sum())
     return [f"In {name}, {wrong} cells have no times: their hits were not right."] if wrong else []

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from beambench_report.nightly.history import recorded_folders
 from beambench_report.problem import Problem
-from beambench_report.records import TIMED_VERDICTS
+from beambench_report.records import FAULTLESS_VERDICTS
 
 HOME = Path(__file__).resolve().parents[3] / "results/runs/nightly"
 
@@ -108,6 +108,6 @@ def prune(home: Home, keep: int = KEEP_SAMPLES) -> list[Path]:
 
 def _was_right(path: Path) -> bool:
     try:
-        return json.loads(path.read_text("utf-8"))["row"]["verdict"] in TIMED_VERDICTS
+        return json.loads(path.read_text("utf-8"))["row"]["verdict"] in FAULTLESS_VERDICTS
     except (ValueError, KeyError, TypeError):
         return False

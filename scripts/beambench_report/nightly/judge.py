@@ -12,7 +12,7 @@ from beambench_report.nightly.counters import find_increases
 from beambench_report.nightly.history import Alarm, History
 from beambench_report.nightly.nights import Nights, read_nights
 from beambench_report.nightly.steps import Rule, find_steps
-from beambench_report.records import TIMED_VERDICTS
+from beambench_report.records import FAULTLESS_VERDICTS
 
 NIGHTS = 120
 """How far back is looked: a counter's least value and a step are sought among so many nights."""
@@ -32,7 +32,7 @@ def judge(history: History, night: int) -> list[Alarm]:
 
 def _wrong(nights: Nights) -> Iterator[tuple[str, str, dict]]:
     for _, cell in nights.cells.iterrows():
-        if cell["verdict"] not in TIMED_VERDICTS:
+        if cell["verdict"] not in FAULTLESS_VERDICTS:
             title = cell_title(cell)
             yield "verdict", title, {"title": title, "verdict": cell["verdict"] or "no verdict"}
 

@@ -13,7 +13,7 @@ from beambench_report.dictionary import COUNTER_SUFFIX
 from beambench_report.machine import machine_of
 from beambench_report.page.cell_files import IDENTITY
 from beambench_report.problem import Problem
-from beambench_report.records import TIMED_VERDICTS, Run
+from beambench_report.records import FAULTLESS_VERDICTS, Run
 
 Key = tuple[str, str, str, str, int, int, int, str]
 
@@ -52,7 +52,7 @@ class Night:
     @property
     def wrong(self) -> int:
         """Cells whose hits were not right."""
-        return sum(figure.verdict not in TIMED_VERDICTS for figure in self.figures)
+        return sum(figure.verdict not in FAULTLESS_VERDICTS for figure in self.figures)
 
 
 def night_of(run: Run) -> Night:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pandas as pd
 
 from beambench_report.files import write_text
-from beambench_report.records import TIMED_VERDICTS, Run
+from beambench_report.records import FAULTLESS_VERDICTS, Run
 
 INDEX = "mismatches.json"
 _MOST = 12  # one cause makes many cells wrong, and a page is read by people
@@ -21,7 +21,7 @@ def picture_mismatches(run: Run, beambench: Path) -> list[Path]:
 
     A picture that cannot be made keeps no page from being written: the index is without it.
     """
-    wrong = run.rows[~run.rows["verdict"].isin(TIMED_VERDICTS) & (run.rows["verdict"] != "error")]
+    wrong = run.rows[~run.rows["verdict"].isin((*FAULTLESS_VERDICTS, "error"))]
     wrong = wrong[wrong["ray_kind"] == "primary"]
     # The lowest resolution shows what the highest does, and is read faster.
     wrong = wrong.sort_values("rays", kind="stable").drop_duplicates(

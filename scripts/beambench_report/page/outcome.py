@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import pandas as pd
 
 from beambench_report.page.cell_files import CellFile, Example, Identity, identity
-from beambench_report.records import TIMED_VERDICTS, Run
+from beambench_report.records import FAULTLESS_VERDICTS, NO_RAYS, Run
 
 # Whoever has more wrong cells than this has one cause, not many.
 _MOST_SHOWN = 40
@@ -44,11 +44,18 @@ class Outcome:
     """The first of what was wrong."""
     unshown: int
     """How many wrong cells are in the table of all cells only."""
+    without_rays: int
+    """How many cells are of a kind of rays that their scene has none of."""
+
+    @property
+    def right(self) -> int:
+        """How many cells were right."""
+        return self.cells - self.wrong - self.without_rays
 
 
 def judge_run(run: Run, files: Mapping[Identity, CellFile]) -> Outcome:
     """Sums up the verdicts."""
-    wrong = run.rows[~run.rows["verdict"].isin(TIMED_VERDICTS)]
+    wrong = run.rows[~run.rows["verdict"].isin(FAULTLESS_VERDICTS)]
     shown = wrong.head(_MOST_SHOWN)
     faults: dict[tuple, Fault] = {}
     for _, row in shown.iterrows():
@@ -57,7 +64,9 @@ def judge_run(run: Run, files: Mapping[Identity, CellFile]) -> Outcome:
         earlier = faults.get(reason)
         sizes = (*earlier.sizes, *fault.sizes) if earlier else fault.sizes
         faults[reason] = replace(fault, sizes=sizes)
-    return Outcome(len(run.rows), len(wrong), tuple(faults.values()), len(wrong) - len(shown))
+    without_rays = int((run.rows["verdict"] == NO_RAYS).sum())
+    unshown = len(wrong) - len(shown)
+    return Outcome(len(run.rows), len(wrong), tuple(faults.values()), unshown, without_rays)
 
 
 def _fault(row: pd.Series, file: CellFile | None) -> Fault:
