@@ -12,6 +12,7 @@
 
 #include "scenes/degenerate_primitive.hpp"
 #include "scenes/error.hpp"
+#include "scenes/scene_extent.hpp"
 #include "scenes/triangulate.hpp"
 
 namespace beambench {
@@ -370,6 +371,8 @@ void SceneBuilder::add_primitive(PrimitiveKind kind, std::size_t index) {
 Scene SceneBuilder::build() && {
   const auto count = static_cast<PrimitiveId>(primitive_count());
   for (PrimitiveId id = 0; id < count; ++id) scene_.bounds.include(primitive_bounds(scene_, id));
+  const std::string fault = extent_fault(scene_.bounds);
+  if (!fault.empty()) throw InputError(fmt::format("scene '{}': {}", scene_.name, fault));
   if (scene_.cameras.empty()) scene_.cameras.push_back(fitted_camera(scene_.bounds));
   return std::move(scene_);
 }

@@ -9,6 +9,7 @@
 
 #include "scenes/plugin_error.hpp"
 #include "scenes/scene_builder.hpp"
+#include "scenes/scene_extent.hpp"
 
 namespace beambench {
 namespace {
@@ -104,6 +105,8 @@ void check_scene(const Scene& scene) {
     check_primitive(scene, id);
     bounds.include(primitive_bounds(scene, id));
   }
+  const std::string fault = extent_fault(bounds);
+  if (!fault.empty()) throw PluginError(fault);
   if (bounds.lower != scene.bounds.lower || bounds.upper != scene.bounds.upper) {
     throw PluginError("its bounds are not those of its primitives; make scenes with SceneBuilder");
   }

@@ -14,6 +14,7 @@
 #include "harness/plugin/check_scene.hpp"
 #include "harness/plugin/requested_plugins.hpp"
 #include "scenes/plugin_error.hpp"
+#include "scenes/scene_builder.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench {
@@ -110,6 +111,20 @@ TEST(CheckScene, RefusesWhatLeavesItsArraysOrIsNoNumber) {
   refuses([](Scene& s) { s.bounds.upper.x += 1.0F; });
   refuses([](Scene& s) { s.cameras.clear(); });
   refuses([](Scene& s) { s.cameras.front().angle = 0.0F; });
+}
+
+TEST(CheckScene, RefusesASceneThatIsTooSmall) {
+  SceneBuilder builder("small");
+  builder.add_sphere({0.0, 0.0, 0.0}, 1.0);
+  Scene scene = std::move(builder).build();
+  const auto resize = [&](float radius) {
+    scene.spheres[0].radius = radius;
+    scene.bounds = primitive_bounds(scene, 0);
+  };
+  resize(1e-8F);
+  EXPECT_NO_THROW(check_scene(scene));
+  resize(1e-15F);
+  EXPECT_THROW(check_scene(scene), PluginError);
 }
 
 }  // namespace

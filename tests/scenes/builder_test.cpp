@@ -217,6 +217,24 @@ TEST(SceneBuilder, FittedEyeStaysWithinTheLimit) {
   }
 }
 
+TEST(SceneBuilder, RefusesAScenesExtentBelowTheLimit) {
+  const auto built = [](double size) {
+    SceneBuilder builder("small");
+    builder.add_polygon(Points{{0, 0, 0}, {size, 0, 0}, {0, size, 0}});
+    return std::move(builder).build();
+  };
+  EXPECT_NO_THROW(built(1e-9));
+  EXPECT_TRUE(says(thrown_message([&] { built(5e-10); }),
+                   {"'small'", "7.07e-10", "at least 1e-09", "scale it up"}));
+  EXPECT_TRUE(says(thrown_message([&] { built(1e-16); }), {"1.41e-16", "scale it up"}));
+
+  // Small primitives of a scene that is large enough are no fault.
+  SceneBuilder builder("mixed");
+  builder.add_sphere({0, 0, 0}, 1e-12);
+  builder.add_sphere({0, 0, 0}, 1.0);
+  EXPECT_NO_THROW(std::move(builder).build());
+}
+
 TEST(SceneBuilder, EmptySceneHasACameraAndNoBounds) {
   const Scene scene = SceneBuilder("test").build();
   EXPECT_TRUE(scene.bounds.empty());

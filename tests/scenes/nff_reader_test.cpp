@@ -20,6 +20,11 @@ const std::string kFolder = std::string(BEAMBENCH_TEST_FILES) + "/golden/nff/";
 
 NffResult parse(std::string_view text) { return parse_nff(text, "test.nff"); }
 
+TEST(NffReader, RefusesASceneThatIsTooSmall) {
+  EXPECT_NO_THROW(parse("s 0 0 0 1e-8\n"));
+  EXPECT_TRUE(says(thrown_message([] { parse("s 0 0 0 1e-15\n"); }), {"test.nff", "scale it up"}));
+}
+
 TEST(NffReader, ReadsOneOfEverything) {
   const NffResult result = read_nff(kFolder + "complete.nff");
   ASSERT_EQ(result.warnings.size(), 1U);
