@@ -20,9 +20,9 @@ struct HavranRow {
   std::uint64_t interior, leaves, empty_leaves, references;
 };
 
-// Havran 1999, TETRA at n = 6 (reference/scenes.md): split at the centre, a leaf at one object or
-// at the maximum depth (the root being depth 0), objects by their bounding box, the scene's own
-// box.
+// Havran, "A Summary of Octree Ray Traversal Algorithms", Ray Tracing News 12(2), 1999, TETRA at
+// n = 6: split at the center, a leaf at one object or at the maximum depth (the root being depth
+// 0), objects by their bounding box, the scene's own box.
 class Havran : public ::testing::TestWithParam<HavranRow> {};
 
 TEST_P(Havran, CountsOfTetra) {

@@ -1,5 +1,5 @@
-// Havran's published counts for Samet's traversal (1999; TETRA at n = 6, reference/scenes.md), ours
-// beside them.
+// Havran's published counts for Samet's traversal ("A Summary of Octree Ray Traversal Algorithms",
+// Ray Tracing News 12(2), 1999; TETRA at n = 6), ours beside them.
 //
 // What the comparison showed. Leaves and empty leaves a ray agree within 1%, and so do the other
 // two once they are counted alike:
