@@ -84,7 +84,7 @@ TEST_F(RunCommand, EndsWith1WhenACellHasNoTimes) {
 TEST_F(RunCommand, GoogleBenchmarksFlagsWork) {
   write_sweep({"null", "exhaustive"});
   EXPECT_EQ(run("tiny.json --dry-run --benchmark_filter=null").out,
-            "tetra:n=1/default/8x8/1/primary/null\n");
+            "tetra:n=1/default/8x8/1/primary/null:rays=single\n");
   EXPECT_EQ(run("tiny.json --benchmark_list_tests --benchmark_filter=-null").out,
             "tetra:n=1/default/8x8/1/primary/exhaustive\n");
   const Result result =
