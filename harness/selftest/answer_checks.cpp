@@ -9,6 +9,7 @@
 #include "harness/selftest/awkward_scenes.hpp"
 #include "harness/selftest/hit_comparison.hpp"
 #include "harness/selftest/random_scene.hpp"
+#include "harness/selftest/scene_families.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/error.hpp"
 
@@ -79,6 +80,34 @@ CheckOutcome check_random_scenes(const Subject& subject, const SelftestEffort& e
   return outcome;
 }
 
+CheckOutcome check_scene_families(const Subject& subject, const SelftestEffort& effort) {
+  CheckOutcome outcome;
+  for (std::uint64_t i = 0; i < effort.scenes && outcome.passed(); ++i) {
+    const std::uint64_t seed = effort.seed + i;
+    Random random(seed);
+    const Scene scene = family_scene(seed, subject.kinds());
+    const StructureChoice choice = subject.vary(random);
+    std::unique_ptr<Accelerator> structure;
+    try {
+      structure = choice.build(scene);
+    } catch (const InputError&) {  // random scenes ask how much it refuses
+      continue;
+    }
+    const HitComparison comparison(scene, subject.conformance());
+    const std::vector<Ray> rays = random_rays(scene, random);
+    // Below, at and above the width of a register.
+    const int width = static_cast<int>(8 + random.below(30));
+    const PrimaryRays image(scene.cameras.front(), width, 20, 1);
+    const std::string where = fmt::format("{} (scene of the families, seed {}), {}", scene.name,
+                                          seed, choice.short_label());
+    add(outcome, image.count(), where, comparison.image(*structure, image, /*may_graze=*/true));
+    if (outcome.passed()) {
+      add(outcome, rays.size(), where, comparison.single_rays(*structure, rays));
+    }
+  }
+  return outcome;
+}
+
 CheckOutcome check_images(const Subject& subject, const SelftestEffort& effort) {
   CheckOutcome outcome;
   std::vector<Scene> scenes;
@@ -92,7 +121,7 @@ CheckOutcome check_images(const Subject& subject, const SelftestEffort& effort) 
     for (const int samples : {1, 5}) {
       const PrimaryRays rays(scene.cameras.front(), 41, 33, samples);
       add(outcome, rays.count(), fmt::format("{} with {} samples a pixel", scene.name, samples),
-          HitComparison(scene, subject.conformance()).image(*structure, rays));
+          HitComparison(scene, subject.conformance()).image(*structure, rays, /*may_graze=*/false));
       if (!outcome.passed()) return outcome;
     }
   }

@@ -6,6 +6,7 @@
 namespace beambench {
 
 CheckOutcome check_random_scenes(const Subject& subject, const SelftestEffort& effort);
+CheckOutcome check_scene_families(const Subject& subject, const SelftestEffort& effort);
 CheckOutcome check_images(const Subject& subject, const SelftestEffort& effort);
 CheckOutcome check_smallest_scenes(const Subject& subject, const SelftestEffort& effort);
 CheckOutcome check_faces_edges_corners(const Subject& subject, const SelftestEffort& effort);

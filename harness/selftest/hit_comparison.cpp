@@ -81,13 +81,14 @@ std::string HitComparison::by_the_differ(const Accelerator& structure,
   return "";
 }
 
-std::string HitComparison::image(const Accelerator& structure, const PrimaryRays& rays) const {
+std::string HitComparison::image(const Accelerator& structure, const PrimaryRays& rays,
+                                 bool may_graze) const {
   const Question question(rays);
   Answers answers = room_for(question);
   poison(answers);
   ask(structure, question, answers);
   if (conformance_ != Conformance::kBitExact) {
-    return judged(*scene_, question, answers, conformance_, /*may_graze=*/false);
+    return judged(*scene_, question, answers, conformance_, may_graze);
   }
   const auto& found = std::get<HitBuffer>(answers);
   HitBuffer expected(rays.width(), rays.height(), rays.samples());

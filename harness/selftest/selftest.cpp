@@ -9,9 +9,13 @@
 namespace beambench {
 
 std::span<const Check> selftest_checks() {
-  static constexpr std::array<Check, 13> kChecks{{
+  static constexpr std::array<Check, 14> kChecks{{
       {"random scenes", "spheres, cones and polygons anywhere, at any of its parameters", false,
        false, check_random_scenes},
+      {"scene families",
+       "flat cones, eyes on surfaces, touching spheres, tiny scale, coplanar polygons, needles, "
+       "nested surfaces: images and rays",
+       false, false, check_scene_families},
       {"smallest scenes", "nothing, one sphere, one cone, one triangle without depth", false, false,
        check_smallest_scenes},
       {"images", "the images of five scenes, with one and five samples a pixel", false, false,
