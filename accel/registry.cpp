@@ -1,6 +1,7 @@
 #include "accel/registry.hpp"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -26,7 +27,28 @@ std::unique_ptr<Accelerator> StructureChoice::build(const Scene& scene) const {
   return build(scene, usual_workload(scene));
 }
 
+std::span<const CounterInfo> common_counters() {
+  static const auto all = std::to_array<CounterInfo>({
+      {"traversal_steps", "cells or nodes entered on the way of a ray, leaves included"},
+      {"leaves", "leaves entered, empty ones included"},
+      {"empty_leaves", "leaves entered that hold no reference"},
+      {"box_tests", "ray-box tests"},
+      {"primitive_tests", "ray-primitive tests"},
+  });
+  return all;
+}
+
 void Registry::add(StructureInfo info) { structures_.push_back(std::move(info)); }
+
+void Registry::describe_counters(const std::string& structure, std::vector<CounterInfo> counters) {
+  own_counters_[structure] = std::move(counters);
+}
+
+std::span<const CounterInfo> Registry::own_counters(const std::string& structure) const {
+  const auto found = own_counters_.find(structure);
+  if (found == own_counters_.end()) return {};
+  return found->second;
+}
 
 StructureChoice Registry::choose(const Spec& spec) const {
   const auto found =
@@ -35,9 +57,10 @@ StructureChoice Registry::choose(const Spec& spec) const {
   if (found == structures_.end()) {
     std::vector<std::string> names;
     for (const auto& info : structures_) names.push_back(info.name);
-    throw InputError(fmt::format("unknown structure '{}'; did you mean '{}'? Expected one of {}",
-                                 spec.name, nearest_name(spec.name, names),
-                                 fmt::join(names, ", ")));
+    throw InputError(
+        fmt::format("unknown structure '{}'; {}expected one of {}; one of a plug-in is known after "
+                    "--plugin FILE",
+                    spec.name, did_you_mean(spec.name, names), fmt::join(names, ", ")));
   }
   return {*found, Parameters(found->name, found->parameters, spec.parameters)};
 }

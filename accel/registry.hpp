@@ -2,6 +2,7 @@
 // The registry: structure names with parameters to built structures.
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -59,19 +60,34 @@ class StructureChoice {
   Parameters parameters_;
 };
 
+/// What a counter of the counting pass counts; printed by `beambench list --counters`.
+struct CounterInfo {
+  std::string name;
+  std::string meaning;  ///< one sentence
+};
+
+/// Those of every structure, in the order of `Counter`.
+std::span<const CounterInfo> common_counters();
+
 class Registry {
  public:
   void add(StructureInfo info);
+  /// What that structure counts beside `common_counters()`.
+  void describe_counters(const std::string& structure, std::vector<CounterInfo> counters);
+  /// Empty for a structure without counters of its own.
+  std::span<const CounterInfo> own_counters(const std::string& structure) const;
 
   /// In the order of registration.
   std::span<const StructureInfo> structures() const { return structures_; }
-  /// Throws InputError for an unknown name (with the nearest and all valid ones) or parameter.
+  /// Throws InputError for an unknown name (with one that may be meant and all valid ones) or
+  /// parameter.
   StructureChoice choose(const Spec& spec) const;
   /// A comma-separated list as typed after --accel; `all` is every structure with its defaults.
   std::vector<StructureChoice> choose_list(std::string_view text) const;
 
  private:
   std::vector<StructureInfo> structures_;
+  std::map<std::string, std::vector<CounterInfo>> own_counters_;
 };
 
 /// All structures of this program: those that were built into it, then those of plug-ins.

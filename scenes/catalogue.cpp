@@ -101,9 +101,10 @@ bool is_path(std::string_view spec) {
   std::vector<std::string> names;
   for (const SceneInfo& info : scene_catalogue()) names.push_back(info.name);
   throw InputError(fmt::format(
-      "there is no scene '{}'; did you mean '{}'? The scenes are {}; a file is given as "
-      "a path with a slash or the ending .nff or of a mesh, an installed mesh as mesh:NAME",
-      name, nearest_name(name, names), fmt::join(names, ", ")));
+      "there is no scene '{}'; {}the scenes are {}; a file is given as a path with a slash or the "
+      "ending .nff or of a mesh, an installed mesh as mesh:NAME, and a scene of a plug-in is known "
+      "after --plugin FILE",
+      name, did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 }  // namespace

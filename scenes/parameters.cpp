@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "scenes/error.hpp"
+#include "scenes/nearest_name.hpp"
 
 namespace beambench {
 namespace {
@@ -139,8 +140,8 @@ std::string expectation(const ParameterInfo& info) {
   }
   std::vector<std::string> names;
   for (const ParameterInfo& info : infos) names.push_back(info.name);
-  throw InputError(fmt::format("{}: there is no parameter '{}'; the valid ones are {}", owner, name,
-                               fmt::join(names, ", ")));
+  throw InputError(fmt::format("{}: there is no parameter '{}'; {}the valid ones are {}", owner,
+                               name, did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 ParameterInfo plain_info(std::string name, Type type, std::string default_value,

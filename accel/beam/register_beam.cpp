@@ -1,5 +1,6 @@
 #include "accel/beam/beam_cost.hpp"
 #include "accel/beam/beam_tracer.hpp"
+#include "accel/octree/leaf_walk.hpp"
 #include "accel/registry.hpp"
 
 namespace beambench {
@@ -16,6 +17,33 @@ Octree chosen_octree(const Scene& scene, const BeamOptions& options, const Workl
       });
 }
 
+/// As accel/beam/README.md explains them.
+std::vector<CounterInfo> beam_counters() {
+  return {
+      {"beams", "leaves entered by a beam, and beams that leave the root"},
+      {"beams_nonterminal", "of these: empty leaves"},
+      {"beams_occupied", "of these: occupied leaves, where the beam's samples become rays"},
+      {"beams_leaving", "of these: beams that leave the root"},
+      {"beams_nonterminal_ns", "nanoseconds of the counting pass spent in empty leaves"},
+      {"beams_occupied_ns", "nanoseconds of the counting pass spent in occupied leaves"},
+      {"beams_leaving_ns", "nanoseconds of the counting pass spent on beams that leave the root"},
+      {"beams_made",
+       "beams as the thesis counts them: those at the beginning, and each part of a "
+       "beam that is cut"},
+      {"beams_divided", "beams that were cut into two parts or more"},
+      {"beams_passed_whole", "times that a beam went on undivided"},
+      {"beam_edges", "edges of the polygons of all beams"},
+      {"beam_clips", "cuts of a polygon by a line"},
+      {"neighbour_searches", "searches of the leaf behind a face, by beams"},
+      {std::string(kNeighbourSteps), std::string(kNeighbourStepsMeaning)},
+      {"samples_leaving", "samples that left the root with a beam"},
+      {"samples_in_leaves", "samples that were tested in a leaf with a beam"},
+      {"rays_after_leaf", "samples that found nothing in their beam's leaf and went on as rays"},
+      {"rays_by_handover", "samples that became rays because their beam had fewer than 'handover'"},
+      {"rays_by_crowding", "samples that became rays because their beam had too many cuts"},
+  };
+}
+
 }  // namespace
 
 void register_beam(Registry& registry) {
@@ -28,6 +56,7 @@ void register_beam(Registry& registry) {
                   return std::make_unique<BeamTracer>(
                       scene, chosen_octree(scene, options, workload), options);
                 }});
+  registry.describe_counters("beam", beam_counters());
 }
 
 }  // namespace beambench

@@ -22,6 +22,10 @@ void register_bvh(Registry& registry) {
                 [](const Scene& scene, const Parameters& parameters, const Workload&) {
                   return std::make_unique<SahBvh>(scene, SahBvh::options_from(parameters));
                 }});
+  registry.describe_counters(
+      "sah-bvh", {{"confirmed_tests",
+                   "primitives that passed the test in float by SIMD, which only rejects, and were "
+                   "tested again by the canonical test in double"}});
 }
 
 }  // namespace beambench

@@ -16,6 +16,9 @@ namespace beambench {
 /// What structures over an octree count beside the rest: nodes passed from a leaf to its neighbour
 /// of equal or larger size. The way down to a smaller leaf, the same for all, is not in it.
 inline constexpr std::string_view kNeighbourSteps = "neighbour_steps";
+inline constexpr std::string_view kNeighbourStepsMeaning =
+    "nodes of the octree passed from a leaf to its neighbour of equal or larger size; the way down "
+    "to a smaller leaf is not in it";
 
 /// Where a ray leaves a leaf: at t, over the face, edge or vertex that `step` (-1, 0 or 1 for each
 /// axis) points at.

@@ -1,4 +1,5 @@
 #include "accel/octree/choose_octree.hpp"
+#include "accel/octree/leaf_walk.hpp"
 #include "accel/octree/samet.hpp"
 #include "accel/octree/samet_net.hpp"
 #include "accel/registry.hpp"
@@ -24,6 +25,10 @@ void register_octree(Registry& registry) {
                       scene, choose_octree(scene, OctreeOptions::from(parameters), workload,
                                            samet_trace_cost));
                 }});
+  for (const char* structure : {"samet", "samet-net"}) {
+    registry.describe_counters(
+        structure, {{std::string(kNeighbourSteps), std::string(kNeighbourStepsMeaning)}});
+  }
 }
 
 }  // namespace beambench

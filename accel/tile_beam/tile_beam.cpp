@@ -49,6 +49,7 @@ void register_tile_beam(Registry& registry) {
                   return std::make_unique<TileBeam>(scene, TileBeam::options_from(parameters),
                                                     targets_of(parameters.choice("isa")));
                 }});
+  registry.describe_counters("tile-beam", {{"beams", "tiles of the image that were traced"}});
 }
 
 }  // namespace beambench

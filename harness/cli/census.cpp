@@ -17,6 +17,7 @@
 #include "harness/cli/whitted_request.hpp"
 #include "harness/picture/image_error.hpp"
 #include "harness/picture/image_file.hpp"
+#include "harness/progress/counted.hpp"
 #include "harness/rays/answers.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/shade/shading_order.hpp"
@@ -197,6 +198,10 @@ void census(const Request& request) {
     results.push_back(take_census(request, name, progress));
   }
   progress.clear();
+  if (!request.pictures.empty()) {
+    fmt::print(stderr, "{} in the folder '{}'\n", counted(results.size(), "picture"),
+               request.pictures);
+  }
   request.json ? print_json(request, results) : print_text(request, results);
 }
 
@@ -208,7 +213,7 @@ void add_census_command(CLI::App& app, int&) {
   const auto request = std::make_shared<Request>();
   command->add_option(
       "SCENE", request->scenes,
-      "Catalogue names, or paths of NFF or mesh files (default: the whole catalogue)");
+      fmt::format("{}; several may be given (default: the whole catalogue)", kSceneHelp));
   command->add_option("--accel", request->structure, "Structure: NAME:parameter=value,...")
       ->capture_default_str();
   command
@@ -223,8 +228,10 @@ void add_census_command(CLI::App& app, int&) {
       ->capture_default_str();
   add_image_options(*command, request->image);
   add_whitted_options(*command, request->whitted);
-  command->add_option("--pictures", request->pictures,
-                      "Write the picture of each scene to this folder, too");
+  command
+      ->add_option("--pictures", request->pictures,
+                   "Write each scene's picture, too: to this folder, which is made")
+      ->type_name("DIR");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "The rules of SPD: 513x513 rays through the corners of pixels, rays of depth 5, none left "
@@ -247,7 +254,7 @@ void add_census_command(CLI::App& app, int&) {
       "  beambench census escena1 --accel beam --resolution 640x480 --shadows cache --json\n"
       "  beambench census maceta --accel beam --shadows cache --order beams\n"
       "  beambench census mount --least-weight 0.01\n"
-      "  beambench census --resolution 1280x1024 --threads 2 --pictures whitted");
+      "  beambench census --resolution 1280x1024 --threads 2 --pictures drawn");
   command->callback([request] { census(*request); });
 }
 

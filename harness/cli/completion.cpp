@@ -41,10 +41,21 @@ Words ray_kind_names() {
   return names;
 }
 
+/// What 'beambench list' prints alone.
+Words listed_names() {
+  Words names;
+  for (const StructureInfo& info : registry().structures()) names.push_back(info.name);
+  for (const Words& more : {scene_names(), ray_kind_names()}) {
+    names.insert(names.end(), more.begin(), more.end());
+  }
+  return names;
+}
+
 /// What may stand for an option's value, by the option's name; file names for all others.
 const std::map<std::string, Words>& known_values() {
   static const std::map<std::string, Words> values{
       {"SCENE", scene_names()},
+      {"NAME", listed_names()},
       {"SHELL", {"bash", "zsh", "fish"}},
       {"--accel", structure_names("all")},
       {"--difference", structure_names(kOracleName)},

@@ -40,7 +40,7 @@ void export_scene(const Request& request) {
 void add_export_command(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("export", "A scene as an NFF file");
   const auto request = std::make_shared<Request>();
-  command->add_option("SCENE", request->scene, "Catalogue name or path of an NFF file")->required();
+  add_scene_option(*command, request->scene);
   command->add_option("-o", request->file, "File to write, .nff")->required();
   command->add_flag("--strict", request->options.strict,
                     "Refuse a file with unknown words, ignored fields, degenerate primitives or "

@@ -1,14 +1,19 @@
 #include "harness/cli/inputs.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+#include <glm/geometric.hpp>
 
 #include "harness/rays/resolution.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/error.hpp"
+#include "scenes/find_camera.hpp"
+#include "scenes/scene_builder.hpp"
 
 namespace beambench {
 
@@ -19,15 +24,83 @@ Scene open_scene(std::string_view spec, NffOptions options) {
   return scene;
 }
 
-const Camera& choose_camera(const Scene& scene, std::string_view name) {
-  if (name.empty()) return scene.cameras.front();
-  std::vector<std::string_view> names;
-  for (const Camera& camera : scene.cameras) {
-    if (camera.name == name) return camera;
-    names.push_back(camera.name);
+void add_scene_option(CLI::App& command, std::string& scene) {
+  command.add_option("SCENE", scene, kSceneHelp)->required();
+}
+
+void add_camera_option(CLI::App& command, ViewRequest& request) {
+  command.add_option("--camera", request.camera, "By name (default: the scene's first)");
+}
+
+void add_view_options(CLI::App& command, ViewRequest& request) {
+  add_camera_option(command, request);
+  const auto add = [&](const char* name, std::string& value, const char* help) {
+    command.add_option(name, value, help)->type_name("X,Y,Z");
+  };
+  add("--from", request.from, "Where the eye is, in place of the camera's");
+  add("--at", request.at, "The point that it looks at");
+  add("--up", request.up, "The direction that is up in the image");
+  command
+      .add_option("--angle", request.angle,
+                  "Vertical field of view in degrees, more than 0 and less than 180")
+      ->type_name("DEGREES");
+}
+
+namespace {
+
+/// `option` names the value in messages.
+glm::vec3 parse_vector(std::string_view option, std::string_view text) {
+  std::array<float, 3> numbers{};
+  std::string_view rest = text;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const bool last = i + 1 == numbers.size();
+    const std::size_t end = last ? rest.size() : rest.find(',');
+    if (end == std::string_view::npos) break;
+    const char* const stop = rest.data() + end;
+    const auto [at, error] = std::from_chars(rest.data(), stop, numbers[i]);
+    if (error != std::errc() || at != stop || !(std::abs(numbers[i]) <= kLargestNumber)) break;
+    if (last) return {numbers[0], numbers[1], numbers[2]};
+    rest.remove_prefix(end + 1);
   }
-  throw InputError(fmt::format("scene '{}' has no camera '{}'; choose from: {}", scene.name, name,
-                               fmt::join(names, ", ")));
+  throw InputError(
+      fmt::format("{} '{}' is not X,Y,Z with three numbers up to {:g}; write it as 1,2.5,-3",
+                  option, text, kLargestNumber));
+}
+
+void require_view(const Camera& camera) {
+  const glm::dvec3 way = glm::dvec3(camera.at) - glm::dvec3(camera.from);
+  if (glm::length(way) == 0.0) {
+    throw InputError("--from and --at are the same point; look at another one");
+  }
+  const glm::dvec3 up(camera.up);
+  if (glm::length(up) == 0.0 ||
+      glm::length(glm::cross(glm::normalize(way), glm::normalize(up))) < 1e-6) {
+    throw InputError("the view goes along its up direction; give another with --up, such as 0,0,1");
+  }
+}
+
+}  // namespace
+
+Camera choose_camera(const Scene& scene, const ViewRequest& request) {
+  Camera camera =
+      request.camera.empty() ? scene.cameras.front() : find_camera(scene, request.camera);
+  if (request.from.empty() && request.at.empty() && request.up.empty() && !request.angle) {
+    return camera;
+  }
+  camera.name = kTypedCamera;
+  if (!request.from.empty()) camera.from = parse_vector("--from", request.from);
+  if (!request.at.empty()) camera.at = parse_vector("--at", request.at);
+  if (!request.up.empty()) camera.up = parse_vector("--up", request.up);
+  if (request.angle) {
+    if (!(*request.angle > 0.0 && *request.angle < 180.0)) {
+      throw InputError(fmt::format(
+          "--angle {} is no field of view; expected more than 0 and less than 180 degrees",
+          *request.angle));
+    }
+    camera.angle = static_cast<float>(*request.angle);
+  }
+  require_view(camera);
+  return camera;
 }
 
 StructureChoice choose_one(std::string_view option, std::string_view text) {
@@ -38,7 +111,7 @@ StructureChoice choose_one(std::string_view option, std::string_view text) {
 }
 
 ImageOfRays choose_image(const Scene& scene, const ImageRequest& request) {
-  const Camera& camera = choose_camera(scene, request.camera);
+  const Camera camera = choose_camera(scene, request.view);
   const Resolution resolution = request.resolution.empty() ? Resolution{camera.width, camera.height}
                                                            : parse_resolution(request.resolution);
   const auto samples = sample_offsets(request.samples).size();
@@ -51,11 +124,15 @@ PrimaryRays choose_rays(const Scene& scene, const ImageRequest& request) {
   return {image.camera, image.resolution.width, image.resolution.height, image.samples};
 }
 
-void add_image_options(CLI::App& command, ImageRequest& request) {
+void add_size_options(CLI::App& command, ImageRequest& request) {
   command.add_option("--resolution", request.resolution, "WxH (default: the camera's own)");
   command.add_option("--samples", request.samples, "Rays a pixel: 1, 4, 5, 9, 16, ...")
       ->capture_default_str();
-  command.add_option("--camera", request.camera, "By name (default: the scene's first)");
+}
+
+void add_image_options(CLI::App& command, ImageRequest& request) {
+  add_size_options(command, request);
+  add_view_options(command, request.view);
 }
 
 Contenders choose_contenders(std::string_view list, const Scene& scene) {

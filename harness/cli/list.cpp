@@ -1,7 +1,12 @@
 // beambench list: what can be asked for.
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,6 +21,7 @@
 #include "scenes/catalogue.hpp"
 #include "scenes/error.hpp"
 #include "scenes/meshes/mesh_registry.hpp"
+#include "scenes/nearest_name.hpp"
 
 namespace beambench {
 namespace {
@@ -111,29 +117,105 @@ void print_plugins() {
   }
 }
 
+void print_structure(const StructureInfo& info) {
+  fmt::print("\n  {}  [{}]{}\n{}", info.name, conformance_name(info.conformance),
+             origin_text(info.origin), wrap(info.summary, 6));
+  print_parameters(info.parameters);
+}
+
+void print_scene(const SceneInfo& info) {
+  fmt::print("\n  {}{}\n{}", info.name, origin_text(info.origin), wrap(info.summary, 6));
+  print_parameters(info.parameters);
+}
+
+void print_ray_kind(const RayKindInfo& info) {
+  fmt::print("\n  {}\n{}", info.name, wrap(info.summary, 6));
+  print_parameters(info.parameters);
+}
+
+void print_counters(std::span<const CounterInfo> counters) {
+  for (const CounterInfo& info : counters) {
+    fmt::print("      {}\n{}", info.name, wrap(info.meaning, 10));
+  }
+}
+
+/// Of each structure that has some of its own.
+void print_all_counters() {
+  fmt::print(
+      "What the counting pass counts, never in timed code: for --heatmap, in 'beambench stats' and "
+      "as\ncolumns of results.csv, NAME_per_ray.\n\n  every structure\n");
+  print_counters(common_counters());
+  for (const StructureInfo& info : registry().structures()) {
+    const auto own = registry().own_counters(info.name);
+    if (own.empty()) continue;
+    fmt::print("\n  {}, too\n", info.name);
+    print_counters(own);
+  }
+}
+
+template <class Info>
+const Info* find_named(std::span<const Info> infos, std::string_view name) {
+  const auto found =
+      std::ranges::find_if(infos, [&](const Info& info) { return info.name == name; });
+  return found == infos.end() ? nullptr : &*found;
+}
+
+[[noreturn]] void refuse_name(const std::string& name) {
+  std::vector<std::string> names;
+  for (const StructureInfo& info : registry().structures()) names.push_back(info.name);
+  for (const SceneInfo& info : scene_catalogue()) names.push_back(info.name);
+  for (const RayKindInfo& info : ray_kinds()) names.emplace_back(info.name);
+  throw InputError(fmt::format(
+      "there is no structure, scene or kind of rays '{}'; {}'beambench list' prints all", name,
+      did_you_mean(name, names)));
+}
+
+/// All that goes by that name; what stands behind a colon does not matter.
+void print_named(const std::string& spec) {
+  const std::string name = spec.substr(0, spec.find(':'));
+  const StructureInfo* structure = find_named(registry().structures(), name);
+  const SceneInfo* scene = find_named(scene_catalogue(), name);
+  const RayKindInfo* rays = find_named(ray_kinds(), name);
+  if (structure == nullptr && scene == nullptr && rays == nullptr) refuse_name(name);
+  if (structure != nullptr) {
+    fmt::print("Structure, for --accel {}:parameter=value,...\n", name);
+    print_structure(*structure);
+    if (const auto own = registry().own_counters(name); !own.empty()) {
+      fmt::print("\n    counts, beside what every structure counts (--counters):\n");
+      print_counters(own);
+    }
+  }
+  if (scene != nullptr) {
+    fmt::print("Scene, as {}:parameter=value,...\n", name);
+    print_scene(*scene);
+  }
+  if (rays != nullptr) {
+    fmt::print("Kind of rays, for --rays {}:parameter=value,...\n", name);
+    print_ray_kind(*rays);
+  }
+}
+
 void print_text() {
   fmt::print("Structures, for --accel NAME:parameter=value,... ('all' is every one):\n");
-  for (const StructureInfo& info : registry().structures()) {
-    fmt::print("\n  {}  [{}]{}\n{}", info.name, conformance_name(info.conformance),
-               origin_text(info.origin), wrap(info.summary, 6));
-    print_parameters(info.parameters);
-  }
+  for (const StructureInfo& info : registry().structures()) print_structure(info);
   fmt::print("\n{}", wrap("bit-exact: equal to exhaustive bit for bit; tolerance: arithmetic of "
                           "its own, judged by the differ's classes; baseline: answers nothing by "
                           "design.",
                           2));
   fmt::print("\nScenes, as NAME:parameter=value,... (or the path of a mesh or of an NFF file):\n");
-  for (const SceneInfo& info : scene_catalogue()) {
-    fmt::print("\n  {}{}\n{}", info.name, origin_text(info.origin), wrap(info.summary, 6));
-    print_parameters(info.parameters);
-  }
+  for (const SceneInfo& info : scene_catalogue()) print_scene(info);
   print_meshes();
   print_plugins();
   fmt::print("\nKinds of rays, for --rays (or the path of a .rays file, see 'beambench rays'):\n");
-  for (const RayKindInfo& info : ray_kinds()) {
-    fmt::print("\n  {}\n{}", info.name, wrap(info.summary, 6));
-    print_parameters(info.parameters);
+  for (const RayKindInfo& info : ray_kinds()) print_ray_kind(info);
+}
+
+Json counters_json(std::span<const CounterInfo> counters) {
+  Json list = Json::array();
+  for (const CounterInfo& info : counters) {
+    list.push_back({{"name", info.name}, {"meaning", info.meaning}});
   }
+  return list;
 }
 
 Json parameters_json(const std::vector<ParameterInfo>& parameters) {
@@ -163,8 +245,10 @@ void print_json() {
                                  {"summary", info.summary},
                                  {"conformance", conformance_name(info.conformance)},
                                  {"origin", origin_json(info.origin)},
-                                 {"parameters", parameters_json(info.parameters)}});
+                                 {"parameters", parameters_json(info.parameters)},
+                                 {"counters", counters_json(registry().own_counters(info.name))}});
   }
+  all["counters"] = counters_json(common_counters());
   for (const SceneInfo& info : scene_catalogue()) {
     all["scenes"].push_back({{"name", info.name},
                              {"summary", info.summary},
@@ -190,15 +274,40 @@ void print_json() {
   fmt::print("{}\n", all.dump(2));
 }
 
+struct Request {
+  std::vector<std::string> names;
+  bool counters = false;
+  bool json = false;
+};
+
+void list(const Request& request) {
+  if (request.json) return print_json();
+  if (request.counters) return print_all_counters();
+  if (request.names.empty()) return print_text();
+  for (const std::string& name : request.names) print_named(name);
+}
+
 }  // namespace
 
 void add_list_command(CLI::App& app, int&) {
   CLI::App* command =
       app.add_subcommand("list", "Structures with their parameters, scenes, kinds of rays");
-  const auto json = std::make_shared<bool>(false);
-  command->add_flag("--json", *json, "Print JSON instead of text");
-  command->footer("Examples:\n  beambench list\n  beambench list --json");
-  command->callback([json] { *json ? print_json() : print_text(); });
+  const auto request = std::make_shared<Request>();
+  CLI::Option* names = command->add_option(
+      "NAME", request->names, "Structures, scenes or kinds of rays to print alone (default: all)");
+  CLI::Option* counters = command->add_flag("--counters", request->counters,
+                                            "Print what is counted of a structure's work instead");
+  command->add_flag("--json", request->json, "Print JSON of everything instead of text")
+      ->excludes(names)
+      ->excludes(counters);
+  counters->excludes(names);
+  command->footer(
+      "Examples:\n"
+      "  beambench list\n"
+      "  beambench list samet balls\n"
+      "  beambench list --counters\n"
+      "  beambench list --json");
+  command->callback([request] { list(*request); });
 }
 
 }  // namespace beambench

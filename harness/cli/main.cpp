@@ -72,9 +72,28 @@ void require_known_command(const CLI::App& app, const Arguments& arguments) {
   if (word.empty()) {
     throw InputError(fmt::format("name a command: {}; {}", fmt::join(names, ", "), remedy));
   }
-  throw InputError(
-      fmt::format("there is no command '{}'; did you mean '{}'? The commands are {}; {}", word,
-                  nearest_name(word, names), fmt::join(names, ", "), remedy));
+  throw InputError(fmt::format("there is no command '{}'; {}the commands are {}; {}", word,
+                               did_you_mean(word, names), fmt::join(names, ", "), remedy));
+}
+
+/// `beambench help` and `beambench help render`, as git and others have it, are `--help`.
+void take_help_for_a_command(Arguments& arguments) {
+  if (arguments.size() < 2 || arguments[1] != "help") return;
+  arguments.erase(arguments.begin() + 1);
+  arguments.emplace_back("--help");
+}
+
+/// "did you mean '--resolution'? " for the first word that no option or argument has taken.
+std::string suggested_option(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_snames()) names.push_back("-" + name);
+  }
+  for (const std::string& word : command.remaining()) {
+    if (word.starts_with('-')) return did_you_mean(word.substr(0, word.find('=')), names);
+  }
+  return "";
 }
 
 int parse_and_run(const Arguments& arguments, Activity& activity) {
@@ -102,7 +121,8 @@ int parse_and_run(const Arguments& arguments, Activity& activity) {
   } catch (const CLI::ParseError& error) {
     const auto picked = app.get_subcommands();
     const std::string command = picked.empty() ? "" : picked.front()->get_name() + ' ';
-    return complain(fmt::format("{}; see 'beambench {}--help'", error.what(), command),
+    const std::string meant = picked.empty() ? "" : suggested_option(*picked.front());
+    return complain(fmt::format("{}; {}see 'beambench {}--help'", error.what(), meant, command),
                     kWrongRequest);
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return complain_of_output();
@@ -141,8 +161,10 @@ bool wants_no_guard() { return std::getenv("BEAMBENCH_UNGUARDED") != nullptr; }
 /// Foreign code is kept in a process of its own.
 int begin(int argc, char** argv) {
   try {
+    set_program_name(argv[0]);
     Arguments arguments(argv, argv + argc);
     const std::vector<std::string> plugins = take_requested_plugins(arguments);
+    take_help_for_a_command(arguments);
     std::unique_ptr<Activity> activity = guarded_activity();
     const bool guarded = activity != nullptr;
     if (!plugins.empty() && !guarded && !wants_no_guard()) return run_guarded(argv);

@@ -13,6 +13,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
+#include "harness/progress/counted.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/record/robust_statistics.hpp"
 #include "scenes/error.hpp"
@@ -23,7 +24,7 @@ namespace {
 struct Request {
   std::string scene;
   std::string structure = "beam";
-  ImageRequest image{"640x480", "", 1};
+  ImageRequest image{"640x480", {}, 1};
   int repetitions = 5;
   bool json = false;
 };
@@ -107,8 +108,8 @@ Result sum_of(const std::vector<Result>& results) {
 
 void print_text(const Scene& scene, const Request& request, std::size_t mirrors,
                 const std::vector<Result>& results) {
-  fmt::print("{}: {} planar mirrors, {} seen at {}, {}\n\n", scene.name, mirrors, results.size(),
-             request.image.resolution, request.structure);
+  fmt::print("{}: {}, {} seen at {}, {}\n\n", scene.name, counted(mirrors, "planar mirror"),
+             results.size(), request.image.resolution, request.structure);
   TextTable table({"mirror", "polygons", "samples", "that hit", "rays", "beams", "rays/beams"});
   for (const Result& result : results) {
     table.add({fmt::format("{}", &result - results.data() + 1), fmt::format("{}", result.polygons),
@@ -184,8 +185,7 @@ void add_mirrors_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("mirrors", "Reflected rays at planar mirrors, in beams and one by one");
   const auto request = std::make_shared<Request>();
-  command->add_option("SCENE", request->scene, "Catalogue name, or path of an NFF or mesh file")
-      ->required();
+  add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structure, "beam, with parameters where wanted")
       ->capture_default_str();
   add_image_options(*command, request->image);

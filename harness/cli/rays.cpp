@@ -96,7 +96,7 @@ void add_rays_command(CLI::App& app, int&) {
   CLI::App* command =
       app.add_subcommand("rays", "Makes a set of rays, says what it is like, and saves it");
   const auto request = std::make_shared<Request>();
-  command->add_option("SCENE", request->scene, "Catalogue name or path of an NFF file")->required();
+  add_scene_option(*command, request->scene);
   command
       ->add_option("--rays", request->rays, "Kind of rays (see 'beambench list') or a .rays file")
       ->capture_default_str();

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -26,6 +27,9 @@
 
 namespace beambench {
 namespace {
+
+/// Draws pictures where no structure is asked for: quick to build and to trace.
+constexpr const char* kPlainStructure = "sah-bvh";
 
 struct Request {
   std::string scene;
@@ -158,6 +162,19 @@ std::string compare(const Request& request, const StructureChoice& choice, const
                      report.count(DiffClass::kEngineError), report.count(DiffClass::kEmbreeError));
 }
 
+/// Any structure draws the same plain picture; the others show what one of them does.
+StructureChoice chosen_structure(const Request& request) {
+  if (!request.structure.empty()) return choose_one("--accel", request.structure);
+  for (const auto& [option, value] :
+       {std::pair("--heatmap", &request.heatmap), std::pair("--difference", &request.difference),
+        std::pair("--overlay", &request.overlay)}) {
+    if (value->empty()) continue;
+    throw InputError(
+        fmt::format("{} shows what a structure does; name the structure with --accel", option));
+  }
+  return choose_one("--accel", kPlainStructure);
+}
+
 void render(const Request& request) {
   const Shading shading = parse_shading(request.shading);
   if (request.exposure != 0.0 && shading != Shading::kWhitted) {
@@ -169,7 +186,7 @@ void render(const Request& request) {
   if (!request.difference.empty() && request.difference != kOracleName) {
     choose_one("--difference", request.difference);
   }
-  const StructureChoice choice = choose_one("--accel", request.structure);
+  const StructureChoice choice = chosen_structure(request);
   std::optional<Overlay> overlay;
   if (!request.overlay.empty()) overlay = parse_overlay(request.overlay, choice.info());
   const Scene scene = open_scene(request.scene);
@@ -208,9 +225,11 @@ void add_render_command(CLI::App& app, int&) {
   CLI::App* command =
       app.add_subcommand("render", "A picture of a scene, or of a structure's work");
   const auto request = std::make_shared<Request>();
-  command->add_option("SCENE", request->scene, "Catalogue name or path of an NFF file")->required();
-  command->add_option("--accel", request->structure, "Structure: NAME:parameter=value,...")
-      ->required();
+  add_scene_option(*command, request->scene);
+  command->add_option("--accel", request->structure,
+                      fmt::format("Structure: NAME:parameter=value,... (default, for a plain "
+                                  "picture: {})",
+                                  kPlainStructure));
   command->add_option("-o", request->file, "Picture to write, .png or .exr")->required();
   add_image_options(*command, request->image);
   command
@@ -246,7 +265,8 @@ void add_render_command(CLI::App& app, int&) {
       "primitives says. --overlay beams colours those that end at occupied leaves, those that go\n"
       "on and those that leave the scene; --overlay cells leaves out what cells before them hide.\n"
       "Examples:\n"
-      "  beambench render escena1 --accel samet -o escena1.png\n"
+      "  beambench render escena1 -o escena1.png\n"
+      "  beambench render balls -o from-above.png --from 0,0,5 --up 0,1,0 --angle 30\n"
       "  beambench render balls:n=3 --accel samet -o work.png --heatmap primitive_tests\n"
       "  beambench render tetra --accel embree:robust=false -o wrong.png --difference oracle\n"
       "  beambench render escena2 --accel beam:max_level=5 -o beams.png --overlay beams\n"

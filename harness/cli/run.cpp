@@ -11,6 +11,7 @@
 #include "harness/cli/interruption.hpp"
 #include "harness/files/shell_word.hpp"
 #include "harness/plugin/load_plugin.hpp"
+#include "harness/progress/counted.hpp"
 #include "harness/sweep/sweep_run.hpp"
 #include "scenes/error.hpp"
 
@@ -73,14 +74,15 @@ Plan selected_plan(const SweepConfig& config, const GoogleBenchmark& benchmark) 
 
 int report(const SweepOutcome& outcome) {
   if (outcome.failed > 0) {
-    fmt::print(stderr, "{} of {} cells have no times: their hits were not right\n", outcome.failed,
-               outcome.cells);
+    fmt::print(stderr, "{} of {} have no times: their hits were not right\n", outcome.failed,
+               counted(outcome.cells, "cell"));
   } else if (outcome.without_rays < outcome.cells) {
-    fmt::print(stderr, "{} cells, all judged right\n", outcome.cells - outcome.without_rays);
+    fmt::print(stderr, "{}, all judged right\n",
+               counted(outcome.cells - outcome.without_rays, "cell"));
   }
   if (outcome.without_rays > 0) {
-    fmt::print(stderr, "{} of {} cells have no rays over their scenes\n", outcome.without_rays,
-               outcome.cells);
+    fmt::print(stderr, "{} of {} have no rays over their scenes\n", outcome.without_rays,
+               counted(outcome.cells, "cell"));
   }
   fmt::print("{}\n", outcome.results.string());
   if (outcome.without_rays == outcome.cells) return kWrongRequest;  // nothing was measured
@@ -88,7 +90,7 @@ int report(const SweepOutcome& outcome) {
 }
 
 std::string resume_command(const std::filesystem::path& folder) {
-  return fmt::format("{} run --resume {}", program_call(), shell_quoted(folder.string()));
+  return fmt::format("{} run --resume {}", program_call_here(), shell_quoted(folder.string()));
 }
 
 /// Runs the sweep so that, however it is cut off, its end says how to go on.

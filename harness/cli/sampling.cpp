@@ -25,7 +25,7 @@ namespace {
 struct Request {
   std::string scene;
   std::string structure = "beam";
-  ImageRequest image{"640x480", "", 1};
+  ImageRequest image{"640x480", {}, 1};
   int repetitions = 3;
   std::string picture;
   bool json = false;
@@ -99,14 +99,11 @@ void add_sampling_command(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand(
       "sampling", "Choose the samples of a pixel in object space or image space");
   const auto request = std::make_shared<Request>();
-  command
-      ->add_option("SCENE", request->scene,
-                   "Catalogue name, mesh:NAME, or path of an NFF or mesh file")
-      ->required();
+  add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structure, "beam, with parameters where wanted")
       ->capture_default_str();
   command->add_option("--resolution", request->image.resolution, "WxH")->capture_default_str();
-  command->add_option("--camera", request->image.camera, "By name (default: the scene's first)");
+  add_view_options(*command, request->image.view);
   command->add_option("--repetitions", request->repetitions, "Times each way is timed")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));

@@ -132,10 +132,7 @@ void show(const Request& request) {
 void add_scene_command(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("scene", "A scene's counts, bounds, cameras and hash");
   const auto request = std::make_shared<Request>();
-  command
-      ->add_option("SCENE", request->scene,
-                   "Catalogue name, mesh:NAME, or path of an NFF or mesh file")
-      ->required();
+  add_scene_option(*command, request->scene);
   CLI::Option* json = command->add_flag("--json", request->json, "Print JSON instead of text");
   command->add_flag("--strict", request->options.strict,
                     "Refuse a file with unknown words, ignored fields, degenerate primitives or "

@@ -30,7 +30,7 @@ struct Request {
   std::string scene;
   std::string structures;
   std::string resolution = "320x200";
-  std::string camera;
+  ViewRequest view;
   std::string rays = "primary";
   bool levels = false;
   bool json = false;
@@ -220,7 +220,7 @@ int show_statistics(const Request& request) {
   registry().choose_list(request.structures);  // refuses a wrong name before a scene is generated
   const Scene scene = open_scene(request.scene);
   require_ray_count(resolution, 1);
-  const ImageOfRays image{choose_camera(scene, request.camera), resolution, 1};
+  const ImageOfRays image{choose_camera(scene, request.view), resolution, 1};
   const Question question = make_question(scene, image, kind);
   const Contenders contenders = choose_contenders(request.structures, scene);
 
@@ -249,14 +249,14 @@ void add_stats_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("stats", "Sizes of structures and the work a ray makes them do");
   const auto request = std::make_shared<Request>();
-  command->add_option("SCENE", request->scene, "Catalogue name or path of an NFF file")->required();
+  add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structures, "Structures: NAME:parameter=value,... or all")
       ->required();
   command->add_option("--resolution", request->resolution, "WxH")->capture_default_str();
   command
       ->add_option("--rays", request->rays, "Kind of rays (see 'beambench list') or a .rays file")
       ->capture_default_str();
-  command->add_option("--camera", request->camera, "By name (default: the scene's first)");
+  add_view_options(*command, request->view);
   command->add_flag("--levels", request->levels,
                     "Also, of octrees, how often rays and beams come to nodes of each level");
   command->add_flag("--json", request->json, "Print JSON instead of text");

@@ -151,7 +151,7 @@ void add_trace_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("trace", "One ray's way through a structure, step by step");
   const auto request = std::make_shared<Request>();
-  command->add_option("SCENE", request->scene, "Catalogue name or path of an NFF file")->required();
+  add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structure, "Structure: NAME:parameter=value,...")
       ->required();
   command->add_option("--pixel", request->pixel,

@@ -32,7 +32,7 @@ struct Request {
   std::vector<std::string> scenes;
   std::string structures = "all";
   std::string resolution = "320x200";
-  std::string camera;
+  ViewRequest view;
   int samples = 1;
   std::string rays = "primary";
   int threads = 1;
@@ -131,13 +131,13 @@ int verify(const Request& request) {
   if (!request.json.empty()) require_writable(request.json);
   const std::size_t structures = registry().choose_list(request.structures).size();
   const std::vector<Scene> scenes = open_scenes(request);
-  for (const Scene& scene : scenes) choose_camera(scene, request.camera);
+  for (const Scene& scene : scenes) choose_camera(scene, request.view);
   if (!request.pictures.empty()) make_picture_folder(request.pictures);
 
   Progress progress(scenes.size() * kinds.size() * structures);
   std::vector<VerifiedCell> cells;
   for (const Scene& scene : scenes) {
-    const ImageOfRays image{choose_camera(scene, request.camera), resolution, request.samples};
+    const ImageOfRays image{choose_camera(scene, request.view), resolution, request.samples};
     const Contenders contenders = choose_contenders(request.structures, scene);
     if (!contenders.note.empty()) progress.say(contenders.note);
     for (const RayChoice& kind : kinds) {
@@ -170,10 +170,10 @@ void add_verify_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("verify", "Judges structures, ray by ray, against an exact oracle");
   const auto request = std::make_shared<Request>();
-  command->add_option(
-      "SCENE", request->scenes,
-      "Catalogue names or paths of files (default: the whole catalogue, which takes "
-      "some minutes)");
+  command->add_option("SCENE", request->scenes,
+                      fmt::format("{}; several may be given (default: the whole catalogue, which "
+                                  "takes some minutes)",
+                                  kSceneHelp));
   command->add_option("--accel", request->structures, "Structures: NAME:parameter=value,... or all")
       ->capture_default_str();
   command->add_option("--resolution", request->resolution, "WxH")->capture_default_str();
@@ -182,15 +182,17 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--samples", request->samples, "Rays a pixel: 1, 4, 5, 9, 16, ...")
       ->capture_default_str();
-  command->add_option("--camera", request->camera, "By name (default: each scene's first)");
+  add_view_options(*command, request->view);
   command
       ->add_option("--threads", request->threads,
                    "That trace images of primary rays; 0: one for each core")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
   command->add_option("--json", request->json, "Write the judgement to this file, too");
-  command->add_option("--pictures", request->pictures,
-                      "Write a picture of the differences to this folder where there are errors");
+  command
+      ->add_option("--pictures", request->pictures,
+                   "Write a picture of the differences to this folder where there are errors")
+      ->type_name("DIR");
   command->footer(
       "Each ray's answer is compared with that of Embree given exact intersectors. agree: the "
       "same\n"

@@ -34,7 +34,8 @@ std::string read_version(ByteReader& reader) {
 }  // namespace
 
 ImageOfRays job_image(const Job& job, const Scene& scene) {
-  ImageRequest request{"", job.camera, job.samples};
+  ImageRequest request{"", {}, job.samples};
+  request.view.camera = job.camera;
   if (job.width > 0) request.resolution = to_string(Resolution{job.width, job.height});
   return choose_image(scene, request);
 }

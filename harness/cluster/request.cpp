@@ -38,12 +38,12 @@ struct Typed {
 };
 
 void add_options(CLI::App& app, Typed& typed, ClusterRequest& request) {
-  app.add_option("SCENE", typed.scene, "Catalogue name or path of a file, the same everywhere")
-      ->required();
+  add_scene_option(app, typed.scene);
   app.add_option("-o", request.picture, "Picture to write, .png or .exr (default: none)");
   app.add_option("--accel", typed.structure, "beam, with parameters: beam:max_level=6,...")
       ->capture_default_str();
-  add_image_options(app, typed.image);
+  add_size_options(app, typed.image);
+  add_camera_option(app, typed.image.view);
   app.add_option("--shade", typed.shading,
                  "preview, normals, id, depth: consumers find hits; whitted: they follow light")
       ->capture_default_str();
@@ -95,7 +95,7 @@ void fill(const Typed& typed, ClusterRequest& request) {
   Job& job = request.job;
   job.scene = typed.scene;
   job.structure = choose_one("--accel", typed.structure).label();
-  job.camera = typed.image.camera;
+  job.camera = typed.image.view.camera;
   if (!typed.image.resolution.empty()) {
     const Resolution resolution = parse_resolution(typed.image.resolution);
     job.width = resolution.width;

@@ -1,11 +1,30 @@
 #include "harness/differ/replay_command.hpp"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "harness/files/shell_word.hpp"
 #include "harness/plugin/load_plugin.hpp"
 
 namespace beambench {
+namespace {
+
+std::string vector_text(const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+
+/// What picks the camera: nothing for the first, a name, or the view itself if it is no camera of
+/// the scene's.
+std::string view_options(const Scene& scene, const Camera& camera) {
+  if (camera.name == scene.cameras.front().name) return "";
+  const bool of_scene = std::ranges::any_of(
+      scene.cameras, [&](const Camera& each) { return each.name == camera.name; });
+  if (of_scene) return " --camera " + shell_quoted(camera.name);
+  return fmt::format(" --from {} --at {} --up {} --angle {}", vector_text(camera.from),
+                     vector_text(camera.at), vector_text(camera.up), camera.angle);
+}
+
+}  // namespace
+
 ReplayCommand::ReplayCommand(const Scene& scene, const ImageOfRays& image,
                              const StructureChoice& structure, const Question& question)
     : question_(question),
@@ -13,9 +32,7 @@ ReplayCommand::ReplayCommand(const Scene& scene, const ImageOfRays& image,
                            shell_quoted(structure.short_label()))),
       image_(fmt::format("--resolution {}", to_string(image.resolution))) {
   if (image.samples > 1) image_ += fmt::format(" --samples {}", image.samples);
-  if (image.camera.name != scene.cameras.front().name) {
-    image_ += " --camera " + shell_quoted(image.camera.name);
-  }
+  image_ += view_options(scene, image.camera);
 }
 
 std::string ReplayCommand::of(std::size_t index) const {

@@ -36,6 +36,19 @@ std::vector<LoadedPlugin>& all_loaded() {
   return all;
 }
 
+std::string& program_name() {
+  static std::string name = "beambench";
+  return name;
+}
+
+std::string call_with_plugins(std::string_view program) {
+  std::string call = shell_quoted(program);
+  for (const LoadedPlugin& plugin : all_loaded()) {
+    call += " --plugin " + shell_quoted(plugin.file);
+  }
+  return call;
+}
+
 [[noreturn]] void refuse(const std::string& file, std::string_view why) {
   throw InputError(fmt::format("the plug-in {} {}", file, why));
 }
@@ -204,12 +217,10 @@ void load_plugin(const std::string& file, Activity& activity) {
 
 std::span<const LoadedPlugin> loaded_plugins() { return all_loaded(); }
 
-std::string program_call() {
-  std::string call = "beambench";
-  for (const LoadedPlugin& plugin : loaded_plugins()) {
-    call += " --plugin " + shell_quoted(plugin.file);
-  }
-  return call;
-}
+std::string program_call() { return call_with_plugins("beambench"); }
+
+void set_program_name(std::string_view word) { program_name() = word; }
+
+std::string program_call_here() { return call_with_plugins(program_name()); }
 
 }  // namespace beambench

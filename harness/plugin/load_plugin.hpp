@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/plugin/activity.hpp"
@@ -34,8 +35,15 @@ void load_plugin(const std::string& file, Activity& activity);
 /// In the order in which they were loaded.
 std::span<const LoadedPlugin> loaded_plugins();
 
-/// How this program is called with its plug-ins, for commands to be pasted into a shell:
-/// `beambench` or `beambench --plugin ./libmine.so`.
+/// How this program is called with its plug-ins, for commands that are kept in records, on whatever
+/// machine they are pasted: `beambench` or `beambench --plugin ./libmine.so`.
 std::string program_call();
+
+/// The word that this program was called by, for `program_call_here`; `beambench` if never set.
+void set_program_name(std::string_view word);
+
+/// The same for commands to be pasted at once into the shell that the program was called from:
+/// `build/release/bin/beambench --plugin ./libmine.so`.
+std::string program_call_here();
 
 }  // namespace beambench

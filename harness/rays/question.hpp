@@ -61,7 +61,7 @@ double coherence(const Question& question);
 
 /// The image that primary rays ask for and other rays start from.
 struct ImageOfRays {
-  const Camera& camera;
+  Camera camera;
   Resolution resolution;
   int samples;
 };

@@ -14,6 +14,13 @@ namespace {
 
 using nlohmann::json;
 
+/// Does a comma stand before what ends a list or an object there?
+bool comma_is_last(std::string_view text, std::size_t at) {
+  if (at >= text.size() || (text[at] != ']' && text[at] != '}')) return false;
+  const std::size_t before = text.substr(0, at).find_last_not_of(" \t\r\n");
+  return before != std::string_view::npos && text[before] == ',';
+}
+
 /// nlohmann's message without its own prefix and position.
 std::string_view plain_message(std::string_view what) {
   const std::size_t column = what.find("column ");
@@ -28,6 +35,12 @@ std::string_view plain_message(std::string_view what) {
   const auto line = std::count(before.begin(), before.end(), '\n') + 1;
   const std::size_t line_start = before.rfind('\n');
   const std::size_t column = line_start == std::string_view::npos ? at + 1 : at - line_start;
+  if (comma_is_last(text, at)) {
+    throw InputError(
+        fmt::format("{}:{}:{}: not JSON: a comma stands before this '{}', behind the last element; "
+                    "remove the comma",
+                    file, line, column, text[at]));
+  }
   throw InputError(
       fmt::format("{}:{}:{}: not JSON: {}", file, line, column, plain_message(error.what())));
 }
@@ -95,8 +108,8 @@ void JsonNode::require_object(std::initializer_list<std::string_view> known_keys
   const std::vector<std::string> known(known_keys.begin(), known_keys.end());
   for (const auto& [key, member] : members()) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;
-    member.fail(fmt::format("unknown key; did you mean '{}'? Expected one of {}",
-                            nearest_name(key, known), fmt::join(known, ", ")));
+    member.fail(fmt::format("unknown key; {}expected one of {}", did_you_mean(key, known),
+                            fmt::join(known, ", ")));
   }
 }
 

@@ -5,11 +5,10 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "scenes/catalogue.hpp"
 #include "scenes/error.hpp"
-#include "scenes/nearest_name.hpp"
+#include "scenes/find_camera.hpp"
 
 namespace beambench {
 namespace {
@@ -25,21 +24,19 @@ std::shared_ptr<const Scene> load(const SceneEntry& entry) {
   }
 }
 
-Camera camera_named(const Scene& scene, const std::string& name, const std::string& place) {
-  std::vector<std::string> names;
-  for (const Camera& camera : scene.cameras) {
-    if (camera.name == name) return camera;
-    names.push_back(camera.name);
+Camera camera_of(const Scene& scene, const std::string& name, const SceneEntry& entry) {
+  try {
+    return find_camera(scene, name);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", entry.place, error.what()));
   }
-  throw InputError(fmt::format("{}: the scene has no camera '{}'; did you mean '{}'? It has {}",
-                               place, name, nearest_name(name, names), fmt::join(names, ", ")));
 }
 
 std::vector<Camera> cameras_of(const Scene& scene, const SceneEntry& entry) {
   if (entry.cameras.empty()) return {scene.cameras.front()};
   std::vector<Camera> cameras;
   for (const std::string& name : entry.cameras) {
-    cameras.push_back(camera_named(scene, name, entry.place));
+    cameras.push_back(camera_of(scene, name, entry));
   }
   return cameras;
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/progress/counted.hpp"
 #include "harness/progress/progress.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/record/preflight.hpp"
@@ -12,6 +13,7 @@
 #include "harness/sweep/noise.hpp"
 #include "harness/sweep/overhead.hpp"
 #include "harness/sweep/resume.hpp"
+#include "harness/sweep/shown_name.hpp"
 #include "harness/sweep/task.hpp"
 #include "harness/sweep/turns.hpp"
 #include "scenes/error.hpp"
@@ -44,12 +46,18 @@ std::string with_interval(const Row& row, const std::string& name) {
 /// after 12 repetitions (precision)`.
 std::string result_line(const CellRecord& cell, const Row& row) {
   if (!cell.keeps_times()) return fmt::format("{}: {}", cell.verdict, cell.message);
-  return fmt::format(
-      "build {:.4g} ms, trace {}, second trace {}, {:.4g} Mrays/s, {} after {} repetitions ({})",
-      row.at("build_ms_median").get<double>(), with_interval(row, "trace"),
-      with_interval(row, "trace_warm"),
-      row.at("mrays_per_s").is_null() ? 0.0 : row.at("mrays_per_s").get<double>(), cell.verdict,
-      cell.repetitions.size(), to_string(*cell.stop_reason));
+  return fmt::format("build {:.4g} ms, trace {}, second trace {}, {:.4g} Mrays/s, {} after {} ({})",
+                     row.at("build_ms_median").get<double>(), with_interval(row, "trace"),
+                     with_interval(row, "trace_warm"),
+                     row.at("mrays_per_s").is_null() ? 0.0 : row.at("mrays_per_s").get<double>(),
+                     cell.verdict, counted(cell.repetitions.size(), "repetition"),
+                     to_string(*cell.stop_reason));
+}
+
+/// A group's name without what is at its default.
+std::string shown(const CellGroup& group) {
+  std::string name = group.name();
+  return name.replace(0, group.scene->name.size(), shown_scene(group.scene->name));
 }
 
 class SweepRun {
@@ -136,7 +144,7 @@ class SweepRun {
 
   void run_group(const CellGroup& group, double share_ms, Progress& progress) {
     const auto begin = Clock::now();
-    progress.start(group.name());
+    progress.start(shown(group));
     const auto give_up = [&](std::string_view verdict, const std::string& why) {
       for (const PlannedCell& cell : group.cells) {
         finish(unmeasured_cell(group, cell, verdict, why), progress);
@@ -151,7 +159,7 @@ class SweepRun {
       return give_up("error", error.what());
     }
     if (const auto warning = task->warning()) {
-      warn(fmt::format("{}: {}.", group.name(), *warning), progress);
+      warn(fmt::format("{}: {}.", shown(group), *warning), progress);
     }
     measure(group, *task, begin, share_ms, progress);
   }
@@ -176,7 +184,7 @@ class SweepRun {
 
   void measure(const CellGroup& group, Task& task, Clock::time_point begin, double share_ms,
                Progress& progress) {
-    const auto label = [&] { progress.start(group.name()); };
+    const auto label = [&] { progress.start(shown(group)); };
     std::vector<Contender> contenders;
     for (const PlannedCell& cell : group.cells) {
       options_.at_work(cell.id.key());
@@ -202,10 +210,10 @@ class SweepRun {
     const Json json = to_json(manifest_.run, cell);
     folder_.add_cell(json);
     if (!cell.keeps_times()) {
-      progress.say(fmt::format("{}: {}: {}", cell.verdict, cell.id.name(), cell.message));
+      progress.say(fmt::format("{}: {}: {}", cell.verdict, shown_name(cell.id), cell.message));
       for (const std::string& example : cell.examples) progress.say(example);
     }
-    progress.start(cell.id.name());
+    progress.start(shown_name(cell.id));
     progress.finish(result_line(cell, json.at("row")));
   }
 

@@ -21,12 +21,17 @@ using Json = nlohmann::json;
 
 constexpr std::string_view kEntry = ".json";
 
+std::string suggestion(std::string_view name, const std::vector<std::string>& names) {
+  const std::string nearest = nearest_name(name, names);
+  return nearest.empty() ? "" : fmt::format("did you mean '{}{}'? ", kMeshPrefix, nearest);
+}
+
 [[noreturn]] void refuse_name(std::string_view name, const std::vector<std::string>& names) {
   const auto cache = cache_folder();
   const std::string there =
-      names.empty() ? "none is"
-                    : fmt::format("did you mean '{}{}'? Registered are {}", kMeshPrefix,
-                                  nearest_name(std::string(name), names), fmt::join(names, ", "));
+      names.empty()
+          ? "none is"
+          : fmt::format("{}registered are {}", suggestion(name, names), fmt::join(names, ", "));
   throw InputError(fmt::format(
       "no mesh '{}' is registered in {}: {}; scripts/meshes installs cat, bunny, dragon and "
       "others, and any mesh file can be given by its path",

@@ -57,11 +57,21 @@ class Group:
 
 
 @dataclass(frozen=True)
+class Counter:
+    """What a structure counts beside what all count; `beambench list --counters` prints it."""
+
+    structure: str
+    name: str
+    meaning: str
+
+
+@dataclass(frozen=True)
 class Dictionary:
     """All columns of one version of results.csv."""
 
     schema_version: int
     groups: tuple[Group, ...]
+    counters: tuple[Counter, ...]
 
     @property
     def columns(self) -> tuple[Column, ...]:
@@ -88,7 +98,8 @@ def dictionary() -> Dictionary:
         Group(**entry, columns=tuple(column for column in columns if column.group == entry["name"]))
         for entry in source["groups"]
     )
-    return Dictionary(source["schema_version"], groups)
+    counters = tuple(Counter(**entry) for entry in source["counters"])
+    return Dictionary(source["schema_version"], groups, counters)
 
 
 _READING = (
@@ -134,4 +145,18 @@ def as_markdown(known: Dictionary) -> str:
             f"| {column.measured} |"
             for column in group.columns
         ]
+    lines += [
+        "",
+        "## Counters of single structures",
+        "",
+        "As `beambench list --counters` prints them. Each is a column, `<counter>_per_ray`; times",
+        "`rays` it is the count. Those of the beams: [accel/beam](../accel/beam/README.md).",
+        "",
+        "| structure | counter | meaning |",
+        "|---|---|---|",
+    ]
+    lines += [
+        f"| `{counter.structure}` | `{counter.name}` | {counter.meaning} |"
+        for counter in known.counters
+    ]
     return "\n".join(lines) + "\n"

@@ -46,6 +46,15 @@ TEST(ReplayCommand, NamesWhatIsNotTheDefault) {
   EXPECT_EQ(ReplayCommand(scene, side, samet, four).of((4 * 32 + 3) * 4 + 2),
             "beambench trace tetra:n=1 --accel samet:max_level=3 --pixel 3,4 --resolution 32x20 "
             "--samples 4 --camera 'from the side' --sample 2");
+  ImageOfRays typed = front;
+  typed.camera.name = "typed";  // none of the scene's
+  typed.camera.from = {1.0F, -2.5F, 0.1F};
+  typed.camera.angle = 30.0F;
+  typed.camera.at = {0.0F, 0.0F, 0.0F};
+  typed.camera.up = {0.0F, 1.0F, 0.0F};
+  EXPECT_EQ(ReplayCommand(scene, typed, samet, one).of(0),
+            "beambench trace tetra:n=1 --accel samet:max_level=3 --pixel 0,0 --resolution 32x20 "
+            "--from 1,-2.5,0.1 --at 0,0,0 --up 0,1,0 --angle 30");
   const Question diffuse = make_question(scene, front, parse_ray_choice("diffuse:seed=2"));
   EXPECT_EQ(ReplayCommand(scene, front, samet, diffuse).of(7),
             "beambench trace tetra:n=1 --accel samet:max_level=3 --rays diffuse:seed=2 --ray 7 "

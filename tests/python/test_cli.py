@@ -6,7 +6,9 @@ import array
 import json
 import os
 import re
+import signal
 import subprocess
+import time
 from pathlib import Path
 
 import pytest
@@ -77,6 +79,50 @@ def test_list_as_json_says_all_of_each_parameter() -> None:
         "random",
         "whitted",
     ]
+
+
+@pytest.mark.parametrize(
+    ("name", "words", "others"),
+    [
+        ("samet", ["max_level=", "neighbour_steps", "[bit-exact]"], ["sah-bvh", "balls"]),
+        ("samet:max_level=4", ["max_level="], ["sah-bvh"]),
+        ("balls", ["n=4", "balls:parameter"], ["samet", "tetra"]),
+        ("diffuse", ["seed=", "--rays"], ["shadow rays", "samet"]),
+    ],
+)
+def test_list_prints_one_alone(name: str, words: list[str], others: list[str]) -> None:
+    text = output_of("list", name)
+    assert all(word in text for word in words), text
+    assert not any(word in text for word in others), text
+
+
+def test_list_prints_several_in_the_order_given() -> None:
+    text = output_of("list", "tetra", "null")
+    assert text.index("tetra") < text.index("null")
+
+
+def test_list_explains_what_is_counted() -> None:
+    text = output_of("list", "--counters")
+    for name in ["traversal_steps", "confirmed_tests", "beams_made", "neighbour_steps"]:
+        assert re.search(rf"^ +{name}\n +\w", text, re.MULTILINE), name
+    counted = json.loads(output_of("stats", "tetra:n=2", "--accel", "all", "--json"))
+    names = {name for structure in counted["structures"] for name in structure["per_ray"]}
+    assert [name for name in sorted(names) if f" {name}\n" not in text] == []
+    assert max(map(len, text.splitlines())) <= 100
+
+
+@pytest.mark.parametrize("arguments", [["help"], ["help", "render"], ["help", "list"]])
+def test_help_as_a_command_is_help(arguments: list[str]) -> None:
+    assert output_of(*arguments) == output_of(*arguments[1:], "--help")
+
+
+@pytest.mark.parametrize(
+    "command",
+    ["scene", "export", "render", "rays", "stats", "trace", "verify", "census", "mirrors"],
+)
+def test_help_says_what_a_scene_may_be(command: str) -> None:
+    text = " ".join(output_of(command, "--help").split())
+    assert "Catalogue name, mesh:NAME, or path of an NFF or mesh file" in text
 
 
 @pytest.mark.parametrize(
@@ -178,11 +224,71 @@ def test_what_a_reader_skips_is_said_and_strictly_refused(tmp_path: Path) -> Non
     assert done.returncode == 0
     assert done.stderr.splitlines() == [
         f"beambench: {file}:8: unknown word 'g', skipped up to line 9 (and 1 more)",
-        f"beambench: {file}:12: the ninth field of a surface has no known meaning and is ignored",
+        f"beambench: {file}:12: the ninth field of a surface, ENFF's ambient factor, is ignored",
     ]
     refused(beambench("scene", file, "--strict"), [":8", "'g'", "--strict"])
     refused(beambench("export", file, "--strict", "-o", tmp_path / "a.nff"), [":8", "'g'"])
     assert set(tmp_path.iterdir()) == {file}
+
+
+def test_a_sweep_s_lines_leave_out_what_is_at_its_default(tmp_path: Path) -> None:
+    (tmp_path / "sweep.json").write_text(
+        '{"name": "s", "scenes": ["tetra:n=1", "escena1"], "budget_seconds": 1,'
+        ' "structures": ["samet:max_level=3", "sah-bvh"], "resolutions": ["8x8"],'
+        ' "repetitions": {"minimum": 1, "maximum": 1}}'
+    )
+    done = beambench("run", "sweep.json", "-o", "out", cwd=tmp_path)
+    assert done.returncode == 0, done.stderr
+    lines = [line for line in done.stderr.splitlines() if "Mrays/s" in line]
+    assert len(lines) == 4
+    assert any("tetra:n=1/default/8x8/1/primary/samet:max_level=3: " in line for line in lines)
+    assert any("escena1/default/8x8/1/primary/sah-bvh: " in line for line in lines)
+    assert all("ok after 1 repetition (" in line for line in lines), lines
+    assert not any(word in line for line in lines for word in ("spheres=", "max_leaf="))
+    assert "4 cells, all judged right" in done.stderr
+
+
+def test_the_hint_to_resume_can_be_pasted(tmp_path: Path) -> None:
+    """As it was called: by a path, from another folder, without the program on the PATH."""
+    sweep = {
+        "name": "s",
+        "scenes": ["tetra:n=4"],
+        "structures": ["samet", "exhaustive"],
+        "resolutions": ["64x64"],
+        "repetitions": {"minimum": 100000, "maximum": 100000},
+        "precision": 0,
+        "budget_seconds": 1000,
+    }
+    (tmp_path / "a sweep.json").write_text(json.dumps(sweep))
+    (tmp_path / "bin dir").mkdir()
+    (tmp_path / "bin dir/beambench").symlink_to(BINARY.resolve())
+    run = subprocess.Popen(
+        ["bin dir/beambench", "run", "a sweep.json", "-o", "my run"],
+        cwd=tmp_path,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    for _ in range(300):
+        if (tmp_path / "my run/manifest.json").exists():
+            break
+        time.sleep(0.1)
+    time.sleep(0.5)
+    run.send_signal(signal.SIGINT)
+    _, messages = run.communicate(timeout=60)
+    assert run.returncode == 130
+    hint = messages.splitlines()[-1].split("go on with: ")[1]
+    assert hint == "'bin dir/beambench' run --resume 'my run'"
+    dry = subprocess.run(
+        ["bash", "-c", f"{hint} --dry-run"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        env={"PATH": "/usr/bin:/bin"},
+        timeout=60,
+        check=False,
+    )
+    assert dry.returncode == 0, dry.stderr
+    assert len(dry.stdout.splitlines()) == 2
 
 
 def test_a_sweep_hands_on_what_a_reader_skipped(tmp_path: Path) -> None:
@@ -210,6 +316,46 @@ def test_render_writes_a_png_of_the_wanted_size(tmp_path: Path) -> None:
         assert picture.mode == "RGB"
         assert count_colors(picture) > 50
     assert list(tmp_path.iterdir()) == [file]
+
+
+def test_a_plain_picture_needs_no_structure(tmp_path: Path) -> None:
+    size = ("--resolution", "60x40")
+    done = beambench("render", "tetra:n=2", "-o", tmp_path / "a.png", *size)
+    assert done.returncode == 0, done.stderr
+    assert "by sah-bvh" in done.stderr
+    output_of("render", "tetra:n=2", "--accel", "exhaustive", "-o", tmp_path / "b.png", *size)
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+
+
+def test_a_view_of_the_users_own(tmp_path: Path) -> None:
+    scene = tmp_path / "ball.nff"
+    scene.write_text(VIEW + "s 0 0 0 1\n")
+
+    def share(*view: str) -> float:
+        stats = ("stats", scene, "--accel", "sah-bvh", "--resolution", "64x64", "--json")
+        return json.loads(output_of(*stats, *view))["structures"][0]["hit_share"]
+
+    own = share()
+    assert share("--from", "0,0,5", "--at", "0,0,0", "--up", "0,1,0", "--angle", "45") == own
+    assert share("--from", "5,0,0") == pytest.approx(own, abs=0.01), "a ball from its side"
+    assert share("--from", "-5,0,0", "--up", "0,0,-1.5") == pytest.approx(own, abs=0.01)
+    assert share("--angle", "20") > 2 * own
+    assert share("--from", "0,0,20") < own / 4
+    assert share("--at", "0,0,9") == 0, "it looks away"
+
+    pictures = []
+    for view in ([], ["--from=0,0,5"], ["--from", "1,2,5"]):
+        file = tmp_path / f"{len(pictures)}.png"
+        output_of("render", scene, "-o", file, "--resolution", "32x32", *view)
+        pictures.append(file.read_bytes())
+    assert pictures[0] == pictures[1] != pictures[2]
+
+
+def test_a_ray_of_the_users_own_view_is_traced() -> None:
+    view = ("--from", "0,0.5,4", "--at", "0,0,0", "--up", "0,1,0", "--angle", "30")
+    trace = ("trace", "balls:n=1", "--accel", "sah-bvh", "--pixel", "16,16")
+    text = output_of(*trace, "--resolution", "32x32", *view)
+    assert "agree" in text
 
 
 def test_the_camera_says_the_size_where_nobody_else_does(tmp_path: Path) -> None:
@@ -347,7 +493,10 @@ def test_sampling_compares_methods(tmp_path: Path) -> None:
 
 def test_a_census_counts_rays_by_kind(tmp_path: Path) -> None:
     arguments = ("census", "balls:n=1", "--resolution", "48x48", "--shadows", "cache")
-    text = output_of(*arguments, "--pictures", tmp_path / "all" / "of" / "them")
+    done = beambench(*arguments, "--pictures", tmp_path / "all" / "of" / "them")
+    assert done.returncode == 0, done.stderr
+    assert f"1 picture in the folder '{tmp_path}/all/of/them'" in done.stderr
+    text = done.stdout
     for word in ["eye rays", "reflected", "refracted", "shadow", "cached", "balls:n=1"]:
         assert word in text
     assert count_colors(Image.open(tmp_path / "all" / "of" / "them" / "balls-n-1.png")) > 50
@@ -422,7 +571,7 @@ def test_whole_pictures_do_not_depend_on_the_threads(tmp_path: Path) -> None:
 def test_mirrors_are_shown_by_beams_and_by_rays() -> None:
     arguments = ("mirrors", "teapot:n=2", "--resolution", "64x64", "--repetitions", "1")
     text = output_of(*arguments)
-    assert "1 planar mirrors" in text
+    assert "1 planar mirror," in text
     assert "rays/beams" in text
     (board,) = json.loads(output_of(*arguments, "--json"))["seen"]
     assert 0 < board["hits"] < board["samples"] < 64 * 64
@@ -713,7 +862,15 @@ WRONG_REQUESTS = [
     ([], ["list", "render", "--help"]),
     (["rendr"], ["rendr", "render"]),
     (["render"], ["SCENE", "render --help"]),
-    (["render", "balls:n=1"], ["--accel"]),
+    (["render", "balls:n=1"], ["-o"]),
+    (["render", "balls:n=1", "-o", "a.png", "--heatmap", "leaves"], ["--heatmap", "--accel"]),
+    (["render", "balls:n=1", "-o", "a.png", "--overlay", "beams"], ["--overlay", "--accel"]),
+    (["render", "balls:n=1", "-o", "a.png", "--size", "9x9"], ["did you mean '--resolution'"]),
+    (["stats", "balls:n=1", "--accel", "samet", "--size=9x9"], ["did you mean '--resolution'"]),
+    (["benchmark"], ["benchmark", "did you mean 'run'"]),
+    (["help", "rendr"], ["rendr", "render"]),
+    (["list", "smet"], ["smet", "did you mean 'samet'"]),
+    (["list", "samet", "--json"], ["--json"]),
     ([*RENDER, "embree", "-o", "a.png", "--overlay", "beams"], ["embree", "beams", "beam"]),
     ([*RENDER, "embree", "-o", "a.png", "--overlay", "cells"], ["cells", "samet", "voxel-grid"]),
     ([*RENDER, "beam", "-o", "a.png", "--overlay", "rays"], ["rays", "beams, cells"]),
@@ -743,8 +900,14 @@ WRONG_REQUESTS = [
     (["scene", "balls:n="], ["n="]),
     (["scene", "balls:n=1,n=2"], ["twice"]),
     (["scene", ""], ["name"]),
+    (["scene", "sphereflake"], ["did you mean 'balls'"]),
+    (["scene", "helix"], ["helix", "--plugin FILE"]),
     # structures
-    ([*STATS, "smet"], ["smet", "samet"]),
+    ([*STATS, "smet"], ["smet", "did you mean 'samet'"]),
+    ([*STATS, "bvh"], ["did you mean 'sah-bvh'"]),
+    ([*STATS, "octree"], ["did you mean 'samet'"]),
+    ([*STATS, "mine"], ["unknown structure 'mine'; expected one of", "--plugin FILE"]),
+    ([*STATS, "samet:level=6"], ["level", "did you mean 'max_level'"]),
     ([*STATS, "samet:max_level=99"], ["max_level", "99"]),
     ([*STATS, "samet:max_level=nan"], ["max_level", "nan"]),
     ([*STATS, "samet:depth=5"], ["depth", "max_level"]),
@@ -780,6 +943,17 @@ WRONG_REQUESTS = [
         ["--ray N", "--pixel"],
     ),
     ([*STATS, "null", "--camera", "side"], ["side", "default"]),
+    ([*STATS, "null", "--from", "1,2"], ["--from", "'1,2'", "X,Y,Z", "1,2.5,-3"]),
+    ([*STATS, "null", "--at", "1,2,3,4"], ["--at", "'1,2,3,4'"]),
+    ([*STATS, "null", "--at", "1,2,nan"], ["--at", "nan"]),
+    ([*STATS, "null", "--from", "1e30,2,3"], ["--from", "1e30", "1e+09"]),
+    ([*STATS, "null", "--from", "1,2,3", "--at", "1,2,3"], ["--from", "--at", "same point"]),
+    ([*STATS, "null", "--from", "0,0,5", "--at", "0,0,0", "--up", "0,0,1"], ["--up", "along"]),
+    ([*STATS, "null", "--up", "0,0,0"], ["--up"]),
+    *(
+        ([*STATS, "null", "--angle", angle], ["--angle", "180"])
+        for angle in ("0", "180", "-5", "nan")
+    ),
     ([*RENDER, "null", "-o", "a.png", "--samples", "3"], ["3 samples"]),
     ([*RENDER, "null", "-o", "a.png", "--samples", "many"], ["many"]),
     (
@@ -852,6 +1026,8 @@ WRONG_REQUESTS = [
     (["run", "missing.json"], ["missing.json"]),
     (["run", "cut.json"], ["cut.json"]),
     (["run", "list.json"], ["list.json"]),
+    (["run", "comma.json"], ["comma.json:3:1", "a comma stands before this '}'", "remove"]),
+    (["run", "commas.json"], ["commas.json:1:22", "a comma stands before this ']'"]),
     (["run", "unknown.json", "-o", "out"], ["smet"]),
 ]
 
@@ -866,6 +1042,8 @@ def test_a_wrong_request_is_refused_in_one_sentence(
 ) -> None:
     (tmp_path / "cut.json").write_text('{"name": "cut", "scenes": [')
     (tmp_path / "list.json").write_text("[1, 2, 3]")
+    (tmp_path / "comma.json").write_text('{\n"name": "comma",\n}\n')
+    (tmp_path / "commas.json").write_text('{"scenes": ["tetra", ]}')
     (tmp_path / "unknown.json").write_text(
         '{"name": "unknown", "scenes": ["tetra:n=1"], "structures": ["smet"],'
         ' "resolutions": ["8x8"]}'

@@ -80,6 +80,23 @@ def test_each_column_is_there_once_and_in_a_group() -> None:
     assert len(names) == len(set(names)) == len(dictionary().columns)
 
 
+def test_every_counter_is_explained_as_the_program_explains_it() -> None:
+    done = subprocess.run([BINARY, "list", "--json"], capture_output=True, text=True, check=True)
+    listed = json.loads(done.stdout)
+    own = [
+        (structure["name"], counter["name"], counter["meaning"])
+        for structure in listed["structures"]
+        for counter in structure["counters"]
+    ]
+    written = [(each.structure, each.name, each.meaning) for each in dictionary().counters]
+    assert sorted(own) == sorted(written), HINT
+    for counter in listed["counters"]:
+        column = dictionary().find(f"{counter['name']}_per_ray")
+        assert column is not None
+        assert not column.is_pattern
+        assert column.meaning.lower() == counter["meaning"].lower() + "."
+
+
 def _entry(name: str) -> Column:
     return next(column for column in dictionary().columns if column.name == name)
 

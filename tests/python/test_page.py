@@ -156,6 +156,24 @@ def test_the_reference_can_be_chosen(run_folder: Path, capsys: pytest.CaptureFix
     assert "no contender 'smet'" in capsys.readouterr().err
 
 
+def test_a_structure_names_its_only_contender_as_the_reference(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    rows = made_up_rows()
+    names = {row["structure"]: set() for row in rows}
+    for row in rows:
+        names[row["structure"]].add(row["parameters"])
+    assert len(names["samet"]) == 2
+    folder = write_run(tmp_path, rows)
+    assert main(["page", str(folder), "--reference", "samet"]) == 2
+    message = capsys.readouterr().err
+    assert "'samet' is the structure of 2 contenders; name 'samet max_level=" in message
+    only = [row for row in rows if row["structure"] != "samet" or "=5" in row["parameters"]]
+    (tmp_path / "one").mkdir()
+    folder = write_run(tmp_path / "one", only)
+    assert "multiple of that of samet" in page_of(folder, "--reference", "samet").text
+
+
 def test_the_harness_s_own_part_is_told(run_folder: Path) -> None:
     write_manifest(run_folder, harness_overhead={"part": 0.0123})
     assert "1.2% of the fastest trace is the harness's, at most" in page_of(run_folder).text

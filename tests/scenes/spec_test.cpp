@@ -83,5 +83,38 @@ TEST(NearestName, IsTheOneWithFewestEdits) {
   EXPECT_EQ(nearest_name("x", {}), "");
 }
 
+TEST(NearestName, IsNoNameWhereNoneIsNear) {
+  const std::vector<std::string> names = {"samet", "samet-net", "sah-bvh"};
+  EXPECT_EQ(nearest_name("tinybvh", names), "");
+  EXPECT_EQ(did_you_mean("tinybvh", names), "");
+  EXPECT_EQ(did_you_mean("smet", names), "did you mean 'samet'? ");
+}
+
+TEST(NearestName, IsWhatOthersCallByThatWord) {
+  const std::vector<std::string> structures = {"exhaustive", "samet",   "samet-net", "voxel-grid",
+                                               "beam",       "sah-bvh", "tile-beam"};
+  EXPECT_EQ(nearest_name("bvh", structures), "sah-bvh");
+  EXPECT_EQ(nearest_name("octree", structures), "samet");
+  EXPECT_EQ(nearest_name("grid", structures), "voxel-grid");
+  EXPECT_EQ(nearest_name("brute-force", structures), "exhaustive");
+  EXPECT_EQ(nearest_name("net", structures), "samet-net");
+  const std::vector<std::string> parameters = {"max_level", "max_objects", "root"};
+  EXPECT_EQ(nearest_name("level", parameters), "max_level");
+  EXPECT_EQ(nearest_name("depth", parameters), "max_level");
+  const std::vector<std::string> options = {"--resolution", "--samples", "--json"};
+  EXPECT_EQ(nearest_name("--size", options), "--resolution");
+}
+
+// `picture` is a command to some and a kind of rays to others.
+TEST(NearestName, IsTheMeaningThatIsAmongTheNames) {
+  EXPECT_EQ(nearest_name("picture", std::vector<std::string>{"render", "run"}), "render");
+  EXPECT_EQ(nearest_name("picture", std::vector<std::string>{"primary", "whitted"}), "whitted");
+}
+
+// max is a part of two names, and neither is meant.
+TEST(NearestName, IsNoneOfSeveralThatTheWordIsAPartOf) {
+  EXPECT_EQ(nearest_name("max", std::vector<std::string>{"max_level", "max_objects"}), "");
+}
+
 }  // namespace
 }  // namespace beambench

@@ -62,7 +62,7 @@ int run(const Request& request, const char* program) {
     job.width = resolution.width;
     job.height = resolution.height;
   }
-  job.camera = request.image.camera;
+  job.camera = request.image.view.camera;
   job.samples = request.image.samples;
   const SimulatedSplit result = simulate_split(cluster_of(request.cluster, request.processes), job,
                                                whole, request.slowness, program);
@@ -72,10 +72,11 @@ int run(const Request& request, const char* program) {
 
 void add_options(CLI::App& app, Request& request) {
   const CLI::Range positive(1e-12, 1e12);
-  app.add_option("SCENE", request.job.scene, "Catalogue name or path of a file")->required();
+  add_scene_option(app, request.job.scene);
   app.add_option("--accel", request.job.structure, "beam, with parameters: beam:max_level=6,...")
       ->capture_default_str();
-  add_image_options(app, request.image);
+  add_size_options(app, request.image);
+  add_camera_option(app, request.image.view);
   app.add_option("--split", request.job.split_level,
                  "Level of the octree's cells that are shared out")
       ->capture_default_str()

@@ -31,13 +31,24 @@ def choose_reference(run: Run, wanted: str | None = None) -> str | None:
     right = run.rows[run.rows["timed"] & (run.rows["verdict"] == "ok")]
     contenders = list(dict.fromkeys(right["contender"]))
     if wanted is not None:
-        if wanted not in contenders:
-            raise Problem(f"no contender '{wanted}' was right; there are: {', '.join(contenders)}")
-        return wanted
+        return _chosen(wanted, contenders)
     views = right.groupby("contender")["view"].nunique()
     return max(
         contenders, key=lambda name: (views[name], name.split()[0] == _FAVOURITE), default=None
     )
+
+
+def _chosen(wanted: str, contenders: list[str]) -> str:
+    """The contender of that name, or the only one of that structure."""
+    if wanted in contenders:
+        return wanted
+    variants = [name for name in contenders if name.split()[0] == wanted]
+    if len(variants) == 1:
+        return variants[0]
+    if variants:
+        listed = " or ".join(f"'{name}'" for name in variants)
+        raise Problem(f"'{wanted}' is the structure of {len(variants)} contenders; name {listed}")
+    raise Problem(f"no contender '{wanted}' was right; there are: {', '.join(contenders)}")
 
 
 def compared(
