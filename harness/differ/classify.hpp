@@ -10,8 +10,8 @@ namespace beambench {
 /// K u for rays from `origin`: the length within which places cannot be told apart in float.
 double tolerance(const Scene& scene, const glm::vec3& origin);
 
-/// The class of an answer against a reference answer by the first three rules of
-/// reference/embree.md (agree, tie, graze), `tolerance` being K u; nothing when none of them
+/// The class of an answer against a reference answer by the first three rules of `DiffClass`
+/// (agree, tie, graze), `tolerance` being K u; nothing when none of them
 /// applies and the answers are in dispute. A hit only passes at all when it is sound: when its
 /// point lies within K u of the primitive it names.
 std::optional<DiffClass> classify(const Scene& scene, const Ray& ray,
