@@ -40,7 +40,7 @@ _ENVIRONMENT = {
 
 
 def measure(folder: Path, program: Path, pictures: list[Picture], repeats: int) -> list[Path]:
-    """Writes FOLDER/measured.csv: each setting over each picture, seconds as medians of the repeats.
+    """Writes FOLDER/measured.csv: each setting over each picture, seconds as medians of repeats.
 
     Raises Problem where mpirun is missing, a run fails, or two runs have other pictures.
     """
