@@ -1,10 +1,12 @@
 #include "harness/selftest/answer_checks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "harness/selftest/awkward_scenes.hpp"
 #include "harness/selftest/hit_comparison.hpp"
@@ -24,6 +26,20 @@ std::vector<Ray> random_rays(const Scene& scene, Random& random) {
   rays.reserve(kRays);
   for (int i = 0; i < kRays; ++i) rays.push_back(random_ray(scene, random));
   return rays;
+}
+
+/// Does the ray lie in the plane of a polygon, as far as float knows? Where it meets that polygon
+/// is then decided by rounding alone.
+bool is_edge_on(const Scene& scene, const Ray& ray) {
+  constexpr double kLeastSine = 1e-5;
+  const glm::dvec3 direction(ray.direction);
+  return std::ranges::any_of(scene.triangles, [&](const Triangle& triangle) {
+    const glm::dvec3 first(scene.vertices[triangle.vertex[0]]);
+    const glm::dvec3 normal = glm::cross(glm::dvec3(scene.vertices[triangle.vertex[1]]) - first,
+                                         glm::dvec3(scene.vertices[triangle.vertex[2]]) - first);
+    return std::abs(glm::dot(normal, direction)) <=
+           kLeastSine * glm::length(normal) * glm::length(direction);
+  });
 }
 
 /// Adds what one scene had to tell to what was found before.
@@ -94,7 +110,11 @@ CheckOutcome check_scene_families(const Subject& subject, const SelftestEffort& 
       continue;
     }
     const HitComparison comparison(scene, subject.conformance());
-    const std::vector<Ray> rays = random_rays(scene, random);
+    std::vector<Ray> rays = random_rays(scene, random);
+    // Embree returns hits that do not lie on the polygon; only exact arithmetic can do better.
+    if (subject.conformance() == Conformance::kTolerance) {
+      std::erase_if(rays, [&](const Ray& ray) { return is_edge_on(scene, ray); });
+    }
     // Below, at and above the width of a register.
     const int width = static_cast<int>(8 + random.below(30));
     const PrimaryRays image(scene.cameras.front(), width, 20, 1);

@@ -223,7 +223,8 @@ TEST_P(Interrupted, EndsAtOnceAndSaysHowToGoOn) {
   EXPECT_LT(Clock::now() - begin, std::chrono::seconds(2));
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
-  EXPECT_TRUE(err().ends_with("go on with: beambench run --resume 'my run'\n")) << err();
+  const std::string resume = std::string(BEAMBENCH_BINARY) + " run --resume 'my run'\n";
+  EXPECT_TRUE(err().ends_with("go on with: " + resume)) << err();
   EXPECT_EQ(cells("my run").size(), 1U);
 }
 
