@@ -42,15 +42,21 @@ def break_even_table(run: Run) -> pd.DataFrame:
     """Every ordered pair of contenders of every view."""
     records = []
     for title in run.views:
-        rows = _contenders(run.view(title))
-        for one, other in itertools.permutations(rows.itertuples(), 2):
+        rows = _timed(run.view(title))
+        for one, other in itertools.permutations(rows["contender"].unique(), 2):
+            both = _at_largest_common_image(rows, one, other)
+            if both is None:
+                continue
+            mine, theirs = both
             rays, words = break_even_rays(
-                one.build_ms_median, one.trace_ms_per_ray,
-                other.build_ms_median, other.trace_ms_per_ray,
+                mine["build_ms_median"], mine["trace_ms_median"] / mine["rays"],
+                theirs["build_ms_median"], theirs["trace_ms_median"] / theirs["rays"],
             )  # fmt: skip
-            records.append((title, one.contender, other.contender, rays, words))
+            image = f"{mine['width']:.0f}x{mine['height']:.0f}"
+            records.append((title, one, other, image, rays, words))
     return pd.DataFrame(
-        records, columns=["view", "contender", "baseline", "break_even_rays", "in_words"]
+        records,
+        columns=["view", "contender", "baseline", "resolution", "break_even_rays", "in_words"],
     )
 
 
@@ -59,7 +65,7 @@ def break_even(run: Run) -> list[Plot]:
     table = break_even_table(run)
 
     def select(title: str) -> pd.DataFrame:
-        rows = _contenders(run.view(title))
+        rows = _timed(run.view(title)).drop_duplicates("contender")
         return rows if len(rows) > 1 else rows.iloc[:0]
 
     def draw(panel: Axes, rows: pd.DataFrame) -> None:
@@ -86,8 +92,8 @@ def break_even(run: Run) -> list[Plot]:
         draw=draw,
         explanation="A row tells from how many rays on a contender, build included, is ahead of "
         "the one with the column's number: (difference of build times) / (difference of trace "
-        "times a ray), by the medians at each contender's highest resolution. 'up to': it is ahead "
-        "until then. The same in digits: break-even.csv.",
+        "times per ray), by the medians of the largest image that both traced. 'up to': it is "
+        "ahead until then. The same in digits, with the images: break-even.csv.",
         summary="number of rays from which a dearer build pays",
         times=True,
     )
@@ -99,13 +105,23 @@ def _draw_cell(panel: Axes, column: int, row: int, words: str) -> None:
     panel.annotate(words, (column, row), ha="center", va="center", fontsize=7)
 
 
-def _contenders(rows: pd.DataFrame) -> pd.DataFrame:
-    """Each contender at its highest resolution; `null`, which finds nothing, is none."""
+def _timed(rows: pd.DataFrame) -> pd.DataFrame:
+    """The rows with times; `null`, which finds nothing, is no contender."""
     rows = rows[rows["timed"] & (rows["verdict"] == "ok")]
     rows = rows.dropna(subset=["build_ms_median", "trace_ms_median"])
-    finest = rows.groupby("contender", sort=False)["rays"].idxmax()
-    rows = rows.loc[finest]
-    return rows.assign(trace_ms_per_ray=rows["trace_ms_median"] / rows["rays"])
+    return rows.drop_duplicates(["contender", "rays"])
+
+
+def _at_largest_common_image(
+    rows: pd.DataFrame, one: str, other: str
+) -> tuple[pd.Series, pd.Series] | None:
+    """The rows of both; None where they traced no image in common."""
+    mine = rows[rows["contender"] == one].set_index("rays", drop=False)
+    theirs = rows[rows["contender"] == other].set_index("rays", drop=False)
+    common = mine.index.intersection(theirs.index)
+    if common.empty:
+        return None
+    return mine.loc[common.max()], theirs.loc[common.max()]
 
 
 def _short(rays: float) -> str:

@@ -37,12 +37,25 @@ def test_both_pay_the_same_at_the_break_even() -> None:
     assert 7.0 + 3e-4 * rays == pytest.approx(2.0 + 9e-4 * rays)
 
 
-def test_each_contender_counts_at_its_own_highest_resolution(tmp_path: Path) -> None:
+def test_a_pair_is_compared_over_the_largest_image_that_both_traced(tmp_path: Path) -> None:
     rows = [
         row for row in made_up_rows() if row["structure"] != "exhaustive" or row["width"] == 320
     ]
     table = break_even_table(read_run(write_run(tmp_path, rows)))
-    assert "exhaustive" in set(table["contender"])
+    with_exhaustive = (table["contender"] == "exhaustive") | (table["baseline"] == "exhaustive")
+    assert with_exhaustive.any()
+    small = {f"{row['width']}x{row['height']}" for row in rows if row["width"] == 320}
+    assert set(table.loc[with_exhaustive, "resolution"]) == small
+    assert small.isdisjoint(table.loc[~with_exhaustive, "resolution"])
+
+
+def test_a_pair_without_a_common_image_has_no_row(tmp_path: Path) -> None:
+    rows = [
+        row for row in made_up_rows() if (row["structure"] == "exhaustive") == (row["width"] == 320)
+    ]
+    table = break_even_table(read_run(write_run(tmp_path, rows)))
+    assert not table.empty
+    assert "exhaustive" not in {*table["contender"], *table["baseline"]}
 
 
 def test_the_table_has_every_ordered_pair_but_none_with_null(run_folder: Path) -> None:
