@@ -26,7 +26,10 @@ class HitCheck {
  public:
   /// `structure` is the subject of the message: "structure 'samet:max_level=6'".
   explicit HitCheck(const Scene& scene, std::string structure = "the structure")
-      : primitives_(scene.primitives.size()), structure_(std::move(structure)) {}
+      : HitCheck(scene.primitives.size(), std::move(structure)) {}
+  /// Over a scene of so many primitives, where the scene itself is not at hand.
+  HitCheck(std::size_t primitives, std::string structure)
+      : primitives_(primitives), structure_(std::move(structure)) {}
   /// The message names the choice and, where it comes from a plug-in, its file.
   HitCheck(const Scene& scene, const StructureChoice& choice);
 

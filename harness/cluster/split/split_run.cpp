@@ -78,7 +78,8 @@ SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
   run.job.width = rays.width();
   run.job.height = rays.height();
   if (!request.picture.empty()) {
-    HitCheck(studio.worker().scene(), "structure 'beam'").require(hits, rays);
+    // The ids are those of the whole scene, of which each process has a part.
+    HitCheck(run.whole_primitives, "structure 'beam'").require(hits, rays);
     write_image(request.picture, shade(studio.worker().scene(), rays, hits, request.shading));
   }
   if (!request.report.empty()) write_file(request.report, to_json(run).dump(2) + "\n");
