@@ -25,8 +25,8 @@ from beambench_report.page.cell_files import (
 from beambench_report.problem import Problem
 
 PROCESS = 0.004
-"""Standard deviation of a ratio from one process to the next: results/published/default against
-default-again, 96 cells of the same commit."""
+"""Standard deviation of a ratio from one process to the next: results/published/repeated against
+repeated-again, 96 cells of the same commit."""
 
 _ROUNDS = 9  # the least repetitions of a nightly cell
 _NIGHTS = 200
