@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from beambench_report.cluster.measured import ENVIRONMENT as OPEN_MPI
 from program import BINARY
 
 CLUSTER = BINARY.resolve().with_name("beambench-cluster")
@@ -18,13 +19,7 @@ needs_mpi = pytest.mark.skipif(
     reason="no mpirun, or built without MPI; scripts/setup installs both",
 )
 
-ENVIRONMENT = {
-    **os.environ,
-    "OMPI_ALLOW_RUN_AS_ROOT": "1",
-    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
-    "OMPI_MCA_rmaps_base_oversubscribe": "1",
-    "OMPI_MCA_hwloc_base_binding_policy": "none",
-}
+ENVIRONMENT = {**os.environ, **OPEN_MPI}
 
 
 def start(*arguments: str | Path, cwd: Path | None = None) -> subprocess.Popen[str]:

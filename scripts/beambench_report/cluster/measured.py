@@ -31,7 +31,7 @@ _SETTINGS: tuple[tuple[str, int, tuple[str, ...]], ...] = (
 )
 
 # Open MPI refuses to start as root, or more processes than cores, unless it is allowed to.
-_ENVIRONMENT = {
+ENVIRONMENT = {
     "OMPI_ALLOW_RUN_AS_ROOT": "1",
     "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
     "OMPI_MCA_rmaps_base_oversubscribe": "1",
@@ -124,7 +124,7 @@ def _run(program: Path, picture: Picture, processes: int, options: tuple[str, ..
         try:
             done = subprocess.run(
                 command,
-                env={**os.environ, **_ENVIRONMENT},
+                env={**os.environ, **ENVIRONMENT},
                 capture_output=True,
                 text=True,
                 check=False,
