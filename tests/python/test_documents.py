@@ -1,7 +1,8 @@
-"""Help, completion and the manual page: what they say works, and they say all of it."""
+"""Help, completion, the manual page, READMEs: what they state works, and they are complete."""
 
 from __future__ import annotations
 
+import json
 import os
 import re
 import shutil
@@ -164,3 +165,36 @@ def test_install_brings_the_manual_and_the_completions(tmp_path: Path) -> None:
 def test_version_of_the_manual_is_that_of_the_program() -> None:
     version = beambench("--version").stdout.strip()
     assert version in output_of("man")
+
+
+# READMEs
+
+
+def anchors(text: str) -> set[str]:
+    """The headings of a text, as GitHub turns them into anchors."""
+    headings = re.findall(r"^#+ (.*)$", text, re.MULTILINE)
+    return {re.sub(r"[^\w -]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def test_links_lead_somewhere() -> None:
+    listed = shell("git ls-files --cached --others --exclude-standard '*.md'", REPOSITORY)
+    texts = [REPOSITORY / name for name in listed.stdout.split() if (REPOSITORY / name).is_file()]
+    if not texts:
+        pytest.skip("this is no repository")
+    broken = []
+    for text in texts:
+        for link in re.findall(r"\]\(([^)\s]+)\)", text.read_text("utf-8")):
+            path, _, anchor = link.partition("#")
+            target = (text.parent / path).resolve() if path else text
+            if link.startswith(("http://", "https://")):
+                continue
+            if not target.exists() or (anchor and anchor not in anchors(target.read_text("utf-8"))):
+                broken.append(f"{text.relative_to(REPOSITORY)}: {link}")
+    assert broken == []
+
+
+def test_the_root_readme_is_an_entrance() -> None:
+    text = (REPOSITORY / "README.md").read_text("utf-8")
+    assert len(text.splitlines()) <= 150
+    for structure in json.loads(output_of("list", "--json"))["structures"]:
+        assert f"| `{structure['name']}` |" in text
