@@ -1,7 +1,8 @@
-"""What results/published states of its own runs."""
+"""What the READMEs state of the published runs."""
 
 from __future__ import annotations
 
+import csv
 import json
 import re
 from pathlib import Path
@@ -38,3 +39,17 @@ def test_the_row_states_the_commit_of_each_run(published: Path) -> None:
         program = json.loads(manifest.read_text("utf-8"))["program"]
         assert program["commit"][:7] in rows[folder], manifest
         assert not program["dirty"], manifest
+
+
+def test_the_finding_of_the_root_readme(repository: Path, published: Path) -> None:
+    """The octree is that of `max_level=6`, and times include the build."""
+    with (published / "default/results.csv").open(encoding="utf-8") as table:
+        total = {
+            (row["structure"], row["width"]): float(row["total_ms_median"])
+            for row in csv.DictReader(table)
+            if row["scene"] == "tetra:n=6" and row["parameters"].startswith("max_level=6,")
+        }
+    small, large = (total["beam", width] / total["samet", width] for width in ("320", "1280"))
+    text = " ".join((repository / "README.md").read_text("utf-8").split())
+    assert f"takes {small:.1f} times as long as single rays" in text
+    assert f"only {large:.2f} times as long at 1280x1024" in text
