@@ -1,4 +1,4 @@
-"""Command line: python -m beambench_report plots|pictures|page|ledger|repeated|... ..."""
+"""Command line: python -m beambench_report plots|pictures|page|claims|repeated|... ..."""
 
 from __future__ import annotations
 
@@ -6,36 +6,35 @@ import argparse
 import sys
 from pathlib import Path
 
-from beambench_report.beat.command import beat_text, write_beat
-from beambench_report.cluster.command import add_cluster_command, cluster
-from beambench_report.contact_sheet import write_contact_sheet
-from beambench_report.dictionary import as_markdown, dictionary
-from beambench_report.files import write_text
-from beambench_report.growth import write_growth
-from beambench_report.ledger.book import ledger
-from beambench_report.ledger.markdown import as_markdown as ledger_as_markdown
+from beambench_report.base.cell_files import write_repetitions
+from beambench_report.base.columns import as_markdown, dictionary
+from beambench_report.base.files import ROOT, Problem, write_text
+from beambench_report.base.records import read_run
+from beambench_report.embree_comparison.command import beat_text, write_beat
 from beambench_report.nightly.command import add_nightly_command, nightly
 from beambench_report.nightly.compare import compare_turns, measure_in_turns
 from beambench_report.nightly.diff import diff
 from beambench_report.nightly.exports import bigger_is_better, google_benchmark
-from beambench_report.page.write import write_page
-from beambench_report.pictures import write_pictures
-from beambench_report.plots import write_plots
-from beambench_report.problem import Problem
-from beambench_report.records import read_run
-from beambench_report.repeatability import repeatability
-from beambench_report.repetitions import write_repetitions
-from beambench_report.thesis.command import add_thesis_command, thesis
-from beambench_report.thesis.levels.command import levels_text, write_levels
-from beambench_report.thesis.sampling.section import write_sampling
+from beambench_report.run.growth import write_growth
+from beambench_report.run.page import write_page
+from beambench_report.run.pictures import write_contact_sheet, write_pictures
+from beambench_report.run.plots import write_plots
+from beambench_report.run.repeatability import repeatability
+from beambench_report.thesis.chapter5.levels import levels_text, write_levels
+from beambench_report.thesis.chapter5.sampling import write_sampling
+from beambench_report.thesis.chapter6.command import add_cluster_command, cluster
+from beambench_report.thesis.claims.register import as_markdown as ledger_as_markdown
+from beambench_report.thesis.claims.register import ledger
+from beambench_report.thesis.report.command import add_thesis_command, thesis
 
 _EXPORTS = {"customBiggerIsBetter": bigger_is_better, "google-benchmark": google_benchmark}
-_BUILT = Path(__file__).resolve().parents[2] / "build/release/bin/beambench"
+_FORMER_NAMES = {"ledger": "claims", "beat": "embree-comparison"}
+_BUILT = ROOT / "build/release/bin/beambench"
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Runs one command; returns the exit code (2 when the request was wrong)."""
-    options = _parser().parse_args(arguments)
+    """Runs one command; returns the exit code (2 for invalid arguments or input)."""
+    options = _parser().parse_args(_renamed(sys.argv[1:] if arguments is None else arguments))
     if options.command == "columns":
         print(as_markdown(dictionary()), end="")
         return 0
@@ -43,13 +42,13 @@ def main(arguments: list[str] | None = None) -> int:
         if options.command == "repeated":
             print(repeatability(read_run(options.run), read_run(options.second)).summary())
             return 0
-        if options.command == "ledger" and options.output is None:
-            print(_ledger(options), end="")
+        if options.command == "claims" and options.output is None:
+            print(_claims(options), end="")
             return 0
         if options.command == "levels" and options.output is None:
             print(levels_text(options.runs), end="")
             return 0
-        if options.command == "beat" and options.output is None:
+        if options.command == "embree-comparison" and options.output is None:
             print(beat_text(options.runs), end="")
             return 0
         if options.command == "thesis":
@@ -74,6 +73,15 @@ def main(arguments: list[str] | None = None) -> int:
     for path in paths:
         print(path)
     return 0
+
+
+def _renamed(arguments: list[str]) -> list[str]:
+    """The arguments with the command's present name; a former one works still, with a warning."""
+    if not arguments or arguments[0] not in _FORMER_NAMES:
+        return arguments
+    name = _FORMER_NAMES[arguments[0]]
+    print(f"warning: the command '{arguments[0]}' is now '{name}'", file=sys.stderr)
+    return [name, *arguments[1:]]
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -138,7 +146,7 @@ def _parser() -> argparse.ArgumentParser:
         help="the built beambench; if not given, build/release/bin/beambench",
     )
     claims = commands.add_parser(
-        "ledger", help="say whether the claims of the thesis hold, by its figures and ours"
+        "claims", help="say whether the claims of the thesis hold, by its figures and ours"
     )
     claims.add_argument(
         "runs",
@@ -155,7 +163,8 @@ def _parser() -> argparse.ArgumentParser:
         "levels", help="say how well max_level=auto chooses, beside the best of fixed levels"
     )
     beat = commands.add_parser(
-        "beat", help="say how many times as fast as Embree's fastest mode tile beams are"
+        "embree-comparison",
+        help="compare tile beams with Embree's fastest mode",
     )
     for command in (levels, beat):
         command.add_argument("runs", type=Path, nargs="+", metavar="RUN", help="folder of a run")
@@ -214,11 +223,11 @@ def _write(options: argparse.Namespace) -> list[Path]:
         return write_growth(options.files, options.output)
     if options.command == "contact-sheet":
         return [write_contact_sheet(options.output, options.beambench, options.scenes)]
-    if options.command == "ledger":
-        return [write_text(options.output, _ledger(options))]
+    if options.command == "claims":
+        return [write_text(options.output, _claims(options))]
     if options.command == "levels":
         return write_levels(options.runs, options.output)
-    if options.command == "beat":
+    if options.command == "embree-comparison":
         return write_beat(options.runs, options.output)
     if options.command == "cluster":
         return cluster(options)
@@ -231,7 +240,7 @@ def _write(options: argparse.Namespace) -> list[Path]:
     return write_page(options.run, options.reference)
 
 
-def _ledger(options: argparse.Namespace) -> str:
+def _claims(options: argparse.Namespace) -> str:
     return ledger_as_markdown(ledger(options.runs), cells=options.cells)
 
 

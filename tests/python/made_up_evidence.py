@@ -6,16 +6,16 @@ from collections.abc import Callable
 
 import pandas as pd
 
-from beambench_report.ledger.evidence import (
+from beambench_report.base.published import RESOLUTIONS, primitives_by_scene
+from beambench_report.thesis.paper.evidence import (
     HIERARCHY,
     PAPER_HIERARCHY,
     PICTURE,
-    RESOLUTIONS,
     TIMES,
     WORK,
     Evidence,
+    published_evidence,
 )
-from beambench_report.ledger.published import primitives_by_scene, published_evidence
 
 Row = dict[str, object]
 

@@ -8,11 +8,11 @@ from pathlib import Path
 
 import numpy as np
 
+from beambench_report.base.records import read_run
 from beambench_report.nightly.history import History
 from beambench_report.nightly.home import Home
 from beambench_report.nightly.judge import judge
 from beambench_report.nightly.night import night_of
-from beambench_report.records import read_run
 from made_up_run import made_up_rows, without_times, write_run
 
 SCENES = ("escena1", "tetra:n=6")

@@ -7,8 +7,8 @@ import json
 from collections.abc import Sequence
 from pathlib import Path
 
-from beambench_report.dictionary import dictionary
-from beambench_report.plots import write_plots
+from beambench_report.base.columns import dictionary
+from beambench_report.run.plots import write_plots
 
 COLUMNS = [column.name for column in dictionary().columns if not column.is_pattern]
 

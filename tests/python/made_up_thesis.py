@@ -6,10 +6,8 @@ import json
 from collections.abc import Callable
 from pathlib import Path
 
-from beambench_report.ledger.comparisons import rays
-from beambench_report.ledger.published import primitives_by_scene
-from beambench_report.thesis.plan import Plan, keep_plan
-from beambench_report.thesis.sweeps import PlannedCell, Sweep
+from beambench_report.base.published import primitives_by_scene, rays
+from beambench_report.thesis.report.plan import Plan, PlannedCell, Sweep, keep_plan
 from made_up_run import write_manifest, write_run
 
 Row = dict[str, object]

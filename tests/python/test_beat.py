@@ -9,13 +9,13 @@ from pathlib import Path
 import pytest
 
 from beambench_report.__main__ import main
-from beambench_report.beat.aims import groups
-from beambench_report.beat.duels import Duel, duels
-from beambench_report.beat.plots import plots
-from beambench_report.beat.report import as_markdown, judgement
-from beambench_report.problem import Problem
-from beambench_report.ratio import Ratio
-from beambench_report.records import read_run
+from beambench_report.base.files import Problem
+from beambench_report.base.ratio import Ratio
+from beambench_report.base.records import read_run
+from beambench_report.embree_comparison.pairings import Duel, duels
+from beambench_report.embree_comparison.plots import plots
+from beambench_report.embree_comparison.report import as_markdown, judgement
+from beambench_report.embree_comparison.targets import groups
 from made_up_run import write_run, write_trace_cell
 from program import output_of
 
@@ -285,3 +285,10 @@ def test_the_aims_name_the_scenes_of_the_sweeps() -> None:
             json.loads(output_of("scene", scene, "--json"))["name"] for scene in config["scenes"]
         }
     assert swept == named
+
+
+def test_the_former_name_of_the_command_works_with_a_warning(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["beat", "/nowhere"]) == 2
+    assert "warning: the command 'beat' is now 'embree-comparison'" in capsys.readouterr().err

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from beambench_report.break_even import AT_ONCE, NEVER, break_even_rays, break_even_table
-from beambench_report.records import read_run
+from beambench_report.base.records import read_run
+from beambench_report.run.break_even import AT_ONCE, NEVER, break_even_rays, break_even_table
 from made_up_run import made_up_rows, write_run
 
 

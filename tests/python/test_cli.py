@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from beambench_report.records import read_run
+from beambench_report.base.records import read_run
 from program import BINARY, beambench, output_of, refused
 
 VIEW = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0.1\nresolution 8 8\n"

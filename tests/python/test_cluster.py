@@ -14,8 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from beambench_report.cluster.measured import measure, measured_section
-from beambench_report.cluster.record import Picture
+from beambench_report.thesis.chapter6.record import Picture, measure, measured_section
 from cluster import CLUSTER, finish, mpirun, needs_mpi, processes_of, start
 from program import beambench, output_of
 

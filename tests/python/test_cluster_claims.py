@@ -8,14 +8,12 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from beambench_report.cluster.results import write_results
-from beambench_report.ledger.book import ALL_CLAIMS, judge, ledger
-from beambench_report.ledger.cluster_evidence import FIGURES, ClusterEvidence
-from beambench_report.ledger.cluster_rules import CLUSTER_CLAIMS
-from beambench_report.ledger.cluster_run import cluster_evidence
-from beambench_report.ledger.evidence import NOTHING, Evidence
-from beambench_report.ledger.verdict import Outcome, Verdict
-from beambench_report.problem import Problem
+from beambench_report.base.files import Problem
+from beambench_report.thesis.chapter6.results import write_results
+from beambench_report.thesis.claims.chapter6 import CLUSTER_CLAIMS, cluster_evidence
+from beambench_report.thesis.claims.register import ALL_CLAIMS, judge, ledger
+from beambench_report.thesis.claims.verdict import Outcome, Verdict
+from beambench_report.thesis.paper.evidence import FIGURES, NOTHING, ClusterEvidence, Evidence
 
 CLAIMS = {claim.name: claim for claim in CLUSTER_CLAIMS}
 CAT, TOWER = "gato-bill", "torre-eiffel"

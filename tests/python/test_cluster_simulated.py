@@ -12,18 +12,17 @@ import pandas as pd
 import pytest
 
 from beambench_report.__main__ import main
-from beambench_report.cluster.calibration import (
+from beambench_report.thesis.chapter6.machines import (
     ALL_BUILDING,
     ALL_WALKING,
     Recorded,
     slowness_of_1999,
     thesis_seconds,
 )
-from beambench_report.cluster.plan import MACHINES, OPTIONS, simulations
-from beambench_report.cluster.plots import cluster_plots
-from beambench_report.cluster.record import SCENES, WORKS, tasks_file
-from beambench_report.cluster.results import read_processes, read_simulations
-from beambench_report.cluster.simulate import simulate
+from beambench_report.thesis.chapter6.plots import cluster_plots
+from beambench_report.thesis.chapter6.record import SCENES, WORKS, tasks_file
+from beambench_report.thesis.chapter6.results import read_processes, read_simulations
+from beambench_report.thesis.chapter6.simulate import MACHINES, OPTIONS, simulate, simulations
 
 BINARIES = Path(
     os.environ.get("BEAMBENCH_BINARY", Path(__file__).parents[2] / "build/release/bin/beambench")

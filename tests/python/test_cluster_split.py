@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 from beambench_report.__main__ import main
-from beambench_report.cluster.split import SCENES, read_split
-from beambench_report.cluster.split_page import split_plot, split_section
+from beambench_report.thesis.chapter6.split import SCENES, read_split, split_plot, split_section
 from cluster import CLUSTER, mpirun, needs_mpi
 from program import BINARY
 

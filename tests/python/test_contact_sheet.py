@@ -11,7 +11,7 @@ import pytest
 from matplotlib.image import imread
 
 from beambench_report.__main__ import main
-from beambench_report.contact_sheet import DEFAULT_GROUPS
+from beambench_report.run.pictures import DEFAULT_GROUPS
 from program import BINARY, output_of
 
 WIDE = """v

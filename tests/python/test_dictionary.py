@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from beambench_report.dictionary import Column, as_markdown, dictionary
-from beambench_report.records import NEEDED_COLUMNS
+from beambench_report.base.columns import Column, as_markdown, dictionary
+from beambench_report.base.records import NEEDED_COLUMNS
 from program import BINARY
 
 HINT = "say what it means in scripts/beambench_report/columns.json"

@@ -8,16 +8,13 @@ from pathlib import Path
 import pytest
 
 from beambench_report.__main__ import main
-from beambench_report.ledger.book import ALL_CLAIMS, SWEPT_CLAIMS, judge, ledger
-from beambench_report.ledger.census_run import census_work
-from beambench_report.ledger.claim import Claim
-from beambench_report.ledger.evidence import COARSEST, FINEST, HIERARCHY, PAPER_HIERARCHY
-from beambench_report.ledger.fit import fit_costs, fit_line
-from beambench_report.ledger.measured import Measured, share, smallest
-from beambench_report.ledger.own_run import UNKNOWN_SPREAD, measured_evidence
-from beambench_report.ledger.published import published_evidence
-from beambench_report.ledger.verdict import (
+from beambench_report.base.files import Problem
+from beambench_report.base.published import COARSEST, FINEST
+from beambench_report.thesis.claims.comparisons import fit_costs, fit_line
+from beambench_report.thesis.claims.register import ALL_CLAIMS, SWEPT_CLAIMS, judge, ledger
+from beambench_report.thesis.claims.verdict import (
     Check,
+    Claim,
     Outcome,
     Verdict,
     aside,
@@ -25,7 +22,15 @@ from beambench_report.ledger.verdict import (
     between,
     verdict_of,
 )
-from beambench_report.problem import Problem
+from beambench_report.thesis.paper.evidence import (
+    HIERARCHY,
+    PAPER_HIERARCHY,
+    Measured,
+    published_evidence,
+    share,
+    smallest,
+)
+from beambench_report.thesis.paper.measured import UNKNOWN_SPREAD, census_work, measured_evidence
 from made_up_run import made_up_rows, without_times, write_run
 
 YES, NO, UNDECIDED, MISSING = Outcome

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pandas as pd
 import pytest
 
-from beambench_report.names import contender_labels, file_stems, view_titles
-from beambench_report.style import looks, structure_colour
+from beambench_report.base.figure import looks, structure_colour
+from beambench_report.base.names import contender_labels, file_stems, view_titles
 
 
 def contenders(*pairs: tuple[str, str]) -> pd.DataFrame:

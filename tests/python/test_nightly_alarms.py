@@ -8,20 +8,20 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beambench_report.base.files import Problem
 from beambench_report.nightly.calibration import (
     Effort,
     Noise,
     calibrate,
     count_alarms,
     made_up_nights,
+    noise_of_samples,
     share_interval,
 )
 from beambench_report.nightly.history import Alarm, History
 from beambench_report.nightly.home import Home
 from beambench_report.nightly.judge import doubt, judge, sentence
-from beambench_report.nightly.samples import noise_of_samples
 from beambench_report.nightly.steps import Rule, find_steps
-from beambench_report.problem import Problem
 from made_up_nights import Row, add_all, counting, nothing, slower, write_nights, wrong
 from made_up_run import made_up_rows, without_times, write_cell
 

@@ -13,14 +13,13 @@ import pandas as pd
 import pytest
 
 from beambench_report.__main__ import main
+from beambench_report.base.files import Problem
+from beambench_report.base.ratio import Ratio
+from beambench_report.base.records import read_run
 from beambench_report.nightly.compare import compare_turns, measure_in_turns
 from beambench_report.nightly.diff import diff
-from beambench_report.nightly.home import Home
-from beambench_report.nightly.lock import only_one
+from beambench_report.nightly.home import Home, only_one
 from beambench_report.nightly.run import _free_folder
-from beambench_report.problem import Problem
-from beambench_report.ratio import Ratio
-from beambench_report.records import read_run
 from made_up_nights import add_all, counting, nothing, slower, write_night, write_nights, wrong
 from made_up_run import without_times
 from program import BINARY

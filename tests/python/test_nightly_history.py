@@ -10,14 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from beambench_report.nightly.history import History
-from beambench_report.nightly.home import Home, abandon, prune
-from beambench_report.nightly.lock import only_one
+from beambench_report.base.files import Problem
+from beambench_report.base.records import read_run
+from beambench_report.nightly.history import SCHEMA_VERSION, History
+from beambench_report.nightly.home import Home, abandon, only_one, prune
 from beambench_report.nightly.night import night_of
 from beambench_report.nightly.run import catch_up, rebuild_history
-from beambench_report.nightly.schema import SCHEMA_VERSION
-from beambench_report.problem import Problem
-from beambench_report.records import read_run
 from made_up_nights import add_all, counting, write_nights, wrong
 from made_up_run import made_up_rows, without_times, write_cell, write_run
 

@@ -10,14 +10,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beambench_report.base.records import read_run
 from beambench_report.nightly.history import History
 from beambench_report.nightly.home import Home
 from beambench_report.nightly.night import night_of
-from beambench_report.nightly.page.changes import compare_nights
-from beambench_report.nightly.page.series import pack, pareto_front
-from beambench_report.nightly.page.write import write_night_page
-from beambench_report.nightly.pictures import picture_mismatches
-from beambench_report.records import read_run
+from beambench_report.nightly.page import (
+    compare_nights,
+    pack_ratios,
+    pareto_front,
+    picture_mismatches,
+    write_night_page,
+)
 from browser import Browser
 from made_up_nights import add_all, counting, nothing, write_nights, wrong
 
@@ -105,7 +108,7 @@ def test_a_fine_night_says_so(tmp_path: Path) -> None:
 
 
 def test_ratios_are_packed_in_two_bytes_each() -> None:
-    packed = pack(np.array([1.0, 2.5, np.nan, 0.0, 1e9]))
+    packed = pack_ratios(np.array([1.0, 2.5, np.nan, 0.0, 1e9]))
     numbers = struct.unpack("<5h", base64.b64decode(packed))
     assert numbers == (0, round(2000 * np.log(2.5)), -32768, -32768, 32767)
 

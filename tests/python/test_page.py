@@ -11,9 +11,9 @@ from pathlib import Path
 import pytest
 
 from beambench_report.__main__ import main
-from beambench_report.page.all_cells import pack
-from beambench_report.page.write import render
-from beambench_report.records import read_run
+from beambench_report.base.records import read_run
+from beambench_report.run.all_cells import pack
+from beambench_report.run.page import render
 from made_up_run import made_up_rows, without_times, write_manifest, write_run
 
 VOID = {"meta", "link", "img", "input", "br", "wbr", "hr"}

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from beambench_report.page.write import write_page
+from beambench_report.run.page import write_page
 from browser import Browser
 
 ENTER = ("Enter", 13, "\r")

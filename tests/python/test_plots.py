@@ -10,12 +10,11 @@ import pandas as pd
 import pytest
 
 from beambench_report.__main__ import main
-from beambench_report.bars import Bar, draw_bars
-from beambench_report.figure import untimed
-from beambench_report.quantities import number
-from beambench_report.records import read_run
-from beambench_report.style import Look
-from beambench_report.time_over_rays import time_over_rays
+from beambench_report.base.figure import Look, untimed
+from beambench_report.base.quantities import number
+from beambench_report.base.records import read_run
+from beambench_report.run.bars import Bar, draw_bars
+from beambench_report.run.plots import time_over_rays
 from made_up_run import made_up_rows, without_times, write_run
 
 PLOTS = {

@@ -8,11 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from beambench_report.page.cell_files import read_cell_files
-from beambench_report.page.ratios import choose_reference, compared
-from beambench_report.page.view_table import ratio_field
-from beambench_report.problem import Problem
-from beambench_report.ratio import (
+from beambench_report.base.cell_files import read_cell_files
+from beambench_report.base.files import Problem
+from beambench_report.base.ratio import (
     Median,
     Ratio,
     geometric_mean,
@@ -20,7 +18,8 @@ from beambench_report.ratio import (
     paired_ratio,
     unpaired_ratio,
 )
-from beambench_report.records import read_run
+from beambench_report.base.records import read_run
+from beambench_report.run.page import choose_reference, compared, ratio_field
 from made_up_run import made_up_rows, without_times, write_cell, write_run
 
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from beambench_report.problem import Problem
-from beambench_report.records import read_run
+from beambench_report.base.files import Problem
+from beambench_report.base.records import read_run
 from made_up_run import made_up_rows, without_times, write_run
 
 

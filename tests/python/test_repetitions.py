@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from beambench_report.__main__ import main
-from beambench_report.beat.duels import duels
-from beambench_report.nightly.samples import noise_of_samples
-from beambench_report.page.cell_files import read_cell_files
-from beambench_report.problem import Problem
-from beambench_report.records import read_run
+from beambench_report.base.cell_files import read_cell_files
+from beambench_report.base.files import Problem
+from beambench_report.base.records import read_run
+from beambench_report.embree_comparison.pairings import duels
+from beambench_report.nightly.calibration import noise_of_samples
 from made_up_run import made_up_rows, write_run
 from program import BINARY, output_of
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from beambench_report.files import write_text
+from beambench_report.base.files import write_text
 
 
 def test_a_file_is_replaced_whole(tmp_path: Path) -> None:

@@ -9,9 +9,8 @@ from pathlib import Path
 import pytest
 
 from beambench_report.__main__ import main
-from beambench_report.thesis import sweeps
-from beambench_report.thesis.plan import make_plan
-from beambench_report.thesis.sweeps import quick, read_sweep
+from beambench_report.thesis.report import plan
+from beambench_report.thesis.report.plan import make_plan, quick, read_sweep
 from made_up_thesis import write_runs
 from program import BINARY
 
@@ -147,7 +146,7 @@ def test_a_small_real_run_leaves_a_report(tmp_path: Path, monkeypatch: pytest.Mo
         source |= {"resolutions": ["320x200"], "repetitions": {"minimum": 1, "maximum": 1}}
         source["structures"] = source["structures"][:3]
         (folder / f"{name}.json").write_text(json.dumps(source))
-    monkeypatch.setattr(sweeps, "FOLDER", folder)
+    monkeypatch.setattr(plan, "FOLDER", folder)
     run = tmp_path / "run"
     assert run_thesis("--table", "5.4", "-o", run, "--beambench", BINARY) == 0
     text = (run / "report.md").read_text()

@@ -8,17 +8,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from beambench_report.thesis.cells import Cell, read_cells
-from beambench_report.thesis.cost.fitting import fit
-from beambench_report.thesis.cost.formulas import sums_of_auto, thesis_formulas
-from beambench_report.thesis.cost.least_squares import (
+from beambench_report.thesis.chapter5.cost import (
     NormalEquations,
+    cost_section,
+    fit,
     relative_equations,
     solve,
+    sums_of_auto,
+    thesis_formulas,
 )
-from beambench_report.thesis.cost.section import cost_section
-from beambench_report.thesis.section import section_as_markdown
-from beambench_report.thesis.sweeps import PlannedCell
+from beambench_report.thesis.paper.cells import Cell, read_cells
+from beambench_report.thesis.paper.section import section_as_markdown
+from beambench_report.thesis.report.plan import PlannedCell
 from made_up_run import write_run
 from made_up_thesis import Row, row_of
 

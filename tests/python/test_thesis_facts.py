@@ -8,19 +8,18 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from beambench_report.ledger.book import SWEPT_CLAIMS, ledger
-from beambench_report.ledger.census_run import is_census_folder
-from beambench_report.ledger.published import primitives_by_scene
-from beambench_report.ledger.verdict import Verdict
-from beambench_report.thesis.cells import Cells
-from beambench_report.thesis.command import _QUICK
-from beambench_report.thesis.facts.camera import TURN
-from beambench_report.thesis.facts.gather import facts, gather_facts, turn_camera
-from beambench_report.thesis.pictures import octree_figures
-from beambench_report.thesis.plan import make_plan
-from beambench_report.thesis.report import gather, write_report
-from beambench_report.thesis.section import section_as_markdown
-from beambench_report.thesis.sections import sections_of
+from beambench_report.base.published import primitives_by_scene
+from beambench_report.thesis.chapter5.facts import TURN, facts, gather_facts, turn_camera
+from beambench_report.thesis.claims.register import SWEPT_CLAIMS, ledger
+from beambench_report.thesis.claims.verdict import Verdict
+from beambench_report.thesis.paper.cells import Cells
+from beambench_report.thesis.paper.measured import is_census_folder
+from beambench_report.thesis.paper.section import section_as_markdown
+from beambench_report.thesis.report.command import _QUICK
+from beambench_report.thesis.report.pictures import octree_figures
+from beambench_report.thesis.report.plan import make_plan
+from beambench_report.thesis.report.report import gather, sections_of
+from beambench_report.thesis.report.write import write_report
 from made_up_thesis import Row, write_runs
 from program import BINARY
 

@@ -9,13 +9,12 @@ import jsonschema
 import pytest
 
 from beambench_report.__main__ import main
-from beambench_report.ledger.published import primitives_by_scene
-from beambench_report.thesis.cells import Cell, read_cells
-from beambench_report.thesis.levels.choice import LevelChoice, level_choices, losses
-from beambench_report.thesis.levels.plot import draw_losses
-from beambench_report.thesis.plan import make_plan
-from beambench_report.thesis.report import gather, write_report
-from beambench_report.thesis.sweeps import LEVELS, PlannedCell, quick, read_sweep
+from beambench_report.base.published import primitives_by_scene
+from beambench_report.thesis.chapter5.levels import LevelChoice, draw_losses, level_choices, losses
+from beambench_report.thesis.paper.cells import Cell, read_cells
+from beambench_report.thesis.report.plan import LEVELS, PlannedCell, make_plan, quick, read_sweep
+from beambench_report.thesis.report.report import gather
+from beambench_report.thesis.report.write import write_report
 from made_up_run import without_times, write_manifest, write_run
 from made_up_thesis import Row, row_of, write_runs
 

@@ -9,14 +9,15 @@ from pathlib import Path
 
 import pytest
 
-from beambench_report.ledger.measured import Measured
-from beambench_report.problem import Problem
-from beambench_report.thesis.best import best_table, choose
-from beambench_report.thesis.cells import Cells, read_cells, setting
-from beambench_report.thesis.plan import Plan, keep_plan, make_plan, read_plan
-from beambench_report.thesis.printed import parts_of, printed_parts
-from beambench_report.thesis.report import gather, write_report
-from beambench_report.thesis.tables import fill
+from beambench_report.base.files import Problem
+from beambench_report.thesis.chapter5.best import best_table, choose
+from beambench_report.thesis.paper.cells import Cells, read_cells, setting
+from beambench_report.thesis.paper.evidence import Measured
+from beambench_report.thesis.paper.printed import parts_of, printed_parts
+from beambench_report.thesis.report.plan import Plan, keep_plan, make_plan, read_plan
+from beambench_report.thesis.report.report import gather
+from beambench_report.thesis.report.tables import fill
+from beambench_report.thesis.report.write import write_report
 from browser import Browser, find_browser
 from made_up_run import without_times
 from made_up_thesis import Row, write_runs

@@ -9,12 +9,15 @@ from pathlib import Path
 import pytest
 
 from beambench_report.__main__ import main
-from beambench_report.problem import Problem
-from beambench_report.thesis.plan import make_plan
-from beambench_report.thesis.report import write_report
-from beambench_report.thesis.sampling.read import read_comparison
-from beambench_report.thesis.sampling.section import read_comparisons, sampling_section
-from beambench_report.thesis.section import section_as_markdown
+from beambench_report.base.files import Problem
+from beambench_report.thesis.chapter5.sampling import (
+    read_comparison,
+    read_comparisons,
+    sampling_section,
+)
+from beambench_report.thesis.paper.section import section_as_markdown
+from beambench_report.thesis.report.plan import make_plan
+from beambench_report.thesis.report.write import write_report
 from made_up_thesis import write_runs
 
 Result = tuple[str, str, float, float, float]

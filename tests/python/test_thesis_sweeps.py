@@ -10,10 +10,17 @@ from pathlib import Path
 import jsonschema
 import pytest
 
-from beambench_report.problem import Problem
-from beambench_report.thesis.catalogue import FIGURES, SWEEPS, TABLES
-from beambench_report.thesis.plan import make_plan
-from beambench_report.thesis.sweeps import FOLDER, PlannedCell, quick, read_sweep
+from beambench_report.base.files import Problem
+from beambench_report.thesis.report.plan import (
+    FIGURES,
+    FOLDER,
+    SWEEPS,
+    TABLES,
+    PlannedCell,
+    make_plan,
+    quick,
+    read_sweep,
+)
 from program import BINARY, beambench
 
 REPOSITORY = Path(__file__).resolve().parents[2]

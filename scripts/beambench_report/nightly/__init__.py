@@ -1,1 +1,1 @@
-"""Nightly runs: their history, what got slower or wrong, and the page that says so."""
+"""Nightly runs: their history, what got slower or wrong, and the page that shows it."""

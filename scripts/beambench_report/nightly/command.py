@@ -6,21 +6,23 @@ import argparse
 import sys
 from pathlib import Path
 
-from beambench_report.files import write_text
-from beambench_report.nightly.calibration import Effort, calibrate, has_enough, noise_of
+from beambench_report.base.files import ROOT, Problem, write_text
+from beambench_report.base.records import read_run
+from beambench_report.nightly.calibration import (
+    Effort,
+    calibrate,
+    has_enough,
+    noise_of,
+    noise_of_samples,
+)
 from beambench_report.nightly.history import History, rebuild
-from beambench_report.nightly.home import HOME, KEEP_SAMPLES, Home, adopt, prune
-from beambench_report.nightly.lock import only_one
+from beambench_report.nightly.home import HOME, KEEP_SAMPLES, Home, adopt, only_one, prune
 from beambench_report.nightly.nights import read_nights
-from beambench_report.nightly.page.write import write_night_page
+from beambench_report.nightly.page import write_night_page
 from beambench_report.nightly.run import Wish, describe, rebuild_history, record, run_night
-from beambench_report.nightly.samples import noise_of_samples
-from beambench_report.problem import Problem
-from beambench_report.records import read_run
 
-_ROOT = Path(__file__).resolve().parents[3]
-_SWEEP = _ROOT / "harness/sweeps/nightly.json"
-_PUBLISHED = _ROOT / "results/published/nightly"
+_SWEEP = ROOT / "harness/sweeps/nightly.json"
+_PUBLISHED = ROOT / "results/published/nightly"
 
 
 def add_nightly_command(commands: argparse._SubParsersAction, built: Path) -> None:

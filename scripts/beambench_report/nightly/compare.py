@@ -25,12 +25,12 @@ import numpy as np
 import pandas as pd
 from scipy import stats
 
-from beambench_report.names import contender_labels
+from beambench_report.base.cell_files import IDENTITY
+from beambench_report.base.files import Problem
+from beambench_report.base.names import contender_labels
+from beambench_report.base.ratio import Ratio, paired_ratio
+from beambench_report.base.records import NO_RAYS, TIMED_VERDICTS, read_run
 from beambench_report.nightly.night import cycles, keys_of
-from beambench_report.page.cell_files import IDENTITY
-from beambench_report.problem import Problem
-from beambench_report.ratio import Ratio, paired_ratio
-from beambench_report.records import NO_RAYS, TIMED_VERDICTS, read_run
 
 LEVEL = 0.01
 TOLERANCE = 0.01

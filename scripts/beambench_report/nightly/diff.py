@@ -15,13 +15,13 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.machine import Machine, machine_of
-from beambench_report.names import contender_labels
+from beambench_report.base.cell_files import CellFile, Identity, identity, read_cell_files
+from beambench_report.base.files import Problem
+from beambench_report.base.machine import Machine, machine_of
+from beambench_report.base.names import contender_labels
+from beambench_report.base.ratio import Median, Ratio, median_of, paired_ratio, unpaired_ratio
+from beambench_report.base.records import NO_RAYS, read_run
 from beambench_report.nightly.night import VIEW, keys_of
-from beambench_report.page.cell_files import CellFile, Identity, identity, read_cell_files
-from beambench_report.problem import Problem
-from beambench_report.ratio import Median, Ratio, median_of, paired_ratio, unpaired_ratio
-from beambench_report.records import NO_RAYS, read_run
 
 Key = tuple
 Contender = tuple[str, str]

@@ -11,9 +11,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.files import write_text
-from beambench_report.problem import Problem
-from beambench_report.records import Run
+from beambench_report.base.files import Problem, write_text
+from beambench_report.base.records import Run
 
 BIGGER_IS_BETTER = "benchmark-bigger-is-better.json"
 GOOGLE_BENCHMARK = "benchmark-google.json"

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.dictionary import COUNTER_SUFFIX
-from beambench_report.machine import machine_of
-from beambench_report.page.cell_files import IDENTITY
-from beambench_report.problem import Problem
-from beambench_report.records import FAULTLESS_VERDICTS, Run
+from beambench_report.base.cell_files import IDENTITY
+from beambench_report.base.columns import COUNTER_SUFFIX
+from beambench_report.base.files import Problem
+from beambench_report.base.machine import machine_of
+from beambench_report.base.records import FAULTLESS_VERDICTS, Run
 
 Key = tuple[str, str, str, str, int, int, int, str]
 

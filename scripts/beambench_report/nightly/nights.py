@@ -10,10 +10,10 @@ from functools import cached_property
 import numpy as np
 import pandas as pd
 
-from beambench_report.names import contender_labels
+from beambench_report.base.cell_files import IDENTITY
+from beambench_report.base.files import Problem
+from beambench_report.base.names import contender_labels
 from beambench_report.nightly.history import History
-from beambench_report.page.cell_files import IDENTITY
-from beambench_report.problem import Problem
 
 _TOLD_APART = {"camera": ", camera {}", "samples": ", {} samples", "ray_kind": ", {} rays"}
 

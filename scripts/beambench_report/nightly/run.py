@@ -10,16 +10,15 @@ from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
+from beambench_report.base.files import Problem
+from beambench_report.base.records import read_run
 from beambench_report.nightly.exports import write_exports
 from beambench_report.nightly.history import Alarm, History, rebuild
 from beambench_report.nightly.home import Home, abandon, is_finished, prune
 from beambench_report.nightly.judge import doubt, judge, sentence
 from beambench_report.nightly.night import night_of
 from beambench_report.nightly.nights import read_nights
-from beambench_report.nightly.page.write import write_night_page
-from beambench_report.nightly.pictures import picture_mismatches
-from beambench_report.problem import Problem
-from beambench_report.records import read_run
+from beambench_report.nightly.page import picture_mismatches, write_night_page
 
 _INTERRUPTED = (130, 143, -2, -15)
 

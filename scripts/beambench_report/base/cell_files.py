@@ -1,0 +1,178 @@
+"""The repetitions, messages and examples of single cells, which results.csv does not have.
+
+They are in DIRECTORY/cells, a JSON file a cell. A published run has one compact file instead,
+repetitions.csv, a line for each repetition: `line` is that of its cell in results.csv, whose header
+is line 1. From it paired ratios and the noise of a calibration can be computed again.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import isclose
+from pathlib import Path
+from statistics import median
+
+import pandas as pd
+
+from beambench_report.base.files import Problem, write_whole
+from beambench_report.base.records import read_run
+
+# A run has some hundreds of cells. Thousands of files would be read for longer than anybody waits.
+MOST_FILES = 5000
+
+IDENTITY = ("scene", "camera", "structure", "parameters", "width", "height", "samples", "ray_kind")
+Identity = tuple[str, ...]
+Row = dict[str, object]
+Repetition = dict[str, float]
+"""A member for each figure, as in the file of a cell; `round` is its turn."""
+
+REPETITIONS = "repetitions.csv"
+
+
+@dataclass(frozen=True)
+class Example:
+    """One disputed ray in words, and the command that shows its way again."""
+
+    text: str
+    replay: str
+
+
+@dataclass(frozen=True)
+class CellFile:
+    """One file of DIRECTORY/cells."""
+
+    message: str
+    examples: tuple[Example, ...]
+    total_ms: Mapping[int, float]
+    """Build and trace of each repetition, by the round in which it had its turn."""
+    trace_ms: Mapping[int, float] = field(default_factory=dict)
+    """The first trace after each build, likewise."""
+    warm_ms: Mapping[int, float] = field(default_factory=dict)
+    """The second trace of the same structure, in the rounds that had one."""
+
+
+def identity(row: Mapping[str, object]) -> Identity:
+    """What tells a row from every other row of its run."""
+    return tuple(_plain(row[name]) for name in IDENTITY)
+
+
+def read_cell_files(directory: Path) -> dict[Identity, CellFile]:
+    """Every cell's file; none where there are too many to be read.
+
+    Where there are no files, what the compact file of repetitions holds; it has no messages.
+    """
+    paths = [path for path in directory.glob("cells/*.json") if not path.name.startswith(".")]
+    if len(paths) > MOST_FILES:
+        return {}
+    if paths:
+        return dict(_read(path) for path in paths)
+    return {
+        identity(row): _cell_file("", (), repetitions)
+        for row, repetitions in published_repetitions(directory)
+    }
+
+
+def published_repetitions(directory: Path) -> list[tuple[Row, list[Repetition]]]:
+    """Rows of DIRECTORY/results.csv with their repetitions, of DIRECTORY/repetitions.csv.
+
+    None where there is no such file. Raises Problem where the two files are not of one run.
+    """
+    path = directory / REPETITIONS
+    if not path.is_file():
+        return []
+    try:
+        table = pd.read_csv(path)
+        by_line = {
+            int(line): own.drop(columns="line").to_dict("records")
+            for line, own in table.groupby("line", sort=False)
+        }
+        rows = read_run(directory).rows
+        found = [(rows.loc[line - 2].to_dict(), own) for line, own in by_line.items()]
+        for row, own in found:
+            if not isclose(
+                row["trace_ms_median"], median(o["trace_ms"] for o in own), rel_tol=1e-4
+            ):
+                raise ValueError(f"the repetitions of {row['contender']} are not those of its row")
+    except (ValueError, KeyError) as error:
+        raise Problem(
+            f"{path}: does not belong to the results.csv beside it ({error}); write it again: "
+            "python -m beambench_report repetitions RUN"
+        ) from None
+    return [(row, [_without_gaps(one) for one in own]) for row, own in found]
+
+
+def _without_gaps(repetition: Repetition) -> Repetition:
+    known = {name: value for name, value in repetition.items() if not pd.isna(value)}
+    return known | {"round": int(repetition["round"])}
+
+
+def _read(path: Path) -> tuple[Identity, CellFile]:
+    try:
+        source = json.loads(path.read_text("utf-8"))
+        examples = tuple(_example(text) for text in source["examples"])
+        file = _cell_file(source["message"], examples, source["repetitions"])
+        return identity(source["row"]), file
+    except (ValueError, KeyError, TypeError) as error:
+        raise Problem(
+            f"{path}: is not a cell of a run ({type(error).__name__}: {error}); remove it"
+        ) from None
+
+
+def _cell_file(
+    message: str, examples: tuple[Example, ...], repetitions: list[Repetition]
+) -> CellFile:
+    total, trace, warm = {}, {}, {}
+    for repetition in repetitions:
+        turn = repetition["round"]
+        trace[turn] = repetition["trace_ms"]
+        total[turn] = repetition["build_ms"] + trace[turn]
+        if "warm_trace_ms" in repetition:
+            warm[turn] = repetition["warm_trace_ms"]
+    return CellFile(message, examples, total, trace, warm)
+
+
+def _example(text: str) -> Example:
+    """The command stands in a line of its own: `  replay beambench trace ...`."""
+    lines = text.rstrip().splitlines()
+    replays = [line.strip() for line in lines if line.lstrip().startswith("replay ")]
+    told = [line for line in lines if line.strip() not in replays]
+    return Example("\n".join(told), replays[0].removeprefix("replay ").strip() if replays else "")
+
+
+def _plain(value: object) -> str:
+    return str(int(value)) if isinstance(value, float) else str(value)
+
+
+_FIGURES = "build_ms trace_ms warm_trace_ms build_cpu_ms trace_cpu_ms clock_ghz".split()
+
+
+def write_repetitions(run: Path, output: Path | None = None) -> Path:
+    """Writes RUN/cells into `output`, RUN/repetitions.csv if not given; six significant digits.
+
+    Raises Problem where the run has no repetitions, or a cell that results.csv has not.
+    """
+    rows = read_run(run).rows
+    lines = {identity(row): place + 2 for place, row in rows.iterrows()}
+    table = []
+    for path in sorted(run.glob("cells/[!.]*.json")):
+        try:
+            cell = json.loads(path.read_text("utf-8"))
+            line = lines[identity(cell["row"])]
+            for one in cell["repetitions"]:
+                figures = {name: one[name] for name in _FIGURES if name in one}
+                table.append({"line": line, "round": one["round"], **figures})
+        except (ValueError, KeyError, TypeError) as error:
+            raise Problem(
+                f"{path}: is not a cell of this run ({type(error).__name__}: {error}); remove it"
+            ) from None
+    if not table:
+        raise Problem(f"{run}/cells: holds no repetitions; give the folder that a run left")
+    columns = ["line", "round", *_FIGURES]
+    whole = pd.DataFrame(table, columns=columns).sort_values(["line", "round"])
+
+    def write(path: Path) -> None:
+        whole.dropna(axis="columns", how="all").to_csv(path, index=False, float_format="%.6g")
+
+    return write_whole(output or run / REPETITIONS, write)

@@ -1,0 +1,162 @@
+"""The data dictionary: what every column of results.csv means (columns.json is its source)."""
+
+from __future__ import annotations
+
+import json
+import re
+import textwrap
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Literal
+
+_SOURCE = Path(__file__).parents[1] / "columns.json"
+COUNTER_SUFFIX = "_per_ray"
+_KINDS = "(eye|reflected|refracted|shadow)"  # of the rays of a whole picture
+
+
+@dataclass(frozen=True)
+class Column:
+    """One column: what stands in it, in which unit, and how it was found out."""
+
+    name: str
+    group: str
+    type: Literal["text", "flag", "integer", "number"]
+    unit: str
+    meaning: str
+    measured: str
+
+    @property
+    def is_number(self) -> bool:
+        """Does it hold figures?"""
+        return self.type in ("integer", "number")
+
+    @property
+    def is_pattern(self) -> bool:
+        """Does it stand for many columns, as for all counters that families of structures add?"""
+        return "<" in self.name
+
+    @property
+    def is_of_a_kind(self) -> bool:
+        """Does it tell of one kind of the rays of a whole picture?"""
+        return "<kind>" in self.name
+
+    def is_that(self, name: str) -> bool:
+        """Is this the entry of a column of a file?"""
+        pattern = self.name.replace("<kind>", _KINDS).replace("<counter>", "[a-z_]+")
+        return re.fullmatch(pattern, name) is not None
+
+
+@dataclass(frozen=True)
+class Group:
+    """Columns that belong together, in their order."""
+
+    name: str
+    title: str
+    columns: tuple[Column, ...]
+
+
+@dataclass(frozen=True)
+class Counter:
+    """What a structure counts beside what all count; `beambench list --counters` prints it."""
+
+    structure: str
+    name: str
+    meaning: str
+
+
+@dataclass(frozen=True)
+class Dictionary:
+    """All columns of one version of results.csv."""
+
+    schema_version: int
+    groups: tuple[Group, ...]
+    counters: tuple[Counter, ...]
+
+    @property
+    def columns(self) -> tuple[Column, ...]:
+        """Every column in the order of the file."""
+        return tuple(column for group in self.groups for column in group.columns)
+
+    def find(self, name: str) -> Column | None:
+        """The entry of a column of a file: that of its name, or of the narrowest pattern."""
+        found = [column for column in self.columns if column.is_that(name)]
+        return min(found, key=_width, default=None)
+
+
+def _width(column: Column) -> int:
+    """How much a pattern covers: one that tells the kind of rays is narrower than any counter."""
+    return 0 if not column.is_pattern else 1 if column.is_of_a_kind else 2
+
+
+@cache
+def dictionary() -> Dictionary:
+    """The dictionary of the records that this version reads."""
+    source = json.loads(_SOURCE.read_text("utf-8"))
+    columns = [Column(**entry) for entry in source["columns"]]
+    groups = tuple(
+        Group(**entry, columns=tuple(column for column in columns if column.group == entry["name"]))
+        for entry in source["groups"]
+    )
+    counters = tuple(Counter(**entry) for entry in source["counters"])
+    return Dictionary(source["schema_version"], groups, counters)
+
+
+_READING = (
+    "Readers that take `null` for a missing value lose that structure's rows; in pandas:",
+    "",
+    "```python",
+    "import pandas as pd",
+    "",
+    'rows = pd.read_csv("results.csv", keep_default_na=False, na_values=[""])',
+    'by_structure = rows.groupby(["structure", "parameters"], dropna=False)',
+    'print(by_structure["trace_ms_median"].median())',
+    "```",
+)
+"""A test runs it."""
+
+
+def as_markdown(known: Dictionary) -> str:
+    """The dictionary as the text of results/README.md."""
+    introduction = (
+        f"Schema version {known.schema_version}. A row is a cell of a sweep: one structure with "
+        "one set of parameters, asked with one set of rays. The file is UTF-8 with one header row "
+        "and quotes as in RFC 4180. An empty field was not measured; `null` is a structure's name."
+    )
+    lines = [
+        "# The columns of results.csv",
+        "",
+        "<!-- Written by `python -m beambench_report columns` from columns.json: edit that. -->",
+        "",
+        textwrap.fill(introduction, 100),
+        "",
+        *_READING,
+    ]
+    for group in known.groups:
+        lines += [
+            "",
+            f"## {group.title}",
+            "",
+            "| column | type | unit | meaning | how it is measured |",
+            "|---|---|---|---|---|",
+        ]
+        lines += [
+            f"| `{column.name}` | {column.type} | {column.unit} | {column.meaning} "
+            f"| {column.measured} |"
+            for column in group.columns
+        ]
+    lines += [
+        "",
+        "## Counters of single structures",
+        "",
+        "As `beambench list --counters` prints them. Each is a column, `<counter>_per_ray`; times",
+        "`rays` it is the count. Those of the beams: [accel/beam](../accel/beam/README.md).",
+        "",
+        "| structure | counter | meaning |",
+        "|---|---|---|",
+    ]
+    lines += [
+        f"| `{counter.structure}` | `{counter.name}` | {counter.meaning} |"
+        for counter in known.counters
+    ]
+    return "\n".join(lines) + "\n"

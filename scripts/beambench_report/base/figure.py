@@ -1,0 +1,159 @@
+"""Figures of page width, their captions and looks, and writing them whole.
+
+One color a structure, the same in every plot of every run: those of Okabe and Ito ("Color Universal
+Design", 2008), which color-blind readers can distinguish, their yellow darkened so that it can be
+seen on white, and two grays. Variants of one structure share its color and differ in marker and
+dashes.
+"""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Sequence
+from contextlib import AbstractContextManager
+from dataclasses import dataclass
+from pathlib import Path
+from zlib import crc32
+
+import matplotlib as mpl
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from beambench_report.base.files import write_whole
+
+PAGE_WIDTH = 7.2  # inches
+_LINE_HEIGHT = 0.16  # inches, of a caption's line
+_CAPTION_COLUMNS = 118  # characters that fit the page width
+
+_STYLE = {
+    "font.size": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.titleweight": "bold",
+    "axes.titlelocation": "left",
+    "axes.axisbelow": True,
+    "svg.fonttype": "none",
+    "svg.hashsalt": "beambench",
+}
+
+
+@dataclass(frozen=True)
+class Plot:
+    """A finished figure, the name of its files and a sentence on what it shows."""
+
+    stem: str
+    figure: Figure
+    summary: str
+    view: str = ""
+    """The title of the view it shows; empty where it shows them all."""
+
+
+def house_style() -> AbstractContextManager[None]:
+    """Within it, matplotlib draws as all our figures look."""
+    return mpl.rc_context(_STYLE)
+
+
+def new_figure(
+    height: float,
+    rows: int = 1,
+    columns: int = 1,
+    height_ratios: Sequence[float] | None = None,
+) -> tuple[Figure, list[Axes]]:
+    """A page-wide figure and its panels, row by row."""
+    figure = Figure(figsize=(PAGE_WIDTH, height), layout="constrained")
+    panels = figure.subplots(rows, columns, squeeze=False, height_ratios=height_ratios)
+    return figure, list(panels.flat)
+
+
+def caption(figure: Figure, rows: pd.DataFrame, explanation: str, *, times: bool) -> None:
+    """Writes under a figure what it shows, where the data come from and whose hits were wrong.
+
+    A figure of times leaves the latter out; counters and memory are shown all the same.
+    """
+    lines = [explanation, _source(rows)]
+    if wrong := untimed(rows):
+        start = "Left out, not being judged right" if times else "Shown, though not judged right"
+        lines.append(f"{start}: {'; '.join(wrong)}.")
+    wrapped = "\n".join(textwrap.fill(line, _CAPTION_COLUMNS) for line in lines)
+    figure.supxlabel(wrapped, x=0.01, ha="left", fontsize=7.5, color="#333333")
+    width, height = figure.get_size_inches()
+    figure.set_size_inches(width, height + _LINE_HEIGHT * (wrapped.count("\n") + 1))
+
+
+def untimed(rows: pd.DataFrame) -> list[str]:
+    """The contenders whose times do not count, with the view and the verdict."""
+    kept_out = rows[~rows["timed"]]
+    verdicts = kept_out["verdict"].replace("", "no verdict")
+    return list(dict.fromkeys(kept_out["contender"] + " in " + kept_out["view"] + ": " + verdicts))
+
+
+def write_plot(plot: Plot, directory: Path) -> list[Path]:
+    """Writes the figure as PNG and as SVG."""
+
+    def save(ending: str) -> Path:
+        metadata = {"Date": None} if ending == "svg" else None
+        return write_whole(
+            directory / f"{plot.stem}.{ending}",
+            lambda path: plot.figure.savefig(path, format=ending, dpi=200, metadata=metadata),
+        )
+
+    return [save("png"), save("svg")]
+
+
+def _source(rows: pd.DataFrame) -> str:
+    first = rows.iloc[0]
+    modified = " (modified)" if first["dirty"] == "true" else ""
+    return (
+        f"Run {first['run_id']}, commit {first['commit'][:12]}{modified}, "
+        f"machine {first['machine_id'][:8]}, threads {first['threads']:.0f}."
+    )
+
+
+_COLOURS = {
+    "embree": "#000000",
+    "exhaustive": "#777777",
+    "null": "#b0b0b0",
+    "samet": "#0072b2",
+    "samet-net": "#56b4e9",
+    "voxel-grid": "#009e73",
+    "goldsmith-salmon": "#cc79a7",
+    "sah-bvh": "#e69f00",
+    "beam": "#d55e00",
+    "tile-beam": "#8a7f00",
+}
+_MARKERS = "osD^vP*X<>"
+_DASHES = ("-", "--", "-.", ":")
+
+
+@dataclass(frozen=True)
+class Look:
+    """How one contender is drawn."""
+
+    colour: str
+    marker: str
+    dashes: str
+
+
+def structure_colour(structure: str) -> str:
+    """The colour of a structure; a newcomer gets one of the others', always the same."""
+    spare = list(_COLOURS.values())
+    return _COLOURS.get(structure, spare[crc32(structure.encode()) % len(spare)])
+
+
+def looks(rows: pd.DataFrame) -> dict[str, Look]:
+    """The look of every contender of a run."""
+    result = {}
+    for structure, group in rows.groupby("structure", sort=False):
+        for index, contender in enumerate(dict.fromkeys(group["contender"])):
+            result[contender] = variant_look(structure, index)
+    return result
+
+
+def variant_look(structure: str, index: int) -> Look:
+    """The look of one of several variants of a structure, counted from 0."""
+    return Look(
+        structure_colour(structure),
+        _MARKERS[index % len(_MARKERS)],
+        _DASHES[index % len(_DASHES)],
+    )

@@ -1,0 +1,161 @@
+"""The manifest of a run, and the machine that the run was made on."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, field
+from datetime import datetime
+from pathlib import Path
+
+import pandas as pd
+
+from beambench_report.base.files import Problem
+from beambench_report.base.quantities import size_in_words
+
+_SENTENCES = ("uncontrolled", "notes")
+
+
+@dataclass(frozen=True)
+class Facts:
+    """A titled list of names and values, or a table where there are many of a kind."""
+
+    title: str
+    pairs: list[tuple[str, str]] = field(default_factory=list)
+    table: list[dict[str, str]] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Manifest:
+    """What was measured by what, and where."""
+
+    run_id: str = ""
+    sweep: str = ""
+    begun: str = ""
+    seconds: float | None = None
+    cut_off: bool = False
+    machine: str = ""
+    overhead: float | None = None
+    """What part of the fastest contender's trace time the harness itself takes, at most."""
+    uncontrolled: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    facts: list[Facts] = field(default_factory=list)
+
+
+def read_manifest(directory: Path) -> Manifest | None:
+    """DIRECTORY/manifest.json; None where there is none."""
+    source = _read_object(directory / "manifest.json")
+    if source is None:
+        return None
+    begun, finished = source.get("time_utc"), source.get("finished_utc")
+    return Manifest(
+        run_id=source.get("run_id", ""),
+        sweep=source.get("sweep", ""),
+        begun=begun or "",
+        seconds=_seconds_between(begun, finished),
+        cut_off="finished_utc" in source and not finished,
+        machine=_dictionary(source, "machine").get("cpu", ""),
+        overhead=_dictionary(source, "harness_overhead").get("part"),
+        uncontrolled=source.get("uncontrolled", []),
+        notes=source.get("notes", []),
+        facts=_facts(source),
+    )
+
+
+def read_description(directory: Path) -> str:
+    """What the sweep says of itself in DIRECTORY/config.json; empty where it says nothing."""
+    return str((_read_object(directory / "config.json") or {}).get("description", ""))
+
+
+def _read_object(path: Path) -> dict | None:
+    try:
+        source = json.loads(path.read_text("utf-8"))
+    except FileNotFoundError:
+        return None
+    except ValueError as error:
+        raise Problem(f"{path}: cannot be read as JSON: {error}") from None
+    if not isinstance(source, dict):
+        raise Problem(f"{path}: holds no JSON object")
+    return source
+
+
+def _facts(source: dict) -> list[Facts]:
+    """Plain members first, then a list for each group of them."""
+    plain = Facts("Run")
+    groups = [plain]
+    for name, value in source.items():
+        if name in _SENTENCES:
+            continue
+        if isinstance(value, dict):
+            groups.append(Facts(_label(name), _pairs(value)))
+        elif isinstance(value, list) and value and all(isinstance(one, dict) for one in value):
+            rows = [dict(_pairs(one)) for one in value]
+            groups.append(Facts(_label(name), table=rows))
+        else:
+            plain.pairs.append((_label(name), _text(name, value)))
+    return groups
+
+
+def _pairs(source: dict, prefix: str = "") -> list[tuple[str, str]]:
+    pairs = []
+    for name, value in source.items():
+        label = f"{prefix}{_label(name)}"
+        if isinstance(value, dict):
+            pairs += _pairs(value, f"{label}: ")
+        else:
+            pairs.append((label, _text(name, value)))
+    return pairs
+
+
+def _label(name: str) -> str:
+    return name.replace("_", " ")
+
+
+def _text(name: str, value: object) -> str:
+    if value is None:
+        return "not told"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, list):
+        return ", ".join(_text(name, one) for one in value) or "none"
+    if isinstance(value, int | float) and name.endswith("_bytes"):
+        return size_in_words(value)
+    return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def _dictionary(source: dict, name: str) -> dict:
+    value = source.get(name)
+    return value if isinstance(value, dict) else {}
+
+
+def _seconds_between(begun: str | None, finished: str | None) -> float | None:
+    try:
+        return (datetime.fromisoformat(finished) - datetime.fromisoformat(begun)).total_seconds()
+    except (TypeError, ValueError):
+        return None
+
+
+@dataclass(frozen=True)
+class Machine:
+    """What is known of it."""
+
+    ids: tuple[str, ...]
+    """One, unless a file has runs of several machines."""
+    processor: str
+    """Empty where no manifest is beside the run."""
+
+    def differs_from(self, other: Machine) -> bool:
+        """Are they two, as far as both are known?"""
+        both_known = self.processor and other.processor
+        return self.ids != other.ids or bool(both_known and self.processor != other.processor)
+
+    def __str__(self) -> str:
+        """As people read it."""
+        ids = " and ".join(self.ids)
+        return f"{ids} ({self.processor})" if self.processor else ids
+
+
+def machine_of(rows: pd.DataFrame, folder: Path) -> Machine:
+    """The machine of the rows; FOLDER may hold the manifest of their run."""
+    manifest = read_manifest(folder)
+    is_theirs = manifest is not None and set(rows["run_id"]) == {manifest.run_id}
+    return Machine(tuple(sorted(set(rows["machine_id"]))), manifest.machine if is_theirs else "")

@@ -1,0 +1,153 @@
+"""Reads the results.csv of a run and checks that it holds what plots and pages need."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import pandas as pd
+from pandas.api.types import is_bool_dtype, is_numeric_dtype
+
+from beambench_report.base.columns import COUNTER_SUFFIX, dictionary
+from beambench_report.base.files import Problem
+from beambench_report.base.names import contender_labels, view_titles
+
+# The columns without which there is nothing to show.
+NEEDED_COLUMNS = (
+    "run_id commit dirty machine_id threads "
+    "scene camera primitives structure parameters width height samples ray_kind rays "
+    "build_ms_median trace_ms_median total_ms_median total_ms_ci_low total_ms_ci_high "
+    "memory_bytes verdict"
+).split()
+VERSION_COLUMN = "schema_version"
+
+TIMED_VERDICTS = ("ok", "baseline")
+NO_RAYS = "no_rays"  # the scene has none of the kind: nothing was measured, and nothing is wrong
+FAULTLESS_VERDICTS = (*TIMED_VERDICTS, NO_RAYS)
+
+
+@dataclass(frozen=True)
+class Run:
+    """One run: a row a cell, as in results.csv, and what plots and pages call things.
+
+    Columns added to those of the file: `contender` (label of structure and parameters), `view`
+    (title of what the rays see) and `timed` (do the row's times count?).
+    """
+
+    directory: Path
+    rows: pd.DataFrame
+
+    @property
+    def views(self) -> list[str]:
+        """The titles of the views, in the order of the file."""
+        return list(dict.fromkeys(self.rows["view"]))
+
+    @property
+    def counters(self) -> list[str]:
+        """The counter columns that hold anything, in the order of the file."""
+        return [name for name in self._all_counters if not _is_of_a_kind(name)]
+
+    @property
+    def counters_by_kind(self) -> list[str]:
+        """Those of whole pictures that are of one kind of their rays."""
+        return [name for name in self._all_counters if _is_of_a_kind(name)]
+
+    @property
+    def _all_counters(self) -> list[str]:
+        names = [name for name in self.rows if str(name).endswith(COUNTER_SUFFIX)]
+        return [name for name in names if self.rows[name].notna().any()]
+
+    def view(self, title: str) -> pd.DataFrame:
+        """The rows of one view."""
+        return self.rows[self.rows["view"] == title]
+
+    def finest(self, title: str) -> pd.DataFrame:
+        """The rows of one view at the highest number of rays."""
+        rows = self.view(title)
+        return rows[rows["rays"] == rows["rays"].max()]
+
+
+def _is_of_a_kind(name: str) -> bool:
+    column = dictionary().find(name)
+    return column is not None and column.is_of_a_kind
+
+
+def read_run(directory: Path) -> Run:
+    """Reads DIRECTORY/results.csv. Raises Problem naming the file, column and row at fault."""
+    path = directory / "results.csv"
+    rows = _read_csv(path)
+    _require_version(rows, path)
+    missing = [name for name in NEEDED_COLUMNS if name not in rows]
+    if missing:
+        raise Problem(
+            f"{path}: the columns {', '.join(missing)} are missing; "
+            "was it written by another version of beambench?"
+        )
+    if rows.empty:
+        raise Problem(f"{path}: holds no row; the run was cut off before its first cell ended")
+
+    for name in rows.columns:
+        column = dictionary().find(name)
+        if column and column.is_number:
+            rows[name] = _numbers(rows[name], path)
+        elif column or not is_numeric_dtype(rows[name]):  # of unknown columns, figures stay figures
+            rows[name] = rows[name].astype(str).where(rows[name].notna(), "")
+    _require_values(rows, path, ("scene", "structure", "rays"))
+
+    rows = rows.copy()  # in one piece: pandas warns of many columns that were set one by one
+    rows["contender"] = contender_labels(rows)
+    rows["view"] = view_titles(rows)
+    rows["timed"] = rows["verdict"].isin(TIMED_VERDICTS) & rows["total_ms_median"].notna()
+    return Run(directory, rows)
+
+
+def _read_csv(path: Path) -> pd.DataFrame:
+    texts = {column.name: str for column in dictionary().columns if not column.is_number}
+    texts[VERSION_COLUMN] = str
+    try:
+        # `null` is the name of a structure, so that only an empty field means "not measured".
+        return pd.read_csv(
+            path, dtype=texts, keep_default_na=False, na_values=[""], low_memory=False
+        )
+    except FileNotFoundError:
+        raise Problem(
+            f"{path}: there is no such file; give the folder that `beambench run` wrote"
+        ) from None
+    except (OSError, UnicodeDecodeError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
+        raise Problem(f"{path}: cannot be read as CSV: {error}") from None
+
+
+def _require_version(rows: pd.DataFrame, path: Path) -> None:
+    """A reader that guesses what another version's columns mean would lie without a sound."""
+    known = dictionary().schema_version
+    if VERSION_COLUMN not in rows:
+        raise Problem(
+            f"{path}: there is no column {VERSION_COLUMN}, so it was written by an older beambench "
+            "or by something else; measure anew"
+        )
+    others = rows.index[rows[VERSION_COLUMN].astype(str) != str(known)]
+    if len(others) > 0:
+        raise Problem(
+            f"{path}, row {others[0] + 2}: {VERSION_COLUMN} is "
+            f"'{rows[VERSION_COLUMN][others[0]]}', and this reads version {known}; use the scripts "
+            "of the commit that the row names, or measure anew"
+        )
+
+
+def _numbers(column: pd.Series, path: Path) -> pd.Series:
+    if is_numeric_dtype(column) and not is_bool_dtype(column):
+        return column.astype(float)
+    numbers = pd.to_numeric(column.astype(str).where(column.notna()), errors="coerce")
+    wrong = column[numbers.isna() & column.notna() & (column.astype(str).str.lower() != "nan")]
+    if not wrong.empty:
+        raise Problem(
+            f"{path}, row {wrong.index[0] + 2}: {column.name} is '{wrong.iloc[0]}', not a number"
+        )
+    return numbers.astype(float)
+
+
+def _require_values(rows: pd.DataFrame, path: Path, columns: tuple[str, ...]) -> None:
+    for name in columns:
+        empty = rows.index[rows[name].isna() | (rows[name] == "")]
+        if len(empty) > 0:
+            raise Problem(f"{path}, row {empty[0] + 2}: {name} is empty")

@@ -1,1 +1,0 @@
-"""Tile beams against the fastest way that Embree traces the same image, and what was aimed at."""

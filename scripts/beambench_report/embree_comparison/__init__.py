@@ -1,0 +1,1 @@
+"""Tile beams against the fastest way that Embree traces the same image, with targets."""

@@ -1,0 +1,206 @@
+"""Ratios beside their aims, and times as scenes and images get finer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+from matplotlib.ticker import FuncFormatter, NullLocator
+
+from beambench_report.base.figure import Plot, new_figure, structure_colour
+from beambench_report.base.ratio import Ratio
+from beambench_report.embree_comparison.pairings import Duel, Trace
+from beambench_report.embree_comparison.report import part_of_aims
+from beambench_report.embree_comparison.targets import LARGE, MIDDLE, SMALL, groups
+
+_LINE_HEIGHT = 0.12  # inches, of one marker; a row has one for each resolution
+# Colours of Okabe and Ito, the same for a resolution in every figure.
+_LOOKS = {
+    "80x50": ("#cc79a7", "v"),
+    "160x100": ("#56b4e9", "s"),
+    SMALL: ("#0072b2", "o"),
+    MIDDLE: ("#e69f00", "D"),
+    LARGE: ("#d55e00", "^"),
+}
+_AIM_HEIGHT = 0.4  # of the tick that stands for an aim, in lines, to each side
+_TICKS = (0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 50, 100)
+_READING = "First traces after a build. Line: 95% interval; hollow: too few repetitions; tick: aim."
+_LEAST_SIZES = 5
+"""A line of fewer sizes shows little growth."""
+
+
+def plots(found: Sequence[Duel]) -> list[Plot]:
+    """Those for which the images suffice."""
+    single = [duel for duel in found if duel.samples == 1]
+    drawn = [_ratios(isa, single) for isa in dict.fromkeys(duel.isa for duel in single)]
+    drawn.append(
+        _growth(
+            "beat-embree-scaling",
+            [duel for duel in single if duel.isa == "best"],
+            line=lambda duel: (duel.scene.split(":")[0], duel.resolution),
+            size=lambda duel: duel.primitives,
+            axis="primitives",
+        )
+    )
+    drawn.append(
+        _growth(
+            "beat-embree-resolutions",
+            [duel for duel in single if duel.isa == "best"],
+            line=lambda duel: (duel.scene,),
+            size=lambda duel: duel.rays,
+            axis="pixels",
+        )
+    )
+    return [plot for plot in drawn if plot is not None]
+
+
+def _ratios(isa: str, found: Sequence[Duel]) -> Plot | None:
+    """A panel a group, a row a scene, a marker a resolution, its aim a tick of the same colour.
+
+    The ticks stand in the line of their marker, so that none hides another one.
+    """
+    shown = [duel for duel in found if duel.isa == isa]
+    panels_of = []
+    for group in groups():
+        own = [
+            duel for duel in shown if duel.scene in group.scenes and duel.resolution in group.aims
+        ]
+        if own:
+            panels_of.append((group, own))
+    if not panels_of:
+        return None
+    shown = [duel for _, own in panels_of for duel in own]
+    heights = [
+        _LINE_HEIGHT * (len(_resolutions(own)) + 0.5) * len({duel.scene for duel in own}) + 0.5
+        for _, own in panels_of
+    ]
+    figure, panels = new_figure(sum(heights) + 0.8, len(panels_of), height_ratios=heights)
+    for panel, (group, own) in zip(panels, panels_of, strict=True):
+        scenes = [scene for scene in group.scenes if any(duel.scene == scene for duel in own)]
+        resolutions = _resolutions(own)
+        line = 1 / (len(resolutions) + 0.5)
+        for duel in own:
+            shift = line * (resolutions.index(duel.resolution) - (len(resolutions) - 1) / 2)
+            aim = part_of_aims(isa) * group.aims[duel.resolution]
+            _draw_ratio(panel, duel, scenes.index(duel.scene) + shift, aim, line * _AIM_HEIGHT)
+        panel.set_title(group.title)
+        panel.set_yticks(range(len(scenes)), [group.scenes[scene] for scene in scenes])
+        panel.set_ylim(len(scenes) - 0.4, -0.6)
+        _axis_of_ratios(panel, shown)
+    panels[-1].set_xlabel("times as fast as Embree's fastest mode")
+    _legend(figure, _resolutions(shown))
+    _name_origin(figure, shown, _READING)
+    stem = "beat-embree" if isa == "best" else f"beat-embree-{isa}"
+    return Plot(stem, figure, "how many times as fast as Embree tile beams are")
+
+
+def _draw_ratio(panel: Axes, duel: Duel, at: float, aim: float, half: float) -> None:
+    colour, marker = _LOOKS[duel.resolution]
+    ratio: Ratio = duel.ratio
+    if ratio.interval:
+        panel.plot(ratio.interval, [at, at], color=colour, linewidth=1.5)
+    inside = colour if ratio.interval else "white"
+    panel.plot(
+        ratio.value, at, marker, color=colour, markerfacecolor=inside, markersize=4.5, zorder=3
+    )
+    ends = [at - half, at + half]
+    panel.plot([aim, aim], ends, color=colour, linewidth=2, solid_capstyle="butt", zorder=2.5)
+
+
+def _axis_of_ratios(panel: Axes, found: Sequence[Duel]) -> None:
+    values = [end for duel in found for end in duel.ratio.interval or (duel.ratio.value,)]
+    panel.set_xscale("log")
+    panel.set_xlim(min(0.6, 0.8 * min(values)), max(20.0, 1.3 * max(values)))
+    panel.set_xticks(
+        [tick for tick in _TICKS if panel.get_xlim()[0] <= tick <= panel.get_xlim()[1]]
+    )
+    panel.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    panel.xaxis.set_minor_locator(NullLocator())
+    panel.axvline(1, color="#333333", linewidth=0.8)
+    panel.grid(axis="y", color="#dddddd", linewidth=0.6)
+
+
+def _legend(figure: Figure, resolutions: Sequence[str]) -> None:
+    handles = [
+        Line2D([], [], marker=marker, color=colour, linestyle="none", label=resolution)
+        for resolution, (colour, marker) in _LOOKS.items()
+        if resolution in resolutions
+    ]
+    figure.legend(
+        handles=handles, loc="outside upper center", ncols=len(handles), frameon=False, fontsize=8
+    )
+
+
+def _resolutions(found: Sequence[Duel]) -> list[str]:
+    """Those that there are, the coarsest first."""
+    return [size for size in _LOOKS if any(duel.resolution == size for duel in found)]
+
+
+def _name_origin(figure: Figure, found: Sequence[Duel], reading: str) -> None:
+    lines = [reading, *dict.fromkeys(duel.origin for duel in found)]
+    figure.supxlabel("\n".join(lines), x=0.01, ha="left", fontsize=7.5, color="#333333")
+
+
+def _growth(
+    stem: str,
+    found: Sequence[Duel],
+    *,
+    line: Callable[[Duel], tuple[str, ...]],
+    size: Callable[[Duel], int],
+    axis: str,
+) -> Plot | None:
+    """Times of both, a panel for each line that has sizes enough."""
+    lines: dict[tuple[str, ...], list[Duel]] = {}
+    for duel in sorted(found, key=size):
+        lines.setdefault(line(duel), []).append(duel)
+    long = {
+        name: own for name, own in lines.items() if len({size(one) for one in own}) >= _LEAST_SIZES
+    }
+    if not long:
+        return None
+    figure, panels = new_figure(2.6 * len(long) + 0.6, len(long))
+    for panel, (name, own) in zip(panels, long.items(), strict=True):
+        _draw_times(panel, own, "Embree's fastest mode", "embree", size, lambda duel: duel.embree)
+        _draw_times(panel, own, "tile-beam", "tile-beam", size, lambda duel: duel.tile)
+        panel.set_title(", ".join(name))
+        panel.set_xscale("log")
+        panel.set_yscale("log")
+        panel.set_ylabel("first trace, ms")
+        panel.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        panel.grid(axis="y", color="#dddddd", linewidth=0.6)
+    panels[0].legend(frameon=False, fontsize=8)
+    panels[-1].set_xlabel(axis)
+    drawn = [duel for own in long.values() for duel in own]
+    _name_origin(figure, drawn, "First traces after a build; 95% intervals of the medians.")
+    return Plot(
+        stem, figure, f"time of tile beams and of Embree over the number of {axis}, 95% intervals"
+    )
+
+
+def _draw_times(
+    panel: Axes,
+    own: Sequence[Duel],
+    label: str,
+    structure: str,
+    size: Callable[[Duel], int],
+    trace: Callable[[Duel], Trace],
+) -> None:
+    traces = [trace(duel).first for duel in own]
+    errors = [
+        [0.0 if one.low is None else one.value - one.low for one in traces],
+        [0.0 if one.high is None else one.high - one.value for one in traces],
+    ]
+    panel.errorbar(
+        [size(duel) for duel in own],
+        [one.value for one in traces],
+        yerr=errors,
+        capsize=2.5,
+        elinewidth=1.2,
+        marker="o" if structure == "embree" else "D",
+        markersize=4.5,
+        linewidth=1.4,
+        color=structure_colour(structure),
+        label=label,
+    )

@@ -1,0 +1,81 @@
+"""What tile beams should reach: so many times as fast as Embree's fastest mode."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from beambench_report.base.published import primitives_by_scene
+
+SMALL, MIDDLE, LARGE = "320x200", "1280x1024", "3840x2160"
+HELD_TO_LESS = 0.5
+"""What part of the aims holds where both are held to an instruction set below the best."""
+
+SPHERES_ARE_WEAK = (
+    "Against a weak baseline: a sphere of Embree's is its point geometry, which does not gain from "
+    "AVX-512; cones, where a scene has any, are callbacks that test one ray at a time."
+)
+
+
+@dataclass(frozen=True)
+class Group:
+    """Scenes that have one aim at each resolution. A scene is in one group only."""
+
+    title: str
+    scenes: Mapping[str, str]
+    """What we call each scene, by the name that records have."""
+    aims: Mapping[str, float]
+    """By resolution: the ratio that each scene should reach."""
+    mean_aims: Mapping[str, float]
+    """The ratio that the geometric mean of all scenes should reach; empty where none is set."""
+    note: str = ""
+    """What the reader must know of the baseline."""
+
+
+def groups() -> list[Group]:
+    """In the order of the report. `escena1`, one of the thesis's, has the aims of the spheres."""
+    return [
+        Group(
+            "Scenes of triangles",
+            {
+                "tetra:n=6": "tetra, 4 k",
+                "bumpy:triangles=15680": "bumpy, 16 k",
+                "bumpy:triangles=200000": "bumpy, 200 k",
+                "bumpy:triangles=1000000": "bumpy, 1 M",
+                "tessellated-balls:seed=1999,slices=16,spheres=430": "tessellated balls, 96 k",
+                "closed-room:detail=8": "closed room, 32 k",
+            },
+            {SMALL: 2.5, MIDDLE: 6, LARGE: 10},
+            {SMALL: 7, MIDDLE: 12, LARGE: 15},
+            "Three of the six scenes are the same bumpy sphere at different sizes, so that the "
+            "geometric mean gives it half the weight.",
+        ),
+        Group(
+            "Scenes of spheres",
+            {_ESCENA1: "escena1", "balls:n=4": "balls", "shells:n=5": "shells"},
+            {SMALL: 3, MIDDLE: 8, LARGE: 12},
+            {},
+            SPHERES_ARE_WEAK,
+        ),
+        Group(
+            "The thesis's other scenes",
+            {
+                name: f"{name} ({_OF_SPHERES[name]})" if name in _OF_SPHERES else name
+                for name in primitives_by_scene()
+                if name != "escena1"
+            },
+            {SMALL: 1, MIDDLE: 4, LARGE: 6},
+            {},
+            f"Of polygons, but where spheres are named. {SPHERES_ARE_WEAK}",
+        ),
+        Group(
+            "Far more triangles than pixels",
+            {"soup:seed=1,triangles=1000000": "soup, 1 M"},
+            {"80x50": 0.7, "160x100": 0.7, SMALL: 0.7, MIDDLE: 3},
+            {},
+        ),
+    ]
+
+
+_ESCENA1 = "escena1:seed=1999,spheres=430"
+_OF_SPHERES = {"escena2": "spheres and a polygon", "caracol": "spheres"}

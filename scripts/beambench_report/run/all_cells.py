@@ -1,0 +1,119 @@
+"""The rows of results.csv, packed small, for the table that the browser sorts and filters.
+
+Texts are numbers into a list of the texts there are; figures are rounded to what a table shows; a
+column that says the same in every row is said once.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from pandas.api.types import is_numeric_dtype
+
+from beambench_report.base.columns import Column, dictionary
+from beambench_report.base.records import Run
+
+_DIGITS = 5
+# Shown from the start; the others come with their group.
+_FIRST_SHOWN = (
+    "repetitions build_ms_median trace_ms_median total_ms_median mrays_per_s memory_bytes "
+    "primitive_tests_per_ray verdict"
+).split()
+_NAMES = {
+    "contender": "The structure, with those parameters that differ between rows of this run.",
+    "view": "What the rays see: the scene, and whatever else differs between rows of this run.",
+    "resolution": "Width and height of the image.",
+}
+
+
+@dataclass(frozen=True)
+class AllCells:
+    """The packed rows as JSON, and what is not in there."""
+
+    rows: int
+    packed: str
+    same_everywhere: list[tuple[str, str]]
+
+
+def pack(run: Run, own: Mapping[str, Column] | None = None) -> AllCells:
+    """Packs every column of a run that holds anything; `own` are columns that no record has."""
+    own = own or {}
+    rows = run.rows
+    columns = [_named(name, _texts(rows, name)) for name in _NAMES]
+    same = []
+    for name in rows.columns.drop(["contender", "view", "timed"]):
+        series = rows[name]
+        entry = own.get(name) or dictionary().find(name) or _unknown(series)
+        first = series.iloc[0]
+        nothing = series.isna().all() if entry.is_number else (series == "").all()
+        if nothing and name != "verdict":
+            continue
+        if len(rows) > 1 and name not in _FIRST_SHOWN and (series == first).all():
+            same.append((name, _plain(first)))
+            continue
+        packed = _pack_figures(series) if entry.is_number else _pack_texts(series)
+        columns.append(
+            {
+                "name": name,
+                "group": entry.group,
+                "unit": entry.unit,
+                "meaning": entry.meaning,
+                "first": name in _FIRST_SHOWN,
+                **packed,
+            }
+        )
+    packed = json.dumps({"rows": len(rows), "columns": columns}, separators=(",", ":"))
+    return AllCells(len(rows), packed.replace("<", "\\u003c"), same)
+
+
+def _unknown(series: pd.Series) -> Column:
+    """A newer beambench may add columns."""
+    kind = "number" if is_numeric_dtype(series) else "text"
+    return Column(str(series.name), "", kind, "", "Not in the data dictionary.", "")
+
+
+def _named(name: str, series: pd.Series) -> dict:
+    head = {"name": name, "group": "", "unit": "", "meaning": _NAMES[name], "first": True}
+    return head | _pack_texts(series)
+
+
+def _texts(rows: pd.DataFrame, name: str) -> pd.Series:
+    if name != "resolution":
+        return rows[name]
+    sizes = rows[["width", "height"]].astype(int).astype(str)
+    return sizes["width"] + "x" + sizes["height"]
+
+
+def _pack_texts(series: pd.Series) -> dict:
+    places, words = pd.factorize(series)
+    return {"words": list(words), "at": places.tolist()}
+
+
+def _pack_figures(series: pd.Series) -> dict:
+    """Whole numbers are kept whole, others get some digits; null where nothing was measured."""
+    values = series.to_numpy(float)
+    finite = np.isfinite(values)
+    whole = values[finite]
+    if (whole == np.round(whole)).all():
+        rounded = np.where(finite, values, 0).astype(np.int64)
+    else:
+        rounded = _rounded(np.where(finite, values, 0))
+    figures = rounded.tolist()
+    for place in np.flatnonzero(~finite):
+        figures[place] = None
+    return {"figures": figures}
+
+
+def _rounded(values: np.ndarray) -> np.ndarray:
+    """To some significant digits: np.round alone counts digits behind the point."""
+    magnitude = np.floor(np.log10(np.abs(values), where=values != 0, out=np.zeros_like(values)))
+    factor = 10.0 ** (_DIGITS - 1 - magnitude)
+    return np.round(values * factor) / factor
+
+
+def _plain(value: object) -> str:
+    return f"{value:.10g}" if isinstance(value, float) else str(value)

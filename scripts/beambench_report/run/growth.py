@@ -1,0 +1,81 @@
+"""How generated scenes grow: `beambench scene NAME --growth --csv` as a plot."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pandas as pd
+from matplotlib.axes import Axes
+
+from beambench_report.base.figure import PAGE_WIDTH, Plot, house_style, new_figure, write_plot
+from beambench_report.base.files import Problem
+
+_COLUMNS = ("generator", "parameter", "size", "primitives", "bytes", "seconds", "scene")
+# Of Okabe and Ito, as in style.py; there they stand for structures.
+_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+_MARKERS = "osD^vP*X<>"
+_GIB = 2.0**30
+
+
+def write_growth(files: list[Path], output: Path | None = None) -> list[Path]:
+    """Draws memory and time over the primitives, a line for each file's generator.
+
+    Writes PNG and SVG; beside the first file and named like it, if `output` is not given.
+    """
+    tables = [read_growth(file) for file in files]
+    target = (output or files[0]).with_suffix("")
+    with house_style():
+        return write_plot(growth_plot(tables, target.name), target.parent)
+
+
+def read_growth(file: Path) -> pd.DataFrame:
+    """The rows of one file; raises Problem where it is not what beambench writes."""
+    try:
+        rows = pd.read_csv(file)
+    except FileNotFoundError:
+        raise Problem(f"{file}: there is no such file") from None
+    except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
+        raise Problem(f"{file}: it is not a CSV file ({error})") from None
+    missing = [column for column in _COLUMNS if column not in rows]
+    if missing:
+        raise Problem(
+            f"{file}: it has no column '{missing[0]}'; "
+            "write it with: beambench scene NAME --growth --csv"
+        )
+    if rows.empty:
+        raise Problem(f"{file}: it has no rows")
+    for column in ("primitives", "bytes", "seconds"):
+        numbers = pd.to_numeric(rows[column], errors="coerce")
+        if not (numbers >= 0).all():
+            raise Problem(f"{file}: column '{column}' holds something that is not a number >= 0")
+        rows[column] = numbers
+    return rows
+
+
+def growth_plot(tables: list[pd.DataFrame], stem: str) -> Plot:
+    """Two panels over one axis of primitives: memory above, seconds below."""
+    figure, (memory, seconds) = new_figure(PAGE_WIDTH * 0.95, rows=2)
+    for index, rows in enumerate(tables):
+        look = {
+            "color": _COLOURS[index % len(_COLOURS)],
+            "marker": _MARKERS[index % len(_MARKERS)],
+            "markersize": 4,
+            "linewidth": 1.2,
+            "label": rows["generator"].iloc[0],
+        }
+        memory.plot(rows["primitives"], rows["bytes"] / _GIB, **look)
+        timed = rows[rows["seconds"] > 0]
+        seconds.plot(timed["primitives"], timed["seconds"], **look)
+    _finish(memory, "Memory of the scene's arrays", "GiB")
+    _finish(seconds, "Time to generate it", "seconds")
+    memory.legend(fontsize=8, frameon=False, ncols=2)
+    seconds.set_xlabel("primitives")
+    return Plot(stem, figure, "memory and time of generated scenes over their primitives")
+
+
+def _finish(panel: Axes, title: str, unit: str) -> None:
+    panel.set_title(title)
+    panel.set_ylabel(unit)
+    panel.set_xscale("log")
+    panel.set_yscale("log")
+    panel.grid(alpha=0.3)

@@ -1,0 +1,81 @@
+"""What comes first on the page: was everything right, and if not, what was wrong and why."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import pandas as pd
+
+from beambench_report.base.cell_files import CellFile, Example, Identity, identity
+from beambench_report.base.records import FAULTLESS_VERDICTS, NO_RAYS, Run
+
+# Whoever has more wrong cells than this has one cause, not many.
+_MOST_SHOWN = 40
+
+_MEANINGS = {
+    "mismatch": "hits were wrong",
+    "grazes": "too many rays were disputed at the edges of primitives",
+    "error": "could not be built",
+    "": "was not judged",
+}
+
+
+@dataclass(frozen=True)
+class Fault:
+    """Cells of one contender in one view that were not right for one reason."""
+
+    contender: str
+    view: str
+    sizes: tuple[str, ...]
+    verdict: str
+    meaning: str
+    message: str
+    examples: tuple[Example, ...]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How the cells of a run were judged."""
+
+    cells: int
+    wrong: int
+    faults: tuple[Fault, ...]
+    """The first of what was wrong."""
+    unshown: int
+    """How many wrong cells are in the table of all cells only."""
+    without_rays: int
+    """How many cells are of a kind of rays that their scene has none of."""
+
+    @property
+    def right(self) -> int:
+        """How many cells were right."""
+        return self.cells - self.wrong - self.without_rays
+
+
+def judge_run(run: Run, files: Mapping[Identity, CellFile]) -> Outcome:
+    """Sums up the verdicts."""
+    wrong = run.rows[~run.rows["verdict"].isin(FAULTLESS_VERDICTS)]
+    shown = wrong.head(_MOST_SHOWN)
+    faults: dict[tuple, Fault] = {}
+    for _, row in shown.iterrows():
+        fault = _fault(row, files.get(identity(row)))
+        reason = (fault.contender, fault.view, fault.verdict, fault.message, fault.examples)
+        earlier = faults.get(reason)
+        sizes = (*earlier.sizes, *fault.sizes) if earlier else fault.sizes
+        faults[reason] = replace(fault, sizes=sizes)
+    without_rays = int((run.rows["verdict"] == NO_RAYS).sum())
+    unshown = len(wrong) - len(shown)
+    return Outcome(len(run.rows), len(wrong), tuple(faults.values()), unshown, without_rays)
+
+
+def _fault(row: pd.Series, file: CellFile | None) -> Fault:
+    return Fault(
+        row["contender"],
+        row["view"],
+        (f"{row['width']:.0f}x{row['height']:.0f}",),
+        row["verdict"] or "no verdict",
+        _MEANINGS.get(row["verdict"], "was not right"),
+        file.message if file else "",
+        file.examples if file else (),
+    )

@@ -1,0 +1,403 @@
+"""The page of a run: one HTML file that holds everything and loads nothing from a network."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from math import log2
+from pathlib import Path
+
+import pandas as pd
+
+from beambench_report.base.cell_files import CellFile, Identity, identity, read_cell_files
+from beambench_report.base.columns import COUNTER_SUFFIX, dictionary
+from beambench_report.base.figure import structure_colour
+from beambench_report.base.files import Problem, write_text
+from beambench_report.base.machine import Manifest, read_description, read_manifest
+from beambench_report.base.names import PLOT_INDEX, file_stems
+from beambench_report.base.quantities import number, size_in_words
+from beambench_report.base.ratio import Ratio, median_of, paired_ratio, unpaired_ratio
+from beambench_report.base.records import Run, read_run
+from beambench_report.run.all_cells import pack
+from beambench_report.run.html import data_uri, environment
+from beambench_report.run.outcome import judge_run
+
+
+@dataclass(frozen=True)
+class Heading:
+    """The head of a column; `column` names its entry in the data dictionary."""
+
+    title: str
+    unit: str = ""
+    column: str = ""
+    is_number: bool = True
+
+
+@dataclass(frozen=True)
+class Field:
+    """A field: what is read, what it sorts by, and smaller words behind it."""
+
+    text: str
+    value: float | str | None
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A contender's line; the shares are those of its bar, 1 being the whole width."""
+
+    contender: str
+    colour: str
+    verdict: str
+    fields: tuple[Field, ...]
+    build_share: float = 0.0
+    trace_share: float = 0.0
+    off_the_scale: bool = False
+
+
+@dataclass(frozen=True)
+class Table:
+    """Headings and lines; lines beyond what a page can show are counted only."""
+
+    caption: str
+    headings: tuple[Heading, ...]
+    lines: tuple[Line, ...]
+    unshown: int = 0
+
+
+@dataclass(frozen=True)
+class Image:
+    """An image that brings its own bytes."""
+
+    uri: str
+    caption: str
+    subject: str
+    """The scene (of a picture) or the view (of a plot) it belongs to; empty: the whole run."""
+
+
+def read_pictures(directory: Path, scenes: Iterable[str]) -> list[Image]:
+    """The pictures of DIRECTORY/pictures: `<scene>.png` and `<scene>-<what it shows>.png`."""
+    stems = {stem: scene for scene, stem in file_stems(dict.fromkeys(scenes)).items()}
+    images = []
+    for path in sorted(directory.glob("pictures/*.png"), key=lambda path: path.stem):
+        # The longest stem that fits: `tetra-n-6` is not the scene `tetra`.
+        fitting = [s for s in stems if path.stem == s or path.stem.startswith(f"{s}-")]
+        stem = max(fitting, key=len, default="")
+        what = path.stem.removeprefix(stem).strip("-").replace("-", ", ").replace("_", " ")
+        images.append(Image(data_uri(path), what or "the scene", stems.get(stem, "")))
+    return images
+
+
+def read_plots(directory: Path) -> list[Image]:
+    """The plots of DIRECTORY/plots, by the index that was written with them."""
+    index = directory / "plots" / PLOT_INDEX
+    if not index.exists():
+        return []
+    return [
+        Image(data_uri(path), entry["summary"], entry["view"])
+        for entry in json.loads(index.read_text("utf-8"))
+        if (path := index.with_name(f"{entry['stem']}.svg")).exists()
+    ]
+
+
+@dataclass(frozen=True)
+class Compared:
+    """The rows of one view at one resolution, and each contender's ratio to the reference."""
+
+    rows: pd.DataFrame
+    ratios: Mapping[str, Ratio]
+
+
+def choose_reference(run: Run, wanted: str | None = None) -> str | None:
+    """The contender others are compared with: right in the most views, Embree rather than others.
+
+    None when no contender was right anywhere. Raises Problem for a name the run does not have.
+    """
+    right = run.rows[run.rows["timed"] & (run.rows["verdict"] == "ok")]
+    contenders = list(dict.fromkeys(right["contender"]))
+    if wanted is not None:
+        return _chosen(wanted, contenders)
+    views = right.groupby("contender")["view"].nunique()
+    return max(
+        contenders, key=lambda name: (views[name], name.split()[0] == "embree"), default=None
+    )
+
+
+def _chosen(wanted: str, contenders: list[str]) -> str:
+    """The contender of that name, or the only one of that structure."""
+    if wanted in contenders:
+        return wanted
+    variants = [name for name in contenders if name.split()[0] == wanted]
+    if len(variants) == 1:
+        return variants[0]
+    if variants:
+        listed = " or ".join(f"'{name}'" for name in variants)
+        raise Problem(f"'{wanted}' is the structure of {len(variants)} contenders; name {listed}")
+    raise Problem(f"no contender '{wanted}' was right; there are: {', '.join(contenders)}")
+
+
+def compared(
+    run: Run, view: str, reference: str | None, files: Mapping[Identity, CellFile]
+) -> list[Compared]:
+    """A view at each of its resolutions, the finest first."""
+    groups = [rows for _, rows in run.view(view).groupby(["rays", "width", "height"])]
+    return [Compared(rows, _ratios(rows, reference, files)) for rows in reversed(groups)]
+
+
+def _ratios(
+    rows: pd.DataFrame, reference: str | None, files: Mapping[Identity, CellFile]
+) -> dict[str, Ratio]:
+    timed = rows[rows["timed"]].drop_duplicates("contender", keep="last").set_index("contender")
+    if reference not in timed.index:
+        return {}
+    base = timed.loc[reference]
+    base_file = files.get(identity(base))
+    result = {}
+    for contender, row in timed.iterrows():
+        file = files.get(identity(row))
+        if contender == reference:
+            result[contender] = Ratio(1.0)
+        elif file and base_file and (ratio := paired_ratio(file.total_ms, base_file.total_ms)):
+            result[contender] = ratio
+        elif base["total_ms_median"] > 0:
+            result[contender] = unpaired_ratio(median_of(row, "total"), median_of(base, "total"))
+    return result
+
+
+MISSING = Field("–", None)  # noqa: RUF001
+_MOST_LINES = 60
+_FAR = 12  # a time this many times the median one would flatten the others' bars
+
+
+def view_table(
+    caption: str, rows: pd.DataFrame, counters: list[str], ratios: Mapping[str, Ratio]
+) -> Table:
+    """The quickest first; those without times last."""
+    ordered = rows.sort_values("total_ms_median", na_position="last", kind="stable")
+    counters = [name for name in counters if rows[name].notna().any() and (rows[name] != 0).any()]
+    headings = (
+        Heading("total", "ms", "total_ms_median"),
+        Heading("build", "ms", "build_ms_median"),
+        Heading("trace", "ms", "trace_ms_median"),
+        Heading("trace, net", "ms", "trace_net_ms_median"),
+        Heading("ratio", "to reference"),
+        Heading("speed", "Mrays/s", "mrays_per_s"),
+        Heading("memory", "", "memory_bytes"),
+        *(Heading(_counter_title(name), "a ray", name) for name in counters),
+    )
+    scale = _scale(ordered.loc[ordered["timed"], "total_ms_median"])
+    lines = tuple(
+        _line(row, counters, ratios.get(row["contender"]), scale)
+        for _, row in ordered.head(_MOST_LINES).iterrows()
+    )
+    return Table(caption, headings, lines, len(ordered) - len(lines))
+
+
+def ratio_field(ratio: Ratio | None) -> Field:
+    """A ratio with its interval; one that is not paired says so."""
+    if ratio is None:
+        return MISSING
+    note = ""
+    if ratio.interval:
+        note = f"{number(ratio.low)} to {number(ratio.high)}"
+        note += "" if ratio.paired else ", not paired"
+    return Field(number(ratio.value), ratio.value, note)
+
+
+def _line(row: pd.Series, counters: list[str], ratio: Ratio | None, scale: float) -> Line:
+    timed = bool(row["timed"])
+    interval = ""
+    if timed and pd.notna(row["total_ms_ci_low"]) and pd.notna(row["total_ms_ci_high"]):
+        interval = f"{number(row['total_ms_ci_low'])} to {number(row['total_ms_ci_high'])}"
+    times = [_figure(row[f"{part}_ms_median"] if timed else None) for part in ("build", "trace")]
+    total = _figure(row["total_ms_median"] if timed else None, interval)
+    memory = row["memory_bytes"]
+    build, trace = ((field.value or 0.0) / scale for field in times)
+    return Line(
+        contender=row["contender"],
+        colour=structure_colour(row["structure"]),
+        verdict=row["verdict"] or "no verdict",
+        fields=(
+            total,
+            *times,
+            _figure(row.get("trace_net_ms_median") if timed else None),
+            ratio_field(ratio),
+            _figure(row.get("mrays_per_s") if timed else None),
+            MISSING if pd.isna(memory) else Field(size_in_words(memory), memory),
+            *(_figure(row[name]) for name in counters),
+        ),
+        build_share=min(build, 1.0),
+        trace_share=max(min(trace, 1.0 - build), 0.0),
+        off_the_scale=build + trace > 1.0,
+    )
+
+
+def _figure(value: float | None, note: str = "") -> Field:
+    if value is None or pd.isna(value):
+        return MISSING
+    return Field(number(value), value, note)
+
+
+def _counter_title(name: str) -> str:
+    return name.removesuffix(COUNTER_SUFFIX).replace("_", " ")
+
+
+def _scale(totals: pd.Series) -> float:
+    near = totals[totals <= _FAR * totals.median()]
+    return near.max() if len(near) > 0 and near.max() > 0 else 1.0
+
+
+@dataclass(frozen=True)
+class View:
+    """What is told of one view; the first table is that of the finest resolution."""
+
+    title: str
+    anchor: str
+    primitives: int
+    pictures: tuple[Image, ...]
+    plots: tuple[Image, ...]
+    tables: tuple[Table, ...]
+
+
+def make_views(
+    resolutions: Mapping[str, list[Compared]],
+    counters: list[str],
+    pictures: list[Image],
+    plots: list[Image],
+) -> list[View]:
+    """A section for each view; `resolutions` has its rows, the finest first."""
+    stems = file_stems(resolutions)
+    views = []
+    for title, groups in resolutions.items():
+        first = groups[0].rows.iloc[0]
+        views.append(
+            View(
+                title,
+                f"view-{stems[title]}",
+                0 if pd.isna(first["primitives"]) else int(first["primitives"]),
+                tuple(image for image in pictures if image.subject == first["scene"]),
+                tuple(image for image in plots if image.subject == title),
+                tuple(
+                    view_table(_caption(group.rows), group.rows, counters, group.ratios)
+                    for group in groups
+                ),
+            )
+        )
+    return views
+
+
+def _caption(rows: pd.DataFrame) -> str:
+    first = rows.iloc[0]
+    samples = f", {first['samples']:.0f} samples a pixel" if first["samples"] > 1 else ""
+    return f"{first['width']:.0f}x{first['height']:.0f}{samples}, {first['rays']:,.0f} rays"
+
+
+_DEEPEST = 4.0  # doublings at which the shade is full
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A field of the overview, shaded by how far it is from the reference."""
+
+    field: Field
+    verdict: str
+    side: str
+    depth: float
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Contenders down, views across."""
+
+    reference: str
+    views: tuple[str, ...]
+    lines: tuple[tuple[str, str, tuple[Mark, ...]], ...]
+    """Contender, its colour, its marks in the order of the views."""
+
+
+def compare(reference: str, finest: Mapping[str, Compared]) -> Comparison:
+    """The overview of all views, each at its highest resolution."""
+    structures: dict[str, str] = {}
+    verdicts: dict[tuple[str, str], str] = {}
+    for view, shown in finest.items():
+        for row in shown.rows.itertuples():
+            structures.setdefault(row.contender, row.structure)
+            verdicts[row.contender, view] = row.verdict
+    lines = tuple(
+        (
+            contender,
+            structure_colour(structure),
+            tuple(
+                _mark(shown.ratios.get(contender), verdicts.get((contender, view)))
+                for view, shown in finest.items()
+            ),
+        )
+        for contender, structure in structures.items()
+    )
+    return Comparison(reference, tuple(finest), lines)
+
+
+def _mark(ratio: Ratio | None, verdict: str | None) -> Mark:
+    if verdict is None:
+        return Mark(MISSING, "", "", 0.0)
+    if ratio is None or ratio.value <= 0 or verdict == "baseline":
+        return Mark(ratio_field(ratio), verdict, "", 0.0)
+    doublings = log2(ratio.value)
+    side = "slower" if doublings > 0 else "faster"
+    return Mark(ratio_field(ratio), verdict, side, min(abs(doublings) / _DEEPEST, 1.0))
+
+
+PAGE = "report.html"
+
+
+def write_page(directory: Path, reference: str | None = None) -> list[Path]:
+    """Writes DIRECTORY/report.html from what the folder of a run holds.
+
+    Ratios are to the contender named `reference`, or to one that suits (see `choose_reference`).
+    """
+    return [write_text(directory / PAGE, render(read_run(directory), reference))]
+
+
+def render(run: Run, wanted_reference: str | None = None) -> str:
+    """The text of the page."""
+    manifest = read_manifest(run.directory) or Manifest()
+    files = read_cell_files(run.directory)
+    reference = choose_reference(run, wanted_reference)
+    resolutions = {view: compared(run, view, reference, files) for view in run.views}
+    finest = {view: groups[0] for view, groups in resolutions.items()}
+    plots = read_plots(run.directory)
+    pictures = read_pictures(run.directory, run.rows["scene"])
+    return (
+        environment()
+        .get_template("page.html.j2")
+        .render(
+            manifest=manifest,
+            description=read_description(run.directory),
+            newest=run.rows.iloc[-1].to_dict(),
+            outcome=judge_run(run, files),
+            tiles=_tiles(run, manifest),
+            comparison=compare(reference, finest) if reference else None,
+            views=make_views(resolutions, run.counters, pictures, plots),
+            plots=[plot for plot in plots if not plot.subject],
+            cells=pack(run),
+            dictionary=dictionary(),
+        )
+    )
+
+
+def _tiles(run: Run, manifest: Manifest) -> list[tuple[str, str]]:
+    """A few figures that say how large the run was and how well it could measure."""
+    timed = run.rows[run.rows["timed"]]
+    tiles = [
+        (f"{len(run.views):,}", "views" if len(run.views) != 1 else "view"),
+        (f"{run.rows['contender'].nunique():,}", "contenders"),
+    ]
+    if "stop_reason" in timed and len(timed) > 0:
+        precise = (timed["stop_reason"] == "precision").mean()
+        tiles.append((f"{100 * precise:.0f}%", "of timed cells as precise as wanted"))
+    if manifest.overhead is not None:
+        tiles.append(
+            (f"{100 * manifest.overhead:.2g}%", "of the fastest trace is the harness's, at most")
+        )
+    return tiles

@@ -1,0 +1,1 @@
+"""Studies of chapter 5: best parameters, costs, levels, sampling, counts of single commands."""

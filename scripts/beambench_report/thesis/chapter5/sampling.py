@@ -1,0 +1,389 @@
+"""Object-space sampling, the thesis's future work: the output of `beambench sampling --json`."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import pairwise
+from pathlib import Path
+from statistics import median
+from typing import Any
+
+from matplotlib.axes import Axes
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+from beambench_report.base.figure import Look, Plot, house_style, new_figure, write_plot
+from beambench_report.base.files import Problem, write_text
+from beambench_report.base.names import file_stems
+from beambench_report.base.quantities import number
+from beambench_report.thesis.paper.printed import DASH, milliseconds, scene_title
+from beambench_report.thesis.paper.section import (
+    Column,
+    Field,
+    Section,
+    SectionFigure,
+    SectionTable,
+    section_as_markdown,
+)
+
+UNIFORM = "uniform"
+_THESIS = (UNIFORM, "5")
+
+
+@dataclass(frozen=True)
+class Way:
+    """One way of sampling the image."""
+
+    method: str
+    setting: str
+    rays: float
+    """A pixel."""
+    milliseconds: float
+    error: float
+    """Root mean square, of 255, against 64 samples a pixel."""
+
+    @property
+    def is_thesis(self) -> bool:
+        """Is it five samples in every pixel whose beam does not leave?"""
+        return (self.method, self.setting) == _THESIS
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """The ways of one scene."""
+
+    path: Path
+    scene: str
+    structure: str
+    resolution: str
+    repetitions: int
+    ways: tuple[Way, ...]
+
+    @property
+    def methods(self) -> list[str]:
+        """Each once, in the order of the file."""
+        return list(dict.fromkeys(way.method for way in self.ways))
+
+    @property
+    def thesis(self) -> Way | None:
+        """The thesis's way, where it was tried."""
+        return next((way for way in self.ways if way.is_thesis), None)
+
+    def of(self, method: str) -> list[Way]:
+        """The settings of a method, the quickest first."""
+        return sorted(
+            (way for way in self.ways if way.method == method), key=lambda way: way.milliseconds
+        )
+
+    def time_at_error(self, method: str, error: float) -> float | None:
+        """Milliseconds in which a method reaches an error, between two settings as they are
+        drawn, by a straight line of logarithms; None beyond what was tried.
+        """
+        return _between([(way.error, way.milliseconds) for way in self.of(method)], error)
+
+    def reached(self, method: str, error: float) -> tuple[float, bool] | None:
+        """The least time in which a method reaches an error or a smaller one; is it that error
+        between two settings, and not a smaller one of a setting that was tried? None where every
+        setting has a larger error.
+        """
+        crossing = self.time_at_error(method, error)
+        settings = [way.milliseconds for way in self.of(method) if way.error <= error]
+        if crossing is not None and (not settings or crossing <= min(settings)):
+            return crossing, True
+        return (min(settings), False) if settings else None
+
+    def error_at_time(self, method: str, milliseconds: float) -> float | None:
+        """The error that a method reaches in a time; None beyond what was tried."""
+        return _between([(way.milliseconds, way.error) for way in self.of(method)], milliseconds)
+
+
+def read_comparison(path: Path) -> Comparison:
+    """Raises Problem where the file is not what `beambench sampling --json` prints."""
+    try:
+        source = json.loads(path.read_text("utf-8"))
+        ways = tuple(_way(entry) for entry in source["results"])
+        if not ways:
+            raise ValueError("no results")
+        return Comparison(
+            path,
+            str(source["scene"]),
+            str(source["structure"]),
+            str(source["resolution"]),
+            int(source["repetitions"]),
+            ways,
+        )
+    except FileNotFoundError:
+        raise Problem(
+            f"{path}: there is no such file; write it with `beambench sampling SCENE --json`"
+        ) from None
+    except (ValueError, KeyError, TypeError, OSError) as error:
+        raise Problem(
+            f"{path}: is not what `beambench sampling SCENE --json` prints ({error})"
+        ) from None
+
+
+def _way(entry: dict[str, Any]) -> Way:
+    way = Way(
+        str(entry["method"]),
+        str(entry["setting"]),
+        float(entry["rays_per_pixel"]),
+        float(entry["trace_ms"]),
+        float(entry["error"]),
+    )
+    if not (way.milliseconds > 0 and math.isfinite(way.milliseconds) and way.error >= 0):
+        raise ValueError(f"{way.method} {way.setting}: trace_ms and error must be positive")
+    return way
+
+
+def _between(points: Sequence[tuple[float, float]], at: float) -> float | None:
+    """The first crossing along a line of logarithms."""
+    logs = [(math.log(x), math.log(y)) for x, y in points if x > 0 and y > 0]
+    wanted = math.log(at) if at > 0 else math.inf
+    for (x0, y0), (x1, y1) in pairwise(logs):
+        if min(x0, x1) <= wanted <= max(x0, x1):
+            part = 0.0 if x0 == x1 else (wanted - x0) / (x1 - x0)
+            return math.exp(y0 + part * (y1 - y0))
+    return None
+
+
+_HEIGHT = 3.6  # inches
+_OBJECT_SPACE = "object-space"
+# All are the beams': object space, which only they can choose in, has their colour.
+_LOOKS = {
+    UNIFORM: Look("#777777", "o", "--"),
+    _OBJECT_SPACE: Look("#d55e00", "s", "-"),
+    "image-space": Look("#000000", "D", "-."),
+}
+_OTHER = Look("#0072b2", "^", ":")
+
+
+def draw_comparison(comparison: Comparison, stem: str, title: str) -> Plot:
+    """A line a method, a point a setting, both axes logarithmic."""
+    figure, (panel,) = new_figure(_HEIGHT)
+    for method in comparison.methods:
+        look = _LOOKS.get(method, _OTHER)
+        is_left = method == _OBJECT_SPACE  # lines run close to each other
+        ways = [way for way in comparison.of(method) if way.error > 0]
+        panel.plot(
+            [way.milliseconds for way in ways],
+            [way.error for way in ways],
+            marker=look.marker,
+            linestyle=look.dashes,
+            color=look.colour,
+            markersize=4.5,
+            linewidth=1.3,
+            label=method,
+        )
+        for way in (ways[0], ways[-1]) if len(ways) > 1 else ways:  # all of them would collide
+            panel.annotate(
+                way.setting.replace(" ", ", "),
+                (way.milliseconds, way.error),
+                xytext=(-5, -10) if is_left else (5, 4),
+                ha="right" if is_left else "left",
+                textcoords="offset points",
+                fontsize=7,
+                color=look.colour,
+            )
+    _mark_thesis(panel, comparison)
+    panel.set(xscale="log", yscale="log")
+    for axis in (panel.xaxis, panel.yaxis):
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
+        axis.set_minor_formatter(NullFormatter())
+    panel.margins(0.1)
+    panel.set_xlabel("trace / ms")
+    panel.set_ylabel("error / RMS of 255")
+    panel.set_title(title)
+    panel.grid(which="major", color="#dddddd", linewidth=0.6)
+    panel.legend(frameon=False, fontsize=8)
+    return Plot(stem, figure, f"{title}: error over time of ways to sample")
+
+
+def _mark_thesis(panel: Axes, comparison: Comparison) -> None:
+    way = comparison.thesis
+    if way is None or way.error == 0:
+        return
+    panel.plot(
+        [way.milliseconds],
+        [way.error],
+        "o",
+        markersize=11,
+        markerfacecolor="none",
+        markeredgecolor="#333333",
+        linestyle="none",
+        label="the thesis's five samples",
+    )
+
+
+_WORDS = (
+    "The thesis takes five samples in every pixel of a beam that ends at an occupied leaf, and "
+    "leaves it to future work to let the leaf choose how many. Here it does: 1, 5 or 25 by the "
+    "primitives of the leaf over its width in pixels (object-space). Beside it stand the same "
+    "number in every such pixel (uniform) and more where a pixel differs from its neighbours "
+    "(image-space). An error is the root mean square difference, of 255, to the picture of 64 "
+    "samples a pixel in preview shading; a time is that of tracing and of choosing. Two numbers as "
+    "a setting are the values from which on a pixel gets 5 and 25 samples.",
+)
+_CAPTION = (
+    "Every point is a setting; the ends of each line are labeled, the table has all. Further left "
+    "is quicker, further down is better; ringed is what the thesis did."
+)
+
+
+def sampling_section(comparisons: Sequence[Comparison]) -> Section | None:
+    """Scene by scene; None where there is nothing."""
+    if not comparisons:
+        return None
+    stems = file_stems(f"sampling {_title(comparison)}" for comparison in comparisons)
+    figures = []
+    for comparison, stem in zip(comparisons, stems.values(), strict=True):
+        title = _title(comparison)
+        draw = partial(draw_comparison, comparison, stem, title)
+        figures.append(SectionFigure(stem, f"{title}: error over time", _CAPTION, draw))
+    return Section(
+        "sampling",
+        "Samples chosen in object space",
+        _WORDS,
+        (_against_thesis(comparisons), *map(_ways, comparisons)),
+        tuple(figures),
+        tuple(_findings(comparisons)),
+    )
+
+
+def read_comparisons(files: Iterable[Path]) -> list[Comparison]:
+    """One file a view. Raises Problem where a file cannot be read, or is of a view again."""
+    found, unread = readable_comparisons(files)
+    if unread:
+        raise Problem(unread[0])
+    return found
+
+
+def readable_comparisons(files: Iterable[Path]) -> tuple[list[Comparison], list[str]]:
+    """What can be shown, and a sentence for each file that cannot."""
+    found: dict[str, Comparison] = {}
+    unread = []
+    for path in files:
+        try:
+            comparison = read_comparison(path)
+        except Problem as problem:
+            unread.append(str(problem))
+            continue
+        title = _title(comparison)
+        if title in found:
+            first = found[title].path
+            unread.append(f"{path} and {first} are both of {title}; give one of them")
+            continue
+        found[title] = comparison
+    return list(found.values()), unread
+
+
+def write_sampling(files: Iterable[Path], directory: Path) -> list[Path]:
+    """Writes DIRECTORY/sampling.md and a plot a file. Raises Problem where one cannot be read."""
+    section = sampling_section(read_comparisons(files))
+    if section is None:
+        raise Problem("there is no file; write one with `beambench sampling SCENE --json`")
+    directory.mkdir(parents=True, exist_ok=True)
+    text = section_as_markdown(section, level=1, folder="")
+    paths = [write_text(directory / "sampling.md", text)]
+    with house_style():
+        for figure in section.figures:
+            paths += write_plot(figure.draw(), directory)
+    return paths
+
+
+def _title(comparison: Comparison) -> str:
+    plain = comparison.scene.split(":")[0]
+    name = scene_title(plain)
+    own = "" if comparison.structure == "beam" else f", {comparison.structure}"
+    return f"{comparison.scene if name == plain else name}, {comparison.resolution}{own}"
+
+
+def _against_thesis(comparisons: Sequence[Comparison]) -> SectionTable:
+    heads = ("time", "error", "same error in", "of its time", "error in its time")
+    columns = (Column("scene", False), Column("method", False), *(Column(head) for head in heads))
+    rows = []
+    for comparison in comparisons:
+        thesis = comparison.thesis
+        if thesis is None:
+            continue
+        own = (_milliseconds(thesis.milliseconds), number(thesis.error), DASH, DASH, DASH)
+        rows.append((_title(comparison), "uniform, 5 samples (thesis)", *own))
+        for method in comparison.methods:
+            if method == UNIFORM:
+                continue
+            reached = comparison.reached(method, thesis.error)
+            error = comparison.error_at_time(method, thesis.milliseconds)
+            texts = (
+                DASH if reached is None else f"{_at_most(reached)}{_milliseconds(reached[0])}",
+                DASH
+                if reached is None
+                else f"{_at_most(reached)}{reached[0] / thesis.milliseconds:.0%}",
+                DASH if error is None else number(error),
+            )
+            rows.append(("", method, DASH, DASH, *texts))
+    fields = tuple(tuple(Field(text) for text in row) for row in rows)
+    title = (
+        f"Against the thesis's five samples ({DASH}: outside of the settings that were tried; at "
+        "most: the quickest setting has a smaller error)"
+    )
+    return SectionTable(title, columns, fields)
+
+
+def _ways(comparison: Comparison) -> SectionTable:
+    heads = ("rays a pixel", "trace", "error")
+    columns = (Column("method", False), Column("setting", False), *(Column(h) for h in heads))
+    rows = tuple(
+        tuple(
+            Field(text)
+            for text in (
+                way.method,
+                way.setting.replace(" ", ", "),
+                f"{way.rays:.3f}",
+                _milliseconds(way.milliseconds),
+                f"{way.error:.3f}",
+            )
+        )
+        for way in comparison.ways
+    )
+    title = f"{_title(comparison)} ({comparison.path.name}, {comparison.repetitions} repetitions)"
+    return SectionTable(title, columns, rows, is_long=True)
+
+
+def _at_most(reached: tuple[float, bool]) -> str:
+    return "" if reached[1] else "at most "
+
+
+def _findings(comparisons: Sequence[Comparison]) -> Iterable[str]:
+    """Of each other method: in how many scenes it is quicker to the thesis's error, or a smaller
+    one.
+    """
+    compared = [comparison for comparison in comparisons if comparison.thesis]
+    for method in dict.fromkeys(name for one in compared for name in one.methods):
+        if method == UNIFORM:
+            continue
+        tried = [one for one in compared if method in one.methods]
+        found = [one.reached(method, one.thesis.error) for one in tried]
+        shares = [
+            reached[0] / one.thesis.milliseconds
+            for one, reached in zip(tried, found, strict=True)
+            if reached is not None
+        ]
+        if not shares:
+            yield f"{method}: every setting that was tried has a larger error than five samples."
+            continue
+        quicker = sum(share < 1 for share in shares)
+        beyond = len(tried) - len(shares)
+        at_most = "" if all(reached is None or reached[1] for reached in found) else "at most "
+        larger = f"; in {beyond} every setting has a larger error" if beyond else ""
+        yield (
+            f"{method} reaches the error of the thesis's five samples, or a smaller one, in less "
+            f"time in {quicker} of the {len(tried)} scenes that were tried, by the median of "
+            f"{len(shares)} in {at_most}{median(shares):.0%} of it{larger}."
+        )
+
+
+def _milliseconds(value: float) -> str:
+    return milliseconds(value / 1e3)

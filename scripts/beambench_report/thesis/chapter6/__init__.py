@@ -1,0 +1,1 @@
+"""The thesis's cluster (chapter 6), simulated with the costs of real beams."""

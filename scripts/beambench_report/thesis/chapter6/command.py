@@ -1,0 +1,85 @@
+"""`python -m beambench_report cluster record|simulate|split|measure|write DIR`."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from beambench_report.base.files import Problem
+from beambench_report.thesis.chapter6.record import SCENES, Picture, measure, record
+from beambench_report.thesis.chapter6.report import write_report
+from beambench_report.thesis.chapter6.simulate import simulate, simulations
+from beambench_report.thesis.chapter6.split import simulate_split
+
+
+def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) -> None:
+    """Adds `cluster` with its steps; `programs` is where the built ones are."""
+    cluster = commands.add_parser(
+        "cluster", help="simulate the thesis's cluster (chapter 6) with the costs of real beams"
+    )
+    steps = cluster.add_subparsers(dest="step", required=True)
+    first = steps.add_parser("record", help="what every beam of two scenes takes, in one process")
+    second = steps.add_parser("simulate", help="the same beams on clusters of 2 to 1,024 processes")
+    split = steps.add_parser("split", help="scenes divided among simulated machines, 1 to 64 parts")
+    real = steps.add_parser("measure", help="the same program by mpirun on 1 to 3 processes, timed")
+    last = steps.add_parser("write", help="write DIR/report.md and its figures")
+    for step in (first, second, split, real, last):
+        step.add_argument("folder", type=Path, metavar="DIR")
+    for step, program in (
+        (first, "beambench-cluster"),
+        (real, "beambench-cluster"),
+        (second, "beambench-cluster-simulated"),
+        (split, "beambench-split-simulated"),
+    ):
+        step.add_argument(
+            "--program",
+            type=Path,
+            default=programs / program,
+            metavar="PROGRAM",
+            help=f"if not given, build/release/bin/{program}",
+        )
+    for step in (first, split, real):
+        step.add_argument(
+            "--repeats", type=int, default=3, metavar="N", help="medians of N runs; 3"
+        )
+        step.add_argument(
+            "--resolution", default="1280x1024", metavar="WxH", help="1280x1024, as in the thesis"
+        )
+    for step, most, things in ((second, 1024, "processes"), (split, 64, "parts")):
+        step.add_argument(
+            "--most", type=int, default=most, metavar="N", help=f"no more than N {things}; {most}"
+        )
+    second.add_argument(
+        "--jobs", type=int, default=1, metavar="N", help="N simulations at a time; 1"
+    )
+
+
+def cluster(options: argparse.Namespace) -> list[Path]:
+    """Runs one step; returns what was written."""
+    if options.step != "write":
+        options.program = options.program.absolute()  # `./bc` is not the `bc` of the system
+    if getattr(options, "repeats", 1) < 1:
+        raise Problem("--repeats: expected 1 or more")
+    if options.step in ("record", "measure"):
+        width, height = _resolution(options.resolution)
+        pictures = [Picture(scene, width, height) for scene in SCENES]
+        step = record if options.step == "record" else measure
+        return step(options.folder, options.program, pictures, options.repeats)
+    if options.step == "simulate":
+        if options.jobs < 1:
+            raise Problem("--jobs: expected 1 or more")
+        plan = simulations(SCENES, most=options.most)
+        return simulate(options.folder, options.program, plan, options.jobs)
+    if options.step == "split":
+        _resolution(options.resolution)
+        return simulate_split(
+            options.folder, options.program, options.resolution, options.repeats, options.most
+        )
+    return write_report(options.folder)
+
+
+def _resolution(text: str) -> tuple[int, int]:
+    width, _, height = text.partition("x")
+    if not (width.isdecimal() and height.isdecimal()):
+        raise Problem(f"--resolution: expected WIDTHxHEIGHT, found '{text}'")
+    return int(width), int(height)

@@ -1,0 +1,181 @@
+"""The page of the simulated cluster: Markdown with its figures beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+import pandas as pd
+
+from beambench_report.base.figure import house_style, write_plot
+from beambench_report.base.files import write_text
+from beambench_report.base.quantities import number
+from beambench_report.thesis.chapter6.machines import Slowness, thesis_seconds
+from beambench_report.thesis.chapter6.plots import cluster_plots
+from beambench_report.thesis.chapter6.record import measured_section, read_recorded
+from beambench_report.thesis.chapter6.results import (
+    EQUAL_MACHINES,
+    THESIS_OPTIONS,
+    read_processes,
+    read_simulations,
+)
+from beambench_report.thesis.chapter6.simulate import OLD, OPTIONS, STATIONS, TODAY, slowness_of
+from beambench_report.thesis.chapter6.split import read_split, split_plot, split_section
+
+_SHOWN = (1, 2, 4, 6, 8, 10, 12, 14)
+
+
+def write_report(folder: Path) -> list[Path]:
+    """Writes FOLDER/report.md and the figures that it shows."""
+    simulations = read_simulations(folder)
+    recorded = read_recorded(folder)
+    split = read_split(folder)
+    measured = measured_section(folder)
+    written = []
+    with house_style():
+        plots = cluster_plots(simulations, read_processes(folder))
+        if split is not None:
+            plots.append(split_plot(split))
+        for plot in plots:
+            written += write_plot(plot, folder)
+    shown = {plot.stem: f"![{plot.summary}]({plot.stem}.png)\n" for plot in plots}
+    text = "\n".join(
+        [
+            "# The thesis's cluster, simulated\n",
+            "The MPI program itself runs, its producer, consumers and messages; machines and "
+            "network are SimGrid's, and what a beam takes was recorded.\n",
+            _of_recording(recorded, slowness_of(recorded)),
+            "## Figure 6.3: time, speed-up, efficiency\n",
+            shown.get("figure-6.3", ""),
+            _efficiencies(simulations),
+            "## Figure 6.4: how the work was shared out\n",
+            shown.get("figure-6.4", ""),
+            "## More processes, and what each option changes\n",
+            shown.get(f"many-processes-{OLD}", ""),
+            _options(simulations, OLD),
+            shown.get(f"many-processes-{TODAY}", ""),
+            _options(simulations, TODAY),
+            "## Machines that are not equal\n",
+            f"{STATIONS - 1} consumers. `every other one half as fast`: seven machines of half "
+            "the speed. `five used by others`: half of the time they have half of their speed "
+            "left.\n",
+            _machines(simulations),
+            "## What was assumed\n",
+            "What messages cost the processor in 1999, halved and doubled; results as our own "
+            "program sends them, 8 bytes a sample, where the thesis sends pixels; and the thesis's "
+            "seconds that do not grow with the rays taken for walking alone, or for building "
+            "alone.\n",
+            _assumptions(simulations),
+            *([split_section(split)] if split is not None else []),
+            *([measured] if measured is not None else []),
+        ]
+    )
+    return [*written, write_text(folder / "report.md", text)]
+
+
+def _of_recording(recorded: dict, slowness: Slowness) -> str:
+    constant, a_ray = thesis_seconds()
+    lines = [
+        "| scene | work | build s | walk s | work s | samples |",
+        "|---|---|---|---|---|---|",
+        *(
+            f"| {scene} | {work} | {each.build_seconds:.4f} | {each.walk_seconds:.4f} "
+            f"| {each.work_seconds:.3f} | {each.samples:,} |"
+            for (scene, work), each in recorded.items()
+        ),
+        "",
+        f"Seconds of one core of this machine. The thesis's gato-bill takes {constant:.2f} s at no "
+        f"rays and {1e6 * a_ray:.1f} us a ray on its cluster's machines. So there building and "
+        f"walking take {number(slowness.walk)} times as long as here, the work in leaves "
+        f"{number(slowness.work)} times.\n",
+    ]
+    return "\n".join(lines)
+
+
+def _efficiencies(simulations: pd.DataFrame) -> str:
+    rows = simulations[
+        simulations["options"].eq(THESIS_OPTIONS)
+        & simulations["machines"].eq(EQUAL_MACHINES)
+        & simulations["era"].eq(OLD)
+        & simulations["consumers"].isin(_SHOWN)
+    ]
+    return _by_consumers(
+        "Efficiency with the producer counted / not counted:",
+        rows,
+        "network",
+        _SHOWN,
+        lambda run: f"{run['efficiency']:.2f} / {run['efficiency_of_consumers']:.2f}",
+    )
+
+
+def _options(simulations: pd.DataFrame, era: str) -> str:
+    rows = simulations[
+        simulations["era"].eq(era)
+        & simulations["options"].isin(OPTIONS)
+        & simulations["machines"].eq(EQUAL_MACHINES)
+        & (simulations["consumers"] >= STATIONS // 2)
+        & ~simulations["network"].str.startswith("shared")
+    ]
+    counts = sorted(set(rows["consumers"]) & {STATIONS // 2, STATIONS - 1, 31, 63, 127, 255, 1023})
+    return _by_consumers(
+        f"Speed-up, {era} (in brackets: how busy the producer is):",
+        rows,
+        "options",
+        counts,
+        lambda run: f"{run['speed_up']:.1f} ({run['producer_busy']:.0%})",
+    )
+
+
+def _by_consumers(
+    title: str,
+    rows: pd.DataFrame,
+    by: str,
+    counts: Sequence[int],
+    cell: Callable[[pd.Series], str],
+) -> str:
+    """A column for each number of consumers, a row for each scene and what stands in `by`."""
+    lines = [
+        f"{title}\n",
+        f"| scene | {by} | {' | '.join(f'{n} consumers' for n in counts)} |",
+        "|---|---|" + "---|" * len(counts),
+    ]
+    for (scene, which), group in rows.groupby(["scene", by], sort=False):
+        runs = group.drop_duplicates("consumers").set_index("consumers")
+        cells = [cell(runs.loc[n]) if n in runs.index else "" for n in counts]
+        lines.append(f"| {scene} | {which} | {' | '.join(cells)} |")
+    return "\n".join([*lines, ""])
+
+
+def _machines(simulations: pd.DataFrame) -> str:
+    rows = simulations[
+        simulations["era"].eq(OLD)
+        & simulations["consumers"].eq(STATIONS - 1)
+        & ~simulations["network"].str.startswith("shared")
+    ]
+    unlike = set(rows.loc[rows["machines"].ne(EQUAL_MACHINES), "options"])
+    return _seconds(rows[rows["options"].isin(unlike)], "machines")
+
+
+def _assumptions(simulations: pd.DataFrame) -> str:
+    rows = simulations[
+        simulations["era"].eq(OLD)
+        & simulations["machines"].eq(EQUAL_MACHINES)
+        & simulations["consumers"].isin((STATIONS // 2, STATIONS - 1))
+        & ~simulations["options"].isin(set(OPTIONS) - {THESIS_OPTIONS})
+    ]
+    rows = rows.assign(place=rows["network"] + ", " + rows["consumers"].astype(str) + " consumers")
+    return _seconds(rows, "place", "efficiency")
+
+
+def _seconds(rows: pd.DataFrame, by: str, quantity: str = "seconds") -> str:
+    options = list(dict.fromkeys(rows["options"]))
+    lines = [
+        f"{quantity.capitalize()}:\n",
+        f"| scene | {by} | {' | '.join(options)} |",
+        "|---|---|" + "---|" * len(options),
+    ]
+    for (scene, place), group in rows.groupby(["scene", by], sort=False):
+        found = group.drop_duplicates("options").set_index("options")[quantity]
+        cells = [number(found[each]) if each in found.index else "" for each in options]
+        lines.append(f"| {scene} | {place} | {' | '.join(cells)} |")
+    return "\n".join([*lines, ""])

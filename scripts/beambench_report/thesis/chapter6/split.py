@@ -1,0 +1,306 @@
+"""A divided scene (`--split`) on simulated clusters: how time, traffic and memory grow with parts.
+
+It is really traced while it is simulated, so the times of one run are those of this machine at that
+time: medians of several runs are kept. Machines of 1999 are those of the other simulations
+(`calibration.py`).
+"""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass, fields
+from pathlib import Path
+from statistics import median
+
+import pandas as pd
+
+from beambench_report.base.figure import PAGE_WIDTH, Plot, new_figure
+from beambench_report.base.files import Problem, write_text
+from beambench_report.thesis.chapter6.machines import (
+    MESSAGES_OF_1999,
+    MESSAGES_OF_TODAY,
+    MODERN,
+    NONE,
+    SWITCHED,
+    TRACED,
+    Slowness,
+)
+from beambench_report.thesis.chapter6.plots import IDEAL, line_look, name_panel
+from beambench_report.thesis.chapter6.record import read_recorded
+from beambench_report.thesis.chapter6.simulate import OLD, TODAY, Memory, run_simulator, slowness_of
+
+SPLIT = "split.csv"
+CELLS_LEVEL = 4
+PARTS = (1, 2, 4, 8, 16, 32, 64)
+
+
+@dataclass(frozen=True)
+class Divided:
+    """A scene, and the octree that suits it."""
+
+    scene: str
+    structure: str
+
+
+SCENES = (
+    Divided(TRACED, "beam:max_level=6"),
+    Divided("tetra:n=7", "beam:max_level=7"),
+    Divided("bumpy:triangles=200000", "beam:max_level=7"),
+)
+_CLUSTERS = {OLD: (SWITCHED, MESSAGES_OF_1999), TODAY: (MODERN, MESSAGES_OF_TODAY)}
+
+
+@dataclass(frozen=True)
+class SplitRow:
+    """One simulated run, the median of several; a column of the table for each field."""
+
+    era: str
+    scene: str
+    structure: str
+    resolution: str
+    processes: int
+    traced_seconds: float
+    """Simulated: since the last process was ready, to the picture."""
+    speed_up: float
+    """Of tracing. Building is short and measured once a process: of many, the longest is chance."""
+    efficiency: float
+    balance: float
+    """What a process is busy tracing on average, of what the busiest is."""
+    build_seconds: float
+    """To divide the scene and build a part: the processes' median, of this machine's processor."""
+    walk_cpu_seconds: float
+    """This and the next are sums over all processes, of this machine's processor."""
+    test_cpu_seconds: float
+    take_cpu_seconds: float
+    messages: int
+    bytes: int
+    beams_handed: int
+    rays_handed: int
+    primitives: int
+    largest_primitives: int
+    largest_bytes: int
+    """Scene and octree of the largest part."""
+    result_hash: str
+
+
+def simulate_split(
+    folder: Path, program: Path, resolution: str, repeats: int, most: int
+) -> list[Path]:
+    """Writes FOLDER/split.csv, with machines of 1999 by what was recorded there.
+
+    What was simulated before is not simulated again: FOLDER/split-answers.jsonl remembers it.
+    Raises Problem where parts give another picture than the whole.
+    """
+    asker = _Asker(program, resolution, repeats, Memory(folder / "split-answers.jsonl"))
+    slow_by_era = {OLD: slowness_of(read_recorded(folder)), TODAY: NONE}
+    rows: list[SplitRow] = []
+    for era, slow in slow_by_era.items():
+        for divided in SCENES:
+            answers = [asker.median(era, divided, parts, slow) for parts in PARTS if parts <= most]
+            rows += [_row(era, divided, resolution, answer, answers[0]) for answer in answers]
+    print(file=sys.stderr)
+    _require_one_picture(rows)
+    table = pd.DataFrame(rows, columns=[each.name for each in fields(SplitRow)])
+    text = table.to_csv(index=False, float_format="%.6g", lineterminator="\n")
+    return [write_text(folder / SPLIT, text)]
+
+
+def read_split(folder: Path) -> pd.DataFrame | None:
+    """The table; nothing where there is none. Raises Problem where it lacks a column."""
+    path = folder / SPLIT
+    if not path.is_file():
+        return None
+    try:
+        rows = pd.read_csv(path, dtype={"era": str, "result_hash": str})
+    except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
+        raise Problem(f"{path}: it is not a CSV file ({error})") from None
+    for each in fields(SplitRow):
+        if each.name not in rows:
+            raise Problem(
+                f"{path}: it has no column '{each.name}'; write it with: "
+                "python -m beambench_report cluster split DIR"
+            )
+    return rows
+
+
+class _Asker:
+    """Asks the simulator several times."""
+
+    def __init__(self, program: Path, resolution: str, repeats: int, memory: Memory) -> None:
+        self._program = program
+        self._resolution = resolution
+        self._repeats = repeats
+        self._memory = memory
+
+    def median(self, era: str, divided: Divided, parts: int, slow: Slowness) -> dict:
+        """The run whose tracing took the median."""
+        print(f"\r{era}: {divided.scene} in {parts} parts   ", end="", file=sys.stderr, flush=True)
+        network, messages = _CLUSTERS[era]
+        arguments = [
+            divided.scene,
+            *("--accel", divided.structure),
+            *("--split", str(CELLS_LEVEL)),
+            *("--processes", str(parts)),
+            *("--resolution", self._resolution),
+            *("--build-scale", str(slow.build)),
+            *("--walk-scale", str(slow.walk)),
+            *("--work-scale", str(slow.work)),
+            *network.arguments(),
+            *messages.arguments(),
+        ]
+        runs = [
+            self._memory.answer(
+                [str(repeat), *arguments],
+                lambda: run_simulator([str(self._program), *arguments]),
+            )
+            for repeat in range(self._repeats)
+        ]
+        return sorted(runs, key=lambda run: run["traced_seconds"])[len(runs) // 2]
+
+
+def _total(answer: dict, quantity: str) -> float:
+    return sum(process[quantity] for process in answer["processes"])
+
+
+def _row(era: str, divided: Divided, resolution: str, answer: dict, alone: dict) -> SplitRow:
+    processes = answer["processes"]
+    speed_up = alone["traced_seconds"] / answer["traced_seconds"]
+    busiest = max(process["busy"] for process in processes)
+    return SplitRow(
+        era=era,
+        scene=divided.scene,
+        structure=divided.structure,
+        resolution=resolution,
+        processes=len(processes),
+        traced_seconds=answer["traced_seconds"],
+        speed_up=speed_up,
+        efficiency=speed_up / len(processes),
+        balance=_total(answer, "busy") / len(processes) / busiest,
+        build_seconds=median(process["build_seconds"] for process in processes),
+        walk_cpu_seconds=_total(answer, "walk_seconds"),
+        test_cpu_seconds=_total(answer, "test_seconds"),
+        take_cpu_seconds=_total(answer, "take_seconds"),
+        messages=int(_total(answer, "messages_out")),
+        bytes=int(_total(answer, "bytes_out")),
+        beams_handed=int(_total(answer, "beams_out")),
+        rays_handed=int(_total(answer, "rays_out")),
+        primitives=answer["primitives"],
+        largest_primitives=max(process["primitives"] for process in processes),
+        largest_bytes=max(process["bytes"] for process in processes),
+        result_hash=answer["result_hash"],
+    )
+
+
+def _require_one_picture(rows: list[SplitRow]) -> None:
+    pictures: dict[str, str] = {}
+    for row in rows:
+        if pictures.setdefault(row.scene, row.result_hash) != row.result_hash:
+            raise Problem(
+                f"{row.scene} in {row.processes} parts is another picture than the whole; that is "
+                "a fault of beambench"
+            )
+
+
+STEM = "divided-scenes"
+_SUMMARY = "divided scenes: speed-up, memory of the largest part, traffic"
+
+
+def split_plot(rows: pd.DataFrame) -> Plot:
+    """Speed-up on both clusters, the largest part's memory, and what crossed borders."""
+    figure, panels = new_figure(PAGE_WIDTH * 0.85, rows=2, columns=2)
+    memory, crossed = panels[2], panels[3]
+    eras = list(dict.fromkeys(rows["era"]))
+    for panel, era in zip(panels, eras, strict=False):
+        of_era = rows[rows["era"].eq(era)]
+        for index, (scene, group) in enumerate(of_era.groupby("scene", sort=False)):
+            panel.plot(group["processes"], group["speed_up"], label=scene, **line_look(index))
+        panel.plot(of_era["processes"], of_era["processes"], **IDEAL)
+        panel.set_yscale("log", base=2)
+        panel.yaxis.set_major_formatter("{x:.0f}")
+        name_panel(panel, f"Speed-up, {_machines(era)}", "parts", "times")
+    last = rows[rows["era"].eq(eras[-1])]
+    for index, (_, group) in enumerate(last.groupby("scene", sort=False)):
+        look = line_look(index)
+        memory.plot(group["processes"], 100 * _share_of_memory(group), **look)
+        crossed.plot(group["processes"], 1e-6 * group["bytes"], **look)
+    name_panel(memory, "Scene and octree of the largest part", "parts", "% of the whole")
+    memory.plot(last["processes"], 100 / last["processes"], **IDEAL)
+    memory.set_yscale("log")
+    memory.yaxis.set_major_formatter("{x:.0f}")
+    name_panel(crossed, "Handed over at borders", "parts", "MB")
+    for panel in panels:
+        panel.set_xscale("log", base=2)
+        panel.xaxis.set_major_formatter("{x:.0f}")
+    panels[0].legend(fontsize=7.5, frameon=False)
+    return Plot(STEM, figure, _SUMMARY)
+
+
+def split_section(rows: pd.DataFrame) -> str:
+    """What stands on the page, its figure among it."""
+    resolution = rows["resolution"].iloc[0]
+    return "\n".join(
+        [
+            "## A divided scene\n",
+            f"`--split {CELLS_LEVEL}`: each machine has the primitives in its share of the "
+            f"octree's {8 ** (CELLS_LEVEL - 1)} cells of that level; {resolution}, one sample a "
+            "pixel. The scene is really traced while it is simulated, and every run gave the hits "
+            "of one process, bit for bit. Times are from when all parts are "
+            "built to the picture: tracing, and gathering what was found.\n",
+            f"![{_SUMMARY}]({STEM}.png)\n",
+            _speed_ups(rows),
+            _costs(rows),
+            "Assumed: machines and messages of 1999, as above. Left out: to read the scene, the "
+            "same for all and only from the whole can parts be cut; two buffers of the image's "
+            "hits, 16 bytes a sample, which each process has beside its part; caches: here all "
+            "processes share one core's.\n",
+        ]
+    )
+
+
+def _machines(era: str) -> str:
+    return "1999, 100 Mbit/s" if era == OLD else f"{era}, 10 Gbit/s"
+
+
+def _share_of_memory(group: pd.DataFrame) -> pd.Series:
+    """Of what one process has."""
+    return group["largest_bytes"] / group["largest_bytes"].iloc[0]
+
+
+def _speed_ups(rows: pd.DataFrame) -> str:
+    parts = sorted(set(rows["processes"]))
+    lines = [
+        "Seconds of one part, and speed-up (in brackets: efficiency):\n",
+        f"| machines | scene | 1 part | {' | '.join(f'{n} parts' for n in parts[1:])} |",
+        "|---|---|" + "---|" * len(parts),
+    ]
+    for (era, scene), group in rows.groupby(["era", "scene"], sort=False):
+        first, *others = group.itertuples()
+        cells = [f"{each.speed_up:.1f} ({each.efficiency:.2f})" for each in others]
+        cells.insert(0, f"{first.traced_seconds:.3g} s")
+        lines.append(f"| {_machines(era)} | {scene} | {' | '.join(cells)} |")
+    return "\n".join([*lines, ""])
+
+
+def _costs(rows: pd.DataFrame) -> str:
+    """Where the time goes, and what else it costs."""
+    last = rows[rows["era"].eq(rows["era"].iloc[-1])]
+    lines = [
+        f"What it costs ({_machines(last['era'].iloc[0])}). Work: processor time of tracing, of "
+        "what one part takes. Balance: how busy a machine is on average, of what the busiest "
+        "is.\n",
+        "| scene | parts | work | balance | messages | MB | beams | rays | "
+        "primitives of the largest part | its memory |",
+        "|---|---|---|---|---|---|---|---|---|---|",
+    ]
+    for scene, group in last.groupby("scene", sort=False):
+        work = group["walk_cpu_seconds"] + group["test_cpu_seconds"] + group["take_cpu_seconds"]
+        memory = _share_of_memory(group)
+        for i, each in enumerate(group.itertuples()):
+            lines.append(
+                f"| {scene} | {each.processes} | {work.iloc[i] / work.iloc[0]:.2f} "
+                f"| {each.balance:.2f} | {each.messages:,} | {1e-6 * each.bytes:.1f} "
+                f"| {each.beams_handed:,} | {each.rays_handed:,} "
+                f"| {each.largest_primitives / each.primitives:.0%} "
+                f"| {1e-6 * each.largest_bytes:.2f} MB, {memory.iloc[i]:.0%} |"
+            )
+    return "\n".join([*lines, ""])

@@ -1,0 +1,220 @@
+"""Straight lines and cost formulas by least squares."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS, rays
+from beambench_report.thesis.chapter5.cost import r_squared
+from beambench_report.thesis.claims.verdict import Check, Outcome, below
+from beambench_report.thesis.paper.evidence import LEVEL, Evidence, Measured, smallest
+
+
+@dataclass(frozen=True)
+class Line:
+    """Least squares through points whose heights have intervals."""
+
+    slope: Measured
+    """From the least to the largest slope that heights within the intervals can have."""
+    intercept: float
+    r_squared: float
+    within_intervals: bool
+    """Does the line pass through every interval, so that nothing speaks against it?"""
+
+
+def fit_line(places: Sequence[float], heights: Sequence[Measured]) -> Line:
+    """Fits `heights` over `places`, of which at least three differ."""
+    x = np.asarray(places, dtype=float)
+    weights = (x - x.mean()) / np.sum((x - x.mean()) ** 2)  # the slope is linear in the heights
+    value = np.array([height.value for height in heights])
+    low = np.array([height.low for height in heights])
+    high = np.array([height.high for height in heights])
+    slope = Measured(
+        float(weights @ value),
+        float(np.sum(np.where(weights > 0, weights * low, weights * high))),
+        float(np.sum(np.where(weights > 0, weights * high, weights * low))),
+    )
+    intercept = float(value.mean() - slope.value * x.mean())
+    fitted = intercept + slope.value * x
+    return Line(
+        slope,
+        intercept,
+        r_squared(value, fitted),
+        bool(np.all((low < high) & (low <= fitted) & (fitted <= high))),
+    )
+
+
+@dataclass(frozen=True)
+class CostFit:
+    """How well a sum of counts, each times a cost of its own, tells a time."""
+
+    r_squared: float
+    median_error: float
+    """Median of |told - measured| / measured."""
+    cells: int
+
+
+def fit_costs(counts: Sequence[Sequence[float]], seconds: Sequence[float]) -> CostFit:
+    """Fits a cost for each count by relative least squares: each cell counts alike."""
+    matrix, measured = np.asarray(counts, dtype=float), np.asarray(seconds, dtype=float)
+    scale = np.maximum(np.abs(matrix).max(axis=0), 1e-300)  # counts differ by orders of size
+    scaled = matrix / scale
+    costs = np.linalg.lstsq(scaled / measured[:, None], np.ones_like(measured), rcond=None)[0]
+    told = scaled @ costs
+    error = float(np.median(np.abs(told - measured) / measured))
+    return CostFit(r_squared(measured, told), error, len(measured))
+
+
+SAMETS = ("samet", "samet-net")
+FINER = RESOLUTIONS[1:]
+
+
+def beats(
+    e: Evidence, scene: str, winner: str, other: str, resolution: str = FINEST, factor: float = 1
+) -> Check:
+    """Is one structure quicker than another, by `factor` or more?"""
+    twice = f", by {factor:g}" if factor > 1 else ""
+    return below(
+        f"{scene} {resolution}, {winner} before {other}{twice}",
+        e.time(scene, winner, resolution),
+        e.time(scene, other, resolution),
+        factor,
+    )
+
+
+def best_ray(e: Evidence, scene: str, resolution: str) -> Measured | None:
+    """The better of Samet and Samet-Net, where both were timed."""
+    known = [e.time(scene, contender, resolution) for contender in SAMETS]
+    times = [time for time in known if time is not None]
+    return smallest(times) if len(times) == len(SAMETS) else None
+
+
+def line_of(e: Evidence, scene: str, level: int = LEVEL) -> Line | None:
+    """Seconds over rays in tens of thousands, as in the thesis's figures."""
+    times = [e.time(scene, "beam", resolution, level=level) for resolution in RESOLUTIONS]
+    known = [time for time in times if time is not None]
+    return fit_line([rays(at) / 1e4 for at in RESOLUTIONS], known) if known == times else None
+
+
+def slope(line: Line | None) -> Measured | None:
+    """The slope of a line that there is."""
+    return line.slope if line else None
+
+
+def is_linear(scene: str, line: Line | None) -> Check:
+    """Does the line tell 0.99 or more of the spread? Not decided if it passes all intervals."""
+    if line is None:
+        return Check(f"{scene}, linear", Outcome.MISSING)
+    outcome = Outcome.UNDECIDED if line.within_intervals else Outcome.NO
+    if line.r_squared >= 0.99:
+        outcome = Outcome.YES
+    return Check(f"{scene}, linear", outcome, f"R2 {line.r_squared:.4f} for 0.99 or more")
+
+
+def growing_share(e: Evidence, scene: str) -> Measured | None:
+    """The part of the time at 1280x1024 that grows with the rays, by the line through all five."""
+    line, whole = line_of(e, scene), e.time(scene, "beam")
+    return line.slope.times(rays(FINEST) / 1e4) / whole if line and whole else None
+
+
+def growth(e: Evidence, scene: str, resolution: str, samples: int = 1) -> Measured | None:
+    """The beams' time over that at 320x200."""
+    return ratio_of(
+        e.time(scene, "beam", resolution, samples=samples),
+        e.time(scene, "beam", COARSEST, samples=samples),
+    )
+
+
+def grows_more(e: Evidence, more: tuple[str, ...], less: tuple[str, ...]) -> list[Check]:
+    """Does each scene of `more` grow more than each of `less`, at each resolution?"""
+    return [
+        below(
+            f"{slow} below {quick}, {resolution} over {COARSEST}",
+            growth(e, slow, resolution),
+            growth(e, quick, resolution),
+        )
+        for quick, slow, resolution in product(more, less, FINER)
+    ]
+
+
+def ratio_of(over: Measured | None, under: Measured | None) -> Measured | None:
+    """The ratio of two figures that there are."""
+    return None if over is None or under is None else over / under
+
+
+def difference(more: Measured | None, less: Measured | None) -> Measured | None:
+    """The difference of two figures that there are."""
+    return None if more is None or less is None else more - less
+
+
+def most(cell: str, shares: dict[str, Measured | None], bound: float, of: int) -> Check:
+    """Do more than half of them exceed the bound, whichever way the undecided ones fall?"""
+    known = {scene: share for scene, share in shares.items() if share is not None}
+    figures = ", ".join(f"{scene} {share.value:.0%}" for scene, share in known.items())
+    if len(known) < of or not known:
+        return Check(cell, Outcome.MISSING, figures)
+    surely = sum(share.low > bound for share in known.values())
+    perhaps = sum(share.high > bound for share in known.values())
+    outcome = Outcome.YES if 2 * surely > of else Outcome.NO if 2 * perhaps <= of else None
+    return Check(cell, outcome or Outcome.UNDECIDED, f"{surely} of {of}: {figures}")
+
+
+def any_of(cell: str, checks: Sequence[Check]) -> Check:
+    """Does one of several cells or more say yes?"""
+    outcomes = {check.outcome for check in checks}
+    figures = ", ".join(f"{check.cell}: {check.figures}" for check in checks if check.figures)
+    for outcome in (Outcome.MISSING, Outcome.YES, Outcome.UNDECIDED):
+        if outcome in outcomes:
+            return Check(cell, outcome, figures)
+    return Check(cell, Outcome.NO, figures)
+
+
+def seconds_a_beam(e: Evidence, level: int) -> Measured | None:
+    """What a non-terminal beam of maceta, in the thesis's counting, costs at 320x200."""
+    seconds = e.worked("seconds_nonterminal", "maceta", COARSEST, level=level)
+    return ratio_of(seconds, e.worked("beams_divided", "maceta", level=level))
+
+
+def formula(e: Evidence, task: str, quantities: tuple[str, ...]) -> list[Check]:
+    """Is the time of a task a sum of counts, each times a cost? Asked of ten cells or more."""
+    rows = []
+    for scene, level, resolution in e.beam_cells:
+        names = (f"seconds_{task}", *quantities)
+        figures = [e.worked(name, scene, resolution, level=level) for name in names]
+        rows.append([figure.value for figure in figures if figure is not None])
+    rows = [row for row in rows if len(row) == len(quantities) + 1 and row[0] > 0]
+    r_squared = error = None
+    if len(rows) >= 10:
+        fit = fit_costs([row[1:] for row in rows], [row[0] for row in rows])
+        r_squared = Measured(fit.r_squared, fit.r_squared - 0.03, fit.r_squared + 0.03)
+        error = Measured(fit.median_error, fit.median_error - 0.05, fit.median_error + 0.05)
+    return [
+        below(f"{task} beams, R2 above 0.9 ({len(rows)} cells)", Measured.exact(0.9), r_squared),
+        below(f"{task} beams, median error below 0.25", error, Measured.exact(0.25)),
+    ]
+
+
+def best_is_inside(scene: str, sweep: dict[int, Measured]) -> list[Check]:
+    """Is some grid of the sweep quicker than the coarsest and than the finest?"""
+    if len(sweep) < 5:
+        return [Check(f"{scene}, a best grid inside the sweep", Outcome.MISSING)]
+    best = min(sweep, key=lambda cells: sweep[cells].value)
+    if best in (min(sweep), max(sweep)):
+        return [Check(f"{scene}, a best grid inside the sweep", Outcome.NO, f"best: {best} cells")]
+    return [
+        below(f"{scene}, {best} cells before {end}", sweep[best], sweep[end])
+        for end in (min(sweep), max(sweep))
+    ]
+
+
+def best_place(sweep: dict[int, Measured]) -> Measured | None:
+    """The best grid; its interval holds all grids that may be as quick."""
+    if len(sweep) < 5:
+        return None
+    best = min(sweep, key=lambda cells: sweep[cells].value)
+    alike = [cells for cells, time in sweep.items() if time.low <= sweep[best].high]
+    return Measured(best, min(alike), max(alike))

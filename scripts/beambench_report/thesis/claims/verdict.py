@@ -1,0 +1,143 @@
+"""A claim of the thesis, the rule that tests it, and from its cells to a verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from enum import Enum
+
+from beambench_report.base.quantities import number
+from beambench_report.thesis.paper.evidence import Evidence, Measured
+
+
+class Outcome(Enum):
+    """What one cell says of the claim."""
+
+    YES = "yes"
+    NO = "no"
+    UNDECIDED = "undecided"
+    MISSING = "missing"
+
+
+class Verdict(Enum):
+    """What all cells say of it."""
+
+    HOLDS = "holds"
+    IN_PART = "holds in part"
+    FAILS = "fails"
+    UNDECIDED = "undecided"
+    NOT_TESTED = "not tested"
+
+
+@dataclass(frozen=True)
+class Check:
+    """One cell of a claim: where, what it says, and the figures it says it by."""
+
+    cell: str
+    outcome: Outcome
+    figures: str = ""
+    ratio: float | None = None
+    """What should be the larger figure over what should be the smaller one, if two are compared."""
+    aside: bool = False
+    """Worth knowing beside the claim, but not a part of it: no verdict depends on it."""
+
+
+def below(cell: str, smaller: Measured | None, larger: Measured | None, factor: float = 1) -> Check:
+    """Is one figure below the other, by `factor` or more? Not decided where intervals meet."""
+    if smaller is None or larger is None:
+        return Check(cell, Outcome.MISSING)
+    if smaller.high * factor < larger.low:
+        outcome = Outcome.YES
+    elif smaller.low * factor > larger.high:
+        outcome = Outcome.NO
+    else:
+        outcome = _met_where_exact(smaller, larger, factor)
+    ratio = larger.value / smaller.value if smaller.value > 0 else None
+    figures = f"{number(smaller.value)} against {number(larger.value)}"
+    return Check(cell, outcome, figures, ratio)
+
+
+def between(cell: str, figure: Measured | None, low: float, high: float, unit: str = "") -> Check:
+    """Does a figure lie between two bounds? Not decided where its interval has a bound in it."""
+    if figure is None:
+        return Check(cell, Outcome.MISSING)
+    if low <= figure.low and figure.high <= high:
+        outcome = Outcome.YES
+    elif figure.high < low or figure.low > high:
+        outcome = Outcome.NO
+    else:
+        outcome = Outcome.UNDECIDED
+    return Check(cell, outcome, f"{number(figure.value)}{unit} for {number(low)} to {number(high)}")
+
+
+def aside(check: Check) -> Check:
+    """The cell as one that does not count."""
+    return replace(check, aside=True)
+
+
+def verdict_of(checks: Sequence[Check]) -> Verdict:
+    """One verdict of all cells.
+
+    With a cell missing the claim is not tested. Undecided cells may fall either way: the verdict
+    stands if it is the same whichever way they fall.
+    """
+    outcomes = {check.outcome for check in checks if not check.aside}
+    if not outcomes or Outcome.MISSING in outcomes:
+        return Verdict.NOT_TESTED
+    if {Outcome.YES, Outcome.NO} <= outcomes:
+        return Verdict.IN_PART
+    if Outcome.UNDECIDED in outcomes:
+        return Verdict.UNDECIDED
+    return Verdict.HOLDS if Outcome.YES in outcomes else Verdict.FAILS
+
+
+def _met_where_exact(smaller: Measured, larger: Measured, factor: float) -> Outcome:
+    """Exact figures that meet a factor to the digit do meet it; equal ones are not decided."""
+    exact = smaller.low == smaller.high and larger.low == larger.high
+    return Outcome.YES if exact and factor > 1 else Outcome.UNDECIDED
+
+
+Rule = Callable[[Evidence], list[Check]]
+
+
+@dataclass(frozen=True)
+class Amendment:
+    """The rule that a claim had before; its verdict is printed beside that of the present one."""
+
+    former: Rule
+    why: str
+    """Why the rule was amended, in one sentence."""
+
+
+@dataclass(frozen=True)
+class Claim:
+    """One row of the ledger."""
+
+    name: str
+    where: str
+    says: str
+    rule: Rule
+    is_figures: bool
+    """The claim is a list of figures, which are bound to agree with themselves."""
+    amendment: Amendment | None = None
+
+
+class Claims(list[Claim]):
+    """The claims in the order of the thesis; rules enrol themselves."""
+
+    def claim(
+        self,
+        name: str,
+        where: str,
+        says: str,
+        *,
+        is_figures: bool = False,
+        amended: Amendment | None = None,
+    ) -> Callable[[Rule], Rule]:
+        """Decorates the rule of a claim."""
+
+        def enrol(rule: Rule) -> Rule:
+            self.append(Claim(name, where, says, rule, is_figures, amended))
+            return rule
+
+        return enrol

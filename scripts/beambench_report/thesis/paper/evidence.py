@@ -1,0 +1,341 @@
+"""The tidy tables that rules judge: the same for the thesis's figures and for a run's."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
+
+import pandas as pd
+
+from beambench_report.base.published import FINEST, FOLDER, read_published
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A positive figure and its interval; one that was counted or printed is its own interval."""
+
+    value: float
+    low: float
+    high: float
+
+    @classmethod
+    def exact(cls, value: float) -> Measured:
+        """A figure without an interval."""
+        return cls(value, value, value)
+
+    def __truediv__(self, other: Measured) -> Measured:
+        """The ratio, from the smallest to the largest that the intervals allow."""
+        return Measured(self.value / other.value, self.low / other.high, self.high / other.low)
+
+    def __sub__(self, other: Measured) -> Measured:
+        """The difference, from the smallest to the largest that the intervals allow."""
+        return Measured(self.value - other.value, self.low - other.high, self.high - other.low)
+
+    def times(self, factor: float) -> Measured:
+        """The figure in another unit, the factor being positive."""
+        return Measured(self.value * factor, self.low * factor, self.high * factor)
+
+
+def share(part: Measured, rest: Measured) -> Measured:
+    """Part of the whole that `part` and `rest` make."""
+    return Measured(
+        part.value / (part.value + rest.value),
+        part.low / (part.low + rest.high),
+        part.high / (part.high + rest.low),
+    )
+
+
+def smallest(figures: Sequence[Measured]) -> Measured:
+    """The least of several: its true value is no larger than the least upper end."""
+    return Measured(
+        min(each.value for each in figures),
+        min(each.low for each in figures),
+        min(each.high for each in figures),
+    )
+
+
+def largest(figures: Sequence[Measured]) -> Measured:
+    """The greatest of several: its true value is no less than the greatest lower end."""
+    return Measured(
+        max(each.value for each in figures),
+        max(each.low for each in figures),
+        max(each.high for each in figures),
+    )
+
+
+def total(figures: Sequence[Measured]) -> Measured:
+    """The sum."""
+    return Measured(
+        sum(each.value for each in figures),
+        sum(each.low for each in figures),
+        sum(each.high for each in figures),
+    )
+
+
+FIGURES = ("scene", "network", "quantity", "value", "low", "high")
+
+
+@dataclass(frozen=True)
+class ClusterEvidence:
+    """One table: a row for each figure of a scene on a network.
+
+    best_processors, best_efficiency, mean_efficiency, last_efficiency: of 2 to 15 processors, the
+        producer's among them; the interval of the first holds all that are as good within 1%.
+    beams: those at occupied leaves, which are sent.
+    fewest_beams, most_beams: of 14 consumers.
+    first_end, last_end: when they finished their last beam, in seconds.
+    producer_busy: the part of the time during which the producer worked, with 14 consumers.
+    consumers_that_saturate: the fewest with which that is 90%.
+    """
+
+    figures: pd.DataFrame
+
+    @property
+    def networks(self) -> list[str]:
+        """Those that something is known of."""
+        return list(dict.fromkeys(self.figures["network"]))
+
+    def figure(self, quantity: str, scene: str, network: str) -> Measured | None:
+        """One figure, if it is known."""
+        return self._figures.get((scene, network, quantity))
+
+    @cached_property
+    def _figures(self) -> dict[tuple[str, str, str], Measured]:
+        return {
+            (row.scene, row.network, row.quantity): Measured(row.value, row.low, row.high)
+            for row in self.figures.itertuples()
+        }
+
+
+NO_CLUSTER = ClusterEvidence(pd.DataFrame(columns=list(FIGURES)))
+
+
+# What every row is about. `level` and `objects` are the octree's max_level and max_objects, `cells`
+# the grid's voxels along an axis; 0 stands where a structure has no such thing.
+SETTING = ("scene", "contender", "level", "objects", "cells", "resolution", "samples")
+TIMES = ("table", *SETTING, "seconds", "low", "high")
+WORK = (*SETTING, "quantity", "value", "low", "high")
+OCTREES = ("scene", "level", "objects", "occupied_leaves", "exit_pixels")
+
+# The hierarchy of the thesis descends by least growth to a terminal node, and only there weighs
+# adding the object against a new volume (section 4.3): `insert=terminal`. Goldsmith and Salmon's
+# own insertion weighs at every level.
+HIERARCHY = "goldsmith-salmon"
+PAPER_HIERARCHY = "goldsmith-salmon, insert=everywhere"
+
+# Whole pictures, whose rays a census counts by kind.
+PICTURE = "picture"
+
+# The thesis's parameters wherever it does not vary them.
+LEVEL, OBJECTS, CELLS = 6, 0, 32
+
+
+@dataclass(frozen=True)
+class Evidence:
+    """What was measured, by the thesis or in a run.
+
+    times: table, setting, seconds with the building of the structure, and their interval.
+    work: setting, the name of a quantity, its value and interval; a row a quantity.
+    octrees: counts of occupied leaves and of pixels of exit beams at 1280x1024.
+    cluster: chapter 6.
+    """
+
+    times: pd.DataFrame
+    work: pd.DataFrame
+    octrees: pd.DataFrame
+    cluster: ClusterEvidence = NO_CLUSTER
+
+    def time(
+        self,
+        scene: str,
+        contender: str,
+        resolution: str = FINEST,
+        *,
+        level: int = LEVEL,
+        objects: int = OBJECTS,
+        cells: int = CELLS,
+        samples: int = 1,
+    ) -> Measured | None:
+        """Seconds of one cell, by the thesis's parameters if not told otherwise."""
+        octree, grid = contender in ("beam", "samet", "samet-net"), contender == "voxel-grid"
+        setting = (
+            scene,
+            contender,
+            level if octree else 0,
+            objects if octree else 0,
+            cells if grid else 0,
+            resolution,
+            samples,
+        )
+        return self._times.get(setting)
+
+    def times_by(
+        self, setting: str, scene: str, contender: str, resolution: str = FINEST
+    ) -> dict[int, Measured]:
+        """Seconds of one contender by the value of one of its settings, `level` or `cells`."""
+        at = {name: place for place, name in enumerate(SETTING)}
+        wanted = {"scene": scene, "contender": contender, "resolution": resolution}
+        wanted |= {"objects": OBJECTS, "samples": 1}
+        found = {
+            key[at[setting]]: seconds
+            for key, seconds in self._times.items()
+            if all(key[at[name]] == value for name, value in wanted.items())
+        }
+        return dict(sorted(found.items()))
+
+    def count(
+        self, quantity: str, scene: str, *, level: int = LEVEL, objects: int = OBJECTS
+    ) -> Measured | None:
+        """A count of the octree: `occupied_leaves` or `exit_pixels`."""
+        return self._octrees.get((quantity, scene, level, objects))
+
+    def worked(
+        self,
+        quantity: str,
+        scene: str,
+        resolution: str = "",
+        *,
+        contender: str = "beam",
+        level: int = LEVEL,
+    ) -> Measured | None:
+        """A quantity of the beams' work by the thesis's parameters, or of another structure."""
+        level = level if contender == "beam" else 0
+        return self._work.get((quantity, scene, contender, level, resolution))
+
+    def share_of_time(
+        self, task: str, scene: str, resolution: str, *, level: int = LEVEL
+    ) -> Measured | None:
+        """A task of the beams over the whole, building included; as printed, or made of times."""
+        printed = self.worked(f"share_{task}", scene, resolution, level=level)
+        if printed is not None:
+            return printed
+        seconds = {
+            name: self.worked(f"seconds_{name}", scene, resolution, level=level)
+            for name in ("nonterminal", "occupied", "leaving", "build")
+        }
+        part = seconds.pop(task)
+        rest = [figure for figure in seconds.values() if figure is not None]
+        return share(part, total(rest)) if part is not None and len(rest) == 3 else None
+
+    @property
+    def beam_cells(self) -> list[tuple[str, int, str]]:
+        """Scene, level and resolution of every cell whose beams were counted."""
+        keys = [key[1:] for key in self._work if key[2] == "beam"]
+        return list(dict.fromkeys((key[0], key[2], key[3]) for key in keys))
+
+    @cached_property
+    def _times(self) -> dict[tuple[str | int, ...], Measured]:
+        """Where two tables print the same cell the first one counts; they agree."""
+        found: dict[tuple[str | int, ...], Measured] = {}
+        for row in self.times.itertuples():
+            key = tuple(getattr(row, name) for name in SETTING)
+            found.setdefault(key, Measured(row.seconds, row.low, row.high))
+        return found
+
+    @cached_property
+    def _work(self) -> dict[tuple[str, str, str, int, str], Measured]:
+        rows = self.work[(self.work["samples"] == 1) & (self.work["objects"] == OBJECTS)]
+        return {
+            (row.quantity, row.scene, row.contender, row.level, row.resolution): Measured(
+                row.value, row.low, row.high
+            )
+            for row in rows.itertuples()
+        }
+
+    @cached_property
+    def _octrees(self) -> dict[tuple[str, str, int, int], Measured]:
+        return {
+            (quantity, row.scene, row.level, row.objects): Measured.exact(getattr(row, quantity))
+            for row in self.octrees.itertuples()
+            for quantity in ("occupied_leaves", "exit_pixels")
+            if pd.notna(getattr(row, quantity))
+        }
+
+
+NOTHING = Evidence(
+    pd.DataFrame(columns=list(TIMES)),
+    pd.DataFrame(columns=list(WORK)),
+    pd.DataFrame(columns=list(OCTREES)),
+)
+
+
+_OCTREE_STRUCTURES = ("beam", "samet", "samet-net")
+# What the thesis calls beams and non-terminal beams are those that its constructor made, and those
+# of them that were cut: a beam that lies wholly inside the next leaf is only placed there
+# (section 4.4.2, `PasaPor`; graphic 3.4).
+_MADE_BY_CUTTING = {"beams": "beams_made", "beams_nonterminal": "beams_divided"}
+
+
+@cache
+def published_evidence(folder: Path = FOLDER) -> Evidence:
+    """Tables 5.2 to 5.8 and the figures that stand in the text.
+
+    The thesis gives no intervals: what it prints counts as exact.
+    """
+    times = _times(read_published("times.csv", folder))
+    text = read_published("figures_in_text.csv", folder)
+    parallel = text["section"].astype(str).str.startswith("6")
+    return Evidence(
+        times[list(TIMES)],
+        _work(text[~parallel].copy(), times),
+        _octrees(read_published("octree_counts.csv", folder)),
+        _cluster(text[parallel]),
+    )
+
+
+def _times(rows: pd.DataFrame) -> pd.DataFrame:
+    """Tables 5.4 to 5.8 do not repeat that a leaf is split as soon as it holds anything."""
+    rows["contender"] = rows["algorithm"]
+    rows["level"] = rows["max_level"].fillna(0).astype(int)
+    rows["objects"] = rows["max_objects"].fillna(0).astype(int)
+    rows["cells"] = rows["contender"].eq("voxel-grid") * CELLS
+    rows["resolution"] = _resolution(rows)
+    rows["samples"] = 1
+    rows["low"] = rows["high"] = rows["seconds"]
+    return rows
+
+
+def _work(text: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
+    text["contender"] = text["structure"]
+    text["level"] = text["max_level"].fillna(0).astype(int)
+    text["objects"] = text["cells"] = 0
+    text["samples"] = 1
+    text["resolution"] = _resolution(text)
+    text["low"] = text["high"] = text["value"]
+    rows = text[list(WORK)]
+    cut = rows[rows["quantity"].isin(_MADE_BY_CUTTING)]
+    cut = cut.assign(quantity=cut["quantity"].map(_MADE_BY_CUTTING))
+    return pd.concat([rows, cut, _seconds_of_shares(rows, times)], ignore_index=True)
+
+
+def _seconds_of_shares(work: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
+    """A share of a time that is printed is a time: what C09 needs, where the thesis tells it."""
+    setting = ["scene", "contender", "level", "objects", "resolution"]
+    known = times.drop_duplicates(setting)[[*setting, "seconds"]]
+    shares = work[work["quantity"].eq("share_nonterminal")].merge(known, on=setting)
+    seconds = shares["value"] * shares["seconds"]
+    shares = shares.assign(quantity="seconds_nonterminal", value=seconds, low=seconds, high=seconds)
+    return shares[list(WORK)]
+
+
+def _octrees(rows: pd.DataFrame) -> pd.DataFrame:
+    names = {
+        "max_level": "level",
+        "max_objects": "objects",
+        "exit_beam_pixels_1280x1024": "exit_pixels",
+    }
+    return rows.rename(columns=names)[list(OCTREES)].drop_duplicates()
+
+
+def _cluster(text: pd.DataFrame) -> ClusterEvidence:
+    """The thesis says no more of its network than that it is an Ethernet."""
+    rows = text.assign(network="Ethernet", low=text["value"], high=text["value"])
+    return ClusterEvidence(rows[list(FIGURES)])
+
+
+def _resolution(rows: pd.DataFrame) -> pd.Series:
+    """`320x200`, or nothing where a figure is of no resolution."""
+    width, height = (rows[side].astype("Int64").astype(str) for side in ("width", "height"))
+    return (width + "x" + height).where(rows["width"].notna(), "")

@@ -1,0 +1,1 @@
+"""The report on chapter 5: which sweeps, how they are run, tables, figures, page."""

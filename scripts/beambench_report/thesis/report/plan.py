@@ -1,0 +1,333 @@
+"""Which sweeps are run for the tables and figures that a user asked for."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence, Set
+from dataclasses import dataclass, replace
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+from beambench_report.base.files import ROOT, Problem, write_text
+from beambench_report.base.published import rays
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table of the thesis; in the `best` sweeps its contenders look for their own best."""
+
+    number: str
+    title: str
+    first: tuple[str, ...]
+    best: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A figure of the thesis and the sweeps whose cells it draws."""
+
+    number: str
+    title: str
+    sweeps: tuple[str, ...]
+
+
+_OTHERS = ("others-small", "others-large")
+
+TABLES = (
+    Table(
+        "5.2",
+        "Results as more objects may lie in a leaf",
+        ("division",),
+        ("best-division",),
+    ),
+    Table(
+        "5.3",
+        "Results as the octree becomes deeper",
+        ("division",),
+        ("best-division",),
+    ),
+    Table(
+        "5.4",
+        "Total time: beams and single rays on the same octree, synthetic scenes",
+        ("synthetic",),
+        ("best-synthetic",),
+    ),
+    Table(
+        "5.5",
+        "Total time: beams and single rays on the same octree, real scenes",
+        ("octree",),
+        ("best-octree", "shallow"),
+    ),
+    Table(
+        "5.6",
+        "Total time: beams, voxel grid and bounding boxes, synthetic scenes",
+        ("synthetic",),
+        ("best-synthetic",),
+    ),
+    Table(
+        "5.7",
+        "Total time: beams, voxel grid and bounding boxes, a thousand polygons",
+        ("others-small",),
+        ("best-others-small",),
+    ),
+    Table(
+        "5.8",
+        "Total time: beams, voxel grid and bounding boxes, ten thousand polygons and more",
+        ("others-large",),
+        ("best-others-large",),
+    ),
+)
+
+FIGURES = (
+    Figure("5.4", "Octrees of Maceta by different criteria of division", ("division",)),
+    Figure("5.5", "Octrees of Delfines by different criteria of division", ("division",)),
+    Figure("5.6", "Total time by the objects that may lie in a leaf", ("division",)),
+    Figure("5.7", "Total time by the level of the octree", ("division",)),
+    Figure("5.8", "Time of the beams in Escena 1 and Escena 2", ("synthetic",)),
+    Figure(
+        "5.9",
+        "The octrees of Bola espacial, Caracol, Tetera and Torre Eiffel",
+        ("others-small", "quality"),
+    ),
+    Figure("5.10", "Time of the beams in four real scenes", ("others-small", "quality")),
+    Figure(
+        "5.11",
+        "Increase of the time with five samples a pixel",
+        ("others-small", "quality", "samples"),
+    ),
+    Figure("5.12", "Time in the scenes of table 5.4", ("synthetic",)),
+    Figure("5.13", "Time in the scenes of table 5.5", ("octree",)),
+    Figure(
+        "5.14", "Time by the level that each contender has", ("octree", "best-octree", "shallow")
+    ),
+    Figure("5.15", "Time in the scenes of table 5.6", ("synthetic",)),
+    Figure("5.16", "Time in the scenes of table 5.7", ("others-small",)),
+    Figure("5.17", "Time of the grid by its cells an axis", ("others-large", "best-others-large")),
+    Figure(
+        "5.18",
+        "Beams beside the grid at its best",
+        ("others-large", "best-others-large", "grids"),
+    ),
+)
+
+# In the order in which they are run: what the thesis did first.
+SWEEPS = (
+    "synthetic",
+    "division",
+    "octree",
+    "others-small",
+    "others-large",
+    "quality",
+    "samples",
+    "best-synthetic",
+    "best-division",
+    "best-octree",
+    "shallow",
+    "best-others-small",
+    "best-others-large",
+    "grids",
+)
+
+
+FOLDER = ROOT / "harness/sweeps/thesis"
+
+LEVELS = "levels"
+"""The sweep that max_level=auto is judged by; its file lies in the folder above FOLDER."""
+
+_QUICK_RESOLUTIONS = ("320x200", "640x480")
+_QUICK_REPETITIONS = {"minimum": 1, "maximum": 3}
+_QUICK_SECONDS_A_CELL = 0.25
+
+
+@dataclass(frozen=True)
+class PlannedCell:
+    """A cell as a sweep asks for it: parameters that it does not name keep their defaults."""
+
+    scene: str
+    structure: str
+    parameters: tuple[tuple[str, str], ...]
+    resolution: str
+    samples: int
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A sweep file: `name` is that of the file and of the folder of its run."""
+
+    name: str
+    source: dict[str, Any]
+
+    @property
+    def description(self) -> str:
+        """What the sweep says of itself."""
+        return self.source.get("description", "")
+
+    @property
+    def budget_seconds(self) -> float:
+        """How long it may take; slow cells that have not their least repetitions may take more."""
+        return self.source["budget_seconds"]
+
+    def cells(self) -> list[PlannedCell]:
+        """Every cell, in no order that means anything."""
+        contenders = list(dict.fromkeys(self._contenders()))
+        views = product(
+            self.source["scenes"], self.source["resolutions"], self.source.get("samples", [1])
+        )
+        return [
+            PlannedCell(scene, *contender, resolution, samples)
+            for scene, resolution, samples in views
+            for contender in contenders
+            if not self._is_excluded(scene, contender[0], resolution, samples)
+        ]
+
+    def _is_excluded(self, scene: str, structure: str, resolution: str, samples: int) -> bool:
+        """By the conditions that the thesis's sweeps use; `primitives_above` is none of them."""
+        own = {"scene": scene, "structure": structure}
+        return any(
+            all(entry.get(name, value) == value for name, value in own.items())
+            and rays(resolution) * samples > entry.get("rays_above", -1)
+            for entry in self.source.get("exclude", [])
+        )
+
+    def _contenders(self) -> Iterator[tuple[str, tuple[tuple[str, str], ...]]]:
+        for entry in self.source["structures"]:
+            if isinstance(entry, str):
+                name, _, text = entry.partition(":")
+                pairs = [part.partition("=") for part in text.split(",") if part]
+                yield name, tuple((key, value) for key, _, value in pairs)
+                continue
+            given = entry.get("parameters", {})
+            lists = [value if isinstance(value, list) else [value] for value in given.values()]
+            for values in product(*lists):
+                texts = (str(value) for value in values)
+                yield entry["structure"], tuple(zip(given, texts, strict=True))
+
+
+def read_sweep(name: str, folder: Path = FOLDER) -> Sweep:
+    """Reads FOLDER/NAME.json. Raises Problem where there is none."""
+    path = folder / f"{name}.json"
+    try:
+        return Sweep(name, json.loads(path.read_text("utf-8")))
+    except FileNotFoundError:
+        raise Problem(f"{path}: there is no such file; restore it with git") from None
+    except ValueError as error:
+        raise Problem(f"{path}: cannot be read as JSON: {error}") from None
+
+
+def quick(sweep: Sweep) -> Sweep | None:
+    """The sweep at its low resolutions, in little time; None if it has no low one."""
+    resolutions = [size for size in sweep.source["resolutions"] if size in _QUICK_RESOLUTIONS]
+    if not resolutions:
+        return None
+    changes = {
+        "name": f"{sweep.source['name']}-quick",
+        "resolutions": resolutions,
+        "repetitions": _QUICK_REPETITIONS,
+        "warm_up_seconds": 0.2,
+    }
+    smaller = replace(sweep, source=sweep.source | changes)
+    budget = max(1.0, _QUICK_SECONDS_A_CELL * len(smaller.cells()))
+    return replace(smaller, source=smaller.source | {"budget_seconds": round(budget, 1)})
+
+
+_PLAN = "thesis.json"
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is shown and what has to be measured for it."""
+
+    tables: tuple[str, ...]
+    figures: tuple[str, ...]
+    is_quick: bool
+    sweeps: tuple[Sweep, ...]
+
+    @property
+    def is_everything(self) -> bool:
+        """Nothing of chapter 5 is left out."""
+        return len(self.tables) == len(TABLES) and len(self.figures) == len(FIGURES)
+
+
+def make_plan(
+    tables: Sequence[str],
+    figures: Sequence[str],
+    is_quick: bool,
+    folder: Path | None = None,
+    *,
+    with_levels: bool = False,
+) -> Plan:
+    """The sweeps for some tables and figures, or for all. Raises Problem for one there is not.
+
+    `with_levels` adds the sweep that max_level=auto is judged by.
+    """
+    known_tables, known_figures = [t.number for t in TABLES], [f.number for f in FIGURES]
+    _require_known("table", tables, known_tables)
+    _require_known("figure", figures, known_figures)
+    if not tables and not figures:
+        tables, figures = known_tables, known_figures
+    chosen_tables = [table for table in TABLES if table.number in tables]
+    wanted = {name for table in chosen_tables for name in (*table.first, *table.best)}
+    wanted |= {name for figure in FIGURES if figure.number in figures for name in figure.sweeps}
+    shown = _figures_of(wanted)
+    read = [read_sweep(name, folder or FOLDER) for name in SWEEPS if name in wanted]
+    made = [quick(sweep) if is_quick else sweep for sweep in read]
+    plan = Plan(
+        tuple(table.number for table in chosen_tables),
+        tuple(shown),
+        is_quick,
+        tuple(sweep for sweep in made if sweep is not None),
+    )
+    return add_levels(plan, folder) if with_levels else plan
+
+
+def add_levels(plan: Plan, folder: Path | None = None) -> Plan:
+    """The same plan with the sweep that max_level=auto is judged by, if it was without."""
+    if any(sweep.name == LEVELS for sweep in plan.sweeps):
+        return plan
+    levels = read_sweep(LEVELS, (folder or FOLDER).parent)
+    made = quick(levels) if plan.is_quick else levels
+    return replace(plan, sweeps=(*plan.sweeps, made)) if made else plan
+
+
+def keep_plan(plan: Plan, directory: Path) -> None:
+    """Writes DIRECTORY/thesis.json, from which a run that was cut off goes on."""
+    document = {
+        "tables": plan.tables,
+        "figures": plan.figures,
+        "quick": plan.is_quick,
+        "sweeps": [{"name": sweep.name, "sweep": sweep.source} for sweep in plan.sweeps],
+    }
+    write_text(directory / _PLAN, json.dumps(document, indent=2) + "\n")
+
+
+def read_plan(directory: Path) -> Plan:
+    """Reads what `keep_plan` wrote. Raises Problem where that is not to be had."""
+    path = directory / _PLAN
+    try:
+        source = json.loads(path.read_text("utf-8"))
+        sweeps = tuple(Sweep(entry["name"], entry["sweep"]) for entry in source["sweeps"])
+        shown = set(source["figures"]) | set(_figures_of({sweep.name for sweep in sweeps}))
+        return Plan(
+            tuple(source["tables"]),
+            tuple(figure.number for figure in FIGURES if figure.number in shown),
+            source["quick"],
+            sweeps,
+        )
+    except FileNotFoundError:
+        raise Problem(
+            f"{path}: there is no such file; give the folder that an earlier scripts/thesis wrote"
+        ) from None
+    except (ValueError, KeyError, TypeError) as error:
+        raise Problem(f"{path}: is not the plan of a run ({error}); begin anew with -o") from None
+
+
+def _figures_of(sweeps: Set[str]) -> list[str]:
+    """Those that some sweeps are enough for: they cost nothing more."""
+    return [figure.number for figure in FIGURES if sweeps >= set(figure.sweeps)]
+
+
+def _require_known(kind: str, given: Sequence[str], known: Sequence[str]) -> None:
+    for number in given:
+        if number not in known:
+            raise Problem(f"there is no {kind} '{number}'; there are {', '.join(known)}")

@@ -1,0 +1,246 @@
+"""Gathers the report from the runs of a folder, and what it says in words."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+from beambench_report.base.machine import Manifest, read_manifest
+from beambench_report.thesis.chapter5.best import BestTable, best_table
+from beambench_report.thesis.chapter5.cost import cost_section
+from beambench_report.thesis.chapter5.facts import (
+    CENSUS,
+    camera_section,
+    scenes_section,
+    visits_section,
+)
+from beambench_report.thesis.chapter5.levels import levels_section
+from beambench_report.thesis.chapter5.sampling import readable_comparisons, sampling_section
+from beambench_report.thesis.claims.register import SWEPT_CLAIMS, ledger
+from beambench_report.thesis.claims.register import Entry as LedgerEntry
+from beambench_report.thesis.claims.verdict import Verdict
+from beambench_report.thesis.paper.cells import Cell, Cells, read_cells
+from beambench_report.thesis.paper.measured import is_census_folder
+from beambench_report.thesis.paper.printed import parts_of
+from beambench_report.thesis.paper.section import Section
+from beambench_report.thesis.report.drawing import FigureData
+from beambench_report.thesis.report.figures import make_figures
+from beambench_report.thesis.report.pictures import PictureFigure, octree_figures
+from beambench_report.thesis.report.plan import LEVELS, TABLES, Plan, Sweep, Table
+from beambench_report.thesis.report.runner import state_of
+from beambench_report.thesis.report.tables import PartTable, WorkTable, fill, work_of_lines
+
+SAMPLING = "sampling"
+"""The folder of what `beambench sampling SCENE --json` printed."""
+
+
+def extra_sweeps(directory: Path, plan: Plan) -> list[Sweep]:
+    """The sweep of levels, where it was run into DIRECTORY/levels without being planned."""
+    if any(sweep.name == LEVELS for sweep in plan.sweeps):
+        return []
+    try:
+        source = json.loads((directory / LEVELS / "config.json").read_text("utf-8"))
+    except (OSError, ValueError):
+        return []
+    return [Sweep(LEVELS, source)]
+
+
+def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]]:
+    """All that were measured, and a sentence for each file that could not be read."""
+    comparisons, unread = readable_comparisons(sorted((directory / SAMPLING).glob("*.json")))
+    sections = (
+        scenes_section(directory),
+        visits_section(directory),
+        camera_section(directory),
+        cost_section(cells.cells),
+        levels_section(cells.cells),
+        sampling_section(comparisons),
+    )
+    return [section for section in sections if section is not None], unread
+
+
+@dataclass(frozen=True)
+class Part:
+    """A part of a table: as in the thesis, what stands behind it, and best against best."""
+
+    table: PartTable
+    best: BestTable | None
+
+    @cached_property
+    def work(self) -> WorkTable:
+        """Memory and work of every cell of the table."""
+        return work_of_lines(self.table.lines)
+
+
+@dataclass(frozen=True)
+class RunSummary:
+    """What is told of a run."""
+
+    name: str
+    description: str
+    state: str
+    planned: int
+    cells: tuple[Cell, ...]
+    manifest: Manifest
+
+    @property
+    def wrong(self) -> int:
+        """Cells without times."""
+        return sum(cell.time is None for cell in self.cells)
+
+
+@dataclass(frozen=True)
+class Report:
+    """All that is written, in whichever form."""
+
+    directory: Path
+    plan: Plan
+    cells: Cells
+    tables: tuple[tuple[Table, tuple[Part, ...]], ...]
+    figures: tuple[FigureData, ...]
+    pictures: tuple[PictureFigure, ...]
+    ledger: tuple[LedgerEntry, ...]
+    sections: tuple[Section, ...]
+    """What goes beyond the thesis's own tables and figures."""
+    runs: tuple[RunSummary, ...]
+
+    @property
+    def is_complete(self) -> bool:
+        """Was all that was planned measured?"""
+        return all(run.state == "finished" for run in self.runs)
+
+
+def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report:
+    """Reads the runs; what was not measured is left out and told so."""
+    sweeps = [*plan.sweeps, *extra_sweeps(directory, plan)]
+    every = read_cells(directory, (sweep.name for sweep in sweeps))
+    # Tables, figures and ledger have one sweep for each of their cells, and none of them is LEVELS.
+    cells = every.without(LEVELS)
+    sections, unread = sections_of(directory, every)
+    shown = [table for table in TABLES if table.number in plan.tables]
+    pictures = ()
+    if beambench is not None and cells.cells:
+        pictures = tuple(octree_figures(plan.figures, directory, beambench))
+    return Report(
+        directory,
+        plan,
+        replace(every, unread=(*every.unread, *unread)),
+        tuple((table, _parts(table, cells, directory, plan)) for table in shown),
+        tuple(make_figures(plan.figures, cells)),
+        pictures,
+        tuple(ledger([*cells.runs, *_censuses(directory)], SWEPT_CLAIMS)),
+        tuple(sections),
+        tuple(_summary(directory, sweeps, every)),
+    )
+
+
+def _censuses(directory: Path) -> list[Path]:
+    """The folder of censuses, where there is one."""
+    folder = directory / CENSUS
+    return [folder] if is_census_folder(folder) else []
+
+
+def _parts(table: Table, cells: Cells, directory: Path, plan: Plan) -> tuple[Part, ...]:
+    sweeps = [sweep for sweep in plan.sweeps if sweep.name in table.first]
+
+    def why(resolution: str) -> str:
+        asked = [sweep for sweep in sweeps if resolution in sweep.source["resolutions"]]
+        if not asked:
+            return "quick run" if plan.is_quick else "not asked for"
+        states = {state_of(directory / sweep.name) for sweep in asked}
+        return {"waiting": "not run", "begun": "run cut off"}.get(states.pop(), "not measured")
+
+    return tuple(
+        Part(fill(part, cells, why), best_table(part, cells)) for part in parts_of(table.number)
+    )
+
+
+def _summary(directory: Path, sweeps: Iterable[Sweep], cells: Cells) -> list[RunSummary]:
+    return [
+        RunSummary(
+            sweep.name,
+            sweep.description,
+            state_of(directory / sweep.name),
+            len(sweep.cells()),
+            tuple(cell for cell in cells.cells if cell.run == sweep.name),
+            read_manifest(directory / sweep.name) or Manifest(),
+        )
+        for sweep in sweeps
+    ]
+
+
+TABLE_WORDS = (
+    "Beside the thesis's seconds (a Pentium of 350 MHz, 1999) stand our milliseconds; seconds of "
+    "so different machines are not to be compared. What compares are the shapes, in brackets: each "
+    "time over that of the same part's first row at 320x200, the thesis's and ours. Times contain "
+    "the building of the structure, as the thesis's do; our part of it stands behind the total. "
+    "Parameters are the thesis's: octrees of level 6 unless the table says otherwise, 32 voxels an "
+    "axis filled lazily, objects inserted as given beside terminal nodes (insert=terminal), Kay "
+    "and Kajiya's queue, no handover. Rows marked (of today) or (Goldsmith and Salmon 1987) are "
+    "not the thesis's."
+)
+BEST_WORDS = (
+    "Each contender with those of its parameters that made it quickest, building included, in "
+    "brackets its time over that of the first row and the interval of that ratio."
+)
+
+
+def headline(report: Report) -> str:
+    """How much was measured, and whether it was right."""
+    cells, wrong = len(report.cells.cells), len(report.cells.wrong)
+    if not cells:
+        return "Nothing was measured yet."
+    right = "all of them right" if not wrong else f"{wrong} of them not right, and without times"
+    return f"{cells:,} cells in {len(report.cells.runs)} runs, {right}."
+
+
+def notice(report: Report) -> str:
+    """What a reader must know before reading on; nothing where all was measured in full."""
+    sentences = []
+    if not report.is_complete:
+        sentences.append("Not everything that was planned is there (see Runs).")
+    if report.plan.is_quick:
+        sentences.append(
+            "This was a quick run: low resolutions and few repetitions, for a look, not for "
+            f"verdicts. {decided(report)}"
+        )
+    elif not report.plan.is_everything:
+        sentences.append("Only some tables and figures were asked for.")
+    return " ".join(sentences)
+
+
+def decided(report: Report) -> str:
+    """Which claims have all their cells; the others need what was not measured."""
+    names = [e.claim.name for e in report.ledger if e.ours.verdict is not Verdict.NOT_TESTED]
+    which = f": {', '.join(names)}" if names else ""
+    return (
+        f"Its cells are enough for {len(names)} of {len(report.ledger)} claims{which}; the others "
+        "need cells that were not measured."
+    )
+
+
+def verdict_counts(report: Report) -> str:
+    """How many claims hold by the thesis's own figures and by ours."""
+    told = []
+    for whose, verdicts in (
+        ("By the thesis's own figures", [entry.thesis.verdict for entry in report.ledger]),
+        ("by ours", [entry.ours.verdict for entry in report.ledger]),
+    ):
+        counts = Counter(verdicts)
+        listed = ", ".join(f"{counts[v]} {_plural(v, counts[v])}" for v in Verdict if counts[v])
+        told.append(f"{whose}: {listed}")
+    return f"{'; '.join(told)}."
+
+
+def _plural(verdict: Verdict, count: int) -> str:
+    words = {
+        Verdict.HOLDS: ("holds", "hold"),
+        Verdict.IN_PART: ("holds in part", "hold in part"),
+        Verdict.FAILS: ("fails", "fail"),
+    }
+    one, more = words.get(verdict, (verdict.value, verdict.value))
+    return one if count == 1 else more

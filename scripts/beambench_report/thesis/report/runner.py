@@ -1,0 +1,124 @@
+"""Runs the sweeps of a plan one after the other, each in a folder of its own."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from beambench_report.base.files import Problem, write_text
+from beambench_report.base.quantities import duration_in_words
+from beambench_report.thesis.report.plan import Plan, Sweep
+
+_NOT_RIGHT = 1
+_INTERRUPTED = (130, 143, -2, -15)  # as shells tell SIGINT and SIGTERM, and as Python does
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How the runs ended."""
+
+    not_right: tuple[str, ...]
+    """Sweeps in which some structure's hits were not right."""
+    not_made: tuple[str, ...]
+    """Sweeps that could not be run."""
+    interrupted: bool = False
+
+    @property
+    def exit_code(self) -> int:
+        """2 where something could not be run, 1 where a hit was wrong."""
+        if self.interrupted:
+            return 130
+        return 2 if self.not_made else 1 if self.not_right else 0
+
+
+def run_sweeps(plan: Plan, directory: Path, beambench: Path) -> Outcome:
+    """Runs what is not finished yet. A sweep that cannot be run does not keep others from it."""
+    not_right, not_made = [], []
+    for number, sweep in enumerate(plan.sweeps, 1):
+        where = f"run {number} of {len(plan.sweeps)}: {sweep.name}"
+        state = state_of(directory / sweep.name)
+        if state == "finished":
+            _say(f"== {where}: finished before")
+            code = _NOT_RIGHT if _has_wrong_cells(directory / sweep.name) else 0
+        else:
+            told = duration_in_words(sweep.budget_seconds)
+            _say(f"== {where}: {len(sweep.cells())} cells, {told}")
+            code = _run(sweep, directory, beambench, resume=state == "begun")
+        if code in _INTERRUPTED:
+            return Outcome(tuple(not_right), tuple(not_made), interrupted=True)
+        if code == _NOT_RIGHT:
+            not_right.append(sweep.name)
+        elif code != 0:
+            not_made.append(sweep.name)
+    return Outcome(tuple(not_right), tuple(not_made))
+
+
+def state_of(folder: Path) -> str:
+    """`finished`, `begun` or `waiting`: what the folder of a sweep's run holds."""
+    try:
+        manifest = json.loads((folder / "manifest.json").read_text("utf-8"))
+    except (FileNotFoundError, ValueError):
+        return "waiting"
+    return "finished" if manifest.get("finished_utc") else "begun"
+
+
+def describe(plan: Plan, directory: Path | None = None) -> str:
+    """A line for each sweep: its cells, the time it may take, and what is done of it."""
+    lines, cells, seconds = [], 0, 0.0
+    for sweep in plan.sweeps:
+        count, state = len(sweep.cells()), "waiting"
+        if directory is not None:
+            state = state_of(directory / sweep.name)
+        done = len(list((directory or Path()).glob(f"{sweep.name}/cells/*.json")))
+        told = {"finished": "finished", "begun": f"{done} done"}.get(state, "")
+        left = 0.0 if state == "finished" else sweep.budget_seconds
+        if state == "begun":
+            left *= max(0.0, 1 - done / count)
+        lines.append(
+            f"{sweep.name:<18} {count:>4} cells {duration_in_words(left):>12}  {told}".rstrip()
+        )
+        cells += count
+        seconds += left
+    lines.append(f"{'in all':<18} {cells:>4} cells {duration_in_words(seconds):>12}")
+    return "\n".join(lines) + "\n"
+
+
+def _run(sweep: Sweep, directory: Path, beambench: Path, *, resume: bool) -> int:
+    folder = directory / sweep.name
+    if resume:
+        arguments = ["--resume", str(folder)]
+    else:
+        (directory / "sweeps").mkdir(exist_ok=True)
+        config = directory / "sweeps" / f"{sweep.name}.json"
+        write_text(config, json.dumps(sweep.source, indent=2) + "\n")
+        arguments = [str(config), "-o", str(folder)]
+    return _call([str(beambench), "run", *arguments])
+
+
+def _call(command: list[str], start: Callable[..., subprocess.Popen] = subprocess.Popen) -> int:
+    """Its exit code; a keyboard's interrupt is the child's, which ends by it in good order."""
+    try:
+        child = start(command, stdout=subprocess.DEVNULL)
+    except OSError as error:
+        raise Problem(f"{command[0]} cannot be run: {error.strerror}; build it first") from None
+    try:
+        return child.wait()
+    except KeyboardInterrupt:
+        child.wait()
+        return _INTERRUPTED[0]
+
+
+def _has_wrong_cells(folder: Path) -> bool:
+    for path in folder.glob("cells/*.json"):
+        row = json.loads(path.read_text("utf-8"))["row"]
+        if row["verdict"] not in ("ok", "baseline"):
+            return True
+    return False
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr, flush=True)

@@ -1,1 +1,0 @@
-"""Object-space sampling, the thesis's future work: `beambench sampling SCENE --json`, shown."""
