@@ -6,7 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
-namespace beambench {
+namespace beambench::scenes {
 
 /// An axis-aligned box, closed on all sides. A default-constructed box is empty (lower > upper).
 struct Bounds {
@@ -31,4 +31,4 @@ struct Bounds {
   }
 };
 
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -5,7 +5,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace beambench {
+namespace beambench::scenes {
 
 /// A pinhole camera. It fixes the frustum; a resolution only samples it (with non-square pixels
 /// where its aspect differs), so that sweeps over resolutions see one image.
@@ -21,4 +21,4 @@ struct Camera {
   int height = 512;
 };
 
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -7,58 +7,78 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/nearest_name.hpp"
 #include "scenes/extend_catalogue.hpp"
-#include "scenes/generators/ajedrez.hpp"
-#include "scenes/generators/balls.hpp"
-#include "scenes/generators/bola_espacial.hpp"
-#include "scenes/generators/bumpy.hpp"
-#include "scenes/generators/caracol.hpp"
-#include "scenes/generators/casa_de_campo.hpp"
-#include "scenes/generators/closed_room.hpp"
-#include "scenes/generators/delfines.hpp"
-#include "scenes/generators/escena1.hpp"
-#include "scenes/generators/escena2.hpp"
-#include "scenes/generators/finishes.hpp"
-#include "scenes/generators/flamenco.hpp"
-#include "scenes/generators/gato_bill.hpp"
-#include "scenes/generators/gears.hpp"
-#include "scenes/generators/habitacion.hpp"
-#include "scenes/generators/jacks.hpp"
-#include "scenes/generators/lattice.hpp"
-#include "scenes/generators/maceta.hpp"
-#include "scenes/generators/misil.hpp"
-#include "scenes/generators/mount.hpp"
-#include "scenes/generators/rings.hpp"
-#include "scenes/generators/shells.hpp"
-#include "scenes/generators/sombrero.hpp"
-#include "scenes/generators/soup.hpp"
-#include "scenes/generators/teapot.hpp"
-#include "scenes/generators/tessellated_balls.hpp"
-#include "scenes/generators/tetera.hpp"
-#include "scenes/generators/tetra.hpp"
-#include "scenes/generators/torre_eiffel.hpp"
-#include "scenes/generators/tree.hpp"
-#include "scenes/meshes/mesh_format.hpp"
-#include "scenes/meshes/mesh_registry.hpp"
-#include "scenes/meshes/mesh_scene.hpp"
-#include "scenes/nearest_name.hpp"
+#include "scenes/formats/mesh/mesh_format.hpp"
+#include "scenes/formats/mesh/mesh_registry.hpp"
+#include "scenes/formats/mesh/mesh_scene.hpp"
+#include "scenes/generators/other/bumpy.hpp"
+#include "scenes/generators/other/soup.hpp"
+#include "scenes/generators/other/tessellated_balls.hpp"
+#include "scenes/generators/spd/balls.hpp"
+#include "scenes/generators/spd/gears.hpp"
+#include "scenes/generators/spd/jacks.hpp"
+#include "scenes/generators/spd/lattice.hpp"
+#include "scenes/generators/spd/mount.hpp"
+#include "scenes/generators/spd/rings.hpp"
+#include "scenes/generators/spd/shells.hpp"
+#include "scenes/generators/spd/sombrero.hpp"
+#include "scenes/generators/spd/teapot.hpp"
+#include "scenes/generators/spd/tetra.hpp"
+#include "scenes/generators/spd/tree.hpp"
+#include "scenes/generators/thesis/ajedrez.hpp"
+#include "scenes/generators/thesis/bola_espacial.hpp"
+#include "scenes/generators/thesis/caracol.hpp"
+#include "scenes/generators/thesis/casa_de_campo.hpp"
+#include "scenes/generators/thesis/closed_room.hpp"
+#include "scenes/generators/thesis/delfines.hpp"
+#include "scenes/generators/thesis/escena1.hpp"
+#include "scenes/generators/thesis/escena2.hpp"
+#include "scenes/generators/thesis/finishes.hpp"
+#include "scenes/generators/thesis/flamenco.hpp"
+#include "scenes/generators/thesis/gato_bill.hpp"
+#include "scenes/generators/thesis/habitacion.hpp"
+#include "scenes/generators/thesis/maceta.hpp"
+#include "scenes/generators/thesis/misil.hpp"
+#include "scenes/generators/thesis/tetera.hpp"
+#include "scenes/generators/thesis/torre_eiffel.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 std::vector<SceneInfo> built_in_scenes() {
-  return {ajedrez_scene(),     balls_scene(),    bola_espacial_scene(),
-          bumpy_scene(),       caracol_scene(),  casa_de_campo_scene(),
-          closed_room_scene(), delfines_scene(), escena1_scene(),
-          escena2_scene(),     finishes_scene(), flamenco_scene(),
-          gato_bill_scene(),   gears_scene(),    habitacion_scene(),
-          jacks_scene(),       lattice_scene(),  maceta_scene(),
-          misil_scene(),       mount_scene(),    rings_scene(),
-          shells_scene(),      sombrero_scene(), soup_scene(),
-          stetra_scene(),      teapot_scene(),   tessellated_balls_scene(),
-          tetera_scene(),      tetra_scene(),    torre_eiffel_scene(),
-          tree_scene()};
+  return {generators::ajedrez_scene(),
+          generators::balls_scene(),
+          generators::bola_espacial_scene(),
+          generators::bumpy_scene(),
+          generators::caracol_scene(),
+          generators::casa_de_campo_scene(),
+          generators::closed_room_scene(),
+          generators::delfines_scene(),
+          generators::escena1_scene(),
+          generators::escena2_scene(),
+          generators::finishes_scene(),
+          generators::flamenco_scene(),
+          generators::gato_bill_scene(),
+          generators::gears_scene(),
+          generators::habitacion_scene(),
+          generators::jacks_scene(),
+          generators::lattice_scene(),
+          generators::maceta_scene(),
+          generators::misil_scene(),
+          generators::mount_scene(),
+          generators::rings_scene(),
+          generators::shells_scene(),
+          generators::sombrero_scene(),
+          generators::soup_scene(),
+          generators::stetra_scene(),
+          generators::teapot_scene(),
+          generators::tessellated_balls_scene(),
+          generators::tetera_scene(),
+          generators::tetra_scene(),
+          generators::torre_eiffel_scene(),
+          generators::tree_scene()};
 }
 
 /// What the program knows: its own scenes, and what plug-ins add.
@@ -94,7 +114,7 @@ Scene read_by_plugin(const SceneReader& reader, std::string_view spec,
 
 bool is_path(std::string_view spec) {
   return spec.find('/') != std::string_view::npos || spec.ends_with(".nff") ||
-         !mesh_ending(spec).empty() || find_reader(spec) != nullptr;
+         !mesh::mesh_ending(spec).empty() || find_reader(spec) != nullptr;
 }
 
 [[noreturn]] void refuse_name(const std::string& name) {
@@ -128,21 +148,24 @@ const SceneInfo& find_scene(const std::string& name) {
   return *info;
 }
 
-Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, NffOptions options) {
-  if (spec.starts_with(kMeshPrefix)) {
-    const RegisteredMesh mesh = find_registered_mesh(spec.substr(kMeshPrefix.size()));
-    return load_mesh({mesh.path, std::string(spec), mesh.orientation, options.strict}, warnings);
+Scene load_scene(std::string_view spec, std::vector<std::string>* warnings,
+                 nff::NffOptions options) {
+  if (spec.starts_with(mesh::kMeshPrefix)) {
+    const mesh::RegisteredMesh mesh =
+        mesh::find_registered_mesh(spec.substr(mesh::kMeshPrefix.size()));
+    return mesh::load_mesh({mesh.path, std::string(spec), mesh.orientation, options.strict},
+                           warnings);
   }
   if (is_path(spec)) {
-    if (const std::string ending = mesh_ending(spec); !ending.empty()) {
-      return load_mesh({spec, std::string(spec), usual_orientation(ending), options.strict},
-                       warnings);
+    if (const std::string ending = mesh::mesh_ending(spec); !ending.empty()) {
+      return mesh::load_mesh(
+          {spec, std::string(spec), mesh::usual_orientation(ending), options.strict}, warnings);
     }
     if (const SceneReader* reader = find_reader(spec)) {
       return read_by_plugin(*reader, spec, warnings, options.strict);
     }
-    refuse_foreign_format(spec);
-    NffResult result = read_nff(spec, options);
+    mesh::refuse_foreign_format(spec);
+    nff::NffResult result = nff::read_nff(spec, options);
     if (warnings != nullptr) {
       warnings->insert(warnings->end(), result.warnings.begin(), result.warnings.end());
     }
@@ -158,4 +181,4 @@ Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, NffO
   return scene;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes

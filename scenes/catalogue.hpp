@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/nff_reader.hpp"
-#include "scenes/parameters.hpp"
+#include "scenes/core/parameters.hpp"
+#include "scenes/formats/nff/nff_reader.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 
 /// One generated scene of the catalogue.
 struct SceneInfo {
@@ -50,6 +50,6 @@ const SceneInfo& find_scene(const std::string& name);
 /// nearest and all valid ones), parameter out of range, file missing or malformed. What a file's
 /// reader noticed on the way is appended to `warnings` when given; the options are for files.
 Scene load_scene(std::string_view spec, std::vector<std::string>* warnings = nullptr,
-                 NffOptions options = {});
+                 nff::NffOptions options = {});
 
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -1,9 +1,9 @@
 #pragma once
 // The one fault of a primitive that a reader of files may pass over.
 
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 
 /// Thrown by `SceneBuilder` for a primitive that no ray could hit although its numbers are sound: a
 /// sphere of radius 0, a cone whose radii are both 0 or that has no length, a polygon with fewer
@@ -14,4 +14,4 @@ class DegeneratePrimitive : public InputError {
   using InputError::InputError;
 };
 
-}  // namespace beambench
+}  // namespace beambench::scenes

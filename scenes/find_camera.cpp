@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scenes/error.hpp"
-#include "scenes/nearest_name.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/nearest_name.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 
 const Camera& find_camera(const Scene& scene, std::string_view name) {
   std::vector<std::string> names;
@@ -21,4 +21,4 @@ const Camera& find_camera(const Scene& scene, std::string_view name) {
                                name, did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -5,9 +5,9 @@
 
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 
 /// The camera of that name. Throws InputError that lists the scene's cameras.
 const Camera& find_camera(const Scene& scene, std::string_view name);
 
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -6,7 +6,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace beambench {
+namespace beambench::scenes {
 
 /// Identifies a primitive: its position in `Scene::primitives`.
 using PrimitiveId = std::uint32_t;
@@ -59,4 +59,4 @@ struct Triangle {
   PrimitiveId primitive;
 };
 
-}  // namespace beambench
+}  // namespace beambench::scenes

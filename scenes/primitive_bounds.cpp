@@ -5,7 +5,7 @@
 
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -69,4 +69,4 @@ Bounds primitive_bounds(const Scene& scene, PrimitiveId id) {
   return polygon_bounds(scene, scene.polygons[primitive.index]);
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes

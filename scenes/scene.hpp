@@ -13,7 +13,7 @@
 #include "scenes/primitive.hpp"
 #include "scenes/surface.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 
 /// A point light; colour components may exceed 1.
 struct Light {
@@ -54,4 +54,4 @@ std::size_t memory_bytes(const Scene& scene);
 /// (XXH3 over the bits; not surfaces, lights or cameras). Equal on every machine.
 std::uint64_t scene_hash(const Scene& scene);
 
-}  // namespace beambench
+}  // namespace beambench::scenes

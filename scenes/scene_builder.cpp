@@ -10,12 +10,12 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "scenes/core/error.hpp"
 #include "scenes/degenerate_primitive.hpp"
-#include "scenes/error.hpp"
 #include "scenes/scene_extent.hpp"
 #include "scenes/triangulate.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 constexpr int kLargestResolution = 65535;
@@ -377,4 +377,4 @@ Scene SceneBuilder::build() && {
   return std::move(scene_);
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -11,7 +11,7 @@
 
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 
 /// No coordinate, radius or factor of a scene may be larger than this in size.
 inline constexpr double kLargestNumber = 1e9;
@@ -77,4 +77,4 @@ class SceneBuilder {
   Repairs repairs_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::scenes

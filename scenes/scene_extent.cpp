@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-namespace beambench {
+namespace beambench::scenes {
 
 std::string extent_fault(const Bounds& bounds) {
   if (bounds.empty()) return "";
@@ -15,4 +15,4 @@ std::string extent_fault(const Bounds& bounds) {
       diagonal, kLeastExtent);
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes

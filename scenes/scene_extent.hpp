@@ -5,7 +5,7 @@
 
 #include "scenes/bounds.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 
 /// The least diagonal of a scene's box. Rounding is relative, so that a scene may have any size
 /// until products of its lengths leave the range of float. By experiment (`finishes`, triangles,
@@ -18,4 +18,4 @@ inline constexpr double kLeastExtent = 1e-9;
 /// empty when nothing is. A scene without primitives has no size that could be wrong.
 std::string extent_fault(const Bounds& bounds);
 
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -6,7 +6,7 @@
 
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 static_assert(std::endian::native == std::endian::little,
@@ -82,4 +82,4 @@ std::uint64_t scene_hash(const Scene& scene) {
   return fingerprint.digest();
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes

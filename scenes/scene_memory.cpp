@@ -1,6 +1,6 @@
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 template <typename T>
@@ -17,4 +17,4 @@ std::size_t memory_bytes(const Scene& scene) {
          bytes_of(scene.vertices) + bytes_of(scene.corners) + bytes_of(scene.normals);
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 struct FinishEntry {
@@ -44,4 +44,4 @@ std::optional<Finish> find_finish(std::string_view word) {
 
 Surface finished_surface(Finish finish) { return entry_of(finish).surface; }
 
-}  // namespace beambench
+}  // namespace beambench::scenes

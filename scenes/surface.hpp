@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace beambench {
+namespace beambench::scenes {
 
 /// The surfaces and textures that the thesis adds to NFF (annex A, "Extensiones"). `kPlain` is
 /// everything that NFF's `f` can say by itself.
@@ -51,4 +51,4 @@ std::optional<Finish> find_finish(std::string_view word);
 /// colour, a mirror reflects nearly all, glass lets nearly all through. Plain is white and matte.
 Surface finished_surface(Finish finish);
 
-}  // namespace beambench
+}  // namespace beambench::scenes

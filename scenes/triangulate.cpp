@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 /// The corners projected along the largest axis of the polygon's normal, mirrored where needed so
@@ -148,4 +148,4 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const glm::vec3>
   return triangles;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -8,7 +8,7 @@
 
 #include <glm/vec3.hpp>
 
-namespace beambench {
+namespace beambench::scenes {
 
 /// Whether `triangulate` makes a triangle of these three corners. Then it is {0, 1, 2}.
 bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
@@ -21,4 +21,4 @@ bool has_area(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 /// itself still gets triangles, though not meaningful ones.
 std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const glm::vec3> corners);
 
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "accel/registry.hpp"
+#include "accel/core/registry.hpp"
 
 namespace beambench::testing {
 
 inline std::vector<std::string> embree_modes() {
-  const StructureChoice embree = registry().choose({"embree", {}});
+  const accel::StructureChoice embree = accel::registry().choose({"embree", {}});
   return std::ranges::find(embree.info().parameters, "mode", &ParameterInfo::name)->choices;
 }
 

@@ -2,28 +2,29 @@
 
 #include <glm/geometric.hpp>
 
+#include "accel/core/primary_rays.hpp"
 #include "accel/octree/samet.hpp"
-#include "accel/primary_rays.hpp"
 
 namespace beambench::testing {
 
 namespace {
 
-glm::dvec3 normal_of(const Scene& scene, PrimitiveId id) {
-  const Polygon& polygon = scene.polygons[scene.primitives[id].index];
+glm::dvec3 normal_of(const scenes::Scene& scene, scenes::PrimitiveId id) {
+  const scenes::Polygon& polygon = scene.polygons[scene.primitives[id].index];
   const auto& corner = scene.triangles[polygon.first_triangle].vertex;
   const glm::dvec3 first(scene.vertices[corner[0]]);
   return glm::cross(glm::dvec3(scene.vertices[corner[1]]) - first,
                     glm::dvec3(scene.vertices[corner[2]]) - first);
 }
 
-void add_shadow_rays(const Scene& scene, const Ray& eye, const Hit& hit, std::vector<Ray>& shadow) {
+void add_shadow_rays(const scenes::Scene& scene, const accel::Ray& eye, const accel::Hit& hit,
+                     std::vector<accel::Ray>& shadow) {
   constexpr float kAwayFromTheSurface = 1e-5F;  // of the way to the light
   const glm::dvec3 direction(eye.direction);
   const glm::dvec3 point = glm::dvec3(eye.origin) + direction * static_cast<double>(hit.t);
   glm::dvec3 normal = normal_of(scene, hit.primitive);
   if (glm::dot(normal, direction) > 0.0) normal = -normal;
-  for (const Light& light : scene.lights) {
+  for (const scenes::Light& light : scene.lights) {
     const glm::dvec3 to_light = glm::dvec3(light.position) - point;
     if (glm::dot(normal, to_light) <= 0.0) continue;
     shadow.push_back({glm::vec3(point), kAwayFromTheSurface, glm::vec3(to_light), 1.0F});
@@ -32,14 +33,14 @@ void add_shadow_rays(const Scene& scene, const Ray& eye, const Hit& hit, std::ve
 
 }  // namespace
 
-SpdRays spd_rays(const Scene& scene) {
+SpdRays spd_rays(const scenes::Scene& scene) {
   constexpr int kPixels = 512;
   SpdRays rays;
-  const PrimaryRays image(scene.cameras.front(), kPixels, kPixels, 1);
-  const Samet finder(scene, {});
+  const accel::PrimaryRays image(scene.cameras.front(), kPixels, kPixels, 1);
+  const accel::octree::Samet finder(scene, {});
   for (int y = 0; y <= kPixels; ++y) {
     for (int x = 0; x <= kPixels; ++x) {
-      const Ray eye = image.ray_at(x, y);
+      const accel::Ray eye = image.ray_at(x, y);
       rays.eye.push_back(eye);
       const auto hit = finder.closest_hit(eye);
       if (!hit) continue;

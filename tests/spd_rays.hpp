@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "accel/ray.hpp"
+#include "accel/core/ray.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::testing {
@@ -12,14 +12,14 @@ namespace beambench::testing {
 /// Rays through the corners of 512 x 512 pixels, 513 x 513 of them, and from where they hit a
 /// shadow ray to each light that the seen side of the polygon faces.
 struct SpdRays {
-  std::vector<Ray> eye;
-  std::vector<Ray> shadow;  ///< t_max = 1 is the light
+  std::vector<accel::Ray> eye;
+  std::vector<accel::Ray> shadow;  ///< t_max = 1 is the light
   std::uint64_t eye_hits = 0;
 
   std::size_t size() const { return eye.size() + shadow.size(); }
 };
 
 /// The rays over a scene of polygons.
-SpdRays spd_rays(const Scene& scene);
+SpdRays spd_rays(const scenes::Scene& scene);
 
 }  // namespace beambench::testing

@@ -1,6 +1,6 @@
 #include "accel/beam/beam.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 namespace {
 
 /// A clipped outline keeps this much beyond the line: a sample on the line itself, which rounding
@@ -34,4 +34,4 @@ Beam part_of(const Beam& beam, std::span<const BeamCut> cuts) {
   return part;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

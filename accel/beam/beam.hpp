@@ -10,9 +10,9 @@
 #include "accel/beam/crossing.hpp"
 #include "accel/beam/fixed_vector.hpp"
 #include "accel/beam/image_polygon.hpp"
-#include "accel/beam_outline.hpp"
+#include "accel/core/beam_outline.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// Rays of the beam cross `first` before `second`. `line` is its image, negative inside.
 struct BeamCut {
@@ -50,4 +50,4 @@ struct Beam {
 /// part.
 Beam part_of(const Beam& beam, std::span<const BeamCut> cuts);
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

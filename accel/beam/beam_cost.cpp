@@ -6,7 +6,7 @@
 
 #include "accel/beam/beam_paths.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 namespace {
 
 constexpr int kWindows = 8;  // in a row and in a column
@@ -53,7 +53,7 @@ struct Counted {
   std::size_t occupied = 0;
 };
 
-void count_through(const Octree& octree, const EyeView& view, const ImagePolygon& window,
+void count_through(const octree::Octree& octree, const EyeView& view, const ImagePolygon& window,
                    Counted& counted) {
   BeamQueue queue;
   begin_beams(octree, view, window, queue);
@@ -70,8 +70,8 @@ void count_through(const Octree& octree, const EyeView& view, const ImagePolygon
 
 }  // namespace
 
-void count_beams(const Octree& octree, const Workload& workload, const OctreeWork& expected,
-                 OctreeWork& work) {
+void count_beams(const octree::Octree& octree, const Workload& workload,
+                 const octree::OctreeWork& expected, octree::OctreeWork& work) {
   const PrimaryRays rays(workload.camera, 1, 1, 1);
   const EyeView view(octree.grid(), rays);
   const double size = window_size(static_cast<double>(workload.rays), expected.nonterminal);
@@ -85,7 +85,7 @@ void count_beams(const Octree& octree, const Workload& workload, const OctreeWor
   work.occupied = static_cast<double>(counted.occupied) / (size * size);
 }
 
-double beam_trace_cost(const OctreeWork& work, double handover) {
+double beam_trace_cost(const octree::OctreeWork& work, double handover) {
   double beams = 205.0 * work.nonterminal + 600.0 * work.occupied;
   if (handover > 0.0) {
     // A level of leaves before the eye has no more beams of `handover` samples than this.
@@ -96,4 +96,4 @@ double beam_trace_cost(const OctreeWork& work, double handover) {
   return beams + work.rays * (work.hit_share * sample + 7.6 * work.tests);
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

@@ -3,16 +3,16 @@
 
 #include "accel/octree/choose_octree.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// Estimates how many beams of a camera meet an empty leaf and how many end at an occupied one.
 /// Follows those that windows spread over the image show, small ones where many beams are
 /// `expected` for few rays; it is right on average. No sample is traced.
-void count_beams(const Octree& octree, const Workload& workload, const OctreeWork& expected,
-                 OctreeWork& work);
+void count_beams(const octree::Octree& octree, const Workload& workload,
+                 const octree::OctreeWork& expected, octree::OctreeWork& work);
 
 /// Nanoseconds that tracing by beams is expected to take (thesis, section 5.3.3); see
 /// `samet_trace_cost`. `handover` is the tracer's.
-double beam_trace_cost(const OctreeWork& work, double handover);
+double beam_trace_cost(const octree::OctreeWork& work, double handover);
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

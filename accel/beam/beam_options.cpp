@@ -1,9 +1,9 @@
 #include "accel/beam/beam_options.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 std::vector<ParameterInfo> BeamOptions::parameters() {
-  std::vector<ParameterInfo> parameters = OctreeOptions::parameters();
+  std::vector<ParameterInfo> parameters = octree::OctreeOptions::parameters();
   parameters.push_back(integer_parameter(
       "handover", 0, 0, 1'000'000'000,
       "a beam of fewer samples than this becomes individual rays; 0 (thesis): never"));
@@ -19,11 +19,11 @@ std::vector<ParameterInfo> BeamOptions::parameters() {
 
 BeamOptions BeamOptions::from(const Parameters& parameters) {
   BeamOptions options;
-  options.octree = OctreeOptions::from(parameters);
+  options.octree = octree::OctreeOptions::from(parameters);
   options.handover = parameters.integer("handover");
   options.continue_with_rays = parameters.choice("continue") == "rays";
   options.share_corners = parameters.flag("share_corners");
   return options;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "accel/octree/octree.hpp"
-#include "scenes/parameters.hpp"
+#include "scenes/core/parameters.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 struct BeamOptions {
-  OctreeOptions octree;
+  octree::OctreeOptions octree;
   std::int64_t handover = 0;       ///< beams of fewer samples become individual rays
   bool share_corners = false;      ///< samples in the corners of pixels are shared between pixels
   bool continue_with_rays = true;  ///< behind an occupied leaf: rays (thesis), or the beam again
@@ -19,4 +19,4 @@ struct BeamOptions {
   static BeamOptions from(const Parameters& parameters);
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

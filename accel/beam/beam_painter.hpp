@@ -14,7 +14,7 @@
 #include "accel/beam/leaf_batch.hpp"
 #include "accel/octree/samet.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// For each sample of a buffer whether it needs no more, where that is to be known: if some are not
 /// wanted, or beams go on behind occupied leaves. Empty elsewhere.
@@ -35,7 +35,7 @@ class BeamPainter {
  public:
   /// `tracer` holds the octree over the scene. All but `options` must outlive the painter. The
   /// buffer begins as background, `finished` as `finished_samples`.
-  BeamPainter(const Scene& scene, const Samet& tracer, const BeamOptions& options,
+  BeamPainter(const scenes::Scene& scene, const octree::Samet& tracer, const BeamOptions& options,
               const EyeView& view, const PrimaryRays& rays, const Sight& sight, HitBuffer& buffer,
               std::span<std::uint8_t> finished, Watch& watch)
       : scene_(&scene),
@@ -64,7 +64,7 @@ class BeamPainter {
 
   /// A beam in an empty leaf becomes individual rays.
   void hand_over(const Beam& beam, RayReason reason) {
-    const OctreeCursor place = cursor_at(beam);
+    const octree::OctreeCursor place = cursor_at(beam);
     for_each_batch(beam, [&] {
       for (LeafBatch::Sample& sample : batch_.samples()) {
         follow(place, CellRay(octree().grid(), sample.ray), sample);
@@ -76,7 +76,7 @@ class BeamPainter {
 
   /// A beam at an occupied leaf. Returns whether some of its samples go on with it.
   bool test_leaf(const Beam& beam) {
-    const OctreeCursor place = cursor_at(beam);
+    const octree::OctreeCursor place = cursor_at(beam);
     bool unfinished = false;
     for_each_batch(beam, [&] {
       batch_.test(*scene_, octree().references(place.node()), images_, counting_);
@@ -89,13 +89,13 @@ class BeamPainter {
   }
 
  private:
-  const Octree& octree() const { return tracer_->octree(); }
+  const octree::Octree& octree() const { return tracer_->octree(); }
 
   /// What becomes of a sample that was tested in an occupied leaf. Returns false when it goes on
   /// with its beam.
-  bool settle(const OctreeCursor& place, LeafBatch::Sample& sample) {
+  bool settle(const octree::OctreeCursor& place, LeafBatch::Sample& sample) {
     const CellRay way(octree().grid(), sample.ray);
-    if (!(sample.closest.ray.t_max < static_cast<float>(leaf_exit(way, place).t))) {
+    if (!(sample.closest.ray.t_max < static_cast<float>(octree::leaf_exit(way, place).t))) {
       if (!continue_with_rays_) {
         for_each_index(sample,
                        [&](std::size_t index) { buffer_->set(index, sample.closest.result()); });
@@ -109,16 +109,16 @@ class BeamPainter {
   }
 
   /// A ray goes on alone behind a leaf (thesis, section 3.6.2).
-  void follow(const OctreeCursor& place, const CellRay& way, LeafBatch::Sample& sample) {
+  void follow(const octree::OctreeCursor& place, const CellRay& way, LeafBatch::Sample& sample) {
     ClosestHit closest = sample.closest;  // nobody else's: it can stay in registers
-    double t = leaf_exit(way, place).t;
-    walk_leaves_behind(place, octree(), tracer_->neighbours(), sample.ray, way, counting_,
-                       [&](const OctreeNode& leaf, double exit_t) {
-                         if (watch_->leaves_part(leaf, t)) return true;
-                         t = exit_t;
-                         return test_references(*scene_, octree().references(leaf), exit_t,
-                                                counting_, closest);
-                       });
+    double t = octree::leaf_exit(way, place).t;
+    octree::walk_leaves_behind(place, octree(), tracer_->neighbours(), sample.ray, way, counting_,
+                               [&](const octree::OctreeNode& leaf, double exit_t) {
+                                 if (watch_->leaves_part(leaf, t)) return true;
+                                 t = exit_t;
+                                 return test_references(*scene_, octree().references(leaf), exit_t,
+                                                        counting_, closest);
+                               });
     sample.closest = closest;
   }
 
@@ -167,14 +167,14 @@ class BeamPainter {
     sample.lattice->for_each_index(*buffer_, sample.x, sample.y, visit);
   }
 
-  OctreeCursor cursor_at(const Beam& beam) const {
-    OctreeCursor cursor(octree());
+  octree::OctreeCursor cursor_at(const Beam& beam) const {
+    octree::OctreeCursor cursor(octree());
     cursor.jump(beam.node, beam.corner, beam.size);
     return cursor;
   }
 
-  const Scene* scene_;
-  const Samet* tracer_;
+  const scenes::Scene* scene_;
+  const octree::Samet* tracer_;
   bool continue_with_rays_;
   LeafBatch batch_;
   SampleScan scan_;
@@ -187,4 +187,4 @@ class BeamPainter {
   decltype(std::declval<Watch>().rays()) counting_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

@@ -2,11 +2,11 @@
 
 #include <array>
 
-namespace beambench {
+namespace beambench::accel::beam {
 namespace {
 
 /// A beam that enters a leaf.
-void push_at(const OctreeCursor& leaf, Beam beam, BeamQueue& queue) {
+void push_at(const octree::OctreeCursor& leaf, Beam beam, BeamQueue& queue) {
   beam.node = leaf.index();
   beam.corner = leaf.corner();
   beam.size = leaf.size();
@@ -31,7 +31,7 @@ class Entry {
 
   /// Divides a beam that enters the cursor's node by the face among the node's leaves there
   /// (thesis, section 3.5.2.3) and appends them.
-  void divide(const OctreeCursor& cursor, const Beam& beam) const {
+  void divide(const octree::OctreeCursor& cursor, const Beam& beam) const {
     if (cursor.node().is_leaf()) {
       append(cursor, beam);
       return;
@@ -45,7 +45,7 @@ class Entry {
         if (face_.side < 0) corner[face_.axis] += half;
         if (above_u) corner[u] += half;
         if (above_v) corner[v] += half;
-        OctreeCursor child = cursor;
+        octree::OctreeCursor child = cursor;
         child.enter_child(corner);
         divide(child, part);
       });
@@ -75,7 +75,7 @@ class Entry {
     }
   }
 
-  void append(const OctreeCursor& leaf, const Beam& beam) const {
+  void append(const octree::OctreeCursor& leaf, const Beam& beam) const {
     if (beam.outline.empty()) return;
     ++queue_->appended;
     if (queue_->border != nullptr && queue_->border->takes(leaf.index(), face_, beam)) return;
@@ -92,7 +92,7 @@ BeamCut cut_between(const EyeView& view, const Crossing& inner, const Crossing& 
   return {inner, outer, view.line_before(inner, outer)};
 }
 
-void enter_root(const Octree& octree, const EyeView& view, const ImagePolygon& part,
+void enter_root(const octree::Octree& octree, const EyeView& view, const ImagePolygon& part,
                 const Crossing& face, BeamQueue& queue) {
   Beam screen;
   screen.outline = part;
@@ -109,7 +109,7 @@ void enter_root(const Octree& octree, const EyeView& view, const ImagePolygon& p
   }
   queue.clips += borders.size();
   const Beam beam = part_of(screen, {borders.begin(), borders.size()});
-  if (!beam.outline.empty()) Entry(view, face, queue).divide(OctreeCursor(octree), beam);
+  if (!beam.outline.empty()) Entry(view, face, queue).divide(octree::OctreeCursor(octree), beam);
 }
 
 /// The faces by which a beam leaves its leaf, and the lines on the image between them.
@@ -180,7 +180,7 @@ class Exits {
 
 }  // namespace
 
-void begin_beams(const Octree& octree, const EyeView& view, const ImagePolygon& part,
+void begin_beams(const octree::Octree& octree, const EyeView& view, const ImagePolygon& part,
                  BeamQueue& queue) {
   const std::uint64_t before = queue.appended;
   bool inside = true;
@@ -199,7 +199,7 @@ void begin_beams(const Octree& octree, const EyeView& view, const ImagePolygon& 
     queue.made += queue.appended - before;
     return;
   }
-  OctreeCursor cursor(octree);
+  octree::OctreeCursor cursor(octree);
   while (!cursor.node().is_leaf()) {
     glm::ivec3 corner = cursor.corner();
     for (int axis = 0; axis < 3; ++axis) {
@@ -215,7 +215,8 @@ void begin_beams(const Octree& octree, const EyeView& view, const ImagePolygon& 
   ++queue.made;
 }
 
-void continue_beam(const Octree& octree, const EyeView& view, const Beam& beam, BeamQueue& queue) {
+void continue_beam(const octree::Octree& octree, const EyeView& view, const Beam& beam,
+                   BeamQueue& queue) {
   const std::uint64_t before = queue.appended;
   const Exits exits(view, beam);
   for (std::size_t i = 0; i < exits.count(); ++i) {
@@ -225,7 +226,7 @@ void continue_beam(const Octree& octree, const EyeView& view, const Beam& beam, 
     if (part.outline.empty()) continue;
 
     const Crossing& face = exits.face(i);
-    OctreeCursor cursor(octree);
+    octree::OctreeCursor cursor(octree);
     cursor.jump(beam.node, beam.corner, beam.size);
     glm::ivec3 step(0);
     step[face.axis] = face.side;
@@ -240,9 +241,9 @@ void continue_beam(const Octree& octree, const EyeView& view, const Beam& beam, 
   count_parts(queue.appended - before, queue);
 }
 
-void enter_node(const EyeView& view, const Crossing& face, const OctreeCursor& node,
+void enter_node(const EyeView& view, const Crossing& face, const octree::OctreeCursor& node,
                 const Beam& beam, BeamQueue& queue) {
   Entry(view, face, queue).divide(node, beam);
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

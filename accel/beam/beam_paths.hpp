@@ -8,7 +8,7 @@
 #include "accel/octree/octree.hpp"
 #include "accel/octree/octree_cursor.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// Where an octree is only a part of one: takes beams that come to leaves of others.
 class BeamBorder {
@@ -41,15 +41,16 @@ struct BeamQueue {
 /// image: the whole of it is `view.screen()`. From outside: for each face of the root that the eye
 /// sees, the part clipped to it, divided among the leaves behind it. From inside: the part itself
 /// in the eye's leaf. Samples of no beam miss the root.
-void begin_beams(const Octree& octree, const EyeView& view, const ImagePolygon& part,
+void begin_beams(const octree::Octree& octree, const EyeView& view, const ImagePolygon& part,
                  BeamQueue& queue);
 
 /// Appends the beams that leave a leaf (thesis, section 3.5): divided among the faces by which its
 /// rays leave, then among the leaves behind each face.
-void continue_beam(const Octree& octree, const EyeView& view, const Beam& beam, BeamQueue& queue);
+void continue_beam(const octree::Octree& octree, const EyeView& view, const Beam& beam,
+                   BeamQueue& queue);
 
 /// Appends a beam that enters a node by a face, divided among the node's leaves there.
-void enter_node(const EyeView& view, const Crossing& face, const OctreeCursor& node,
+void enter_node(const EyeView& view, const Crossing& face, const octree::OctreeCursor& node,
                 const Beam& beam, BeamQueue& queue);
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

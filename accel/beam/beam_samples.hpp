@@ -9,9 +9,9 @@
 
 #include "accel/beam/beam.hpp"
 #include "accel/beam/sample_lattice.hpp"
-#include "accel/cell_ray.hpp"
+#include "accel/core/cell_ray.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// From points of the image to samples of a lattice.
 class SampleScan {
@@ -148,4 +148,4 @@ class SampleScan {
   double row_slack_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

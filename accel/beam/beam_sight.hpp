@@ -11,9 +11,9 @@
 
 #include "accel/beam/beam.hpp"
 #include "accel/beam/crossing.hpp"
-#include "accel/hit_buffer.hpp"
+#include "accel/core/hit_buffer.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// The policy of an image: all of it, from the eye on.
 struct WholeImage {
@@ -69,4 +69,4 @@ class BehindMirror {
   std::vector<std::uint8_t> unwanted_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

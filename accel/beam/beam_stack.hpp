@@ -8,7 +8,7 @@
 
 #include "accel/beam/beam.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// A beam and what it meets.
 struct BeamStep {
@@ -87,4 +87,4 @@ class BeamStack {
   std::vector<BeamCut> cuts_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

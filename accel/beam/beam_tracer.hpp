@@ -13,22 +13,22 @@
 #include "accel/beam/beam_watch.hpp"
 #include "accel/octree/samet.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// Beams of primary rays through an octree (González López, thesis 1999, chapters 3 and 4): in
 /// empty leaves the beams go on, divided by the faces and the leaves behind them; at an occupied
 /// leaf the samples of a beam become rays; what leaves the root is background without a ray. Rays
 /// that are not of an image, and those that pass an occupied leaf, go one by one with Samet's
 /// traversal over the same octree.
-class BeamTracer : public Samet {
+class BeamTracer : public octree::Samet {
  public:
-  BeamTracer(const Scene& scene, const BeamOptions& options)
-      : BeamTracer(scene, Octree(scene, options.octree), options) {}
+  BeamTracer(const scenes::Scene& scene, const BeamOptions& options)
+      : BeamTracer(scene, octree::Octree(scene, options.octree), options) {}
   /// Over an octree that was made already.
-  BeamTracer(const Scene& scene, Octree octree, const BeamOptions& options)
-      : Samet(scene, std::move(octree)), scene_(&scene), options_(options) {}
+  BeamTracer(const scenes::Scene& scene, octree::Octree octree, const BeamOptions& options)
+      : octree::Samet(scene, std::move(octree)), scene_(&scene), options_(options) {}
 
-  const Scene& scene() const { return *scene_; }
+  const scenes::Scene& scene() const { return *scene_; }
   const BeamOptions& options() const { return options_; }
 
   void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
@@ -48,7 +48,7 @@ class BeamTracer : public Samet {
 
   /// Samples become rays at occupied leaves only, so that not all of an image's rays are made.
   Statistics statistics() const override {
-    Statistics statistics = Samet::statistics();
+    Statistics statistics = octree::Samet::statistics();
     statistics.image_rays = ImageRays::kOwn;
     return statistics;
   }
@@ -74,7 +74,7 @@ class BeamTracer : public Samet {
   template <class Watch>
   class SharedRun;
 
-  const Scene* scene_;
+  const scenes::Scene* scene_;
   BeamOptions options_;
 };
 
@@ -103,7 +103,7 @@ class BeamTracer::Run {
   /// Makes all samples background and lets the first beams wait.
   void begin() {
     std::fill_n(buffer_->t(), buffer_->size(), kInfinity);
-    std::fill_n(buffer_->primitive(), buffer_->size(), kNoPrimitive);
+    std::fill_n(buffer_->primitive(), buffer_->size(), scenes::kNoPrimitive);
     begin_beams(octree(), view_, sight_->part(view_), queue_);
   }
 
@@ -140,7 +140,7 @@ class BeamTracer::Run {
   }
 
  private:
-  const Octree& octree() const { return tracer_->octree(); }
+  const octree::Octree& octree() const { return tracer_->octree(); }
 
   void go_on(const Beam& beam) {
     if (beam.crowded()) {
@@ -177,4 +177,4 @@ inline void BeamTracer::trace_behind(const BehindMirror& mirror, const PrimaryRa
   Run<NoBeamWatch, BehindMirror>(*this, rays, mirror, buffer, finished, watch)();
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

@@ -1,6 +1,6 @@
 #include "accel/beam/beam_watch.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 void CountingBeamWatch::finished() {
   resting();
@@ -32,4 +32,4 @@ void CountingBeamWatch::finished() {
   counters_->add("samples_in_leaves", tested_);
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

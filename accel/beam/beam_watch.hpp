@@ -13,9 +13,9 @@
 #include "accel/beam/beam.hpp"
 #include "accel/beam/beam_paths.hpp"
 #include "accel/beam/sample_lattice.hpp"
-#include "accel/work_counters.hpp"
+#include "accel/core/work_counters.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// Why a sample became a ray of its own.
 enum class RayReason {
@@ -46,7 +46,7 @@ struct NoBeamWatch {
   static constexpr void tested(std::uint64_t) {}
   static constexpr void handed_over(RayReason) {}
   static constexpr void resting() {}
-  static constexpr bool leaves_part(const OctreeNode&, double) { return false; }
+  static constexpr bool leaves_part(const octree::OctreeNode&, double) { return false; }
   static constexpr void divided(const BeamQueue&) {}
   static constexpr void finished() {}
   NoCounting rays() const { return {}; }
@@ -87,7 +87,7 @@ class CountingBeamWatch {
   /// A leaving beam had so many samples.
   void left(std::uint64_t samples) { left_ += samples; }
   void tested(std::uint64_t samples) { tested_ += samples; }
-  static constexpr bool leaves_part(const OctreeNode&, double) { return false; }
+  static constexpr bool leaves_part(const octree::OctreeNode&, double) { return false; }
   void handed_over(RayReason reason) { ++reasons_[static_cast<std::size_t>(reason)]; }
   void resting() {
     stop_clock();
@@ -129,4 +129,4 @@ class CountingBeamWatch {
   Clock::time_point since_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 double direction_rounding(const PrimaryRays& rays) {
   double longest = 0.0;
@@ -39,4 +39,4 @@ ImagePolygon EyeView::screen() const {
   return screen;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

@@ -9,10 +9,10 @@
 #include <glm/vec3.hpp>
 
 #include "accel/beam/image_polygon.hpp"
-#include "accel/cell_ray.hpp"
-#include "accel/primary_rays.hpp"
+#include "accel/core/cell_ray.hpp"
+#include "accel/core/primary_rays.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// A plane of the cell grid, crossed in the direction of `side` (+1 or -1 along the axis).
 struct Crossing {
@@ -93,4 +93,4 @@ class EyeView {
   glm::dvec2 border_{0.0};
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstddef>
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// At most `Capacity` values. The caller asks `full()` before it pushes.
 template <class T, std::size_t Capacity>
@@ -46,4 +46,4 @@ class FixedVector {
   std::array<T, Capacity> values_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

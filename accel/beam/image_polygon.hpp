@@ -9,7 +9,7 @@
 
 #include "accel/beam/fixed_vector.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// A line of the image plane, negative on its inner side. The image is [0, 1] x [0, 1], (0, 0) its
 /// top left corner; values are distances of a plane through the eye from points at view depth 1,
@@ -77,4 +77,4 @@ inline double area(const ImagePolygon& polygon) {
   return 0.5 * std::abs(twice);
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

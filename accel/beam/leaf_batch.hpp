@@ -7,9 +7,9 @@
 
 #include "accel/beam/primitive_image.hpp"
 #include "accel/beam/sample_lattice.hpp"
-#include "accel/intersect.hpp"
+#include "accel/core/intersect.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// Up to `SampleBatch::kCapacity` samples with their rays and what they hit so far.
 class LeafBatch {
@@ -43,13 +43,13 @@ class LeafBatch {
   /// Tests all samples against the references: by the primitives' images first, which only reject,
   /// then by the canonical test.
   template <class Counting>
-  void test(const Scene& scene, std::span<const PrimitiveId> references, PrimitiveImages& images,
-            Counting& counting) {
+  void test(const scenes::Scene& scene, std::span<const scenes::PrimitiveId> references,
+            PrimitiveImages& images, Counting& counting) {
     places_.size = samples_.size();
     for (std::size_t i = 0; i < places_.size; ++i) {
       places_.inverse_t[i] = limit(samples_[i].closest);
     }
-    for (const PrimitiveId id : references) {
+    for (const scenes::PrimitiveId id : references) {
       for (SampleMask left = images.may_hit(id, places_); left != 0; left &= left - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(left));
         ClosestHit& closest = samples_[i].closest;
@@ -72,4 +72,4 @@ class LeafBatch {
   SampleBatch places_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

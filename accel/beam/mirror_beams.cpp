@@ -10,19 +10,19 @@
 
 #include <glm/geometric.hpp>
 
-namespace beambench {
+namespace beambench::accel::beam {
 namespace {
 
 using glm::dvec3;
 
-double size_of(const Scene& scene) { return glm::length(dvec3(scene.bounds.extent())); }
+double size_of(const scenes::Scene& scene) { return glm::length(dvec3(scene.bounds.extent())); }
 
-dvec3 corner_of(const Scene& scene, const Polygon& polygon, std::uint32_t corner) {
+dvec3 corner_of(const scenes::Scene& scene, const scenes::Polygon& polygon, std::uint32_t corner) {
   return {scene.vertices[scene.corners[polygon.first_corner + corner]]};
 }
 
 /// Newell's normal: twice the area of the polygon's shadow along each axis.
-dvec3 unit_normal(const Scene& scene, const Polygon& polygon) {
+dvec3 unit_normal(const scenes::Scene& scene, const scenes::Polygon& polygon) {
   dvec3 normal(0.0);
   for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {
     const dvec3 from = corner_of(scene, polygon, i) - corner_of(scene, polygon, 0);
@@ -33,14 +33,14 @@ dvec3 unit_normal(const Scene& scene, const Polygon& polygon) {
   return glm::normalize(normal);
 }
 
-bool is_planar_mirror(const Scene& scene, const Primitive& primitive) {
-  if (primitive.kind != PrimitiveKind::kPolygon) return false;
-  const Polygon& polygon = scene.polygons[primitive.index];
-  return polygon.first_normal == Polygon::kFlat &&
+bool is_planar_mirror(const scenes::Scene& scene, const scenes::Primitive& primitive) {
+  if (primitive.kind != scenes::PrimitiveKind::kPolygon) return false;
+  const scenes::Polygon& polygon = scene.polygons[primitive.index];
+  return polygon.first_normal == scenes::Polygon::kFlat &&
          scene.surfaces[primitive.surface].specular > 0.0F;
 }
 
-bool lies_in(const Scene& scene, const Polygon& polygon, const PlanarMirror& mirror,
+bool lies_in(const scenes::Scene& scene, const scenes::Polygon& polygon, const PlanarMirror& mirror,
              double tolerance) {
   for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {
     const dvec3 away = corner_of(scene, polygon, i) - mirror.point;
@@ -54,7 +54,7 @@ using PlaneCell = std::array<std::int64_t, 4>;
 
 /// Only planes of one cell are compared, so that a million small mirrors are no matter. Two halves
 /// of a plane that fall into neighbouring cells are two mirrors, which show the same.
-PlaneCell cell_of(const Scene& scene, const PlanarMirror& mirror) {
+PlaneCell cell_of(const scenes::Scene& scene, const PlanarMirror& mirror) {
   constexpr double kNormals = 0x1p8;
   constexpr double kDistances = 0x1p10;
   dvec3 normal = mirror.normal;
@@ -113,13 +113,13 @@ std::vector<glm::dvec2> ends_of_rows(const HitBuffer& hits,
 
 }  // namespace
 
-std::vector<PlanarMirror> planar_mirrors(const Scene& scene) {
+std::vector<PlanarMirror> planar_mirrors(const scenes::Scene& scene) {
   std::vector<PlanarMirror> mirrors;
   std::map<PlaneCell, std::vector<std::size_t>> in_cell;  // indices of mirrors
   const double tolerance = 0x1p-20 * size_of(scene);
-  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+  for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     if (!is_planar_mirror(scene, scene.primitives[id])) continue;
-    const Polygon& polygon = scene.polygons[scene.primitives[id].index];
+    const scenes::Polygon& polygon = scene.polygons[scene.primitives[id].index];
     PlanarMirror own{corner_of(scene, polygon, 0), unit_normal(scene, polygon), {id}};
     std::vector<std::size_t>& near = in_cell[cell_of(scene, own)];
     const auto same = std::ranges::find_if(
@@ -134,12 +134,12 @@ std::vector<PlanarMirror> planar_mirrors(const Scene& scene) {
   return mirrors;
 }
 
-std::optional<MirrorView> view_in(const PlanarMirror& mirror, const Scene& scene,
+std::optional<MirrorView> view_in(const PlanarMirror& mirror, const scenes::Scene& scene,
                                   const PrimaryRays& rays, const HitBuffer& hits) {
   std::vector<std::uint8_t> unwanted(hits.size(), 1);
   std::size_t samples = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const PrimitiveId id = hits.primitive()[i];
+    const scenes::PrimitiveId id = hits.primitive()[i];
     if (!std::binary_search(mirror.polygons.begin(), mirror.polygons.end(), id)) continue;
     unwanted[i] = 0;
     ++samples;
@@ -163,4 +163,4 @@ Ray ray_behind(const MirrorView& view, int x, int y, int sample) {
   return ray;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

@@ -8,18 +8,18 @@
 
 #include "accel/beam/beam_tracer.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// Flat polygons of one plane whose surfaces reflect.
 struct PlanarMirror {
   glm::dvec3 point;   ///< of the plane
   glm::dvec3 normal;  ///< of the plane, unit length
-  std::vector<PrimitiveId> polygons;
+  std::vector<scenes::PrimitiveId> polygons;
 };
 
 /// A scene's planar mirrors, by the lowest primitive id: polygons whose surface has a specular
 /// factor, those of one plane together (to 2^-20 of the scene's size).
-std::vector<PlanarMirror> planar_mirrors(const Scene& scene);
+std::vector<PlanarMirror> planar_mirrors(const scenes::Scene& scene);
 
 /// What the eye sees in a mirror.
 struct MirrorView {
@@ -30,10 +30,10 @@ struct MirrorView {
 
 /// From the hits of an image: the virtual eye of a mirror, and a convex cover of the samples that
 /// see it. Nothing where none does.
-std::optional<MirrorView> view_in(const PlanarMirror& mirror, const Scene& scene,
+std::optional<MirrorView> view_in(const PlanarMirror& mirror, const scenes::Scene& scene,
                                   const PrimaryRays& rays, const HitBuffer& hits);
 
 /// A sample's ray behind the mirror, as the beams trace it.
 Ray ray_behind(const MirrorView& view, int x, int y, int sample);
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

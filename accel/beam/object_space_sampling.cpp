@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace beambench {
+namespace beambench::accel::beam {
 namespace {
 
 constexpr std::array<int, 1> kOne{12};
@@ -58,7 +58,7 @@ class ChoosingWatch : public NoBeamWatch {
     return octree_->nodes()[beam.node].count / pixels;
   }
 
-  const Octree* octree_;
+  const octree::Octree* octree_;
   const PrimaryRays* rays_;
   SamplingDensity density_;
   double pixel_;  ///< a pixel's width at distance 1
@@ -91,4 +91,4 @@ SparseSamples trace_object_space(const BeamTracer& tracer, const PrimaryRays& ra
   return samples;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

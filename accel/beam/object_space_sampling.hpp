@@ -10,7 +10,7 @@
 
 #include "accel/beam/beam_tracer.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// The thesis (section 5.3.2) gives pixels of leaving beams no sample and all others the same
 /// number, and says that the leaf at which a beam ends knows enough to choose the number better.
@@ -52,4 +52,4 @@ std::span<const int> chosen_samples(int number);
 SparseSamples trace_object_space(const BeamTracer& tracer, const PrimaryRays& rays,
                                  const SamplingDensity& density);
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

@@ -9,7 +9,7 @@
 #include "accel/beam/crossing.hpp"
 #include "accel/beam/probe_kernels.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 namespace {
 
 /// What the sum of three products loses in float, relative to the sum of their sizes: coefficients
@@ -25,7 +25,7 @@ constexpr SphereImage kAnywhereRound{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 1
 
 }  // namespace
 
-PrimitiveImages::PrimitiveImages(const Scene& scene, const PrimaryRays& rays)
+PrimitiveImages::PrimitiveImages(const scenes::Scene& scene, const PrimaryRays& rays)
     : scene_(&scene),
       eye_(rays.eye()),
       forward_(rays.forward()),
@@ -36,12 +36,12 @@ PrimitiveImages::PrimitiveImages(const Scene& scene, const PrimaryRays& rays)
       rounding_(direction_rounding(rays)),
       place_(scene.primitives.size(), kNotMade) {}
 
-SampleMask PrimitiveImages::may_hit(PrimitiveId id, const SampleBatch& batch) {
-  const Primitive& primitive = scene_->primitives[id];
+SampleMask PrimitiveImages::may_hit(scenes::PrimitiveId id, const SampleBatch& batch) {
+  const scenes::Primitive& primitive = scene_->primitives[id];
   std::uint32_t& place = place_[id];
   switch (primitive.kind) {
-    case PrimitiveKind::kPolygon: {
-      const Polygon& polygon = scene_->polygons[primitive.index];
+    case scenes::PrimitiveKind::kPolygon: {
+      const scenes::Polygon& polygon = scene_->polygons[primitive.index];
       if (place == kNotMade) {
         place = static_cast<std::uint32_t>(triangles_.size());
         for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
@@ -51,13 +51,13 @@ SampleMask PrimitiveImages::may_hit(PrimitiveId id, const SampleBatch& batch) {
       }
       return best_probe_kernels().triangles({&triangles_[place], polygon.triangle_count}, batch);
     }
-    case PrimitiveKind::kSphere:
+    case scenes::PrimitiveKind::kSphere:
       if (place == kNotMade) {
         place = static_cast<std::uint32_t>(spheres_.size());
         spheres_.push_back(image_of_sphere(scene_->spheres[primitive.index]));
       }
       return best_probe_kernels().sphere(spheres_[place], batch);
-    case PrimitiveKind::kCone:
+    case scenes::PrimitiveKind::kCone:
       break;
   }
   return all_samples(batch);
@@ -97,7 +97,7 @@ TriangleImage PrimitiveImages::image_of_triangle(
   return image;
 }
 
-SphereImage PrimitiveImages::image_of_sphere(const Sphere& sphere) const {
+SphereImage PrimitiveImages::image_of_sphere(const scenes::Sphere& sphere) const {
   const glm::dvec3 center = glm::dvec3(sphere.center) - eye_;
   const double depth = glm::dot(center, forward_);
   const double distance = glm::length(center);
@@ -131,4 +131,4 @@ SphereImage PrimitiveImages::image_of_sphere(const Sphere& sphere) const {
           scaled(2.0 * glm::dot(middle, down_) * squared), 1.0F};
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

@@ -10,10 +10,10 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-#include "accel/primary_rays.hpp"
+#include "accel/core/primary_rays.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// x * px + y * py + constant of a sample's place in pixels, in float.
 struct PixelLine {
@@ -67,15 +67,15 @@ inline SampleMask all_samples(const SampleBatch& batch) {
 /// for.
 class PrimitiveImages {
  public:
-  PrimitiveImages(const Scene& scene, const PrimaryRays& rays);
+  PrimitiveImages(const scenes::Scene& scene, const PrimaryRays& rays);
 
-  SampleMask may_hit(PrimitiveId id, const SampleBatch& batch);
+  SampleMask may_hit(scenes::PrimitiveId id, const SampleBatch& batch);
 
  private:
   TriangleImage image_of_triangle(const std::array<std::uint32_t, 3>& vertices) const;
-  SphereImage image_of_sphere(const Sphere& sphere) const;
+  SphereImage image_of_sphere(const scenes::Sphere& sphere) const;
 
-  const Scene* scene_;
+  const scenes::Scene* scene_;
   glm::dvec3 eye_;
   glm::dvec3 forward_;
   /// direction(px, py) = top_left + right * px + down * py.
@@ -90,4 +90,4 @@ class PrimitiveImages {
   std::vector<SphereImage> spheres_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

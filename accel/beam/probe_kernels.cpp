@@ -9,7 +9,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::beam::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -68,15 +68,15 @@ const ProbeKernels& probe_kernels() {
   return kKernels;
 }
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace beambench {
+namespace beambench::accel::beam {
 
 HWY_EXPORT(probe_kernels);
 
 const ProbeKernels& best_probe_kernels() { return HWY_DYNAMIC_DISPATCH(probe_kernels)(); }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam
 #endif

@@ -5,7 +5,7 @@
 
 #include "accel/beam/primitive_image.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// The probes for one instruction set. They may only reject: what they let pass is confirmed by the
 /// canonical test.
@@ -18,4 +18,4 @@ struct ProbeKernels {
 /// Those for the best instruction set of this machine that Highway supports.
 const ProbeKernels& best_probe_kernels();
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

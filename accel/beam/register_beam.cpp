@@ -1,20 +1,20 @@
 #include "accel/beam/beam_cost.hpp"
 #include "accel/beam/beam_tracer.hpp"
+#include "accel/core/registry.hpp"
 #include "accel/octree/leaf_walk.hpp"
-#include "accel/registry.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 namespace {
 
-Octree chosen_octree(const Scene& scene, const BeamOptions& options, const Workload& workload) {
+octree::Octree chosen_octree(const scenes::Scene& scene, const BeamOptions& options,
+                             const Workload& workload) {
   const auto handover = static_cast<double>(options.handover);
-  return choose_octree(
+  return octree::choose_octree(
       scene, options.octree, workload,
-      [handover](const OctreeWork& work) { return beam_trace_cost(work, handover); },
-      [&](const Octree& octree, const OctreeWork& expected, OctreeWork& work) {
-        count_beams(octree, workload, expected, work);
-      });
+      [handover](const octree::OctreeWork& work) { return beam_trace_cost(work, handover); },
+      [&](const octree::Octree& octree, const octree::OctreeWork& expected,
+          octree::OctreeWork& work) { count_beams(octree, workload, expected, work); });
 }
 
 /// As accel/beam/README.md explains them.
@@ -35,7 +35,7 @@ std::vector<CounterInfo> beam_counters() {
       {"beam_edges", "edges of the polygons of all beams"},
       {"beam_clips", "cuts of a polygon by a line"},
       {"neighbour_searches", "searches of the leaf behind a face, by beams"},
-      {std::string(kNeighbourSteps), std::string(kNeighbourStepsMeaning)},
+      {std::string(octree::kNeighbourSteps), std::string(octree::kNeighbourStepsMeaning)},
       {"samples_leaving", "samples that left the root with a beam"},
       {"samples_in_leaves", "samples that were tested in a leaf with a beam"},
       {"rays_after_leaf", "samples that found nothing in their beam's leaf and went on as rays"},
@@ -47,16 +47,17 @@ std::vector<CounterInfo> beam_counters() {
 }  // namespace
 
 void register_beam(Registry& registry) {
-  registry.add({"beam",
-                "the beam tracer of the thesis: primary rays in beams through samet's octree, "
-                "individual rays where a beam meets objects",
-                Conformance::kBitExact, BeamOptions::parameters(),
-                [](const Scene& scene, const Parameters& parameters, const Workload& workload) {
-                  const BeamOptions options = BeamOptions::from(parameters);
-                  return std::make_unique<BeamTracer>(
-                      scene, chosen_octree(scene, options, workload), options);
-                }});
+  registry.add(
+      {"beam",
+       "the beam tracer of the thesis: primary rays in beams through samet's octree, "
+       "individual rays where a beam meets objects",
+       Conformance::kBitExact, BeamOptions::parameters(),
+       [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
+         const BeamOptions options = BeamOptions::from(parameters);
+         return std::make_unique<BeamTracer>(scene, chosen_octree(scene, options, workload),
+                                             options);
+       }});
   registry.describe_counters("beam", beam_counters());
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

@@ -1,6 +1,6 @@
 #include "accel/beam/sample_lattice.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 std::vector<SampleLattice> sample_lattices(const PrimaryRays& rays, bool share_corners) {
   std::vector<SampleLattice> lattices;
@@ -20,4 +20,4 @@ std::vector<SampleLattice> sample_lattices(const PrimaryRays& rays, bool share_c
   return lattices;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

@@ -8,10 +8,10 @@
 
 #include <glm/vec2.hpp>
 
-#include "accel/hit_buffer.hpp"
-#include "accel/primary_rays.hpp"
+#include "accel/core/hit_buffer.hpp"
+#include "accel/core/primary_rays.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// One sample of every pixel: those at (x, y) + `offset`, x < width, y < height. A sample's hit
 /// belongs to one place of a hit buffer, or to several when pixels share it.
@@ -44,4 +44,4 @@ struct SampleLattice {
 /// the same point are one sample.
 std::vector<SampleLattice> sample_lattices(const PrimaryRays& rays, bool share_corners);
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

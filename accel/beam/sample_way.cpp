@@ -4,9 +4,9 @@
 #include <array>
 #include <utility>
 
-#include "accel/step_recorder.hpp"
+#include "accel/core/step_recorder.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 namespace {
 
 bool same(const BeamCut& a, const BeamCut& b) {
@@ -42,7 +42,7 @@ class SampleWatch : public NoBeamWatch {
     BeamPassage passage;
     passage.kind = kind;
     passage.node = beam.node;
-    OctreeCursor leaf(*octree_);
+    octree::OctreeCursor leaf(*octree_);
     leaf.jump(beam.node, beam.corner, beam.size);
     passage.level = leaf.level();
     passage.cell = octree_->grid().box(beam.corner, beam.size);
@@ -54,7 +54,7 @@ class SampleWatch : public NoBeamWatch {
     last_cuts_.assign(beam.cuts.begin(), beam.cuts.end());
     if (kind == BeamKind::kLeaving) return;
 
-    const LeafExit exit = leaf_exit(way_, leaf);
+    const octree::LeafExit exit = octree::leaf_exit(way_, leaf);
     if (kind == BeamKind::kOccupied) {
       recorder_->enter([&] {
         return TraceStep{.place = "leaf",
@@ -115,14 +115,14 @@ class SampleWatch : public NoBeamWatch {
 
   /// The face of the next leaf that beams enter it by: of several that the ray crosses at the same
   /// t the one of the lowest axis, as in `crosses_before`.
-  CrossedPlane face_of(const OctreeCursor& leaf, const LeafExit& exit) const {
+  CrossedPlane face_of(const octree::OctreeCursor& leaf, const octree::LeafExit& exit) const {
     int axis = 0;
     while (axis < 2 && exit.step[axis] == 0) ++axis;
     const std::int32_t index = leaf.corner()[axis] + (exit.step[axis] > 0 ? leaf.size() : 0);
     return {axis, octree_->grid().plane(axis, index)};
   }
 
-  const Octree* octree_;
+  const octree::Octree* octree_;
   EyeView view_;
   SampleScan scan_;
   std::vector<SampleLattice> all_;
@@ -153,4 +153,4 @@ SampleWay way_of_sample(const BeamTracer& tracer, const PrimaryRays& rays, int x
   return way;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

@@ -9,7 +9,7 @@
 
 #include "accel/beam/beam_tracer.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// A plane that rays cross: `axis` 0, 1 or 2, and where it stands on that axis, in scene units.
 struct CrossedPlane {
@@ -48,4 +48,4 @@ struct SampleWay {
 SampleWay way_of_sample(const BeamTracer& tracer, const PrimaryRays& rays, int x, int y,
                         int sample);
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

@@ -9,7 +9,7 @@
 
 #include "accel/beam/beam_tracer.hpp"
 
-namespace beambench {
+namespace beambench::accel::beam {
 
 /// Each thread traces beams from a stack of its own, and hands half of it over as a task whenever
 /// many wait.
@@ -84,4 +84,4 @@ void BeamTracer::trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
   SharedRun<CountingBeamWatch>(*this, rays, buffer)(counters);
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::beam

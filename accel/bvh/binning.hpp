@@ -9,7 +9,7 @@
 
 #include "accel/bvh/box_quads.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 
 /// Maps centres to bins, on all axes.
 class Binning {
@@ -85,4 +85,4 @@ class Bins {
   std::array<std::array<Bin, Binning::kMost>, 3> axes_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

@@ -7,7 +7,7 @@
 
 #include "scenes/bounds.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 
 /// Three coordinates; what is in the fourth lane of a box or a centre does not matter.
 using Quad = float __attribute__((vector_size(16)));
@@ -27,7 +27,9 @@ struct QuadBox {
     constexpr float kFar = std::numeric_limits<float>::infinity();
     return {quad_of(kFar), quad_of(-kFar)};
   }
-  Bounds bounds() const { return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}}; }
+  scenes::Bounds bounds() const {
+    return {{lower[0], lower[1], lower[2]}, {upper[0], upper[1], upper[2]}};
+  }
   void include(const QuadBox& other) {
     lower = smaller(other.lower, lower);
     upper = larger(other.upper, upper);
@@ -41,7 +43,7 @@ struct QuadBox {
 /// An item while it is sorted in place: its box stays near its neighbours'.
 class BuildItem {
  public:
-  BuildItem(const Bounds& box, std::uint32_t index)
+  BuildItem(const scenes::Bounds& box, std::uint32_t index)
       : box_{quad_of(box.lower), quad_of(box.upper, std::bit_cast<float>(index))} {}
 
   const QuadBox& box() const { return box_; }
@@ -72,4 +74,4 @@ struct BuildExtent {
   }
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

@@ -2,16 +2,16 @@
 
 #include "accel/bvh/goldsmith_salmon.hpp"
 #include "accel/bvh/sah_bvh.hpp"
-#include "accel/registry.hpp"
+#include "accel/core/registry.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 
 void register_bvh(Registry& registry) {
   registry.add({"goldsmith-salmon",
                 "a hierarchy of bounding volumes: Goldsmith and Salmon's insertion (1987), Kay and "
                 "Kajiya's queue (1986); the thesis's with insert=terminal",
                 Conformance::kBitExact, GoldsmithSalmonOptions::parameters(),
-                [](const Scene& scene, const Parameters& parameters, const Workload&) {
+                [](const scenes::Scene& scene, const Parameters& parameters, const Workload&) {
                   return std::make_unique<GoldsmithSalmon>(
                       scene, GoldsmithSalmonOptions::from(parameters));
                 }});
@@ -19,7 +19,7 @@ void register_bvh(Registry& registry) {
                 "today's baseline: a binned SAH hierarchy (Wald 2007), eight children a node, SIMD "
                 "by single rays",
                 Conformance::kBitExact, SahBvh::parameters(),
-                [](const Scene& scene, const Parameters& parameters, const Workload&) {
+                [](const scenes::Scene& scene, const Parameters& parameters, const Workload&) {
                   return std::make_unique<SahBvh>(scene, SahBvh::options_from(parameters));
                 }});
   registry.describe_counters(
@@ -28,4 +28,4 @@ void register_bvh(Registry& registry) {
                    "tested again by the canonical test in double"}});
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

@@ -13,9 +13,9 @@
 
 #include "accel/bvh/binning.hpp"
 #include "accel/bvh/padded_bounds.hpp"
-#include "accel/large_pages.hpp"
+#include "accel/core/large_pages.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 namespace {
 
 /// Below it nodes are split in the middle: 2^32 items then need 32 more levels.
@@ -38,7 +38,7 @@ float leaf_cost(std::uint32_t count, const BvhOptions& options) {
 
 class Builder {
  public:
-  Builder(std::span<const Bounds> boxes, const BvhOptions& options) : options_(options) {
+  Builder(std::span<const scenes::Bounds> boxes, const BvhOptions& options) : options_(options) {
     items_.reserve(boxes.size());
     for (std::uint32_t i = 0; i < boxes.size(); ++i) items_.emplace_back(boxes[i], i);
     if (!items_.empty()) nodes_.resize(2 * items_.size() - 1);
@@ -234,7 +234,7 @@ class Builder {
 
 }  // namespace
 
-BinaryBvh build_bvh(std::span<const Bounds> boxes, const BvhOptions& options) {
+BinaryBvh build_bvh(std::span<const scenes::Bounds> boxes, const BvhOptions& options) {
   return Builder(boxes, options).build();
 }
 
@@ -271,4 +271,4 @@ std::size_t gather_children(const BinaryBvh& bvh, std::uint32_t node,
   return count;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

@@ -7,7 +7,7 @@
 
 #include "scenes/bounds.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 
 /// What the builder optimises for.
 struct BvhOptions {
@@ -20,7 +20,7 @@ struct BvhOptions {
 /// A node of a binary hierarchy: interior (its children are `first` and `first + 1`) or a leaf
 /// (`count` items from `first` on).
 struct BvhNode {
-  Bounds box;
+  scenes::Bounds box;
   std::uint32_t first;
   std::uint32_t count;  ///< 0 for an interior node
 
@@ -39,7 +39,7 @@ inline constexpr std::uint32_t kMaxBvhDepth = 96;
 /// Top-down splits at the best of up to 32 bins along each of the three axes (Wald, "On fast
 /// construction of SAH-based bounding volume hierarchies", 2007). Boxes whose centres cannot be
 /// told apart, and those below a depth that only contrived input reaches, are split in the middle.
-BinaryBvh build_bvh(std::span<const Bounds> boxes, const BvhOptions& options);
+BinaryBvh build_bvh(std::span<const scenes::Bounds> boxes, const BvhOptions& options);
 
 /// The expected number of node visits and block tests of a ray that meets the root, weighted as the
 /// options say: what the builder tries to make small.
@@ -51,4 +51,4 @@ double sah_cost(const BinaryBvh& bvh, const BvhOptions& options);
 std::size_t gather_children(const BinaryBvh& bvh, std::uint32_t node,
                             std::span<std::uint32_t> children);
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

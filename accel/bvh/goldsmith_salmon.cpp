@@ -4,33 +4,33 @@
 #include <numeric>
 
 #include "accel/bvh/padded_bounds.hpp"
-#include "scenes/random.hpp"
+#include "scenes/core/random.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 namespace {
 
-void shuffle(std::vector<PrimitiveId>& ids, std::uint64_t seed) {
+void shuffle(std::vector<scenes::PrimitiveId>& ids, std::uint64_t seed) {
   Random random(seed);
   for (std::size_t left = ids.size(); left > 1; --left) {
     std::swap(ids[left - 1], ids[random.below(left)]);
   }
 }
 
-void sort_along_longest_axis(std::vector<PrimitiveId>& ids, const Scene& scene,
-                             const std::vector<Bounds>& boxes) {
+void sort_along_longest_axis(std::vector<scenes::PrimitiveId>& ids, const scenes::Scene& scene,
+                             const std::vector<scenes::Bounds>& boxes) {
   const glm::vec3 extent = scene.bounds.extent();
   int axis = extent.x >= extent.y ? 0 : 1;
   if (extent.z > extent[axis]) axis = 2;
-  std::stable_sort(ids.begin(), ids.end(), [&](PrimitiveId a, PrimitiveId b) {
+  std::stable_sort(ids.begin(), ids.end(), [&](scenes::PrimitiveId a, scenes::PrimitiveId b) {
     return boxes[a].lower[axis] + boxes[a].upper[axis] <
            boxes[b].lower[axis] + boxes[b].upper[axis];
   });
 }
 
-InsertionHierarchy build(const Scene& scene, const GoldsmithSalmonOptions& options) {
-  const std::vector<Bounds> boxes = padded_primitive_bounds(scene);
-  std::vector<PrimitiveId> order(boxes.size());
-  std::iota(order.begin(), order.end(), PrimitiveId{0});
+InsertionHierarchy build(const scenes::Scene& scene, const GoldsmithSalmonOptions& options) {
+  const std::vector<scenes::Bounds> boxes = padded_primitive_bounds(scene);
+  std::vector<scenes::PrimitiveId> order(boxes.size());
+  std::iota(order.begin(), order.end(), scenes::PrimitiveId{0});
   if (options.order == GoldsmithSalmonOptions::Order::kShuffled) shuffle(order, options.seed);
   if (options.order == GoldsmithSalmonOptions::Order::kSorted) {
     sort_along_longest_axis(order, scene, boxes);
@@ -65,7 +65,7 @@ GoldsmithSalmonOptions GoldsmithSalmonOptions::from(const Parameters& parameters
   return options;
 }
 
-GoldsmithSalmon::GoldsmithSalmon(const Scene& scene, const GoldsmithSalmonOptions& options)
+GoldsmithSalmon::GoldsmithSalmon(const scenes::Scene& scene, const GoldsmithSalmonOptions& options)
     : scene_(&scene), queue_(options.queue), hierarchy_(build(scene, options)) {}
 
 Statistics GoldsmithSalmon::statistics() const {
@@ -78,4 +78,4 @@ Statistics GoldsmithSalmon::statistics() const {
   return statistics;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

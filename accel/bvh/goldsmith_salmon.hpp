@@ -9,11 +9,11 @@
 
 #include "accel/bvh/insertion_hierarchy.hpp"
 #include "accel/bvh/slab_ray.hpp"
-#include "accel/intersect.hpp"
-#include "accel/traversal_accelerator.hpp"
-#include "scenes/parameters.hpp"
+#include "accel/core/intersect.hpp"
+#include "accel/core/traversal_accelerator.hpp"
+#include "scenes/core/parameters.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 
 /// How the hierarchy is built and walked.
 struct GoldsmithSalmonOptions {
@@ -102,7 +102,7 @@ class OrderedStack {
 /// thesis (sections 4.3 and 5.4.2).
 class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon> {
  public:
-  GoldsmithSalmon(const Scene& scene, const GoldsmithSalmonOptions& options);
+  GoldsmithSalmon(const scenes::Scene& scene, const GoldsmithSalmonOptions& options);
 
   const InsertionHierarchy& hierarchy() const { return hierarchy_; }
   Statistics statistics() const override;
@@ -185,9 +185,9 @@ class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon> {
     return closest.result();
   }
 
-  const Scene* scene_;
+  const scenes::Scene* scene_;
   GoldsmithSalmonOptions::Queue queue_;
   InsertionHierarchy hierarchy_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

@@ -5,7 +5,7 @@
 
 #include "accel/bvh/padded_bounds.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 namespace {
 
 constexpr std::uint32_t kNone = 0xFFFFFFFFU;
@@ -19,7 +19,7 @@ struct ObjectList {
 
 /// A bounding volume while the hierarchy grows.
 struct Volume {
-  Bounds box;
+  scenes::Bounds box;
   double area = 0.0;
   std::uint32_t children = 0;          ///< volumes and objects
   std::uint32_t first_volume = kNone;  ///< of its children, a list through `next`
@@ -44,10 +44,10 @@ struct Choice {
 
 class Inserter {
  public:
-  Inserter(std::span<const Bounds> boxes, Insertion insertion)
+  Inserter(std::span<const scenes::Bounds> boxes, Insertion insertion)
       : boxes_(boxes), insertion_(insertion), next_object_(boxes.size(), kNone) {}
 
-  void insert(PrimitiveId object) {
+  void insert(scenes::PrimitiveId object) {
     if (volumes_.empty()) {
       volumes_.push_back({.box = boxes_[object], .area = half_area(boxes_[object])});
       add_object(0, object);
@@ -80,7 +80,7 @@ class Inserter {
       const Volume& volume = volumes_[index];
       siblings.back() = volume.next;
       open.push_back(static_cast<std::uint32_t>(entries.size()));
-      entries.push_back({volume.box, 0, kNoPrimitive});
+      entries.push_back({volume.box, 0, scenes::kNoPrimitive});
       append_objects(volume, entries);
       siblings.push_back(volume.first_volume);
       hierarchy.depth = std::max<std::uint64_t>(hierarchy.depth, open.size());
@@ -91,7 +91,7 @@ class Inserter {
   }
 
  private:
-  double area_with_object(const Bounds& box) {
+  double area_with_object(const scenes::Bounds& box) {
     ++boxes_weighed_;
     return half_area(united(box, boxes_[object_]));
   }
@@ -204,7 +204,7 @@ class Inserter {
         add_object(choice.volume, object_);
         break;
       case Choice::Kind::kBesideObject: {
-        const PrimitiveId partner = remove_object(choice);
+        const scenes::PrimitiveId partner = remove_object(choice);
         const std::uint32_t pair = add_volume(boxes_[partner]);
         add_object(pair, partner);
         add_object(pair, object_);
@@ -226,8 +226,8 @@ class Inserter {
   }
 
   /// A volume without children yet, around a box and the object.
-  std::uint32_t add_volume(const Bounds& box) {
-    const Bounds both = united(box, boxes_[object_]);
+  std::uint32_t add_volume(const scenes::Bounds& box) {
+    const scenes::Bounds both = united(box, boxes_[object_]);
     volumes_.push_back({.box = both, .area = half_area(both)});
     return static_cast<std::uint32_t>(volumes_.size() - 1);
   }
@@ -238,7 +238,7 @@ class Inserter {
     ++volumes_[parent].children;
   }
 
-  void add_object(std::uint32_t index, PrimitiveId object) {
+  void add_object(std::uint32_t index, scenes::PrimitiveId object) {
     Volume& volume = volumes_[index];
     const double area = half_area(boxes_[object]);
     ObjectList& list = volume.objects[2.0 * area < volume.area ? 0 : 1];
@@ -248,11 +248,11 @@ class Inserter {
     ++volume.children;
   }
 
-  PrimitiveId remove_object(const Choice& choice) {
+  scenes::PrimitiveId remove_object(const Choice& choice) {
     Volume& volume = volumes_[choice.volume];
     std::uint32_t& link =
         choice.before == kNone ? volume.objects[choice.list].first : next_object_[choice.before];
-    const PrimitiveId removed = link;
+    const scenes::PrimitiveId removed = link;
     link = next_object_[removed];
     --volume.children;
     return removed;
@@ -266,12 +266,12 @@ class Inserter {
     }
   }
 
-  std::span<const Bounds> boxes_;
+  std::span<const scenes::Bounds> boxes_;
   Insertion insertion_;
   std::vector<std::uint32_t> next_object_;
-  std::vector<Volume> volumes_;        ///< the root is the first
-  std::vector<std::uint32_t> path_;    ///< volumes the search has entered
-  PrimitiveId object_ = kNoPrimitive;  ///< the one being inserted
+  std::vector<Volume> volumes_;                        ///< the root is the first
+  std::vector<std::uint32_t> path_;                    ///< volumes the search has entered
+  scenes::PrimitiveId object_ = scenes::kNoPrimitive;  ///< the one being inserted
   double object_area_ = 0.0;
   std::uint64_t boxes_weighed_ = 0;
 };
@@ -290,11 +290,12 @@ double hierarchy_cost(std::span<const HierarchyEntry> entries) {
   return entries.empty() ? 0.0 : sum / half_area(entries.front().box);
 }
 
-InsertionHierarchy build_by_insertion(std::span<const Bounds> boxes,
-                                      std::span<const PrimitiveId> order, Insertion insertion) {
+InsertionHierarchy build_by_insertion(std::span<const scenes::Bounds> boxes,
+                                      std::span<const scenes::PrimitiveId> order,
+                                      Insertion insertion) {
   Inserter inserter(boxes, insertion);
-  for (const PrimitiveId object : order) inserter.insert(object);
+  for (const scenes::PrimitiveId object : order) inserter.insert(object);
   return inserter.finish();
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

@@ -9,15 +9,15 @@
 #include "scenes/bounds.hpp"
 #include "scenes/primitive.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 
 /// One entry of a hierarchy: a bounding volume, or an object with its own box.
 struct HierarchyEntry {
-  Bounds box;
-  std::uint32_t end;      ///< index just behind this entry and all that is below it
-  PrimitiveId primitive;  ///< kNoPrimitive for a volume
+  scenes::Bounds box;
+  std::uint32_t end;              ///< index just behind this entry and all that is below it
+  scenes::PrimitiveId primitive;  ///< kNoPrimitive for a volume
 
-  bool is_volume() const { return primitive == kNoPrimitive; }
+  bool is_volume() const { return primitive == scenes::kNoPrimitive; }
 };
 
 /// A hierarchy in preorder: an entry's children begin right behind it, the next sibling of a child
@@ -53,7 +53,8 @@ enum class Insertion {
 
 /// Inserts the objects one by one in the given order. Nothing is moved afterwards. `boxes[i]` is
 /// the box of primitive i.
-InsertionHierarchy build_by_insertion(std::span<const Bounds> boxes,
-                                      std::span<const PrimitiveId> order, Insertion insertion);
+InsertionHierarchy build_by_insertion(std::span<const scenes::Bounds> boxes,
+                                      std::span<const scenes::PrimitiveId> order,
+                                      Insertion insertion);
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

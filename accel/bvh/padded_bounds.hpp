@@ -6,10 +6,10 @@
 #include <limits>
 #include <vector>
 
-#include "accel/tolerance.hpp"
+#include "accel/core/tolerance.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 
 /// The next float above a finite number, as std::nextafter gives it in ten times the time.
 inline float next_above(float value) {
@@ -19,8 +19,8 @@ inline float next_above(float value) {
 }
 
 /// The box widened by `tolerance` on every side, rounded outward to float.
-inline Bounds padded(const Bounds& bounds, double tolerance) {
-  Bounds wider;
+inline scenes::Bounds padded(const scenes::Bounds& bounds, double tolerance) {
+  scenes::Bounds wider;
   for (int axis = 0; axis < 3; ++axis) {
     // One more float outward covers the rounding of the difference and of its conversion.
     const auto lower = static_cast<float>(bounds.lower[axis] - tolerance);
@@ -33,26 +33,26 @@ inline Bounds padded(const Bounds& bounds, double tolerance) {
 
 /// For each primitive a box that holds every point at which a canonical test may hit it, before t
 /// is rounded (tolerance.hpp).
-inline std::vector<Bounds> padded_primitive_bounds(const Scene& scene) {
+inline std::vector<scenes::Bounds> padded_primitive_bounds(const scenes::Scene& scene) {
   const double tolerance = overlap_tolerance(scene);
-  std::vector<Bounds> boxes;
+  std::vector<scenes::Bounds> boxes;
   boxes.reserve(scene.primitives.size());
-  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-    boxes.push_back(padded(primitive_bounds(scene, id), tolerance));
+  for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+    boxes.push_back(padded(scenes::primitive_bounds(scene, id), tolerance));
   }
   return boxes;
 }
 
 /// Half the surface area of a box: what the chance is proportional to that a ray which meets a box
 /// around it meets it too. 0 for an empty box.
-inline double half_area(const Bounds& bounds) {
+inline double half_area(const scenes::Bounds& bounds) {
   const glm::dvec3 size(bounds.extent());
   return size.x * (size.y + size.z) + size.y * size.z;
 }
 
-inline Bounds united(Bounds a, const Bounds& b) {
+inline scenes::Bounds united(scenes::Bounds a, const scenes::Bounds& b) {
   a.include(b);
   return a;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

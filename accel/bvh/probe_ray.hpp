@@ -10,10 +10,10 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "accel/ray.hpp"
+#include "accel/core/ray.hpp"
 #include "scenes/bounds.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 
 /// A ray and the error bounds of the float tests made with it. What they reject, the canonical
 /// tests reject; the reverse need not hold.
@@ -46,7 +46,7 @@ class ProbeRay {
     return largest > 0x1p-60F && largest < 0x1p60F;
   }
 
-  ProbeRay(const Ray& ray, const Bounds& scene_bounds) : t_min(ray.t_min) {
+  ProbeRay(const Ray& ray, const scenes::Bounds& scene_bounds) : t_min(ray.t_min) {
     float reach = 0.0F;
     for (int axis = 0; axis < 3; ++axis) {
       const auto slot = static_cast<std::size_t>(axis);
@@ -94,4 +94,4 @@ class ProbeRay {
   float depth_margin;  ///< of the t of triangles
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

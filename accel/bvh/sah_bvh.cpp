@@ -2,7 +2,7 @@
 
 #include <hwy/targets.h>
 
-namespace beambench {
+namespace beambench::accel::bvh {
 
 std::vector<ParameterInfo> SahBvh::parameters() {
   const BvhOptions defaults;
@@ -33,4 +33,4 @@ Statistics SahBvh::statistics() const {
   return statistics;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

@@ -4,11 +4,11 @@
 #include "accel/bvh/probe_ray.hpp"
 #include "accel/bvh/sah_kernels.hpp"
 #include "accel/bvh/wide_bvh.hpp"
+#include "accel/core/traversal_accelerator.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
-#include "accel/traversal_accelerator.hpp"
-#include "scenes/parameters.hpp"
+#include "scenes/core/parameters.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 
 /// A binned SAH hierarchy (Wald 2007) of eight children a node, walked by SIMD in single precision
 /// (Wald, Benthin and Boulos, "Getting rid of packets", 2008). The float tests only reject;
@@ -19,7 +19,7 @@ class SahBvh : public TraversalAccelerator<SahBvh> {
   static std::vector<ParameterInfo> parameters();
   static BvhOptions options_from(const Parameters& parameters);
 
-  SahBvh(const Scene& scene, const BvhOptions& options)
+  SahBvh(const scenes::Scene& scene, const BvhOptions& options)
       : scene_(&scene), bvh_(build_wide_bvh(scene, options)), kernels_(&best_sah_kernels()) {}
 
   const WideBvh& bvh() const { return bvh_; }
@@ -30,21 +30,22 @@ class SahBvh : public TraversalAccelerator<SahBvh> {
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     if (bvh_.empty()) return std::nullopt;
-    if (!ProbeRay::can_probe(ray)) return Exhaustive(*scene_).find_closest(ray, counting);
+    if (!ProbeRay::can_probe(ray))
+      return exhaustive::Exhaustive(*scene_).find_closest(ray, counting);
     return kernels_->queries<Counting>().closest(bvh_, *scene_, ray, counting);
   }
 
   template <class Counting>
   bool find_any(const Ray& ray, Counting& counting) const {
     if (bvh_.empty()) return false;
-    if (!ProbeRay::can_probe(ray)) return Exhaustive(*scene_).find_any(ray, counting);
+    if (!ProbeRay::can_probe(ray)) return exhaustive::Exhaustive(*scene_).find_any(ray, counting);
     return kernels_->queries<Counting>().any(bvh_, *scene_, ray, counting);
   }
 
  private:
-  const Scene* scene_;
+  const scenes::Scene* scene_;
   WideBvh bvh_;
   const SahKernels* kernels_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

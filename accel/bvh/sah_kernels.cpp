@@ -7,7 +7,7 @@
 
 #include "accel/bvh/probe_ray.hpp"
 #include "accel/bvh/slab_ray.hpp"
-#include "accel/intersect.hpp"
+#include "accel/core/intersect.hpp"
 
 // Highway includes this file once more for each instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -16,7 +16,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::bvh::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -143,20 +143,20 @@ inline LaneBits probe_spheres(const PrimitiveBlock& block, const ProbeRay& ray, 
 inline LaneBits probe(const PrimitiveBlock& block, const ProbeRay& ray, float t_max) {
   const LaneBits present = (LaneBits{1} << block.count) - 1;
   switch (block.kind) {
-    case PrimitiveKind::kPolygon:
+    case scenes::PrimitiveKind::kPolygon:
       return present & probe_triangles(block, ray, t_max);
-    case PrimitiveKind::kSphere:
+    case scenes::PrimitiveKind::kSphere:
       return present & probe_spheres(block, ray, t_max);
-    case PrimitiveKind::kCone:
+    case scenes::PrimitiveKind::kCone:
       break;
   }
   return present;
 }
 
 /// The canonical test of one lane.
-inline float confirm(const CanonicalRay& ray, const Scene& scene, const PrimitiveBlock& block,
-                     std::size_t lane) {
-  if (block.kind == PrimitiveKind::kPolygon) {
+inline float confirm(const CanonicalRay& ray, const scenes::Scene& scene,
+                     const PrimitiveBlock& block, std::size_t lane) {
+  if (block.kind == scenes::PrimitiveKind::kPolygon) {
     return intersect_triangle(ray, block.corner(0, lane), block.corner(1, lane),
                               block.corner(2, lane));
   }
@@ -192,8 +192,8 @@ class WaitingStack {
   std::size_t size_ = 0;
 };
 
-inline Bounds bounds_of(const WideNode& node) {
-  Bounds bounds;
+inline scenes::Bounds bounds_of(const WideNode& node) {
+  scenes::Bounds bounds;
   for (std::size_t lane = 0; lane < node.count; ++lane) {
     const auto& plane = node.planes;
     bounds.include(glm::vec3(plane[0][lane], plane[1][lane], plane[2][lane]));
@@ -202,23 +202,23 @@ inline Bounds bounds_of(const WideNode& node) {
   return bounds;
 }
 
-inline Bounds bounds_of(const PrimitiveBlock& block, const Scene& scene) {
-  Bounds bounds;
+inline scenes::Bounds bounds_of(const PrimitiveBlock& block, const scenes::Scene& scene) {
+  scenes::Bounds bounds;
   for (std::size_t lane = 0; lane < block.count; ++lane) {
-    if (block.kind == PrimitiveKind::kPolygon) {
+    if (block.kind == scenes::PrimitiveKind::kPolygon) {
       for (std::size_t i = 0; i < 3; ++i) bounds.include(block.corner(i, lane));
     } else {
-      bounds.include(primitive_bounds(scene, block.primitives[lane]));
+      bounds.include(scenes::primitive_bounds(scene, block.primitives[lane]));
     }
   }
   return bounds;
 }
 
 /// A step for people to read.
-inline TraceStep describe(const WideBvh& bvh, const Scene& scene, const Ray& ray,
+inline TraceStep describe(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,
                           ChildReference at) {
   TraceStep step{.place = at.is_leaf() ? "leaf" : "node"};
-  Bounds bounds;
+  scenes::Bounds bounds;
   if (at.is_leaf()) {
     step.index = at.first_block();
     for (std::uint32_t i = 0; i < at.block_count(); ++i) {
@@ -236,7 +236,7 @@ inline TraceStep describe(const WideBvh& bvh, const Scene& scene, const Ray& ray
 }
 
 template <class Counting>
-void count_step(Counting& counting, const WideBvh& bvh, const Scene& scene, const Ray& ray,
+void count_step(Counting& counting, const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,
                 ChildReference at) {
   counting.add(Counter::kTraversalSteps);
   counting.enter([&] { return describe(bvh, scene, ray, at); });
@@ -262,7 +262,7 @@ void count_probes(Counting& counting, const PrimitiveBlock& block, LaneBits pass
 /// primitive)` is told what each canonical test found, and returns true to end the walk; `t_max()`
 /// is how far hits are still of interest.
 template <class Counting, class FarEnd, class Visit>
-HWY_FLATTEN void walk(const WideBvh& bvh, const Scene& scene, const Ray& ray,
+HWY_FLATTEN void walk(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,
                       const CanonicalRay& canonical, Counting& counting, FarEnd t_max,
                       Visit visit) {
   const ProbeRay probe_ray(ray, bvh.scene_bounds);
@@ -312,12 +312,12 @@ HWY_FLATTEN void walk(const WideBvh& bvh, const Scene& scene, const Ray& ray,
 }
 
 template <class Counting>
-std::optional<Hit> closest(const WideBvh& bvh, const Scene& scene, const Ray& ray,
+std::optional<Hit> closest(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,
                            Counting& counting) {
   ClosestHit best(ray);
   walk(
       bvh, scene, ray, best.ray, counting, [&] { return best.ray.t_max; },
-      [&](float t, PrimitiveId primitive) {
+      [&](float t, scenes::PrimitiveId primitive) {
         best.keep(t, primitive);
         return false;
       });
@@ -325,12 +325,12 @@ std::optional<Hit> closest(const WideBvh& bvh, const Scene& scene, const Ray& ra
 }
 
 template <class Counting>
-bool any(const WideBvh& bvh, const Scene& scene, const Ray& ray, Counting& counting) {
+bool any(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray, Counting& counting) {
   const CanonicalRay canonical(ray);
   bool found = false;
   walk(
       bvh, scene, ray, canonical, counting, [&] { return ray.t_max; },
-      [&](float t, PrimitiveId) {
+      [&](float t, scenes::PrimitiveId) {
         found = is_hit(t);
         return found;
       });
@@ -348,15 +348,15 @@ const SahKernels& kernels() {
   return kKernels;
 }
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::bvh::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace beambench {
+namespace beambench::accel::bvh {
 
 HWY_EXPORT(kernels);
 
 const SahKernels& best_sah_kernels() { return HWY_DYNAMIC_DISPATCH(kernels)(); }
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh
 #endif

@@ -5,17 +5,17 @@
 #include <optional>
 
 #include "accel/bvh/wide_bvh.hpp"
-#include "accel/ray.hpp"
-#include "accel/step_recorder.hpp"
-#include "accel/work_counters.hpp"
+#include "accel/core/ray.hpp"
+#include "accel/core/step_recorder.hpp"
+#include "accel/core/work_counters.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 
 /// Both queries under one counting policy. Not for empty hierarchies.
 template <class Counting>
 struct SahQueries {
-  std::optional<Hit> (*closest)(const WideBvh&, const Scene&, const Ray&, Counting&);
-  bool (*any)(const WideBvh&, const Scene&, const Ray&, Counting&);
+  std::optional<Hit> (*closest)(const WideBvh&, const scenes::Scene&, const Ray&, Counting&);
+  bool (*any)(const WideBvh&, const scenes::Scene&, const Ray&, Counting&);
 };
 
 /// The queries for one instruction set.
@@ -31,4 +31,4 @@ struct SahKernels : SahQueries<NoCounting>, SahQueries<WorkCounters>, SahQueries
 /// Those for the best instruction set of this machine that Highway supports.
 const SahKernels& best_sah_kernels();
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "accel/ray.hpp"
+#include "accel/core/ray.hpp"
 #include "scenes/bounds.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 
 /// The part of a ray inside a box, its ends rounded to float as the t of a hit is: rounding is
 /// monotonic, so whatever is hit in the box has its rounded t in this interval. Empty
@@ -32,7 +32,7 @@ class SlabRay {
     }
   }
 
-  BoxInterval interval(const Bounds& box, float t_min, float t_max) const {
+  BoxInterval interval(const scenes::Bounds& box, float t_min, float t_max) const {
     double enter = t_min;
     double exit = t_max;
     for (int axis = 0; axis < 3; ++axis) {
@@ -54,4 +54,4 @@ class SlabRay {
   std::array<bool, 3> backward_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

@@ -7,20 +7,20 @@
 #include <fmt/format.h>
 
 #include "accel/bvh/padded_bounds.hpp"
-#include "accel/tolerance.hpp"
-#include "scenes/error.hpp"
+#include "accel/core/tolerance.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 namespace {
 
 /// What a leaf refers to: a triangle of a polygon, or a whole sphere or cone.
 struct Piece {
-  PrimitiveId primitive;
+  scenes::PrimitiveId primitive;
   std::uint32_t index;  ///< into the scene's triangles, spheres or cones
 };
 
-Bounds triangle_bounds(const Scene& scene, std::uint32_t triangle) {
-  Bounds bounds;
+scenes::Bounds triangle_bounds(const scenes::Scene& scene, std::uint32_t triangle) {
+  scenes::Bounds bounds;
   for (const std::uint32_t vertex : scene.triangles[triangle].vertex) {
     bounds.include(scene.vertices[vertex]);
   }
@@ -30,8 +30,8 @@ Bounds triangle_bounds(const Scene& scene, std::uint32_t triangle) {
 /// Turns the binary hierarchy over a scene's pieces into the wide one.
 class WideBvhBuilder {
  public:
-  WideBvhBuilder(const Scene& scene, const BvhOptions& options) : scene_(scene) {
-    const std::vector<Bounds> boxes = collect_pieces();
+  WideBvhBuilder(const scenes::Scene& scene, const BvhOptions& options) : scene_(scene) {
+    const std::vector<scenes::Bounds> boxes = collect_pieces();
     binary_ = build_bvh(boxes, options);
     wide_.cost = sah_cost(binary_, options);
   }
@@ -46,20 +46,20 @@ class WideBvhBuilder {
   }
 
  private:
-  std::vector<Bounds> collect_pieces() {
+  std::vector<scenes::Bounds> collect_pieces() {
     const double tolerance = overlap_tolerance(scene_);
-    std::vector<Bounds> boxes;
+    std::vector<scenes::Bounds> boxes;
     const std::size_t count = scene_.triangles.size() + scene_.spheres.size() + scene_.cones.size();
     boxes.reserve(count);
     pieces_.reserve(count);
-    for (PrimitiveId id = 0; id < scene_.primitives.size(); ++id) {
-      const Primitive& primitive = scene_.primitives[id];
-      if (primitive.kind != PrimitiveKind::kPolygon) {
+    for (scenes::PrimitiveId id = 0; id < scene_.primitives.size(); ++id) {
+      const scenes::Primitive& primitive = scene_.primitives[id];
+      if (primitive.kind != scenes::PrimitiveKind::kPolygon) {
         pieces_.push_back({id, primitive.index});
-        boxes.push_back(padded(primitive_bounds(scene_, id), tolerance));
+        boxes.push_back(padded(scenes::primitive_bounds(scene_, id), tolerance));
         continue;
       }
-      const Polygon& polygon = scene_.polygons[primitive.index];
+      const scenes::Polygon& polygon = scene_.polygons[primitive.index];
       for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
         pieces_.push_back({id, polygon.first_triangle + i});
         boxes.push_back(padded(triangle_bounds(scene_, polygon.first_triangle + i), tolerance));
@@ -88,8 +88,8 @@ class WideBvhBuilder {
     WideNode node{};
     node.count = static_cast<std::uint32_t>(children.size());
     for (std::size_t lane = 0; lane < kBvhLanes; ++lane) {
-      const Bounds box =
-          lane < children.size() ? binary_.nodes[children[lane]].box : Bounds{};  // empty
+      const scenes::Bounds box =
+          lane < children.size() ? binary_.nodes[children[lane]].box : scenes::Bounds{};  // empty
       for (int axis = 0; axis < 3; ++axis) {
         const auto row = static_cast<std::size_t>(axis);
         node.planes[row][lane] = box.lower[axis];
@@ -107,8 +107,9 @@ class WideBvhBuilder {
     const float extent = std::max({sides.x, sides.y, sides.z});
     const auto items = std::span(binary_.items).subspan(leaf.first, leaf.count);
     std::sort(items.begin(), items.end());
-    for (const PrimitiveKind kind :
-         {PrimitiveKind::kPolygon, PrimitiveKind::kSphere, PrimitiveKind::kCone}) {
+    for (const scenes::PrimitiveKind kind :
+         {scenes::PrimitiveKind::kPolygon, scenes::PrimitiveKind::kSphere,
+          scenes::PrimitiveKind::kCone}) {
       PrimitiveBlock* block = nullptr;
       for (const std::uint32_t item : items) {
         if (scene_.primitives[pieces_[item].primitive].kind != kind) continue;
@@ -138,17 +139,17 @@ class WideBvhBuilder {
         block.coordinates[first_row + static_cast<std::size_t>(axis)][lane] = point[axis];
       }
     };
-    if (block.kind == PrimitiveKind::kPolygon) {
+    if (block.kind == scenes::PrimitiveKind::kPolygon) {
       for (std::size_t i = 0; i < 3; ++i) {
         put(3 * i, scene_.vertices[scene_.triangles[piece.index].vertex[i]]);
       }
-    } else if (block.kind == PrimitiveKind::kSphere) {
+    } else if (block.kind == scenes::PrimitiveKind::kSphere) {
       put(0, scene_.spheres[piece.index].center);
       block.coordinates[3][lane] = scene_.spheres[piece.index].radius;
     }
   }
 
-  const Scene& scene_;
+  const scenes::Scene& scene_;
   std::vector<Piece> pieces_;
   BinaryBvh binary_;
   WideBvh wide_;
@@ -156,8 +157,8 @@ class WideBvhBuilder {
 
 }  // namespace
 
-WideBvh build_wide_bvh(const Scene& scene, const BvhOptions& options) {
+WideBvh build_wide_bvh(const scenes::Scene& scene, const BvhOptions& options) {
   return WideBvhBuilder(scene, options).build();
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

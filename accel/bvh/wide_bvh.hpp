@@ -9,7 +9,7 @@
 #include "accel/bvh/bvh_builder.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::accel::bvh {
 
 /// Children of a node and primitives of a block, each a lane of a SIMD register.
 inline constexpr std::size_t kBvhLanes = 8;
@@ -52,8 +52,9 @@ struct alignas(64) PrimitiveBlock {
   /// Triangles (kind kPolygon): the axes of three corners, corner by corner. Spheres: the axes of
   /// the centre, the radius. Cones: nothing.
   std::array<std::array<float, kBvhLanes>, 9> coordinates;
-  std::array<PrimitiveId, kBvhLanes> primitives;  ///< of triangles, the polygons they belong to
-  PrimitiveKind kind;
+  std::array<scenes::PrimitiveId, kBvhLanes>
+      primitives;  ///< of triangles, the polygons they belong to
+  scenes::PrimitiveKind kind;
   std::uint32_t count;
   float leaf_extent;  ///< longest side of the box of the leaf that the block belongs to
 
@@ -69,7 +70,7 @@ struct WideBvh {
   std::vector<WideNode> nodes;
   std::vector<PrimitiveBlock> blocks;
   ChildReference root;
-  Bounds scene_bounds;
+  scenes::Bounds scene_bounds;
   std::uint32_t depth = 0;  ///< nodes on the longest way down, leaf included
   std::uint64_t leaves = 0;
   std::uint64_t references = 0;  ///< triangles, spheres and cones
@@ -79,6 +80,6 @@ struct WideBvh {
 };
 
 /// Throws InputError when the scene needs more than ChildReference::kBlockIndices blocks.
-WideBvh build_wide_bvh(const Scene& scene, const BvhOptions& options);
+WideBvh build_wide_bvh(const scenes::Scene& scene, const BvhOptions& options);
 
-}  // namespace beambench
+}  // namespace beambench::accel::bvh

@@ -9,9 +9,9 @@
 #else
 #include "accel/embree/api4.hpp"
 #endif
-#include "accel/ray.hpp"
+#include "accel/core/ray.hpp"
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 
 /// Fills a ray for Embree. Debian's Embree asserts that tnear >= 0 and that nothing is NaN, which
 /// `require_valid` has seen to.
@@ -68,4 +68,4 @@ struct Packet<16> {
   static constexpr int kWidth = 4;
 };
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

@@ -3,7 +3,7 @@
 
 #include <embree3/rtcore.h>
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 
 using RawContext = RTCIntersectContext;
 
@@ -48,4 +48,4 @@ void intersect_stream(RTCScene scene, Context& context, Packet* packets, unsigne
                  sizeof(Packet));
 }
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

@@ -3,7 +3,7 @@
 
 #include <embree4/rtcore.h>
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 
 using RawContext = RTCRayQueryContext;
 
@@ -51,4 +51,4 @@ inline void look_for_any_hit(const int* valid, RTCScene scene, Context& context,
   rtcOccluded16(valid, scene, &rays, &context.any);
 }
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

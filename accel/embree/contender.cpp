@@ -2,14 +2,14 @@
 
 #include <algorithm>
 
+#include "accel/core/instruction_set.hpp"
+#include "accel/core/registry.hpp"
+#include "accel/core/share_rows.hpp"
 #include "accel/embree/isa.hpp"
 #include "accel/embree/native_scene.hpp"
 #include "accel/embree/trace.hpp"
-#include "accel/instruction_set.hpp"
-#include "accel/registry.hpp"
-#include "accel/share_rows.hpp"
 
-namespace beambench {
+namespace beambench::accel::embree {
 namespace {
 
 using embree::ImageTracers;
@@ -20,8 +20,8 @@ using embree::TraceMode;
 /// of lowest id, and without `robust` a triangle is hit at t > t_min only, not at t_min itself.
 class EmbreeContender : public Accelerator {
  public:
-  EmbreeContender(const Scene& scene, RTCBuildQuality quality, bool robust, const TraceMode& mode,
-                  bool coherent, const std::string& isa, int threads)
+  EmbreeContender(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
+                  const TraceMode& mode, bool coherent, const std::string& isa, int threads)
       : scene_(scene, quality, robust, isa, threads),
         tracers_(embree::image_tracers(targets_of(isa))),
         mode_(mode),
@@ -135,7 +135,7 @@ void register_embree(Registry& registry) {
         flag_parameter("coherent", true,
                        "tells Embree that neighbouring rays are alike, which packets need"),
         isa_parameter()},
-       [](const Scene& scene, const Parameters& parameters, const Workload& workload) {
+       [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
          const std::string& isa = parameters.choice("isa");
          embree::require_isa(isa);
          return std::make_unique<EmbreeContender>(
@@ -145,4 +145,4 @@ void register_embree(Registry& registry) {
        }});
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::embree

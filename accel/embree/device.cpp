@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 
 Device::Device(const char* config) : device_(rtcNewDevice(config)) {
   if (device_ == nullptr) {
@@ -51,4 +51,4 @@ std::uint64_t Device::bytes() const {
   return static_cast<std::uint64_t>(std::max<std::int64_t>(0, bytes_.load()));
 }
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

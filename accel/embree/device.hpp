@@ -10,7 +10,7 @@
 
 #include "accel/embree/api.hpp"
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 
 /// An Embree device that remembers what Embree complains of and how much memory it holds. Embree
 /// calls back from inside C functions and from its own threads, where an exception has no way out:
@@ -53,4 +53,4 @@ struct ReleaseGeometry {
 using SceneHandle = std::unique_ptr<RTCSceneTy, ReleaseScene>;
 using GeometryHandle = std::unique_ptr<RTCGeometryTy, ReleaseGeometry>;
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 
 using glm::dvec3;
 
@@ -16,7 +16,8 @@ static double side(const ExactRay& ray, const dvec3& from, const dvec3& to) {
   return glm::dot(glm::cross(to - from, from + to), ray.direction);
 }
 
-std::optional<double> first_hit(const ExactRay& ray, const Scene& scene, const Triangle& triangle) {
+std::optional<double> first_hit(const ExactRay& ray, const scenes::Scene& scene,
+                                const scenes::Triangle& triangle) {
   const dvec3 a = dvec3(scene.vertices[triangle.vertex[0]]) - ray.origin;
   const dvec3 b = dvec3(scene.vertices[triangle.vertex[1]]) - ray.origin;
   const dvec3 c = dvec3(scene.vertices[triangle.vertex[2]]) - ray.origin;
@@ -68,7 +69,7 @@ double closest_approach(const ExactRay& ray, const dvec3& point) {
 
 }  // namespace
 
-std::optional<double> first_hit(const ExactRay& ray, const Sphere& sphere) {
+std::optional<double> first_hit(const ExactRay& ray, const scenes::Sphere& sphere) {
   const dvec3 center(sphere.center);
   const double shift = closest_approach(ray, center);
   const dvec3 start = (ray.origin - center) + shift * ray.direction;
@@ -90,7 +91,7 @@ namespace {
 /// stretched until the surface is nowhere flatter than 45 degrees: the numbers of a cone of hardly
 /// any height would drown in its slope.
 struct ConeFrame {
-  explicit ConeFrame(const Cone& cone)
+  explicit ConeFrame(const scenes::Cone& cone)
       : middle(0.5 * (dvec3(cone.base) + dvec3(cone.apex))),
         radius(0.5 * (static_cast<double>(cone.base_radius) + cone.apex_radius)) {
     const dvec3 axis = dvec3(cone.apex) - dvec3(cone.base);
@@ -121,7 +122,7 @@ struct ConeFrame {
 
 }  // namespace
 
-std::optional<double> first_hit(const ExactRay& ray, const Cone& cone) {
+std::optional<double> first_hit(const ExactRay& ray, const scenes::Cone& cone) {
   const ConeFrame frame(cone);
   const dvec3 origin = frame.to_local(ray.origin - frame.middle);
   const dvec3 d = frame.to_local(ray.direction);
@@ -153,23 +154,23 @@ std::optional<double> first_hit(const ExactRay& ray, const Cone& cone) {
   return nearest;
 }
 
-ExactBounds bounds_of(const Scene& scene, const Triangle& triangle) {
+ExactBounds bounds_of(const scenes::Scene& scene, const scenes::Triangle& triangle) {
   const dvec3 a(scene.vertices[triangle.vertex[0]]);
   const dvec3 b(scene.vertices[triangle.vertex[1]]);
   const dvec3 c(scene.vertices[triangle.vertex[2]]);
   return {glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c)};
 }
 
-ExactBounds bounds_of(const Sphere& sphere) {
+ExactBounds bounds_of(const scenes::Sphere& sphere) {
   const dvec3 center(sphere.center);
   const double radius = sphere.radius;
   return {center - radius, center + radius};
 }
 
-ExactBounds bounds_of(const Cone& cone) {
-  const ExactBounds base = bounds_of(Sphere{cone.base, cone.base_radius, false});
-  const ExactBounds apex = bounds_of(Sphere{cone.apex, cone.apex_radius, false});
+ExactBounds bounds_of(const scenes::Cone& cone) {
+  const ExactBounds base = bounds_of(scenes::Sphere{cone.base, cone.base_radius, false});
+  const ExactBounds apex = bounds_of(scenes::Sphere{cone.apex, cone.apex_radius, false});
   return {glm::min(base.lower, apex.lower), glm::max(base.upper, apex.upper)};
 }
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

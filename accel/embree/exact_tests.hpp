@@ -7,10 +7,10 @@
 
 #include <glm/vec3.hpp>
 
-#include "accel/ray.hpp"
+#include "accel/core/ray.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 
 /// A ray's floats as doubles.
 struct ExactRay {
@@ -27,9 +27,10 @@ struct ExactRay {
 
 /// Each returns the smallest t in the ray's closed range at which it hits, if any.
 /// Triangles are two-sided and closed; rays through a shared edge hit one of its triangles.
-std::optional<double> first_hit(const ExactRay& ray, const Scene& scene, const Triangle& triangle);
-std::optional<double> first_hit(const ExactRay& ray, const Sphere& sphere);
-std::optional<double> first_hit(const ExactRay& ray, const Cone& cone);
+std::optional<double> first_hit(const ExactRay& ray, const scenes::Scene& scene,
+                                const scenes::Triangle& triangle);
+std::optional<double> first_hit(const ExactRay& ray, const scenes::Sphere& sphere);
+std::optional<double> first_hit(const ExactRay& ray, const scenes::Cone& cone);
 
 /// A box in double precision.
 struct ExactBounds {
@@ -37,9 +38,9 @@ struct ExactBounds {
   glm::dvec3 upper;
 };
 
-ExactBounds bounds_of(const Scene& scene, const Triangle& triangle);
-ExactBounds bounds_of(const Sphere& sphere);
+ExactBounds bounds_of(const scenes::Scene& scene, const scenes::Triangle& triangle);
+ExactBounds bounds_of(const scenes::Sphere& sphere);
 /// Loose: the box of the spheres around its ends.
-ExactBounds bounds_of(const Cone& cone);
+ExactBounds bounds_of(const scenes::Cone& cone);
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "accel/pick_target.hpp"
+#include "accel/core/pick_target.hpp"
 
 // Highway includes this file once more for each instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -13,7 +13,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::embree::HWY_NAMESPACE {
+namespace beambench::accel::embree::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -72,7 +72,7 @@ class Block {
   /// Always inline: as a function of its own GCC 12 warns of a loop in it that would not end.
   HWY_INLINE void write(const OwnerTable& table, const Query& query, int x,
                         HitBuffer& buffer) const {
-    alignas(64) std::array<PrimitiveId, N> owners;
+    alignas(64) std::array<scenes::PrimitiveId, N> owners;
     find_owners(table, query, owners.data());
     if (rays_.samples() == 1 && is_on_image(x)) {
       for (int row = 0; row < kHeight; ++row) {
@@ -144,8 +144,9 @@ class Block {
     }
   }
 
-  static void find_owners(const OwnerTable& table, const Query& query, PrimitiveId* owners) {
-    const hn::CappedTag<PrimitiveId, N> words;
+  static void find_owners(const OwnerTable& table, const Query& query,
+                          scenes::PrimitiveId* owners) {
+    const hn::CappedTag<scenes::PrimitiveId, N> words;
     const hn::RebindToSigned<decltype(words)> numbers;
     for (std::size_t lane = 0; lane < N; lane += hn::Lanes(words)) {
       const auto geometry = hn::Load(words, query.hit.geomID + lane);
@@ -159,7 +160,8 @@ class Block {
         owner = hn::GatherIndex(words, table.ids.data(),
                                 hn::BitCast(numbers, hn::IfThenElseZero(hit, owner)));
       }
-      hn::Store(hn::IfThenElse(hit, owner, hn::Set(words, kNoPrimitive)), words, owners + lane);
+      hn::Store(hn::IfThenElse(hit, owner, hn::Set(words, scenes::kNoPrimitive)), words,
+                owners + lane);
     }
   }
 
@@ -284,11 +286,11 @@ const ImageTracers& tracers() {
   return kTracers;
 }
 
-}  // namespace beambench::embree::HWY_NAMESPACE
+}  // namespace beambench::accel::embree::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace beambench::embree {
+namespace beambench::accel::embree {
 
 HWY_EXPORT(tracers);
 
@@ -302,5 +304,5 @@ const ImageTracers& image_tracers(std::int64_t targets) {
   return pick_target(HWY_DISPATCH_TABLE(tracers), targets)();
 }
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree
 #endif

@@ -4,11 +4,11 @@
 
 #include <cstdint>
 
+#include "accel/core/hit_buffer.hpp"
+#include "accel/core/primary_rays.hpp"
 #include "accel/embree/native_scene.hpp"
-#include "accel/hit_buffer.hpp"
-#include "accel/primary_rays.hpp"
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 
 /// Rows of an image, from `top` to before `bottom`.
 struct Band {
@@ -46,4 +46,4 @@ struct ImageTracers {
 /// Those for the best of Highway's `targets` that this machine has.
 const ImageTracers& image_tracers(std::int64_t targets);
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

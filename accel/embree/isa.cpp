@@ -10,11 +10,11 @@
 
 #include <fmt/format.h>
 
+#include "accel/core/instruction_set.hpp"
 #include "accel/embree/device.hpp"
-#include "accel/instruction_set.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 namespace {
 
 /// One instruction set by its three names.
@@ -124,4 +124,4 @@ void require_isa(const std::string& isa) {
       used, best->printed, best->printed));
 }
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

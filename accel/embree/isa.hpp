@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 
 /// The configuration of a device on so many threads (0: one for each core), held to `isa`
-/// (accel/instruction_set.hpp): "threads=1,isa=avx2".
+/// (accel/core/instruction_set.hpp): "threads=1,isa=avx2".
 std::string device_config(const std::string& isa, int threads = 1);
 
 /// The widest target that is both supported by the machine and compiled in, of what a verbose
@@ -24,4 +24,4 @@ std::string isa_in_use(const std::string& isa);
 /// others.
 void require_isa(const std::string& isa);
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

@@ -10,7 +10,7 @@
 
 #include "accel/embree/isa.hpp"
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 namespace {
 
 /// A new buffer of `count` elements, to be filled. Embree reads 16 bytes at every vertex, so that a
@@ -23,14 +23,14 @@ Element* new_buffer(const GeometryHandle& geometry, RTCBufferType type, RTCForma
 }
 
 /// Is it 0, 1, 2...?
-bool is_count(const std::vector<PrimitiveId>& ids) {
-  PrimitiveId expected = 0;
-  return std::ranges::all_of(ids, [&](PrimitiveId id) { return id == expected++; });
+bool is_count(const std::vector<scenes::PrimitiveId>& ids) {
+  scenes::PrimitiveId expected = 0;
+  return std::ranges::all_of(ids, [&](scenes::PrimitiveId id) { return id == expected++; });
 }
 
 }  // namespace
 
-NativeScene::NativeScene(const Scene& scene, RTCBuildQuality quality, bool robust,
+NativeScene::NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
                          const std::string& isa, int threads)
     : device_(device_config(isa, threads).c_str()),
       user_(scene),
@@ -41,13 +41,14 @@ NativeScene::NativeScene(const Scene& scene, RTCBuildQuality quality, bool robus
   rtcSetSceneFlags(scene_.get(), robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
 
   owners_.ids.reserve(scene.triangles.size() + scene.spheres.size() + scene.cones.size());
-  for (const Triangle& triangle : scene.triangles) owners_.ids.push_back(triangle.primitive);
+  for (const scenes::Triangle& triangle : scene.triangles)
+    owners_.ids.push_back(triangle.primitive);
   if (!scene.triangles.empty()) attach(kTriangles, make_triangles(scene), quality);
 
   owners_.first[kSpheres] = static_cast<std::uint32_t>(owners_.ids.size());
-  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-    const Primitive& primitive = scene.primitives[id];
-    if (primitive.kind == PrimitiveKind::kSphere && !is_user_primitive(scene, primitive)) {
+  for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+    const scenes::Primitive& primitive = scene.primitives[id];
+    if (primitive.kind == scenes::PrimitiveKind::kSphere && !is_user_primitive(scene, primitive)) {
       owners_.ids.push_back(id);
     }
   }
@@ -68,7 +69,7 @@ void NativeScene::attach(GeometryId id, const GeometryHandle& geometry, RTCBuild
   rtcAttachGeometryByID(scene_.get(), geometry.get(), id);
 }
 
-GeometryHandle NativeScene::make_triangles(const Scene& scene) {
+GeometryHandle NativeScene::make_triangles(const scenes::Scene& scene) {
   GeometryHandle geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
   auto* const vertices = new_buffer<glm::vec3>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT3,
                                                scene.vertices.size());
@@ -76,18 +77,19 @@ GeometryHandle NativeScene::make_triangles(const Scene& scene) {
   std::memcpy(vertices, scene.vertices.data(), scene.vertices.size() * sizeof(glm::vec3));
   // A triangle's indices stand in front of its owner, so that this array can be shared.
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                             scene.triangles.data(), 0, sizeof(Triangle), scene.triangles.size());
+                             scene.triangles.data(), 0, sizeof(scenes::Triangle),
+                             scene.triangles.size());
   return geometry;
 }
 
-GeometryHandle NativeScene::make_spheres(const Scene& scene) {
+GeometryHandle NativeScene::make_spheres(const scenes::Scene& scene) {
   GeometryHandle geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_SPHERE_POINT));
   auto* const points =
       new_buffer<glm::vec4>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, sphere_count());
   device_.check("building over " + scene.name);
   for (std::size_t i = 0; i < sphere_count(); ++i) {
-    const PrimitiveId id = owners_.ids[owners_.first[kSpheres] + i];
-    const Sphere& sphere = scene.spheres[scene.primitives[id].index];
+    const scenes::PrimitiveId id = owners_.ids[owners_.first[kSpheres] + i];
+    const scenes::Sphere& sphere = scene.spheres[scene.primitives[id].index];
     points[i] = glm::vec4(sphere.center, sphere.radius);
   }
   return geometry;
@@ -102,8 +104,8 @@ std::string NativeScene::geometry_types() const {
 }
 
 std::uint64_t NativeScene::bytes() const {
-  return device_.bytes() + owners_.ids.capacity() * sizeof(PrimitiveId) +
-         user_.ids().capacity() * sizeof(PrimitiveId);
+  return device_.bytes() + owners_.ids.capacity() * sizeof(scenes::PrimitiveId) +
+         user_.ids().capacity() * sizeof(scenes::PrimitiveId);
 }
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

@@ -10,7 +10,7 @@
 #include "accel/embree/user_geometry.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 
 /// The numbers of our geometries in Embree.
 enum GeometryId : unsigned { kTriangles, kSpheres, kUser, kGeometryCount };
@@ -18,7 +18,7 @@ enum GeometryId : unsigned { kTriangles, kSpheres, kUser, kGeometryCount };
 /// Whose Embree's primitives are.
 struct OwnerTable {
   /// Primitive ids of the three geometries' primitives, one geometry after the other.
-  std::vector<PrimitiveId> ids;
+  std::vector<scenes::PrimitiveId> ids;
   /// Where each geometry begins in `ids`.
   std::array<std::uint32_t, kGeometryCount> first{};
   bool in_order = false;  ///< ids[i] is i: one need not look
@@ -32,13 +32,13 @@ class NativeScene {
  public:
   /// `isa` is a value of `isa_parameter`.
   /// While it lives, TBB has no more than `threads` threads (0: one for each core).
-  NativeScene(const Scene& scene, RTCBuildQuality quality, bool robust, const std::string& isa,
-              int threads = 1);
+  NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
+              const std::string& isa, int threads = 1);
 
   RTCScene get() const { return scene_.get(); }
   /// Whose the hit is; kNoPrimitive for RTC_INVALID_GEOMETRY_ID.
-  PrimitiveId owner(unsigned geometry, unsigned primitive) const {
-    return geometry == RTC_INVALID_GEOMETRY_ID ? kNoPrimitive
+  scenes::PrimitiveId owner(unsigned geometry, unsigned primitive) const {
+    return geometry == RTC_INVALID_GEOMETRY_ID ? scenes::kNoPrimitive
                                                : owners_.ids[owners_.first[geometry] + primitive];
   }
   /// The same for those who ask for many at once.
@@ -54,8 +54,8 @@ class NativeScene {
 
  private:
   void attach(GeometryId id, const GeometryHandle& geometry, RTCBuildQuality quality);
-  GeometryHandle make_triangles(const Scene& scene);
-  GeometryHandle make_spheres(const Scene& scene);
+  GeometryHandle make_triangles(const scenes::Scene& scene);
+  GeometryHandle make_spheres(const scenes::Scene& scene);
 
   Device device_;
   UserGeometry user_;
@@ -63,4 +63,4 @@ class NativeScene {
   OwnerTable owners_;
 };
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

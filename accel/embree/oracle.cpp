@@ -7,7 +7,7 @@
 #include "accel/embree/device.hpp"
 #include "accel/embree/exact_tests.hpp"
 
-namespace beambench {
+namespace beambench::accel::embree {
 
 using embree::Context;
 using embree::ExactBounds;
@@ -21,7 +21,7 @@ struct OracleQuery : Context {
   explicit OracleQuery(const Ray& r) : Context(false), ray(r) {}
 
   ExactRay ray;  ///< t_max shrinks to the best hit
-  PrimitiveId primitive = kNoPrimitive;
+  scenes::PrimitiveId primitive = scenes::kNoPrimitive;
 };
 
 OracleQuery& query_of(embree::RawContext* context) { return *static_cast<OracleQuery*>(context); }
@@ -35,10 +35,10 @@ float rounded_up(double t) {
 /// One user geometry holds all primitives of one kind, which says how many there are, and of each
 /// its owner, its bounds and where a ray hits it first.
 struct Triangles {
-  const Scene& scene;
+  const scenes::Scene& scene;
 
   std::size_t count() const { return scene.triangles.size(); }
-  PrimitiveId owner(std::size_t i) const { return scene.triangles[i].primitive; }
+  scenes::PrimitiveId owner(std::size_t i) const { return scene.triangles[i].primitive; }
   ExactBounds bounds(std::size_t i) const { return embree::bounds_of(scene, scene.triangles[i]); }
   std::optional<double> hit(const ExactRay& ray, std::size_t i) const {
     return first_hit(ray, scene, scene.triangles[i]);
@@ -48,17 +48,17 @@ struct Triangles {
 template <class Shape>
 struct Shapes {
   const std::vector<Shape>& shapes;
-  std::vector<PrimitiveId> owners;
+  std::vector<scenes::PrimitiveId> owners;
 
-  Shapes(const Scene& scene, PrimitiveKind kind, const std::vector<Shape>& all)
+  Shapes(const scenes::Scene& scene, scenes::PrimitiveKind kind, const std::vector<Shape>& all)
       : shapes(all), owners(all.size()) {
-    for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-      const Primitive& primitive = scene.primitives[id];
+    for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+      const scenes::Primitive& primitive = scene.primitives[id];
       if (primitive.kind == kind) owners[primitive.index] = id;
     }
   }
   std::size_t count() const { return shapes.size(); }
-  PrimitiveId owner(std::size_t i) const { return owners[i]; }
+  scenes::PrimitiveId owner(std::size_t i) const { return owners[i]; }
   ExactBounds bounds(std::size_t i) const { return embree::bounds_of(shapes[i]); }
   std::optional<double> hit(const ExactRay& ray, std::size_t i) const {
     return first_hit(ray, shapes[i]);
@@ -88,7 +88,7 @@ struct Padded {
     const Padded& self = of(arguments->geometryUserPtr);
     OracleQuery& query = query_of(arguments->context);
     const std::optional<double> t = self.kind.hit(query.ray, arguments->primID);
-    const PrimitiveId owner = self.kind.owner(arguments->primID);
+    const scenes::PrimitiveId owner = self.kind.owner(arguments->primID);
     if (!t || (*t == query.ray.t_max && owner >= query.primitive)) {
       arguments->valid[0] = 0;
       return;
@@ -124,18 +124,18 @@ struct Padded {
   }
 };
 
-double padding(const Scene& scene, double reach) {
+double padding(const scenes::Scene& scene, double reach) {
   return 4.0 * 0x1p-23 * (static_cast<double>(scene.bounds.largest_coordinate()) + reach);
 }
 
 }  // namespace
 
 struct EmbreeOracle::State {
-  State(const Scene& s, double pad)
+  State(const scenes::Scene& s, double pad)
       : device(""),
         triangles{{s}, pad},
-        spheres{{s, PrimitiveKind::kSphere, s.spheres}, pad},
-        cones{{s, PrimitiveKind::kCone, s.cones}, pad},
+        spheres{{s, scenes::PrimitiveKind::kSphere, s.spheres}, pad},
+        cones{{s, scenes::PrimitiveKind::kCone, s.cones}, pad},
         scene(rtcNewScene(device.get())) {
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     triangles.attach(device.get(), scene.get());
@@ -147,12 +147,12 @@ struct EmbreeOracle::State {
 
   embree::Device device;
   Padded<Triangles> triangles;
-  Padded<Shapes<Sphere>> spheres;
-  Padded<Shapes<Cone>> cones;
+  Padded<Shapes<scenes::Sphere>> spheres;
+  Padded<Shapes<scenes::Cone>> cones;
   embree::SceneHandle scene;
 };
 
-EmbreeOracle::EmbreeOracle(const Scene& scene, double reach)
+EmbreeOracle::EmbreeOracle(const scenes::Scene& scene, double reach)
     : state_(std::make_unique<State>(scene, padding(scene, reach))) {}
 EmbreeOracle::~EmbreeOracle() = default;
 
@@ -160,7 +160,7 @@ std::optional<ExactHit> EmbreeOracle::closest_hit(const Ray& ray) const {
   OracleQuery query(ray);
   RTCRayHit ray_hit = embree::to_embree_query(ray);
   embree::intersect(state_->scene.get(), query, ray_hit);
-  if (query.primitive == kNoPrimitive) return std::nullopt;
+  if (query.primitive == scenes::kNoPrimitive) return std::nullopt;
   return ExactHit{query.ray.t_max, query.primitive};
 }
 
@@ -170,4 +170,4 @@ bool EmbreeOracle::any_hit(const Ray& ray) const {
   return embree::occluded(state_->scene.get(), query, out);
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::embree

@@ -4,15 +4,15 @@
 #include <memory>
 #include <optional>
 
-#include "accel/ray.hpp"
+#include "accel/core/ray.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::accel::embree {
 
 /// A hit whose t has not been rounded to float.
 struct ExactHit {
   double t;
-  PrimitiveId primitive;
+  scenes::PrimitiveId primitive;
 };
 
 /// Embree's BVH over user geometry whose intersectors compute in double, with code of their own
@@ -26,7 +26,7 @@ struct ExactHit {
 class EmbreeOracle {
  public:
   /// `reach`: the largest distance of a ray's origin from the origin of the coordinates.
-  EmbreeOracle(const Scene& scene, double reach);
+  EmbreeOracle(const scenes::Scene& scene, double reach);
   EmbreeOracle(const EmbreeOracle&) = delete;
   EmbreeOracle& operator=(const EmbreeOracle&) = delete;
   ~EmbreeOracle();
@@ -40,4 +40,4 @@ class EmbreeOracle {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::embree

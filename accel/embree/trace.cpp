@@ -2,7 +2,7 @@
 
 #include "accel/embree/trace_list.hpp"
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 namespace {
 
 constexpr TraceMode kModes[] = {
@@ -20,4 +20,4 @@ constexpr TraceMode kModes[] = {
 
 std::span<const TraceMode> trace_modes() { return kModes; }
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

@@ -6,7 +6,7 @@
 
 #include "accel/embree/image_tracers.hpp"
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 
 /// A way to ask Embree: for the closest hits of an image, and for closest or any hits of a list of
 /// rays.
@@ -22,4 +22,4 @@ struct TraceMode {
 /// The ways that the Embree we were built with has, the simplest first.
 std::span<const TraceMode> trace_modes();
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 namespace {
 
 template <int N>
@@ -39,8 +39,8 @@ void closest_hits_single(const NativeScene& scene, Context& context, std::span<c
   for (std::size_t i = 0; i < rays.size(); ++i) {
     RTCRayHit query = to_embree_query(rays[i]);
     intersect(scene.get(), context, query);
-    const PrimitiveId owner = scene.owner(query.hit.geomID, query.hit.primID);
-    buffer.t()[i] = owner == kNoPrimitive ? kInfinity : query.ray.tfar;
+    const scenes::PrimitiveId owner = scene.owner(query.hit.geomID, query.hit.primID);
+    buffer.t()[i] = owner == scenes::kNoPrimitive ? kInfinity : query.ray.tfar;
     buffer.primitive()[i] = owner;
   }
 }
@@ -63,8 +63,8 @@ void closest_hits_by_packets(const NativeScene& scene, Context& context, std::sp
     std::fill_n(query.hit.geomID, N, RTC_INVALID_GEOMETRY_ID);
     intersect(valid.data(), scene.get(), context, query);
     for (std::size_t i = 0; i < count; ++i) {
-      const PrimitiveId owner = scene.owner(query.hit.geomID[i], query.hit.primID[i]);
-      buffer.t()[first + i] = owner == kNoPrimitive ? kInfinity : query.ray.tfar[i];
+      const scenes::PrimitiveId owner = scene.owner(query.hit.geomID[i], query.hit.primID[i]);
+      buffer.t()[first + i] = owner == scenes::kNoPrimitive ? kInfinity : query.ray.tfar[i];
       buffer.primitive()[first + i] = owner;
     }
   }
@@ -97,4 +97,4 @@ template void any_hits_by_packets<8>(const NativeScene&, Context&, std::span<con
 template void any_hits_by_packets<16>(const NativeScene&, Context&, std::span<const Ray>,
                                       std::span<std::uint8_t>);
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

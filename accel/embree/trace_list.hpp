@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <span>
 
+#include "accel/core/hit_buffer.hpp"
 #include "accel/embree/native_scene.hpp"
-#include "accel/hit_buffer.hpp"
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 
 void closest_hits_single(const NativeScene& scene, Context& context, std::span<const Ray> rays,
                          HitBuffer& buffer);
@@ -22,4 +22,4 @@ template <int N>
 void any_hits_by_packets(const NativeScene& scene, Context& context, std::span<const Ray> rays,
                          std::span<std::uint8_t> answers);
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

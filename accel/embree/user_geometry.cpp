@@ -6,7 +6,7 @@
 
 #include "accel/embree/exact_tests.hpp"
 
-namespace beambench::embree {
+namespace beambench::accel::embree {
 namespace {
 
 /// Embree's float boxes must hold whatever the eye's distance; this many scene sizes away is as far
@@ -22,26 +22,28 @@ Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) {
   return ray;
 }
 
-std::optional<double> hit(const Scene& scene, PrimitiveId id, const Ray& ray) {
-  const Primitive& primitive = scene.primitives[id];
+std::optional<double> hit(const scenes::Scene& scene, scenes::PrimitiveId id, const Ray& ray) {
+  const scenes::Primitive& primitive = scene.primitives[id];
   const ExactRay exact(ray);
-  return primitive.kind == PrimitiveKind::kCone ? first_hit(exact, scene.cones[primitive.index])
-                                                : first_hit(exact, scene.spheres[primitive.index]);
+  return primitive.kind == scenes::PrimitiveKind::kCone
+             ? first_hit(exact, scene.cones[primitive.index])
+             : first_hit(exact, scene.spheres[primitive.index]);
 }
 
 }  // namespace
 
-bool is_user_primitive(const Scene& scene, const Primitive& primitive) {
-  return primitive.kind == PrimitiveKind::kCone ||
-         (primitive.kind == PrimitiveKind::kSphere && scene.spheres[primitive.index].inside_only);
+bool is_user_primitive(const scenes::Scene& scene, const scenes::Primitive& primitive) {
+  return primitive.kind == scenes::PrimitiveKind::kCone ||
+         (primitive.kind == scenes::PrimitiveKind::kSphere &&
+          scene.spheres[primitive.index].inside_only);
 }
 
-UserGeometry::UserGeometry(const Scene& scene)
+UserGeometry::UserGeometry(const scenes::Scene& scene)
     : scene_(scene),
       pad_(static_cast<float>(4.0 * 0x1p-23 *
                               (scene.bounds.largest_coordinate() +
                                kEyeDistance * glm::length(glm::dvec3(scene.bounds.extent()))))) {
-  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+  for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     if (is_user_primitive(scene, scene.primitives[id])) ids_.push_back(id);
   }
 }
@@ -58,7 +60,7 @@ GeometryHandle UserGeometry::make(RTCDevice device) {
 
 void UserGeometry::on_bounds(const RTCBoundsFunctionArguments* arguments) {
   const auto& self = *static_cast<const UserGeometry*>(arguments->geometryUserPtr);
-  const Bounds bounds = primitive_bounds(self.scene_, self.ids_[arguments->primID]);
+  const scenes::Bounds bounds = scenes::primitive_bounds(self.scene_, self.ids_[arguments->primID]);
   const glm::vec3 lower = bounds.lower - self.pad_;
   const glm::vec3 upper = bounds.upper + self.pad_;
   *arguments->bounds_o = {lower.x, lower.y, lower.z, 0.0F, upper.x, upper.y, upper.z, 0.0F};
@@ -99,4 +101,4 @@ void UserGeometry::on_occluded(const RTCOccludedFunctionNArguments* arguments) {
   }
 }
 
-}  // namespace beambench::embree
+}  // namespace beambench::accel::embree

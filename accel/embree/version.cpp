@@ -5,7 +5,7 @@
 #include "accel/embree/device.hpp"
 #include "accel/embree/isa.hpp"
 
-namespace beambench {
+namespace beambench::accel::embree {
 
 std::string embree_version() {
   const embree::Device device("threads=1");
@@ -19,4 +19,4 @@ std::string embree_version() {
 
 std::string embree_isa() { return embree::isa_in_use("best"); }
 
-}  // namespace beambench
+}  // namespace beambench::accel::embree

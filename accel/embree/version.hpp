@@ -3,7 +3,7 @@
 
 #include <string>
 
-namespace beambench {
+namespace beambench::accel::embree {
 
 /// The version of the Embree library that is loaded: "3.13.5".
 std::string embree_version();
@@ -12,4 +12,4 @@ std::string embree_version();
 /// The first call must not run while other threads write to std::cout (accel/embree/isa.hpp).
 std::string embree_isa();
 
-}  // namespace beambench
+}  // namespace beambench::accel::embree

@@ -1,17 +1,17 @@
 #include "accel/exhaustive/exhaustive.hpp"
 
-#include "accel/registry.hpp"
+#include "accel/core/registry.hpp"
 
-namespace beambench {
+namespace beambench::accel::exhaustive {
 
 void register_exhaustive(Registry& registry) {
   registry.add({"exhaustive",
                 "tests every primitive against every ray: the definition of the right answer",
                 Conformance::kBitExact,
                 {},
-                [](const Scene& scene, const Parameters&, const Workload&) {
+                [](const scenes::Scene& scene, const Parameters&, const Workload&) {
                   return std::make_unique<Exhaustive>(scene);
                 }});
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::exhaustive

@@ -1,15 +1,15 @@
 #pragma once
 // Exhaustive search: the definition of the right answer.
 
-#include "accel/intersect.hpp"
-#include "accel/traversal_accelerator.hpp"
+#include "accel/core/intersect.hpp"
+#include "accel/core/traversal_accelerator.hpp"
 
-namespace beambench {
+namespace beambench::accel::exhaustive {
 
 /// Tests every primitive against every ray. Every classic structure must return the same bits.
 class Exhaustive : public TraversalAccelerator<Exhaustive> {
  public:
-  explicit Exhaustive(const Scene& scene) : scene_(&scene) {}
+  explicit Exhaustive(const scenes::Scene& scene) : scene_(&scene) {}
 
   Statistics statistics() const override { return {}; }
 
@@ -18,7 +18,7 @@ class Exhaustive : public TraversalAccelerator<Exhaustive> {
     counting.add(Counter::kPrimitiveTests, scene_->primitives.size());
     ClosestHit closest(ray);
     counting.enter([&] { return TraceStep{.t_enter = ray.t_min, .t_exit = ray.t_max}; });
-    for (PrimitiveId id = 0; id < scene_->primitives.size(); ++id) {
+    for (scenes::PrimitiveId id = 0; id < scene_->primitives.size(); ++id) {
       counting.tested(id, closest.test(*scene_, id));
     }
     return closest.result();
@@ -27,7 +27,7 @@ class Exhaustive : public TraversalAccelerator<Exhaustive> {
   template <class Counting>
   bool find_any(const Ray& ray, Counting& counting) const {
     const CanonicalRay canonical(ray);
-    for (PrimitiveId id = 0; id < scene_->primitives.size(); ++id) {
+    for (scenes::PrimitiveId id = 0; id < scene_->primitives.size(); ++id) {
       counting.add(Counter::kPrimitiveTests);
       if (is_hit(intersect(canonical, *scene_, id))) return true;
     }
@@ -35,7 +35,7 @@ class Exhaustive : public TraversalAccelerator<Exhaustive> {
   }
 
  private:
-  const Scene* scene_;
+  const scenes::Scene* scene_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::exhaustive

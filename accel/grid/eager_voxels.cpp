@@ -3,23 +3,23 @@
 #include <algorithm>
 #include <numeric>
 
+#include "accel/core/tolerance.hpp"
 #include "accel/grid/reference_cap.hpp"
 #include "accel/grid/voxel_walk.hpp"
-#include "accel/tolerance.hpp"
 
-namespace beambench {
+namespace beambench::accel::grid {
 
 namespace {
 
 struct Entry {
   std::uint32_t voxel;
-  PrimitiveId primitive;
+  scenes::PrimitiveId primitive;
 };
 
 /// Finds the voxels that one primitive after the other reaches into.
 class Rasterizer {
  public:
-  Rasterizer(const Scene& scene, const CellGrid& grid, std::uint64_t max_references)
+  Rasterizer(const scenes::Scene& scene, const CellGrid& grid, std::uint64_t max_references)
       : scene_(scene),
         grid_(grid),
         tolerance_(overlap_tolerance(scene)),
@@ -27,8 +27,8 @@ class Rasterizer {
     entries_.reserve(scene.primitives.size());
   }
 
-  void add(PrimitiveId id) {
-    const CellRange range = cell_range(grid_, primitive_bounds(scene_, id), tolerance_);
+  void add(scenes::PrimitiveId id) {
+    const CellRange range = cell_range(grid_, scenes::primitive_bounds(scene_, id), tolerance_);
     glm::ivec3 corner(0);
     glm::ivec3 size(0);
     for (int axis = 0; axis < 3; ++axis) {
@@ -46,7 +46,7 @@ class Rasterizer {
   /// Halves a block of voxels that the primitive is known to reach into, down to single ones: what
   /// is large costs by its surface, not by the volume around it. In a row of voxels that holds the
   /// whole primitive its surface, being connected, crosses each: no test is needed.
-  void split(PrimitiveId id, const glm::ivec3& corner, const glm::ivec3& size, bool row) {
+  void split(scenes::PrimitiveId id, const glm::ivec3& corner, const glm::ivec3& size, bool row) {
     const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
     if (size[axis] == 1) {
       emit(id, corner);
@@ -62,17 +62,17 @@ class Rasterizer {
     if (row || reaches(id, middle, rest)) split(id, middle, rest, row);
   }
 
-  bool reaches(PrimitiveId id, const glm::ivec3& corner, const glm::ivec3& size) const {
+  bool reaches(scenes::PrimitiveId id, const glm::ivec3& corner, const glm::ivec3& size) const {
     return surface_overlaps(scene_, id, grid_.box(corner, size), tolerance_);
   }
 
-  void emit(PrimitiveId id, const glm::ivec3& voxel) {
+  void emit(scenes::PrimitiveId id, const glm::ivec3& voxel) {
     if (entries_.size() == max_references_)
       fail_too_many_references(scene_, grid_, max_references_);
     entries_.push_back({static_cast<std::uint32_t>(voxel_index(grid_, voxel)), id});
   }
 
-  const Scene& scene_;
+  const scenes::Scene& scene_;
   const CellGrid& grid_;
   double tolerance_;
   std::uint64_t max_references_;
@@ -81,9 +81,10 @@ class Rasterizer {
 
 }  // namespace
 
-EagerVoxels::EagerVoxels(const Scene& scene, const CellGrid& grid, std::uint64_t max_references) {
+EagerVoxels::EagerVoxels(const scenes::Scene& scene, const CellGrid& grid,
+                         std::uint64_t max_references) {
   Rasterizer rasterizer(scene, grid, max_references);
-  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) rasterizer.add(id);
+  for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) rasterizer.add(id);
   const std::vector<Entry> entries = std::move(rasterizer).take_entries();
 
   // A stable counting sort by voxel: ids stay in increasing order. While it runs, first_[v + 1] is
@@ -103,8 +104,8 @@ void EagerVoxels::describe(Statistics& statistics) const {
     if (first_[voxel] == first_[voxel + 1]) ++statistics.empty_leaves;
   }
   statistics.references = references_.size();
-  statistics.bytes +=
-      first_.capacity() * sizeof(std::uint32_t) + references_.capacity() * sizeof(PrimitiveId);
+  statistics.bytes += first_.capacity() * sizeof(std::uint32_t) +
+                      references_.capacity() * sizeof(scenes::PrimitiveId);
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::grid

@@ -5,20 +5,20 @@
 #include <span>
 #include <vector>
 
-#include "accel/cell_grid.hpp"
-#include "accel/statistics.hpp"
+#include "accel/core/cell_grid.hpp"
+#include "accel/core/statistics.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::accel::grid {
 
 /// The primitives whose surface reaches into each closed voxel, widened by `overlap_tolerance`, in
 /// increasing id: one list after the other.
 class EagerVoxels {
  public:
   /// Throws InputError naming `max_references` when the lists exceed it.
-  EagerVoxels(const Scene& scene, const CellGrid& grid, std::uint64_t max_references);
+  EagerVoxels(const scenes::Scene& scene, const CellGrid& grid, std::uint64_t max_references);
 
-  std::span<const PrimitiveId> references(std::size_t voxel) const {
+  std::span<const scenes::PrimitiveId> references(std::size_t voxel) const {
     return {references_.data() + first_[voxel], first_[voxel + 1] - first_[voxel]};
   }
   bool holds_references(std::size_t voxel) const { return !references(voxel).empty(); }
@@ -27,7 +27,7 @@ class EagerVoxels {
 
  private:
   std::vector<std::uint32_t> first_;  ///< by voxel, and the end of the last
-  std::vector<PrimitiveId> references_;
+  std::vector<scenes::PrimitiveId> references_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::grid

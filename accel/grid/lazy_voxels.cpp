@@ -2,21 +2,22 @@
 
 #include <utility>
 
+#include "accel/core/tolerance.hpp"
 #include "accel/grid/reference_cap.hpp"
 #include "accel/grid/voxel_walk.hpp"
-#include "accel/tolerance.hpp"
 
-namespace beambench {
+namespace beambench::accel::grid {
 
-LazyVoxels::LazyVoxels(const Scene& scene, const CellGrid& grid, std::uint64_t max_references)
+LazyVoxels::LazyVoxels(const scenes::Scene& scene, const CellGrid& grid,
+                       std::uint64_t max_references)
     : scene_(scene),
       grid_(grid),
       tolerance_(overlap_tolerance(scene)),
       max_references_(max_references),
       lists_(voxel_count(grid)) {
   ranges_.reserve(scene.primitives.size());
-  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-    ranges_.push_back(cell_range(grid_, primitive_bounds(scene, id), tolerance_));
+  for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+    ranges_.push_back(cell_range(grid_, scenes::primitive_bounds(scene, id), tolerance_));
   }
 }
 
@@ -31,7 +32,7 @@ std::unique_ptr<const LazyVoxels::List> LazyVoxels::evaluate(std::size_t voxel) 
   const glm::ivec3 place = voxel_at(grid_, voxel);
   const Box box = grid_.box(place, 1);
   List found;
-  for (PrimitiveId id = 0; id < scene_.primitives.size(); ++id) {
+  for (scenes::PrimitiveId id = 0; id < scene_.primitives.size(); ++id) {
     if (ranges_[id].contains(place) && surface_overlaps(scene_, id, box, tolerance_)) {
       found.push_back(id);
     }
@@ -67,7 +68,7 @@ void LazyVoxels::describe(Statistics& statistics) const {
       continue;
     }
     statistics.references += list->size();
-    statistics.bytes += sizeof(List) + list->capacity() * sizeof(PrimitiveId);
+    statistics.bytes += sizeof(List) + list->capacity() * sizeof(scenes::PrimitiveId);
   }
   statistics.bytes +=
       lists_.capacity() * sizeof(lists_[0]) + ranges_.capacity() * sizeof(CellRange);
@@ -76,4 +77,4 @@ void LazyVoxels::describe(Statistics& statistics) const {
                                static_cast<double>(evaluated) / static_cast<double>(lists_.size()));
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::grid

@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "accel/cell_grid.hpp"
-#include "accel/statistics.hpp"
+#include "accel/core/cell_grid.hpp"
+#include "accel/core/statistics.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::accel::grid {
 
 /// The grid of the thesis: nothing is built; the first ray that enters a voxel has every primitive
 /// of the scene tested for overlap with it, its range of voxels first. The lists are those of
@@ -21,13 +21,13 @@ namespace beambench {
 /// compare-exchange; who comes second discards its own, which holds the same.
 class LazyVoxels {
  public:
-  LazyVoxels(const Scene& scene, const CellGrid& grid, std::uint64_t max_references);
+  LazyVoxels(const scenes::Scene& scene, const CellGrid& grid, std::uint64_t max_references);
   LazyVoxels(const LazyVoxels&) = delete;
   LazyVoxels& operator=(const LazyVoxels&) = delete;
   ~LazyVoxels();
 
   /// Throws InputError naming `max_references` when the lists made so far exceed it.
-  std::span<const PrimitiveId> references(std::size_t voxel) const {
+  std::span<const scenes::PrimitiveId> references(std::size_t voxel) const {
     const List* list = lists_[voxel].load(std::memory_order_acquire);
     if (list == nullptr) list = &publish(voxel, evaluate(voxel));
     return *list;
@@ -41,14 +41,14 @@ class LazyVoxels {
   void describe(Statistics& statistics) const;
 
  private:
-  using List = std::vector<PrimitiveId>;
+  using List = std::vector<scenes::PrimitiveId>;
 
   /// Nothing where nothing reaches into the voxel.
   std::unique_ptr<const List> evaluate(std::size_t voxel) const;
   /// The list that all threads see from now on: this one or an earlier one.
   const List& publish(std::size_t voxel, std::unique_ptr<const List> list) const;
 
-  const Scene& scene_;
+  const scenes::Scene& scene_;
   CellGrid grid_;
   double tolerance_;
   std::uint64_t max_references_;
@@ -60,4 +60,4 @@ class LazyVoxels {
   mutable std::atomic<std::uint64_t> references_made_{0};
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::grid

@@ -8,7 +8,7 @@
 
 #include "scenes/primitive.hpp"
 
-namespace beambench {
+namespace beambench::accel::grid {
 
 /// One ray's view of the mailboxes (Arnaldi, Priol and Bouatouch, "A new space subdivision method
 /// for ray tracing CSG modelled scenes", 1987; Amanatides and Woo, 1987): each primitive remembers
@@ -28,7 +28,7 @@ class Mailboxes {
   }
 
   /// Was the primitive not asked for before with this ray?
-  bool is_first(PrimitiveId id) {
+  bool is_first(scenes::PrimitiveId id) {
     std::uint32_t& last = scratch_.last_ray[id];
     if (last == scratch_.ray) return false;
     last = scratch_.ray;
@@ -48,4 +48,4 @@ class Mailboxes {
   Scratch& scratch_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::grid

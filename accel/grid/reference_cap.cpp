@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::accel::grid {
 
-void fail_too_many_references(const Scene& scene, const CellGrid& grid,
+void fail_too_many_references(const scenes::Scene& scene, const CellGrid& grid,
                               std::uint64_t max_references) {
   throw InputError(fmt::format(
       "the grid of {}x{}x{} voxels over '{}' ({} primitives) holds more than {} references; lower "
@@ -15,4 +15,4 @@ void fail_too_many_references(const Scene& scene, const CellGrid& grid,
       max_references));
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::grid

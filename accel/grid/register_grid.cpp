@@ -1,15 +1,15 @@
+#include "accel/core/registry.hpp"
 #include "accel/grid/eager_voxels.hpp"
 #include "accel/grid/lazy_voxels.hpp"
 #include "accel/grid/mailboxes.hpp"
 #include "accel/grid/voxel_grid.hpp"
-#include "accel/registry.hpp"
 
-namespace beambench {
+namespace beambench::accel::grid {
 
 namespace {
 
 template <class Voxels>
-std::unique_ptr<Accelerator> build(const Scene& scene, const VoxelGridOptions& options) {
+std::unique_ptr<Accelerator> build(const scenes::Scene& scene, const VoxelGridOptions& options) {
   if (options.mailboxes) return std::make_unique<VoxelGrid<Voxels, Mailboxes>>(scene, options);
   return std::make_unique<VoxelGrid<Voxels, NoMailboxes>>(scene, options);
 }
@@ -21,7 +21,7 @@ void register_grid(Registry& registry) {
                 "a uniform grid of voxels with the incremental traversal of Amanatides and Woo "
                 "(1987), filled where rays come by, as in the thesis, or beforehand",
                 Conformance::kBitExact, VoxelGridOptions::parameters(),
-                [](const Scene& scene, const Parameters& parameters, const Workload&) {
+                [](const scenes::Scene& scene, const Parameters& parameters, const Workload&) {
                   const auto options = VoxelGridOptions::from(parameters);
                   return options.fill == VoxelGridOptions::Fill::kLazy
                              ? build<LazyVoxels>(scene, options)
@@ -29,4 +29,4 @@ void register_grid(Registry& registry) {
                 }});
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::grid

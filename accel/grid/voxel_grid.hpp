@@ -1,12 +1,12 @@
 #pragma once
 // A uniform grid of voxels.
 
-#include "accel/cell_search.hpp"
+#include "accel/core/cell_search.hpp"
+#include "accel/core/traversal_accelerator.hpp"
 #include "accel/grid/voxel_grid_options.hpp"
 #include "accel/grid/voxel_walk.hpp"
-#include "accel/traversal_accelerator.hpp"
 
-namespace beambench {
+namespace beambench::accel::grid {
 
 /// A uniform grid with the traversal of Amanatides and Woo (`walk_voxels`). `Voxels` holds the
 /// lists (`EagerVoxels`, `LazyVoxels`); `Boxes` is `Mailboxes` or `NoMailboxes`. Neither changes a
@@ -14,7 +14,7 @@ namespace beambench {
 template <class Voxels, class Boxes>
 class VoxelGrid : public TraversalAccelerator<VoxelGrid<Voxels, Boxes>> {
  public:
-  VoxelGrid(const Scene& scene, const VoxelGridOptions& options)
+  VoxelGrid(const scenes::Scene& scene, const VoxelGridOptions& options)
       : scene_(&scene),
         grid_(make_voxel_grid(scene, options)),
         voxels_(scene, grid_, options.max_references) {}
@@ -62,9 +62,9 @@ class VoxelGrid : public TraversalAccelerator<VoxelGrid<Voxels, Boxes>> {
     };
   }
 
-  const Scene* scene_;
+  const scenes::Scene* scene_;
   CellGrid grid_;
   Voxels voxels_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::grid

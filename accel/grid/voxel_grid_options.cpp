@@ -5,11 +5,11 @@
 
 #include <fmt/format.h>
 
+#include "accel/core/tolerance.hpp"
 #include "accel/grid/voxel_walk.hpp"
-#include "accel/tolerance.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::accel::grid {
 
 namespace {
 
@@ -48,18 +48,19 @@ glm::ivec3 cubic_cells(const glm::dvec3& size, double wanted) {
 
 /// An estimate from above of the references in a grid of `cells`: a surface reaches into the voxels
 /// of its bounds, or, where those are many, into about twice as many as its bounds' sides show.
-double estimated_references(const Scene& scene, const glm::dvec3& size, const glm::ivec3& cells) {
+double estimated_references(const scenes::Scene& scene, const glm::dvec3& size,
+                            const glm::ivec3& cells) {
   const glm::dvec3 voxels_per_unit = glm::dvec3(cells) / glm::max(size, glm::dvec3(1e-300));
   double references = 0.0;
-  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-    const glm::dvec3 extent(primitive_bounds(scene, id).extent());
+  for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+    const glm::dvec3 extent(scenes::primitive_bounds(scene, id).extent());
     const glm::dvec3 n = glm::min(extent * voxels_per_unit + 1.0, glm::dvec3(cells));
     references += std::min(n.x * n.y * n.z, 2.0 * (n.x * n.y + n.y * n.z + n.z * n.x));
   }
   return references;
 }
 
-glm::ivec3 automatic_cells(const Scene& scene, const glm::dvec3& size,
+glm::ivec3 automatic_cells(const scenes::Scene& scene, const glm::dvec3& size,
                            const VoxelGridOptions& options) {
   double wanted = std::clamp(options.density * static_cast<double>(scene.primitives.size()), 1.0,
                              static_cast<double>(options.max_voxels));
@@ -106,7 +107,7 @@ VoxelGridOptions VoxelGridOptions::from(const Parameters& parameters) {
   return options;
 }
 
-CellGrid make_voxel_grid(const Scene& scene, const VoxelGridOptions& options) {
+CellGrid make_voxel_grid(const scenes::Scene& scene, const VoxelGridOptions& options) {
   glm::dvec3 size(0.0);
   if (!scene.bounds.empty()) size = glm::dvec3(scene.bounds.upper) - glm::dvec3(scene.bounds.lower);
   glm::ivec3 cells(1);
@@ -129,4 +130,4 @@ CellGrid make_voxel_grid(const Scene& scene, const VoxelGridOptions& options) {
   return make_cell_grid(scene.bounds, size, margin, cells);
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::grid

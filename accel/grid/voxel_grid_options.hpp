@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "accel/cell_grid.hpp"
-#include "scenes/parameters.hpp"
+#include "accel/core/cell_grid.hpp"
+#include "scenes/core/parameters.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::accel::grid {
 
 struct VoxelGridOptions {
   enum class Fill { kLazy, kEager };
@@ -27,6 +27,6 @@ struct VoxelGridOptions {
 };
 
 /// The grid over the scene's own box. Throws InputError naming `max_voxels` when it has more.
-CellGrid make_voxel_grid(const Scene& scene, const VoxelGridOptions& options);
+CellGrid make_voxel_grid(const scenes::Scene& scene, const VoxelGridOptions& options);
 
-}  // namespace beambench
+}  // namespace beambench::accel::grid

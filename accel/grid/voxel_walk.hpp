@@ -5,12 +5,12 @@
 #include <array>
 #include <cstddef>
 
-#include "accel/cell_grid.hpp"
-#include "accel/cell_ray.hpp"
-#include "accel/trace_step.hpp"
-#include "accel/work_counters.hpp"
+#include "accel/core/cell_grid.hpp"
+#include "accel/core/cell_ray.hpp"
+#include "accel/core/trace_step.hpp"
+#include "accel/core/work_counters.hpp"
 
-namespace beambench {
+namespace beambench::accel::grid {
 
 /// The most cells along an axis. The bound below rests on it.
 inline constexpr std::int32_t kMostCellsAnAxis = 4096;
@@ -40,7 +40,7 @@ inline glm::ivec3 voxel_at(const CellGrid& grid, std::size_t index) {
 /// These sums are not exact, yet no hit is lost. The intervals between the computed t follow each
 /// other without a gap, so a hit's t lies in the interval of one voxel. After n additions tMax is
 /// off by less than 2 n 2^-53 of the largest t in the grid; times the direction, and with an eye
-/// within 8 scene sizes (accel/tolerance.hpp: 10 diagonals), the point lies at most
+/// within 8 scene sizes (accel/core/tolerance.hpp: 10 diagonals), the point lies at most
 /// 2 x 2^12 x 2^-53 x 10 < 2^-36 diagonals outside its voxel. Overlaps are widened by 2^-30
 /// diagonals, of which the canonical tests use less than 0.63.
 template <class Counting, class Visit>
@@ -89,4 +89,4 @@ void walk_voxels(const CellGrid& grid, const Ray& ray, Counting& counting, Visit
   }
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::grid

@@ -1,12 +1,12 @@
 // A structure that answers nothing: what remains of a measurement is the harness's own share.
 
+#include "accel/core/instruction_set.hpp"
+#include "accel/core/registry.hpp"
+#include "accel/core/share_rows.hpp"
+#include "accel/core/traversal_accelerator.hpp"
 #include "accel/embree/image_tracers.hpp"
-#include "accel/instruction_set.hpp"
-#include "accel/registry.hpp"
-#include "accel/share_rows.hpp"
-#include "accel/traversal_accelerator.hpp"
 
-namespace beambench {
+namespace beambench::accel::null {
 
 namespace {
 
@@ -72,11 +72,11 @@ void register_null(Registry& registry) {
        {choice_parameter("rays", "single", {"single", "simd"},
                          "how an image's rays are made and its hits are stored: one by one, as for "
                          "most structures, or by SIMD, as for embree")},
-       [](const Scene&, const Parameters& parameters,
+       [](const scenes::Scene&, const Parameters& parameters,
           const Workload&) -> std::unique_ptr<Accelerator> {
          if (parameters.choice("rays") == "single") return std::make_unique<Null>();
          return std::make_unique<SimdNull>(targets_of("best"));
        }});
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::null

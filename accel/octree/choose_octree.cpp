@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace beambench {
+namespace beambench::accel::octree {
 namespace {
 
 constexpr int kFirstLevel = 3;
@@ -28,7 +28,7 @@ OctreeWork usual_work_before(const OctreeWork& first) {
 
 class LevelSearch {
  public:
-  LevelSearch(const Scene& scene, const OctreeOptions& options, const Workload& workload,
+  LevelSearch(const scenes::Scene& scene, const OctreeOptions& options, const Workload& workload,
               const TraceCost& trace_cost, const CountMore& count_more)
       : scene_(&scene),
         options_(options),
@@ -71,7 +71,7 @@ class LevelSearch {
     return 60.0 * work.nodes + 70.0 * work.references + (*trace_cost_)(work);
   }
 
-  const Scene* scene_;
+  const scenes::Scene* scene_;
   OctreeOptions options_;
   const Workload* workload_;
   const TraceCost* trace_cost_;
@@ -84,10 +84,11 @@ double samet_trace_cost(const OctreeWork& work) {
   return work.rays * (8.4 * work.steps + 12.6 * work.tests);
 }
 
-Octree choose_octree(const Scene& scene, const OctreeOptions& options, const Workload& workload,
-                     const TraceCost& trace_cost, const CountMore& count_more) {
+Octree choose_octree(const scenes::Scene& scene, const OctreeOptions& options,
+                     const Workload& workload, const TraceCost& trace_cost,
+                     const CountMore& count_more) {
   if (options.max_level != OctreeOptions::kAutomatic) return {scene, options};
   return LevelSearch(scene, options, workload, trace_cost, count_more).find();
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::octree

@@ -5,7 +5,7 @@
 
 #include "accel/octree/octree_work.hpp"
 
-namespace beambench {
+namespace beambench::accel::octree {
 
 /// Nanoseconds that tracing individual rays is expected to take. The coefficients are those of
 /// section 5.3.3 of the thesis, fitted to measured times (results/published/thesis): what matters
@@ -22,7 +22,8 @@ using TraceCost = std::function<double(const OctreeWork& work)>;
 /// octree made from the one before, as long as building and tracing the next one promise to cost
 /// less. Throws as
 /// `Octree`, but where the level is automatic it ends before `max_references` are exceeded.
-Octree choose_octree(const Scene& scene, const OctreeOptions& options, const Workload& workload,
-                     const TraceCost& trace_cost, const CountMore& count_more = {});
+Octree choose_octree(const scenes::Scene& scene, const OctreeOptions& options,
+                     const Workload& workload, const TraceCost& trace_cost,
+                     const CountMore& count_more = {});
 
-}  // namespace beambench
+}  // namespace beambench::accel::octree

@@ -5,13 +5,13 @@
 #include <array>
 #include <string_view>
 
-#include "accel/cell_ray.hpp"
+#include "accel/core/cell_ray.hpp"
+#include "accel/core/trace_step.hpp"
+#include "accel/core/work_counters.hpp"
 #include "accel/octree/octree.hpp"
 #include "accel/octree/octree_cursor.hpp"
-#include "accel/trace_step.hpp"
-#include "accel/work_counters.hpp"
 
-namespace beambench {
+namespace beambench::accel::octree {
 
 /// What structures over an octree count beside the rest: nodes passed from a leaf to its neighbour
 /// of equal or larger size. The way down to a smaller leaf, the same for all, is not in it.
@@ -96,4 +96,4 @@ void walk_leaves_behind(OctreeCursor cursor, const Octree& octree, const Neighbo
   walk_leaves_from(cursor, exit.t, passed, octree, neighbours, ray, way, counting, visit);
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::octree

@@ -2,7 +2,7 @@
 
 #include "accel/octree/octree_cursor.hpp"
 
-namespace beambench {
+namespace beambench::accel::octree {
 
 namespace {
 
@@ -54,7 +54,7 @@ Statistics Octree::statistics() const {
   statistics.references = reference_count();
   statistics.depth = static_cast<std::uint64_t>(deepest_level_);
   statistics.bytes = sizeof(*this) + nodes_.capacity() * sizeof(OctreeNode) +
-                     references_.capacity() * sizeof(PrimitiveId);
+                     references_.capacity() * sizeof(scenes::PrimitiveId);
   return statistics;
 }
 
@@ -79,4 +79,4 @@ std::vector<Box> Octree::occupied_cells() const {
   return cells;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::octree

@@ -7,12 +7,12 @@
 #include <span>
 #include <vector>
 
-#include "accel/cell_grid.hpp"
-#include "accel/statistics.hpp"
-#include "scenes/parameters.hpp"
+#include "accel/core/cell_grid.hpp"
+#include "accel/core/statistics.hpp"
+#include "scenes/core/parameters.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::accel::octree {
 
 /// How an octree is subdivided.
 struct OctreeOptions {
@@ -36,7 +36,7 @@ struct OctreeOptions {
 };
 
 /// The finest cells of an octree of these options over a scene: its root, divided evenly.
-CellGrid octree_grid(const Scene& scene, const OctreeOptions& options);
+CellGrid octree_grid(const scenes::Scene& scene, const OctreeOptions& options);
 
 /// A part of an octree, where a scene is divided among several processes: all cells of `level` are
 /// there, those that are not `own` as empty leaves, whatever is in them.
@@ -65,15 +65,15 @@ class Octree {
   /// Static subdivision (thesis, section 3.3): the root is split until a node has at most
   /// `max_objects` primitives or lies at `max_level`. Throws InputError naming `max_references`
   /// when the references exceed it.
-  Octree(const Scene& scene, const OctreeOptions& options);
+  Octree(const scenes::Scene& scene, const OctreeOptions& options);
 
   /// The same as `Octree(scene, options)`, made faster from the octree of a lower `max_level` and
   /// otherwise equal options.
-  Octree(const Scene& scene, const OctreeOptions& options, const Octree& coarser);
+  Octree(const scenes::Scene& scene, const OctreeOptions& options, const Octree& coarser);
 
   /// A part of an octree, over a scene that has at least all primitives that reach into its own
   /// cells.
-  Octree(const Scene& scene, const OctreeOptions& options, const OctreePart& part);
+  Octree(const scenes::Scene& scene, const OctreeOptions& options, const OctreePart& part);
 
   /// The finest cells, as many along each axis: 2^(max_level - 1).
   const CellGrid& grid() const { return grid_; }
@@ -81,7 +81,7 @@ class Octree {
   /// Of all leaves together.
   std::size_t reference_count() const { return references_.size(); }
   std::span<const OctreeNode> nodes() const { return nodes_; }
-  std::span<const PrimitiveId> references(const OctreeNode& leaf) const {
+  std::span<const scenes::PrimitiveId> references(const OctreeNode& leaf) const {
     return {references_.data() + leaf.first, leaf.count};
   }
 
@@ -94,8 +94,8 @@ class Octree {
 
   CellGrid grid_;
   std::vector<OctreeNode> nodes_;
-  std::vector<PrimitiveId> references_;
+  std::vector<scenes::PrimitiveId> references_;
   int deepest_level_ = 1;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::octree

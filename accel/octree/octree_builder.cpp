@@ -9,11 +9,11 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include "accel/core/tolerance.hpp"
 #include "accel/octree/octree.hpp"
-#include "accel/tolerance.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::accel::octree {
 
 namespace {
 
@@ -27,7 +27,7 @@ struct Pending {
 
 }  // namespace
 
-CellGrid octree_grid(const Scene& scene, const OctreeOptions& options) {
+CellGrid octree_grid(const scenes::Scene& scene, const OctreeOptions& options) {
   const double tolerance = overlap_tolerance(scene);
   glm::dvec3 size(0.0);
   if (!scene.bounds.empty()) size = glm::dvec3(scene.bounds.upper) - glm::dvec3(scene.bounds.lower);
@@ -44,7 +44,7 @@ CellGrid octree_grid(const Scene& scene, const OctreeOptions& options) {
 class OctreeBuilder {
  public:
   /// `part`, if given, outlives the builder.
-  OctreeBuilder(const Scene& scene, const OctreeOptions& options, Octree& octree,
+  OctreeBuilder(const scenes::Scene& scene, const OctreeOptions& options, Octree& octree,
                 const OctreePart* part = nullptr)
       : scene_(scene),
         options_(options),
@@ -58,7 +58,7 @@ class OctreeBuilder {
     begin();
     auto& all = lists_[1];
     all.resize(scene_.primitives.size());
-    std::iota(all.begin(), all.end(), PrimitiveId{0});
+    std::iota(all.begin(), all.end(), scenes::PrimitiveId{0});
     subdivide(root(), all);
     finish();
   }
@@ -72,10 +72,11 @@ class OctreeBuilder {
  private:
   void begin() {
     octree_.grid_ = octree_grid(scene_, options_);
-    const auto count = static_cast<PrimitiveId>(scene_.primitives.size());
+    const auto count = static_cast<scenes::PrimitiveId>(scene_.primitives.size());
     ranges_.reserve(count);
-    for (PrimitiveId id = 0; id < count; ++id) {
-      ranges_.push_back(cell_range(octree_.grid_, primitive_bounds(scene_, id), tolerance_));
+    for (scenes::PrimitiveId id = 0; id < count; ++id) {
+      ranges_.push_back(
+          cell_range(octree_.grid_, scenes::primitive_bounds(scene_, id), tolerance_));
     }
     octree_.references_.reserve(count);
     octree_.nodes_.push_back({0, 0, 0});
@@ -114,7 +115,7 @@ class OctreeBuilder {
     return {first_child + octant, pending.level + 1, pending.corner + offset * half, half};
   }
 
-  void subdivide(const Pending& pending, std::span<const PrimitiveId> primitives) {
+  void subdivide(const Pending& pending, std::span<const scenes::PrimitiveId> primitives) {
     octree_.deepest_level_ = std::max(octree_.deepest_level_, pending.level);
     if (is_foreign(pending)) primitives = {};
     if (!must_be_split(pending) &&
@@ -140,7 +141,7 @@ class OctreeBuilder {
     return part_ != nullptr && pending.level < part_->level;
   }
 
-  void make_leaf(std::uint32_t node, std::span<const PrimitiveId> primitives) {
+  void make_leaf(std::uint32_t node, std::span<const scenes::PrimitiveId> primitives) {
     auto& references = octree_.references_;
     if (references.size() + primitives.size() > options_.max_references) {
       throw InputError(fmt::format(
@@ -156,7 +157,7 @@ class OctreeBuilder {
   /// Writes the children's lists, one after the other, to the next level's array; returns where
   /// each ends. A stable counting sort: increasing ids stay so.
   std::array<std::size_t, 8> distribute(const Pending& pending,
-                                        std::span<const PrimitiveId> primitives) {
+                                        std::span<const scenes::PrimitiveId> primitives) {
     auto& octants = octants_[static_cast<std::size_t>(pending.level)];
     octants.resize(primitives.size());
     std::array<std::size_t, 8> ends{};
@@ -182,7 +183,7 @@ class OctreeBuilder {
   }
 
   /// The children that a primitive of the node belongs to, as a bit mask.
-  std::uint8_t overlapped_octants(const Pending& pending, PrimitiveId id) const {
+  std::uint8_t overlapped_octants(const Pending& pending, scenes::PrimitiveId id) const {
     constexpr std::array<std::uint8_t, 3> kLowHalf{0x55, 0x33,
                                                    0x0F};  // octants with the axis' bit 0
     const CellRange& range = ranges_[id];
@@ -216,26 +217,26 @@ class OctreeBuilder {
     return octants;
   }
 
-  const Scene& scene_;
+  const scenes::Scene& scene_;
   const OctreeOptions& options_;
   Octree& octree_;
   const OctreePart* part_;
   double tolerance_;
-  std::vector<CellRange> ranges_;                   ///< in finest cells, by primitive
-  std::vector<std::vector<PrimitiveId>> lists_;     ///< by level
-  std::vector<std::vector<std::uint8_t>> octants_;  ///< by level
+  std::vector<CellRange> ranges_;                        ///< in finest cells, by primitive
+  std::vector<std::vector<scenes::PrimitiveId>> lists_;  ///< by level
+  std::vector<std::vector<std::uint8_t>> octants_;       ///< by level
 };
 
-Octree::Octree(const Scene& scene, const OctreeOptions& options) {
+Octree::Octree(const scenes::Scene& scene, const OctreeOptions& options) {
   OctreeBuilder(scene, options, *this).build();
 }
 
-Octree::Octree(const Scene& scene, const OctreeOptions& options, const Octree& coarser) {
+Octree::Octree(const scenes::Scene& scene, const OctreeOptions& options, const Octree& coarser) {
   OctreeBuilder(scene, options, *this).deepen(coarser);
 }
 
-Octree::Octree(const Scene& scene, const OctreeOptions& options, const OctreePart& part) {
+Octree::Octree(const scenes::Scene& scene, const OctreeOptions& options, const OctreePart& part) {
   OctreeBuilder(scene, options, *this, &part).build();
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::octree

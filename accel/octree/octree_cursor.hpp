@@ -6,10 +6,10 @@
 
 #include <glm/vec3.hpp>
 
-#include "accel/cell_ray.hpp"
+#include "accel/core/cell_ray.hpp"
 #include "accel/octree/octree.hpp"
 
-namespace beambench {
+namespace beambench::accel::octree {
 
 /// A node of an octree with its integer place: the cube of `size` finest cells an axis at `corner`.
 class OctreeCursor {
@@ -109,4 +109,4 @@ inline OctreeCursor cursor_of(const Octree& octree, const glm::ivec3& corner, st
   return cursor;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::octree

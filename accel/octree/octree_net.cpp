@@ -1,6 +1,6 @@
 #include "accel/octree/octree_net.hpp"
 
-namespace beambench {
+namespace beambench::accel::octree {
 
 OctreeNet::OctreeNet(const Octree& octree) {
   const auto nodes = octree.nodes();
@@ -39,4 +39,4 @@ void OctreeNet::describe(Statistics& statistics) const {
   statistics.more.emplace_back("net_bytes", static_cast<double>(bytes));
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::octree

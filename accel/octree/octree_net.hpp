@@ -8,7 +8,7 @@
 #include "accel/octree/octree.hpp"
 #include "accel/octree/octree_cursor.hpp"
 
-namespace beambench {
+namespace beambench::accel::octree {
 
 /// Links from each node through each of its six faces to the neighbour of equal or larger size: the
 /// node in which Samet's search over the common ancestor ends, one step away. Where the neighbours
@@ -74,4 +74,4 @@ class OctreeNet {
   std::vector<Place> places_;  ///< by node
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::octree

@@ -1,12 +1,12 @@
 #pragma once
 // Individual rays through the thesis's octree.
 
-#include "accel/cell_search.hpp"
+#include "accel/core/cell_search.hpp"
+#include "accel/core/traversal_accelerator.hpp"
 #include "accel/octree/leaf_walk.hpp"
 #include "accel/octree/octree.hpp"
-#include "accel/traversal_accelerator.hpp"
 
-namespace beambench {
+namespace beambench::accel::octree {
 
 /// The octree of the thesis (section 3.3) for individual rays. `Neighbours` is how the way from a
 /// leaf to the next is found (see `walk_leaves`), made from the octree; it changes no leaf, no
@@ -14,9 +14,9 @@ namespace beambench {
 template <class Neighbours>
 class OctreeTracer : public TraversalAccelerator<OctreeTracer<Neighbours>> {
  public:
-  OctreeTracer(const Scene& scene, const OctreeOptions& options)
+  OctreeTracer(const scenes::Scene& scene, const OctreeOptions& options)
       : OctreeTracer(scene, Octree(scene, options)) {}
-  OctreeTracer(const Scene& scene, Octree octree)
+  OctreeTracer(const scenes::Scene& scene, Octree octree)
       : scene_(&scene), octree_(std::move(octree)), neighbours_(octree_) {}
 
   const Octree& octree() const { return octree_; }
@@ -49,9 +49,9 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Neighbours>> {
     };
   }
 
-  const Scene* scene_;
+  const scenes::Scene* scene_;
   Octree octree_;
   Neighbours neighbours_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::octree

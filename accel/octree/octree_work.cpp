@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "accel/cell_search.hpp"
+#include "accel/core/cell_search.hpp"
+#include "accel/core/primary_rays.hpp"
 #include "accel/octree/leaf_walk.hpp"
 #include "accel/octree/samet.hpp"
-#include "accel/primary_rays.hpp"
 
-namespace beambench {
+namespace beambench::accel::octree {
 namespace {
 
 /// What a number grows or shrinks by from level to level, if it goes on as it went; `least` and
@@ -33,7 +33,7 @@ bool enough(int rays, const WorkCounters& counters, const Workload& workload) {
 
 }  // namespace
 
-OctreeWork count_work(const Scene& scene, const Octree& octree, const Workload& workload) {
+OctreeWork count_work(const scenes::Scene& scene, const Octree& octree, const Workload& workload) {
   const PrimaryRays sample(workload.camera, kColumns, kRows, 1);
   const AncestorNeighbours neighbours(octree);
   WorkCounters counters;
@@ -73,4 +73,4 @@ OctreeWork extrapolate(const OctreeWork& before, const OctreeWork& now) {
   return next;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::octree

@@ -1,10 +1,10 @@
 #pragma once
 // The work that an octree makes, counted on a few rays.
 
+#include "accel/core/workload.hpp"
 #include "accel/octree/octree.hpp"
-#include "accel/workload.hpp"
 
-namespace beambench {
+namespace beambench::accel::octree {
 
 /// What building an octree and tracing a workload through it takes.
 struct OctreeWork {
@@ -20,9 +20,9 @@ struct OctreeWork {
 
 /// Counts for individual rays, on a grid of 32 x 16 rays over the camera's image or, where rays
 /// are much work, on some of them.
-OctreeWork count_work(const Scene& scene, const Octree& octree, const Workload& workload);
+OctreeWork count_work(const scenes::Scene& scene, const Octree& octree, const Workload& workload);
 
 /// The work of the next level, from this one's and the one before: each number goes on as it went.
 OctreeWork extrapolate(const OctreeWork& before, const OctreeWork& now);
 
-}  // namespace beambench
+}  // namespace beambench::accel::octree

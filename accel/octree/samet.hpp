@@ -4,7 +4,7 @@
 #include "accel/octree/octree_cursor.hpp"
 #include "accel/octree/octree_tracer.hpp"
 
-namespace beambench {
+namespace beambench::accel::octree {
 
 /// Neighbours as Samet finds them: nothing is stored, each move climbs and descends.
 class AncestorNeighbours {
@@ -20,4 +20,4 @@ class AncestorNeighbours {
 /// Samet's traversal of the octree (Computers & Graphics 13(4), 1989).
 using Samet = OctreeTracer<AncestorNeighbours>;
 
-}  // namespace beambench
+}  // namespace beambench::accel::octree

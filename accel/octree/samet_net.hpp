@@ -4,11 +4,11 @@
 #include "accel/octree/octree_net.hpp"
 #include "accel/octree/octree_tracer.hpp"
 
-namespace beambench {
+namespace beambench::accel::octree {
 
 /// Samet's traversal with the neighbours linked beforehand (Endl and Sommer, "Classification of
 /// ray-generators in uniform subdivisions and octrees for ray tracing", Computer Graphics Forum
 /// 13(1), 1994; thesis, section 5.4.1).
 using SametNet = OctreeTracer<OctreeNet>;
 
-}  // namespace beambench
+}  // namespace beambench::accel::octree

@@ -12,7 +12,7 @@
 #include "accel/tile_beam/tile_image.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// A view's planes as the boxes' test wants them: which corner of a box lies farthest along each.
 class BoxProbe {
@@ -114,7 +114,7 @@ class BoxProbe {
   float height_;
 };
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -9,27 +9,27 @@
 
 #include <bit>
 
-#include "accel/intersect_cone.hpp"
+#include "accel/core/intersect_cone.hpp"
 #include "accel/tile_beam/box_probe-inl.hpp"
 #include "accel/tile_beam/ray_raster-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// Draws the cones of a block. What lies behind `farthest` (1/t) is not drawn.
-inline void draw_cones(const ConeBlock& block, const Scene& scene, const TileRays& rays,
+inline void draw_cones(const ConeBlock& block, const scenes::Scene& scene, const TileRays& rays,
                        const BoxProbe& probe, float farthest, TileImage& image) {
   BoxProbe::Met met;
   probe.probe(block.boxes, block.count, farthest, met);
   for (LaneBits left = met.lanes; left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-    const Cone& cone = scene.cones[scene.primitives[block.primitives[lane]].index];
+    const scenes::Cone& cone = scene.cones[scene.primitives[block.primitives[lane]].index];
     draw_by_rays(rays, met.where(lane), met.nearest[lane], block.primitives[lane], image,
                  [&](const CanonicalRay& ray) { return intersect_cone(ray, cone); });
   }
 }
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -6,9 +6,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "accel/intersect_triangle.hpp"
+#include "accel/core/intersect_triangle.hpp"
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 namespace {
 
 /// The largest value of a line over a tile's samples.
@@ -133,4 +133,4 @@ std::optional<ExactTriangle> exact_triangle(const TileView& view,
   return triangle;
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

@@ -9,7 +9,7 @@
 #include "accel/tile_beam/tile_image.hpp"
 #include "accel/tile_beam/tile_view.hpp"
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 
 /// x * i + y * j + constant at sample (i, j) of a tile.
 struct TileLine {
@@ -35,4 +35,4 @@ struct ExactTriangle {
 std::optional<ExactTriangle> exact_triangle(const TileView& view,
                                             const std::array<glm::vec3, 3>& corners);
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 namespace {
 
 bool same_bits(const glm::vec3& point, const Meshlet& meshlet, std::size_t vertex) {
@@ -34,7 +34,7 @@ std::size_t vertex_of(Meshlet& meshlet, const glm::vec3& point) {
 }
 
 /// Adds a triangle with its corners; false, and nothing added, when there is no room for it.
-bool append(Meshlet& meshlet, const Scene& scene, const Triangle& triangle) {
+bool append(Meshlet& meshlet, const scenes::Scene& scene, const scenes::Triangle& triangle) {
   if (meshlet.triangle_count == Meshlet::kMostTriangles) return false;
   const std::uint32_t vertices_before = meshlet.vertex_count;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -49,7 +49,7 @@ bool append(Meshlet& meshlet, const Scene& scene, const Triangle& triangle) {
   return true;
 }
 
-void require_index(const Scene& scene, std::size_t index) {
+void require_index(const scenes::Scene& scene, std::size_t index) {
   if (index < TileChild::kIndices) return;
   throw InputError(fmt::format(
       "tile-beam over '{}' needs more than {} leaves; take a scene with fewer primitives",
@@ -64,7 +64,7 @@ class LeafPacker {
   /// Makes room for as many leaves of a scene's pieces.
   void reserve(std::size_t leaves) {
     const std::size_t pieces = pieces_->pieces.size();
-    const Scene& scene = pieces_->scene;
+    const scenes::Scene& scene = pieces_->scene;
     made_.packed.reserve(leaves);
     made_.first.reserve(leaves + 1);
     made_.blocks.meshlets.reserve(leaves * scene.triangles.size() / pieces);
@@ -73,14 +73,14 @@ class LeafPacker {
   }
 
   void pack(std::span<const std::uint32_t> items) {
-    const auto each_of = [&](PrimitiveKind kind, auto&& add) {
+    const auto each_of = [&](scenes::PrimitiveKind kind, auto&& add) {
       for (const std::uint32_t item : items) {
         if (pieces_->pieces[item].kind == kind) add(item);
       }
     };
-    each_of(PrimitiveKind::kPolygon, [&](std::uint32_t item) { add_triangle(item); });
-    each_of(PrimitiveKind::kSphere, [&](std::uint32_t item) { add_sphere(item); });
-    each_of(PrimitiveKind::kCone, [&](std::uint32_t item) { add_cone(item); });
+    each_of(scenes::PrimitiveKind::kPolygon, [&](std::uint32_t item) { add_triangle(item); });
+    each_of(scenes::PrimitiveKind::kSphere, [&](std::uint32_t item) { add_sphere(item); });
+    each_of(scenes::PrimitiveKind::kCone, [&](std::uint32_t item) { add_cone(item); });
     for (std::size_t i = made_.first.back(); i < made_.packed.size(); ++i) {
       const PackedLeaf& leaf = made_.packed[i];
       if (leaf.child.kind() != TileChild::Kind::kMeshlet) continue;
@@ -104,9 +104,9 @@ class LeafPacker {
   }
 
   void add_triangle(std::uint32_t item) {
-    const Scene& scene = pieces_->scene;
+    const scenes::Scene& scene = pieces_->scene;
     auto& meshlets = made_.blocks.meshlets;
-    const Triangle& triangle = scene.triangles[pieces_->pieces[item].index];
+    const scenes::Triangle& triangle = scene.triangles[pieces_->pieces[item].index];
     if (!goes_on(TileChild::Kind::kMeshlet) || !append(meshlets.back(), scene, triangle)) {
       begin(TileChild::Kind::kMeshlet, meshlets.size());
       append(meshlets.emplace_back(), scene, triangle);
@@ -121,7 +121,7 @@ class LeafPacker {
       spheres.emplace_back();
     }
     SphereBlock& block = spheres.back();
-    const Sphere& sphere = pieces_->scene.spheres[pieces_->pieces[item].index];
+    const scenes::Sphere& sphere = pieces_->scene.spheres[pieces_->pieces[item].index];
     const std::size_t lane = block.count++;
     for (int axis = 0; axis < 3; ++axis) {
       block.center[static_cast<std::size_t>(axis)][lane] = sphere.center[axis];
@@ -152,7 +152,7 @@ class LeafPacker {
 /// Joins what was packed part by part, in the order of the parts.
 class Joining {
  public:
-  Joining(const Scene& scene, std::vector<LeafPacker>& parts) : parts_(&parts) {
+  Joining(const scenes::Scene& scene, std::vector<LeafPacker>& parts) : parts_(&parts) {
     for (LeafPacker& part : parts) {
       begins_.push_back(end_);
       const TileBlocks& blocks = part.made().blocks;
@@ -241,4 +241,4 @@ PackedLeaves pack_leaves(const TilePieces& pieces,
   return Joining(pieces.scene, parts)();
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

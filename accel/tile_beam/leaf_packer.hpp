@@ -8,19 +8,19 @@
 #include "accel/bvh/bvh_builder.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 
 /// What a leaf refers to: a triangle of a polygon, or a whole sphere or cone.
 struct TilePiece {
-  PrimitiveId primitive;
+  scenes::PrimitiveId primitive;
   std::uint32_t index;  ///< into the scene's triangles, spheres or cones
-  PrimitiveKind kind;
+  scenes::PrimitiveKind kind;
 };
 
 /// A block made of some of a leaf's pieces.
 struct PackedLeaf {
   TileChild child;
-  Bounds box;  ///< of its pieces' boxes
+  scenes::Bounds box;  ///< of its pieces' boxes
 };
 
 /// The blocks of several leaves.
@@ -36,9 +36,9 @@ struct PackedLeaves {
 
 /// The pieces of a scene and their boxes.
 struct TilePieces {
-  const Scene& scene;
+  const scenes::Scene& scene;
   std::span<const TilePiece> pieces;
-  std::span<const Bounds> boxes;
+  std::span<const scenes::Bounds> boxes;
 };
 
 /// Packs leaves, each given by its items. A leaf becomes a block for each kind of primitive in it,
@@ -48,4 +48,4 @@ struct TilePieces {
 PackedLeaves pack_leaves(const TilePieces& pieces,
                          std::span<const std::span<const std::uint32_t>> leaves, bool parallel);
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

@@ -9,7 +9,7 @@
 
 #include <bit>
 
-#include "accel/intersect_triangle.hpp"
+#include "accel/core/intersect_triangle.hpp"
 #include "accel/tile_beam/exact_triangle.hpp"
 #include "accel/tile_beam/ray_raster-inl.hpp"
 #include "accel/tile_beam/triangle_blocks-inl.hpp"
@@ -17,7 +17,7 @@
 #include "accel/tile_beam/triangle_painter-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// Made in double, one by one.
 inline void draw_exactly(const Meshlet& meshlet, std::size_t first, Mask which,
@@ -41,8 +41,8 @@ inline void draw_exactly(const Meshlet& meshlet, std::size_t first, Mask which,
 }
 
 /// Row by row, one by one; acute ones not beyond their boxes.
-inline void draw_large(const StoredImages& images, const PrimitiveId* primitives, Mask which,
-                       Mask acute_ones, TileImage& image) {
+inline void draw_large(const StoredImages& images, const scenes::PrimitiveId* primitives,
+                       Mask which, Mask acute_ones, TileImage& image) {
   const LaneBits acute = bits_of(acute_ones);
   for (LaneBits left = bits_of(which); left != 0; left &= left - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(left));
@@ -81,7 +81,7 @@ HWY_INLINE Mask hidden(const TriangleImages& images, Mask which, const TileImage
 }
 
 /// Draws triangles that float is good enough for, each in the way that suits its size.
-HWY_INLINE void draw_triangles(const TriangleImages& images, const PrimitiveId* primitives,
+HWY_INLINE void draw_triangles(const TriangleImages& images, const scenes::PrimitiveId* primitives,
                                TileImage& image) {
   const Mask small = hn::And(images.drawn, hn::Le(images.samples(), all(kMostLaneSamples)));
   if (!hn::AllFalse(Tag(), small)) {
@@ -118,7 +118,7 @@ inline void draw_meshlet(const Meshlet& meshlet, const TileRays& rays, float far
   }
 }
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

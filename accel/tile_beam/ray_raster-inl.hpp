@@ -7,12 +7,12 @@
 #define ACCEL_TILE_BEAM_RAY_RASTER_INL
 #endif
 
-#include "accel/canonical_ray.hpp"
+#include "accel/core/canonical_ray.hpp"
 #include "accel/tile_beam/sample_raster.hpp"
 #include "accel/tile_beam/tile_raster-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// The rays of a tile's samples.
 struct TileRays {
@@ -27,7 +27,7 @@ struct TileRays {
 /// than 1/t = `nearest` are left out.
 template <class Intersect>
 HWY_INLINE void draw_by_rays(const TileRays& rays, const SampleRectangle& box, float nearest,
-                             PrimitiveId primitive, TileImage& image, Intersect intersect) {
+                             scenes::PrimitiveId primitive, TileImage& image, Intersect intersect) {
   for (int y = box.top; y <= box.bottom; ++y) {
     for (int x = box.left; x <= box.right; ++x) {
       const std::size_t at = TileImage::place(x, y);
@@ -40,7 +40,7 @@ HWY_INLINE void draw_by_rays(const TileRays& rays, const SampleRectangle& box, f
   }
 }
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -11,15 +11,15 @@
 #include <optional>
 
 #include "accel/bvh/probe_ray.hpp"
-#include "accel/intersect.hpp"
+#include "accel/core/intersect.hpp"
 #include "accel/tile_beam/lanes-inl.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// The boxes that a ray may meet before `limit`, and where it enters them (see ProbeRay).
-HWY_INLINE LaneBits meet_boxes(const TileNode& node, const ProbeRay& ray, float limit,
+HWY_INLINE LaneBits meet_boxes(const TileNode& node, const bvh::ProbeRay& ray, float limit,
                                float* enter_t) {
   const LaneBits met = for_each_register([&](std::size_t lane) {
     const auto plane_t = [&](std::size_t row, std::size_t axis) {
@@ -31,7 +31,7 @@ HWY_INLINE LaneBits meet_boxes(const TileNode& node, const ProbeRay& ray, float 
     const Floats exit = hn::Min(hn::Min(plane_t(ray.far_row[0], 0), plane_t(ray.far_row[1], 1)),
                                 hn::Min(plane_t(ray.far_row[2], 2), all(limit)));
     store(enter, enter_t + lane);
-    return hn::Le(enter, hn::Mul(exit, all(ProbeRay::kWider)));
+    return hn::Le(enter, hn::Mul(exit, all(bvh::ProbeRay::kWider)));
   });
   return met & ((LaneBits{1} << node.count) - 1);
 }
@@ -39,7 +39,7 @@ HWY_INLINE LaneBits meet_boxes(const TileNode& node, const ProbeRay& ray, float 
 /// The triangles of a meshlet, from `first` on, that a ray may hit in [t_min, t_max].
 class MeshletProbe {
  public:
-  HWY_INLINE MeshletProbe(const Meshlet& meshlet, const ProbeRay& ray)
+  HWY_INLINE MeshletProbe(const Meshlet& meshlet, const bvh::ProbeRay& ray)
       : meshlet_(&meshlet), ray_(&ray) {
     const std::size_t x = ray.side_axis[0];
     const std::size_t y = ray.side_axis[1];
@@ -76,17 +76,18 @@ class MeshletProbe {
     const float margin = ray_->area_margin(meshlet_->extent);
     const Mask surrounds = hn::Or(hn::Ge(hn::Min(hn::Min(u, v), w), all(-margin)),
                                   hn::Le(hn::Max(hn::Max(u, v), w), all(margin)));
-    const Mask in_time = hn::And(
-        hn::Le(hn::Min(hn::Min(a.t, b.t), c.t), all(t_max * ProbeRay::kWider + ray_->depth_margin)),
-        hn::Ge(hn::Mul(hn::Max(hn::Max(a.t, b.t), c.t), all(ProbeRay::kWider)),
-               all(ray_->t_min - ray_->depth_margin)));
+    const Mask in_time =
+        hn::And(hn::Le(hn::Min(hn::Min(a.t, b.t), c.t),
+                       all(t_max * bvh::ProbeRay::kWider + ray_->depth_margin)),
+                hn::Ge(hn::Mul(hn::Max(hn::Max(a.t, b.t), c.t), all(bvh::ProbeRay::kWider)),
+                       all(ray_->t_min - ray_->depth_margin)));
     const Mask present = hn::FirstN(Tag(), meshlet_->triangle_count - first);
     return bits_of(hn::And(present, hn::And(surrounds, in_time)));
   }
 
  private:
   const Meshlet* meshlet_;
-  const ProbeRay* ray_;
+  const bvh::ProbeRay* ray_;
   alignas(64) std::array<float, Meshlet::kMostVertices> x_;
   alignas(64) std::array<float, Meshlet::kMostVertices> y_;
   alignas(64) std::array<float, Meshlet::kMostVertices> t_;
@@ -123,10 +124,10 @@ class WaitingChildren {
 /// Tests a leaf's primitives. `visit(t, primitive)` is told what each canonical test found and
 /// returns true to end; `t_max()` is how far hits are of interest. Returns whether it was ended.
 template <class Counting, class FarEnd, class Visit>
-HWY_INLINE bool visit_leaf(const TileHierarchy& hierarchy, const Scene& scene, TileChild leaf,
-                           const ProbeRay& probe, const CanonicalRay& ray, Counting& counting,
-                           FarEnd t_max, Visit visit) {
-  const auto confirm = [&](PrimitiveId primitive, float t) {
+HWY_INLINE bool visit_leaf(const TileHierarchy& hierarchy, const scenes::Scene& scene,
+                           TileChild leaf, const bvh::ProbeRay& probe, const CanonicalRay& ray,
+                           Counting& counting, FarEnd t_max, Visit visit) {
+  const auto confirm = [&](scenes::PrimitiveId primitive, float t) {
     counting.add(Counter::kPrimitiveTests);
     counting.tested(primitive, t);
     return visit(t, primitive);
@@ -147,7 +148,7 @@ HWY_INLINE bool visit_leaf(const TileHierarchy& hierarchy, const Scene& scene, T
   }
   const auto test_each = [&](const auto& block) {
     for (std::size_t lane = 0; lane < block.count; ++lane) {
-      const PrimitiveId primitive = block.primitives[lane];
+      const scenes::PrimitiveId primitive = block.primitives[lane];
       if (confirm(primitive, intersect(ray, scene, primitive))) return true;
     }
     return false;
@@ -158,15 +159,16 @@ HWY_INLINE bool visit_leaf(const TileHierarchy& hierarchy, const Scene& scene, T
 
 /// Walks the hierarchy below `from`, nearest child first.
 template <class Counting, class FarEnd, class Visit>
-void walk_ray(const TileHierarchy& hierarchy, const Scene& scene, TileChild from, const Ray& ray,
-              const CanonicalRay& canonical, Counting& counting, FarEnd t_max, Visit visit) {
-  const ProbeRay probe(ray, hierarchy.bounds);
+void walk_ray(const TileHierarchy& hierarchy, const scenes::Scene& scene, TileChild from,
+              const Ray& ray, const CanonicalRay& canonical, Counting& counting, FarEnd t_max,
+              Visit visit) {
+  const bvh::ProbeRay probe(ray, hierarchy.bounds);
   WaitingChildren waiting;
   waiting.push(ray.t_min, from);
   while (!waiting.empty()) {
     float enter = 0.0F;
     const TileChild at = waiting.pop(enter);
-    if (enter > t_max() * ProbeRay::kWider) continue;
+    if (enter > t_max() * bvh::ProbeRay::kWider) continue;
     counting.add(Counter::kTraversalSteps);
     counting.enter([&] {
       return TraceStep{.place = at.kind() == TileChild::Kind::kNode ? "node" : "leaf",
@@ -193,12 +195,12 @@ void walk_ray(const TileHierarchy& hierarchy, const Scene& scene, TileChild from
 
 /// The closest hit below `from`.
 template <class Counting>
-std::optional<Hit> closest_below(const TileHierarchy& hierarchy, const Scene& scene, TileChild from,
-                                 const Ray& ray, Counting& counting) {
+std::optional<Hit> closest_below(const TileHierarchy& hierarchy, const scenes::Scene& scene,
+                                 TileChild from, const Ray& ray, Counting& counting) {
   ClosestHit best(ray);
   walk_ray(
       hierarchy, scene, from, ray, best.ray, counting, [&] { return best.ray.t_max; },
-      [&](float t, PrimitiveId primitive) {
+      [&](float t, scenes::PrimitiveId primitive) {
         best.keep(t, primitive);
         return false;
       });
@@ -206,25 +208,26 @@ std::optional<Hit> closest_below(const TileHierarchy& hierarchy, const Scene& sc
 }
 
 template <class Counting>
-std::optional<Hit> closest(const TileHierarchy& hierarchy, const Scene& scene, const Ray& ray,
-                           Counting& counting) {
+std::optional<Hit> closest(const TileHierarchy& hierarchy, const scenes::Scene& scene,
+                           const Ray& ray, Counting& counting) {
   return closest_below(hierarchy, scene, hierarchy.root, ray, counting);
 }
 
 template <class Counting>
-bool any(const TileHierarchy& hierarchy, const Scene& scene, const Ray& ray, Counting& counting) {
+bool any(const TileHierarchy& hierarchy, const scenes::Scene& scene, const Ray& ray,
+         Counting& counting) {
   const CanonicalRay canonical(ray);
   bool found = false;
   walk_ray(
       hierarchy, scene, hierarchy.root, ray, canonical, counting, [&] { return ray.t_max; },
-      [&](float t, PrimitiveId) {
+      [&](float t, scenes::PrimitiveId) {
         found = is_hit(t);
         return found;
       });
   return found;
 }
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -13,7 +13,7 @@
 #include "accel/tile_beam/tile_raster-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// Images larger than this are written past the caches, which could not hold them.
 inline constexpr std::size_t kStreamedSamples = std::size_t{1} << 17U;
@@ -129,10 +129,10 @@ inline void paint_background(const TileView& view, HitBuffer& buffer) {
     const hn::RebindToUnsigned<Tag> ids;
     for (; x + kLanes <= width; x += kLanes) {
       write<kStreamed>(d, hn::Set(d, kInfinity), buffer.t() + to + x);
-      write<kStreamed>(ids, hn::Set(ids, kNoPrimitive), buffer.primitive() + to + x);
+      write<kStreamed>(ids, hn::Set(ids, scenes::kNoPrimitive), buffer.primitive() + to + x);
     }
     std::fill_n(buffer.t() + to + x, width - x, kInfinity);
-    std::fill_n(buffer.primitive() + to + x, width - x, kNoPrimitive);
+    std::fill_n(buffer.primitive() + to + x, width - x, scenes::kNoPrimitive);
   }
 }
 
@@ -177,7 +177,7 @@ inline void resolve(TileImage& image, const SampleRaster& raster, const TileView
   }
 }
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 namespace {
 
 SampleRaster grid_of(const PrimaryRays& rays, int per_pixel, int sample) {
@@ -33,4 +33,4 @@ std::vector<SampleRaster> sample_rasters(const PrimaryRays& rays) {
   return {grid_of(rays, per_pixel, 0)};
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

@@ -6,10 +6,10 @@
 
 #include <glm/vec3.hpp>
 
-#include "accel/hit_buffer.hpp"
-#include "accel/primary_rays.hpp"
+#include "accel/core/hit_buffer.hpp"
+#include "accel/core/primary_rays.hpp"
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 
 /// Samples in rows and columns of equal distance. A grid of n x n samples a pixel is one raster of
 /// n times the image's size. The corners of pixels are one raster too, in which neighbouring pixels
@@ -69,4 +69,4 @@ struct SampleRaster {
 /// The rasters that hold all samples of an image.
 std::vector<SampleRaster> sample_rasters(const PrimaryRays& rays);
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

@@ -10,12 +10,12 @@
 #include <bit>
 #include <cmath>
 
-#include "accel/intersect_sphere.hpp"
+#include "accel/core/intersect_sphere.hpp"
 #include "accel/tile_beam/ray_raster-inl.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// The places on the screen between which a sphere lies along one axis: with `beside` and `depth`
 /// of its centre, of equal scale, the tangents from the eye to a circle. Valid for depth > radius.
@@ -103,8 +103,8 @@ HWY_INLINE void see_spheres(const SphereBlock& block, const TileView& view, Sphe
 /// Gems, 2019): the hit then lies within a few roundings of the distance from the surface, however
 /// small or far the sphere is.
 HWY_INLINE void draw_sphere(const glm::vec3& from_eye, float radius, bool inside_only,
-                            PrimitiveId primitive, const SampleRectangle& box, float nearest,
-                            const TileView& view, TileImage& image) {
+                            scenes::PrimitiveId primitive, const SampleRectangle& box,
+                            float nearest, const TileView& view, TileImage& image) {
   const Points center = all_of(from_eye);
   const Points right = all_of(view.right);
   const Points down = all_of(view.down);
@@ -161,7 +161,7 @@ HWY_INLINE bool is_at_eye(const glm::vec3& from_eye, float radius) {
 }
 
 /// Draws the spheres of a block, the nearest first. What lies behind `farthest` (1/t) is not drawn.
-inline void draw_spheres(const SphereBlock& block, const Scene& scene, const TileRays& rays,
+inline void draw_spheres(const SphereBlock& block, const scenes::Scene& scene, const TileRays& rays,
                          float farthest, TileImage& image) {
   const TileView& view = rays.view;
   SphereBoxes boxes;
@@ -173,10 +173,10 @@ inline void draw_spheres(const SphereBlock& block, const Scene& scene, const Til
     if (nearest < farthest) return;
     const SampleRectangle box = boxes.rectangle(lane);
     if (hides(image, box, nearest)) continue;
-    const PrimitiveId primitive = block.primitives[lane];
+    const scenes::PrimitiveId primitive = block.primitives[lane];
     const glm::vec3 center(block.center[0][lane], block.center[1][lane], block.center[2][lane]);
     if (is_at_eye(center - view.eye, block.radius[lane])) {
-      const Sphere& sphere = scene.spheres[scene.primitives[primitive].index];
+      const scenes::Sphere& sphere = scene.spheres[scene.primitives[primitive].index];
       draw_by_rays(rays, box, nearest, primitive, image,
                    [&](const CanonicalRay& ray) { return intersect_sphere(ray, sphere); });
     } else {
@@ -187,7 +187,7 @@ inline void draw_spheres(const SphereBlock& block, const Scene& scene, const Til
   }
 }
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

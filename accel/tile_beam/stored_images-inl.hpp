@@ -11,7 +11,7 @@
 #include "accel/tile_beam/triangle_setup-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 struct StoredImages {
   alignas(64) std::array<std::array<float, kLanes>, 12> lines;
@@ -42,7 +42,7 @@ struct StoredImages {
   }
 };
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -2,9 +2,9 @@
 
 #include <hwy/targets.h>
 
-#include "accel/registry.hpp"
+#include "accel/core/registry.hpp"
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 
 std::vector<ParameterInfo> TileBeam::parameters() {
   const TileHierarchyOptions defaults;
@@ -45,11 +45,11 @@ void register_tile_beam(Registry& registry) {
                 "beams the size of screen tiles through a wide hierarchy over meshlets, hits "
                 "resolved by SIMD: the thesis's idea with today's means",
                 Conformance::kTolerance, TileBeam::parameters(),
-                [](const Scene& scene, const Parameters& parameters, const Workload&) {
+                [](const scenes::Scene& scene, const Parameters& parameters, const Workload&) {
                   return std::make_unique<TileBeam>(scene, TileBeam::options_from(parameters),
                                                     targets_of(parameters.choice("isa")));
                 }});
   registry.describe_counters("tile-beam", {{"beams", "tiles of the image that were traced"}});
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

@@ -2,15 +2,15 @@
 // Primary rays in beams the size of screen tiles, through a hierarchy over meshlets.
 
 #include "accel/bvh/probe_ray.hpp"
+#include "accel/core/instruction_set.hpp"
+#include "accel/core/traversal_accelerator.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
-#include "accel/instruction_set.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 #include "accel/tile_beam/tile_kernels.hpp"
 #include "accel/tile_beam/tile_trace.hpp"
-#include "accel/traversal_accelerator.hpp"
-#include "scenes/parameters.hpp"
+#include "scenes/core/parameters.hpp"
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 
 /// The thesis's two ideas, many primary rays moved through the scene as one beam and no rays where
 /// nothing is, with today's means: a tile of the screen goes through a hierarchy of boxes front to
@@ -23,8 +23,8 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   static std::vector<ParameterInfo> parameters();
   static TileHierarchyOptions options_from(const Parameters& parameters);
 
-  /// `targets`: the instruction sets that it may run on (accel/instruction_set.hpp).
-  TileBeam(const Scene& scene, const TileHierarchyOptions& options,
+  /// `targets`: the instruction sets that it may run on (accel/core/instruction_set.hpp).
+  TileBeam(const scenes::Scene& scene, const TileHierarchyOptions& options,
            std::int64_t targets = targets_of("best"))
       : scene_(&scene),
         hierarchy_(build_tile_hierarchy(scene, options)),
@@ -56,22 +56,24 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     if (hierarchy_.empty()) return std::nullopt;
-    if (!ProbeRay::can_probe(ray)) return Exhaustive(*scene_).find_closest(ray, counting);
+    if (!bvh::ProbeRay::can_probe(ray))
+      return exhaustive::Exhaustive(*scene_).find_closest(ray, counting);
     return kernels_->queries<Counting>().closest(hierarchy_, *scene_, ray, counting);
   }
 
   template <class Counting>
   bool find_any(const Ray& ray, Counting& counting) const {
     if (hierarchy_.empty()) return false;
-    if (!ProbeRay::can_probe(ray)) return Exhaustive(*scene_).find_any(ray, counting);
+    if (!bvh::ProbeRay::can_probe(ray))
+      return exhaustive::Exhaustive(*scene_).find_any(ray, counting);
     return kernels_->queries<Counting>().any(hierarchy_, *scene_, ray, counting);
   }
 
  private:
-  const Scene* scene_;
+  const scenes::Scene* scene_;
   TileHierarchy hierarchy_;
   const TileKernels* kernels_;
   bool parallel_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

@@ -7,38 +7,38 @@
 
 #include "accel/bvh/bvh_builder.hpp"
 #include "accel/bvh/padded_bounds.hpp"
+#include "accel/core/tolerance.hpp"
 #include "accel/tile_beam/leaf_packer.hpp"
-#include "accel/tolerance.hpp"
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 namespace {
 
-Bounds triangle_bounds(const Scene& scene, const Triangle& triangle) {
-  Bounds bounds;
+scenes::Bounds triangle_bounds(const scenes::Scene& scene, const scenes::Triangle& triangle) {
+  scenes::Bounds bounds;
   for (const std::uint32_t vertex : triangle.vertex) bounds.include(scene.vertices[vertex]);
   return bounds;
 }
 
 struct Pieces {
   std::vector<TilePiece> pieces;
-  std::vector<Bounds> boxes;
+  std::vector<scenes::Bounds> boxes;
 };
 
-Pieces pieces_of(const Scene& scene) {
+Pieces pieces_of(const scenes::Scene& scene) {
   Pieces all;
   const double tolerance = overlap_tolerance(scene);
   const std::size_t count = scene.triangles.size() + scene.spheres.size() + scene.cones.size();
   all.boxes.reserve(count);
   all.pieces.reserve(count);
   for (std::uint32_t i = 0; i < scene.triangles.size(); ++i) {
-    all.pieces.push_back({scene.triangles[i].primitive, i, PrimitiveKind::kPolygon});
-    all.boxes.push_back(padded(triangle_bounds(scene, scene.triangles[i]), tolerance));
+    all.pieces.push_back({scene.triangles[i].primitive, i, scenes::PrimitiveKind::kPolygon});
+    all.boxes.push_back(bvh::padded(triangle_bounds(scene, scene.triangles[i]), tolerance));
   }
-  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+  for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     const auto& primitive = scene.primitives[id];
-    if (primitive.kind == PrimitiveKind::kPolygon) continue;
+    if (primitive.kind == scenes::PrimitiveKind::kPolygon) continue;
     all.pieces.push_back({id, primitive.index, primitive.kind});
-    all.boxes.push_back(padded(primitive_bounds(scene, id), tolerance));
+    all.boxes.push_back(bvh::padded(scenes::primitive_bounds(scene, id), tolerance));
   }
   return all;
 }
@@ -46,16 +46,16 @@ Pieces pieces_of(const Scene& scene) {
 /// Turns the binary hierarchy over a scene's pieces into the wide one.
 class Builder {
  public:
-  Builder(const Scene& scene, const TileHierarchyOptions& options) {
+  Builder(const scenes::Scene& scene, const TileHierarchyOptions& options) {
     const Pieces all = pieces_of(scene);
     wide_.references = all.pieces.size();
     if (wide_.empty()) return;
-    BvhOptions binary;
+    bvh::BvhOptions binary;
     binary.max_leaf = options.max_leaf;
     binary.block_size = kTileLanes;
     binary.parallel = options.parallel;
-    binary_ = build_bvh(all.boxes, binary);
-    wide_.cost = sah_cost(binary_, binary);
+    binary_ = bvh::build_bvh(all.boxes, binary);
+    wide_.cost = bvh::sah_cost(binary_, binary);
     pack({scene, all.pieces, all.boxes}, options.parallel);
     wide_.nodes.reserve(binary_.nodes.size() / 16 + 1);
     const Made root = convert(0, 1);
@@ -68,7 +68,7 @@ class Builder {
  private:
   struct Made {
     TileChild child;
-    Bounds box;
+    scenes::Bounds box;
     std::uint32_t leaves;
   };
 
@@ -77,7 +77,7 @@ class Builder {
   void pack(const TilePieces& pieces, bool parallel) {
     std::vector<std::span<const std::uint32_t>> leaves;
     leaves.reserve((binary_.nodes.size() + 1) / 2);
-    for (BvhNode& node : binary_.nodes) {
+    for (bvh::BvhNode& node : binary_.nodes) {
       if (!node.is_leaf()) continue;
       const auto items = std::span(binary_.items).subspan(node.first, node.count);
       std::sort(items.begin(), items.end());
@@ -90,10 +90,10 @@ class Builder {
 
   /// The recursion is bounded by kMaxBvhDepth.
   Made convert(std::uint32_t binary_node, std::uint32_t depth) {
-    const BvhNode& node = binary_.nodes[binary_node];
+    const bvh::BvhNode& node = binary_.nodes[binary_node];
     if (node.is_leaf()) return convert_leaf(packed_.of(node.first), depth);
     std::array<std::uint32_t, kTileLanes> children{};
-    const std::size_t count = gather_children(binary_, binary_node, children);
+    const std::size_t count = bvh::gather_children(binary_, binary_node, children);
     const auto index = static_cast<std::uint32_t>(wide_.nodes.size());
     wide_.nodes.emplace_back();
     std::array<Made, kTileLanes> made{};
@@ -128,15 +128,16 @@ class Builder {
     return whole;
   }
 
-  BinaryBvh binary_;
+  bvh::BinaryBvh binary_;
   PackedLeaves packed_;
   TileHierarchy wide_;
 };
 
 }  // namespace
 
-TileHierarchy build_tile_hierarchy(const Scene& scene, const TileHierarchyOptions& options) {
+TileHierarchy build_tile_hierarchy(const scenes::Scene& scene,
+                                   const TileHierarchyOptions& options) {
   return Builder(scene, options).take();
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

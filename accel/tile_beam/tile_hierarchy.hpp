@@ -5,11 +5,11 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "accel/large_pages.hpp"
+#include "accel/core/large_pages.hpp"
 #include "scenes/bounds.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 
 /// Children of a node, and spheres or cones of a block.
 inline constexpr std::size_t kTileLanes = 16;
@@ -41,13 +41,13 @@ class TileChild {
 struct alignas(64) TileBoxes {
   std::array<std::array<float, kTileLanes>, 6> planes;
 
-  void set(std::size_t lane, const Bounds& box) {
+  void set(std::size_t lane, const scenes::Bounds& box) {
     for (int axis = 0; axis < 3; ++axis) {
       planes[static_cast<std::size_t>(axis)][lane] = box.lower[axis];
       planes[static_cast<std::size_t>(axis) + 3][lane] = box.upper[axis];
     }
   }
-  Bounds get(std::size_t lane) const {
+  scenes::Bounds get(std::size_t lane) const {
     return {{planes[0][lane], planes[1][lane], planes[2][lane]},
             {planes[3][lane], planes[4][lane], planes[5][lane]}};
   }
@@ -67,7 +67,7 @@ struct alignas(64) Meshlet {
 
   std::array<std::array<float, kMostVertices>, 3> vertices;         ///< x, y, z
   std::array<std::array<std::uint8_t, kMostTriangles>, 3> corners;  ///< of triangles, into vertices
-  std::array<PrimitiveId, kMostTriangles>
+  std::array<scenes::PrimitiveId, kMostTriangles>
       primitives;  ///< the polygons that the triangles belong to
   std::uint32_t vertex_count;
   std::uint32_t triangle_count;
@@ -82,14 +82,14 @@ struct alignas(64) Meshlet {
 struct alignas(64) SphereBlock {
   std::array<std::array<float, kTileLanes>, 3> center;
   std::array<float, kTileLanes> radius;
-  std::array<PrimitiveId, kTileLanes> primitives;
+  std::array<scenes::PrimitiveId, kTileLanes> primitives;
   std::uint32_t inside_only;  ///< bit i: sphere i is
   std::uint32_t count;
 };
 
 struct alignas(64) ConeBlock {
   TileBoxes boxes;
-  std::array<PrimitiveId, kTileLanes> primitives;
+  std::array<scenes::PrimitiveId, kTileLanes> primitives;
   std::uint32_t count;
 };
 
@@ -107,7 +107,7 @@ struct TileBlocks {
 struct TileHierarchy : TileBlocks {
   LargePageVector<TileNode> nodes;
   TileChild root{};
-  Bounds bounds;            ///< of everything, widened
+  scenes::Bounds bounds;    ///< of everything, widened
   std::uint32_t depth = 0;  ///< nodes on the longest way down, leaf included
   std::uint64_t references = 0;
   double cost = 0.0;  ///< of the binary hierarchy it was made from: see sah_cost
@@ -126,6 +126,6 @@ struct TileHierarchyOptions {
 };
 
 /// Throws InputError when the scene needs more than TileChild::kIndices leaves of a kind.
-TileHierarchy build_tile_hierarchy(const Scene& scene, const TileHierarchyOptions& options);
+TileHierarchy build_tile_hierarchy(const scenes::Scene& scene, const TileHierarchyOptions& options);
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

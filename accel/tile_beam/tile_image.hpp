@@ -10,7 +10,7 @@
 #include "accel/tile_beam/tile_view.hpp"
 #include "scenes/primitive.hpp"
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 
 /// Samples lie in blocks of 4 x 4, which fill a 512-bit register; blocks lie row by row. Of a hit
 /// 1/t is kept, which is linear on the screen for points of a plane; 0 is the background, and
@@ -37,7 +37,7 @@ struct TileImage {
   }
 
   alignas(64) std::array<float, kSamples> inverse_t;
-  alignas(64) std::array<PrimitiveId, kSamples> primitive;
+  alignas(64) std::array<scenes::PrimitiveId, kSamples> primitive;
   /// The smallest 1/t of a square, where `stale` does not say that it has to be found anew.
   std::array<float, std::size_t{kSquareColumns} * kSquareRows> farthest;
   std::array<std::uint32_t, kSquareRows> stale;  ///< one bit a square of a row
@@ -60,4 +60,4 @@ struct SampleRectangle {
   int count() const { return (right - left + 1) * (bottom - top + 1); }
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

@@ -1,6 +1,6 @@
 #include "accel/tile_beam/tile_kernels.hpp"
 
-#include "accel/pick_target.hpp"
+#include "accel/core/pick_target.hpp"
 
 // Highway includes this file once more for each instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -13,7 +13,7 @@
 #include "accel/tile_beam/tile_walk-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 template <class Counting>
 void draw(const TilePicture& picture, const TileView& view, TileImage& image, HitBuffer& buffer,
@@ -35,11 +35,11 @@ const TileKernels& tile_kernels() {
   return kKernels;
 }
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace beambench {
+namespace beambench::accel::tile_beam {
 
 HWY_EXPORT(tile_kernels);
 
@@ -47,5 +47,5 @@ const TileKernels& tile_kernels_for(std::int64_t targets) {
   return pick_target(HWY_DISPATCH_TABLE(tile_kernels), targets)();
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam
 #endif

@@ -4,29 +4,29 @@
 #include <cstdint>
 #include <optional>
 
-#include "accel/hit_buffer.hpp"
-#include "accel/primary_rays.hpp"
-#include "accel/step_recorder.hpp"
+#include "accel/core/hit_buffer.hpp"
+#include "accel/core/primary_rays.hpp"
+#include "accel/core/step_recorder.hpp"
+#include "accel/core/work_counters.hpp"
 #include "accel/tile_beam/sample_raster.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 #include "accel/tile_beam/tile_image.hpp"
 #include "accel/tile_beam/tile_view.hpp"
-#include "accel/work_counters.hpp"
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 
 /// The queries of single rays under one counting policy. Not for empty hierarchies, nor for rays
 /// that ProbeRay cannot probe.
 template <class Counting>
 struct TileRayQueries {
-  std::optional<Hit> (*closest)(const TileHierarchy&, const Scene&, const Ray&, Counting&);
-  bool (*any)(const TileHierarchy&, const Scene&, const Ray&, Counting&);
+  std::optional<Hit> (*closest)(const TileHierarchy&, const scenes::Scene&, const Ray&, Counting&);
+  bool (*any)(const TileHierarchy&, const scenes::Scene&, const Ray&, Counting&);
 };
 
 /// What is drawn, and from where.
 struct TilePicture {
   const TileHierarchy& hierarchy;
-  const Scene& scene;
+  const scenes::Scene& scene;
   const PrimaryRays& rays;
   const SampleRaster& raster;
 };
@@ -60,4 +60,4 @@ struct TileKernels : TileRayQueries<NoCounting>,
 /// `targets_of` gives them.
 const TileKernels& tile_kernels_for(std::int64_t targets);
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

@@ -14,7 +14,7 @@
 #include "accel/tile_beam/tile_image.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// The samples' places in a block, for the register that begins with sample `first` of it.
 HWY_INLINE Floats block_x(std::size_t first) {
@@ -30,7 +30,7 @@ HWY_INLINE Floats block_y(std::size_t first) {
 /// `hit`, from place `at` on. Of primitives at the very same place the first drawn stays: to look
 /// for the lowest id would cost 5% of a trace, and rounding decides between most of them anyway.
 HWY_INLINE void keep_nearer(TileImage& image, std::size_t at, Floats inverse_t, Mask hit,
-                            PrimitiveId primitive) {
+                            scenes::PrimitiveId primitive) {
   float* const depths = image.inverse_t.data() + at;
   const Mask nearer = hn::And(hit, hn::Gt(inverse_t, load(depths)));
   hn::BlendedStore(inverse_t, nearer, Tag(), depths);
@@ -41,7 +41,7 @@ HWY_INLINE void keep_nearer(TileImage& image, std::size_t at, Floats inverse_t, 
 
 inline void clear(TileImage& image, const TileView& view) {
   std::fill(image.inverse_t.begin(), image.inverse_t.end(), 0.0F);
-  std::fill(image.primitive.begin(), image.primitive.end(), kNoPrimitive);
+  std::fill(image.primitive.begin(), image.primitive.end(), scenes::kNoPrimitive);
   std::fill(image.farthest.begin(), image.farthest.end(), 0.0F);
   image.stale.fill(0);
   image.touched = true;
@@ -134,7 +134,7 @@ inline float farthest_of_all(TileImage& image, unsigned& open) {
   return smallest;
 }
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -9,7 +9,7 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 namespace {
 
 /// A raster, cut into tiles.
@@ -17,7 +17,7 @@ struct TiledRaster {
   SampleRaster raster;
   RasterView view;
 
-  TiledRaster(const SampleRaster& from, const PrimaryRays& rays, const Bounds& scene)
+  TiledRaster(const SampleRaster& from, const PrimaryRays& rays, const scenes::Bounds& scene)
       : raster(from), view(from, rays, scene) {}
 
   int columns() const { return (raster.width + kTileWidth - 1) / kTileWidth; }
@@ -35,7 +35,7 @@ struct TiledRaster {
 /// the same part of the buffer, have the same number.
 class TiledImage {
  public:
-  TiledImage(const PrimaryRays& rays, const Bounds& scene) {
+  TiledImage(const PrimaryRays& rays, const scenes::Bounds& scene) {
     for (const SampleRaster& raster : sample_rasters(rays)) {
       rasters_.emplace_back(raster, rays, scene);
       columns_ = std::max(columns_, rasters_.back().columns());
@@ -72,8 +72,9 @@ struct Workplace {
 }  // namespace
 
 template <class Counting>
-void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy, const Scene& scene,
-                 const PrimaryRays& rays, bool parallel, HitBuffer& buffer, Counting& counting) {
+void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
+                 const scenes::Scene& scene, const PrimaryRays& rays, bool parallel,
+                 HitBuffer& buffer, Counting& counting) {
   tbb::enumerable_thread_specific<Workplace<Counting>> workplaces;
   const TiledImage tiled(rays, hierarchy.bounds);
   const auto draw = [&](int begin, int end) {
@@ -95,9 +96,9 @@ void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy, con
   for (const Workplace<Counting>& workplace : workplaces) counting.add(workplace.counting);
 }
 
-template void trace_tiles(const TileKernels&, const TileHierarchy&, const Scene&,
+template void trace_tiles(const TileKernels&, const TileHierarchy&, const scenes::Scene&,
                           const PrimaryRays&, bool, HitBuffer&, NoCounting&);
-template void trace_tiles(const TileKernels&, const TileHierarchy&, const Scene&,
+template void trace_tiles(const TileKernels&, const TileHierarchy&, const scenes::Scene&,
                           const PrimaryRays&, bool, HitBuffer&, WorkCounters&);
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

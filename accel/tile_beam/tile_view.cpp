@@ -5,14 +5,15 @@
 
 #include <glm/geometric.hpp>
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 namespace {
 
 constexpr double kRounding = 0x1p-24;
 
 }  // namespace
 
-RasterView::RasterView(const SampleRaster& raster, const PrimaryRays& rays, const Bounds& scene)
+RasterView::RasterView(const SampleRaster& raster, const PrimaryRays& rays,
+                       const scenes::Bounds& scene)
     : eye(rays.eye()),
       depth(rays.forward()),
       origin(raster.origin),
@@ -64,4 +65,4 @@ TileView::TileView(const RasterView& raster, int tile_left, int tile_top, int ti
   slack_depth = slack(exact_depth);
 }
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

@@ -6,7 +6,7 @@
 #include "accel/tile_beam/sample_raster.hpp"
 #include "scenes/bounds.hpp"
 
-namespace beambench {
+namespace beambench::accel::tile_beam {
 
 /// Sides of a tile in samples.
 inline constexpr int kTileWidth = 128;
@@ -19,7 +19,7 @@ inline constexpr double kEdgeWidening = 0x1.8p-22;
 /// How a raster's camera turns points into places on the screen, in double. A point p seen from the
 /// eye has the view depth w = depth . p and lies on the screen at sample (x . p / w, y . p / w).
 struct RasterView {
-  RasterView(const SampleRaster& raster, const PrimaryRays& rays, const Bounds& scene);
+  RasterView(const SampleRaster& raster, const PrimaryRays& rays, const scenes::Bounds& scene);
 
   glm::vec3 eye;
   glm::dvec3 x;
@@ -71,4 +71,4 @@ struct TileView {
   float slack_depth;
 };
 
-}  // namespace beambench
+}  // namespace beambench::accel::tile_beam

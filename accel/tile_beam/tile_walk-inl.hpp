@@ -20,7 +20,7 @@
 #include "accel/tile_beam/tile_kernels.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// A part of the hierarchy goes to single rays when it has more than this many leaves a sample.
 inline constexpr float kHandoverLeaves = 1.0F;
@@ -174,7 +174,7 @@ class TileWalk {
   }
 
   const TileHierarchy* hierarchy_;
-  const Scene* scene_;
+  const scenes::Scene* scene_;
   TileRays rays_;
   const TileView* view_;
   BoxProbe probe_;
@@ -187,7 +187,7 @@ class TileWalk {
   std::array<Entry, kMostTileDepth*(kTileLanes - 1) + 1> stack_;
 };
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -11,7 +11,7 @@
 #include "accel/tile_beam/tile_raster-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// Triangles with no more blocks than this in their box are drawn by lists.
 inline constexpr int kMostListedBlocks = 30;
@@ -107,7 +107,7 @@ inline constexpr BlockPlaces<TileImage::kBlockColumns> kColumnPlaces(false);
 inline constexpr BlockPlaces<TileImage::kBlockRows> kRowPlaces(true);
 
 HWY_INLINE void paint_list(const BlockList& list, const StoredImages& images,
-                           const PrimitiveId* primitives, TileImage& image) {
+                           const scenes::PrimitiveId* primitives, TileImage& image) {
   for (std::size_t entry = 0; entry < list.count; ++entry) {
     const auto packed = static_cast<std::uint32_t>(list.entries[entry]);
     const std::size_t lane = packed & 15U;
@@ -133,7 +133,7 @@ HWY_INLINE void paint_list(const BlockList& list, const StoredImages& images,
   }
 }
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

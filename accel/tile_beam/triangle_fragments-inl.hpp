@@ -11,7 +11,7 @@
 #include "accel/tile_beam/triangle_setup-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// Triangles with no more samples than this in their box are drawn by lanes.
 inline constexpr float kMostLaneSamples = 9.0F;
@@ -56,7 +56,7 @@ HWY_INLINE void collect_fragments(const TriangleImages& images, Mask small, Frag
   } while (!hn::AllFalse(Tag(), small));
 }
 
-HWY_INLINE void resolve_fragments(const Fragments& fragments, const PrimitiveId* primitives,
+HWY_INLINE void resolve_fragments(const Fragments& fragments, const scenes::PrimitiveId* primitives,
                                   TileImage& image) {
   for (std::size_t f = 0; f < fragments.count; ++f) {
     const auto where = static_cast<unsigned>(fragments.where[f]);
@@ -69,7 +69,7 @@ HWY_INLINE void resolve_fragments(const Fragments& fragments, const PrimitiveId*
   }
 }
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

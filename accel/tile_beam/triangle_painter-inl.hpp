@@ -14,7 +14,7 @@
 #include "accel/tile_beam/triangle_setup-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// Of each row of blocks, those between the edges: the others lie outside one of them.
 class RowEnds {
@@ -56,8 +56,8 @@ class RowEnds {
 /// Draws one triangle by blocks.
 class BlockPainter {
  public:
-  BlockPainter(const std::array<TileLine, 3>& edges, const TileLine& plane, PrimitiveId primitive,
-               const SampleRectangle& box)
+  BlockPainter(const std::array<TileLine, 3>& edges, const TileLine& plane,
+               scenes::PrimitiveId primitive, const SampleRectangle& box)
       : edges_(edges), plane_(plane), primitive_(primitive), box_(box) {}
 
   /// Paints all blocks of the box that the triangle may meet; `clip`: not beyond the box.
@@ -103,11 +103,11 @@ class BlockPainter {
 
   std::array<TileLine, 3> edges_;
   TileLine plane_;
-  PrimitiveId primitive_;
+  scenes::PrimitiveId primitive_;
   SampleRectangle box_;
 };
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

@@ -12,7 +12,7 @@
 #include "accel/tile_beam/tile_view.hpp"
 
 HWY_BEFORE_NAMESPACE();
-namespace beambench::HWY_NAMESPACE {
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// A meshlet's vertices on the screen.
 struct SeenVertices {
@@ -153,7 +153,7 @@ HWY_INLINE TriangleImages see_triangles(const Meshlet& meshlet, const SeenVertic
   return images;
 }
 
-}  // namespace beambench::HWY_NAMESPACE
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif

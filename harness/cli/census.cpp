@@ -10,21 +10,21 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/base/counted.hpp"
 #include "harness/cli/census_result.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/picture_folder.hpp"
 #include "harness/cli/whitted_request.hpp"
-#include "harness/picture/image_error.hpp"
-#include "harness/picture/image_file.hpp"
-#include "harness/progress/counted.hpp"
 #include "harness/rays/answers.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "harness/shade/shading_order.hpp"
+#include "harness/render/picture/image_error.hpp"
+#include "harness/render/picture/image_file.hpp"
+#include "harness/render/shading_order.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 struct Request {
@@ -45,8 +45,9 @@ double milliseconds_since(Clock::time_point begin) {
 }
 
 /// The eye's rays by the structure's own way for images, or one by one at the corners of pixels.
-HitBuffer eye_hits(const Accelerator& structure, const EyeRays& rays, const PrimaryRays* image) {
-  HitBuffer hits(rays.width, rays.height, rays.samples);
+accel::HitBuffer eye_hits(const accel::Accelerator& structure, const render::EyeRays& rays,
+                          const accel::PrimaryRays* image) {
+  accel::HitBuffer hits(rays.width, rays.height, rays.samples);
   if (image != nullptr) {
     structure.trace(*image, hits);
     return hits;
@@ -61,73 +62,78 @@ HitBuffer eye_hits(const Accelerator& structure, const EyeRays& rays, const Prim
 
 bool by_spd(const Request& request) { return request.rules == "spd"; }
 
-WhittedOptions options_of(const Request& request, const WhittedRequest& whitted) {
-  WhittedOptions options = whitted_options(whitted);
+render::WhittedOptions options_of(const Request& request, const WhittedRequest& whitted) {
+  render::WhittedOptions options = whitted_options(whitted);
   options.glass_always_mirrors = by_spd(request);
   return options;
 }
 
 /// The picture in the order that was asked for.
-WhittedPicture draw(const Whitted& tracer, const Accelerator& structure, const PrimaryRays& primary,
-                    const EyeRays& rays, const HitBuffer& hits, const Request& request,
-                    Progress& progress) {
-  const ShadingOrder order = parse_shading_order(request.order);
-  if (order == ShadingOrder::kRows) {
+render::WhittedPicture draw(const render::Whitted& tracer, const accel::Accelerator& structure,
+                            const accel::PrimaryRays& primary, const render::EyeRays& rays,
+                            const accel::HitBuffer& hits, const Request& request,
+                            base::Progress& progress) {
+  const render::ShadingOrder order = render::parse_shading_order(request.order);
+  if (order == render::ShadingOrder::kRows) {
     return watched_picture(tracer, rays, hits, request.whitted, progress);
   }
-  const auto places =
-      order == ShadingOrder::kBeams ? beam_order(structure, primary) : scan_order(primary);
-  return whitted_picture_along(places, tracer, rays, hits,
-                               [&](double part) { progress.advance(part); });
+  const auto places = order == render::ShadingOrder::kBeams ? render::beam_order(structure, primary)
+                                                            : render::scan_order(primary);
+  return render::whitted_picture_along(places, tracer, rays, hits,
+                                       [&](double part) { progress.advance(part); });
 }
 
 /// The picture without `least_weight`, and how far the one with it is from it.
-FullPicture draw_full(const Scene& scene, const Accelerator& structure, const HitCheck& check,
-                      const EyeRays& rays, const HitBuffer& hits, const Request& request,
-                      const Image& picture, Progress& progress) {
+FullPicture draw_full(const scenes::Scene& scene, const accel::Accelerator& structure,
+                      const rays::HitCheck& check, const render::EyeRays& rays,
+                      const accel::HitBuffer& hits, const Request& request,
+                      const render::Image& picture, base::Progress& progress) {
   WhittedRequest whitted = request.whitted;
   whitted.least_weight = 0.0;
   progress.start(fmt::format("{} without --least-weight", scene.name));
-  const Whitted tracer(scene, structure, options_of(request, whitted), check);
+  const render::Whitted tracer(scene, structure, options_of(request, whitted), check);
   const Clock::time_point begin = Clock::now();
-  const WhittedPicture full = watched_picture(tracer, rays, hits, whitted, progress);
+  const render::WhittedPicture full = watched_picture(tracer, rays, hits, whitted, progress);
   const double picture_ms = milliseconds_since(begin);
   progress.finish(fmt::format("{} rays", full.census.all_rays()));
-  return {full.census.all_rays(), picture_ms, root_mean_square_error(picture, full.image)};
+  return {full.census.all_rays(), picture_ms, render::root_mean_square_error(picture, full.image)};
 }
 
-CensusResult take_census(const Request& request, const std::string& name, Progress& progress) {
-  const StructureChoice choice = choose_one("--accel", request.structure);
-  const Scene scene = open_scene(name);
-  const ImageOfRays image = choose_image(scene, request.image);
-  const PrimaryRays primary = choose_rays(scene, request.image);
+CensusResult take_census(const Request& request, const std::string& name,
+                         base::Progress& progress) {
+  const accel::StructureChoice choice = choose_one("--accel", request.structure);
+  const scenes::Scene scene = open_scene(name);
+  const rays::ImageOfRays image = choose_image(scene, request.image);
+  const accel::PrimaryRays primary = choose_rays(scene, request.image);
   const bool spd = by_spd(request);
   progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
 
   CensusResult result{scene.name, scene.lights.size(), {}, 0, 0, 0, 0, 0, {}};
   const Clock::time_point all = Clock::now();
   Clock::time_point begin = all;
-  const auto structure = choice.build(scene, workload_of(image, primary));
+  const auto structure = choice.build(scene, rays::workload_of(image, primary));
   result.build_ms = milliseconds_since(begin);
-  const EyeRays rays = spd ? corner_rays(image.camera) : eye_rays(primary);
+  const render::EyeRays rays = spd ? render::corner_rays(image.camera) : render::eye_rays(primary);
   begin = Clock::now();
-  const HitBuffer hits = eye_hits(*structure, rays, spd ? nullptr : &primary);
+  const accel::HitBuffer hits = eye_hits(*structure, rays, spd ? nullptr : &primary);
   result.eye_ms = milliseconds_since(begin);
-  const HitCheck check(scene, choice);
+  const rays::HitCheck check(scene, choice);
   check.require(hits, rays.ray);
   begin = Clock::now();
-  const Whitted tracer(scene, *structure, options_of(request, request.whitted), check);
+  const render::Whitted tracer(scene, *structure, options_of(request, request.whitted), check);
   result.preparation_ms = milliseconds_since(begin);
   begin = Clock::now();
-  const WhittedPicture picture = draw(tracer, *structure, primary, rays, hits, request, progress);
+  const render::WhittedPicture picture =
+      draw(tracer, *structure, primary, rays, hits, request, progress);
   result.picture_ms = milliseconds_since(begin);
   result.census = picture.census;
   result.shadow_bytes = tracer.shadows().memory_bytes();
   if (!request.pictures.empty()) {
-    write_image(std::filesystem::path(request.pictures) / picture_name(scene.name), picture.image);
+    render::write_image(std::filesystem::path(request.pictures) / picture_name(scene.name),
+                        picture.image);
   }
   progress.finish(fmt::format("{} rays in {}", picture.census.all_rays(),
-                              format_duration(1e-3 * milliseconds_since(all))));
+                              base::format_duration(1e-3 * milliseconds_since(all))));
   if (request.whitted.least_weight > 0.0) {
     result.full = draw_full(scene, *structure, check, rays, hits, request, picture.image, progress);
   }
@@ -137,7 +143,7 @@ CensusResult take_census(const Request& request, const std::string& name, Progre
 /// How the request departs from the rules of SPD, which explains other counts than the published.
 std::string departure(const Request& request) {
   std::vector<std::string> ways;
-  const int published_depth = WhittedOptions{}.max_depth;
+  const int published_depth = render::WhittedOptions{}.max_depth;
   if (request.whitted.max_depth != published_depth) {
     ways.push_back(fmt::format("--depth {}", request.whitted.max_depth));
   }
@@ -180,7 +186,8 @@ void census(const Request& request) {
         "the rules of SPD fix the rays, 513x513 through the corners of pixels; "
         "leave out --resolution and --samples");
   }
-  if (parse_shading_order(request.order) != ShadingOrder::kRows && by_spd(request)) {
+  if (render::parse_shading_order(request.order) != render::ShadingOrder::kRows &&
+      by_spd(request)) {
     throw InputError("the rules of SPD have rows of corners of pixels; leave out --order");
   }
   choose_one("--accel", request.structure);
@@ -188,10 +195,10 @@ void census(const Request& request) {
   if (!request.pictures.empty()) make_picture_folder(request.pictures);
   std::vector<std::string> scenes = request.scenes;
   if (scenes.empty()) {
-    for (const SceneInfo& info : scene_catalogue()) scenes.push_back(info.name);
+    for (const scenes::SceneInfo& info : scenes::scene_catalogue()) scenes.push_back(info.name);
   }
   const bool twice = request.whitted.least_weight > 0.0;
-  Progress progress(scenes.size() * (twice ? 2 : 1));
+  base::Progress progress(scenes.size() * (twice ? 2 : 1));
   std::vector<CensusResult> results;
   results.reserve(scenes.size());
   for (const std::string& name : scenes) {
@@ -199,7 +206,7 @@ void census(const Request& request) {
   }
   progress.clear();
   if (!request.pictures.empty()) {
-    fmt::print(stderr, "{} in the folder '{}'\n", counted(results.size(), "picture"),
+    fmt::print(stderr, "{} in the folder '{}'\n", base::counted(results.size(), "picture"),
                request.pictures);
   }
   request.json ? print_json(request, results) : print_text(request, results);
@@ -258,4 +265,4 @@ void add_census_command(CLI::App& app, int&) {
   command->callback([request] { census(*request); });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

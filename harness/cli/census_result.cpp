@@ -9,9 +9,9 @@
 #include <fmt/format.h>
 
 #include "harness/cli/text.hpp"
-#include "harness/shade/spd_counts.hpp"
+#include "harness/render/spd_counts.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 using Cells = std::vector<std::string>;
@@ -20,7 +20,7 @@ std::string number(std::uint64_t value) { return fmt::format("{}", value); }
 std::string time(double ms) { return fmt::format("{:.4g} ms", ms); }
 
 Cells row_of(const CensusResult& result) {
-  const RayCensus& census = result.census;
+  const render::RayCensus& census = result.census;
   Cells row{result.scene,
             number(census.eye),
             number(census.eye_hits),
@@ -60,7 +60,8 @@ struct Compared {
   bool notable() const { return !percent() || std::abs(*percent()) > kNotablePercent; }
 };
 
-std::array<Compared, 4> compared(const RayCensus& ours, const PublishedCounts& theirs) {
+std::array<Compared, 4> compared(const render::RayCensus& ours,
+                                 const render::PublishedCounts& theirs) {
   return {{{"eye_hits", ours.eye_hits, theirs.eye_hits},
            {"reflected", ours.reflected, theirs.reflected},
            {"refracted", ours.refracted + ours.totally_reflected, theirs.refracted},
@@ -73,7 +74,7 @@ std::string published_text(const std::vector<CensusResult>& results, const std::
   TextTable table({"scene", "rays", "here", "published", "difference", "remark"}, 2);
   bool any = false;
   for (const CensusResult& result : results) {
-    const PublishedCounts* theirs = find_published_counts(result.scene);
+    const render::PublishedCounts* theirs = render::find_published_counts(result.scene);
     if (theirs == nullptr) continue;
     for (const Compared& each : compared(result.census, *theirs)) {
       if (each.ours == 0 && each.published == 0) continue;
@@ -92,7 +93,7 @@ std::string published_text(const std::vector<CensusResult>& results, const std::
 
 nlohmann::ordered_json to_json_beside_published(const CensusResult& result) {
   nlohmann::ordered_json out = to_json(result);
-  const PublishedCounts* theirs = find_published_counts(result.scene);
+  const render::PublishedCounts* theirs = render::find_published_counts(result.scene);
   if (theirs == nullptr) return out;
   for (const Compared& each : compared(result.census, *theirs)) {
     const auto percent = each.percent();
@@ -118,7 +119,7 @@ std::string census_text(const std::vector<CensusResult>& results) {
 }
 
 nlohmann::ordered_json to_json(const CensusResult& result) {
-  const RayCensus& census = result.census;
+  const render::RayCensus& census = result.census;
   nlohmann::ordered_json out{{"scene", result.scene},
                              {"lights", result.lights},
                              {"eye_rays", census.eye},
@@ -147,4 +148,4 @@ nlohmann::ordered_json to_json(const CensusResult& result) {
   return out;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

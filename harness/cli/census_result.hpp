@@ -9,9 +9,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/shade/ray_census.hpp"
+#include "harness/render/ray_census.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 
 /// The same picture with no ray left out for being faint, to tell what that saves and costs.
 struct FullPicture {
@@ -24,7 +24,7 @@ struct FullPicture {
 struct CensusResult {
   std::string scene;
   std::size_t lights;
-  RayCensus census;
+  render::RayCensus census;
   double build_ms;
   double eye_ms;
   double preparation_ms;  ///< light buffers
@@ -46,4 +46,4 @@ nlohmann::ordered_json to_json(const CensusResult& result);
 /// The same with "published": a count of his, ours and the difference in percent by kind of ray.
 nlohmann::ordered_json to_json_beside_published(const CensusResult& result);
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -3,17 +3,10 @@
 
 #include <CLI/CLI.hpp>
 
+#include "harness/base/exit_code.hpp"
 #include "harness/plugin/activity.hpp"
 
-namespace beambench {
-
-/// What the process ends with.
-enum ExitCode : int {
-  kSuccess = 0,
-  kFound = 1,         ///< a mismatch, an error of a structure or a regression was found
-  kWrongRequest = 2,  ///< the request cannot be met as it was made
-  kInternalError = 70
-};
+namespace beambench::cli {
 
 /// Each adds its subcommand with options and help to `app`; when the user picks it, it runs while
 /// `app` parses and leaves its result in `exit_code`, which outlives `app`. Wrong requests are
@@ -27,7 +20,7 @@ void add_stats_command(CLI::App& app, int& exit_code);
 void add_verify_command(CLI::App& app, int& exit_code);
 void add_trace_command(CLI::App& app, int& exit_code);
 /// `activity` outlives `app`.
-void add_run_command(CLI::App& app, int& exit_code, Activity& activity);
+void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity);
 void add_sampling_command(CLI::App& app, int& exit_code);
 void add_census_command(CLI::App& app, int& exit_code);
 void add_mirrors_command(CLI::App& app, int& exit_code);
@@ -36,4 +29,4 @@ void add_selftest_command(CLI::App& app, int& exit_code);
 void add_completion_command(CLI::App& app, int& exit_code);
 void add_man_command(CLI::App& app, int& exit_code);
 
-}  // namespace beambench
+}  // namespace beambench::cli

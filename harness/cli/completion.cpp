@@ -9,42 +9,44 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "accel/registry.hpp"
+#include "accel/core/registry.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/difference_picture.hpp"
 #include "harness/cli/overlay_picture.hpp"
 #include "harness/rays/ray_kind.hpp"
-#include "harness/shade/shading.hpp"
-#include "harness/shade/whitted_options.hpp"
+#include "harness/render/shading.hpp"
+#include "harness/render/whitted_options.hpp"
 #include "scenes/catalogue.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 using Words = std::vector<std::string>;
 
 Words structure_names(std::string extra) {
   Words names{std::move(extra)};
-  for (const StructureInfo& info : registry().structures()) names.push_back(info.name);
+  for (const accel::StructureInfo& info : accel::registry().structures())
+    names.push_back(info.name);
   return names;
 }
 
 Words scene_names() {
   Words names;
-  for (const SceneInfo& info : scene_catalogue()) names.push_back(info.name);
+  for (const scenes::SceneInfo& info : scenes::scene_catalogue()) names.push_back(info.name);
   return names;
 }
 
 Words ray_kind_names() {
   Words names;
-  for (const RayKindInfo& info : ray_kinds()) names.emplace_back(info.name);
+  for (const rays::RayKindInfo& info : rays::ray_kinds()) names.emplace_back(info.name);
   return names;
 }
 
 /// What 'beambench list' prints alone.
 Words listed_names() {
   Words names;
-  for (const StructureInfo& info : registry().structures()) names.push_back(info.name);
+  for (const accel::StructureInfo& info : accel::registry().structures())
+    names.push_back(info.name);
   for (const Words& more : {scene_names(), ray_kind_names()}) {
     names.insert(names.end(), more.begin(), more.end());
   }
@@ -59,12 +61,12 @@ const std::map<std::string, Words>& known_values() {
       {"SHELL", {"bash", "zsh", "fish"}},
       {"--accel", structure_names("all")},
       {"--difference", structure_names(kOracleName)},
-      {"--heatmap", {kCounterNames.begin(), kCounterNames.end()}},
+      {"--heatmap", {accel::kCounterNames.begin(), accel::kCounterNames.end()}},
       {"--overlay", {overlay_names().begin(), overlay_names().end()}},
       {"--rays", ray_kind_names()},
       {"--rules", {"spd", "image"}},
-      {"--shadows", {shadow_method_names().begin(), shadow_method_names().end()}},
-      {"--shade", {shading_names().begin(), shading_names().end()}}};
+      {"--shadows", {render::shadow_method_names().begin(), render::shadow_method_names().end()}},
+      {"--shade", {render::shading_names().begin(), render::shading_names().end()}}};
   return values;
 }
 
@@ -218,4 +220,4 @@ void add_completion_command(CLI::App& app, int&) {
   command->callback([shell, &app] { fmt::print("{}", script_for(*shell, app)); });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

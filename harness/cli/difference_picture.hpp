@@ -5,9 +5,9 @@
 #include <span>
 #include <string>
 
-#include "harness/differ/differ.hpp"
+#include "harness/verify/differ.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 
 /// Who was compared with whom.
 struct ComparedNames {
@@ -22,10 +22,11 @@ inline constexpr const char* kOracleName = "oracle";
 /// of what the reference sees; a pixel shows the gravest class of its samples. A .png gets a
 /// legend; an .exr the preview in colours and the classes as numbers (0 agree, 1 tie, 2 graze, 3
 /// the judged is wrong, 4 the reference is).
-void write_difference(const std::filesystem::path& file, const ReferenceHits& reference,
-                      std::span<const DiffClass> classes, const ComparedNames& comparison);
+void write_difference(const std::filesystem::path& file, const verify::ReferenceHits& reference,
+                      std::span<const verify::DiffClass> classes, const ComparedNames& comparison);
 
 /// A structure's hits as reference; answers that are none count as misses.
-ReferenceHits reference_from(const Scene& scene, const Question& question, const Answers& answers);
+verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::Question& question,
+                                     const rays::Answers& answers);
 
-}  // namespace beambench
+}  // namespace beambench::cli

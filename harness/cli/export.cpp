@@ -9,17 +9,17 @@
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
-#include "harness/files/pending_file.hpp"
-#include "scenes/error.hpp"
-#include "scenes/nff_writer.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/pending_file.hpp"
+#include "scenes/formats/nff/nff_writer.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 struct Request {
   std::string scene;
   std::string file;
-  NffOptions options;
+  scenes::nff::NffOptions options;
 };
 
 void export_scene(const Request& request) {
@@ -30,8 +30,8 @@ void export_scene(const Request& request) {
                     request.file));
   }
   require_writable(request.file);
-  const Scene scene = open_scene(request.scene, request.options);
-  write_file(request.file, [&](std::ostream& file) { write_nff(scene, file); });
+  const scenes::Scene scene = open_scene(request.scene, request.options);
+  write_file(request.file, [&](std::ostream& file) { scenes::nff::write_nff(scene, file); });
   fmt::print(stderr, "{}: {}, {} primitives\n", request.file, scene.name, scene.primitives.size());
 }
 
@@ -53,4 +53,4 @@ void add_export_command(CLI::App& app, int&) {
   command->callback([request] { export_scene(*request); });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

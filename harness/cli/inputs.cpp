@@ -11,15 +11,15 @@
 
 #include "harness/rays/resolution.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 #include "scenes/find_camera.hpp"
 #include "scenes/scene_builder.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 
-Scene open_scene(std::string_view spec, NffOptions options) {
+scenes::Scene open_scene(std::string_view spec, scenes::nff::NffOptions options) {
   std::vector<std::string> warnings;
-  Scene scene = load_scene(spec, &warnings, options);
+  scenes::Scene scene = scenes::load_scene(spec, &warnings, options);
   for (const std::string& warning : warnings) fmt::print(stderr, "beambench: {}\n", warning);
   return scene;
 }
@@ -58,16 +58,17 @@ glm::vec3 parse_vector(std::string_view option, std::string_view text) {
     if (end == std::string_view::npos) break;
     const char* const stop = rest.data() + end;
     const auto [at, error] = std::from_chars(rest.data(), stop, numbers[i]);
-    if (error != std::errc() || at != stop || !(std::abs(numbers[i]) <= kLargestNumber)) break;
+    if (error != std::errc() || at != stop || !(std::abs(numbers[i]) <= scenes::kLargestNumber))
+      break;
     if (last) return {numbers[0], numbers[1], numbers[2]};
     rest.remove_prefix(end + 1);
   }
   throw InputError(
       fmt::format("{} '{}' is not X,Y,Z with three numbers up to {:g}; write it as 1,2.5,-3",
-                  option, text, kLargestNumber));
+                  option, text, scenes::kLargestNumber));
 }
 
-void require_view(const Camera& camera) {
+void require_view(const scenes::Camera& camera) {
   const glm::dvec3 way = glm::dvec3(camera.at) - glm::dvec3(camera.from);
   if (glm::length(way) == 0.0) {
     throw InputError("--from and --at are the same point; look at another one");
@@ -81,9 +82,9 @@ void require_view(const Camera& camera) {
 
 }  // namespace
 
-Camera choose_camera(const Scene& scene, const ViewRequest& request) {
-  Camera camera =
-      request.camera.empty() ? scene.cameras.front() : find_camera(scene, request.camera);
+scenes::Camera choose_camera(const scenes::Scene& scene, const ViewRequest& request) {
+  scenes::Camera camera =
+      request.camera.empty() ? scene.cameras.front() : scenes::find_camera(scene, request.camera);
   if (request.from.empty() && request.at.empty() && request.up.empty() && !request.angle) {
     return camera;
   }
@@ -103,24 +104,25 @@ Camera choose_camera(const Scene& scene, const ViewRequest& request) {
   return camera;
 }
 
-StructureChoice choose_one(std::string_view option, std::string_view text) {
-  std::vector<StructureChoice> choices = registry().choose_list(text);
+accel::StructureChoice choose_one(std::string_view option, std::string_view text) {
+  std::vector<accel::StructureChoice> choices = accel::registry().choose_list(text);
   if (choices.size() == 1) return choices.front();
   throw InputError(fmt::format("{} '{}' names {} structures, but one is shown at a time; name one",
                                option, text, choices.size()));
 }
 
-ImageOfRays choose_image(const Scene& scene, const ImageRequest& request) {
-  const Camera camera = choose_camera(scene, request.view);
-  const Resolution resolution = request.resolution.empty() ? Resolution{camera.width, camera.height}
-                                                           : parse_resolution(request.resolution);
-  const auto samples = sample_offsets(request.samples).size();
-  require_ray_count(resolution, static_cast<int>(samples));
+rays::ImageOfRays choose_image(const scenes::Scene& scene, const ImageRequest& request) {
+  const scenes::Camera camera = choose_camera(scene, request.view);
+  const rays::Resolution resolution = request.resolution.empty()
+                                          ? rays::Resolution{camera.width, camera.height}
+                                          : rays::parse_resolution(request.resolution);
+  const auto samples = accel::sample_offsets(request.samples).size();
+  rays::require_ray_count(resolution, static_cast<int>(samples));
   return {camera, resolution, request.samples};
 }
 
-PrimaryRays choose_rays(const Scene& scene, const ImageRequest& request) {
-  const ImageOfRays image = choose_image(scene, request);
+accel::PrimaryRays choose_rays(const scenes::Scene& scene, const ImageRequest& request) {
+  const rays::ImageOfRays image = choose_image(scene, request);
   return {image.camera, image.resolution.width, image.resolution.height, image.samples};
 }
 
@@ -135,18 +137,19 @@ void add_image_options(CLI::App& command, ImageRequest& request) {
   add_view_options(command, request.view);
 }
 
-Contenders choose_contenders(std::string_view list, const Scene& scene) {
+Contenders choose_contenders(std::string_view list, const scenes::Scene& scene) {
   Contenders contenders;
   const std::vector<Spec> specs = parse_spec_list(list);
   const auto named = [&](std::string_view name) {
     return std::any_of(specs.begin(), specs.end(),
                        [&](const Spec& spec) { return spec.name == name; });
   };
-  contenders.choices = registry().choose_list(list);
+  contenders.choices = accel::registry().choose_list(list);
   const bool too_many = scene.primitives.size() > kExhaustiveLimit;
   if (too_many && named("all") && !named("exhaustive")) {
-    std::erase_if(contenders.choices,
-                  [](const StructureChoice& choice) { return choice.info().name == "exhaustive"; });
+    std::erase_if(contenders.choices, [](const accel::StructureChoice& choice) {
+      return choice.info().name == "exhaustive";
+    });
     contenders.note = fmt::format(
         "{}: exhaustive is left out of 'all' above {} primitives (the scene has {}); name it after "
         "--accel to have it all the same",
@@ -155,4 +158,4 @@ Contenders choose_contenders(std::string_view list, const Scene& scene) {
   return contenders;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

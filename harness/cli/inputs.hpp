@@ -8,16 +8,16 @@
 
 #include <CLI/CLI.hpp>
 
-#include "accel/registry.hpp"
+#include "accel/core/registry.hpp"
 #include "harness/rays/question.hpp"
-#include "scenes/nff_reader.hpp"
+#include "scenes/formats/nff/nff_reader.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 
 /// Loads a scene; what its file's reader noticed goes to stderr, or where the options are strict,
 /// is refused. Throws as load_scene.
-Scene open_scene(std::string_view spec, NffOptions options = {});
+scenes::Scene open_scene(std::string_view spec, scenes::nff::NffOptions options = {});
 
 /// What SCENE may be, for the help of every command.
 inline constexpr const char* kSceneHelp =
@@ -44,10 +44,10 @@ inline constexpr const char* kTypedCamera = "typed";
 /// The camera that is asked for: one of the scene's, or where a part of it is typed, that camera
 /// with this part replaced, named `kTypedCamera`. Throws InputError listing the scene's cameras for
 /// an unknown name, and saying what is expected for a view that is none.
-Camera choose_camera(const Scene& scene, const ViewRequest& request);
+scenes::Camera choose_camera(const scenes::Scene& scene, const ViewRequest& request);
 
 /// The one structure that is typed after `option`. Throws InputError when they are several.
-StructureChoice choose_one(std::string_view option, std::string_view text);
+accel::StructureChoice choose_one(std::string_view option, std::string_view text);
 
 /// How an image is asked for.
 struct ImageRequest {
@@ -56,8 +56,8 @@ struct ImageRequest {
   int samples = 1;
 };
 /// Throws InputError for a wrong resolution, camera or number of samples.
-ImageOfRays choose_image(const Scene& scene, const ImageRequest& request);
-PrimaryRays choose_rays(const Scene& scene, const ImageRequest& request);
+rays::ImageOfRays choose_image(const scenes::Scene& scene, const ImageRequest& request);
+accel::PrimaryRays choose_rays(const scenes::Scene& scene, const ImageRequest& request);
 /// Adds --resolution and --samples.
 void add_size_options(CLI::App& command, ImageRequest& request);
 /// The same and the options of the view.
@@ -66,10 +66,10 @@ void add_image_options(CLI::App& command, ImageRequest& request);
 /// The structures of a list as typed after --accel. Where `all` brought in `exhaustive` and the
 /// scene is too large for it (kExhaustiveLimit), it is left out and `note` says so.
 struct Contenders {
-  std::vector<StructureChoice> choices;
+  std::vector<accel::StructureChoice> choices;
   std::string note;
 };
-Contenders choose_contenders(std::string_view list, const Scene& scene);
+Contenders choose_contenders(std::string_view list, const scenes::Scene& scene);
 inline constexpr std::size_t kExhaustiveLimit = 20000;
 
-}  // namespace beambench
+}  // namespace beambench::cli

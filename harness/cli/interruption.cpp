@@ -7,13 +7,9 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-namespace beambench {
-namespace {
+#include "harness/base/exit_code.hpp"
 
-constexpr int kInterrupted = 130;  // as shells report a death by SIGINT: 128 + 2
-
-}  // namespace
-
+namespace beambench::cli {
 Interruption::Interruption(std::string last_line) : last_line_(std::move(last_line)) {
   ::sigemptyset(&signals_);
   ::sigaddset(&signals_, SIGINT);
@@ -47,7 +43,7 @@ void Interruption::end() {
   const char* wipe = ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
   fmt::print(stderr, "{}{}\n", wipe, last_line_);
   std::fflush(stderr);
-  std::_Exit(kInterrupted);
+  std::_Exit(base::kInterrupted);
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -6,7 +6,7 @@
 #include <string>
 #include <thread>
 
-namespace beambench {
+namespace beambench::cli {
 
 /// While it lives, SIGINT and SIGTERM end the process at once, whatever it is doing, with exit code
 /// 130 and one last line on stderr. For work whose results are safe against a kill at any moment.
@@ -34,4 +34,4 @@ class Interruption {
   std::jthread waiting_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -12,29 +12,29 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "accel/registry.hpp"
+#include "accel/core/registry.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/ray_kind.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/error.hpp"
-#include "scenes/meshes/mesh_registry.hpp"
-#include "scenes/nearest_name.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/nearest_name.hpp"
+#include "scenes/formats/mesh/mesh_registry.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string_view conformance_name(Conformance conformance) {
+std::string_view conformance_name(accel::Conformance conformance) {
   switch (conformance) {
-    case Conformance::kBitExact:
+    case accel::Conformance::kBitExact:
       return "bit-exact";
-    case Conformance::kTolerance:
+    case accel::Conformance::kTolerance:
       return "tolerance";
-    case Conformance::kBaseline:
+    case accel::Conformance::kBaseline:
       break;
   }
   return "baseline";
@@ -75,7 +75,7 @@ std::string range_text(const ParameterInfo& info) {
 
 std::string about_mesh(const std::string& name) {
   try {
-    const RegisteredMesh mesh = find_registered_mesh(name);
+    const scenes::mesh::RegisteredMesh mesh = scenes::mesh::find_registered_mesh(name);
     return mesh.about.empty() ? mesh.path.string() : mesh.about;
   } catch (const InputError& error) {
     return error.what();
@@ -92,10 +92,10 @@ void print_parameters(const std::vector<ParameterInfo>& parameters) {
 /// An entry that cannot be read is shown with the reason.
 void print_meshes() {
   fmt::print("\nMeshes, as mesh:NAME (scripts/meshes registers some):\n\n");
-  const std::vector<std::string> names = registered_mesh_names();
+  const std::vector<std::string> names = scenes::mesh::registered_mesh_names();
   if (names.empty()) fmt::print("  none\n");
   for (const std::string& name : names) {
-    fmt::print("  {}{}\n{}", kMeshPrefix, name, wrap(about_mesh(name), 6));
+    fmt::print("  {}{}\n{}", scenes::mesh::kMeshPrefix, name, wrap(about_mesh(name), 6));
   }
 }
 
@@ -104,37 +104,38 @@ std::string origin_text(const std::string& origin) {
 }
 
 void print_plugins() {
-  if (loaded_plugins().empty()) return;
-  if (!scene_readers().empty()) fmt::print("\nFurther formats of scene files, by path:\n");
-  for (const SceneReader& reader : scene_readers()) {
+  if (plugin::loaded_plugins().empty()) return;
+  if (!scenes::scene_readers().empty()) fmt::print("\nFurther formats of scene files, by path:\n");
+  for (const scenes::SceneReader& reader : scenes::scene_readers()) {
     fmt::print("\n  *{}{}\n{}", reader.ending, origin_text(reader.origin), wrap(reader.summary, 6));
   }
   fmt::print("\nPlug-ins:\n");
-  for (const LoadedPlugin& plugin : loaded_plugins()) {
+  for (const plugin::LoadedPlugin& plugin : plugin::loaded_plugins()) {
     fmt::print("\n  {}\n{}", plugin.file, wrap(plugin.description, 6));
-    fmt::print("      hash {}, built by {} for {}{}\n", hex_digits(plugin.hash), plugin.compiler,
-               plugin.instructions, plugin.optimised ? "" : ", without optimisation");
+    fmt::print("      hash {}, built by {} for {}{}\n", rays::hex_digits(plugin.hash),
+               plugin.compiler, plugin.instructions,
+               plugin.optimised ? "" : ", without optimisation");
   }
 }
 
-void print_structure(const StructureInfo& info) {
+void print_structure(const accel::StructureInfo& info) {
   fmt::print("\n  {}  [{}]{}\n{}", info.name, conformance_name(info.conformance),
              origin_text(info.origin), wrap(info.summary, 6));
   print_parameters(info.parameters);
 }
 
-void print_scene(const SceneInfo& info) {
+void print_scene(const scenes::SceneInfo& info) {
   fmt::print("\n  {}{}\n{}", info.name, origin_text(info.origin), wrap(info.summary, 6));
   print_parameters(info.parameters);
 }
 
-void print_ray_kind(const RayKindInfo& info) {
+void print_ray_kind(const rays::RayKindInfo& info) {
   fmt::print("\n  {}\n{}", info.name, wrap(info.summary, 6));
   print_parameters(info.parameters);
 }
 
-void print_counters(std::span<const CounterInfo> counters) {
-  for (const CounterInfo& info : counters) {
+void print_counters(std::span<const accel::CounterInfo> counters) {
+  for (const accel::CounterInfo& info : counters) {
     fmt::print("      {}\n{}", info.name, wrap(info.meaning, 10));
   }
 }
@@ -144,9 +145,9 @@ void print_all_counters() {
   fmt::print(
       "What the counting pass counts, never in timed code: for --heatmap, in 'beambench stats' and "
       "as\ncolumns of results.csv, NAME_per_ray.\n\n  every structure\n");
-  print_counters(common_counters());
-  for (const StructureInfo& info : registry().structures()) {
-    const auto own = registry().own_counters(info.name);
+  print_counters(accel::common_counters());
+  for (const accel::StructureInfo& info : accel::registry().structures()) {
+    const auto own = accel::registry().own_counters(info.name);
     if (own.empty()) continue;
     fmt::print("\n  {}, too\n", info.name);
     print_counters(own);
@@ -162,9 +163,10 @@ const Info* find_named(std::span<const Info> infos, std::string_view name) {
 
 [[noreturn]] void refuse_name(const std::string& name) {
   std::vector<std::string> names;
-  for (const StructureInfo& info : registry().structures()) names.push_back(info.name);
-  for (const SceneInfo& info : scene_catalogue()) names.push_back(info.name);
-  for (const RayKindInfo& info : ray_kinds()) names.emplace_back(info.name);
+  for (const accel::StructureInfo& info : accel::registry().structures())
+    names.push_back(info.name);
+  for (const scenes::SceneInfo& info : scenes::scene_catalogue()) names.push_back(info.name);
+  for (const rays::RayKindInfo& info : rays::ray_kinds()) names.emplace_back(info.name);
   throw InputError(fmt::format(
       "there is no structure, scene or kind of rays '{}'; {}'beambench list' prints all", name,
       did_you_mean(name, names)));
@@ -173,14 +175,14 @@ const Info* find_named(std::span<const Info> infos, std::string_view name) {
 /// All that goes by that name; what stands behind a colon does not matter.
 void print_named(const std::string& spec) {
   const std::string name = spec.substr(0, spec.find(':'));
-  const StructureInfo* structure = find_named(registry().structures(), name);
-  const SceneInfo* scene = find_named(scene_catalogue(), name);
-  const RayKindInfo* rays = find_named(ray_kinds(), name);
+  const accel::StructureInfo* structure = find_named(accel::registry().structures(), name);
+  const scenes::SceneInfo* scene = find_named(scenes::scene_catalogue(), name);
+  const rays::RayKindInfo* rays = find_named(rays::ray_kinds(), name);
   if (structure == nullptr && scene == nullptr && rays == nullptr) refuse_name(name);
   if (structure != nullptr) {
     fmt::print("Structure, for --accel {}:parameter=value,...\n", name);
     print_structure(*structure);
-    if (const auto own = registry().own_counters(name); !own.empty()) {
+    if (const auto own = accel::registry().own_counters(name); !own.empty()) {
       fmt::print("\n    counts, beside what every structure counts (--counters):\n");
       print_counters(own);
     }
@@ -197,22 +199,22 @@ void print_named(const std::string& spec) {
 
 void print_text() {
   fmt::print("Structures, for --accel NAME:parameter=value,... ('all' is every one):\n");
-  for (const StructureInfo& info : registry().structures()) print_structure(info);
+  for (const accel::StructureInfo& info : accel::registry().structures()) print_structure(info);
   fmt::print("\n{}", wrap("bit-exact: equal to exhaustive bit for bit; tolerance: arithmetic of "
                           "its own, judged by the differ's classes; baseline: answers nothing by "
                           "design.",
                           2));
   fmt::print("\nScenes, as NAME:parameter=value,... (or the path of a mesh or of an NFF file):\n");
-  for (const SceneInfo& info : scene_catalogue()) print_scene(info);
+  for (const scenes::SceneInfo& info : scenes::scene_catalogue()) print_scene(info);
   print_meshes();
   print_plugins();
   fmt::print("\nKinds of rays, for --rays (or the path of a .rays file, see 'beambench rays'):\n");
-  for (const RayKindInfo& info : ray_kinds()) print_ray_kind(info);
+  for (const rays::RayKindInfo& info : rays::ray_kinds()) print_ray_kind(info);
 }
 
-Json counters_json(std::span<const CounterInfo> counters) {
+Json counters_json(std::span<const accel::CounterInfo> counters) {
   Json list = Json::array();
-  for (const CounterInfo& info : counters) {
+  for (const accel::CounterInfo& info : counters) {
     list.push_back({{"name", info.name}, {"meaning", info.meaning}});
   }
   return list;
@@ -240,35 +242,36 @@ Json origin_json(const std::string& origin) {
 
 void print_json() {
   Json all;
-  for (const StructureInfo& info : registry().structures()) {
-    all["structures"].push_back({{"name", info.name},
-                                 {"summary", info.summary},
-                                 {"conformance", conformance_name(info.conformance)},
-                                 {"origin", origin_json(info.origin)},
-                                 {"parameters", parameters_json(info.parameters)},
-                                 {"counters", counters_json(registry().own_counters(info.name))}});
+  for (const accel::StructureInfo& info : accel::registry().structures()) {
+    all["structures"].push_back(
+        {{"name", info.name},
+         {"summary", info.summary},
+         {"conformance", conformance_name(info.conformance)},
+         {"origin", origin_json(info.origin)},
+         {"parameters", parameters_json(info.parameters)},
+         {"counters", counters_json(accel::registry().own_counters(info.name))}});
   }
-  all["counters"] = counters_json(common_counters());
-  for (const SceneInfo& info : scene_catalogue()) {
+  all["counters"] = counters_json(accel::common_counters());
+  for (const scenes::SceneInfo& info : scenes::scene_catalogue()) {
     all["scenes"].push_back({{"name", info.name},
                              {"summary", info.summary},
                              {"origin", origin_json(info.origin)},
                              {"parameters", parameters_json(info.parameters)}});
   }
   all["readers"] = Json::array();
-  for (const SceneReader& reader : scene_readers()) {
+  for (const scenes::SceneReader& reader : scenes::scene_readers()) {
     all["readers"].push_back(
         {{"ending", reader.ending}, {"summary", reader.summary}, {"origin", reader.origin}});
   }
   all["meshes"] = Json::array();
-  for (const std::string& name : registered_mesh_names()) {
-    all["meshes"].push_back(
-        {{"name", fmt::format("{}{}", kMeshPrefix, name)}, {"about", about_mesh(name)}});
+  for (const std::string& name : scenes::mesh::registered_mesh_names()) {
+    all["meshes"].push_back({{"name", fmt::format("{}{}", scenes::mesh::kMeshPrefix, name)},
+                             {"about", about_mesh(name)}});
   }
-  for (const RayKindInfo& info : ray_kinds()) {
+  for (const rays::RayKindInfo& info : rays::ray_kinds()) {
     all["rays"].push_back({{"name", info.name},
                            {"summary", info.summary},
-                           {"query", to_string(info.query)},
+                           {"query", rays::to_string(info.query)},
                            {"parameters", parameters_json(info.parameters)}});
   }
   fmt::print("{}\n", all.dump(2));
@@ -310,4 +313,4 @@ void add_list_command(CLI::App& app, int&) {
   command->callback([request] { list(*request); });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

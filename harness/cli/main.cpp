@@ -14,17 +14,17 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/bench/record/build_info.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/plugin/guard.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "harness/plugin/requested_plugins.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "harness/record/build_info.hpp"
-#include "scenes/error.hpp"
-#include "scenes/nearest_name.hpp"
-#include "scenes/plugin_error.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/nearest_name.hpp"
+#include "scenes/core/plugin_error.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 constexpr const char* kDescription =
@@ -49,7 +49,8 @@ int complain(std::string message, int exit_code) {
 }
 
 int complain_of_output() {
-  return complain("cannot write to the standard output; make room where it goes", kWrongRequest);
+  return complain("cannot write to the standard output; make room where it goes",
+                  base::kInvalidInput);
 }
 
 using Arguments = std::vector<std::string>;
@@ -96,10 +97,10 @@ std::string suggested_option(const CLI::App& command) {
   return "";
 }
 
-int parse_and_run(const Arguments& arguments, Activity& activity) {
+int parse_and_run(const Arguments& arguments, plugin::Activity& activity) {
   CLI::App app(kDescription, "beambench");
-  int exit_code = kSuccess;
-  app.set_version_flag("--version", fmt::format("beambench {}", build_info().version));
+  int exit_code = base::kSuccess;
+  app.set_version_flag("--version", fmt::format("beambench {}", bench::build_info().version));
   app.footer(kExamples);
   app.get_formatter()->column_width(34);
   app.require_subcommand(1);
@@ -123,35 +124,35 @@ int parse_and_run(const Arguments& arguments, Activity& activity) {
     const std::string command = picked.empty() ? "" : picked.front()->get_name() + ' ';
     const std::string meant = picked.empty() ? "" : suggested_option(*picked.front());
     return complain(fmt::format("{}; {}see 'beambench {}--help'", error.what(), meant, command),
-                    kWrongRequest);
+                    base::kInvalidInput);
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return complain_of_output();
   return exit_code;
 }
 
 int run_command_line(const Arguments& arguments, const std::vector<std::string>& plugins,
-                     Activity& activity) {
+                     plugin::Activity& activity) {
   try {
-    for (const std::string& file : plugins) load_plugin(file, activity);
+    for (const std::string& file : plugins) plugin::load_plugin(file, activity);
     return parse_and_run(arguments, activity);
   } catch (const InputError& error) {
-    return complain(error.what(), kWrongRequest);
+    return complain(error.what(), base::kInvalidInput);
   } catch (const PluginError& error) {
-    return complain(error.what(), kFound);
-  } catch (const InvalidHit& error) {
-    return complain(error.what(), kFound);
+    return complain(error.what(), base::kMismatch);
+  } catch (const rays::InvalidHit& error) {
+    return complain(error.what(), base::kMismatch);
   } catch (const std::bad_alloc&) {
     return complain(
         "the memory does not suffice for this request; choose a smaller scene, resolution or "
         "structure",
-        kWrongRequest);
+        base::kInvalidInput);
   } catch (const std::filesystem::filesystem_error& error) {
-    return complain(error.what(), kWrongRequest);
+    return complain(error.what(), base::kInvalidInput);
   } catch (const std::exception& error) {
     if (std::ferror(stdout) != 0) return complain_of_output();  // thrown while printing
     return complain(
         fmt::format("internal error, please report it with the command line: {}", error.what()),
-        kInternalError);
+        base::kInternalError);
   }
 }
 
@@ -161,24 +162,24 @@ bool wants_no_guard() { return std::getenv("BEAMBENCH_UNGUARDED") != nullptr; }
 /// Foreign code is kept in a process of its own.
 int begin(int argc, char** argv) {
   try {
-    set_program_name(argv[0]);
+    plugin::set_program_name(argv[0]);
     Arguments arguments(argv, argv + argc);
-    const std::vector<std::string> plugins = take_requested_plugins(arguments);
+    const std::vector<std::string> plugins = plugin::take_requested_plugins(arguments);
     take_help_for_a_command(arguments);
-    std::unique_ptr<Activity> activity = guarded_activity();
+    std::unique_ptr<plugin::Activity> activity = plugin::guarded_activity();
     const bool guarded = activity != nullptr;
-    if (!plugins.empty() && !guarded && !wants_no_guard()) return run_guarded(argv);
-    if (!guarded) activity = std::make_unique<Activity>();
+    if (!plugins.empty() && !guarded && !wants_no_guard()) return plugin::run_guarded(argv);
+    if (!guarded) activity = std::make_unique<plugin::Activity>();
     const int code = run_command_line(arguments, plugins, *activity);
-    activity->clear(Activity::Line::kForeign);
-    activity->clear(Activity::Line::kCell);
+    activity->clear(plugin::Activity::Line::kForeign);
+    activity->clear(plugin::Activity::Line::kCell);
     return code;
   } catch (const std::exception& error) {
-    return complain(error.what(), kWrongRequest);
+    return complain(error.what(), base::kInvalidInput);
   }
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::cli
 
-int main(int argc, char** argv) { return beambench::begin(argc, argv); }
+int main(int argc, char** argv) { return beambench::cli::begin(argc, argv); }

@@ -6,10 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "harness/bench/record/build_info.hpp"
 #include "harness/cli/commands.hpp"
-#include "harness/record/build_info.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 /// A text as roff shows it: no character of it is taken for a request (groff_char(7), roff(7)).
@@ -67,7 +67,7 @@ std::string manual_page(const CLI::App& app) {
       ".SH NAME\nbeambench \\- compares the acceleration structures of ray tracing\n"
       ".SH SYNOPSIS\n.B beambench\n\\fICOMMAND\\fR [\\fIOPTION\\fR]...\n"
       ".SH DESCRIPTION\n{}\n.SH OPTIONS\n",
-      escaped(build_info().version), escaped(app.get_description()));
+      escaped(bench::build_info().version), escaped(app.get_description()));
   for (const CLI::Option* option : app.get_options()) out += option_entry(*option);
   out += ".SH COMMANDS\n";
   for (const CLI::App* command : app.get_subcommands({})) out += command_section(*command);
@@ -85,4 +85,4 @@ void add_man_command(CLI::App& app, int&) {
   command->callback([&app] { fmt::print("{}", manual_page(app)); });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -10,15 +10,15 @@
 #include <nlohmann/json.hpp>
 
 #include "accel/beam/mirror_beams.hpp"
+#include "harness/base/counted.hpp"
+#include "harness/bench/record/robust_statistics.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
-#include "harness/progress/counted.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "harness/record/robust_statistics.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 struct Request {
@@ -49,16 +49,17 @@ double median_ms(int repetitions, Work work) {
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
             .count());
   }
-  return median(times);
+  return bench::median(times);
 }
 
 /// The samples of an image that see a mirror.
-std::vector<PixelSample> seeing(const PlanarMirror& mirror, const HitBuffer& hits) {
-  std::vector<PixelSample> samples;
+std::vector<rays::PixelSample> seeing(const accel::beam::PlanarMirror& mirror,
+                                      const accel::HitBuffer& hits) {
+  std::vector<rays::PixelSample> samples;
   for (int y = 0; y < hits.height(); ++y) {
     for (int x = 0; x < hits.width(); ++x) {
       for (int sample = 0; sample < hits.samples(); ++sample) {
-        const PrimitiveId id = hits.primitive()[hits.index(x, y, sample)];
+        const scenes::PrimitiveId id = hits.primitive()[hits.index(x, y, sample)];
         if (std::binary_search(mirror.polygons.begin(), mirror.polygons.end(), id)) {
           samples.push_back({x, y, sample});
         }
@@ -69,20 +70,21 @@ std::vector<PixelSample> seeing(const PlanarMirror& mirror, const HitBuffer& hit
 }
 
 /// By single rays through the same octree, made as they are needed.
-void trace_singly(const BeamTracer& tracer, const MirrorView& view,
-                  const std::vector<PixelSample>& samples, HitBuffer& found) {
-  for (const PixelSample& at : samples) {
+void trace_singly(const accel::beam::BeamTracer& tracer, const accel::beam::MirrorView& view,
+                  const std::vector<rays::PixelSample>& samples, accel::HitBuffer& found) {
+  for (const rays::PixelSample& at : samples) {
     found.set(found.index(at.x, at.y, at.sample),
-              tracer.closest_hit(ray_behind(view, at.x, at.y, at.sample)));
+              tracer.closest_hit(accel::beam::ray_behind(view, at.x, at.y, at.sample)));
   }
 }
 
-Result compare(const BeamTracer& tracer, const MirrorView& view, const HitBuffer& hits,
-               const PlanarMirror& mirror, int repetitions) {
-  HitBuffer by_rays(hits.width(), hits.height(), hits.samples());
-  HitBuffer by_beams = by_rays;
+Result compare(const accel::beam::BeamTracer& tracer, const accel::beam::MirrorView& view,
+               const accel::HitBuffer& hits, const accel::beam::PlanarMirror& mirror,
+               int repetitions) {
+  accel::HitBuffer by_rays(hits.width(), hits.height(), hits.samples());
+  accel::HitBuffer by_beams = by_rays;
   Result result{mirror.polygons.size(), view.samples, 0, 0, 0.0, 0.0};
-  const std::vector<PixelSample> samples = seeing(mirror, hits);
+  const std::vector<rays::PixelSample> samples = seeing(mirror, hits);
   result.rays_ms = median_ms(repetitions, [&] { trace_singly(tracer, view, samples, by_rays); });
   result.beams_ms =
       median_ms(repetitions, [&] { tracer.trace_behind(view.sight, view.rays, by_beams); });
@@ -106,9 +108,9 @@ Result sum_of(const std::vector<Result>& results) {
   return all;
 }
 
-void print_text(const Scene& scene, const Request& request, std::size_t mirrors,
+void print_text(const scenes::Scene& scene, const Request& request, std::size_t mirrors,
                 const std::vector<Result>& results) {
-  fmt::print("{}: {}, {} seen at {}, {}\n\n", scene.name, counted(mirrors, "planar mirror"),
+  fmt::print("{}: {}, {} seen at {}, {}\n\n", scene.name, base::counted(mirrors, "planar mirror"),
              results.size(), request.image.resolution, request.structure);
   TextTable table({"mirror", "polygons", "samples", "that hit", "rays", "beams", "rays/beams"});
   for (const Result& result : results) {
@@ -127,7 +129,7 @@ void print_text(const Scene& scene, const Request& request, std::size_t mirrors,
   fmt::print("{}", table.text());
 }
 
-void print_json(const Scene& scene, const Request& request, std::size_t mirrors,
+void print_json(const scenes::Scene& scene, const Request& request, std::size_t mirrors,
                 const std::vector<Result>& results) {
   nlohmann::ordered_json out{{"scene", scene.name},
                              {"structure", request.structure},
@@ -149,24 +151,25 @@ void print_json(const Scene& scene, const Request& request, std::size_t mirrors,
 
 /// Returns false when the two ways found different things.
 bool show_mirrors(const Request& request) {
-  const StructureChoice choice = choose_one("--accel", request.structure);
-  const Scene scene = open_scene(request.scene);
-  const PrimaryRays rays = choose_rays(scene, request.image);
-  const auto structure = choice.build(scene, workload_of(choose_image(scene, request.image), rays));
-  const auto* tracer = dynamic_cast<const BeamTracer*>(structure.get());
+  const accel::StructureChoice choice = choose_one("--accel", request.structure);
+  const scenes::Scene scene = open_scene(request.scene);
+  const accel::PrimaryRays rays = choose_rays(scene, request.image);
+  const auto structure =
+      choice.build(scene, rays::workload_of(choose_image(scene, request.image), rays));
+  const auto* tracer = dynamic_cast<const accel::beam::BeamTracer*>(structure.get());
   if (tracer == nullptr) {
     throw InputError(fmt::format(
         "'{}' traces no beams to be reflected; give --accel beam, with parameters if you like",
         choice.info().name));
   }
-  HitBuffer hits(rays.width(), rays.height(), rays.samples());
+  accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
   tracer->trace(rays, hits);
-  HitCheck(scene, choice).require(hits, rays);
-  const std::vector<PlanarMirror> mirrors = planar_mirrors(scene);
+  rays::HitCheck(scene, choice).require(hits, rays);
+  const std::vector<accel::beam::PlanarMirror> mirrors = accel::beam::planar_mirrors(scene);
   std::vector<Result> results;
   std::size_t different = 0;
-  for (const PlanarMirror& mirror : mirrors) {
-    const auto view = view_in(mirror, scene, rays, hits);
+  for (const accel::beam::PlanarMirror& mirror : mirrors) {
+    const auto view = accel::beam::view_in(mirror, scene, rays, hits);
     if (!view) continue;
     results.push_back(compare(*tracer, *view, hits, mirror, request.repetitions));
     different += results.back().different;
@@ -203,8 +206,9 @@ void add_mirrors_command(CLI::App& app, int& exit_code) {
       "  beambench mirrors teapot\n"
       "  beambench mirrors habitacion --accel beam:max_level=7,handover=48 --resolution 320x200\n"
       "  beambench mirrors teapot:n=3 --accel beam:max_level=6 --json");
-  command->callback(
-      [request, &exit_code] { exit_code = show_mirrors(*request) ? kSuccess : kFound; });
+  command->callback([request, &exit_code] {
+    exit_code = show_mirrors(*request) ? base::kSuccess : base::kMismatch;
+  });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

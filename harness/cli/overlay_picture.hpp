@@ -5,10 +5,10 @@
 #include <string>
 #include <string_view>
 
-#include "accel/registry.hpp"
-#include "harness/picture/category_legend.hpp"
+#include "accel/core/registry.hpp"
+#include "harness/render/picture/category_legend.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 
 enum class Overlay {
   kBeams,  ///< `Accelerator::beam_outlines`
@@ -19,11 +19,12 @@ enum class Overlay {
 std::span<const std::string_view> overlay_names();
 /// Throws InputError listing the valid names, or naming the structures that show such a thing when
 /// this one does not. Who does is found by asking each over a small scene, not by its name.
-Overlay parse_overlay(std::string_view name, const StructureInfo& structure);
+Overlay parse_overlay(std::string_view name, const accel::StructureInfo& structure);
 
 /// Draws over the picture that `rays` show, once they have been asked for: a grid that is filled by
 /// rays shows what they filled. Returns the legend.
-std::vector<LegendEntry> draw_overlay(Overlay overlay, Image& image, const Accelerator& accelerator,
-                                      const PrimaryRays& rays);
+std::vector<render::LegendEntry> draw_overlay(Overlay overlay, render::Image& image,
+                                              const accel::Accelerator& accelerator,
+                                              const accel::PrimaryRays& rays);
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 
 void make_picture_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -24,4 +24,4 @@ std::string picture_name(std::string title) {
   return title + ".png";
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

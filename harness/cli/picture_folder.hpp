@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace beambench {
+namespace beambench::cli {
 
 /// Makes it, and the folders that it is in. Throws InputError that names --pictures.
 void make_picture_folder(const std::filesystem::path& folder);
@@ -13,4 +13,4 @@ void make_picture_folder(const std::filesystem::path& folder);
 /// systems and shells take.
 std::string picture_name(std::string title);
 
-}  // namespace beambench
+}  // namespace beambench::cli

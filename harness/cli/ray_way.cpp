@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "accel/intersect.hpp"
+#include "accel/core/intersect.hpp"
 #include "harness/cli/text.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -21,7 +21,7 @@ constexpr std::size_t kListedMisses = 40;  // in the text; the JSON has them all
 
 /// What a ray-primitive test came to. A primitive beyond the best hit is not missed by the ray.
 struct TestOutcome {
-  PrimitiveId primitive;
+  scenes::PrimitiveId primitive;
   bool hit;
   float t;  ///< kMiss where the ray misses it altogether
 };
@@ -29,25 +29,25 @@ struct TestOutcome {
 /// The tests of a way with the best hit after each step.
 class Account {
  public:
-  Account(const Scene& scene, const Ray& ray) : scene_(scene), ray_(ray) {}
+  Account(const scenes::Scene& scene, const accel::Ray& ray) : scene_(scene), ray_(ray) {}
 
-  std::vector<TestOutcome> take(const TraceStep& step) {
+  std::vector<TestOutcome> take(const accel::TraceStep& step) {
     std::vector<TestOutcome> outcomes;
-    for (const TestedPrimitive& test : step.tests) {
-      const bool hit = is_hit(test.t);
+    for (const accel::TestedPrimitive& test : step.tests) {
+      const bool hit = accel::is_hit(test.t);
       outcomes.push_back(
-          {test.primitive, hit, hit ? test.t : intersect(ray_, scene_, test.primitive)});
-      const Hit found{test.t, test.primitive};
-      if (hit && (!best_ || precedes(found, *best_))) best_ = found;
+          {test.primitive, hit, hit ? test.t : accel::intersect(ray_, scene_, test.primitive)});
+      const accel::Hit found{test.t, test.primitive};
+      if (hit && (!best_ || accel::precedes(found, *best_))) best_ = found;
     }
     return outcomes;
   }
-  const std::optional<Hit>& best() const { return best_; }
+  const std::optional<accel::Hit>& best() const { return best_; }
 
  private:
-  const Scene& scene_;
-  CanonicalRay ray_;
-  std::optional<Hit> best_;
+  const scenes::Scene& scene_;
+  accel::CanonicalRay ray_;
+  std::optional<accel::Hit> best_;
 };
 
 std::string text(const glm::dvec3& v) {
@@ -56,11 +56,11 @@ std::string text(const glm::dvec3& v) {
 
 std::string tests_text(const std::vector<TestOutcome>& outcomes) {
   std::string out;
-  std::vector<PrimitiveId> missed;
+  std::vector<scenes::PrimitiveId> missed;
   for (const TestOutcome& outcome : outcomes) {
     if (outcome.hit) {
       out += fmt::format("primitive {} is hit at t = {}\n", outcome.primitive, outcome.t);
-    } else if (is_hit(outcome.t)) {
+    } else if (accel::is_hit(outcome.t)) {
       out += fmt::format("primitive {} would be hit at t = {}, behind the best\n",
                          outcome.primitive, outcome.t);
     } else {
@@ -74,7 +74,7 @@ std::string tests_text(const std::vector<TestOutcome>& outcomes) {
                            more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-std::string step_text(std::size_t number, const TraceStep& step, std::string_view untested,
+std::string step_text(std::size_t number, const accel::TraceStep& step, std::string_view untested,
                       Account& account) {
   std::string head = fmt::format("{:4}  {}", number, step.place);
   if (step.box) head += fmt::format(" {}", step.index);
@@ -97,7 +97,7 @@ std::string step_text(std::size_t number, const TraceStep& step, std::string_vie
   return out;
 }
 
-std::string plane_text(const CrossedPlane& plane) {
+std::string plane_text(const accel::beam::CrossedPlane& plane) {
   return fmt::format("{} = {:.9g}", "xyz"[plane.axis], plane.at);
 }
 
@@ -105,19 +105,19 @@ constexpr std::array<std::string_view, 3> kBeamMeets{"empty leaf", "occupied lea
 constexpr std::array<std::string_view, 3> kBeamKinds{"non-terminal", "occupied", "leaving"};
 
 /// Why there is no further beam.
-std::string_view end_text(const BeamPassage& last) {
+std::string_view end_text(const accel::beam::BeamPassage& last) {
   switch (last.kind) {
-    case BeamKind::kLeaving:
+    case accel::BeamKind::kLeaving:
       return "terminal: the scene's end, the background";
-    case BeamKind::kOccupied:
+    case accel::BeamKind::kOccupied:
       return "terminal: its samples become rays";
-    case BeamKind::kNonTerminal:
+    case accel::BeamKind::kNonTerminal:
       return "its samples become rays here (handover)";
   }
   return "";
 }
 
-std::string passage_text(std::size_t number, const BeamPassage& beam, bool is_last) {
+std::string passage_text(std::size_t number, const accel::beam::BeamPassage& beam, bool is_last) {
   std::string out = fmt::format("{:4}  {} {}, level {}, {} to {}", number,
                                 kBeamMeets[static_cast<std::size_t>(beam.kind)], beam.node,
                                 beam.level, text(beam.cell.lower), text(beam.cell.upper));
@@ -129,9 +129,9 @@ std::string passage_text(std::size_t number, const BeamPassage& beam, bool is_la
   out += fmt::format(
       "\n        {} samples; {}\n", beam.samples,
       is_last ? end_text(beam)
-              : (beam.kind == BeamKind::kOccupied ? "goes on behind it" : "non-terminal"));
+              : (beam.kind == accel::BeamKind::kOccupied ? "goes on behind it" : "non-terminal"));
   if (beam.cuts.empty()) out += "        not cut\n";
-  for (const PlaneOrder& cut : beam.cuts) {
+  for (const accel::beam::PlaneOrder& cut : beam.cuts) {
     out += fmt::format("        cut: crosses {} before {}\n", plane_text(cut.first),
                        plane_text(cut.second));
   }
@@ -162,12 +162,12 @@ std::string counters_text(const RayWay& way) {
                      way.beams.empty() ? "" : "without beams: ", fmt::join(parts, ", "));
 }
 
-bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
+bool same(const std::optional<accel::Hit>& a, const std::optional<accel::Hit>& b) {
   return a.has_value() == b.has_value() && (!a || *a == *b);
 }
 
 std::string alone_text(const RayWay& way) {
-  if (!way.asked_all || way.judgement.query == Query::kAnyHit) return "";
+  if (!way.asked_all || way.judgement.query == rays::Query::kAnyHit) return "";
   if (same(way.alone, way.judgement.engine)) return "";
   return fmt::format("  alone  {}: asked without the other rays\n",
                      way.alone
@@ -189,11 +189,11 @@ Json vector_json(const Vector& v) {
 /// What is infinite has no number in JSON.
 Json number_json(float value) { return std::isinf(value) ? Json() : Json(value); }
 
-Json plane_json(const CrossedPlane& plane) {
+Json plane_json(const accel::beam::CrossedPlane& plane) {
   return {{"axis", std::string(1, "xyz"[plane.axis])}, {"at", plane.at}};
 }
 
-Json passage_json(const BeamPassage& beam) {
+Json passage_json(const accel::beam::BeamPassage& beam) {
   Json out{
       {"kind", kBeamKinds[static_cast<std::size_t>(beam.kind)]},
       {"index", beam.node},
@@ -206,13 +206,13 @@ Json passage_json(const BeamPassage& beam) {
   for (const glm::dvec2& corner : beam.corners) {
     out["outline"].push_back(Json::array({corner.x, corner.y}));
   }
-  for (const PlaneOrder& cut : beam.cuts) {
+  for (const accel::beam::PlaneOrder& cut : beam.cuts) {
     out["cuts"].push_back({{"first", plane_json(cut.first)}, {"second", plane_json(cut.second)}});
   }
   return out;
 }
 
-Json step_json(const TraceStep& step, Account& account) {
+Json step_json(const accel::TraceStep& step, Account& account) {
   Json out{{"place", step.place}};
   if (step.box) {
     out["index"] = step.index;
@@ -224,7 +224,7 @@ Json step_json(const TraceStep& step, Account& account) {
   out["tests"] = Json::array();
   for (const TestOutcome& outcome : account.take(step)) {
     Json test{{"primitive", outcome.primitive}, {"hit", outcome.hit}, {"t", nullptr}};
-    if (is_hit(outcome.t)) test["t"] = outcome.t;
+    if (accel::is_hit(outcome.t)) test["t"] = outcome.t;
     out["tests"].push_back(std::move(test));
   }
   out["best"] = hit_json(account.best());
@@ -233,11 +233,11 @@ Json step_json(const TraceStep& step, Account& account) {
 
 }  // namespace
 
-std::string to_text(const Scene& scene, const RayWay& way) {
+std::string to_text(const scenes::Scene& scene, const RayWay& way) {
   const int samples = way.image.samples;
   std::string out =
       fmt::format("{} by {}, {} rays, {} pixels with {} {} each\n\n", scene.name, way.structure,
-                  way.question.label(), to_string(way.image.resolution), samples,
+                  way.question.label(), rays::to_string(way.image.resolution), samples,
                   samples == 1 ? "sample" : "samples");
   out += beams_text(way);
   Account account(scene, way.judgement.ray);
@@ -253,20 +253,20 @@ std::string to_text(const Scene& scene, const RayWay& way) {
   if (way.steps.empty() && way.beams.empty()) {
     out += fmt::format("{} tells no steps: it entered nothing, or cannot tell\n", way.structure);
   }
-  return out + '\n' + describe(scene, way.question, way.judgement) + alone_text(way) +
+  return out + '\n' + verify::describe(scene, way.question, way.judgement) + alone_text(way) +
          counters_text(way);
 }
 
-nlohmann::ordered_json to_json(const Scene& scene, const RayWay& way) {
-  const Mismatch& judgement = way.judgement;
-  const Ray& ray = judgement.ray;
+nlohmann::ordered_json to_json(const scenes::Scene& scene, const RayWay& way) {
+  const verify::Mismatch& judgement = way.judgement;
+  const accel::Ray& ray = judgement.ray;
   Json out{{"scene", scene.name},
            {"structure", way.structure},
            {"width", way.image.resolution.width},
            {"height", way.image.resolution.height},
            {"samples", way.image.samples},
            {"ray_kind", way.question.label()},
-           {"query", to_string(judgement.query)},
+           {"query", rays::to_string(judgement.query)},
            {"index", judgement.index}};
   if (const auto pixel = way.question.pixel(judgement.index)) {
     out["pixel"] = {pixel->x, pixel->y};
@@ -278,11 +278,12 @@ nlohmann::ordered_json to_json(const Scene& scene, const RayWay& way) {
                 {"t_max", number_json(ray.t_max)}};
   if (!way.beams.empty()) {
     out["beams"] = Json::array();
-    for (const BeamPassage& beam : way.beams) out["beams"].push_back(passage_json(beam));
+    for (const accel::beam::BeamPassage& beam : way.beams)
+      out["beams"].push_back(passage_json(beam));
   }
   out["steps"] = Json::array();
   out["counters"] = way.counters;
-  if (judgement.query == Query::kAnyHit) {
+  if (judgement.query == rays::Query::kAnyHit) {
     out["any_hit"] = judgement.engine_any_hit;
   } else {
     out["hit"] = hit_json(judgement.engine);
@@ -291,11 +292,11 @@ nlohmann::ordered_json to_json(const Scene& scene, const RayWay& way) {
   out["asked_all"] = way.asked_all;
   out["oracle"] = hit_json(judgement.oracle);
   Account account(scene, ray);
-  for (const TraceStep& step : way.steps) out["steps"].push_back(step_json(step, account));
+  for (const accel::TraceStep& step : way.steps) out["steps"].push_back(step_json(step, account));
   if (judgement.adjudicated) out["exact"] = hit_json(judgement.exact);
-  out["class"] = kDiffClassNames[static_cast<std::size_t>(judgement.diff_class)];
+  out["class"] = verify::kDiffClassNames[static_cast<std::size_t>(judgement.diff_class)];
   out["reason"] = judgement.reason;
   return out;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -8,32 +8,32 @@
 
 #include <nlohmann/json.hpp>
 
-#include "accel/accelerator.hpp"
 #include "accel/beam/sample_way.hpp"
-#include "harness/differ/differ.hpp"
+#include "accel/core/accelerator.hpp"
+#include "harness/verify/differ.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 
 /// What is known of one ray.
 struct RayWay {
-  std::string structure;  ///< its short label
-  ImageOfRays image;      ///< that the rays are of, or come from
-  const Question& question;
-  std::vector<TraceStep> steps;  ///< empty where the structure cannot tell them
+  std::string structure;    ///< its short label
+  rays::ImageOfRays image;  ///< that the rays are of, or come from
+  const rays::Question& question;
+  std::vector<accel::TraceStep> steps;  ///< empty where the structure cannot tell them
   std::map<std::string, std::uint64_t, std::less<>> counters;
   /// The ray, its answer among all rays (or, unless `asked_all`, alone), the oracle's, the
   /// class.
-  Mismatch judgement;
-  std::optional<Hit> alone;  ///< its closest hit, asked alone
-  bool asked_all = true;     ///< were all rays of the question asked?
+  verify::Mismatch judgement;
+  std::optional<accel::Hit> alone;  ///< its closest hit, asked alone
+  bool asked_all = true;            ///< were all rays of the question asked?
   /// With beams: those that the sample belongs to. The steps are then of the sample with its beams.
-  std::vector<BeamPassage> beams;
+  std::vector<accel::beam::BeamPassage> beams;
 };
 
 /// For people: one paragraph for each step.
-std::string to_text(const Scene& scene, const RayWay& way);
+std::string to_text(const scenes::Scene& scene, const RayWay& way);
 
 /// All of it, numbers as they are; what is infinite or a miss is null.
-nlohmann::ordered_json to_json(const Scene& scene, const RayWay& way);
+nlohmann::ordered_json to_json(const scenes::Scene& scene, const RayWay& way);
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -10,14 +10,14 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
-#include "harness/differ/differ.hpp"
-#include "harness/files/pending_file.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/ray_set_file.hpp"
 #include "harness/rays/share_warning.hpp"
-#include "scenes/error.hpp"
+#include "harness/verify/differ.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/pending_file.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -31,63 +31,65 @@ struct Request {
 };
 
 /// An image's rays are saved as a list, too.
-RaySet as_list(const Scene& scene, const Question& question) {
+rays::RaySet as_list(const scenes::Scene& scene, const rays::Question& question) {
   if (question.list() != nullptr) return *question.list();
-  RaySet set{question.label(), question.query(), question.seed(), scene_hash(scene), {}};
+  rays::RaySet set{
+      question.label(), question.query(), question.seed(), scenes::scene_hash(scene), {}};
   set.rays.reserve(question.size());
   for (std::size_t i = 0; i < question.size(); ++i) set.rays.push_back(question.ray(i));
   return set;
 }
 
-Json note_of(const Scene& scene, const ImageOfRays& image, const Question& question) {
+Json note_of(const scenes::Scene& scene, const rays::ImageOfRays& image,
+             const rays::Question& question) {
   return {{"scene", scene.name},
           {"ray_kind", question.label()},
           {"camera", image.camera.name},
-          {"resolution", to_string(image.resolution)},
+          {"resolution", rays::to_string(image.resolution)},
           {"samples", image.samples}};
 }
 
-void print_facts(const Request& request, const Scene& scene, const ImageOfRays& image,
-                 const Question& question) {
-  const std::uint64_t hits = ReferenceHits(scene, question).hit_count();
-  const bool any = question.query() == Query::kAnyHit;
+void print_facts(const Request& request, const scenes::Scene& scene, const rays::ImageOfRays& image,
+                 const rays::Question& question) {
+  const std::uint64_t hits = verify::ReferenceHits(scene, question).hit_count();
+  const bool any = question.query() == rays::Query::kAnyHit;
   if (request.json) {
     Json out = note_of(scene, image, question);
-    out["query"] = to_string(question.query());
+    out["query"] = rays::to_string(question.query());
     out["rays"] = question.size();
     out["seed"] = question.seed();
-    out["hash"] = hex_digits(fingerprint(question));
+    out["hash"] = rays::hex_digits(rays::fingerprint(question));
     out[any ? "occluded_share" : "hit_share"] =
         static_cast<double>(hits) / static_cast<double>(question.size());
-    out["coherence"] = coherence(question);
+    out["coherence"] = rays::coherence(question);
     fmt::print("{}\n", out.dump(2));
   } else {
     fmt::print("{} {} rays over {}, {}\n", question.size(), question.label(), scene.name,
-               to_string(image.resolution));
+               rays::to_string(image.resolution));
     fmt::print("  {}  {}\n", any ? "occluded " : "that hit ", format_share(hits, question.size()));
-    fmt::print("  coherence  {:.4f}\n", coherence(question));
-    fmt::print("  hash       {}\n", hex_digits(fingerprint(question)));
+    fmt::print("  coherence  {:.4f}\n", rays::coherence(question));
+    fmt::print("  hash       {}\n", rays::hex_digits(rays::fingerprint(question)));
   }
-  if (const auto warning = share_warning(question, hits)) {
+  if (const auto warning = rays::share_warning(question, hits)) {
     fmt::print(stderr, "beambench: warning: {}\n", *warning);
   }
 }
 
 void show_rays(const Request& request) {
-  const RayChoice kind = parse_ray_choice(request.rays);
+  const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
   if (!request.file.empty()) {
-    if (!request.file.ends_with(kRayFileEnding)) {
+    if (!request.file.ends_with(rays::kRayFileEnding)) {
       throw InputError(fmt::format("'{}' does not end in {}, by which files of rays are known",
-                                   request.file, kRayFileEnding));
+                                   request.file, rays::kRayFileEnding));
     }
     require_writable(request.file);
   }
-  const Scene scene = open_scene(request.scene);
-  const ImageOfRays image = choose_image(scene, request.image);
-  const Question question = make_question(scene, image, kind);
+  const scenes::Scene scene = open_scene(request.scene);
+  const rays::ImageOfRays image = choose_image(scene, request.image);
+  const rays::Question question = rays::make_question(scene, image, kind);
   print_facts(request, scene, image, question);
   if (request.file.empty()) return;
-  write_ray_file(request.file, as_list(scene, question), note_of(scene, image, question));
+  rays::write_ray_file(request.file, as_list(scene, question), note_of(scene, image, question));
 }
 
 }  // namespace
@@ -115,4 +117,4 @@ void add_rays_command(CLI::App& app, int&) {
   command->callback([request] { show_rays(*request); });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

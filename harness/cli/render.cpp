@@ -18,14 +18,14 @@
 #include "harness/cli/watched_ask.hpp"
 #include "harness/cli/whitted_request.hpp"
 #include "harness/cli/work_picture.hpp"
-#include "harness/files/pending_file.hpp"
-#include "harness/picture/exposure.hpp"
-#include "harness/picture/image_file.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "harness/shade/shading.hpp"
-#include "scenes/error.hpp"
+#include "harness/render/picture/exposure.hpp"
+#include "harness/render/picture/image_file.hpp"
+#include "harness/render/shading.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/pending_file.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 /// Draws pictures where no structure is asked for: quick to build and to trace.
@@ -45,59 +45,63 @@ struct Request {
 };
 
 /// Depth and id of each pixel, those of its nearest sample.
-std::vector<DataChannel> hit_channels(const HitBuffer& hits) {
+std::vector<render::DataChannel> hit_channels(const accel::HitBuffer& hits) {
   std::vector<float> depth;
   std::vector<std::uint32_t> id;
   for (std::size_t first = 0; first < hits.size();
        first += static_cast<std::size_t>(hits.samples())) {
-    Hit nearest{kInfinity, kNoPrimitive};
+    accel::Hit nearest{accel::kInfinity, scenes::kNoPrimitive};
     for (std::size_t i = first; i < first + static_cast<std::size_t>(hits.samples()); ++i) {
-      if (const auto hit = hits.get(i); hit && precedes(*hit, nearest)) nearest = *hit;
+      if (const auto hit = hits.get(i); hit && accel::precedes(*hit, nearest)) nearest = *hit;
     }
     depth.push_back(nearest.t);
     id.push_back(nearest.primitive);
   }
-  std::vector<DataChannel> channels;
+  std::vector<render::DataChannel> channels;
   channels.push_back({"Z", std::move(depth)});
   channels.push_back({"id", std::move(id)});
   return channels;
 }
 
 /// A PNG gets a legend; an EXR the numbers themselves.
-void write_heat_map(const Request& request, const HeatMap& map, const HitBuffer& hits) {
-  if (image_format(request.file) == ImageFormat::kPng) {
-    write_image(request.file, draw_heat_map_with_legend(map));
+void write_heat_map(const Request& request, const render::HeatMap& map,
+                    const accel::HitBuffer& hits) {
+  if (render::image_format(request.file) == render::ImageFormat::kPng) {
+    render::write_image(request.file, render::draw_heat_map_with_legend(map));
     return;
   }
-  std::vector<DataChannel> channels = hit_channels(hits);
+  std::vector<render::DataChannel> channels = hit_channels(hits);
   channels.push_back({request.heatmap, map.values});
-  write_image(request.file, draw_heat_map(map), channels);
+  render::write_image(request.file, render::draw_heat_map(map), channels);
 }
 
-std::string describe(const std::vector<LegendEntry>& legend) {
+std::string describe(const std::vector<render::LegendEntry>& legend) {
   std::string text;
-  for (const LegendEntry& entry : legend) text += fmt::format("; {}: {}", entry.name, entry.count);
+  for (const render::LegendEntry& entry : legend)
+    text += fmt::format("; {}: {}", entry.name, entry.count);
   return text;
 }
 
-Image shaded(const Request& request, const StructureChoice& choice, const Accelerator& accelerator,
-             const Scene& scene, const PrimaryRays& rays, const HitBuffer& hits,
-             Progress& progress) {
-  const Shading shading = parse_shading(request.shading);
-  if (shading != Shading::kWhitted) return shade(scene, rays, hits, shading);
-  const Whitted tracer(scene, accelerator, whitted_options(request.whitted),
-                       HitCheck(scene, choice));
-  Image image = watched_picture(tracer, eye_rays(rays), hits, request.whitted, progress).image;
-  if (request.exposure != 0.0) expose(image, request.exposure);
+render::Image shaded(const Request& request, const accel::StructureChoice& choice,
+                     const accel::Accelerator& accelerator, const scenes::Scene& scene,
+                     const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
+                     base::Progress& progress) {
+  const render::Shading shading = render::parse_shading(request.shading);
+  if (shading != render::Shading::kWhitted) return render::shade(scene, rays, hits, shading);
+  const render::Whitted tracer(scene, accelerator, whitted_options(request.whitted),
+                               rays::HitCheck(scene, choice));
+  render::Image image =
+      watched_picture(tracer, render::eye_rays(rays), hits, request.whitted, progress).image;
+  if (request.exposure != 0.0) render::expose(image, request.exposure);
   return image;
 }
 
 /// Lights of other programs' files fall off with the distance; ours do not. An EXR keeps all light.
-std::string remark_on_light(const Request& request, const Image& image) {
+std::string remark_on_light(const Request& request, const render::Image& image) {
   constexpr double kWorthSaying = 0.05;
-  if (parse_shading(request.shading) != Shading::kWhitted) return "";
-  if (image_format(request.file) != ImageFormat::kPng) return "";
-  const Overexposure found = overexposure(image);
+  if (render::parse_shading(request.shading) != render::Shading::kWhitted) return "";
+  if (render::image_format(request.file) != render::ImageFormat::kPng) return "";
+  const render::Overexposure found = render::overexposure(image);
   if (found.share <= kWorthSaying) return "";
   return fmt::format(
       "; {:.0f}% of the pixels are brighter than white; '--exposure {:.1f}' leaves 1%",
@@ -106,32 +110,32 @@ std::string remark_on_light(const Request& request, const Image& image) {
 
 /// Shades the hits and draws over them what is asked for; returns what the picture tells of it. A
 /// PNG gets its legend.
-std::string write_shaded(const Request& request, const StructureChoice& choice,
-                         std::optional<Overlay> overlay, const Accelerator& accelerator,
-                         const Scene& scene, const PrimaryRays& rays, const HitBuffer& hits,
-                         Progress& progress) {
-  Image image = shaded(request, choice, accelerator, scene, rays, hits, progress);
+std::string write_shaded(const Request& request, const accel::StructureChoice& choice,
+                         std::optional<Overlay> overlay, const accel::Accelerator& accelerator,
+                         const scenes::Scene& scene, const accel::PrimaryRays& rays,
+                         const accel::HitBuffer& hits, base::Progress& progress) {
+  render::Image image = shaded(request, choice, accelerator, scene, rays, hits, progress);
   const std::string remark = remark_on_light(request, image);
-  std::vector<LegendEntry> legend;
+  std::vector<render::LegendEntry> legend;
   if (overlay) legend = draw_overlay(*overlay, image, accelerator, rays);
-  if (overlay && image_format(request.file) == ImageFormat::kPng) {
+  if (overlay && render::image_format(request.file) == render::ImageFormat::kPng) {
     const std::string title =
         fmt::format("{} of {}, {}", request.overlay, choice.short_label(), scene.name);
-    write_image(request.file, with_legend(image, title, legend));
+    render::write_image(request.file, render::with_legend(image, title, legend));
   } else {
-    write_image(request.file, image, hit_channels(hits));
+    render::write_image(request.file, image, hit_channels(hits));
   }
   return describe(legend) + remark;
 }
 
-std::string share_of_hits(const HitBuffer& hits) {
+std::string share_of_hits(const accel::HitBuffer& hits) {
   std::uint64_t count = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) count += hits.get(i).has_value();
   return format_share(count, hits.size()) + " of the rays hit something";
 }
 
 /// A map without any work is no mistake, but may be read as one.
-std::string remark_on(const HeatMap& map, const StructureChoice& choice) {
+std::string remark_on(const render::HeatMap& map, const accel::StructureChoice& choice) {
   const bool dark =
       std::all_of(map.values.begin(), map.values.end(), [](float v) { return v == 0; });
   return dark ? fmt::format("; {} counts none of this work, or no ray causes any",
@@ -140,30 +144,35 @@ std::string remark_on(const HeatMap& map, const StructureChoice& choice) {
 }
 
 /// What --difference compares with: the oracle, or what another structure finds.
-ReferenceHits find_reference(const Request& request, const Scene& scene, const PrimaryRays& rays) {
+verify::ReferenceHits find_reference(const Request& request, const scenes::Scene& scene,
+                                     const accel::PrimaryRays& rays) {
   if (request.difference == kOracleName) return {scene, rays};
-  const StructureChoice other = choose_one("--difference", request.difference);
-  Answers answers = room_for(rays);
-  ask(*other.build(scene, workload_of(choose_image(scene, request.image), rays)), rays, answers);
-  HitCheck(scene, other).require(std::get<HitBuffer>(answers), rays);
+  const accel::StructureChoice other = choose_one("--difference", request.difference);
+  rays::Answers answers = rays::room_for(rays);
+  rays::ask(*other.build(scene, rays::workload_of(choose_image(scene, request.image), rays)), rays,
+            answers);
+  rays::HitCheck(scene, other).require(std::get<accel::HitBuffer>(answers), rays);
   return reference_from(scene, rays, answers);
 }
 
 /// Writes the picture of differences; returns how many there are.
-std::string compare(const Request& request, const StructureChoice& choice, const Scene& scene,
-                    const PrimaryRays& rays, const Answers& answers) {
-  const ReferenceHits reference = find_reference(request, scene, rays);
-  std::vector<DiffClass> classes(rays.count());
-  const DiffReport report = judge(reference, answers, Conformance::kTolerance, classes);
+std::string compare(const Request& request, const accel::StructureChoice& choice,
+                    const scenes::Scene& scene, const accel::PrimaryRays& rays,
+                    const rays::Answers& answers) {
+  const verify::ReferenceHits reference = find_reference(request, scene, rays);
+  std::vector<verify::DiffClass> classes(rays.count());
+  const verify::DiffReport report =
+      verify::judge(reference, answers, accel::Conformance::kTolerance, classes);
   write_difference(request.file, reference, classes, {choice.short_label(), request.difference});
-  return fmt::format("{} of {} rays differ from {}: {} ties, {} grazes, {} wrong, {} wrong there",
-                     report.rays - report.count(DiffClass::kAgree), report.rays, request.difference,
-                     report.count(DiffClass::kTie), report.count(DiffClass::kGraze),
-                     report.count(DiffClass::kEngineError), report.count(DiffClass::kEmbreeError));
+  return fmt::format(
+      "{} of {} rays differ from {}: {} ties, {} grazes, {} wrong, {} wrong there",
+      report.rays - report.count(verify::DiffClass::kAgree), report.rays, request.difference,
+      report.count(verify::DiffClass::kTie), report.count(verify::DiffClass::kGraze),
+      report.count(verify::DiffClass::kEngineError), report.count(verify::DiffClass::kEmbreeError));
 }
 
 /// Any structure draws the same plain picture; the others show what one of them does.
-StructureChoice chosen_structure(const Request& request) {
+accel::StructureChoice chosen_structure(const Request& request) {
   if (!request.structure.empty()) return choose_one("--accel", request.structure);
   for (const auto& [option, value] :
        {std::pair("--heatmap", &request.heatmap), std::pair("--difference", &request.difference),
@@ -176,32 +185,32 @@ StructureChoice chosen_structure(const Request& request) {
 }
 
 void render(const Request& request) {
-  const Shading shading = parse_shading(request.shading);
-  if (request.exposure != 0.0 && shading != Shading::kWhitted) {
+  const render::Shading shading = render::parse_shading(request.shading);
+  if (request.exposure != 0.0 && shading != render::Shading::kWhitted) {
     throw InputError("--exposure is of the light that --shade whitted follows; name both");
   }
   whitted_options(request.whitted);
-  image_format(request.file);
+  render::image_format(request.file);
   require_writable(request.file);
   if (!request.difference.empty() && request.difference != kOracleName) {
     choose_one("--difference", request.difference);
   }
-  const StructureChoice choice = chosen_structure(request);
+  const accel::StructureChoice choice = chosen_structure(request);
   std::optional<Overlay> overlay;
   if (!request.overlay.empty()) overlay = parse_overlay(request.overlay, choice.info());
-  const Scene scene = open_scene(request.scene);
-  const PrimaryRays rays = choose_rays(scene, request.image);
+  const scenes::Scene scene = open_scene(request.scene);
+  const accel::PrimaryRays rays = choose_rays(scene, request.image);
 
-  Progress progress(1);
+  base::Progress progress(1);
   progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
   const auto accelerator = choice.build(
-      scene, workload_of(choose_image(scene, request.image), rays, request.whitted.threads));
-  Answers answers = room_for(rays);
-  auto& hits = std::get<HitBuffer>(answers);
-  const HitCheck check(scene, choice);
+      scene, rays::workload_of(choose_image(scene, request.image), rays, request.whitted.threads));
+  rays::Answers answers = rays::room_for(rays);
+  auto& hits = std::get<accel::HitBuffer>(answers);
+  const rays::HitCheck check(scene, choice);
   std::string found;
   if (!request.heatmap.empty()) {
-    const HeatMap map = count_work(*accelerator, rays, request.heatmap, hits, progress);
+    const render::HeatMap map = count_work(*accelerator, rays, request.heatmap, hits, progress);
     check.require(hits, rays);
     write_heat_map(request, map, hits);
     found = share_of_hits(hits) + remark_on(map, choice);
@@ -275,4 +284,4 @@ void add_render_command(CLI::App& app, int&) {
   command->callback([request] { render(*request); });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -7,15 +7,15 @@
 
 #include <fmt/format.h>
 
+#include "harness/base/counted.hpp"
+#include "harness/bench/sweep_run.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/interruption.hpp"
-#include "harness/files/shell_word.hpp"
 #include "harness/plugin/load_plugin.hpp"
-#include "harness/progress/counted.hpp"
-#include "harness/sweep/sweep_run.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/shell_word.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 struct RunRequest {
@@ -29,17 +29,18 @@ struct RunRequest {
 std::filesystem::path config_path(const RunRequest& request) {
   if (!request.config.empty()) return request.config;
   if (!request.resume.empty()) {
-    require_run(request.resume);
+    bench::require_run(request.resume);
     return std::filesystem::path(request.resume) / "config.json";
   }
   throw InputError(
-      "no configuration given; name a sweep's JSON file, such as harness/sweeps/default.json, or "
+      "no configuration given; name a sweep's JSON file, such as "
+      "harness/bench/sweeps/default.json, or "
       "go on with a run by --resume DIR");
 }
 
-SweepOptions options_of(const RunRequest& request) {
-  SweepOptions options;
-  options.flags = parse_benchmark_flags(request.benchmark_flags);
+bench::SweepOptions options_of(const RunRequest& request) {
+  bench::SweepOptions options;
+  options.flags = bench::parse_benchmark_flags(request.benchmark_flags);
   options.resume = !request.resume.empty();
   if (options.resume) options.folder = request.resume;
   if (!request.output.empty()) options.folder = request.output;
@@ -47,64 +48,68 @@ SweepOptions options_of(const RunRequest& request) {
 }
 
 /// --benchmark_repetitions=N: exactly N, in the configuration that is kept, too.
-void override_repetitions(SweepConfig& config, int repetitions) {
+void override_repetitions(bench::SweepConfig& config, int repetitions) {
   config.minimum_repetitions = config.maximum_repetitions = repetitions;
   config.source["repetitions"] = {{"minimum", repetitions}, {"maximum", repetitions}};
 }
 
-std::vector<std::string> cell_names(const Plan& plan) {
+std::vector<std::string> cell_names(const bench::Plan& plan) {
   std::vector<std::string> names;
-  for (const CellGroup& group : plan.groups) {
-    for (const PlannedCell& cell : group.cells) names.push_back(cell.id.name());
+  for (const bench::CellGroup& group : plan.groups) {
+    for (const bench::PlannedCell& cell : group.cells) names.push_back(cell.id.name());
   }
   return names;
 }
 
 /// The cells that the configuration asks for and --benchmark_filter selects.
-Plan selected_plan(const SweepConfig& config, const GoogleBenchmark& benchmark) {
-  Plan plan = make_plan(config);
+bench::Plan selected_plan(const bench::SweepConfig& config,
+                          const bench::GoogleBenchmark& benchmark) {
+  bench::Plan plan = bench::make_plan(config);
   if (plan.merged > 0) {
     fmt::print(stderr, "{} cells that the configuration asks for more than once are made once\n",
                plan.merged);
   }
   const std::set<std::string> selected = benchmark.select(cell_names(plan));
-  filter_cells(plan, [&](const CellId& id) { return selected.contains(id.name()); });
+  bench::filter_cells(plan, [&](const bench::CellId& id) { return selected.contains(id.name()); });
   return plan;
 }
 
-int report(const SweepOutcome& outcome) {
+int report(const bench::SweepOutcome& outcome) {
   if (outcome.failed > 0) {
     fmt::print(stderr, "{} of {} have no times: their hits were not right\n", outcome.failed,
-               counted(outcome.cells, "cell"));
+               base::counted(outcome.cells, "cell"));
   } else if (outcome.without_rays < outcome.cells) {
     fmt::print(stderr, "{}, all judged right\n",
-               counted(outcome.cells - outcome.without_rays, "cell"));
+               base::counted(outcome.cells - outcome.without_rays, "cell"));
   }
   if (outcome.without_rays > 0) {
     fmt::print(stderr, "{} of {} have no rays over their scenes\n", outcome.without_rays,
-               counted(outcome.cells, "cell"));
+               base::counted(outcome.cells, "cell"));
   }
   fmt::print("{}\n", outcome.results.string());
-  if (outcome.without_rays == outcome.cells) return kWrongRequest;  // nothing was measured
-  return outcome.failed > 0 ? kFound : kSuccess;
+  if (outcome.without_rays == outcome.cells) return base::kInvalidInput;  // nothing was measured
+  return outcome.failed > 0 ? base::kMismatch : base::kSuccess;
 }
 
 std::string resume_command(const std::filesystem::path& folder) {
-  return fmt::format("{} run --resume {}", program_call_here(), shell_quoted(folder.string()));
+  return fmt::format("{} run --resume {}", plugin::program_call_here(),
+                     shell_quoted(folder.string()));
 }
 
 /// Runs the sweep so that, however it is cut off, its end says how to go on.
-SweepOutcome run_resumable(const SweepConfig& config, Plan plan, const GoogleBenchmark& benchmark,
-                           SweepOptions options, Activity& activity, Interruption& interruption) {
+bench::SweepOutcome run_resumable(const bench::SweepConfig& config, bench::Plan plan,
+                                  const bench::GoogleBenchmark& benchmark,
+                                  bench::SweepOptions options, plugin::Activity& activity,
+                                  Interruption& interruption) {
   std::string go_on;
   options.begun = [&](const std::filesystem::path& folder) {
     go_on = resume_command(folder);
-    activity.write(Activity::Line::kRunFolder, folder.string());
+    activity.write(plugin::Activity::Line::kRunFolder, folder.string());
     interruption.set_last_line(
         fmt::format("interrupted; every finished cell is kept, go on with: {}", go_on));
   };
   try {
-    return run_sweep(config, std::move(plan), benchmark, options, stderr);
+    return bench::run_sweep(config, std::move(plan), benchmark, options, stderr);
   } catch (const InputError& error) {
     if (go_on.empty()) throw;
     throw InputError(fmt::format("{}; then go on with: {}", error.what(), go_on));
@@ -112,27 +117,29 @@ SweepOutcome run_resumable(const SweepConfig& config, Plan plan, const GoogleBen
 }
 
 /// Where a plug-in broke the process down over a cell, this one goes on behind it.
-void go_on_behind_broken_cells(RunRequest& request, const Activity& activity) {
+void go_on_behind_broken_cells(RunRequest& request, const plugin::Activity& activity) {
   if (activity.broken_cells().empty()) return;
   request.config.clear();
   request.output.clear();
-  request.resume = activity.read(Activity::Line::kRunFolder);
+  request.resume = activity.read(plugin::Activity::Line::kRunFolder);
 }
 
-int run(RunRequest request, Activity& activity) {
+int run(RunRequest request, plugin::Activity& activity) {
   Interruption interruption("interrupted; nothing was measured yet");
   go_on_behind_broken_cells(request, activity);
-  SweepOptions options = options_of(request);
+  bench::SweepOptions options = options_of(request);
   options.broken_cells = activity.broken_cells();
-  options.at_work = [&](std::string_view cell) { activity.write(Activity::Line::kCell, cell); };
+  options.at_work = [&](std::string_view cell) {
+    activity.write(plugin::Activity::Line::kCell, cell);
+  };
   for (const std::string& note : options.flags.notes) fmt::print(stderr, "{}\n", note);
-  SweepConfig config = read_sweep(config_path(request), registry());
+  bench::SweepConfig config = bench::read_sweep(config_path(request), accel::registry());
   if (options.flags.repetitions) override_repetitions(config, *options.flags.repetitions);
-  const GoogleBenchmark benchmark(options.flags);
-  Plan plan = selected_plan(config, benchmark);
+  const bench::GoogleBenchmark benchmark(options.flags);
+  bench::Plan plan = selected_plan(config, benchmark);
   if (request.dry_run || options.flags.list) {
     for (const std::string& name : cell_names(plan)) fmt::print("{}\n", name);
-    return kSuccess;
+    return base::kSuccess;
   }
   return report(run_resumable(config, std::move(plan), benchmark, std::move(options), activity,
                               interruption));
@@ -140,7 +147,7 @@ int run(RunRequest request, Activity& activity) {
 
 }  // namespace
 
-void add_run_command(CLI::App& app, int& exit_code, Activity& activity) {
+void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity) {
   CLI::App* command =
       app.add_subcommand("run", "Measure a sweep: times of structures whose hits are judged right");
   const auto request = std::make_shared<RunRequest>();
@@ -159,8 +166,8 @@ void add_run_command(CLI::App& app, int& exit_code, Activity& activity) {
       "(over the names that --dry-run prints), --benchmark_repetitions=N,\n"
       "--benchmark_list_tests, --benchmark_context=KEY=VALUE, --v=N.\n"
       "Examples:\n"
-      "  beambench run harness/sweeps/quick.json\n"
-      "  beambench run harness/sweeps/quick.json -o my-run --benchmark_filter=tetra.*samet\n"
+      "  beambench run harness/bench/sweeps/quick.json\n"
+      "  beambench run harness/bench/sweeps/quick.json -o my-run --benchmark_filter=tetra.*samet\n"
       "  beambench run --resume my-run");
   command->callback([command, request, &activity, &exit_code] {
     request->benchmark_flags = command->remaining();
@@ -168,4 +175,4 @@ void add_run_command(CLI::App& app, int& exit_code, Activity& activity) {
   });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -13,13 +13,13 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
-#include "harness/files/pending_file.hpp"
-#include "harness/picture/heat_map.hpp"
-#include "harness/picture/image_file.hpp"
-#include "harness/sampling/compare_sampling.hpp"
-#include "scenes/error.hpp"
+#include "harness/experiments/compare_sampling.hpp"
+#include "harness/render/picture/heat_map.hpp"
+#include "harness/render/picture/image_file.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/pending_file.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 struct Request {
@@ -31,27 +31,27 @@ struct Request {
   bool json = false;
 };
 
-void print_text(const Scene& scene, const Request& request,
-                const std::vector<SamplingResult>& results) {
+void print_text(const scenes::Scene& scene, const Request& request,
+                const std::vector<experiments::SamplingResult>& results) {
   fmt::print("{}: {} primitives, {}, {}\n\n", scene.name, scene.primitives.size(),
              request.structure, request.image.resolution);
   TextTable table({"method", "setting", "rays a pixel", "trace", "error (1)"}, 2);
-  for (const SamplingResult& result : results) {
+  for (const experiments::SamplingResult& result : results) {
     table.add({result.method, result.setting, fmt::format("{:.3f}", result.rays),
                fmt::format("{:.4g} ms", result.trace_ms), fmt::format("{:.3f}", result.error)});
   }
   fmt::print("{}\n(1) root mean square of 255, against 64 samples a pixel\n", table.text());
 }
 
-void print_json(const Scene& scene, const Request& request,
-                const std::vector<SamplingResult>& results) {
+void print_json(const scenes::Scene& scene, const Request& request,
+                const std::vector<experiments::SamplingResult>& results) {
   nlohmann::ordered_json out{{"scene", scene.name},
                              {"primitives", scene.primitives.size()},
                              {"structure", request.structure},
                              {"resolution", request.image.resolution},
                              {"repetitions", request.repetitions},
                              {"results", nlohmann::ordered_json::array()}};
-  for (const SamplingResult& result : results) {
+  for (const experiments::SamplingResult& result : results) {
     out["results"].push_back({{"method", result.method},
                               {"setting", result.setting},
                               {"rays_per_pixel", result.rays},
@@ -61,33 +61,37 @@ void print_json(const Scene& scene, const Request& request,
   fmt::print("{}\n", out.dump(2));
 }
 
-void write_picture(const std::string& file, const BeamTracer& tracer, const ImageOfRays& image) {
-  const PrimaryRays rays(image.camera, image.resolution.width, image.resolution.height,
-                         kSampleNumbers.back());
-  const SparseSamples samples = trace_object_space(tracer, rays, SamplingDensity{});
-  const HeatMap map{"samples of object-space sampling", rays.width(), rays.height(),
-                    samples_by_pixel(samples)};
-  write_image(file, draw_heat_map_with_legend(map));
+void write_picture(const std::string& file, const accel::beam::BeamTracer& tracer,
+                   const rays::ImageOfRays& image) {
+  const accel::PrimaryRays rays(image.camera, image.resolution.width, image.resolution.height,
+                                accel::beam::kSampleNumbers.back());
+  const accel::beam::SparseSamples samples =
+      accel::beam::trace_object_space(tracer, rays, accel::beam::SamplingDensity{});
+  const render::HeatMap map{"samples of object-space sampling", rays.width(), rays.height(),
+                            experiments::samples_by_pixel(samples)};
+  render::write_image(file, render::draw_heat_map_with_legend(map));
 }
 
 void compare(const Request& request) {
-  const StructureChoice choice = choose_one("--accel", request.structure);
+  const accel::StructureChoice choice = choose_one("--accel", request.structure);
   if (!request.picture.empty()) {
-    image_format(request.picture);
+    render::image_format(request.picture);
     require_writable(request.picture);
   }
-  const Scene scene = open_scene(request.scene);
-  const ImageOfRays image = choose_image(scene, request.image);
-  const auto structure = choice.build(scene, workload_of(image, choose_rays(scene, request.image)));
-  const auto* tracer = dynamic_cast<const BeamTracer*>(structure.get());
+  const scenes::Scene scene = open_scene(request.scene);
+  const rays::ImageOfRays image = choose_image(scene, request.image);
+  const auto structure =
+      choice.build(scene, rays::workload_of(image, choose_rays(scene, request.image)));
+  const auto* tracer = dynamic_cast<const accel::beam::BeamTracer*>(structure.get());
   if (tracer == nullptr) {
     throw InputError(
         fmt::format("'{}' traces no beams, whose leaves choose the number of samples; "
                     "give --accel beam, with parameters if you like",
                     choice.info().name));
   }
-  Progress progress(sampling_steps());
-  const auto results = compare_sampling(*tracer, scene, image, request.repetitions, progress);
+  base::Progress progress(experiments::sampling_steps());
+  const auto results =
+      experiments::compare_sampling(*tracer, scene, image, request.repetitions, progress);
   progress.clear();
   request.json ? print_json(scene, request, results) : print_text(scene, request, results);
   if (!request.picture.empty()) write_picture(request.picture, *tracer, image);
@@ -122,4 +126,4 @@ void add_sampling_command(CLI::App& app, int&) {
   command->callback([request] { compare(*request); });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

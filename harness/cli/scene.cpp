@@ -16,7 +16,7 @@
 #include "harness/cli/scene_growth.hpp"
 #include "harness/rays/fingerprint.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -27,24 +27,25 @@ std::string to_text(const glm::vec3& v) {
   return fmt::format("({:.6g}, {:.6g}, {:.6g})", v.x, v.y, v.z);
 }
 
-std::size_t smooth_polygons(const Scene& scene) {
+std::size_t smooth_polygons(const scenes::Scene& scene) {
   std::size_t count = 0;
-  for (const Polygon& polygon : scene.polygons) count += polygon.first_normal != Polygon::kFlat;
+  for (const scenes::Polygon& polygon : scene.polygons)
+    count += polygon.first_normal != scenes::Polygon::kFlat;
   return count;
 }
 
 /// The words of the finishes in use, in the order of the surfaces.
-std::vector<std::string_view> finishes_of(const Scene& scene) {
+std::vector<std::string_view> finishes_of(const scenes::Scene& scene) {
   std::vector<std::string_view> words;
-  for (const Surface& surface : scene.surfaces) {
-    const std::string_view word = finish_word(surface.finish);
+  for (const scenes::Surface& surface : scene.surfaces) {
+    const std::string_view word = scenes::finish_word(surface.finish);
     const bool seen = std::find(words.begin(), words.end(), word) != words.end();
-    if (surface.finish != Finish::kPlain && !seen) words.push_back(word);
+    if (surface.finish != scenes::Finish::kPlain && !seen) words.push_back(word);
   }
   return words;
 }
 
-void print_text(const Scene& scene) {
+void print_text(const scenes::Scene& scene) {
   const auto line = [](std::string_view name, const std::string& value) {
     fmt::print("  {:<12}  {}\n", name, value);
   };
@@ -57,28 +58,28 @@ void print_text(const Scene& scene) {
   line("bounds", scene.bounds.empty() ? "none"
                                       : fmt::format("{} to {}", to_text(scene.bounds.lower),
                                                     to_text(scene.bounds.upper)));
-  for (const Camera& camera : scene.cameras) {
+  for (const scenes::Camera& camera : scene.cameras) {
     line("camera", fmt::format("{}: from {} at {} up {}, angle {:.4g}, {}x{}", camera.name,
                                to_text(camera.from), to_text(camera.at), to_text(camera.up),
                                camera.angle, camera.width, camera.height));
   }
-  for (const Light& light : scene.lights) {
+  for (const scenes::Light& light : scene.lights) {
     line("light", fmt::format("at {}, colour {}", to_text(light.position), to_text(light.color)));
   }
   const std::vector<std::string_view> finishes = finishes_of(scene);
   line("surfaces", fmt::format("{}{}{}", scene.surfaces.size(), finishes.empty() ? "" : ", with ",
                                fmt::join(finishes, ", ")));
   line("background", to_text(scene.background));
-  line("hash", hex_digits(scene_hash(scene)));
+  line("hash", rays::hex_digits(scenes::scene_hash(scene)));
 }
 
-Json camera_json(const Camera& camera) {
+Json camera_json(const scenes::Camera& camera) {
   return {{"name", camera.name},      {"from", to_json(camera.from)}, {"at", to_json(camera.at)},
           {"up", to_json(camera.up)}, {"angle", camera.angle},        {"aspect", camera.aspect},
           {"width", camera.width},    {"height", camera.height}};
 }
 
-void print_json(const Scene& scene) {
+void print_json(const scenes::Scene& scene) {
   Json out{{"name", scene.name},
            {"primitives", scene.primitives.size()},
            {"spheres", scene.spheres.size()},
@@ -93,13 +94,13 @@ void print_json(const Scene& scene) {
            {"surfaces", scene.surfaces.size()},
            {"finishes", finishes_of(scene)},
            {"background", to_json(scene.background)},
-           {"hash", hex_digits(scene_hash(scene))}};
+           {"hash", rays::hex_digits(scenes::scene_hash(scene))}};
   if (!scene.bounds.empty()) {
     out["bounds"] = {{"lower", to_json(scene.bounds.lower)},
                      {"upper", to_json(scene.bounds.upper)}};
   }
-  for (const Camera& camera : scene.cameras) out["cameras"].push_back(camera_json(camera));
-  for (const Light& light : scene.lights) {
+  for (const scenes::Camera& camera : scene.cameras) out["cameras"].push_back(camera_json(camera));
+  for (const scenes::Light& light : scene.lights) {
     out["lights"].push_back(
         {{"position", to_json(light.position)}, {"color", to_json(light.color)}});
   }
@@ -112,7 +113,7 @@ struct Request {
   bool csv = false;
   bool growth = false;
   std::size_t growth_limit = 1000000;
-  NffOptions options;
+  scenes::nff::NffOptions options;
 };
 
 void show(const Request& request) {
@@ -123,7 +124,7 @@ void show(const Request& request) {
     show_growth(request.scene, request.growth_limit, form);
     return;
   }
-  const Scene scene = open_scene(request.scene, request.options);
+  const scenes::Scene scene = open_scene(request.scene, request.options);
   request.json ? print_json(scene) : print_text(scene);
 }
 
@@ -158,4 +159,4 @@ void add_scene_command(CLI::App& app, int&) {
   command->callback([request] { show(*request); });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

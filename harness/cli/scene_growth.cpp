@@ -13,13 +13,13 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/base/progress.hpp"
 #include "harness/cli/text.hpp"
-#include "harness/progress/progress.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/error.hpp"
-#include "scenes/meshes/mesh_registry.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/formats/mesh/mesh_registry.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 /// Aims so near at the limit: a generator may round its size up.
@@ -38,14 +38,14 @@ struct Row {
 
 /// A generator, its parameters as they were given, and the one that is its size.
 struct Growing {
-  const SceneInfo& info;
+  const scenes::SceneInfo& info;
   Spec spec;
   const ParameterInfo& size;
 };
 
 [[noreturn]] void refuse_sizeless(const std::string& name) {
   std::vector<std::string> names;
-  for (const SceneInfo& info : scene_catalogue()) {
+  for (const scenes::SceneInfo& info : scenes::scene_catalogue()) {
     if (!info.size_parameter.empty()) names.push_back(info.name);
   }
   throw InputError(
@@ -53,9 +53,10 @@ struct Growing {
 }
 
 Growing growing_scene(const std::string& text) {
-  if (text.find('/') != std::string::npos || text.starts_with(kMeshPrefix)) refuse_sizeless(text);
+  if (text.find('/') != std::string::npos || text.starts_with(scenes::mesh::kMeshPrefix))
+    refuse_sizeless(text);
   Spec spec = parse_spec(text);
-  const SceneInfo& info = find_scene(spec.name);
+  const scenes::SceneInfo& info = scenes::find_scene(spec.name);
   if (info.size_parameter.empty()) refuse_sizeless(info.name);
   for (const auto& [name, value] : spec.parameters) {
     if (name != info.size_parameter) continue;
@@ -75,9 +76,9 @@ Row measure(const Growing& growing, std::int64_t size) {
   given.emplace_back(growing.size.name, fmt::format("{}", size));
   const Parameters parameters(growing.info.name, growing.info.parameters, given);
   const auto begin = std::chrono::steady_clock::now();
-  const Scene scene = growing.info.generate(parameters);
+  const scenes::Scene scene = growing.info.generate(parameters);
   const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-  return {scene.name, size, scene.primitives.size(), memory_bytes(scene), time.count()};
+  return {scene.name, size, scene.primitives.size(), scenes::memory_bytes(scene), time.count()};
 }
 
 /// The sizes of a scene of which nobody has said how fast it grows. Between two sizes, and a little
@@ -130,7 +131,7 @@ class Sizes {
 
 std::vector<Row> measure_all(const Growing& growing, std::size_t limit) {
   std::vector<Row> rows;
-  Progress progress(1);
+  base::Progress progress(1);
   Sizes sizes(growing.size, limit);
   std::optional<std::int64_t> size = sizes.first();
   while (size) {
@@ -197,4 +198,4 @@ void show_growth(const std::string& spec, std::size_t limit, GrowthForm form) {
   }
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-namespace beambench {
+namespace beambench::cli {
 
 enum class GrowthForm { kText, kJson, kCsv };
 
@@ -16,4 +16,4 @@ inline constexpr std::size_t kLargestGrowth = 10000000;
 /// the scene has no size.
 void show_growth(const std::string& spec, std::size_t limit, GrowthForm form);
 
-}  // namespace beambench
+}  // namespace beambench::cli

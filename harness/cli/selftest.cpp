@@ -1,6 +1,6 @@
 // beambench selftest: does a structure keep its contract?
 
-#include "harness/selftest/selftest.hpp"
+#include "harness/verify/selftest/selftest.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -13,48 +13,48 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/base/progress.hpp"
+#include "harness/bench/record/build_info.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/text.hpp"
-#include "harness/files/pending_file.hpp"
-#include "harness/progress/progress.hpp"
-#include "harness/record/build_info.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/pending_file.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 struct Request {
   std::string structures = "all";
   std::string json;
-  SelftestEffort effort;
+  verify::SelftestEffort effort;
 };
 
 /// A check that was made of a structure.
 struct CheckedProperty {
   std::string structure;
-  const Check* check;
-  CheckOutcome outcome;
+  const verify::Check* check;
+  verify::CheckOutcome outcome;
 };
 
-std::string_view verdict_of(const CheckOutcome& outcome) {
+std::string_view verdict_of(const verify::CheckOutcome& outcome) {
   return outcome.passed() ? "ok" : "failed";
 }
 
-std::string label_of(const Subject& subject) { return subject.choice().short_label(); }
+std::string label_of(const verify::Subject& subject) { return subject.choice().short_label(); }
 
-std::vector<CheckedProperty> check_all(const std::vector<Subject>& subjects,
-                                       const SelftestEffort& effort) {
-  Progress progress(subjects.size() * selftest_checks().size());
+std::vector<CheckedProperty> check_all(const std::vector<verify::Subject>& subjects,
+                                       const verify::SelftestEffort& effort) {
+  base::Progress progress(subjects.size() * verify::selftest_checks().size());
   std::vector<CheckedProperty> checked;
-  for (const Subject& subject : subjects) {
+  for (const verify::Subject& subject : subjects) {
     const std::string label = label_of(subject);
-    for (const Check& check : selftest_checks()) {
-      if (!applies(check, subject)) {
+    for (const verify::Check& check : verify::selftest_checks()) {
+      if (!verify::applies(check, subject)) {
         progress.skip(1);
         continue;
       }
       progress.start(fmt::format("{}: {}", label, check.name));
-      checked.push_back({label, &check, run_check(check, subject, effort)});
+      checked.push_back({label, &check, verify::run_check(check, subject, effort)});
       progress.finish(std::string(verdict_of(checked.back().outcome)));
     }
   }
@@ -78,16 +78,16 @@ void print(const std::vector<CheckedProperty>& checked) {
 }
 
 /// `, over polygons alone: it refuses spheres and cones`; empty where it takes everything.
-std::string limits_of(const PrimitiveKinds& kinds) {
+std::string limits_of(const verify::PrimitiveKinds& kinds) {
   if (kinds.all()) return "";
   return fmt::format(", over {} alone: it refuses {}", fmt::join(kinds.names(), " and "),
                      fmt::join(kinds.without().names(), " and "));
 }
 
 void print_verdicts(const std::vector<CheckedProperty>& checked,
-                    const std::vector<Subject>& subjects) {
+                    const std::vector<verify::Subject>& subjects) {
   fmt::print("\n");
-  for (const Subject& subject : subjects) {
+  for (const verify::Subject& subject : subjects) {
     const std::string label = label_of(subject);
     const std::string limits = limits_of(subject.kinds());
     std::size_t made = 0;
@@ -108,14 +108,14 @@ void print_verdicts(const std::vector<CheckedProperty>& checked,
 }
 
 void write_json(const Request& request, const std::vector<CheckedProperty>& checked,
-                const std::vector<Subject>& subjects, bool passed) {
-  nlohmann::ordered_json out{{"beambench", build_info().version},
+                const std::vector<verify::Subject>& subjects, bool passed) {
+  nlohmann::ordered_json out{{"beambench", bench::build_info().version},
                              {"seed", request.effort.seed},
                              {"scenes", request.effort.scenes},
                              {"passed", passed},
                              {"structures", nlohmann::ordered_json::array()},
                              {"checks", nlohmann::ordered_json::array()}};
-  for (const Subject& subject : subjects) {
+  for (const verify::Subject& subject : subjects) {
     out["structures"].push_back(
         {{"structure", label_of(subject)}, {"primitives", subject.kinds().names()}});
   }
@@ -132,8 +132,8 @@ void write_json(const Request& request, const std::vector<CheckedProperty>& chec
 
 int selftest(const Request& request) {
   if (!request.json.empty()) require_writable(request.json);
-  std::vector<Subject> subjects;
-  for (StructureChoice& choice : registry().choose_list(request.structures)) {
+  std::vector<verify::Subject> subjects;
+  for (accel::StructureChoice& choice : accel::registry().choose_list(request.structures)) {
     subjects.emplace_back(std::move(choice));
   }
   const std::vector<CheckedProperty> checked = check_all(subjects, request.effort);
@@ -142,7 +142,7 @@ int selftest(const Request& request) {
   print(checked);
   print_verdicts(checked, subjects);
   if (!request.json.empty()) write_json(request, checked, subjects, passed);
-  return passed ? kSuccess : kFound;
+  return passed ? base::kSuccess : base::kMismatch;
 }
 
 }  // namespace
@@ -172,4 +172,4 @@ void add_selftest_command(CLI::App& app, int& exit_code) {
   command->callback([request, &exit_code] { exit_code = selftest(*request); });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -12,16 +12,16 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/base/progress.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
-#include "harness/progress/progress.hpp"
 #include "harness/rays/answers.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/level_visits.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -38,27 +38,27 @@ struct Request {
 
 /// What was found out about one structure.
 struct Finding {
-  StructureChoice choice;
-  Statistics statistics;
+  accel::StructureChoice choice;
+  accel::Statistics statistics;
   double build_ms = 0.0;
   std::uint64_t hits = 0;
   std::map<std::string, std::uint64_t, std::less<>> counters;
-  std::vector<LevelVisits> levels;
+  std::vector<rays::LevelVisits> levels;
 };
 
-Finding examine(const StructureChoice& choice, const Scene& scene, const ImageOfRays& image,
-                const Question& question, bool levels) {
+Finding examine(const accel::StructureChoice& choice, const scenes::Scene& scene,
+                const rays::ImageOfRays& image, const rays::Question& question, bool levels) {
   const auto begin = std::chrono::steady_clock::now();
-  const auto accelerator = choice.build(scene, workload_of(image, question));
+  const auto accelerator = choice.build(scene, rays::workload_of(image, question));
   const std::chrono::duration<double, std::milli> building =
       std::chrono::steady_clock::now() - begin;
 
-  Answers answers = room_for(question);
-  WorkCounters counters;
-  ask(*accelerator, question, answers, counters);
+  rays::Answers answers = rays::room_for(question);
+  accel::WorkCounters counters;
+  rays::ask(*accelerator, question, answers, counters);
   Finding finding{choice, accelerator->statistics(), building.count(), 0, counters.by_name(), {}};
-  for (std::size_t i = 0; i < question.size(); ++i) finding.hits += is_hit_at(answers, i);
-  if (levels) finding.levels = count_level_visits(*accelerator, question);
+  for (std::size_t i = 0; i < question.size(); ++i) finding.hits += rays::is_hit_at(answers, i);
+  if (levels) finding.levels = rays::count_level_visits(*accelerator, question);
   return finding;
 }
 
@@ -118,7 +118,7 @@ void add_sizes(StatisticsTable& table, const std::vector<Finding>& findings) {
 
 void add_work(StatisticsTable& table, const std::vector<Finding>& findings, std::size_t rays) {
   table.add("rays that hit", [&](const Finding& f) { return format_share(f.hits, rays); });
-  std::vector<std::string> names(kCounterNames.begin(), kCounterNames.end());
+  std::vector<std::string> names(accel::kCounterNames.begin(), accel::kCounterNames.end());
   for (const Finding& finding : findings) {
     for (const auto& [name, count] : finding.counters) {
       if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -136,7 +136,7 @@ void add_work(StatisticsTable& table, const std::vector<Finding>& findings, std:
 std::string levels_text(const Finding& finding) {
   TextTable table({"level", "nodes", "leaves", "occupied", "node visits", "leaf visits", "beams"},
                   0);
-  for (const LevelVisits& level : finding.levels) {
+  for (const rays::LevelVisits& level : finding.levels) {
     table.add({fmt::format("{}", level.level), or_dash(level.nodes), or_dash(level.leaves),
                or_dash(level.occupied_leaves), or_dash(level.node_visits),
                or_dash(level.leaf_visits), or_dash(level.beams)});
@@ -146,11 +146,11 @@ std::string levels_text(const Finding& finding) {
       finding.choice.short_label(), table.text());
 }
 
-void print_text(const Scene& scene, const ImageOfRays& image, const Question& question,
-                const std::vector<Finding>& findings) {
+void print_text(const scenes::Scene& scene, const rays::ImageOfRays& image,
+                const rays::Question& question, const std::vector<Finding>& findings) {
   fmt::print("{}: {} primitives, {} {} rays ({}), coherence {:.3f}\n\n", scene.name,
              scene.primitives.size(), question.size(), question.label(),
-             to_string(image.resolution), coherence(question));
+             rays::to_string(image.resolution), rays::coherence(question));
   StatisticsTable table(findings);
   add_sizes(table, findings);
   add_work(table, findings, question.size());
@@ -162,7 +162,7 @@ void print_text(const Scene& scene, const ImageOfRays& image, const Question& qu
 }
 
 Json to_json(const Finding& finding, std::size_t rays) {
-  const Statistics& sizes = finding.statistics;
+  const accel::Statistics& sizes = finding.statistics;
   const auto per_ray = [rays](std::uint64_t count) {
     return static_cast<double>(count) / static_cast<double>(rays);
   };
@@ -183,7 +183,7 @@ Json to_json(const Finding& finding, std::size_t rays) {
            {"per_ray", Json::object()}};
   for (const auto& [name, value] : sizes.more) out["more"][name] = value;
   for (const auto& [name, count] : finding.counters) out["per_ray"][name] = per_ray(count);
-  for (const LevelVisits& level : finding.levels) {
+  for (const rays::LevelVisits& level : finding.levels) {
     out["levels"].push_back({{"level", level.level},
                              {"nodes", level.nodes},
                              {"leaves", level.leaves},
@@ -195,17 +195,17 @@ Json to_json(const Finding& finding, std::size_t rays) {
   return out;
 }
 
-void print_json(const Scene& scene, const ImageOfRays& image, const Question& question,
-                const std::vector<Finding>& findings) {
+void print_json(const scenes::Scene& scene, const rays::ImageOfRays& image,
+                const rays::Question& question, const std::vector<Finding>& findings) {
   Json out{{"scene", scene.name},
            {"primitives", scene.primitives.size()},
            {"width", image.resolution.width},
            {"height", image.resolution.height},
            {"ray_kind", question.label()},
-           {"query", to_string(question.query())},
+           {"query", rays::to_string(question.query())},
            {"rays", question.size()},
-           {"rays_hash", hex_digits(fingerprint(question))},
-           {"coherence", coherence(question)},
+           {"rays_hash", rays::hex_digits(rays::fingerprint(question))},
+           {"coherence", rays::coherence(question)},
            {"structures", Json::array()}};
   for (const Finding& finding : findings) {
     out["structures"].push_back(to_json(finding, question.size()));
@@ -215,19 +215,20 @@ void print_json(const Scene& scene, const ImageOfRays& image, const Question& qu
 
 /// A structure that cannot be built over the scene does not keep the others from being shown.
 int show_statistics(const Request& request) {
-  const Resolution resolution = parse_resolution(request.resolution);
-  const RayChoice kind = parse_ray_choice(request.rays);
-  registry().choose_list(request.structures);  // refuses a wrong name before a scene is generated
-  const Scene scene = open_scene(request.scene);
-  require_ray_count(resolution, 1);
-  const ImageOfRays image{choose_camera(scene, request.view), resolution, 1};
-  const Question question = make_question(scene, image, kind);
+  const rays::Resolution resolution = rays::parse_resolution(request.resolution);
+  const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
+  accel::registry().choose_list(
+      request.structures);  // refuses a wrong name before a scene is generated
+  const scenes::Scene scene = open_scene(request.scene);
+  rays::require_ray_count(resolution, 1);
+  const rays::ImageOfRays image{choose_camera(scene, request.view), resolution, 1};
+  const rays::Question question = rays::make_question(scene, image, kind);
   const Contenders contenders = choose_contenders(request.structures, scene);
 
-  Progress progress(contenders.choices.size());
+  base::Progress progress(contenders.choices.size());
   if (!contenders.note.empty()) progress.say(contenders.note);
   std::vector<Finding> findings;
-  for (const StructureChoice& choice : contenders.choices) {
+  for (const accel::StructureChoice& choice : contenders.choices) {
     progress.start(choice.info().name);
     try {
       findings.push_back(examine(choice, scene, image, question, request.levels));
@@ -240,7 +241,7 @@ int show_statistics(const Request& request) {
   progress.clear();
   request.json ? print_json(scene, image, question, findings)
                : print_text(scene, image, question, findings);
-  return findings.size() == contenders.choices.size() ? kSuccess : kWrongRequest;
+  return findings.size() == contenders.choices.size() ? base::kSuccess : base::kInvalidInput;
 }
 
 }  // namespace
@@ -270,4 +271,4 @@ void add_stats_command(CLI::App& app, int& exit_code) {
   command->callback([request, &exit_code] { exit_code = show_statistics(*request); });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace beambench {
+namespace beambench::cli {
 
 TextTable::TextTable(std::vector<std::string> header, std::size_t left_columns)
     : left_columns_(left_columns), rows_{std::move(header)} {}
@@ -69,4 +69,4 @@ std::string format_share(std::uint64_t part, std::uint64_t whole) {
   return fmt::format("{:.1f}%", 100.0 * static_cast<double>(part) / static_cast<double>(whole));
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

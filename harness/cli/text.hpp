@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace beambench {
+namespace beambench::cli {
 
 /// A table of texts, two blanks between columns, a line under the header.
 class TextTable {
@@ -35,4 +35,4 @@ std::string format_bytes(std::uint64_t bytes);
 /// "12.3%"; "-" where there is no whole.
 std::string format_share(std::uint64_t part, std::uint64_t whole);
 
-}  // namespace beambench
+}  // namespace beambench::cli

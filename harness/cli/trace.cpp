@@ -13,10 +13,10 @@
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/ray_way.hpp"
 #include "harness/cli/watched_ask.hpp"
-#include "harness/differ/judge_ray.hpp"
-#include "scenes/error.hpp"
+#include "harness/verify/judge_ray.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 struct Request {
@@ -55,7 +55,7 @@ Pixel parse_pixel(std::string_view text) {
       text));
 }
 
-std::size_t index_in_image(const Request& request, const PrimaryRays& rays) {
+std::size_t index_in_image(const Request& request, const accel::PrimaryRays& rays) {
   if (request.pixel.empty()) {
     throw InputError("a primary ray is named by its pixel; give --pixel X,Y");
   }
@@ -75,7 +75,7 @@ std::size_t index_in_image(const Request& request, const PrimaryRays& rays) {
   return at * static_cast<std::size_t>(rays.samples()) + static_cast<std::size_t>(request.sample);
 }
 
-std::size_t index_in_list(const Request& request, const Question& question) {
+std::size_t index_in_list(const Request& request, const rays::Question& question) {
   if (!request.pixel.empty()) {
     throw InputError(fmt::format(
         "{} rays are numbered; give --ray N, as mismatches name them, in place of --pixel",
@@ -88,61 +88,63 @@ std::size_t index_in_list(const Request& request, const Question& question) {
   return *request.ray;
 }
 
-std::size_t chosen_index(const Request& request, const Question& question) {
-  const PrimaryRays* image = question.image();
+std::size_t chosen_index(const Request& request, const rays::Question& question) {
+  const accel::PrimaryRays* image = question.image();
   return image != nullptr ? index_in_image(request, *image) : index_in_list(request, question);
 }
 
 /// Puts the answer to one ray in its place.
-void answer_alone(const Accelerator& structure, const Ray& ray, std::size_t index,
-                  Answers& answers) {
-  if (auto* any = std::get_if<AnyHits>(&answers)) {
+void answer_alone(const accel::Accelerator& structure, const accel::Ray& ray, std::size_t index,
+                  rays::Answers& answers) {
+  if (auto* any = std::get_if<rays::AnyHits>(&answers)) {
     (*any)[index] = structure.any_hit(ray) ? 1 : 0;
   } else {
-    std::get<HitBuffer>(answers).set(index, structure.closest_hit(ray));
+    std::get<accel::HitBuffer>(answers).set(index, structure.closest_hit(ray));
   }
 }
 
 int trace(const Request& request) {
   if (!request.pixel.empty()) parse_pixel(request.pixel);
-  const RayChoice kind = parse_ray_choice(request.rays);
-  const StructureChoice choice = choose_one("--accel", request.structure);
-  const Scene scene = open_scene(request.scene);
-  const ImageOfRays image = choose_image(scene, request.image);
-  const Question question = make_question(scene, image, kind);
+  const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
+  const accel::StructureChoice choice = choose_one("--accel", request.structure);
+  const scenes::Scene scene = open_scene(request.scene);
+  const rays::ImageOfRays image = choose_image(scene, request.image);
+  const rays::Question question = rays::make_question(scene, image, kind);
   const std::size_t index = chosen_index(request, question);
-  const Ray ray = question.ray(index);
+  const accel::Ray ray = question.ray(index);
 
-  const auto accelerator = choice.build(scene, workload_of(image, question));
-  const EmbreeOracle oracle(scene, question.reach());
+  const auto accelerator = choice.build(scene, rays::workload_of(image, question));
+  const accel::embree::EmbreeOracle oracle(scene, question.reach());
   RayWay way{choice.short_label(), image, question, {}, {}, {}, {}, true, {}};
   way.asked_all = !request.alone;
-  WorkCounters counters;
+  accel::WorkCounters counters;
   accelerator->closest_hit(ray, counters);
   way.counters = counters.by_name();
-  const auto* beams = dynamic_cast<const BeamTracer*>(accelerator.get());
+  const auto* beams = dynamic_cast<const accel::beam::BeamTracer*>(accelerator.get());
   if (beams != nullptr && question.image() != nullptr && !request.alone) {
-    const PixelSample at = *question.pixel(index);
-    SampleWay with_beams = way_of_sample(*beams, *question.image(), at.x, at.y, at.sample);
+    const rays::PixelSample at = *question.pixel(index);
+    accel::beam::SampleWay with_beams =
+        accel::beam::way_of_sample(*beams, *question.image(), at.x, at.y, at.sample);
     way.beams = std::move(with_beams.beams);
     way.steps = std::move(with_beams.steps);
   } else {
     way.steps = accelerator->explain(ray);
   }
   way.alone = accelerator->closest_hit(ray);
-  Answers answers = room_for(question);
+  rays::Answers answers = rays::room_for(question);
   if (request.alone) {
     answer_alone(*accelerator, ray, index, answers);
   } else {
-    Progress progress(1);
+    base::Progress progress(1);
     progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
     watched_ask(*accelerator, question, answers, 1, progress);
   }
-  way.judgement = ask_again(question, answers, index, oracle.closest_hit(ray));
-  judge_ray(scene, choice.info().conformance, way.judgement);
+  way.judgement = verify::ask_again(question, answers, index, oracle.closest_hit(ray));
+  verify::judge_ray(scene, choice.info().conformance, way.judgement);
 
   fmt::print("{}", request.json ? to_json(scene, way).dump(2) + '\n' : to_text(scene, way));
-  return way.judgement.diff_class == DiffClass::kEngineError ? kFound : kSuccess;
+  return way.judgement.diff_class == verify::DiffClass::kEngineError ? base::kMismatch
+                                                                     : base::kSuccess;
 }
 
 }  // namespace
@@ -189,4 +191,4 @@ void add_trace_command(CLI::App& app, int& exit_code) {
   command->callback([request, &exit_code] { exit_code = trace(*request); });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -12,85 +12,92 @@
 #include "harness/cli/watched_ask.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/rays/share_warning.hpp"
-#include "scenes/error.hpp"
-#include "scenes/plugin_error.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/plugin_error.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 /// The answers that further bit-exact structures must repeat.
 struct BitsReference {
   std::string label;
-  Answers answers;
+  rays::Answers answers;
 };
 
-std::string show(const Answers& answers, std::size_t i) {
-  if (std::holds_alternative<AnyHits>(answers)) return is_hit_at(answers, i) ? "a hit" : "no hit";
-  const auto hit = std::get<HitBuffer>(answers).get(i);
+std::string show(const rays::Answers& answers, std::size_t i) {
+  if (std::holds_alternative<rays::AnyHits>(answers))
+    return rays::is_hit_at(answers, i) ? "a hit" : "no hit";
+  const auto hit = std::get<accel::HitBuffer>(answers).get(i);
   return hit ? fmt::format("primitive {} at t = {}", hit->primitive, hit->t) : "a miss";
 }
 
-bool same_bits(const std::optional<Hit>& a, const std::optional<Hit>& b) {
+bool same_bits(const std::optional<accel::Hit>& a, const std::optional<accel::Hit>& b) {
   if (a.has_value() != b.has_value()) return false;
   return !a || (a->primitive == b->primitive &&
                 std::bit_cast<std::uint32_t>(a->t) == std::bit_cast<std::uint32_t>(b->t));
 }
 
-bool same_bits(const Answers& a, const Answers& b, std::size_t i) {
-  if (std::holds_alternative<AnyHits>(a)) return is_hit_at(a, i) == is_hit_at(b, i);
-  return same_bits(std::get<HitBuffer>(a).get(i), std::get<HitBuffer>(b).get(i));
+bool same_bits(const rays::Answers& a, const rays::Answers& b, std::size_t i) {
+  if (std::holds_alternative<rays::AnyHits>(a))
+    return rays::is_hit_at(a, i) == rays::is_hit_at(b, i);
+  return same_bits(std::get<accel::HitBuffer>(a).get(i), std::get<accel::HitBuffer>(b).get(i));
 }
 
-void compare_bits(const Question& question, const Answers& answers, const BitsReference& reference,
-                  const ReplayCommand& replay, std::span<DiffClass> classes, VerifiedCell& cell) {
+void compare_bits(const rays::Question& question, const rays::Answers& answers,
+                  const BitsReference& reference, const verify::ReplayCommand& replay,
+                  std::span<verify::DiffClass> classes, VerifiedCell& cell) {
   cell.bits_reference = reference.label;
   for (std::size_t i = 0; i < question.size(); ++i) {
     if (same_bits(answers, reference.answers, i)) continue;
-    classes[i] = DiffClass::kEngineError;
+    classes[i] = verify::DiffClass::kEngineError;
     if (cell.different_bits++ > 0) continue;
     cell.disputes.push_back(fmt::format(
         "{}: {} found {}, {} found {}; a bit-exact structure must find the same\n  replay {}\n",
-        place_text(question, i), cell.label, show(answers, i), reference.label,
+        rays::place_text(question, i), cell.label, show(answers, i), reference.label,
         show(reference.answers, i), replay.of(i)));
   }
-  if (cell.different_bits > 0) cell.verdict = to_string(Verdict::kMismatch);
+  if (cell.different_bits > 0) cell.verdict = verify::to_string(verify::Verdict::kMismatch);
 }
 
 /// Ties are no dispute, and grazes only where there are too many of them.
-std::vector<std::string> describe_disputes(const VerifiedView& view, const DiffReport& report,
-                                           const ReplayCommand& replay) {
+std::vector<std::string> describe_disputes(const VerifiedView& view,
+                                           const verify::DiffReport& report,
+                                           const verify::ReplayCommand& replay) {
   std::vector<std::string> texts;
-  for (const Mismatch& example : report.examples) {
-    if (example.diff_class == DiffClass::kTie) continue;
-    if (example.diff_class == DiffClass::kGraze && report.verdict != Verdict::kGrazes) continue;
-    texts.push_back(describe(view.scene, view.question, example, replay));
+  for (const verify::Mismatch& example : report.examples) {
+    if (example.diff_class == verify::DiffClass::kTie) continue;
+    if (example.diff_class == verify::DiffClass::kGraze &&
+        report.verdict != verify::Verdict::kGrazes)
+      continue;
+    texts.push_back(verify::describe(view.scene, view.question, example, replay));
   }
   return texts;
 }
 
 class SceneVerifier {
  public:
-  SceneVerifier(const VerifiedView& view, const std::filesystem::path& pictures, Progress& progress)
+  SceneVerifier(const VerifiedView& view, const std::filesystem::path& pictures,
+                base::Progress& progress)
       : view_(view),
         reference_(view.scene, view.question),
         pictures_(pictures),
         progress_(progress) {
-    if (const auto warning = share_warning(view.question, reference_.hit_count())) {
+    if (const auto warning = rays::share_warning(view.question, reference_.hit_count())) {
       progress_.say(fmt::format("warning: {}: {}", view.scene.name, *warning));
     }
   }
 
-  void judge_into(const StructureChoice& choice, VerifiedCell& cell) {
+  void judge_into(const accel::StructureChoice& choice, VerifiedCell& cell) {
     const auto accelerator =
-        choice.build(view_.scene, workload_of(view_.image, view_.question, view_.threads));
-    Answers answers = room_for(view_.question);
+        choice.build(view_.scene, rays::workload_of(view_.image, view_.question, view_.threads));
+    rays::Answers answers = rays::room_for(view_.question);
     watched_ask(*accelerator, view_.question, answers, view_.threads, progress_);
-    const ReplayCommand replay(view_.scene, view_.image, choice, view_.question);
-    std::vector<DiffClass> classes(view_.question.size());
-    cell.report = judge(reference_, answers, choice.info().conformance, classes);
-    cell.verdict = to_string(cell.report->verdict);
+    const verify::ReplayCommand replay(view_.scene, view_.image, choice, view_.question);
+    std::vector<verify::DiffClass> classes(view_.question.size());
+    cell.report = verify::judge(reference_, answers, choice.info().conformance, classes);
+    cell.verdict = verify::to_string(cell.report->verdict);
     cell.disputes = describe_disputes(view_, *cell.report, replay);
-    if (choice.info().conformance == Conformance::kBitExact) {
+    if (choice.info().conformance == accel::Conformance::kBitExact) {
       if (bits_) {
         compare_bits(view_.question, answers, *bits_, replay, classes, cell);
       } else {
@@ -106,9 +113,9 @@ class SceneVerifier {
 
  private:
   const VerifiedView& view_;
-  ReferenceHits reference_;
+  verify::ReferenceHits reference_;
   const std::filesystem::path& pictures_;
-  Progress& progress_;
+  base::Progress& progress_;
   std::optional<BitsReference> bits_;
 };
 
@@ -117,8 +124,8 @@ void fail(VerifiedCell& cell, const std::exception& error) {
   cell.message = error.what();
 }
 
-VerifiedCell empty_cell(const Scene& scene, const std::string& rays,
-                        const StructureChoice& choice) {
+VerifiedCell empty_cell(const scenes::Scene& scene, const std::string& rays,
+                        const accel::StructureChoice& choice) {
   VerifiedCell cell;
   cell.scene = scene.name;
   cell.rays = rays;
@@ -131,15 +138,15 @@ VerifiedCell empty_cell(const Scene& scene, const std::string& rays,
 
 }  // namespace
 
-std::vector<VerifiedCell> verify_each(const Scene& scene, const std::string& rays,
-                                      std::vector<StructureChoice> contenders, Progress& progress,
-                                      const JudgeInto& judge_into) {
-  std::stable_partition(contenders.begin(), contenders.end(), [](const StructureChoice& choice) {
-    return choice.info().name == "exhaustive";
-  });
+std::vector<VerifiedCell> verify_each(const scenes::Scene& scene, const std::string& rays,
+                                      std::vector<accel::StructureChoice> contenders,
+                                      base::Progress& progress, const JudgeInto& judge_into) {
+  std::stable_partition(
+      contenders.begin(), contenders.end(),
+      [](const accel::StructureChoice& choice) { return choice.info().name == "exhaustive"; });
   std::vector<VerifiedCell> cells;
   cells.reserve(contenders.size());
-  for (const StructureChoice& choice : contenders) {
+  for (const accel::StructureChoice& choice : contenders) {
     VerifiedCell& cell = cells.emplace_back(empty_cell(scene, rays, choice));
     progress.start(fmt::format("{} over {}, {} rays", cell.label, cell.scene, cell.rays));
     try {
@@ -148,7 +155,7 @@ std::vector<VerifiedCell> verify_each(const Scene& scene, const std::string& ray
       fail(cell, error);
     } catch (const PluginError& error) {
       fail(cell, error);
-    } catch (const InvalidHit& error) {  // nothing can be traced on from there
+    } catch (const rays::InvalidHit& error) {  // nothing can be traced on from there
       fail(cell, error);
     }
     progress.finish(cell.message.empty() ? cell.verdict
@@ -158,21 +165,22 @@ std::vector<VerifiedCell> verify_each(const Scene& scene, const std::string& ray
 }
 
 std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
-                                       std::vector<StructureChoice> contenders,
-                                       const std::filesystem::path& pictures, Progress& progress) {
+                                       std::vector<accel::StructureChoice> contenders,
+                                       const std::filesystem::path& pictures,
+                                       base::Progress& progress) {
   SceneVerifier verifier(view, pictures, progress);
   return verify_each(view.scene, view.question.label(), std::move(contenders), progress,
-                     [&](const StructureChoice& choice, VerifiedCell& cell) {
+                     [&](const accel::StructureChoice& choice, VerifiedCell& cell) {
                        verifier.judge_into(choice, cell);
                      });
 }
 
-std::vector<VerifiedCell> cells_without_rays(const Scene& scene, const std::string& rays,
-                                             std::vector<StructureChoice> contenders,
-                                             Progress& progress, const std::string& why) {
+std::vector<VerifiedCell> cells_without_rays(const scenes::Scene& scene, const std::string& rays,
+                                             std::vector<accel::StructureChoice> contenders,
+                                             base::Progress& progress, const std::string& why) {
   return verify_each(scene, rays, std::move(contenders), progress,
-                     [&](const StructureChoice&, VerifiedCell& cell) {
-                       cell.verdict = kNoRays;
+                     [&](const accel::StructureChoice&, VerifiedCell& cell) {
+                       cell.verdict = verify::kNoRays;
                        cell.message = why;
                      });
 }
@@ -185,8 +193,8 @@ nlohmann::ordered_json to_json(const VerifiedCell& cell) {
   if (cell.report) {
     out["rays"] = cell.report->rays;
     out["hits"] = cell.report->hits;
-    for (std::size_t i = 0; i < kDiffClassNames.size(); ++i) {
-      out[std::string(kDiffClassNames[i])] = cell.report->counts[i];
+    for (std::size_t i = 0; i < verify::kDiffClassNames.size(); ++i) {
+      out[std::string(verify::kDiffClassNames[i])] = cell.report->counts[i];
     }
   }
   if (!cell.bits_reference.empty()) {
@@ -197,4 +205,4 @@ nlohmann::ordered_json to_json(const VerifiedCell& cell) {
   return out;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

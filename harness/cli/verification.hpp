@@ -10,10 +10,10 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/differ/differ.hpp"
-#include "harness/progress/progress.hpp"
+#include "harness/base/progress.hpp"
+#include "harness/verify/differ.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 
 /// The judgement of one structure over one scene.
 struct VerifiedCell {
@@ -24,48 +24,49 @@ struct VerifiedCell {
   std::string parameters;  ///< all of them, canonical
   std::string label;       ///< the name and the parameters that are not at their defaults
 
-  std::optional<DiffReport> report;   ///< absent where nothing was judged
-  std::vector<std::string> disputes;  ///< rays described, errors first
-  std::string bits_reference;         ///< whose bits it was compared with; empty: nobody's
-  std::uint64_t different_bits = 0;   ///< rays whose answer differs from the reference's
-  std::string verdict;                ///< a Verdict's name, "error": it could not be built, kNoRays
-  std::string message;                ///< why nothing was judged
-  std::filesystem::path picture;      ///< of the differences; empty: none was made
+  std::optional<verify::DiffReport> report;  ///< absent where nothing was judged
+  std::vector<std::string> disputes;         ///< rays described, errors first
+  std::string bits_reference;                ///< whose bits it was compared with; empty: nobody's
+  std::uint64_t different_bits = 0;          ///< rays whose answer differs from the reference's
+  std::string verdict;            ///< a Verdict's name, "error": it could not be built, kNoRays
+  std::string message;            ///< why nothing was judged
+  std::filesystem::path picture;  ///< of the differences; empty: none was made
 
-  bool has_rays() const { return verdict != kNoRays; }
+  bool has_rays() const { return verdict != verify::kNoRays; }
   /// Was nothing found to be wrong?
   bool passed() const { return verdict == "ok" || verdict == "baseline" || !has_rays(); }
 };
 
 /// What the contenders over a scene are asked. The scene outlives it.
 struct VerifiedView {
-  const Scene& scene;
-  ImageOfRays image;
-  Question question;
+  const scenes::Scene& scene;
+  rays::ImageOfRays image;
+  rays::Question question;
   int threads = 1;  ///< that trace the image
 };
 
 /// Judges one structure into its cell, which is filled but for that; may throw InputError.
-using JudgeInto = std::function<void(const StructureChoice& choice, VerifiedCell& cell)>;
+using JudgeInto = std::function<void(const accel::StructureChoice& choice, VerifiedCell& cell)>;
 /// Judges each contender, the exhaustive search first where it is among them. `progress` gets one
 /// cell for each; one that throws gets the verdict "error".
-std::vector<VerifiedCell> verify_each(const Scene& scene, const std::string& rays,
-                                      std::vector<StructureChoice> contenders, Progress& progress,
-                                      const JudgeInto& judge_into);
+std::vector<VerifiedCell> verify_each(const scenes::Scene& scene, const std::string& rays,
+                                      std::vector<accel::StructureChoice> contenders,
+                                      base::Progress& progress, const JudgeInto& judge_into);
 
 /// Judges each contender, the exhaustive search first where it is among them: the bit-exact ones
 /// are compared with it, or with the first of them. `progress` gets one cell for each contender.
 /// Unless `pictures` is empty, each cell with wrong answers to primary rays leaves a picture in
 /// that folder.
 std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
-                                       std::vector<StructureChoice> contenders,
-                                       const std::filesystem::path& pictures, Progress& progress);
+                                       std::vector<accel::StructureChoice> contenders,
+                                       const std::filesystem::path& pictures,
+                                       base::Progress& progress);
 
 /// The cells of rays of a kind that the scene has none of, and why. `progress` gets each.
-std::vector<VerifiedCell> cells_without_rays(const Scene& scene, const std::string& rays,
-                                             std::vector<StructureChoice> contenders,
-                                             Progress& progress, const std::string& why);
+std::vector<VerifiedCell> cells_without_rays(const scenes::Scene& scene, const std::string& rays,
+                                             std::vector<accel::StructureChoice> contenders,
+                                             base::Progress& progress, const std::string& why);
 
 nlohmann::ordered_json to_json(const VerifiedCell& cell);
 
-}  // namespace beambench
+}  // namespace beambench::cli

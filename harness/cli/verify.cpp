@@ -9,21 +9,21 @@
 
 #include <fmt/format.h>
 
-#include "accel/trace_on.hpp"
+#include "accel/core/trace_on.hpp"
+#include "harness/bench/record/build_info.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/picture_folder.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/cli/verification.hpp"
 #include "harness/cli/verify_picture.hpp"
-#include "harness/files/pending_file.hpp"
 #include "harness/rays/ray_choice.hpp"
 #include "harness/rays/resolution.hpp"
-#include "harness/record/build_info.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/pending_file.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 constexpr std::size_t kPrintedDisputes = 3;  // of each cell; the JSON has them all
@@ -56,7 +56,7 @@ std::string table_text(const std::vector<VerifiedCell>& cells) {
       row.push_back(fmt::format("{}", cell.report->hits));
       for (const std::uint64_t count : cell.report->counts) row.push_back(fmt::format("{}", count));
     } else {
-      row.resize(row.size() + 2 + kDiffClassNames.size(), "-");
+      row.resize(row.size() + 2 + verify::kDiffClassNames.size(), "-");
     }
     row.push_back(bits_text(cell));
     row.push_back(cell.verdict);
@@ -90,11 +90,11 @@ void print_missing_rays(const std::vector<VerifiedCell>& cells) {
 }
 
 void write_json(const Request& request, const std::vector<VerifiedCell>& cells, bool passed) {
-  nlohmann::ordered_json out{{"beambench", build_info().version},
+  nlohmann::ordered_json out{{"beambench", bench::build_info().version},
                              {"resolution", request.resolution},
                              {"samples", request.samples},
                              {"ray_kinds", request.rays},
-                             {"threads", thread_count(request.threads)},
+                             {"threads", accel::thread_count(request.threads)},
                              {"passed", passed},
                              {"cells", nlohmann::ordered_json::array()}};
   for (const VerifiedCell& cell : cells) out["cells"].push_back(to_json(cell));
@@ -102,45 +102,47 @@ void write_json(const Request& request, const std::vector<VerifiedCell>& cells, 
 }
 
 /// All of them before any work is done, so that a wrong name costs nobody's patience.
-std::vector<Scene> open_scenes(const Request& request) {
-  std::vector<Scene> scenes;
+std::vector<scenes::Scene> open_scenes(const Request& request) {
+  std::vector<scenes::Scene> scenes;
   for (const std::string& spec : request.scenes) scenes.push_back(open_scene(spec));
   if (!scenes.empty()) return scenes;
-  for (const SceneInfo& info : scene_catalogue()) scenes.push_back(open_scene(info.name));
+  for (const scenes::SceneInfo& info : scenes::scene_catalogue())
+    scenes.push_back(open_scene(info.name));
   return scenes;
 }
 
-std::vector<VerifiedCell> verify_kind(const Scene& scene, const ImageOfRays& image,
-                                      const RayChoice& kind, const Contenders& contenders,
-                                      const Request& request, Progress& progress) {
-  if (kind.kind == RayKind::kWhitted) {
+std::vector<VerifiedCell> verify_kind(const scenes::Scene& scene, const rays::ImageOfRays& image,
+                                      const rays::RayChoice& kind, const Contenders& contenders,
+                                      const Request& request, base::Progress& progress) {
+  if (kind.kind == rays::RayKind::kWhitted) {
     return verify_picture(scene, image, kind, contenders.choices, progress);
   }
   try {
-    const VerifiedView view{scene, image, make_question(scene, image, kind), request.threads};
+    const VerifiedView view{scene, image, rays::make_question(scene, image, kind), request.threads};
     return verify_scene(view, contenders.choices, request.pictures, progress);
-  } catch (const NoRaysError& error) {  // the other kinds go on
+  } catch (const rays::NoRaysError& error) {  // the other kinds go on
     return cells_without_rays(scene, kind.label, contenders.choices, progress, error.what());
   }
 }
 
 int verify(const Request& request) {
-  const Resolution resolution = parse_resolution(request.resolution);
-  const std::vector<RayChoice> kinds = parse_ray_choices(request.rays);
-  require_ray_count(resolution, static_cast<int>(sample_offsets(request.samples).size()));
+  const rays::Resolution resolution = rays::parse_resolution(request.resolution);
+  const std::vector<rays::RayChoice> kinds = rays::parse_ray_choices(request.rays);
+  rays::require_ray_count(resolution,
+                          static_cast<int>(accel::sample_offsets(request.samples).size()));
   if (!request.json.empty()) require_writable(request.json);
-  const std::size_t structures = registry().choose_list(request.structures).size();
-  const std::vector<Scene> scenes = open_scenes(request);
-  for (const Scene& scene : scenes) choose_camera(scene, request.view);
+  const std::size_t structures = accel::registry().choose_list(request.structures).size();
+  const std::vector<scenes::Scene> scenes = open_scenes(request);
+  for (const scenes::Scene& scene : scenes) choose_camera(scene, request.view);
   if (!request.pictures.empty()) make_picture_folder(request.pictures);
 
-  Progress progress(scenes.size() * kinds.size() * structures);
+  base::Progress progress(scenes.size() * kinds.size() * structures);
   std::vector<VerifiedCell> cells;
-  for (const Scene& scene : scenes) {
-    const ImageOfRays image{choose_camera(scene, request.view), resolution, request.samples};
+  for (const scenes::Scene& scene : scenes) {
+    const rays::ImageOfRays image{choose_camera(scene, request.view), resolution, request.samples};
     const Contenders contenders = choose_contenders(request.structures, scene);
     if (!contenders.note.empty()) progress.say(contenders.note);
-    for (const RayChoice& kind : kinds) {
+    for (const rays::RayChoice& kind : kinds) {
       progress.skip(structures - contenders.choices.size());
       for (VerifiedCell& cell : verify_kind(scene, image, kind, contenders, request, progress)) {
         cells.push_back(std::move(cell));
@@ -161,7 +163,7 @@ int verify(const Request& request) {
                     "with --rays, or another camera or resolution",
                     request.rays));
   }
-  return passed ? kSuccess : kFound;
+  return passed ? base::kSuccess : base::kMismatch;
 }
 
 }  // namespace
@@ -215,4 +217,4 @@ void add_verify_command(CLI::App& app, int& exit_code) {
   command->callback([request, &exit_code] { exit_code = verify(*request); });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

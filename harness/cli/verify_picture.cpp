@@ -6,37 +6,39 @@
 
 #include <fmt/format.h>
 
-#include "harness/shade/judged_picture.hpp"
-#include "scenes/error.hpp"
+#include "harness/render/judged_picture.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 class PictureVerifier {
  public:
-  PictureVerifier(const Scene& scene, const ImageOfRays& image, const RayChoice& choice)
+  PictureVerifier(const scenes::Scene& scene, const rays::ImageOfRays& image,
+                  const rays::RayChoice& choice)
       : scene_(scene),
         rays_(image.camera, image.resolution.width, image.resolution.height, image.samples),
-        workload_(workload_of(image, rays_)),
-        options_(whitted_options(choice)),
+        workload_(rays::workload_of(image, rays_)),
+        options_(render::whitted_options(choice)),
         eye_(scene, rays_) {}
 
-  void judge_into(const StructureChoice& choice, VerifiedCell& cell) {
+  void judge_into(const accel::StructureChoice& choice, VerifiedCell& cell) {
     const auto structure = choice.build(scene_, workload_);
-    HitBuffer hits(rays_.width(), rays_.height(), rays_.samples());
+    accel::HitBuffer hits(rays_.width(), rays_.height(), rays_.samples());
     structure->trace(rays_, hits);
-    RecordedPicture picture = record_picture(scene_, *structure, rays_, std::move(hits), options_,
-                                             HitCheck(scene_, choice));
-    if (choice.info().conformance == Conformance::kBitExact) compare_bits(picture.image, cell);
-    const auto judged = judge_picture(eye_, std::move(picture), choice.info().conformance);
-    cell.report = sum_of(judged);
-    if (cell.different_bits > 0) cell.report->verdict = Verdict::kMismatch;
-    cell.verdict = to_string(cell.report->verdict);
-    for (const JudgedRays& rays : judged) describe_disputes(rays, cell);
+    render::RecordedPicture picture = render::record_picture(
+        scene_, *structure, rays_, std::move(hits), options_, rays::HitCheck(scene_, choice));
+    if (choice.info().conformance == accel::Conformance::kBitExact)
+      compare_bits(picture.image, cell);
+    const auto judged = render::judge_picture(eye_, std::move(picture), choice.info().conformance);
+    cell.report = render::sum_of(judged);
+    if (cell.different_bits > 0) cell.report->verdict = verify::Verdict::kMismatch;
+    cell.verdict = verify::to_string(cell.report->verdict);
+    for (const render::JudgedRays& rays : judged) describe_disputes(rays, cell);
   }
 
  private:
-  void compare_bits(const Image& image, VerifiedCell& cell) {
+  void compare_bits(const render::Image& image, VerifiedCell& cell) {
     if (!bits_) {
       bits_.emplace(cell.label, image);
       return;
@@ -51,33 +53,33 @@ class PictureVerifier {
         cell.different_bits, image.pixels().size(), bits_->first));
   }
 
-  void describe_disputes(const JudgedRays& rays, VerifiedCell& cell) const {
-    if (is_right(rays.report.verdict)) return;
-    for (const Mismatch& example : rays.report.examples) {
+  void describe_disputes(const render::JudgedRays& rays, VerifiedCell& cell) const {
+    if (verify::is_right(rays.report.verdict)) return;
+    for (const verify::Mismatch& example : rays.report.examples) {
       cell.disputes.push_back(
-          fmt::format("{} rays, {}", rays.kind, describe(scene_, rays.question, example)));
+          fmt::format("{} rays, {}", rays.kind, verify::describe(scene_, rays.question, example)));
     }
   }
 
-  const Scene& scene_;
-  PrimaryRays rays_;
-  Workload workload_;
-  WhittedOptions options_;
-  ReferenceHits eye_;
-  std::optional<std::pair<std::string, Image>> bits_;  ///< of the first bit-exact structure
+  const scenes::Scene& scene_;
+  accel::PrimaryRays rays_;
+  accel::Workload workload_;
+  render::WhittedOptions options_;
+  verify::ReferenceHits eye_;
+  std::optional<std::pair<std::string, render::Image>> bits_;  ///< of the first bit-exact structure
 };
 
 }  // namespace
 
-std::vector<VerifiedCell> verify_picture(const Scene& scene, const ImageOfRays& image,
-                                         const RayChoice& choice,
-                                         std::vector<StructureChoice> contenders,
-                                         Progress& progress) {
+std::vector<VerifiedCell> verify_picture(const scenes::Scene& scene, const rays::ImageOfRays& image,
+                                         const rays::RayChoice& choice,
+                                         std::vector<accel::StructureChoice> contenders,
+                                         base::Progress& progress) {
   PictureVerifier verifier(scene, image, choice);
   return verify_each(scene, choice.label, std::move(contenders), progress,
-                     [&](const StructureChoice& contender, VerifiedCell& cell) {
+                     [&](const accel::StructureChoice& contender, VerifiedCell& cell) {
                        verifier.judge_into(contender, cell);
                      });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -6,13 +6,13 @@
 #include "harness/cli/verification.hpp"
 #include "harness/rays/ray_choice.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 
 /// As `verify_scene`, for `whitted` rays. Bit-exact structures must draw the same picture;
 /// `different_bits` counts pixels.
-std::vector<VerifiedCell> verify_picture(const Scene& scene, const ImageOfRays& image,
-                                         const RayChoice& choice,
-                                         std::vector<StructureChoice> contenders,
-                                         Progress& progress);
+std::vector<VerifiedCell> verify_picture(const scenes::Scene& scene, const rays::ImageOfRays& image,
+                                         const rays::RayChoice& choice,
+                                         std::vector<accel::StructureChoice> contenders,
+                                         base::Progress& progress);
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <future>
 
-#include "accel/trace_on.hpp"
+#include "accel/core/trace_on.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
@@ -21,7 +21,7 @@ double seconds_since(Clock::time_point begin) {
 }
 
 /// What all rays would take if they were like a few of them, spread over the question.
-double estimated_seconds(const Accelerator& structure, const Question& question) {
+double estimated_seconds(const accel::Accelerator& structure, const rays::Question& question) {
   const Clock::time_point begin = Clock::now();
   const auto rays = static_cast<double>(question.size());
   int asked = 0;
@@ -37,17 +37,19 @@ double estimated_seconds(const Accelerator& structure, const Question& question)
 
 }  // namespace
 
-void watched_ask(const Accelerator& structure, const Question& question, Answers& answers,
-                 int threads, Progress& progress) {
+void watched_ask(const accel::Accelerator& structure, const rays::Question& question,
+                 rays::Answers& answers, int threads, base::Progress& progress) {
   const double expected =
-      progress.on_terminal() ? estimated_seconds(structure, question) / thread_count(threads) : 0.0;
-  if (expected < kWorthWatching) return ask(structure, question, answers, threads);
+      progress.on_terminal() ? estimated_seconds(structure, question) / accel::thread_count(threads)
+                             : 0.0;
+  if (expected < kWorthWatching) return rays::ask(structure, question, answers, threads);
   const Clock::time_point begin = Clock::now();
-  auto asked = std::async(std::launch::async, [&] { ask(structure, question, answers, threads); });
+  auto asked =
+      std::async(std::launch::async, [&] { rays::ask(structure, question, answers, threads); });
   while (asked.wait_for(std::chrono::milliseconds(100)) == std::future_status::timeout) {
     progress.advance(std::min(seconds_since(begin) / expected, 0.99));
   }
   asked.get();
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

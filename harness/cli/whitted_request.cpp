@@ -4,7 +4,7 @@
 
 #include <tbb/global_control.h>
 
-namespace beambench {
+namespace beambench::cli {
 
 void add_light_options(CLI::App& command, WhittedRequest& request) {
   command
@@ -32,18 +32,19 @@ void add_whitted_options(CLI::App& command, WhittedRequest& request) {
       ->check(CLI::Range(0, 1024));
 }
 
-WhittedOptions whitted_options(const WhittedRequest& request) {
-  return {request.max_depth, request.least_weight, parse_shadow_method(request.shadows)};
+render::WhittedOptions whitted_options(const WhittedRequest& request) {
+  return {request.max_depth, request.least_weight, render::parse_shadow_method(request.shadows)};
 }
 
-WhittedPicture watched_picture(const Whitted& tracer, const EyeRays& rays, const HitBuffer& hits,
-                               const WhittedRequest& request, Progress& progress) {
+render::WhittedPicture watched_picture(const render::Whitted& tracer, const render::EyeRays& rays,
+                                       const accel::HitBuffer& hits, const WhittedRequest& request,
+                                       base::Progress& progress) {
   std::optional<tbb::global_control> limit;
   if (request.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism,
                   static_cast<std::size_t>(request.threads));
   }
-  return whitted_picture(tracer, rays, hits, [&](double part) { progress.advance(part); });
+  return render::whitted_picture(tracer, rays, hits, [&](double part) { progress.advance(part); });
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

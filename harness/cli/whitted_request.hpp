@@ -5,14 +5,14 @@
 
 #include <CLI/CLI.hpp>
 
-#include "harness/progress/progress.hpp"
-#include "harness/shade/whitted_picture.hpp"
+#include "harness/base/progress.hpp"
+#include "harness/render/whitted_picture.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 
 struct WhittedRequest {
   std::string shadows = "rays";
-  int max_depth = WhittedOptions{}.max_depth;
+  int max_depth = render::WhittedOptions{}.max_depth;
   double least_weight = 0.0;
   int threads = 0;
 };
@@ -23,10 +23,11 @@ void add_light_options(CLI::App& command, WhittedRequest& request);
 void add_whitted_options(CLI::App& command, WhittedRequest& request);
 
 /// Throws InputError for a wrong name of a shadow method.
-WhittedOptions whitted_options(const WhittedRequest& request);
+render::WhittedOptions whitted_options(const WhittedRequest& request);
 
 /// `whitted_picture` on as many threads as asked for, with progress.
-WhittedPicture watched_picture(const Whitted& tracer, const EyeRays& rays, const HitBuffer& hits,
-                               const WhittedRequest& request, Progress& progress);
+render::WhittedPicture watched_picture(const render::Whitted& tracer, const render::EyeRays& rays,
+                                       const accel::HitBuffer& hits, const WhittedRequest& request,
+                                       base::Progress& progress);
 
-}  // namespace beambench
+}  // namespace beambench::cli

@@ -7,18 +7,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 namespace {
 
 using Names = std::set<std::string, std::less<>>;
 
 /// Reads one counter. A name of the family's own may be absent from a ray that did no such work.
-std::uint64_t read(const WorkCounters& counters, const std::string& name, Names& seen) {
-  const auto standard = std::find(kCounterNames.begin(), kCounterNames.end(), name);
-  if (standard != kCounterNames.end()) {
-    return counters.get(static_cast<Counter>(standard - kCounterNames.begin()));
+std::uint64_t read(const accel::WorkCounters& counters, const std::string& name, Names& seen) {
+  const auto standard = std::find(accel::kCounterNames.begin(), accel::kCounterNames.end(), name);
+  if (standard != accel::kCounterNames.end()) {
+    return counters.get(static_cast<accel::Counter>(standard - accel::kCounterNames.begin()));
   }
   std::uint64_t value = 0;
   for (const auto& [each, count] : counters.by_name()) {
@@ -37,15 +37,16 @@ void require_known(const std::string& counter, const Names& seen) {
 
 }  // namespace
 
-HeatMap count_work(const Accelerator& accelerator, const PrimaryRays& rays,
-                   const std::string& counter, HitBuffer& hits, Progress& progress) {
-  HeatMap map{counter + " per ray", rays.width(), rays.height(), {}};
+render::HeatMap count_work(const accel::Accelerator& accelerator, const accel::PrimaryRays& rays,
+                           const std::string& counter, accel::HitBuffer& hits,
+                           base::Progress& progress) {
+  render::HeatMap map{counter + " per ray", rays.width(), rays.height(), {}};
   Names seen;
   for (int y = 0; y < rays.height(); ++y) {
     for (int x = 0; x < rays.width(); ++x) {
       std::uint64_t sum = 0;
       for (int sample = 0; sample < rays.samples(); ++sample) {
-        WorkCounters counters;
+        accel::WorkCounters counters;
         const auto hit = accelerator.closest_hit(rays.ray(x, y, sample), counters);
         hits.set(hits.index(x, y, sample), hit);
         sum += read(counters, counter, seen);
@@ -58,4 +59,4 @@ HeatMap count_work(const Accelerator& accelerator, const PrimaryRays& rays,
   return map;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cli

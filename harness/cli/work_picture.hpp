@@ -3,16 +3,17 @@
 
 #include <string>
 
-#include "accel/accelerator.hpp"
-#include "harness/picture/heat_map.hpp"
-#include "harness/progress/progress.hpp"
+#include "accel/core/accelerator.hpp"
+#include "harness/base/progress.hpp"
+#include "harness/render/picture/heat_map.hpp"
 
-namespace beambench {
+namespace beambench::cli {
 
 /// Asks each ray for its closest hit, counting; a pixel's value is the mean of its samples. Hits go
 /// to `hits`. Throws InputError listing the counters that the structure kept when `counter` is none
 /// of them.
-HeatMap count_work(const Accelerator& accelerator, const PrimaryRays& rays,
-                   const std::string& counter, HitBuffer& hits, Progress& progress);
+render::HeatMap count_work(const accel::Accelerator& accelerator, const accel::PrimaryRays& rays,
+                           const std::string& counter, accel::HitBuffer& hits,
+                           base::Progress& progress);
 
-}  // namespace beambench
+}  // namespace beambench::cli

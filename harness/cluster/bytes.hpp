@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace beambench {
+namespace beambench::cluster {
 
 using Bytes = std::vector<std::byte>;
 
@@ -79,4 +79,4 @@ class ByteReader {
   std::span<const std::byte> bytes_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -7,7 +7,7 @@
 #include "harness/cluster/cpu_timer.hpp"
 #include "harness/cluster/parcel.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 Bytes write_account(const ConsumerAccount& account) {
   Bytes bytes;
@@ -77,4 +77,4 @@ void Consumer::send(Tag tag, Bytes bytes) {
   last_sent_ = transport_->seconds();
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -7,7 +7,7 @@
 #include "harness/cluster/roles.hpp"
 #include "harness/cluster/transport.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// What a consumer tells at its end.
 struct ConsumerAccount {
@@ -44,4 +44,4 @@ class Consumer {
   ConsumerAccount account_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -3,19 +3,19 @@
 
 #include <chrono>
 
-#include "harness/sweep/phase_timer.hpp"
+#include "harness/bench/phase_timer.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// CPU time of this thread since the timer was made.
 class CpuTimer {
  public:
   double seconds() const {
-    return std::chrono::duration<double>(thread_cpu_time() - begin_).count();
+    return std::chrono::duration<double>(bench::thread_cpu_time() - begin_).count();
   }
 
  private:
-  std::chrono::nanoseconds begin_ = thread_cpu_time();
+  std::chrono::nanoseconds begin_ = bench::thread_cpu_time();
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace beambench {
+namespace beambench::cluster {
 
 Crew::Crew(int processes, int in_flight, double timeout)
     : in_flight_(in_flight), timeout_(timeout), members_(static_cast<std::size_t>(processes)) {}
@@ -110,4 +110,4 @@ void Crew::enter_queue(ProcessId consumer) {
   waiting_.insert({member.load, member.since, consumer});
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

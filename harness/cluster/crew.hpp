@@ -9,7 +9,7 @@
 
 #include "harness/cluster/transport.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// Whom to give the next parcel to: of the consumers with the fewest parcels the one that has
 /// waited longest (the thesis's round robin, section 6.2.3, where each has one at most).
@@ -80,4 +80,4 @@ class Crew {
   std::set<Place> waiting_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

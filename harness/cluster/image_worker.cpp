@@ -5,27 +5,29 @@
 
 #include "harness/cluster/sample_results.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
-constexpr std::array kCounts{&RayCensus::eye,
-                             &RayCensus::eye_hits,
-                             &RayCensus::reflected,
-                             &RayCensus::refracted,
-                             &RayCensus::totally_reflected,
-                             &RayCensus::secondary_hits,
-                             &RayCensus::too_faint,
-                             &RayCensus::shadow,
-                             &RayCensus::shadow_hidden,
-                             &RayCensus::shadow_cached,
-                             &RayCensus::shadow_listed,
-                             &RayCensus::shadow_tests,
-                             &RayCensus::shadow_queries};
-static_assert(sizeof(RayCensus) == kCounts.size() * sizeof(std::uint64_t), "a count is missing");
+constexpr std::array kCounts{&render::RayCensus::eye,
+                             &render::RayCensus::eye_hits,
+                             &render::RayCensus::reflected,
+                             &render::RayCensus::refracted,
+                             &render::RayCensus::totally_reflected,
+                             &render::RayCensus::secondary_hits,
+                             &render::RayCensus::too_faint,
+                             &render::RayCensus::shadow,
+                             &render::RayCensus::shadow_hidden,
+                             &render::RayCensus::shadow_cached,
+                             &render::RayCensus::shadow_listed,
+                             &render::RayCensus::shadow_tests,
+                             &render::RayCensus::shadow_queries};
+static_assert(sizeof(render::RayCensus) == kCounts.size() * sizeof(std::uint64_t),
+              "a count is missing");
 
 }  // namespace
 
-ImageWorker::ImageWorker(const BeamTracer& tracer, const PrimaryRays& rays, const Whitted* light)
+ImageWorker::ImageWorker(const accel::beam::BeamTracer& tracer, const accel::PrimaryRays& rays,
+                         const render::Whitted* light)
     : tracer_(&tracer),
       rays_(&rays),
       light_(light),
@@ -45,7 +47,7 @@ void ImageWorker::perform(std::span<const std::byte> task, Bytes& result, const 
     return;
   }
   // Begun anew, so that the census does not depend on which process had which task before.
-  Whitted::Progress progress = light_->begin();
+  render::Whitted::Progress progress = light_->begin();
   write_colors(samples, hits_, *rays_, *light_, progress, pulse, result);
   census_ += progress.census;
 }
@@ -56,10 +58,10 @@ void ImageWorker::trace(const BeamTask& task) {
       painter_.test_leaf(task.beam);
       break;
     case BeamTask::Kind::kSmall:
-      painter_.hand_over(task.beam, RayReason::kHandover);
+      painter_.hand_over(task.beam, accel::beam::RayReason::kHandover);
       break;
     case BeamTask::Kind::kCrowded:
-      painter_.hand_over(task.beam, RayReason::kCrowded);
+      painter_.hand_over(task.beam, accel::beam::RayReason::kCrowded);
       break;
   }
 }
@@ -84,11 +86,11 @@ void ImageWorker::tell(Bytes& bytes) const {
   for (const auto count : kCounts) writer.put(census_.*count);
 }
 
-RayCensus read_census(std::span<const std::byte> bytes) {
+render::RayCensus read_census(std::span<const std::byte> bytes) {
   ByteReader reader(bytes);
-  RayCensus census;
+  render::RayCensus census;
   for (const auto count : kCounts) census.*count = reader.get<std::uint64_t>();
   return census;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -9,12 +9,12 @@
 #include "accel/beam/beam_tracer.hpp"
 #include "harness/cluster/roles.hpp"
 #include "harness/cluster/task_message.hpp"
-#include "harness/shade/whitted.hpp"
+#include "harness/render/whitted.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// Notes which samples a beam decided.
-class DecidedSamples : public NoBeamWatch {
+class DecidedSamples : public accel::beam::NoBeamWatch {
  public:
   /// Begins anew; `pulse` is called from time to time and must outlive the notes.
   void begin(const Pulse& pulse) {
@@ -37,7 +37,8 @@ class DecidedSamples : public NoBeamWatch {
 class ImageWorker : public TaskWorker {
  public:
   /// Results are hits, or light where `light` is given. All must outlive this.
-  ImageWorker(const BeamTracer& tracer, const PrimaryRays& rays, const Whitted* light);
+  ImageWorker(const accel::beam::BeamTracer& tracer, const accel::PrimaryRays& rays,
+              const render::Whitted* light);
 
   void perform(std::span<const std::byte> task, Bytes& result, const Pulse& pulse) override;
   /// Its census of rays.
@@ -47,18 +48,18 @@ class ImageWorker : public TaskWorker {
   void trace(const BeamTask& task);
   void trace(const BlockTask& task);
 
-  const BeamTracer* tracer_;
-  const PrimaryRays* rays_;
-  const Whitted* light_;
-  EyeView view_;
-  WholeImage sight_;
-  HitBuffer hits_;
+  const accel::beam::BeamTracer* tracer_;
+  const accel::PrimaryRays* rays_;
+  const render::Whitted* light_;
+  accel::beam::EyeView view_;
+  accel::beam::WholeImage sight_;
+  accel::HitBuffer hits_;
   DecidedSamples decided_;
-  BeamPainter<DecidedSamples, WholeImage> painter_;
-  RayCensus census_;
+  accel::beam::BeamPainter<DecidedSamples, accel::beam::WholeImage> painter_;
+  render::RayCensus census_;
 };
 
 /// What `ImageWorker::tell` tells. Throws ProtocolError where it is nothing of that kind.
-RayCensus read_census(std::span<const std::byte> bytes);
+render::RayCensus read_census(std::span<const std::byte> bytes);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

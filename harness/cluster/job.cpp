@@ -2,18 +2,18 @@
 
 #include <fmt/format.h>
 
+#include "harness/bench/record/build_info.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/rays/fingerprint.hpp"
-#include "harness/record/build_info.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x62624331;  // "1Cbb": nothing that comes by chance
 
 std::string this_version() {
-  const BuildInfo& build = build_info();
+  const bench::BuildInfo& build = bench::build_info();
   return fmt::format("{}, commit {}{}", build.version, build.commit,
                      build.dirty ? " with changes" : "");
 }
@@ -33,11 +33,11 @@ std::string read_version(ByteReader& reader) {
 
 }  // namespace
 
-ImageOfRays job_image(const Job& job, const Scene& scene) {
-  ImageRequest request{"", {}, job.samples};
+rays::ImageOfRays job_image(const Job& job, const scenes::Scene& scene) {
+  cli::ImageRequest request{"", {}, job.samples};
   request.view.camera = job.camera;
-  if (job.width > 0) request.resolution = to_string(Resolution{job.width, job.height});
-  return choose_image(scene, request);
+  if (job.width > 0) request.resolution = rays::to_string(rays::Resolution{job.width, job.height});
+  return cli::choose_image(scene, request);
 }
 
 Bytes write_job(const Job& job) {
@@ -77,25 +77,25 @@ Job read_job(std::span<const std::byte> bytes) {
   job.light = reader.get<bool>();
   job.whitted.max_depth = reader.get<int>();
   job.whitted.least_weight = reader.get<double>();
-  job.whitted.shadows = static_cast<ShadowMethod>(reader.get<std::int32_t>());
+  job.whitted.shadows = static_cast<render::ShadowMethod>(reader.get<std::int32_t>());
   job.split_level = reader.get<int>();
   job.alive_every = reader.get<double>();
   return job;
 }
 
-std::uint64_t look_hash(const Scene& scene) {
+std::uint64_t look_hash(const scenes::Scene& scene) {
   Bytes looks;
   ByteWriter writer(looks);
   const auto put = [&](const glm::vec3& vector) {
     for (int i = 0; i < 3; ++i) writer.put(vector[i]);
   };
-  writer.put(scene_hash(scene));
+  writer.put(scenes::scene_hash(scene));
   put(scene.background);
-  for (const Light& light : scene.lights) {
+  for (const scenes::Light& light : scene.lights) {
     put(light.position);
     put(light.color);
   }
-  for (const Surface& surface : scene.surfaces) {
+  for (const scenes::Surface& surface : scene.surfaces) {
     put(surface.color);
     for (const float number : {surface.diffuse, surface.specular, surface.shine,
                                surface.transmittance, surface.refraction_index}) {
@@ -103,10 +103,10 @@ std::uint64_t look_hash(const Scene& scene) {
     }
     writer.put(static_cast<std::uint8_t>(surface.finish));
   }
-  for (const Primitive& primitive : scene.primitives) {
+  for (const scenes::Primitive& primitive : scene.primitives) {
     writer.put(static_cast<std::uint32_t>(primitive.surface));
   }
-  for (const Camera& camera : scene.cameras) {
+  for (const scenes::Camera& camera : scene.cameras) {
     writer.put_text(camera.name);
     put(camera.from);
     put(camera.at);
@@ -115,7 +115,8 @@ std::uint64_t look_hash(const Scene& scene) {
     writer.put(camera.width);
     writer.put(camera.height);
   }
-  return fingerprint(std::string_view(reinterpret_cast<const char*>(looks.data()), looks.size()));
+  return rays::fingerprint(
+      std::string_view(reinterpret_cast<const char*>(looks.data()), looks.size()));
 }
 
 Bytes write_introduction(const Introduction& introduction) {
@@ -170,4 +171,4 @@ Introduction read_introduction(int process, std::span<const std::byte> bytes,
   return introduction;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -7,10 +7,10 @@
 
 #include "harness/cluster/bytes.hpp"
 #include "harness/rays/question.hpp"
-#include "harness/shade/whitted_options.hpp"
+#include "harness/render/whitted_options.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// The scene's name and how it is subdivided (thesis, section 6.2.3), and the image.
 struct Job {
@@ -21,13 +21,13 @@ struct Job {
   int height = 0;
   int samples = 1;
   bool light = false;  ///< light is followed by the consumers; else they find hits
-  WhittedOptions whitted;
+  render::WhittedOptions whitted;
   int split_level = 0;  ///< the scene is divided by the cells of this level; 0: everybody has it
   double alive_every = 1.0;  ///< seconds between signs of life in long tasks
 };
 
 /// The image of a job over its scene, which must outlive it.
-ImageOfRays job_image(const Job& job, const Scene& scene);
+rays::ImageOfRays job_image(const Job& job, const scenes::Scene& scene);
 
 /// As bytes, with the version of this program before them.
 Bytes write_job(const Job& job);
@@ -43,7 +43,7 @@ struct Identity {
 };
 
 /// Of scene and looks.
-std::uint64_t look_hash(const Scene& scene);
+std::uint64_t look_hash(const scenes::Scene& scene);
 
 /// What a consumer says of itself when it is ready: that it is like this, or why it cannot work.
 struct Introduction {
@@ -58,4 +58,4 @@ Bytes write_introduction(const Introduction& introduction);
 /// not like `mine`.
 Introduction read_introduction(int process, std::span<const std::byte> bytes, const Identity& mine);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -11,18 +11,18 @@
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/cluster/studio.hpp"
 #include "harness/cluster/task_sources.hpp"
-#include "harness/files/pending_file.hpp"
-#include "harness/picture/image_file.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "harness/shade/preview.hpp"
-#include "scenes/error.hpp"
+#include "harness/render/picture/image_file.hpp"
+#include "harness/render/preview.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/pending_file.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 std::unique_ptr<TaskSource> make_source(const ClusterRequest& request, const Studio& studio) {
-  const PrimaryRays& rays = studio.rays();
+  const accel::PrimaryRays& rays = studio.rays();
   if (request.blocks) {
     return std::make_unique<BlockSource>(rays.width(), rays.height(), request.block_size);
   }
@@ -37,9 +37,9 @@ class Result {
               light ? 1 : studio.rays().samples()),
         hit_sink_(hits_) {
     if (!light) return;
-    const PrimaryRays& rays = studio.rays();
+    const accel::PrimaryRays& rays = studio.rays();
     color_sink_.emplace(rays.width(), rays.height(), rays.samples(),
-                        glm::dvec3(background_color(studio.scene())));
+                        glm::dvec3(render::background_color(studio.scene())));
   }
 
   ResultSink& sink() {
@@ -47,23 +47,23 @@ class Result {
     return hit_sink_;
   }
 
-  Image picture(const Studio& studio, Shading shading) const {
+  render::Image picture(const Studio& studio, render::Shading shading) const {
     if (color_sink_) return color_sink_->image();
-    HitCheck(studio.scene(), "structure 'beam'").require(hits_, studio.rays());
-    return shade(studio.scene(), studio.rays(), hits_, shading);
+    rays::HitCheck(studio.scene(), "structure 'beam'").require(hits_, studio.rays());
+    return render::shade(studio.scene(), studio.rays(), hits_, shading);
   }
 
   std::uint64_t hash() const {
-    if (!color_sink_) return fingerprint(hits_);
-    const Image image = color_sink_->image();
+    if (!color_sink_) return rays::fingerprint(hits_);
+    const render::Image image = color_sink_->image();
     const std::size_t pixels =
         static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
-    return fingerprint(std::string_view(reinterpret_cast<const char*>(&image.at(0, 0)),
-                                        pixels * sizeof(glm::vec3)));
+    return rays::fingerprint(std::string_view(reinterpret_cast<const char*>(&image.at(0, 0)),
+                                              pixels * sizeof(glm::vec3)));
   }
 
  private:
-  HitBuffer hits_;
+  accel::HitBuffer hits_;
   HitSink hit_sink_;
   std::optional<ColorSink> color_sink_;
 };
@@ -71,7 +71,7 @@ class Result {
 void write_files(const ClusterRequest& request, const Studio& studio, const Result& result,
                  const ClusterRun& run) {
   if (!request.picture.empty()) {
-    write_image(request.picture, result.picture(studio, request.shading));
+    render::write_image(request.picture, result.picture(studio, request.shading));
   }
   if (!request.report.empty()) write_file(request.report, to_json(run).dump(2) + "\n");
   if (!request.tasks.empty()) write_file(request.tasks, task_table(run.report));
@@ -129,4 +129,4 @@ void follow(Transport& transport) {
   Consumer(transport, worker, job->alive_every).run(write_introduction(built.introduction()));
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -5,7 +5,7 @@
 #include "harness/cluster/request.hpp"
 #include "harness/cluster/transport.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// Makes the image and writes the files that were asked for, after the job was broadcast. Throws
 /// InputError where the scene cannot be had or a process does not fit; the others are told the end
@@ -16,4 +16,4 @@ ClusterRun lead(const ClusterRequest& request, Transport& transport);
 /// process 0, which ends the run.
 void follow(Transport& transport);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

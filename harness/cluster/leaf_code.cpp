@@ -4,9 +4,10 @@
 
 #include "harness/cluster/bytes.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
-std::uint64_t leaf_code(const Octree& octree, const glm::ivec3& corner, std::int32_t size) {
+std::uint64_t leaf_code(const accel::octree::Octree& octree, const glm::ivec3& corner,
+                        std::int32_t size) {
   std::uint64_t code = 1;
   for (std::int32_t half = octree.grid().cells.x / 2; half >= size; half /= 2) {
     for (const int axis : {2, 1, 0}) code = 2 * code + ((corner[axis] & half) != 0 ? 1 : 0);
@@ -14,8 +15,8 @@ std::uint64_t leaf_code(const Octree& octree, const glm::ivec3& corner, std::int
   return code;
 }
 
-OctreeCursor find_leaf(const Octree& octree, std::uint64_t code) {
-  OctreeCursor cursor(octree);
+accel::octree::OctreeCursor find_leaf(const accel::octree::Octree& octree, std::uint64_t code) {
+  accel::octree::OctreeCursor cursor(octree);
   for (auto shift = static_cast<int>(std::bit_width(code)) - 1;
        shift > 0 && !cursor.node().is_leaf();) {
     shift -= 3;
@@ -33,4 +34,4 @@ OctreeCursor find_leaf(const Octree& octree, std::uint64_t code) {
   return cursor;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -6,16 +6,16 @@
 
 #include <fmt/format.h>
 
-#include "harness/cli/commands.hpp"
+#include "harness/base/exit_code.hpp"
 #include "harness/cluster/consumer.hpp"
 #include "harness/cluster/lead.hpp"
 #include "harness/cluster/mpi_transport.hpp"
 #include "harness/cluster/request.hpp"
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 int complain(const std::string& message, int exit_code) {
@@ -35,46 +35,46 @@ int lead_run(int argc, char** argv, Transport& transport) {
     throw;
   }
   transport.broadcast(job);
-  if (!request) return kSuccess;
+  if (!request) return base::kSuccess;
   if (request->job.split_level > 0) {
     fmt::print(stderr, "beambench-cluster: {}\n", summary(lead_split(*request, transport)));
-    return kSuccess;
+    return base::kSuccess;
   }
   const ClusterRun run = lead(*request, transport);
   for (const std::string& remark : run.report.remarks) complain(remark, 0);
   fmt::print(stderr, "beambench-cluster: {}\n", summary(run));
-  if (run.report.lost.empty()) return kSuccess;
+  if (run.report.lost.empty()) return base::kSuccess;
   // They would not come to MPI_Finalize, where everybody would wait for them. All is written.
-  MpiSession::abort(kSuccess);
+  MpiSession::abort(base::kSuccess);
 }
 
 int run(int argc, char** argv, Transport& transport) {
   try {
     if (transport.self() == kProducer) return lead_run(argc, argv, transport);
     follow(transport);
-    return kSuccess;
+    return base::kSuccess;
   } catch (const LostProcess& error) {
-    complain(error.what(), kWrongRequest);
-    MpiSession::abort(kWrongRequest);
+    complain(error.what(), base::kInvalidInput);
+    MpiSession::abort(base::kInvalidInput);
   } catch (const InputError& error) {
-    return complain(error.what(), kWrongRequest);
-  } catch (const InvalidHit& error) {  // the others wait for results that will not come
-    complain(error.what(), kFound);
-    MpiSession::abort(kFound);
+    return complain(error.what(), base::kInvalidInput);
+  } catch (const rays::InvalidHit& error) {  // the others wait for results that will not come
+    complain(error.what(), base::kMismatch);
+    MpiSession::abort(base::kMismatch);
   } catch (const std::exception& error) {
     const auto* memory = dynamic_cast<const std::bad_alloc*>(&error);
     complain(memory != nullptr ? "the memory does not suffice; choose a smaller scene or resolution"
                                : fmt::format("internal error, please report it: {}", error.what()),
-             kInternalError);
-    MpiSession::abort(kInternalError);
+             base::kInternalError);
+    MpiSession::abort(base::kInternalError);
   }
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::cluster
 
 int main(int argc, char** argv) {
-  const beambench::MpiSession session(argc, argv);
-  beambench::MpiTransport transport(beambench::MpiTransport::Waiting::kSleeping);
-  return beambench::run(argc, argv, transport);
+  const beambench::cluster::MpiSession session(argc, argv);
+  beambench::cluster::MpiTransport transport(beambench::cluster::MpiTransport::Waiting::kSleeping);
+  return beambench::cluster::run(argc, argv, transport);
 }

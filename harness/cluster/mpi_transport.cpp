@@ -9,7 +9,7 @@
 
 #include <mpi.h>
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 Message receive(MPI_Comm processes, const MPI_Status& coming) {
@@ -149,4 +149,4 @@ void MpiTransport::broadcast(Bytes& bytes) {
   MPI_Bcast(bytes.data(), static_cast<int>(size), MPI_BYTE, kProducer, mpi_->processes);
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

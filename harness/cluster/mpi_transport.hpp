@@ -5,7 +5,7 @@
 
 #include "harness/cluster/transport.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// MPI from its beginning to its end. One for a program, made before anything else.
 class MpiSession {
@@ -51,4 +51,4 @@ class MpiTransport : public Transport {
   int processes_ = 1;
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

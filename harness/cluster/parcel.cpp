@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 /// Before each item.
@@ -35,4 +35,4 @@ ParcelReader::ParcelReader(std::span<const std::byte> bytes) {
   }
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

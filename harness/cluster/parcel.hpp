@@ -7,7 +7,7 @@
 
 #include "harness/cluster/bytes.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// Several tasks in one message, or the results of all of them. What a task or a result is, others
 /// know.
@@ -50,4 +50,4 @@ class ParcelReader {
   std::vector<ParcelItem> items_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -7,7 +7,7 @@
 
 #include "harness/cluster/transport.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 struct Traffic {
   std::uint64_t messages = 0;
@@ -61,4 +61,4 @@ struct ClusterReport {
   }
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -8,7 +8,7 @@
 #include "harness/cluster/consumer.hpp"
 #include "harness/cluster/cpu_timer.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 Producer::Producer(Transport& transport, TaskSource& source, ResultSink& sink, TaskWorker& own,
                    Check check, const ProducerOptions& options)
@@ -265,4 +265,4 @@ void Producer::dismiss_all() {
   for (const ProcessId consumer : crew_.not_dismissed()) dismiss(consumer);
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -12,7 +12,7 @@
 #include "harness/cluster/roles.hpp"
 #include "harness/cluster/transport.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// As in the thesis unless told otherwise.
 struct ProducerOptions {
@@ -93,4 +93,4 @@ class Producer {
   ClusterReport report_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

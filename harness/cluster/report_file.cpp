@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "harness/bench/record/build_info.hpp"
+#include "harness/bench/record/machine.hpp"
 #include "harness/cluster/image_worker.hpp"
-#include "harness/record/build_info.hpp"
-#include "harness/record/machine.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -15,7 +15,7 @@ Json to_json(const Traffic& traffic) {
   return {{"messages", traffic.messages}, {"bytes", traffic.bytes}};
 }
 
-Json to_json(const RayCensus& census) {
+Json to_json(const render::RayCensus& census) {
   return {{"eye_hits", census.eye_hits},   {"reflected", census.reflected},
           {"refracted", census.refracted}, {"secondary_hits", census.secondary_hits},
           {"shadow", census.shadow},       {"shadow_hidden", census.shadow_hidden}};
@@ -56,12 +56,12 @@ Traffic total(const ClusterReport& report, Traffic ProcessReport::*way) {
 }  // namespace
 
 Json to_json(const ClusterRun& run) {
-  const BuildInfo& build = build_info();
+  const bench::BuildInfo& build = bench::build_info();
   const ClusterReport& report = run.report;
   Json json{{"version", build.version},
             {"commit", build.commit},
             {"dirty", build.dirty},
-            {"finished_utc", utc_now()},
+            {"finished_utc", bench::utc_now()},
             {"scene", run.job.scene},
             {"structure", run.job.structure},
             {"width", run.job.width},
@@ -115,4 +115,4 @@ std::string summary(const ClusterRun& run) {
       back.messages, 1e-6 * static_cast<double>(back.bytes));
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -9,7 +9,7 @@
 #include "harness/cluster/job.hpp"
 #include "harness/cluster/process_report.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// All of a run.
 struct ClusterRun {
@@ -33,4 +33,4 @@ std::string task_table(const ClusterReport& report);
 /// What to tell a person: a line or two.
 std::string summary(const ClusterRun& run);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -3,14 +3,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include "harness/bench/record/build_info.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/whitted_request.hpp"
-#include "harness/files/pending_file.hpp"
-#include "harness/picture/image_file.hpp"
-#include "harness/record/build_info.hpp"
-#include "scenes/error.hpp"
+#include "harness/render/picture/image_file.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/pending_file.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 constexpr const char* kDescription =
@@ -31,23 +31,23 @@ constexpr const char* kFooter =
 struct Typed {
   std::string scene;
   std::string structure = "beam";
-  ImageRequest image;
+  cli::ImageRequest image;
   std::string shading = "preview";
-  WhittedRequest whitted;
+  cli::WhittedRequest whitted;
   std::string work = "beams";
 };
 
 void add_options(CLI::App& app, Typed& typed, ClusterRequest& request) {
-  add_scene_option(app, typed.scene);
+  cli::add_scene_option(app, typed.scene);
   app.add_option("-o", request.picture, "Picture to write, .png or .exr (default: none)");
   app.add_option("--accel", typed.structure, "beam, with parameters: beam:max_level=6,...")
       ->capture_default_str();
-  add_size_options(app, typed.image);
-  add_camera_option(app, typed.image.view);
+  cli::add_size_options(app, typed.image);
+  cli::add_camera_option(app, typed.image.view);
   app.add_option("--shade", typed.shading,
                  "preview, normals, id, depth: consumers find hits; whitted: they follow light")
       ->capture_default_str();
-  add_light_options(app, typed.whitted);
+  cli::add_light_options(app, typed.whitted);
   app.add_option("--work", typed.work, "beams, or blocks of the image traced by individual rays")
       ->capture_default_str()
       ->check(CLI::IsMember({"beams", "blocks"}));
@@ -77,7 +77,8 @@ void add_options(CLI::App& app, Typed& typed, ClusterRequest& request) {
 
 /// Who shades must have what was hit.
 void require_hits_alone(const ClusterRequest& request) {
-  const bool needs_scene = request.shading != Shading::kId && request.shading != Shading::kDepth;
+  const bool needs_scene =
+      request.shading != render::Shading::kId && request.shading != render::Shading::kDepth;
   if (!request.picture.empty() && needs_scene) {
     throw InputError(
         "--split makes pictures of what was hit and how far away it is, for no process has the "
@@ -90,24 +91,24 @@ void require_hits_alone(const ClusterRequest& request) {
 }
 
 void fill(const Typed& typed, ClusterRequest& request) {
-  request.shading = parse_shading(typed.shading);
+  request.shading = render::parse_shading(typed.shading);
   request.blocks = typed.work == "blocks";
   Job& job = request.job;
   job.scene = typed.scene;
-  job.structure = choose_one("--accel", typed.structure).label();
+  job.structure = cli::choose_one("--accel", typed.structure).label();
   job.camera = typed.image.view.camera;
   if (!typed.image.resolution.empty()) {
-    const Resolution resolution = parse_resolution(typed.image.resolution);
+    const rays::Resolution resolution = rays::parse_resolution(typed.image.resolution);
     job.width = resolution.width;
     job.height = resolution.height;
   }
   job.samples = typed.image.samples;
-  sample_offsets(job.samples);
-  job.light = request.shading == Shading::kWhitted;
-  job.whitted = whitted_options(typed.whitted);
+  accel::sample_offsets(job.samples);
+  job.light = request.shading == render::Shading::kWhitted;
+  job.whitted = cli::whitted_options(typed.whitted);
   job.alive_every = std::min(1.0, 0.25 * request.producer.timeout);
   if (job.split_level > 0) require_hits_alone(request);
-  if (!request.picture.empty()) image_format(request.picture);
+  if (!request.picture.empty()) render::image_format(request.picture);
   for (const std::string& file : {request.picture, request.report, request.tasks}) {
     if (!file.empty()) require_writable(file);
   }
@@ -117,7 +118,8 @@ void fill(const Typed& typed, ClusterRequest& request) {
 
 std::optional<ClusterRequest> parse_request(int argc, char** argv) {
   CLI::App app(kDescription, "beambench-cluster");
-  app.set_version_flag("--version", fmt::format("beambench-cluster {}", build_info().version));
+  app.set_version_flag("--version",
+                       fmt::format("beambench-cluster {}", bench::build_info().version));
   app.footer(kFooter);
   app.get_formatter()->column_width(34);
   Typed typed;
@@ -135,4 +137,4 @@ std::optional<ClusterRequest> parse_request(int argc, char** argv) {
   return request;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -6,16 +6,16 @@
 
 #include "harness/cluster/job.hpp"
 #include "harness/cluster/producer.hpp"
-#include "harness/shade/shading.hpp"
+#include "harness/render/shading.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 struct ClusterRequest {
   Job job;
   ProducerOptions producer;
   bool blocks = false;
   int block_size = 32;
-  Shading shading = Shading::kPreview;
+  render::Shading shading = render::Shading::kPreview;
   std::string picture;  ///< file; empty: none
   std::string report;
   std::string tasks;
@@ -25,4 +25,4 @@ struct ClusterRequest {
 /// InputError for a wrong one, before anything long is begun.
 std::optional<ClusterRequest> parse_request(int argc, char** argv);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -6,7 +6,7 @@
 
 #include "harness/cluster/bytes.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// The producer's own work: it makes tasks.
 class TaskSource {
@@ -51,4 +51,4 @@ class ResultSink {
   virtual std::size_t accept(std::span<const std::byte> result) = 0;
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

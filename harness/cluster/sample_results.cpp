@@ -2,7 +2,7 @@
 
 #include <cstring>
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 /// What a run of results of `write_colors` holds.
@@ -39,29 +39,30 @@ Vector get_vector(ByteReader& reader) {
 /// Light along the samples of an image.
 class SampleColors {
  public:
-  SampleColors(const HitBuffer& hits, const PrimaryRays& rays, const Whitted& tracer,
-               Whitted::Progress& progress)
+  SampleColors(const accel::HitBuffer& hits, const accel::PrimaryRays& rays,
+               const render::Whitted& tracer, render::Whitted::Progress& progress)
       : hits_(&hits), rays_(&rays), tracer_(&tracer), progress_(&progress) {}
 
   glm::dvec3 at(std::uint32_t index) const {
     const auto samples = static_cast<std::uint32_t>(hits_->samples());
     const auto width = static_cast<std::uint32_t>(hits_->width());
     const std::uint32_t pixel = index / samples;
-    const Ray ray = rays_->ray(static_cast<int>(pixel % width), static_cast<int>(pixel / width),
-                               static_cast<int>(index % samples));
+    const accel::Ray ray =
+        rays_->ray(static_cast<int>(pixel % width), static_cast<int>(pixel / width),
+                   static_cast<int>(index % samples));
     return tracer_->eye_color(ray, hits_->get(index), *progress_);
   }
 
  private:
-  const HitBuffer* hits_;
-  const PrimaryRays* rays_;
-  const Whitted* tracer_;
-  Whitted::Progress* progress_;
+  const accel::HitBuffer* hits_;
+  const accel::PrimaryRays* rays_;
+  const render::Whitted* tracer_;
+  render::Whitted::Progress* progress_;
 };
 
 }  // namespace
 
-void write_hits(SampleList samples, const HitBuffer& hits, Bytes& bytes) {
+void write_hits(SampleList samples, const accel::HitBuffer& hits, Bytes& bytes) {
   ByteWriter writer(bytes);
   while (!samples.empty()) {
     const std::size_t length = run_length(samples);
@@ -84,16 +85,16 @@ std::size_t HitSink::accept(std::span<const std::byte> result) {
     if (first + length > hits_->size()) throw ProtocolError("hits of samples outside of the image");
     for (std::size_t index = first; index < first + length; ++index) {
       hits_->t()[index] = reader.get<float>();
-      hits_->primitive()[index] = reader.get<PrimitiveId>();
+      hits_->primitive()[index] = reader.get<scenes::PrimitiveId>();
     }
     count += length;
   }
   return count;
 }
 
-void write_colors(SampleList samples, const HitBuffer& hits, const PrimaryRays& rays,
-                  const Whitted& tracer, Whitted::Progress& progress, const Pulse& pulse,
-                  Bytes& bytes) {
+void write_colors(SampleList samples, const accel::HitBuffer& hits, const accel::PrimaryRays& rays,
+                  const render::Whitted& tracer, render::Whitted::Progress& progress,
+                  const Pulse& pulse, Bytes& bytes) {
   const SampleColors colors(hits, rays, tracer, progress);
   const auto each = static_cast<std::uint32_t>(hits.samples());
   ByteWriter writer(bytes);
@@ -171,8 +172,8 @@ std::size_t ColorSink::accept_sample(ByteReader& reader) {
   return 1;
 }
 
-Image ColorSink::image() const {
-  Image image = image_;
+render::Image ColorSink::image() const {
+  render::Image image = image_;
   for (const auto& divided : divided_) {
     const int x = static_cast<int>(divided.first) % image.width();
     const int y = static_cast<int>(divided.first) / image.width();
@@ -182,4 +183,4 @@ Image ColorSink::image() const {
   return image;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -6,7 +6,7 @@
 
 #include "harness/cluster/studio.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 void send_all_home(Transport& transport) {
@@ -47,4 +47,4 @@ void excuse(Transport& transport, const std::string& problem) {
   wait_for_end(transport);
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "harness/cluster/transport.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// On process 0: does what `set_up` does, whose warnings go to stderr. Whatever it throws, the
 /// others are told the end before.
@@ -37,4 +37,4 @@ std::optional<std::invoke_result_t<SetUp>> set_up_to_follow(Transport& transport
   return std::nullopt;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -5,34 +5,34 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "accel/registry.hpp"
+#include "accel/core/registry.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cluster/cpu_timer.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 Studio::Studio(const Job& job, std::vector<std::string>* warnings)
-    : scene_(load_scene(job.scene, warnings)) {
-  const ImageOfRays image = job_image(job, scene_);
+    : scene_(scenes::load_scene(job.scene, warnings)) {
+  const rays::ImageOfRays image = job_image(job, scene_);
   rays_.emplace(image.camera, image.resolution.width, image.resolution.height, image.samples);
-  const StructureChoice choice = choose_one("--accel", job.structure);
+  const accel::StructureChoice choice = cli::choose_one("--accel", job.structure);
   const CpuTimer timer;
-  structure_ = choice.build(scene_, workload_of(image, *rays_));
+  structure_ = choice.build(scene_, rays::workload_of(image, *rays_));
   build_seconds_ = timer.seconds();
-  tracer_ = dynamic_cast<const BeamTracer*>(structure_.get());
+  tracer_ = dynamic_cast<const accel::beam::BeamTracer*>(structure_.get());
   if (tracer_ == nullptr) {
     throw InputError(
         fmt::format("--accel {} has no beams to share out; the cluster traces with "
                     "'beam' and its parameters",
                     choice.info().name));
   }
-  if (job.light) light_.emplace(scene_, *structure_, job.whitted, HitCheck(scene_, choice));
+  if (job.light) light_.emplace(scene_, *structure_, job.whitted, rays::HitCheck(scene_, choice));
 }
 
 Identity Studio::identity() const {
-  const Octree& octree = tracer_->octree();
+  const accel::octree::Octree& octree = tracer_->octree();
   return {look_hash(scene_), octree.nodes().size(), octree.reference_count()};
 }
 
@@ -46,4 +46,4 @@ std::string host_name() {
   return name.data();
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -8,9 +8,9 @@
 
 #include "accel/beam/beam_tracer.hpp"
 #include "harness/cluster/job.hpp"
-#include "harness/shade/whitted.hpp"
+#include "harness/render/whitted.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 class Studio {
  public:
@@ -21,26 +21,26 @@ class Studio {
   Studio& operator=(const Studio&) = delete;
   ~Studio() = default;
 
-  const Scene& scene() const { return scene_; }
-  const BeamTracer& tracer() const { return *tracer_; }
-  const PrimaryRays& rays() const { return *rays_; }
+  const scenes::Scene& scene() const { return scene_; }
+  const accel::beam::BeamTracer& tracer() const { return *tracer_; }
+  const accel::PrimaryRays& rays() const { return *rays_; }
   /// Nothing where the job wants hits alone.
-  const Whitted* light() const { return light_ ? &*light_ : nullptr; }
+  const render::Whitted* light() const { return light_ ? &*light_ : nullptr; }
 
   Identity identity() const;
   /// Of this process, when all is built.
   Introduction introduction() const;
 
  private:
-  Scene scene_;
-  std::unique_ptr<Accelerator> structure_;
-  const BeamTracer* tracer_ = nullptr;
-  std::optional<PrimaryRays> rays_;
-  std::optional<Whitted> light_;
+  scenes::Scene scene_;
+  std::unique_ptr<accel::Accelerator> structure_;
+  const accel::beam::BeamTracer* tracer_ = nullptr;
+  std::optional<accel::PrimaryRays> rays_;
+  std::optional<render::Whitted> light_;
   double build_seconds_ = 0.0;
 };
 
 /// This machine's name.
 std::string host_name();
 
-}  // namespace beambench
+}  // namespace beambench::cluster

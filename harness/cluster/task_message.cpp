@@ -3,19 +3,19 @@
 #include "harness/cluster/beam_shape.hpp"
 #include "harness/cluster/leaf_code.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 constexpr std::uint8_t kBlock = 255;  // in the place of a beam's kind
 
-BeamTask read_beam(std::uint8_t kind, ByteReader& reader, const Octree& octree,
-                   const EyeView& view) {
+BeamTask read_beam(std::uint8_t kind, ByteReader& reader, const accel::octree::Octree& octree,
+                   const accel::beam::EyeView& view) {
   if (kind > static_cast<std::uint8_t>(BeamTask::Kind::kCrowded)) {
     throw ProtocolError("a task of an unknown kind");
   }
   BeamTask task{static_cast<BeamTask::Kind>(kind), {}};
-  Beam& beam = task.beam;
-  const OctreeCursor leaf = find_leaf(octree, reader.get<std::uint64_t>());
+  accel::beam::Beam& beam = task.beam;
+  const accel::octree::OctreeCursor leaf = find_leaf(octree, reader.get<std::uint64_t>());
   beam.node = leaf.index();
   beam.corner = leaf.corner();
   beam.size = leaf.size();
@@ -25,8 +25,8 @@ BeamTask read_beam(std::uint8_t kind, ByteReader& reader, const Octree& octree,
 
 }  // namespace
 
-void write_task(const BeamTask& task, const Octree& octree, Bytes& bytes) {
-  const Beam& beam = task.beam;
+void write_task(const BeamTask& task, const accel::octree::Octree& octree, Bytes& bytes) {
+  const accel::beam::Beam& beam = task.beam;
   ByteWriter writer(bytes);
   writer.put(static_cast<std::uint8_t>(task.kind));
   writer.put(leaf_code(octree, beam.corner, beam.size));
@@ -41,8 +41,9 @@ void write_task(const BlockTask& task, Bytes& bytes) {
   }
 }
 
-std::variant<BeamTask, BlockTask> read_task(std::span<const std::byte> bytes, const Octree& octree,
-                                            const EyeView& view) {
+std::variant<BeamTask, BlockTask> read_task(std::span<const std::byte> bytes,
+                                            const accel::octree::Octree& octree,
+                                            const accel::beam::EyeView& view) {
   ByteReader reader(bytes);
   const auto kind = reader.get<std::uint8_t>();
   if (kind != kBlock) return read_beam(kind, reader, octree, view);
@@ -53,4 +54,4 @@ std::variant<BeamTask, BlockTask> read_task(std::span<const std::byte> bytes, co
   return block;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

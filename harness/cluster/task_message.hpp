@@ -8,7 +8,7 @@
 #include "accel/octree/octree.hpp"
 #include "harness/cluster/bytes.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// A beam that has come to where rays take over.
 struct BeamTask {
@@ -19,7 +19,7 @@ struct BeamTask {
     kCrowded    ///< it can be divided no more: rays from here on
   };
   Kind kind;
-  Beam beam;
+  accel::beam::Beam beam;
 };
 
 /// Pixels from (left, top), traced by individual rays.
@@ -31,12 +31,13 @@ struct BlockTask {
 };
 
 /// As bytes. The leaf is named by its code: a beam takes about 150 bytes.
-void write_task(const BeamTask& task, const Octree& octree, Bytes& bytes);
+void write_task(const BeamTask& task, const accel::octree::Octree& octree, Bytes& bytes);
 void write_task(const BlockTask& task, Bytes& bytes);
 
 /// Back again; the same octree gives the same beam bit for bit. Throws ProtocolError for what is no
 /// task.
-std::variant<BeamTask, BlockTask> read_task(std::span<const std::byte> bytes, const Octree& octree,
-                                            const EyeView& view);
+std::variant<BeamTask, BlockTask> read_task(std::span<const std::byte> bytes,
+                                            const accel::octree::Octree& octree,
+                                            const accel::beam::EyeView& view);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
-BeamSource::BeamSource(const BeamTracer& tracer, const PrimaryRays& rays)
+BeamSource::BeamSource(const accel::beam::BeamTracer& tracer, const accel::PrimaryRays& rays)
     : tracer_(&tracer),
       view_(tracer.octree().grid(), rays),
       samples_(static_cast<double>(rays.count())) {
@@ -15,29 +15,30 @@ BeamSource::BeamSource(const BeamTracer& tracer, const PrimaryRays& rays)
         "continue=beams cannot be shared out: what passes a leaf would have to come back as a "
         "beam; leave it at continue=rays");
   }
-  begin_beams(tracer.octree(), view_, view_.screen(), queue_);
+  accel::beam::begin_beams(tracer.octree(), view_, view_.screen(), queue_);
 }
 
 bool BeamSource::next(Bytes& task) {
-  BeamStep step;
+  accel::beam::BeamStep step;
   while (!queue_.waiting.empty()) {
     queue_.waiting.pop(step);
-    if (step.kind == BeamKind::kLeaving) continue;
+    if (step.kind == accel::BeamKind::kLeaving) continue;
     const auto kind =
-        step.kind == BeamKind::kOccupied ? BeamTask::Kind::kTestLeaf : as_rays(step.beam);
+        step.kind == accel::BeamKind::kOccupied ? BeamTask::Kind::kTestLeaf : as_rays(step.beam);
     if (kind) {
       write_task({*kind, step.beam}, tracer_->octree(), task);
       return true;
     }
-    continue_beam(tracer_->octree(), view_, step.beam, queue_);
+    accel::beam::continue_beam(tracer_->octree(), view_, step.beam, queue_);
   }
   return false;
 }
 
-std::optional<BeamTask::Kind> BeamSource::as_rays(const Beam& beam) const {
+std::optional<BeamTask::Kind> BeamSource::as_rays(const accel::beam::Beam& beam) const {
   if (beam.crowded()) return BeamTask::Kind::kCrowded;
   const auto least = static_cast<double>(tracer_->options().handover);
-  if (least > 0.0 && area(beam.outline) * samples_ < least) return BeamTask::Kind::kSmall;
+  if (least > 0.0 && accel::beam::area(beam.outline) * samples_ < least)
+    return BeamTask::Kind::kSmall;
   return std::nullopt;
 }
 
@@ -55,4 +56,4 @@ bool BlockSource::next(Bytes& task) {
   return true;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

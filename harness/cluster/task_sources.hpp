@@ -5,7 +5,7 @@
 #include "harness/cluster/roles.hpp"
 #include "harness/cluster/task_message.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// The walk of the beams (thesis, section 6.2.2): goes on with those in empty leaves and ends those
 /// that leave the scene; those that come to an occupied leaf are the tasks. Of leaving beams
@@ -14,18 +14,18 @@ class BeamSource : public TaskSource {
  public:
   /// Both must outlive this. Throws InputError where the tracer lets beams go on behind occupied
   /// leaves, which would have to come back for it.
-  BeamSource(const BeamTracer& tracer, const PrimaryRays& rays);
+  BeamSource(const accel::beam::BeamTracer& tracer, const accel::PrimaryRays& rays);
 
   bool next(Bytes& task) override;
 
  private:
   /// Why an empty leaf's beam becomes rays, if it does.
-  std::optional<BeamTask::Kind> as_rays(const Beam& beam) const;
+  std::optional<BeamTask::Kind> as_rays(const accel::beam::Beam& beam) const;
 
-  const BeamTracer* tracer_;
-  EyeView view_;
+  const accel::beam::BeamTracer* tracer_;
+  accel::beam::EyeView view_;
   double samples_;
-  BeamQueue queue_;
+  accel::beam::BeamQueue queue_;
 };
 
 /// Blocks of the image, row by row: what ray tracers without beams share out.
@@ -44,4 +44,4 @@ class BlockSource : public TaskSource {
   int top_ = 0;
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

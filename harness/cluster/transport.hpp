@@ -6,7 +6,7 @@
 
 #include "harness/cluster/bytes.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// What a message is.
 enum class Tag {
@@ -60,4 +60,4 @@ class Transport {
   virtual void broadcast(Bytes& bytes) = 0;
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

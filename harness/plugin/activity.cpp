@@ -13,7 +13,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-namespace beambench {
+namespace beambench::plugin {
 
 struct Activity::Board {
   std::array<std::array<char, 4096>, 3> lines;           // a path is no longer
@@ -90,4 +90,4 @@ std::map<std::string, std::string> Activity::broken_cells() const {
   return cells;
 }
 
-}  // namespace beambench
+}  // namespace beambench::plugin

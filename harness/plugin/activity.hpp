@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace beambench {
+namespace beambench::plugin {
 
 /// A few lines in memory that two processes share. Writing costs a copy of the text.
 class Activity {
@@ -44,4 +44,4 @@ class Activity {
   Board* board_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::plugin

@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
-#include "scenes/meshes/mesh_format.hpp"
-#include "scenes/plugin_error.hpp"
+#include "scenes/core/plugin_error.hpp"
+#include "scenes/formats/mesh/mesh_format.hpp"
 
-namespace beambench {
+namespace beambench::plugin {
 namespace {
 
 /// Names that commands give a meaning of their own.
@@ -82,7 +82,7 @@ void check_parameters(std::string_view what, const std::string& owner,
   }
 }
 
-void check_reader(const SceneReader& reader, std::set<std::string>& endings) {
+void check_reader(const scenes::SceneReader& reader, std::set<std::string>& endings) {
   const std::string& ending = reader.ending;
   const bool sound = ending.size() > 1 && ending.front() == '.' &&
                      std::ranges::all_of(ending, [](unsigned char c) {
@@ -90,7 +90,7 @@ void check_reader(const SceneReader& reader, std::set<std::string>& endings) {
                      });
   require(sound, "reader of files", ending,
           "whose ending is none: a dot, then small letters and digits");
-  const bool free = ending != ".nff" && mesh_ending("file" + ending).empty();
+  const bool free = ending != ".nff" && scenes::mesh::mesh_ending("file" + ending).empty();
   require(free && endings.insert(ending).second, "reader of files", ending,
           "but such files are read already");
   require(!reader.summary.empty(), "reader of files", ending, "without a summary");
@@ -103,23 +103,23 @@ void check_contents(const PluginContents& contents) {
   if (contents.structures.empty() && contents.scenes.empty() && contents.readers.empty()) {
     throw PluginError("brings nothing: neither structures nor scenes nor readers of files");
   }
-  Names structures("structure", names_of(registry().structures()));
-  for (const StructureInfo& info : contents.structures) {
+  Names structures("structure", names_of(accel::registry().structures()));
+  for (const accel::StructureInfo& info : contents.structures) {
     structures.take(info.name);
     require(!info.summary.empty(), "structure", info.name, "without a summary");
     require(static_cast<bool>(info.build), "structure", info.name, "without a function to build");
     check_parameters("structure", info.name, info.parameters);
   }
-  Names scenes("scene", names_of(scene_catalogue()));
-  for (const SceneInfo& info : contents.scenes) {
+  Names scenes("scene", names_of(scenes::scene_catalogue()));
+  for (const scenes::SceneInfo& info : contents.scenes) {
     scenes.take(info.name);
     require(!info.summary.empty(), "scene", info.name, "without a summary");
     require(static_cast<bool>(info.generate), "scene", info.name, "without a function to generate");
     check_parameters("scene", info.name, info.parameters);
   }
   std::set<std::string> endings;
-  for (const SceneReader& reader : scene_readers()) endings.insert(reader.ending);
-  for (const SceneReader& reader : contents.readers) check_reader(reader, endings);
+  for (const scenes::SceneReader& reader : scenes::scene_readers()) endings.insert(reader.ending);
+  for (const scenes::SceneReader& reader : contents.readers) check_reader(reader, endings);
 }
 
-}  // namespace beambench
+}  // namespace beambench::plugin

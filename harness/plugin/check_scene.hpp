@@ -3,12 +3,12 @@
 
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::plugin {
 
 /// Throws PluginError with what is wrong when the scene is not as `SceneBuilder` makes them: an
 /// index leaves its array, a number is not finite or beyond 1e9, a radius is no radius, the bounds
 /// are not those of the primitives, or there is no camera. Whether polygons are well triangulated
 /// is not looked at.
-void check_scene(const Scene& scene);
+void check_scene(const scenes::Scene& scene);
 
-}  // namespace beambench
+}  // namespace beambench::plugin

@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "scenes/error.hpp"
-#include "scenes/plugin_error.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/plugin_error.hpp"
 
-namespace beambench {
+namespace beambench::plugin {
 
 /// Calls `code`, which is a plug-in's. An InputError is passed on, as is a lack of memory; whatever
 /// else it throws becomes a PluginError: `who` is the plug-in's file, `what` what it was asked for.
@@ -34,4 +34,4 @@ decltype(auto) foreign_call(std::string_view who, std::string_view what, Code&& 
   }
 }
 
-}  // namespace beambench
+}  // namespace beambench::plugin

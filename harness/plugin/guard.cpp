@@ -17,15 +17,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace beambench {
+#include "harness/base/exit_code.hpp"
+
+namespace beambench::plugin {
 namespace {
 
 using Line = Activity::Line;
-
-constexpr int kFound = 1;
-constexpr int kWrongRequest = 2;
-constexpr int kNotRun = 127;       // as shells report it
-constexpr int kInterrupted = 130;  // harness/cli/interruption.hpp
 
 constexpr const char* kVariable = "BEAMBENCH_GUARD";  // the descriptor of an Activity
 
@@ -75,9 +72,9 @@ int watch(pid_t child, const HeldSignals& signals) {
 [[noreturn]] void become_guarded(char** arguments, pid_t guard, const HeldSignals& signals) {
   signals.release();
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (::getppid() != guard) ::_exit(kFound);  // it has gone already
+  if (::getppid() != guard) ::_exit(base::kMismatch);  // it has gone already
   ::execv("/proc/self/exe", arguments);
-  ::_exit(kNotRun);
+  ::_exit(base::kNotRun);
 }
 
 pid_t start(char** arguments, const Activity& activity, const HeldSignals& signals) {
@@ -94,7 +91,7 @@ pid_t start(char** arguments, const Activity& activity, const HeldSignals& signa
 /// `crashed (SIGSEGV: Segmentation fault)`; nothing where the process ended as it should.
 std::optional<std::string> breakdown(int status, const Activity& activity) {
   if (WIFEXITED(status)) {
-    const bool interrupted = WEXITSTATUS(status) == kInterrupted;
+    const bool interrupted = WEXITSTATUS(status) == base::kInterrupted;
     if (interrupted || activity.read(Line::kForeign).empty()) return std::nullopt;
     return fmt::format("ended the process (exit code {})", WEXITSTATUS(status));
   }
@@ -127,7 +124,7 @@ int complain(const Activity& activity, const std::string& what) {
   } else {
     fmt::print(stderr, "beambench: the plug-in {} {}; {}\n", foreign, what, remedy);
   }
-  return loading ? kWrongRequest : kFound;
+  return loading ? base::kInvalidInput : base::kMismatch;
 }
 
 }  // namespace
@@ -162,4 +159,4 @@ std::unique_ptr<Activity> guarded_activity() {
   return activity;
 }
 
-}  // namespace beambench
+}  // namespace beambench::plugin

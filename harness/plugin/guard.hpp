@@ -5,7 +5,7 @@
 
 #include "harness/plugin/activity.hpp"
 
-namespace beambench {
+namespace beambench::plugin {
 
 /// Runs this program once more with the same arguments, in a process of its own that finds by
 /// `guarded_activity` that it is guarded, and returns what this one should end with: what that one
@@ -18,4 +18,4 @@ int run_guarded(char** arguments);
 /// Where a process that is guarded tells what it is at; nullptr in others.
 std::unique_ptr<Activity> guarded_activity();
 
-}  // namespace beambench
+}  // namespace beambench::plugin

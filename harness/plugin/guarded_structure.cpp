@@ -7,31 +7,31 @@
 
 #include "harness/plugin/foreign_call.hpp"
 
-namespace beambench {
+namespace beambench::plugin {
 namespace {
 
 /// Passes every call on to the plug-in's structure.
-class GuardedStructure : public Accelerator {
+class GuardedStructure : public accel::Accelerator {
   template <class Query>
   decltype(auto) call(Query&& query) const {
     return foreign_call(file_, when_asked_, std::forward<Query>(query));
   }
 
-  void require_primitive(PrimitiveId id) const {
+  void require_primitive(scenes::PrimitiveId id) const {
     if (id < primitives_) return;
     throw PluginError(
         fmt::format("the plug-in {}: structure '{}' returned an invalid hit: primitive {}, but the "
                     "scene has {} of them",
                     file_, name_, id, primitives_));
   }
-  std::optional<Hit> sound(const std::optional<Hit>& hit) const {
+  std::optional<accel::Hit> sound(const std::optional<accel::Hit>& hit) const {
     if (hit) require_primitive(hit->primitive);
     return hit;
   }
 
  public:
-  GuardedStructure(std::unique_ptr<Accelerator> structure, const Scene& scene, std::string file,
-                   std::string name, Activity& activity)
+  GuardedStructure(std::unique_ptr<accel::Accelerator> structure, const scenes::Scene& scene,
+                   std::string file, std::string name, Activity& activity)
       : structure_(std::move(structure)),
         primitives_(scene.primitives.size()),
         file_(std::move(file)),
@@ -41,62 +41,64 @@ class GuardedStructure : public Accelerator {
   GuardedStructure(const GuardedStructure&) = delete;
   GuardedStructure& operator=(const GuardedStructure&) = delete;
 
-  std::optional<Hit> closest_hit(const Ray& ray) const override {
+  std::optional<accel::Hit> closest_hit(const accel::Ray& ray) const override {
     return sound(call([&] { return structure_->closest_hit(ray); }));
   }
-  bool any_hit(const Ray& ray) const override {
+  bool any_hit(const accel::Ray& ray) const override {
     return call([&] { return structure_->any_hit(ray); });
   }
-  void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
+  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer) const override {
     call([&] { structure_->trace(rays, buffer); });
   }
-  void closest_hits(std::span<const Ray> rays, HitBuffer& buffer) const override {
+  void closest_hits(std::span<const accel::Ray> rays, accel::HitBuffer& buffer) const override {
     call([&] { structure_->closest_hits(rays, buffer); });
   }
-  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers) const override {
+  void any_hits(std::span<const accel::Ray> rays, std::span<std::uint8_t> answers) const override {
     call([&] { structure_->any_hits(rays, answers); });
   }
 
-  std::optional<Hit> closest_hit(const Ray& ray, WorkCounters& counters) const override {
+  std::optional<accel::Hit> closest_hit(const accel::Ray& ray,
+                                        accel::WorkCounters& counters) const override {
     return sound(call([&] { return structure_->closest_hit(ray, counters); }));
   }
-  bool any_hit(const Ray& ray, WorkCounters& counters) const override {
+  bool any_hit(const accel::Ray& ray, accel::WorkCounters& counters) const override {
     return call([&] { return structure_->any_hit(ray, counters); });
   }
-  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const override {
+  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
+             accel::WorkCounters& counters) const override {
     call([&] { structure_->trace(rays, buffer, counters); });
   }
-  void closest_hits(std::span<const Ray> rays, HitBuffer& buffer,
-                    WorkCounters& counters) const override {
+  void closest_hits(std::span<const accel::Ray> rays, accel::HitBuffer& buffer,
+                    accel::WorkCounters& counters) const override {
     call([&] { structure_->closest_hits(rays, buffer, counters); });
   }
-  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers,
-                WorkCounters& counters) const override {
+  void any_hits(std::span<const accel::Ray> rays, std::span<std::uint8_t> answers,
+                accel::WorkCounters& counters) const override {
     call([&] { structure_->any_hits(rays, answers, counters); });
   }
 
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const override {
+  void trace_shared(const accel::PrimaryRays& rays, accel::HitBuffer& buffer) const override {
     call([&] { structure_->trace_shared(rays, buffer); });
   }
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                    WorkCounters& counters) const override {
+  void trace_shared(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
+                    accel::WorkCounters& counters) const override {
     call([&] { structure_->trace_shared(rays, buffer, counters); });
   }
 
-  std::vector<TraceStep> explain(const Ray& ray) const override {
-    std::vector<TraceStep> steps = call([&] { return structure_->explain(ray); });
-    for (const TraceStep& step : steps) {
-      for (const TestedPrimitive& test : step.tests) require_primitive(test.primitive);
+  std::vector<accel::TraceStep> explain(const accel::Ray& ray) const override {
+    std::vector<accel::TraceStep> steps = call([&] { return structure_->explain(ray); });
+    for (const accel::TraceStep& step : steps) {
+      for (const accel::TestedPrimitive& test : step.tests) require_primitive(test.primitive);
     }
     return steps;
   }
-  std::vector<BeamOutline> beam_outlines(const PrimaryRays& rays) const override {
+  std::vector<accel::BeamOutline> beam_outlines(const accel::PrimaryRays& rays) const override {
     return call([&] { return structure_->beam_outlines(rays); });
   }
-  std::vector<Box> occupied_cells() const override {
+  std::vector<accel::Box> occupied_cells() const override {
     return call([&] { return structure_->occupied_cells(); });
   }
-  Statistics statistics() const override {
+  accel::Statistics statistics() const override {
     return call([&] { return structure_->statistics(); });
   }
 
@@ -106,7 +108,7 @@ class GuardedStructure : public Accelerator {
   }
 
  private:
-  std::unique_ptr<Accelerator> structure_;
+  std::unique_ptr<accel::Accelerator> structure_;
   std::size_t primitives_;
   std::string file_;
   std::string name_;
@@ -118,7 +120,7 @@ class GuardedStructure : public Accelerator {
 /// when something has gone wrong.
 class GuardedBuild {
  public:
-  GuardedBuild(const StructureInfo& info, Activity& activity)
+  GuardedBuild(const accel::StructureInfo& info, Activity& activity)
       : build_(info.build),
         file_(info.origin),
         name_(info.name),
@@ -127,8 +129,9 @@ class GuardedBuild {
         when_built_(fmt::format("when '{}' was built", name_)),
         activity_(&activity) {}
 
-  std::unique_ptr<Accelerator> operator()(const Scene& scene, const Parameters& parameters,
-                                          const Workload& workload) const {
+  std::unique_ptr<accel::Accelerator> operator()(const scenes::Scene& scene,
+                                                 const Parameters& parameters,
+                                                 const accel::Workload& workload) const {
     activity_->write(Activity::Line::kForeign, building_, scene.name);
     auto structure = foreign_call(file_, when_built_, [&] {
       auto built = build_(scene, parameters, workload);
@@ -145,7 +148,7 @@ class GuardedBuild {
   }
 
  private:
-  decltype(StructureInfo::build) build_;
+  decltype(accel::StructureInfo::build) build_;
   std::string file_;
   std::string name_;
   std::string building_;
@@ -156,9 +159,9 @@ class GuardedBuild {
 
 }  // namespace
 
-StructureInfo guarded(StructureInfo info, Activity& activity) {
+accel::StructureInfo guarded(accel::StructureInfo info, Activity& activity) {
   info.build = GuardedBuild(info, activity);
   return info;
 }
 
-}  // namespace beambench
+}  // namespace beambench::plugin

@@ -13,18 +13,18 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include "accel/extend_registry.hpp"
-#include "harness/files/shell_word.hpp"
+#include "accel/core/extend_registry.hpp"
 #include "harness/plugin/check_contents.hpp"
 #include "harness/plugin/check_scene.hpp"
 #include "harness/plugin/foreign_call.hpp"
 #include "harness/plugin/guarded_structure.hpp"
 #include "harness/rays/fingerprint.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/plugin_error.hpp"
+#include "scenes/core/shell_word.hpp"
 #include "scenes/extend_catalogue.hpp"
-#include "scenes/plugin_error.hpp"
 
-namespace beambench {
+namespace beambench::plugin {
 namespace {
 
 constexpr const char* kEntry = "beambench_plugin";
@@ -141,15 +141,16 @@ std::vector<std::string> names_of(const std::vector<Thing>& things, std::string 
 
 std::uint64_t fingerprint_of_file(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
-  return fingerprint(std::string(std::istreambuf_iterator<char>(stream), {}));
+  return rays::fingerprint(std::string(std::istreambuf_iterator<char>(stream), {}));
 }
 
 /// Calls `make`, which is the plug-in's, and looks its scene over.
 template <class Make>
-Scene guarded_scene(const std::string& file, const std::string& name, Activity& activity,
-                    Make&& make) {
+scenes::Scene guarded_scene(const std::string& file, const std::string& name, Activity& activity,
+                            Make&& make) {
   activity.write(Activity::Line::kForeign, file, ": making the scene " + name);
-  Scene scene = foreign_call(file, "when it made the scene " + name, std::forward<Make>(make));
+  scenes::Scene scene =
+      foreign_call(file, "when it made the scene " + name, std::forward<Make>(make));
   activity.clear(Activity::Line::kForeign);
   try {
     check_scene(scene);
@@ -160,15 +161,15 @@ Scene guarded_scene(const std::string& file, const std::string& name, Activity& 
   return scene;
 }
 
-StructureInfo guarded_thing(StructureInfo info, Activity& activity) {
+accel::StructureInfo guarded_thing(accel::StructureInfo info, Activity& activity) {
   return guarded(std::move(info), activity);
 }
 
-SceneInfo guarded_thing(SceneInfo info, Activity& activity) {
+scenes::SceneInfo guarded_thing(scenes::SceneInfo info, Activity& activity) {
   info.generate = [generate = std::move(info.generate), file = info.origin,
                    &activity](const Parameters& parameters) {
     return guarded_scene(file, parameters.label(), activity, [&] {
-      Scene made = generate(parameters);
+      scenes::Scene made = generate(parameters);
       parameters.require_given_were_read();
       return made;
     });
@@ -176,7 +177,7 @@ SceneInfo guarded_thing(SceneInfo info, Activity& activity) {
   return info;
 }
 
-SceneReader guarded_thing(SceneReader reader, Activity& activity) {
+scenes::SceneReader guarded_thing(scenes::SceneReader reader, Activity& activity) {
   reader.read = [read = std::move(reader.read), file = reader.origin, &activity](
                     const std::filesystem::path& path, std::vector<std::string>& warnings) {
     return guarded_scene(file, path.string(), activity, [&] { return read(path, warnings); });
@@ -205,14 +206,15 @@ void load_plugin(const std::string& file, Activity& activity) {
   const PluginStamp& stamp = plugin.stamp;
   all_loaded().push_back({file, plugin.description == nullptr ? "" : plugin.description,
                           fingerprint_of_file(file), stamp.compiler, stamp.instructions,
-                          stamp.optimised, names_of(contents.structures, &StructureInfo::name),
-                          names_of(contents.scenes, &SceneInfo::name),
-                          names_of(contents.readers, &SceneReader::ending)});
+                          stamp.optimised,
+                          names_of(contents.structures, &accel::StructureInfo::name),
+                          names_of(contents.scenes, &scenes::SceneInfo::name),
+                          names_of(contents.readers, &scenes::SceneReader::ending)});
   adopt(contents.structures, file, activity);
   adopt(contents.scenes, file, activity);
   adopt(contents.readers, file, activity);
-  extend_registry(std::move(contents.structures));
-  extend_catalogue(std::move(contents.scenes), std::move(contents.readers));
+  accel::extend_registry(std::move(contents.structures));
+  scenes::extend_catalogue(std::move(contents.scenes), std::move(contents.readers));
 }
 
 std::span<const LoadedPlugin> loaded_plugins() { return all_loaded(); }
@@ -223,4 +225,4 @@ void set_program_name(std::string_view word) { program_name() = word; }
 
 std::string program_call_here() { return call_with_plugins(program_name()); }
 
-}  // namespace beambench
+}  // namespace beambench::plugin

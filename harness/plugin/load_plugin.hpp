@@ -9,7 +9,7 @@
 
 #include "harness/plugin/activity.hpp"
 
-namespace beambench {
+namespace beambench::plugin {
 
 /// A plug-in that was loaded.
 struct LoadedPlugin {
@@ -46,4 +46,4 @@ void set_program_name(std::string_view word);
 /// `build/release/bin/beambench --plugin ./libmine.so`.
 std::string program_call_here();
 
-}  // namespace beambench
+}  // namespace beambench::plugin

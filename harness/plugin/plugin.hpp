@@ -4,12 +4,12 @@
 // A plug-in includes this header, which brings the contract of a structure and what it is made of,
 // and defines one object at global scope:
 //
-//     const beambench::Plugin beambench_plugin{
+//     const beambench::plugin::Plugin beambench_plugin{
 //         .description = "My structures",
-//         .fill = [](beambench::PluginContents& contents) {
+//         .fill = [](beambench::plugin::PluginContents& contents) {
 //           contents.structures.push_back({"mine", "what it is, in a sentence",
 //                                          beambench::Conformance::kBitExact, {},
-//                                          [](const beambench::Scene& scene, const auto&,
+//                                          [](const beambench::scenes::Scene& scene, const auto&,
 //                                             const auto&) {
 //                                            return std::make_unique<Mine>(scene);
 //                                          }});
@@ -22,29 +22,29 @@
 
 #include "accel/bvh/padded_bounds.hpp"
 #include "accel/bvh/slab_ray.hpp"
-#include "accel/intersect.hpp"
-#include "accel/overlap.hpp"
-#include "accel/registry.hpp"
-#include "accel/tolerance.hpp"
-#include "accel/traversal_accelerator.hpp"
+#include "accel/core/intersect.hpp"
+#include "accel/core/overlap.hpp"
+#include "accel/core/registry.hpp"
+#include "accel/core/tolerance.hpp"
+#include "accel/core/traversal_accelerator.hpp"
 #include "harness/plugin/plugin_stamp.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/error.hpp"
-#include "scenes/portable_math.hpp"
-#include "scenes/random.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/portable_math.hpp"
+#include "scenes/core/random.hpp"
 #include "scenes/scene_builder.hpp"
 
 #if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
 #error "a ray-primitive test answers NaN for a miss: leave out -ffast-math and -ffinite-math-only"
 #endif
 
-namespace beambench {
+namespace beambench::plugin {
 
 /// What a plug-in brings. Names must be free: letters, digits, '-' and '_', a letter first.
 struct PluginContents {
-  std::vector<StructureInfo> structures;
-  std::vector<SceneInfo> scenes;
-  std::vector<SceneReader> readers;
+  std::vector<accel::StructureInfo> structures;
+  std::vector<scenes::SceneInfo> scenes;
+  std::vector<scenes::SceneReader> readers;
 };
 
 /// A plug-in's way in.
@@ -56,7 +56,7 @@ struct Plugin {
   void (*fill)(PluginContents& contents);
 };
 
-}  // namespace beambench
+}  // namespace beambench::plugin
 
 /// Defined by the plug-in.
-extern "C" __attribute__((visibility("default"))) const beambench::Plugin beambench_plugin;
+extern "C" __attribute__((visibility("default"))) const beambench::plugin::Plugin beambench_plugin;

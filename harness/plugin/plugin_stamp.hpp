@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <version>
 
-#include "accel/registry.hpp"
-#include "accel/traversal_accelerator.hpp"
+#include "accel/core/registry.hpp"
+#include "accel/core/traversal_accelerator.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::plugin {
 
 /// Counted up when a header that is installed changes so that a plug-in made with the old one would
 /// err: a virtual function, a type, the meaning of a call.
@@ -43,10 +43,13 @@ constexpr std::uint64_t layout_of() {
 
 inline constexpr std::uint64_t kMagic = 0x636E65626D616562U;  // "beambenc" in memory
 inline constexpr std::uint64_t kLayout =
-    layout_of<glm::vec3, glm::dvec3, Scene, Camera, Surface, Light, Primitive, Sphere, Cone,
-              Polygon, Triangle, Bounds, Ray, Hit, HitBuffer, PrimaryRays, WorkCounters, Statistics,
-              TraceStep, BeamOutline, Box, Accelerator, Workload, Parameters, ParameterInfo,
-              StructureInfo, SceneInfo, SceneReader>();
+    plugin_stamp::layout_of<glm::vec3, glm::dvec3, scenes::Scene, scenes::Camera, scenes::Surface,
+                            scenes::Light, scenes::Primitive, scenes::Sphere, scenes::Cone,
+                            scenes::Polygon, scenes::Triangle, scenes::Bounds, accel::Ray,
+                            accel::Hit, accel::HitBuffer, accel::PrimaryRays, accel::WorkCounters,
+                            accel::Statistics, accel::TraceStep, accel::BeamOutline, accel::Box,
+                            accel::Accelerator, accel::Workload, Parameters, ParameterInfo,
+                            accel::StructureInfo, scenes::SceneInfo, scenes::SceneReader>();
 
 #if defined(_LIBCPP_VERSION)
 inline constexpr const char* kLibrary = "libc++";
@@ -92,4 +95,4 @@ inline constexpr PluginStamp kPluginStamp{plugin_stamp::kMagic,       kPluginInt
                                           plugin_stamp::kLibrary,     plugin_stamp::kCompiler,
                                           plugin_stamp::kInstructions};
 
-}  // namespace beambench
+}  // namespace beambench::plugin

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::plugin {
 namespace {
 
 namespace fs = std::filesystem;
@@ -74,4 +74,4 @@ std::vector<std::string> take_requested_plugins(std::vector<std::string>& argume
   return files;
 }
 
-}  // namespace beambench
+}  // namespace beambench::plugin

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace beambench {
+namespace beambench::plugin {
 
 /// Takes `--plugin FILE` and `--plugin=FILE` off a command line (the program's name first),
 /// wherever they stand before a `--`. The files of the environment's BEAMBENCH_PLUGINS come first:
@@ -12,4 +12,4 @@ namespace beambench {
 /// once. Throws InputError when a file is missing behind the option.
 std::vector<std::string> take_requested_plugins(std::vector<std::string>& arguments);
 
-}  // namespace beambench
+}  // namespace beambench::plugin

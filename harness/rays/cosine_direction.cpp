@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace beambench {
+namespace beambench::rays {
 
 glm::dvec3 cosine_direction(const glm::dvec3& normal, Random& random) {
   const glm::dvec3 axis =
@@ -19,4 +19,4 @@ glm::dvec3 cosine_direction(const glm::dvec3& normal, Random& random) {
          normal * std::sqrt(1.0 - radius_2);
 }
 
-}  // namespace beambench
+}  // namespace beambench::rays

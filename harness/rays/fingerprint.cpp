@@ -5,35 +5,36 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-namespace beambench {
+namespace beambench::rays {
 
-static_assert(sizeof(Ray) == 8 * sizeof(float), "rays are hashed as bytes: no padding");
+static_assert(sizeof(accel::Ray) == 8 * sizeof(float), "rays are hashed as bytes: no padding");
 
 std::uint64_t fingerprint(std::string_view bytes) {
   return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-std::uint64_t fingerprint(std::span<const Ray> rays) {
+std::uint64_t fingerprint(std::span<const accel::Ray> rays) {
   return XXH3_64bits(rays.data(), rays.size_bytes());
 }
 
-std::uint64_t fingerprint(const PrimaryRays& rays) {
+std::uint64_t fingerprint(const accel::PrimaryRays& rays) {
   std::uint64_t hash = 0;
-  std::vector<Ray> row;
+  std::vector<accel::Ray> row;
   for (int y = 0; y < rays.height(); ++y) {
     row.clear();
     for (int x = 0; x < rays.width(); ++x) {
       for (int sample = 0; sample < rays.samples(); ++sample) row.push_back(rays.ray(x, y, sample));
     }
     // Each row's hash is seeded with that of the rows above, so the whole is never in memory.
-    hash = XXH3_64bits_withSeed(row.data(), row.size() * sizeof(Ray), hash);
+    hash = XXH3_64bits_withSeed(row.data(), row.size() * sizeof(accel::Ray), hash);
   }
   return hash;
 }
 
-std::uint64_t fingerprint(const HitBuffer& buffer) {
+std::uint64_t fingerprint(const accel::HitBuffer& buffer) {
   const std::uint64_t distances = XXH3_64bits(buffer.t(), buffer.size() * sizeof(float));
-  return XXH3_64bits_withSeed(buffer.primitive(), buffer.size() * sizeof(PrimitiveId), distances);
+  return XXH3_64bits_withSeed(buffer.primitive(), buffer.size() * sizeof(scenes::PrimitiveId),
+                              distances);
 }
 
 std::uint64_t fingerprint(const Question& question) {
@@ -44,9 +45,9 @@ std::uint64_t fingerprint(const Question& question) {
 std::uint64_t fingerprint(const Answers& answers) {
   if (const auto* any = std::get_if<AnyHits>(&answers))
     return XXH3_64bits(any->data(), any->size());
-  return fingerprint(std::get<HitBuffer>(answers));
+  return fingerprint(std::get<accel::HitBuffer>(answers));
 }
 
 std::string hex_digits(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
-}  // namespace beambench
+}  // namespace beambench::rays

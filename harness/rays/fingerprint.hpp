@@ -8,20 +8,20 @@
 
 #include "harness/rays/answers.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 
 std::uint64_t fingerprint(std::string_view bytes);
 
 /// Of all rays in their order: origin, t_min, direction and t_max, bit for bit.
-std::uint64_t fingerprint(std::span<const Ray> rays);
-std::uint64_t fingerprint(const PrimaryRays& rays);
+std::uint64_t fingerprint(std::span<const accel::Ray> rays);
+std::uint64_t fingerprint(const accel::PrimaryRays& rays);
 std::uint64_t fingerprint(const Question& question);
 
 /// Of all hits, t and primitive, bit for bit.
-std::uint64_t fingerprint(const HitBuffer& buffer);
+std::uint64_t fingerprint(const accel::HitBuffer& buffer);
 std::uint64_t fingerprint(const Answers& answers);
 
 /// Sixteen hexadecimal digits, as records show fingerprints.
 std::string hex_digits(std::uint64_t value);
 
-}  // namespace beambench
+}  // namespace beambench::rays

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-namespace beambench {
+namespace beambench::rays {
 namespace {
 
-std::string described(const StructureChoice& choice) {
+std::string described(const accel::StructureChoice& choice) {
   const std::string structure = fmt::format("structure '{}'", choice.short_label());
   const std::string& file = choice.info().origin;
   return file.empty() ? structure : fmt::format("the plug-in {}: {}", file, structure);
@@ -13,14 +13,14 @@ std::string described(const StructureChoice& choice) {
 
 }  // namespace
 
-HitCheck::HitCheck(const Scene& scene, const StructureChoice& choice)
+HitCheck::HitCheck(const scenes::Scene& scene, const accel::StructureChoice& choice)
     : HitCheck(scene, described(choice)) {}
 
 std::string HitCheck::pixel_text(int x, int y, int sample) {
   return fmt::format("at pixel ({}, {}) sample {}, ", x, y, sample);
 }
 
-void HitCheck::fail(const Ray& ray, const Hit& hit, const std::string& where) const {
+void HitCheck::fail(const accel::Ray& ray, const accel::Hit& hit, const std::string& where) const {
   throw InvalidHit(fmt::format(
       "{} returned an invalid hit: primitive {} at t = {}, {}for the ray from ({}, {}, {}) along "
       "({}, {}, {}); expected one of the scene's {} primitives at a finite t in [{}, {}]",
@@ -28,4 +28,4 @@ void HitCheck::fail(const Ray& ray, const Hit& hit, const std::string& where) co
       ray.direction.x, ray.direction.y, ray.direction.z, primitives_, ray.t_min, ray.t_max));
 }
 
-}  // namespace beambench
+}  // namespace beambench::rays

@@ -5,12 +5,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "accel/hit_buffer.hpp"
-#include "accel/ray.hpp"
-#include "accel/registry.hpp"
+#include "accel/core/hit_buffer.hpp"
+#include "accel/core/ray.hpp"
+#include "accel/core/registry.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 
 /// A structure returned a hit that its ray cannot have. The message is one sentence that names the
 /// structure, the ray, what was returned and what was expected; the command line prints it and
@@ -25,47 +25,48 @@ class InvalidHit : public std::runtime_error {
 class HitCheck {
  public:
   /// `structure` is the subject of the message: "structure 'samet:max_level=6'".
-  explicit HitCheck(const Scene& scene, std::string structure = "the structure")
+  explicit HitCheck(const scenes::Scene& scene, std::string structure = "the structure")
       : HitCheck(scene.primitives.size(), std::move(structure)) {}
   /// Over a scene of so many primitives, where the scene itself is not at hand.
   HitCheck(std::size_t primitives, std::string structure)
       : primitives_(primitives), structure_(std::move(structure)) {}
   /// The message names the choice and, where it comes from a plug-in, its file.
-  HitCheck(const Scene& scene, const StructureChoice& choice);
+  HitCheck(const scenes::Scene& scene, const accel::StructureChoice& choice);
 
   /// Can the ray have that hit: one of the scene's primitives, at a finite t in [t_min, t_max]?
-  bool passes(const Ray& ray, const Hit& hit) const {
+  bool passes(const accel::Ray& ray, const accel::Hit& hit) const {
     return hit.primitive < primitives_ && std::isfinite(hit.t) && hit.t >= ray.t_min &&
            hit.t <= ray.t_max;
   }
   /// Throws InvalidHit unless `passes`.
-  void require(const Ray& ray, const Hit& hit) const {
+  void require(const accel::Ray& ray, const accel::Hit& hit) const {
     if (!passes(ray, hit)) fail(ray, hit, "");
   }
   /// Throws InvalidHit, which names the pixel, unless every hit of an image passes. Its rays,
   /// `ray_of(x, y, sample)`, have the interval [0, infinity].
   template <class RayOf>
-  void require(const HitBuffer& hits, RayOf ray_of) const {
+  void require(const accel::HitBuffer& hits, RayOf ray_of) const {
     for (int y = 0; y < hits.height(); ++y) {
       for (int x = 0; x < hits.width(); ++x) {
         for (int sample = 0; sample < hits.samples(); ++sample) {
           const auto hit = hits.get(hits.index(x, y, sample));
-          if (!hit || passes(Ray(), *hit)) continue;
+          if (!hit || passes(accel::Ray(), *hit)) continue;
           fail(ray_of(x, y, sample), *hit, pixel_text(x, y, sample));
         }
       }
     }
   }
-  void require(const HitBuffer& hits, const PrimaryRays& rays) const {
+  void require(const accel::HitBuffer& hits, const accel::PrimaryRays& rays) const {
     require(hits, [&](int x, int y, int sample) { return rays.ray(x, y, sample); });
   }
 
  private:
   static std::string pixel_text(int x, int y, int sample);
-  [[noreturn]] void fail(const Ray& ray, const Hit& hit, const std::string& where) const;
+  [[noreturn]] void fail(const accel::Ray& ray, const accel::Hit& hit,
+                         const std::string& where) const;
 
   std::size_t primitives_;
   std::string structure_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::rays

@@ -7,17 +7,19 @@
 #include "accel/octree/samet.hpp"
 #include "accel/octree/samet_net.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 namespace {
 
-const Octree* octree_of(const Accelerator& structure) {
-  if (const auto* samet = dynamic_cast<const Samet*>(&structure)) return &samet->octree();
-  if (const auto* net = dynamic_cast<const SametNet*>(&structure)) return &net->octree();
+const accel::octree::Octree* octree_of(const accel::Accelerator& structure) {
+  if (const auto* samet = dynamic_cast<const accel::octree::Samet*>(&structure))
+    return &samet->octree();
+  if (const auto* net = dynamic_cast<const accel::octree::SametNet*>(&structure))
+    return &net->octree();
   return nullptr;
 }
 
 /// The level of each node. A parent stands before its children.
-std::vector<int> levels_of(const Octree& octree) {
+std::vector<int> levels_of(const accel::octree::Octree& octree) {
   std::vector<int> levels(octree.nodes().size(), 1);
   for (std::size_t i = 1; i < levels.size(); ++i) {
     levels[i] = levels[octree.nodes()[i].parent] + 1;
@@ -26,13 +28,13 @@ std::vector<int> levels_of(const Octree& octree) {
 }
 
 /// Counts each beam at the level of the leaf that it comes to.
-class BeamsByLevel : public NoBeamWatch {
+class BeamsByLevel : public accel::beam::NoBeamWatch {
  public:
   BeamsByLevel(const std::vector<int>& levels, std::vector<LevelVisits>& visits)
       : levels_(&levels), visits_(&visits) {}
 
-  void met(BeamKind kind, const Beam& beam) {
-    if (kind == BeamKind::kLeaving) return;  // it is in no leaf any more
+  void met(accel::BeamKind kind, const accel::beam::Beam& beam) {
+    if (kind == accel::BeamKind::kLeaving) return;  // it is in no leaf any more
     ++(*visits_)[static_cast<std::size_t>((*levels_)[beam.node] - 1)].beams;
   }
 
@@ -43,11 +45,11 @@ class BeamsByLevel : public NoBeamWatch {
 
 }  // namespace
 
-std::vector<LevelVisits> count_level_visits(const Accelerator& structure,
+std::vector<LevelVisits> count_level_visits(const accel::Accelerator& structure,
                                             const Question& question) {
-  const Octree* octree = octree_of(structure);
+  const accel::octree::Octree* octree = octree_of(structure);
   if (octree == nullptr) return {};
-  const std::span<const OctreeNode> nodes = octree->nodes();
+  const std::span<const accel::octree::OctreeNode> nodes = octree->nodes();
   const std::vector<int> levels = levels_of(*octree);
 
   std::vector<LevelVisits> visits;
@@ -67,7 +69,7 @@ std::vector<LevelVisits> count_level_visits(const Accelerator& structure,
   constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> last_ray(nodes.size(), kNone);
   for (std::size_t ray = 0; ray < question.size(); ++ray) {
-    for (const TraceStep& step : structure.explain(question.ray(ray))) {
+    for (const accel::TraceStep& step : structure.explain(question.ray(ray))) {
       ++at(step.index).leaf_visits;
       for (std::size_t node = step.index; last_ray[node] != ray; node = nodes[node].parent) {
         last_ray[node] = ray;
@@ -76,14 +78,14 @@ std::vector<LevelVisits> count_level_visits(const Accelerator& structure,
     }
   }
 
-  const auto* beams = dynamic_cast<const BeamTracer*>(&structure);
+  const auto* beams = dynamic_cast<const accel::beam::BeamTracer*>(&structure);
   if (beams != nullptr && question.image() != nullptr) {
-    const PrimaryRays& image = *question.image();
-    HitBuffer buffer(image.width(), image.height(), image.samples());
+    const accel::PrimaryRays& image = *question.image();
+    accel::HitBuffer buffer(image.width(), image.height(), image.samples());
     BeamsByLevel watch(levels, visits);
     beams->trace_watched(image, buffer, watch);
   }
   return visits;
 }
 
-}  // namespace beambench
+}  // namespace beambench::rays

@@ -4,10 +4,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "accel/accelerator.hpp"
+#include "accel/core/accelerator.hpp"
 #include "harness/rays/question.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 
 /// One level of an octree. McNeill, Shah, Hebert, Lister and Grimsdale ("Performance of space
 /// subdivision techniques in ray tracing", Computer Graphics Forum 11(4), 1992) count visits by
@@ -25,6 +25,7 @@ struct LevelVisits {
 /// All levels, from the root to the deepest; empty for a structure that has no octree. The rays are
 /// traced by themselves, as Samet's, and then, in `beam`, as beams. Takes time and memory for each
 /// leaf on a ray's way.
-std::vector<LevelVisits> count_level_visits(const Accelerator& structure, const Question& question);
+std::vector<LevelVisits> count_level_visits(const accel::Accelerator& structure,
+                                            const Question& question);
 
-}  // namespace beambench
+}  // namespace beambench::rays

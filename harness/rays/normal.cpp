@@ -7,15 +7,15 @@
 
 #include <glm/geometric.hpp>
 
-namespace beambench {
+namespace beambench::rays {
 namespace {
 
-glm::dvec3 hit_point(const Ray& ray, const Hit& hit) {
+glm::dvec3 hit_point(const accel::Ray& ray, const accel::Hit& hit) {
   return glm::dvec3(ray.origin) + double{hit.t} * glm::dvec3(ray.direction);
 }
 
 /// The lateral surface leans by the change of its radius along the axis.
-glm::dvec3 cone_normal(const Cone& cone, const glm::dvec3& point) {
+glm::dvec3 cone_normal(const scenes::Cone& cone, const glm::dvec3& point) {
   const glm::dvec3 base(cone.base);
   const glm::dvec3 along = glm::dvec3(cone.apex) - base;
   const double height = glm::length(along);
@@ -32,12 +32,13 @@ glm::dvec3 cone_normal(const Cone& cone, const glm::dvec3& point) {
 struct Place {
   std::array<double, 3> weights{1.0, 0.0, 0.0};  ///< barycentric
   glm::dvec3 normal{0.0, 0.0, 1.0};              ///< not of unit length
-  const Triangle* triangle = nullptr;
+  const scenes::Triangle* triangle = nullptr;
 
   double depth() const { return *std::min_element(weights.begin(), weights.end()); }
 };
 
-Place place_in(const Scene& scene, const Triangle& triangle, const glm::dvec3& point) {
+Place place_in(const scenes::Scene& scene, const scenes::Triangle& triangle,
+               const glm::dvec3& point) {
   const glm::dvec3 a(scene.vertices[triangle.vertex[0]]);
   const glm::dvec3 b(scene.vertices[triangle.vertex[1]]);
   const glm::dvec3 c(scene.vertices[triangle.vertex[2]]);
@@ -52,28 +53,30 @@ Place place_in(const Scene& scene, const Triangle& triangle, const glm::dvec3& p
   return place;
 }
 
-Place place_in(const Scene& scene, const Polygon& polygon, const glm::dvec3& point) {
+Place place_in(const scenes::Scene& scene, const scenes::Polygon& polygon,
+               const glm::dvec3& point) {
   const auto triangles =
       std::span(scene.triangles).subspan(polygon.first_triangle, polygon.triangle_count);
   Place deepest = place_in(scene, triangles.front(), point);
-  for (const Triangle& triangle : triangles.subspan(1)) {
+  for (const scenes::Triangle& triangle : triangles.subspan(1)) {
     const Place place = place_in(scene, triangle, point);
     if (place.depth() > deepest.depth()) deepest = place;
   }
   return deepest;
 }
 
-glm::dvec3 corner_normal(const Scene& scene, const Polygon& polygon, std::uint32_t vertex) {
+glm::dvec3 corner_normal(const scenes::Scene& scene, const scenes::Polygon& polygon,
+                         std::uint32_t vertex) {
   const auto corners = std::span(scene.corners).subspan(polygon.first_corner, polygon.corner_count);
   const auto corner = std::find(corners.begin(), corners.end(), vertex) - corners.begin();
   const glm::vec3& normal = scene.normals[polygon.first_normal + static_cast<std::size_t>(corner)];
   return glm::normalize(glm::dvec3(normal));  // a file's normals may have any length
 }
 
-glm::dvec3 polygon_normal(const Scene& scene, const Polygon& polygon, const glm::dvec3& point,
-                          bool smooth) {
+glm::dvec3 polygon_normal(const scenes::Scene& scene, const scenes::Polygon& polygon,
+                          const glm::dvec3& point, bool smooth) {
   const Place place = place_in(scene, polygon, point);
-  if (!smooth || polygon.first_normal == Polygon::kFlat) return place.normal;
+  if (!smooth || polygon.first_normal == scenes::Polygon::kFlat) return place.normal;
   glm::dvec3 normal(0.0);
   for (std::size_t i = 0; i < 3; ++i) {
     normal += place.weights[i] * corner_normal(scene, polygon, place.triangle->vertex[i]);
@@ -81,18 +84,19 @@ glm::dvec3 polygon_normal(const Scene& scene, const Polygon& polygon, const glm:
   return glm::length(normal) > 0.0 ? normal : place.normal;
 }
 
-glm::dvec3 facing_normal(const Scene& scene, const Ray& ray, const Hit& hit, bool smooth) {
-  const Primitive& primitive = scene.primitives[hit.primitive];
+glm::dvec3 facing_normal(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& hit,
+                         bool smooth) {
+  const scenes::Primitive& primitive = scene.primitives[hit.primitive];
   const glm::dvec3 point = hit_point(ray, hit);
   glm::dvec3 normal;
   switch (primitive.kind) {
-    case PrimitiveKind::kSphere:
+    case scenes::PrimitiveKind::kSphere:
       normal = point - glm::dvec3(scene.spheres[primitive.index].center);
       break;
-    case PrimitiveKind::kCone:
+    case scenes::PrimitiveKind::kCone:
       normal = cone_normal(scene.cones[primitive.index], point);
       break;
-    case PrimitiveKind::kPolygon:
+    case scenes::PrimitiveKind::kPolygon:
       normal = polygon_normal(scene, scene.polygons[primitive.index], point, smooth);
       break;
   }
@@ -106,12 +110,14 @@ glm::dvec3 facing_normal(const Scene& scene, const Ray& ray, const Hit& hit, boo
 
 }  // namespace
 
-glm::dvec3 geometric_normal(const Scene& scene, const Ray& ray, const Hit& hit) {
+glm::dvec3 geometric_normal(const scenes::Scene& scene, const accel::Ray& ray,
+                            const accel::Hit& hit) {
   return facing_normal(scene, ray, hit, false);
 }
 
-glm::dvec3 shading_normal(const Scene& scene, const Ray& ray, const Hit& hit) {
+glm::dvec3 shading_normal(const scenes::Scene& scene, const accel::Ray& ray,
+                          const accel::Hit& hit) {
   return facing_normal(scene, ray, hit, true);
 }
 
-}  // namespace beambench
+}  // namespace beambench::rays

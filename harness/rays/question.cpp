@@ -10,13 +10,13 @@
 #include "harness/rays/random_rays.hpp"
 #include "harness/rays/ray_set_file.hpp"
 #include "harness/rays/secondary_rays.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 namespace {
 
-std::vector<Ray> made_rays(const Scene& scene, const PrimaryRays& primary,
-                           const RayChoice& choice) {
+std::vector<accel::Ray> made_rays(const scenes::Scene& scene, const accel::PrimaryRays& primary,
+                                  const RayChoice& choice) {
   if (choice.kind == RayKind::kRandom) {
     return random_rays(scene.bounds, primary.count(), choice.seed);
   }
@@ -42,8 +42,9 @@ std::vector<Ray> made_rays(const Scene& scene, const PrimaryRays& primary,
   return {};
 }
 
-RaySet made_set(const Scene& scene, const PrimaryRays& primary, const RayChoice& choice) {
-  RaySet set{choice.label, info_of(choice.kind).query, choice.seed, scene_hash(scene),
+RaySet made_set(const scenes::Scene& scene, const accel::PrimaryRays& primary,
+                const RayChoice& choice) {
+  RaySet set{choice.label, info_of(choice.kind).query, choice.seed, scenes::scene_hash(scene),
              made_rays(scene, primary, choice)};
   if (set.rays.empty()) {
     throw NoRaysError(fmt::format(
@@ -54,26 +55,27 @@ RaySet made_set(const Scene& scene, const PrimaryRays& primary, const RayChoice&
   return set;
 }
 
-RaySet read_for(const Scene& scene, const RayChoice& choice) {
+RaySet read_for(const scenes::Scene& scene, const RayChoice& choice) {
   RaySet set = read_ray_file(choice.file);
-  if (set.scene_hash && *set.scene_hash != scene_hash(scene)) {
+  if (set.scene_hash && *set.scene_hash != scenes::scene_hash(scene)) {
     throw InputError(fmt::format(
         "{}: these rays were made for a scene with hash {}, but '{}' has {}; make them again with "
         "'beambench rays'",
-        choice.label, hex_digits(*set.scene_hash), scene.name, hex_digits(scene_hash(scene))));
+        choice.label, hex_digits(*set.scene_hash), scene.name,
+        hex_digits(scenes::scene_hash(scene))));
   }
   return set;
 }
 
 }  // namespace
 
-Question::Question(PrimaryRays rays) : image_(std::move(rays)) {}
+Question::Question(accel::PrimaryRays rays) : image_(std::move(rays)) {}
 
 Question::Question(RaySet rays) : list_(std::make_shared<const RaySet>(std::move(rays))) {}
 
 std::size_t Question::size() const { return list_ ? list_->rays.size() : image_->count(); }
 
-Ray Question::ray(std::size_t index) const {
+accel::Ray Question::ray(std::size_t index) const {
   if (list_) return list_->rays[index];
   const PixelSample at = *pixel(index);
   return image_->ray(at.x, at.y, at.sample);
@@ -94,7 +96,7 @@ std::optional<PixelSample> Question::pixel(std::size_t index) const {
 double Question::reach() const {
   if (image_) return glm::length(glm::dvec3(image_->eye()));
   double farthest = 0.0;
-  for (const Ray& ray : list_->rays) {
+  for (const accel::Ray& ray : list_->rays) {
     farthest = std::max(farthest, glm::length(glm::dvec3(ray.origin)));
   }
   return farthest;
@@ -109,10 +111,10 @@ std::string place_text(const Question& question, std::size_t index) {
 double coherence(const Question& question) {
   if (question.list() != nullptr) return coherence(question.list()->rays);
   // Row by row, so that the rays of a large image are never all in memory.
-  const PrimaryRays& image = *question.image();
+  const accel::PrimaryRays& image = *question.image();
   const std::size_t row_length = question.size() / static_cast<std::size_t>(image.height());
   double sum = 0.0;
-  std::vector<Ray> row;
+  std::vector<accel::Ray> row;
   for (std::size_t first = 0; first < question.size(); first += row_length) {
     if (!row.empty()) row.erase(row.begin(), row.end() - 1);  // the step from row to row
     for (std::size_t i = 0; i < row_length; ++i) row.push_back(question.ray(first + i));
@@ -121,11 +123,12 @@ double coherence(const Question& question) {
   return question.size() < 2 ? 1.0 : sum / static_cast<double>(question.size() - 1);
 }
 
-Workload workload_of(const ImageOfRays& image, const Question& question, int threads) {
+accel::Workload workload_of(const ImageOfRays& image, const Question& question, int threads) {
   return {image.camera, question.size(), threads};
 }
 
-Question make_question(const Scene& scene, const ImageOfRays& image, const RayChoice& choice) {
+Question make_question(const scenes::Scene& scene, const ImageOfRays& image,
+                       const RayChoice& choice) {
   if (!choice.file.empty()) return Question(read_for(scene, choice));
   if (choice.kind == RayKind::kWhitted) {
     throw InputError(
@@ -133,9 +136,10 @@ Question make_question(const Scene& scene, const ImageOfRays& image, const RayCh
         "'whitted' is for the sweeps of 'beambench run', 'beambench verify' and 'render --shade', "
         "and 'beambench census' counts its rays");
   }
-  PrimaryRays primary(image.camera, image.resolution.width, image.resolution.height, image.samples);
+  accel::PrimaryRays primary(image.camera, image.resolution.width, image.resolution.height,
+                             image.samples);
   if (choice.kind == RayKind::kPrimary) return {std::move(primary)};
   return Question(made_set(scene, primary, choice));
 }
 
-}  // namespace beambench
+}  // namespace beambench::rays

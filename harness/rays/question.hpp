@@ -7,15 +7,15 @@
 #include <string>
 #include <variant>
 
-#include "accel/primary_rays.hpp"
-#include "accel/workload.hpp"
+#include "accel/core/primary_rays.hpp"
+#include "accel/core/workload.hpp"
 #include "harness/rays/ray_choice.hpp"
 #include "harness/rays/ray_set.hpp"
 #include "harness/rays/resolution.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 
 /// The place of a primary ray in its image.
 struct PixelSample {
@@ -28,18 +28,18 @@ struct PixelSample {
 class Question {
  public:
   /// The closest hits of an image.
-  Question(PrimaryRays rays);  // NOLINT(google-explicit-constructor): an image is a question
+  Question(accel::PrimaryRays rays);  // NOLINT(google-explicit-constructor): an image is a question
   explicit Question(RaySet rays);
 
   std::size_t size() const;
-  Ray ray(std::size_t index) const;
+  accel::Ray ray(std::size_t index) const;
   Query query() const { return list_ ? list_->query : Query::kClosestHit; }
   /// As `RayChoice::label`.
   const std::string& label() const;
   std::uint64_t seed() const { return list_ ? list_->seed : 0; }
 
   /// The image; nothing for a list.
-  const PrimaryRays* image() const { return image_ ? &*image_ : nullptr; }
+  const accel::PrimaryRays* image() const { return image_ ? &*image_ : nullptr; }
   /// The list; nothing for an image.
   const RaySet* list() const { return list_.get(); }
   /// Where in the image the ray is; nothing for a list.
@@ -49,7 +49,7 @@ class Question {
   double reach() const;
 
  private:
-  std::optional<PrimaryRays> image_;
+  std::optional<accel::PrimaryRays> image_;
   std::shared_ptr<const RaySet> list_;
 };
 
@@ -61,13 +61,13 @@ double coherence(const Question& question);
 
 /// The image that primary rays ask for and other rays start from.
 struct ImageOfRays {
-  Camera camera;
+  scenes::Camera camera;
   Resolution resolution;
   int samples;
 };
 
 /// What a structure is built for: the question, the camera behind it, and the threads that ask.
-Workload workload_of(const ImageOfRays& image, const Question& question, int threads = 1);
+accel::Workload workload_of(const ImageOfRays& image, const Question& question, int threads = 1);
 
 /// There are no rays of a kind over a scene: nothing is wrong with the request's other kinds.
 class NoRaysError : public InputError {
@@ -78,6 +78,7 @@ class NoRaysError : public InputError {
 /// Makes the rays of a choice, or reads them. Throws NoRaysError where the scene has no lights for
 /// shadow rays, or no primary ray hits anything for rays to start from; InputError for whole
 /// pictures, and as `read_ray_file`; for a file also when it was made for another scene.
-Question make_question(const Scene& scene, const ImageOfRays& image, const RayChoice& choice);
+Question make_question(const scenes::Scene& scene, const ImageOfRays& image,
+                       const RayChoice& choice);
 
-}  // namespace beambench
+}  // namespace beambench::rays

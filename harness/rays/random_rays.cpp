@@ -3,9 +3,9 @@
 #include <glm/geometric.hpp>
 
 #include "harness/rays/cosine_direction.hpp"
-#include "scenes/random.hpp"
+#include "scenes/core/random.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 namespace {
 
 using glm::dvec3;
@@ -15,7 +15,7 @@ struct Box {
   dvec3 size;
 };
 
-Box widened(const Bounds& bounds) {
+Box widened(const scenes::Bounds& bounds) {
   const dvec3 size = dvec3(bounds.upper) - dvec3(bounds.lower);
   const double diagonal = glm::length(size);
   const double pad = diagonal > 0.0 ? 0x1p-10 * diagonal : 1.0;
@@ -23,7 +23,7 @@ Box widened(const Bounds& bounds) {
 }
 
 /// Enters through one of the six faces, chosen by area.
-Ray line_through(const Box& box, Random& random) {
+accel::Ray line_through(const Box& box, Random& random) {
   const dvec3 areas(box.size.y * box.size.z, box.size.z * box.size.x, box.size.x * box.size.y);
   const double chosen = random.uniform(0.0, areas.x + areas.y + areas.z);
   const int axis = chosen < areas.x ? 0 : chosen < areas.x + areas.y ? 1 : 2;
@@ -36,7 +36,7 @@ Ray line_through(const Box& box, Random& random) {
   inward[axis] = upper ? -1.0 : 1.0;
   const dvec3 direction = cosine_direction(inward, random);
 
-  Ray ray;
+  accel::Ray ray;
   ray.origin = glm::vec3(point - direction * glm::length(box.size));
   ray.direction = glm::vec3(direction);
   return ray;
@@ -44,8 +44,9 @@ Ray line_through(const Box& box, Random& random) {
 
 }  // namespace
 
-std::vector<Ray> random_rays(const Bounds& box, std::size_t count, std::uint64_t seed) {
-  std::vector<Ray> rays;
+std::vector<accel::Ray> random_rays(const scenes::Bounds& box, std::size_t count,
+                                    std::uint64_t seed) {
+  std::vector<accel::Ray> rays;
   if (box.empty()) return rays;
   const Box around = widened(box);
   Random random(seed);
@@ -54,4 +55,4 @@ std::vector<Ray> random_rays(const Bounds& box, std::size_t count, std::uint64_t
   return rays;
 }
 
-}  // namespace beambench
+}  // namespace beambench::rays

@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "accel/ray.hpp"
+#include "accel/core/ray.hpp"
 #include "scenes/bounds.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 
 /// `count` rays that are uniform among all lines through the box, by the measure of lines that does
 /// not change when space is moved or turned (Santalo, Integral Geometry, 1976, II.12): they enter
@@ -16,6 +16,7 @@ namespace beambench {
 /// to meet a convex body in the box is then its surface area over the box's. They start one
 /// diagonal before the box, with directions of unit length. The box is widened by 2^-10 of its
 /// diagonal, so that it has an inside. None for an empty box.
-std::vector<Ray> random_rays(const Bounds& box, std::size_t count, std::uint64_t seed);
+std::vector<accel::Ray> random_rays(const scenes::Bounds& box, std::size_t count,
+                                    std::uint64_t seed);
 
-}  // namespace beambench
+}  // namespace beambench::rays

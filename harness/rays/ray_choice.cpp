@@ -5,9 +5,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 namespace {
 
 bool has_seed(const RayKindInfo& info) {
@@ -63,4 +63,4 @@ std::vector<RayChoice> parse_ray_choices(std::string_view list) {
   return choices;
 }
 
-}  // namespace beambench
+}  // namespace beambench::rays

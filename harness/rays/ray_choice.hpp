@@ -9,7 +9,7 @@
 
 #include "harness/rays/ray_kind.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 
 /// The ending that tells a file of rays from the name of a kind.
 inline constexpr std::string_view kRayFileEnding = ".rays";
@@ -30,4 +30,4 @@ RayChoice parse_ray_choice(std::string_view text);
 /// A comma-separated list, each choice once. Throws as parse_ray_choice.
 std::vector<RayChoice> parse_ray_choices(std::string_view list);
 
-}  // namespace beambench
+}  // namespace beambench::rays

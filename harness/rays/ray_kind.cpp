@@ -3,7 +3,7 @@
 #include <array>
 #include <cstdint>
 
-namespace beambench {
+namespace beambench::rays {
 namespace {
 
 ParameterInfo seed_parameter() {
@@ -65,4 +65,4 @@ const RayKindInfo& info_of(RayKind kind) { return all_kinds()[static_cast<std::s
 
 std::string_view to_string(RayKind kind) { return info_of(kind).name; }
 
-}  // namespace beambench
+}  // namespace beambench::rays

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/parameters.hpp"
+#include "scenes/core/parameters.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 
 enum class RayKind {
   kPrimary,     ///< from the camera through the pixels
@@ -42,4 +42,4 @@ std::span<const RayKindInfo> ray_kinds();
 const RayKindInfo& info_of(RayKind kind);
 std::string_view to_string(RayKind kind);
 
-}  // namespace beambench
+}  // namespace beambench::rays

@@ -2,13 +2,13 @@
 
 #include <glm/geometric.hpp>
 
-namespace beambench {
+namespace beambench::rays {
 
-double coherence(std::span<const Ray> rays) {
+double coherence(std::span<const accel::Ray> rays) {
   if (rays.size() < 2) return 1.0;
   double sum = 0.0;
   glm::dvec3 before = glm::normalize(glm::dvec3(rays.front().direction));
-  for (const Ray& ray : rays.subspan(1)) {
+  for (const accel::Ray& ray : rays.subspan(1)) {
     const glm::dvec3 direction = glm::normalize(glm::dvec3(ray.direction));
     sum += glm::dot(before, direction);
     before = direction;
@@ -16,4 +16,4 @@ double coherence(std::span<const Ray> rays) {
   return sum / static_cast<double>(rays.size() - 1);
 }
 
-}  // namespace beambench
+}  // namespace beambench::rays

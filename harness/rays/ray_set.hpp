@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "accel/ray.hpp"
+#include "accel/core/ray.hpp"
 #include "harness/rays/ray_kind.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 
 /// Rays, what is asked about them, and where they come from.
 struct RaySet {
@@ -18,11 +18,11 @@ struct RaySet {
   Query query = Query::kClosestHit;
   std::uint64_t seed = 0;                   ///< 0 where nothing is random
   std::optional<std::uint64_t> scene_hash;  ///< of the scene they were made for, where known
-  std::vector<Ray> rays;
+  std::vector<accel::Ray> rays;
 };
 
 /// How alike neighbours in a list are: the mean cosine of the angle between the directions of a ray
 /// and the next. 1: all parallel; 0: nothing in common. 1 for fewer than two rays.
-double coherence(std::span<const Ray> rays);
+double coherence(std::span<const accel::Ray> rays);
 
-}  // namespace beambench
+}  // namespace beambench::rays

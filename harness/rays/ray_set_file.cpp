@@ -9,22 +9,22 @@
 
 #include <fmt/format.h>
 
-#include "harness/files/pending_file.hpp"
 #include "harness/rays/fingerprint.hpp"
-#include "scenes/error.hpp"
-#include "scenes/input_file.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/input_file.hpp"
+#include "scenes/core/pending_file.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kFirstLine = "beambench-rays 1";
 constexpr std::uint64_t kMostRays = std::uint64_t{1} << 28U;
-constexpr std::uint64_t kMostBytes = kMostRays * sizeof(Ray) + (1U << 20U);  // and a header
+constexpr std::uint64_t kMostBytes = kMostRays * sizeof(accel::Ray) + (1U << 20U);  // and a header
 
 static_assert(std::endian::native == std::endian::little, "rays are written as they lie in memory");
-static_assert(sizeof(Ray) == 8 * sizeof(float));
+static_assert(sizeof(accel::Ray) == 8 * sizeof(float));
 
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& problem) {
   throw InputError(
@@ -81,22 +81,22 @@ std::optional<std::string_view> take_line(std::string_view& text) {
   return line;
 }
 
-std::vector<Ray> rays_of(const std::filesystem::path& path, std::string_view bytes,
-                         std::uint64_t count) {
+std::vector<accel::Ray> rays_of(const std::filesystem::path& path, std::string_view bytes,
+                                std::uint64_t count) {
   // The length first: a header that promises too much must not cost the memory for it.
-  if (bytes.size() != count * sizeof(Ray)) {
+  if (bytes.size() != count * sizeof(accel::Ray)) {
     fail(path, fmt::format("{} bytes of rays follow the header, not the {} of {} rays",
-                           bytes.size(), count * sizeof(Ray), count));
+                           bytes.size(), count * sizeof(accel::Ray), count));
   }
-  std::vector<Ray> rays(count);
+  std::vector<accel::Ray> rays(count);
   std::memcpy(rays.data(), bytes.data(), bytes.size());
   return rays;
 }
 
-void require_valid_rays(const std::filesystem::path& path, const std::vector<Ray>& rays) {
+void require_valid_rays(const std::filesystem::path& path, const std::vector<accel::Ray>& rays) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     try {
-      require_valid(rays[i]);
+      accel::require_valid(rays[i]);
     } catch (const InputError& error) {
       throw InputError(fmt::format("{}: ray {}: {}", path.string(), i, error.what()));
     }
@@ -116,7 +116,7 @@ void write_ray_file(const std::filesystem::path& path, const RaySet& set,
   write_file(path, [&](std::ostream& out) {
     out << kFirstLine << '\n' << header.dump() << '\n';
     out.write(reinterpret_cast<const char*>(set.rays.data()),
-              static_cast<std::streamsize>(set.rays.size() * sizeof(Ray)));
+              static_cast<std::streamsize>(set.rays.size() * sizeof(accel::Ray)));
   });
 }
 
@@ -137,4 +137,4 @@ RaySet read_ray_file(const std::filesystem::path& path) {
   return std::move(header.set);
 }
 
-}  // namespace beambench
+}  // namespace beambench::rays

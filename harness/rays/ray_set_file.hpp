@@ -7,7 +7,7 @@
 
 #include "harness/rays/ray_set.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 
 /// A ray file has three parts: the line `beambench-rays 1`; one line of JSON; then the rays, each
 /// as eight 32-bit IEEE floats in little-endian order: origin, t_min, direction, t_max. The JSON
@@ -28,4 +28,4 @@ void write_ray_file(const std::filesystem::path& path, const RaySet& set,
 /// label is the path.
 RaySet read_ray_file(const std::filesystem::path& path);
 
-}  // namespace beambench
+}  // namespace beambench::rays

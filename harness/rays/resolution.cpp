@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 namespace {
 
 constexpr std::int64_t kMaxRays = std::int64_t{1} << 28;
@@ -51,4 +51,4 @@ void require_ray_count(const Resolution& resolution, int samples) {
       to_string(resolution), samples, rays, kMaxRays));
 }
 
-}  // namespace beambench
+}  // namespace beambench::rays

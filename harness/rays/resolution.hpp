@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-namespace beambench {
+namespace beambench::rays {
 
 /// Width and height in pixels, each in 1 ... kMaxSide.
 struct Resolution {
@@ -26,4 +26,4 @@ std::string to_string(const Resolution& resolution);
 /// what to lower.
 void require_ray_count(const Resolution& resolution, int samples);
 
-}  // namespace beambench
+}  // namespace beambench::rays

@@ -5,31 +5,32 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
+#include "accel/core/mirrored.hpp"
 #include "accel/embree/oracle.hpp"
-#include "accel/mirrored.hpp"
 #include "harness/rays/beside_surface.hpp"
 #include "harness/rays/cosine_direction.hpp"
 #include "harness/rays/normal.hpp"
-#include "scenes/random.hpp"
+#include "scenes/core/random.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 namespace {
 
 using glm::dvec3;
 
-PrimaryHitPoint point_of(const Scene& scene, const Ray& ray, const ExactHit& hit) {
+PrimaryHitPoint point_of(const scenes::Scene& scene, const accel::Ray& ray,
+                         const accel::embree::ExactHit& hit) {
   const dvec3 direction(ray.direction);
   return {dvec3(ray.origin) + hit.t * direction,
           geometric_normal(scene, ray, {static_cast<float>(hit.t), hit.primitive}),
           glm::normalize(direction)};
 }
 
-dvec3 above(const Scene& scene, const PrimaryHitPoint& at) {
+dvec3 above(const scenes::Scene& scene, const PrimaryHitPoint& at) {
   return beside_surface(scene, at.point, at.normal);
 }
 
-Ray ray_from(const Scene& scene, const PrimaryHitPoint& at, const dvec3& direction) {
-  Ray ray;
+accel::Ray ray_from(const scenes::Scene& scene, const PrimaryHitPoint& at, const dvec3& direction) {
+  accel::Ray ray;
   ray.origin = glm::vec3(above(scene, at));
   ray.direction = glm::vec3(direction);
   return ray;
@@ -37,14 +38,15 @@ Ray ray_from(const Scene& scene, const PrimaryHitPoint& at, const dvec3& directi
 
 }  // namespace
 
-std::vector<PrimaryHitPoint> surface_points(const Scene& scene, const PrimaryRays& rays) {
-  const EmbreeOracle oracle(scene, glm::length(dvec3(rays.eye())));
+std::vector<PrimaryHitPoint> surface_points(const scenes::Scene& scene,
+                                            const accel::PrimaryRays& rays) {
+  const accel::embree::EmbreeOracle oracle(scene, glm::length(dvec3(rays.eye())));
   std::vector<std::vector<PrimaryHitPoint>> rows(static_cast<std::size_t>(rays.height()));
   tbb::parallel_for(0, rays.height(), [&](int y) {
     for (int x = 0; x < rays.width(); ++x) {
       for (int sample = 0; sample < rays.samples(); ++sample) {
-        const Ray ray = rays.ray(x, y, sample);
-        const std::optional<ExactHit> hit = oracle.closest_hit(ray);
+        const accel::Ray ray = rays.ray(x, y, sample);
+        const std::optional<accel::embree::ExactHit> hit = oracle.closest_hit(ray);
         if (hit) rows[static_cast<std::size_t>(y)].push_back(point_of(scene, ray, *hit));
       }
     }
@@ -54,10 +56,11 @@ std::vector<PrimaryHitPoint> surface_points(const Scene& scene, const PrimaryRay
   return points;
 }
 
-std::vector<Ray> shadow_rays(const Scene& scene, const std::vector<PrimaryHitPoint>& points) {
-  std::vector<Ray> rays;
+std::vector<accel::Ray> shadow_rays(const scenes::Scene& scene,
+                                    const std::vector<PrimaryHitPoint>& points) {
+  std::vector<accel::Ray> rays;
   for (const PrimaryHitPoint& at : points) {
-    for (const Light& light : scene.lights) {
+    for (const scenes::Light& light : scene.lights) {
       const dvec3 to_light = dvec3(light.position) - above(scene, at);
       if (glm::dot(to_light, at.normal) <= 0.0) continue;
       rays.push_back(ray_from(scene, at, to_light));
@@ -67,19 +70,21 @@ std::vector<Ray> shadow_rays(const Scene& scene, const std::vector<PrimaryHitPoi
   return rays;
 }
 
-std::vector<Ray> reflection_rays(const Scene& scene, const std::vector<PrimaryHitPoint>& points) {
-  std::vector<Ray> rays;
+std::vector<accel::Ray> reflection_rays(const scenes::Scene& scene,
+                                        const std::vector<PrimaryHitPoint>& points) {
+  std::vector<accel::Ray> rays;
   rays.reserve(points.size());
   for (const PrimaryHitPoint& at : points) {
-    rays.push_back(ray_from(scene, at, mirrored(at.incoming, at.normal)));
+    rays.push_back(ray_from(scene, at, accel::mirrored(at.incoming, at.normal)));
   }
   return rays;
 }
 
-std::vector<Ray> diffuse_rays(const Scene& scene, const std::vector<PrimaryHitPoint>& points,
-                              std::uint64_t seed) {
+std::vector<accel::Ray> diffuse_rays(const scenes::Scene& scene,
+                                     const std::vector<PrimaryHitPoint>& points,
+                                     std::uint64_t seed) {
   Random random(seed);
-  std::vector<Ray> rays;
+  std::vector<accel::Ray> rays;
   rays.reserve(points.size());
   for (const PrimaryHitPoint& at : points) {
     rays.push_back(ray_from(scene, at, cosine_direction(at.normal, random)));
@@ -87,4 +92,4 @@ std::vector<Ray> diffuse_rays(const Scene& scene, const std::vector<PrimaryHitPo
   return rays;
 }
 
-}  // namespace beambench
+}  // namespace beambench::rays

@@ -6,10 +6,10 @@
 
 #include <glm/vec3.hpp>
 
-#include "accel/primary_rays.hpp"
+#include "accel/core/primary_rays.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::rays {
 
 /// Where a primary ray meets a surface.
 struct PrimaryHitPoint {
@@ -20,18 +20,22 @@ struct PrimaryHitPoint {
 
 /// Where the primary rays hit, in their order, by the oracle (on all cores): so the rays that start
 /// here are the same whatever structure is asked.
-std::vector<PrimaryHitPoint> surface_points(const Scene& scene, const PrimaryRays& rays);
+std::vector<PrimaryHitPoint> surface_points(const scenes::Scene& scene,
+                                            const accel::PrimaryRays& rays);
 
 /// All secondary rays start `beside_surface`, on the side of the primary ray.
 ///
 /// To each light that the surface faces, point by point: t in [0, 1], the light being at 1.
-std::vector<Ray> shadow_rays(const Scene& scene, const std::vector<PrimaryHitPoint>& points);
+std::vector<accel::Ray> shadow_rays(const scenes::Scene& scene,
+                                    const std::vector<PrimaryHitPoint>& points);
 
 /// The mirror direction of the incoming ray, of unit length.
-std::vector<Ray> reflection_rays(const Scene& scene, const std::vector<PrimaryHitPoint>& points);
+std::vector<accel::Ray> reflection_rays(const scenes::Scene& scene,
+                                        const std::vector<PrimaryHitPoint>& points);
 
 /// One direction a point with density cos / pi about the normal, of unit length.
-std::vector<Ray> diffuse_rays(const Scene& scene, const std::vector<PrimaryHitPoint>& points,
-                              std::uint64_t seed);
+std::vector<accel::Ray> diffuse_rays(const scenes::Scene& scene,
+                                     const std::vector<PrimaryHitPoint>& points,
+                                     std::uint64_t seed);
 
-}  // namespace beambench
+}  // namespace beambench::rays

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-namespace beambench {
+namespace beambench::rays {
 
 std::optional<std::string> share_warning(const Question& question, std::uint64_t hits) {
   constexpr double kLeast = 0.01;
@@ -15,4 +15,4 @@ std::optional<std::string> share_warning(const Question& question, std::uint64_t
                      : "there is hardly a miss among them");
 }
 
-}  // namespace beambench
+}  // namespace beambench::rays

@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 namespace {
 
 std::vector<std::uint32_t> add_vertices(SceneBuilder& builder, const PolygonMesh& mesh) {
@@ -55,4 +55,4 @@ void add_smooth(SceneBuilder& builder, const PolygonMesh& mesh, const SmoothOpti
   }
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

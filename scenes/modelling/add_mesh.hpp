@@ -7,7 +7,7 @@
 #include "scenes/modelling/polygon_mesh.hpp"
 #include "scenes/scene_builder.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 /// Adds every polygon, over shared vertices, with the builder's current surface.
 void add_flat(SceneBuilder& builder, const PolygonMesh& mesh);
@@ -22,4 +22,4 @@ struct SmoothOptions {
 /// that vertex whose own normals differ by less than the crease angle from this polygon's.
 void add_smooth(SceneBuilder& builder, const PolygonMesh& mesh, const SmoothOptions& options = {});
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

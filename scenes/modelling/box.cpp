@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 namespace {
 
 using Corners = PolygonMesh::Corners;
@@ -73,4 +73,4 @@ PolygonMesh bevelled_box(const glm::dvec3& lower, const glm::dvec3& upper, doubl
   return mesh;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

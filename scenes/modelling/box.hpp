@@ -3,7 +3,7 @@
 
 #include "scenes/modelling/polygon_mesh.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 /// The six faces of the box between two corners, in the order -x, +x, -y, +y, -z, +z.
 PolygonMesh box(const glm::dvec3& lower, const glm::dvec3& upper);
@@ -15,4 +15,4 @@ PolygonMesh box_without_bottom(const glm::dvec3& lower, const glm::dvec3& upper)
 /// 0 < bevel < half of every extent.
 PolygonMesh bevelled_box(const glm::dvec3& lower, const glm::dvec3& upper, double bevel);
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

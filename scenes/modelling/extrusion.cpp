@@ -5,7 +5,7 @@
 #include <set>
 #include <utility>
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 FlatShape flat_polygon(std::vector<glm::dvec2> points) {
   PolygonMesh::Corners corners(points.size());
@@ -37,4 +37,4 @@ PolygonMesh extruded(const FlatShape& shape, double depth, Ends ends) {
   return mesh;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

@@ -8,7 +8,7 @@
 
 #include "scenes/modelling/polygon_mesh.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 /// A shape in the plane z = 0: polygons over shared points, counter-clockwise seen from +z. A shape
 /// with a hole is several polygons around it; the seams between them are edges of two polygons.
@@ -27,4 +27,4 @@ enum class Ends : std::uint8_t { kBoth, kFront, kNone };
 /// of holes, and none on the seams.
 PolygonMesh extruded(const FlatShape& shape, double depth, Ends ends = Ends::kBoth);
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

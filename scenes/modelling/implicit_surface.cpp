@@ -8,7 +8,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 namespace {
 
 constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
@@ -261,4 +261,4 @@ glm::dvec3 middle(const PolygonMesh& mesh, std::size_t polygon) {
   return sum / static_cast<double>(corners.size());
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

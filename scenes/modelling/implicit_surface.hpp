@@ -5,7 +5,7 @@
 
 #include "scenes/modelling/polygon_mesh.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 /// About the distance to a body, negative inside.
 using Field = std::function<double(const glm::dvec3&)>;
@@ -43,4 +43,4 @@ PolygonMesh outside(const PolygonMesh& mesh, const Field& body);
 /// The mean of a polygon's corners.
 glm::dvec3 middle(const PolygonMesh& mesh, std::size_t polygon);
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

@@ -2,9 +2,9 @@
 
 #include <numbers>
 
-#include "scenes/portable_math.hpp"
+#include "scenes/core/portable_math.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 PolygonMesh lathe(std::span<const glm::dvec2> profile, int sides, double first_turn) {
   PolygonMesh mesh;
@@ -36,4 +36,4 @@ PolygonMesh lathe(std::span<const glm::dvec2> profile, int sides, double first_t
   return mesh;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

@@ -7,7 +7,7 @@
 
 #include "scenes/modelling/polygon_mesh.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 /// The profile's points (radius, height) revolved in `sides` steps, the first at `first_turn` of a
 /// full turn. Walked upwards on the outside, the surface looks outward. Each piece of the profile
@@ -15,4 +15,4 @@ namespace beambench {
 /// the axis gives none. Ends with a radius stay open.
 PolygonMesh lathe(std::span<const glm::dvec2> profile, int sides, double first_turn = 0.0);
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

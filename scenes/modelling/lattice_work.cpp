@@ -6,7 +6,7 @@
 
 #include "scenes/modelling/sweep.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 PolygonMesh bar(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& outward,
                 double thickness) {
@@ -28,4 +28,4 @@ PolygonMesh braced_face(std::span<const glm::dvec3> left, std::span<const glm::d
   return mesh;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

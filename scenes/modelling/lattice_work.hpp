@@ -5,7 +5,7 @@
 
 #include "scenes/modelling/polygon_mesh.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 /// A square bar of four sides between two places, two of its sides looking along `outward`. Its
 /// ends are open: they are inside what it is fixed to.
@@ -22,4 +22,4 @@ struct Bracing {
 PolygonMesh braced_face(std::span<const glm::dvec3> left, std::span<const glm::dvec3> right,
                         const glm::dvec3& outward, const Bracing& bracing);
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

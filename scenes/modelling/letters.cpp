@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <glm/gtc/matrix_transform.hpp>
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 namespace {
 
 constexpr double kGap = 0.14;    // between two letters
@@ -148,4 +148,4 @@ double text_width(std::string_view text, double height) {
   return height * width;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

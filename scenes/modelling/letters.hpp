@@ -5,7 +5,7 @@
 
 #include "scenes/modelling/extrusion.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 /// The outline of a capital letter, 1 high from the baseline y = 0, its left edge at x = 0; `width`
 /// is where it ends. Straight strokes 0.22 wide with cut corners; A, B and O are two concave
@@ -23,4 +23,4 @@ PolygonMesh extruded_text(std::string_view text, double height, double depth,
 /// How wide that line is.
 double text_width(std::string_view text, double height);
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

@@ -1,6 +1,6 @@
 #include "scenes/modelling/moulding.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 PolygonMesh moulding(const glm::dvec2& size, std::span<const glm::dvec2> profile) {
   PolygonMesh mesh;
@@ -30,4 +30,4 @@ PolygonMesh without_side(const PolygonMesh& moulding, std::size_t side) {
   return mesh;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

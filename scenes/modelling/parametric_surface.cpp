@@ -3,11 +3,11 @@
 #include <numbers>
 #include <vector>
 
+#include "scenes/core/portable_math.hpp"
 #include "scenes/modelling/lathe.hpp"
 #include "scenes/modelling/weld.hpp"
-#include "scenes/portable_math.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 PolygonMesh parametric_surface(const SurfaceFunction& surface, int u_steps, int v_steps) {
   PolygonMesh mesh;
@@ -39,4 +39,4 @@ PolygonMesh ellipsoid(const glm::dvec3& half_axes, int slices, int stacks) {
   return mesh;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

@@ -5,7 +5,7 @@
 
 #include "scenes/modelling/polygon_mesh.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 /// A point for (u, v) in [0, 1]^2; the surface looks to du x dv.
 using SurfaceFunction = std::function<glm::dvec3(double u, double v)>;
@@ -18,4 +18,4 @@ PolygonMesh parametric_surface(const SurfaceFunction& surface, int u_steps, int 
 /// pole, triangles at the poles.
 PolygonMesh ellipsoid(const glm::dvec3& half_axes, int slices, int stacks);
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

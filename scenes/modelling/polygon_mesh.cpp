@@ -7,7 +7,7 @@
 #include <glm/matrix.hpp>
 #include <glm/vec4.hpp>
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 void append(PolygonMesh& mesh, const PolygonMesh& more) {
   const auto offset = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -41,4 +41,4 @@ glm::dvec3 area_normal(const PolygonMesh& mesh, const PolygonMesh::Corners& corn
   return sum;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

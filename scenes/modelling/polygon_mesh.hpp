@@ -25,7 +25,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 /// Polygons over shared vertices. A polygon lists its corners counter-clockwise seen from outside;
 /// it may be concave but is (nearly) flat. Vertices may be unused.
@@ -50,4 +50,4 @@ PolygonMesh turned_inside_out(PolygonMesh mesh);
 /// Newell's normal of a polygon, its length being twice the polygon's area.
 glm::dvec3 area_normal(const PolygonMesh& mesh, const PolygonMesh::Corners& corners);
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

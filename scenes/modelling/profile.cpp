@@ -5,9 +5,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "scenes/portable_math.hpp"
+#include "scenes/core/portable_math.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 Profile& Profile::line(const glm::dvec2& to) {
   points_.push_back(to);
@@ -40,4 +40,4 @@ Profile& Profile::ball(double center, double radius, int steps) {
   return line({0.0, center + radius});
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

@@ -5,7 +5,7 @@
 
 #include <glm/vec2.hpp>
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 /// A line of points (radius, height), drawn from where it starts.
 class Profile {
@@ -26,4 +26,4 @@ class Profile {
   std::vector<glm::dvec2> points_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

@@ -5,7 +5,7 @@
 #include <iterator>
 #include <set>
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 namespace {
 
 /// A quad between two corners of a plane, at the height z.
@@ -83,4 +83,4 @@ std::vector<Rectangle> panes(const glm::dvec2& size, int columns, int rows, doub
   return result;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

@@ -7,7 +7,7 @@
 
 #include "scenes/modelling/polygon_mesh.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 struct Rectangle {
   glm::dvec2 lower, upper;
@@ -24,4 +24,4 @@ PolygonMesh openings_filled(std::span<const Rectangle> openings, double depth);
 /// columns x rows equal openings in the rectangle, bars of the same width around all of them.
 std::vector<Rectangle> panes(const glm::dvec2& size, int columns, int rows, double bar);
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

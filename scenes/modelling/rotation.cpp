@@ -2,9 +2,9 @@
 
 #include <glm/trigonometric.hpp>
 
-#include "scenes/portable_math.hpp"
+#include "scenes/core/portable_math.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 glm::dmat4 rotation(int axis, double degrees) {
   const double cosine = portable_cos(glm::radians(degrees));
@@ -19,4 +19,4 @@ glm::dmat4 rotation(int axis, double degrees) {
   return matrix;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

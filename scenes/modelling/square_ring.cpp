@@ -1,6 +1,6 @@
 #include "scenes/modelling/square_ring.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 PolygonMesh square_ring(double half, double hole, double bottom, double top) {
   PolygonMesh mesh;
@@ -21,4 +21,4 @@ PolygonMesh square_ring(double half, double hole, double bottom, double top) {
   return mesh;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

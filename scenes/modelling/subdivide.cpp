@@ -11,7 +11,7 @@
 
 #include "scenes/triangulate.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 namespace {
 
 using Corners = PolygonMesh::Corners;
@@ -228,4 +228,4 @@ PolygonMesh subdivided_to(PolygonMesh mesh, std::size_t count) {
   return Subdivider(std::move(mesh), count).finish();
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

@@ -5,7 +5,7 @@
 
 #include "scenes/modelling/polygon_mesh.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 /// Every polygon in triangles, quads along their shorter diagonal. The surface of flat polygons
 /// stays the same.
@@ -19,4 +19,4 @@ PolygonMesh triangulated(const PolygonMesh& mesh);
 /// none that can be split, or `count` is beyond 100 million.
 PolygonMesh subdivided_to(PolygonMesh mesh, std::size_t count);
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

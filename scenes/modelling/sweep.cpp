@@ -5,9 +5,9 @@
 
 #include <glm/geometric.hpp>
 
-#include "scenes/portable_math.hpp"
+#include "scenes/core/portable_math.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 namespace {
 
 glm::dvec3 direction_at(std::span<const glm::dvec3> path, std::size_t i) {
@@ -114,4 +114,4 @@ std::vector<glm::dvec3> spline(std::span<const glm::dvec3> knots, int steps) {
   return points;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

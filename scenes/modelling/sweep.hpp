@@ -8,7 +8,7 @@
 
 #include "scenes/modelling/polygon_mesh.hpp"
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 
 /// Which ends of a sweep are closed by a polygon. An end of size 0 is a tip and needs none.
 enum class Caps : std::uint8_t { kNone, kStart, kEnd, kBoth };
@@ -30,4 +30,4 @@ PolygonMesh tube(std::span<const glm::dvec3> path, std::span<const double> radii
 /// Points on a Catmull-Rom spline through `knots`, `steps` pieces from knot to knot.
 std::vector<glm::dvec3> spline(std::span<const glm::dvec3> knots, int steps);
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

@@ -9,7 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-namespace beambench {
+namespace beambench::scenes::modelling {
 namespace {
 
 /// Finds the first vertex within a distance: vertices are sorted into cells of that size.
@@ -79,4 +79,4 @@ PolygonMesh welded(const PolygonMesh& mesh) {
   return result;
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes::modelling

@@ -10,29 +10,29 @@
 #include <gtest/gtest.h>
 
 #include "accel/beam/beam_tracer.hpp"
+#include "accel/core/registry.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
-#include "accel/registry.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/random.hpp"
+#include "scenes/core/random.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 using testing::random_scene;
 
 /// How often each place of the hit buffer was painted, and what became of samples.
-class PaintWatch : public NoBeamWatch {
+class PaintWatch : public beam::NoBeamWatch {
  public:
   static constexpr bool kPaintsLeaving = true;
 
   explicit PaintWatch(std::size_t places) : painted_(places, 0) {}
   void painted(std::size_t index) { ++painted_[index]; }
-  void handed_over(RayReason reason) { ++reasons_[static_cast<std::size_t>(reason)]; }
+  void handed_over(beam::RayReason reason) { ++reasons_[static_cast<std::size_t>(reason)]; }
 
   std::uint8_t times(std::size_t index) const { return painted_[index]; }
-  std::uint64_t rays_by(RayReason reason) const {
+  std::uint64_t rays_by(beam::RayReason reason) const {
     return reasons_[static_cast<std::size_t>(reason)];
   }
 
@@ -42,16 +42,16 @@ class PaintWatch : public NoBeamWatch {
 };
 
 /// Does the ray of a sample pass through the root cell?
-bool meets_root(const BeamTracer& tracer, const Ray& ray) {
+bool meets_root(const beam::BeamTracer& tracer, const Ray& ray) {
   return CellRay(tracer.octree().grid(), ray).enter(0.0F) < std::numeric_limits<double>::infinity();
 }
 
 /// Traces an image and checks that each sample that meets the root is painted once, every other
 /// never, and that hits are those of `exhaustive`, of all samples or of one in `stride`.
-void expect_painted_once(const Scene& scene, const BeamOptions& options, const PrimaryRays& rays,
-                         std::size_t stride = 1) {
-  const BeamTracer tracer(scene, options);
-  const Exhaustive exhaustive(scene);
+void expect_painted_once(const scenes::Scene& scene, const beam::BeamOptions& options,
+                         const PrimaryRays& rays, std::size_t stride = 1) {
+  const beam::BeamTracer tracer(scene, options);
+  const exhaustive::Exhaustive exhaustive(scene);
   HitBuffer buffer(rays.width(), rays.height(), rays.samples());
   PaintWatch watch(buffer.size());
   tracer.trace_watched(rays, buffer, watch);
@@ -78,24 +78,24 @@ void expect_painted_once(const Scene& scene, const BeamOptions& options, const P
   }
   EXPECT_EQ(wrong_paint, 0U) << first;
   EXPECT_EQ(wrong_hits, 0U) << first;
-  EXPECT_EQ(watch.rays_by(RayReason::kCrowded), 0U);
+  EXPECT_EQ(watch.rays_by(beam::RayReason::kCrowded), 0U);
   if (options.handover == 0) {
-    EXPECT_EQ(watch.rays_by(RayReason::kHandover), 0U);
+    EXPECT_EQ(watch.rays_by(beam::RayReason::kHandover), 0U);
   }
 }
 
-BeamOptions options_with(int max_level, std::uint32_t max_objects = 0) {
-  BeamOptions options;
+beam::BeamOptions options_with(int max_level, std::uint32_t max_objects = 0) {
+  beam::BeamOptions options;
   options.octree.max_level = max_level;
   options.octree.max_objects = max_objects;
   return options;
 }
 
-BeamOptions random_options(Random& random) {
-  BeamOptions options = options_with(1 + static_cast<int>(random.below(6)),
-                                     static_cast<std::uint32_t>(random.below(3)));
+beam::BeamOptions random_options(Random& random) {
+  beam::BeamOptions options = options_with(1 + static_cast<int>(random.below(6)),
+                                           static_cast<std::uint32_t>(random.below(3)));
   options.octree.root =
-      random.below(2) == 0 ? OctreeOptions::Root::kCube : OctreeOptions::Root::kBox;
+      random.below(2) == 0 ? octree::OctreeOptions::Root::kCube : octree::OctreeOptions::Root::kBox;
   if (random.below(3) == 0) options.handover = static_cast<std::int64_t>(random.below(40));
   options.continue_with_rays = random.below(3) != 0;
   options.share_corners = random.below(2) == 0;
@@ -103,12 +103,12 @@ BeamOptions random_options(Random& random) {
 }
 
 /// An eye outside, inside or in the middle planes of the scene's box, looking somewhere.
-Camera random_camera(const Scene& scene, Random& random) {
+scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
   const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
   const glm::vec3 size = scene.bounds.upper - scene.bounds.lower;
   const float reach = std::max({size.x, size.y, size.z, 1e-3F});
   const float spread = random.below(2) == 0 ? 0.4F : 2.5F;
-  Camera camera;
+  scenes::Camera camera;
   for (int axis = 0; axis < 3; ++axis) {
     camera.from[axis] = middle[axis];
     if (random.below(4) != 0) {
@@ -131,8 +131,8 @@ Camera random_camera(const Scene& scene, Random& random) {
 TEST(Beam, PaintsEverySampleOfRandomScenesOnce) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Random random(seed);
-    const Scene scene = random_scene(seed, static_cast<int>(1 + random.below(60)));
-    const BeamOptions options = random_options(random);
+    const scenes::Scene scene = verify::random_scene(seed, static_cast<int>(1 + random.below(60)));
+    const beam::BeamOptions options = random_options(random);
     const PrimaryRays rays(random_camera(scene, random), 1 + static_cast<int>(random.below(40)),
                            1 + static_cast<int>(random.below(40)),
                            std::array{1, 4, 5}[random.below(3)]);
@@ -144,8 +144,8 @@ TEST(Beam, PaintsEverySampleOfRandomScenesOnce) {
 
 /// A block of 4x4x4 cubes' faces over [0, 8]^3. With a margin of an eighth the root is [-1, 9]^3
 /// and the planes of its cells are floats, on which eyes can be put.
-Scene lattice_scene() {
-  SceneBuilder builder("lattice");
+scenes::Scene lattice_scene() {
+  scenes::SceneBuilder builder("lattice");
   for (int cell = 0; cell < 64; ++cell) {
     const glm::dvec3 lower(2 * (cell & 3), 2 * (cell >> 2 & 3), 2 * (cell >> 4));
     if ((cell * 7) % 5 > 1) continue;
@@ -166,8 +166,8 @@ Scene lattice_scene() {
 class EyeOnPlanes : public ::testing::TestWithParam<double> {};  // the root's margin
 
 TEST_P(EyeOnPlanes, LosesNoSampleAtFacesEdgesAndCorners) {
-  const Scene scene = lattice_scene();
-  BeamOptions options = options_with(5);
+  const scenes::Scene scene = lattice_scene();
+  beam::BeamOptions options = options_with(5);
   options.octree.pad = GetParam();
   // Faces, edges and corners of cells of all sizes, outside and inside, and places beside them.
   constexpr std::array kPlaces{-6.0F, -1.0F, 0.25F, 1.5F, 4.0F, 4.625F, 6.3F, 9.0F, 14.0F};
@@ -175,7 +175,7 @@ TEST_P(EyeOnPlanes, LosesNoSampleAtFacesEdgesAndCorners) {
       {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {1, 1, 1}, {-1, 1, 0}, {-1, -1, -1}, {0.3F, -0.7F, 0.2F}}};
   Random random(5);
   for (int i = 0; i < 200; ++i) {
-    Camera camera;
+    scenes::Camera camera;
     for (int axis = 0; axis < 3; ++axis) camera.from[axis] = kPlaces[random.below(9)];
     const glm::vec3 way = ways[static_cast<std::size_t>(i) % ways.size()];
     camera.at = random.below(3) == 0 ? glm::vec3(4.0F) : camera.from + way;
@@ -198,18 +198,18 @@ TEST_P(EyeOnPlanes, LosesNoSampleAtFacesEdgesAndCorners) {
 INSTANTIATE_TEST_SUITE_P(Margins, EyeOnPlanes, ::testing::Values(0.125, 1e-6, 0.0));
 
 TEST(Beam, PaintsLargeImagesOnce) {
-  const Scene scene = load_scene("escena2");
+  const scenes::Scene scene = scenes::load_scene("escena2");
   expect_painted_once(scene, options_with(6), PrimaryRays(scene.cameras.front(), 4096, 4096, 1),
                       100'003);
-  const Scene tetra = load_scene("tetra:n=4");
+  const scenes::Scene tetra = scenes::load_scene("tetra:n=4");
   expect_painted_once(tetra, options_with(6), PrimaryRays(tetra.cameras.front(), 1920, 333, 5),
                       10'007);
 }
 
-std::map<std::string, std::uint64_t, std::less<>> counters_of(const Scene& scene,
-                                                              const BeamOptions& options,
+std::map<std::string, std::uint64_t, std::less<>> counters_of(const scenes::Scene& scene,
+                                                              const beam::BeamOptions& options,
                                                               const PrimaryRays& rays) {
-  const BeamTracer tracer(scene, options);
+  const beam::BeamTracer tracer(scene, options);
   HitBuffer buffer(rays.width(), rays.height(), rays.samples());
   WorkCounters counters;
   tracer.trace(rays, buffer, counters);
@@ -219,8 +219,8 @@ std::map<std::string, std::uint64_t, std::less<>> counters_of(const Scene& scene
 TEST(Beam, MakesTheSameBeamsAtEveryResolution) {
   for (const char* name : {"tetra:n=5", "escena1", "escena2", "bumpy:triangles=768"}) {
     SCOPED_TRACE(name);
-    const Scene scene = load_scene(name);
-    const Camera& camera = scene.cameras.front();
+    const scenes::Scene scene = scenes::load_scene(name);
+    const scenes::Camera& camera = scene.cameras.front();
     const auto expected = counters_of(scene, options_with(6), PrimaryRays(camera, 320, 200, 1));
     for (const auto& rays : {PrimaryRays(camera, 1, 1, 1), PrimaryRays(camera, 77, 1024, 1),
                              PrimaryRays(camera, 640, 480, 5)}) {
@@ -239,7 +239,7 @@ TEST(Beam, MakesTheSameBeamsAtEveryResolution) {
 TEST(Beam, CountsABeamWhenItIsMade) {
   for (const char* name : {"tetra:n=5", "escena1", "escena2", "habitacion", "closed-room"}) {
     SCOPED_TRACE(name);
-    const Scene scene = load_scene(name);
+    const scenes::Scene scene = scenes::load_scene(name);
     const PrimaryRays rays(scene.cameras.front(), 16, 16, 1);
     const auto beams = counters_of(scene, options_with(6), rays);
     EXPECT_EQ(beams.at("beams_made"),
@@ -258,7 +258,7 @@ TEST(Beam, CountsTheBeamsOfMaceta) {
     int level;
     std::uint64_t entered, nonterminal, made, divided, passed_whole;
   };
-  const Scene scene = load_scene("maceta");
+  const scenes::Scene scene = scenes::load_scene("maceta");
   const PrimaryRays rays(scene.cameras.front(), 16, 16, 1);
   for (const Counts& expected : {Counts{6, 38'947, 30'619, 15'012, 6'684, 23'935},
                                  Counts{7, 406'956, 347'007, 111'054, 51'105, 295'902}}) {
@@ -273,10 +273,10 @@ TEST(Beam, CountsTheBeamsOfMaceta) {
 }
 
 TEST(Beam, CountsTheSameOnSeveralThreads) {
-  const Scene scene = load_scene("escena1");
+  const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 64, 48, 1);
   const auto alone = counters_of(scene, options_with(6), rays);
-  const BeamTracer tracer(scene, options_with(6));
+  const beam::BeamTracer tracer(scene, options_with(6));
   HitBuffer buffer(rays.width(), rays.height(), rays.samples());
   WorkCounters counters;
   tracer.trace_shared(rays, buffer, counters);
@@ -287,7 +287,7 @@ TEST(Beam, CountsTheSameOnSeveralThreads) {
 }
 
 TEST(Beam, MakesRaysOnlyBehindOccupiedLeaves) {
-  const Scene scene = load_scene("escena1");
+  const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 160, 100, 1);
   const auto counters = counters_of(scene, options_with(6), rays);
   EXPECT_EQ(counters.at("rays_by_handover"), 0U);
@@ -298,7 +298,7 @@ TEST(Beam, MakesRaysOnlyBehindOccupiedLeaves) {
   EXPECT_GT(counters.at("samples_leaving"), 0U);
   EXPECT_LE(counters.at("samples_leaving") + counters.at("samples_in_leaves"), rays.count());
 
-  BeamOptions handing = options_with(6);
+  beam::BeamOptions handing = options_with(6);
   handing.handover = 30;
   const auto handed = counters_of(scene, handing, rays);
   EXPECT_GT(handed.at("rays_by_handover"), 0U);
@@ -306,9 +306,9 @@ TEST(Beam, MakesRaysOnlyBehindOccupiedLeaves) {
 }
 
 TEST(Beam, SharesCornersBetweenPixels) {
-  const Scene scene = load_scene("tetra:n=4");
+  const scenes::Scene scene = scenes::load_scene("tetra:n=4");
   const PrimaryRays rays(scene.cameras.front(), 64, 48, 5);
-  BeamOptions shared = options_with(5);
+  beam::BeamOptions shared = options_with(5);
   shared.share_corners = true;
   const auto apart = counters_of(scene, options_with(5), rays);
   const auto together = counters_of(scene, shared, rays);
@@ -318,9 +318,9 @@ TEST(Beam, SharesCornersBetweenPixels) {
 }
 
 TEST(Beam, GoesOnBehindOccupiedLeavesWhenAsked) {
-  const Scene scene = load_scene("escena1");
+  const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 160, 100, 1);
-  BeamOptions beams = options_with(6);
+  beam::BeamOptions beams = options_with(6);
   beams.continue_with_rays = false;
   const auto counters = counters_of(scene, beams, rays);
   EXPECT_EQ(counters.at("rays_after_leaf"), 0U);
@@ -328,9 +328,9 @@ TEST(Beam, GoesOnBehindOccupiedLeavesWhenAsked) {
 }
 
 TEST(Beam, ShowsTheOutlinesOfItsBeams) {
-  const Scene scene = load_scene("escena2");
+  const scenes::Scene scene = scenes::load_scene("escena2");
   const PrimaryRays rays(scene.cameras.front(), 64, 48, 1);
-  const BeamTracer tracer(scene, options_with(5));
+  const beam::BeamTracer tracer(scene, options_with(5));
   const auto outlines = tracer.beam_outlines(rays);
   EXPECT_EQ(outlines.size(), counters_of(scene, options_with(5), rays).at("beams"));
   for (const BeamOutline& outline : outlines) {
@@ -345,4 +345,4 @@ TEST(Beam, ShowsTheOutlinesOfItsBeams) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

@@ -8,14 +8,14 @@
 #include <gtest/gtest.h>
 
 #include "accel/bvh/padded_bounds.hpp"
-#include "scenes/random.hpp"
+#include "scenes/core/random.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
-std::vector<Bounds> random_boxes(std::size_t count, std::uint64_t seed) {
+std::vector<scenes::Bounds> random_boxes(std::size_t count, std::uint64_t seed) {
   Random random(seed);
-  std::vector<Bounds> boxes;
+  std::vector<scenes::Bounds> boxes;
   for (std::size_t i = 0; i < count; ++i) {
     const glm::vec3 lower(random.unit(), random.unit(), random.unit());
     const glm::vec3 size(random.unit(), random.unit(), random.unit());
@@ -24,14 +24,15 @@ std::vector<Bounds> random_boxes(std::size_t count, std::uint64_t seed) {
   return boxes;
 }
 
-bool contains(const Bounds& outer, const Bounds& inner) {
-  return united(outer, inner).lower == outer.lower && united(outer, inner).upper == outer.upper;
+bool contains(const scenes::Bounds& outer, const scenes::Bounds& inner) {
+  return bvh::united(outer, inner).lower == outer.lower &&
+         bvh::united(outer, inner).upper == outer.upper;
 }
 
 /// Every box once, in a leaf of a size that is allowed; every node's box the union of what is
 /// below.
-void expect_valid(const BinaryBvh& bvh, const std::vector<Bounds>& boxes,
-                  const BvhOptions& options) {
+void expect_valid(const bvh::BinaryBvh& bvh, const std::vector<scenes::Bounds>& boxes,
+                  const bvh::BvhOptions& options) {
   ASSERT_EQ(bvh.items.size(), boxes.size());
   std::vector<std::uint32_t> items = bvh.items;
   std::sort(items.begin(), items.end());
@@ -40,8 +41,8 @@ void expect_valid(const BinaryBvh& bvh, const std::vector<Bounds>& boxes,
   std::vector<int> parents(bvh.nodes.size(), 0);
   std::size_t in_leaves = 0;
   for (std::uint32_t i = 0; i < bvh.nodes.size(); ++i) {
-    const BvhNode& node = bvh.nodes[i];
-    Bounds below;
+    const bvh::BvhNode& node = bvh.nodes[i];
+    scenes::Bounds below;
     if (node.is_leaf()) {
       EXPECT_LE(node.count, options.max_leaf);
       in_leaves += node.count;
@@ -62,7 +63,7 @@ void expect_valid(const BinaryBvh& bvh, const std::vector<Bounds>& boxes,
   EXPECT_EQ(in_leaves, boxes.size());
   EXPECT_EQ(std::count(parents.begin(), parents.end(), 1),
             static_cast<std::ptrdiff_t>(bvh.nodes.size()) - 1);
-  EXPECT_LE(bvh.depth, kMaxBvhDepth);
+  EXPECT_LE(bvh.depth, bvh::kMaxBvhDepth);
 }
 
 TEST(BvhBuilder, HoldsEveryBoxOnce) {
@@ -70,25 +71,25 @@ TEST(BvhBuilder, HoldsEveryBoxOnce) {
     for (const std::uint32_t max_leaf : {1U, 4U, 8U, 32U}) {
       SCOPED_TRACE(::testing::Message() << count << " boxes, leaves of " << max_leaf);
       const auto boxes = random_boxes(count, count);
-      BvhOptions options;
+      bvh::BvhOptions options;
       options.max_leaf = max_leaf;
-      expect_valid(build_bvh(boxes, options), boxes, options);
+      expect_valid(bvh::build_bvh(boxes, options), boxes, options);
     }
   }
 }
 
 TEST(BvhBuilder, NothingMakesNothing) {
-  const BinaryBvh bvh = build_bvh({}, {});
+  const bvh::BinaryBvh bvh = bvh::build_bvh({}, {});
   EXPECT_TRUE(bvh.nodes.empty());
-  EXPECT_EQ(sah_cost(bvh, {}), 0.0);
+  EXPECT_EQ(bvh::sah_cost(bvh, {}), 0.0);
 }
 
 TEST(BvhBuilder, InParallelTheSame) {
   const auto boxes = random_boxes(200'000, 9);
-  BvhOptions options;
-  const BinaryBvh serial = build_bvh(boxes, options);
+  bvh::BvhOptions options;
+  const bvh::BinaryBvh serial = bvh::build_bvh(boxes, options);
   options.parallel = true;
-  const BinaryBvh parallel = build_bvh(boxes, options);
+  const bvh::BinaryBvh parallel = bvh::build_bvh(boxes, options);
   EXPECT_EQ(serial.items, parallel.items);
   ASSERT_EQ(serial.nodes.size(), parallel.nodes.size());
   for (std::size_t i = 0; i < serial.nodes.size(); ++i) {
@@ -104,14 +105,14 @@ TEST(BvhBuilder, NoAxisIsPreferred) {
   const auto boxes = random_boxes(3000, 4);
   std::vector<double> costs;
   for (int turn = 0; turn < 3; ++turn) {
-    std::vector<Bounds> turned;
-    for (const Bounds& box : boxes) {
+    std::vector<scenes::Bounds> turned;
+    for (const scenes::Bounds& box : boxes) {
       const auto turned_point = [&](const glm::vec3& p) {
         return glm::vec3(p[turn], p[(turn + 1) % 3], p[(turn + 2) % 3]);
       };
       turned.push_back({turned_point(box.lower), turned_point(box.upper)});
     }
-    costs.push_back(sah_cost(build_bvh(turned, {}), {}));
+    costs.push_back(bvh::sah_cost(bvh::build_bvh(turned, {}), {}));
   }
   EXPECT_NEAR(costs[1], costs[0], 0.01 * costs[0]);
   EXPECT_NEAR(costs[2], costs[0], 0.01 * costs[0]);
@@ -119,45 +120,45 @@ TEST(BvhBuilder, NoAxisIsPreferred) {
 
 TEST(BvhBuilder, SplitsByAreaAndNotByCount) {
   // Eight boxes at one end, one far away: the middle of the items is the worst of splits.
-  std::vector<Bounds> boxes;
+  std::vector<scenes::Bounds> boxes;
   for (int i = 0; i < 8; ++i) {
     const auto at = static_cast<float>(i) * 0.01F;
     boxes.push_back({glm::vec3(at), glm::vec3(at + 0.01F)});
   }
   boxes.push_back({glm::vec3(10.0F), glm::vec3(11.0F)});
-  const BinaryBvh bvh = build_bvh(boxes, {});
+  const bvh::BinaryBvh bvh = bvh::build_bvh(boxes, {});
   ASSERT_EQ(bvh.nodes.size(), 3U);
   EXPECT_EQ(bvh.nodes[1].count, 8U);
   EXPECT_EQ(bvh.nodes[2].count, 1U);
 }
 
 TEST(BvhBuilder, AHeapInOnePlaceIsSplitInTheMiddle) {
-  const std::vector<Bounds> boxes(10'000, Bounds{glm::vec3(1.0F), glm::vec3(2.0F)});
-  const BvhOptions options;
-  const BinaryBvh bvh = build_bvh(boxes, options);
+  const std::vector<scenes::Bounds> boxes(10'000, scenes::Bounds{glm::vec3(1.0F), glm::vec3(2.0F)});
+  const bvh::BvhOptions options;
+  const bvh::BinaryBvh bvh = bvh::build_bvh(boxes, options);
   expect_valid(bvh, boxes, options);
   EXPECT_LE(bvh.depth, 12U) << "1 + log2(10,000 / 8)";
 }
 
 TEST(BvhBuilder, DepthIsBoundedWhateverTheBoxes) {
-  std::vector<Bounds> boxes;  // each split takes off the largest few only
+  std::vector<scenes::Bounds> boxes;  // each split takes off the largest few only
   for (int i = 0; i < 250; ++i) {
     const auto at = static_cast<float>(std::pow(1.7, i % 125) * 1e-28);
     boxes.push_back({glm::vec3(at), glm::vec3(at)});
   }
-  BvhOptions options;
+  bvh::BvhOptions options;
   options.max_leaf = 1;
-  expect_valid(build_bvh(boxes, options), boxes, options);
+  expect_valid(bvh::build_bvh(boxes, options), boxes, options);
 }
 
 TEST(BvhBuilder, GatheredChildrenAreTheNode) {
   const auto boxes = random_boxes(3000, 2);
-  const BinaryBvh bvh = build_bvh(boxes, {});
+  const bvh::BinaryBvh bvh = bvh::build_bvh(boxes, {});
   for (const std::size_t width : {2U, 4U, 8U, 16U}) {
     std::vector<std::uint32_t> children(width);
-    const std::size_t count = gather_children(bvh, 0, children);
+    const std::size_t count = bvh::gather_children(bvh, 0, children);
     EXPECT_EQ(count, width);
-    Bounds together;
+    scenes::Bounds together;
     for (const std::uint32_t child : children) {
       EXPECT_TRUE(contains(bvh.nodes[0].box, bvh.nodes[child].box));
       together.include(bvh.nodes[child].box);
@@ -170,4 +171,4 @@ TEST(BvhBuilder, GatheredChildrenAreTheNode) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

@@ -10,21 +10,21 @@
 
 #include "accel/beam/beam_cost.hpp"
 #include "accel/beam/beam_tracer.hpp"
-#include "accel/registry.hpp"
+#include "accel/core/registry.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
-void expect_same(const Octree& a, const Octree& b) {
+void expect_same(const octree::Octree& a, const octree::Octree& b) {
   ASSERT_EQ(a.nodes().size(), b.nodes().size());
   EXPECT_EQ(a.grid().cells, b.grid().cells);
   EXPECT_EQ(a.deepest_level(), b.deepest_level());
   for (std::size_t i = 0; i < a.nodes().size(); ++i) {
-    const OctreeNode& one = a.nodes()[i];
-    const OctreeNode& other = b.nodes()[i];
+    const octree::OctreeNode& one = a.nodes()[i];
+    const octree::OctreeNode& other = b.nodes()[i];
     ASSERT_TRUE(one.parent == other.parent && one.first == other.first && one.count == other.count)
         << "node " << i;
     if (!one.is_leaf()) continue;
@@ -35,27 +35,29 @@ void expect_same(const Octree& a, const Octree& b) {
 TEST(DeepenedOctree, IsTheOneBuiltAtOnce) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
-    const Scene scene = testing::random_scene(seed, 40);
-    OctreeOptions options;
+    const scenes::Scene scene = testing::random_scene(seed, 40);
+    octree::OctreeOptions options;
     options.max_objects = static_cast<std::uint32_t>(seed % 4);
-    options.root = seed % 2 == 0 ? OctreeOptions::Root::kCube : OctreeOptions::Root::kBox;
+    options.root =
+        seed % 2 == 0 ? octree::OctreeOptions::Root::kCube : octree::OctreeOptions::Root::kBox;
     options.max_level = static_cast<int>(1 + seed % 4);
-    const Octree coarser(scene, options);
+    const octree::Octree coarser(scene, options);
     options.max_level += static_cast<int>(1 + seed % 3);
-    expect_same(Octree(scene, options, coarser), Octree(scene, options));
+    expect_same(octree::Octree(scene, options, coarser), octree::Octree(scene, options));
   }
 }
 
-Octree chosen(const Scene& scene, std::size_t rays) {
-  OctreeOptions options;
-  options.max_level = OctreeOptions::kAutomatic;
-  return choose_octree(scene, options, {scene.cameras.front(), rays}, samet_trace_cost);
+octree::Octree chosen(const scenes::Scene& scene, std::size_t rays) {
+  octree::OctreeOptions options;
+  options.max_level = octree::OctreeOptions::kAutomatic;
+  return octree::choose_octree(scene, options, {scene.cameras.front(), rays},
+                               octree::samet_trace_cost);
 }
 
 TEST(ChooseOctree, MoreRaysAreWorthADeeperTree) {
   for (const char* name : {"delfines", "maceta", "tetra:n=6"}) {
     SCOPED_TRACE(name);
-    const Scene scene = load_scene(name);
+    const scenes::Scene scene = scenes::load_scene(name);
     int last = 0;
     for (const std::size_t rays : {1'000UL, 64'000UL, 1'300'000UL, 100'000'000UL}) {
       const int level = chosen(scene, rays).deepest_level();
@@ -67,55 +69,56 @@ TEST(ChooseOctree, MoreRaysAreWorthADeeperTree) {
 }
 
 TEST(ChooseOctree, GivenLevelsAreKept) {
-  const Scene scene = load_scene("delfines");
-  OctreeOptions options;
+  const scenes::Scene scene = scenes::load_scene("delfines");
+  octree::OctreeOptions options;
   options.max_level = 5;
-  expect_same(choose_octree(scene, options, usual_workload(scene), samet_trace_cost),
-              Octree(scene, options));
+  expect_same(
+      octree::choose_octree(scene, options, usual_workload(scene), octree::samet_trace_cost),
+      octree::Octree(scene, options));
 }
 
 TEST(ChooseOctree, StopsBeforeTheCapOnReferences) {
-  const Scene scene = load_scene("delfines");
+  const scenes::Scene scene = scenes::load_scene("delfines");
   const std::uint64_t free = chosen(scene, 100'000'000).statistics().references;
-  OctreeOptions options;
-  options.max_level = OctreeOptions::kAutomatic;
+  octree::OctreeOptions options;
+  options.max_level = octree::OctreeOptions::kAutomatic;
   options.max_references = free / 2;
-  const Octree octree =
-      choose_octree(scene, options, {scene.cameras.front(), 100'000'000}, samet_trace_cost);
+  const octree::Octree octree = octree::choose_octree(
+      scene, options, {scene.cameras.front(), 100'000'000}, octree::samet_trace_cost);
   EXPECT_LE(octree.statistics().references, options.max_references);
 }
 
 TEST(ChooseOctree, ScenesWithNothingToSplitEnd) {
-  const Scene empty = SceneBuilder("empty").build();
+  const scenes::Scene empty = scenes::SceneBuilder("empty").build();
   EXPECT_EQ(chosen(empty, 1'000'000).statistics().nodes, 1U);
 }
 
 /// The beams of an image as the tracer counts them.
-OctreeWork traced_beams(const BeamTracer& tracer, const Camera& camera) {
+octree::OctreeWork traced_beams(const beam::BeamTracer& tracer, const scenes::Camera& camera) {
   const PrimaryRays rays(camera, 64, 48, 1);
   HitBuffer hits(64, 48, 1);
   WorkCounters counters;
   tracer.trace(rays, hits, counters);
   const auto counts = counters.by_name();
-  OctreeWork work{};
+  octree::OctreeWork work{};
   work.nonterminal = static_cast<double>(counts.at("beams_nonterminal"));
   work.occupied = static_cast<double>(counts.at("beams_occupied"));
   return work;
 }
 
 TEST(CountBeams, EstimatesWhatTheTracerCounts) {
-  OctreeWork traced{};
-  OctreeWork estimated{};
+  octree::OctreeWork traced{};
+  octree::OctreeWork estimated{};
   for (const char* name : {"delfines", "maceta", "misil", "tetera", "stetra", "casa-de-campo"}) {
     SCOPED_TRACE(name);
-    const Scene scene = load_scene(name);
-    const Camera& camera = scene.cameras.front();
-    BeamOptions options;
+    const scenes::Scene scene = scenes::load_scene(name);
+    const scenes::Camera& camera = scene.cameras.front();
+    beam::BeamOptions options;
     options.octree.max_level = 6;
-    const BeamTracer tracer(scene, options);
-    const OctreeWork truth = traced_beams(tracer, camera);
-    OctreeWork work{};
-    count_beams(tracer.octree(), {camera, 64'000}, {}, work);
+    const beam::BeamTracer tracer(scene, options);
+    const octree::OctreeWork truth = traced_beams(tracer, camera);
+    octree::OctreeWork work{};
+    beam::count_beams(tracer.octree(), {camera, 64'000}, {}, work);
     // Beams crowd together at some edges, which a window shows or not.
     EXPECT_NEAR(work.nonterminal, truth.nonterminal, 0.5 * truth.nonterminal);
     EXPECT_NEAR(work.occupied, truth.occupied, 0.5 * truth.occupied);
@@ -131,24 +134,24 @@ TEST(CountBeams, EstimatesWhatTheTracerCounts) {
 }
 
 TEST(CountBeams, TakesSmallWindowsWhereManyAreExpected) {
-  const Scene scene = load_scene("stetra");
+  const scenes::Scene scene = scenes::load_scene("stetra");
   const Workload workload{scene.cameras.front(), 64'000};
-  OctreeOptions options;
+  octree::OctreeOptions options;
   options.max_level = 7;
-  const Octree octree(scene, options);
-  OctreeWork many{};
+  const octree::Octree octree(scene, options);
+  octree::OctreeWork many{};
   many.nonterminal = 1e9;
-  OctreeWork wide{};
-  OctreeWork small{};
-  count_beams(octree, workload, {}, wide);
-  count_beams(octree, workload, many, small);
+  octree::OctreeWork wide{};
+  octree::OctreeWork small{};
+  beam::count_beams(octree, workload, {}, wide);
+  beam::count_beams(octree, workload, many, small);
   EXPECT_GT(small.nonterminal, 0.5 * wide.nonterminal);
   EXPECT_LT(small.nonterminal, 2.0 * wide.nonterminal);
   EXPECT_NE(small.nonterminal, wide.nonterminal);
 }
 
 TEST(BeamCost, CrowdsOfBeamsMakeItChooseAShallowerTreeThanRaysDo) {
-  const Scene scene = load_scene("tetera");
+  const scenes::Scene scene = scenes::load_scene("tetera");
   const Workload workload{scene.cameras.front(), 64'000};
   const auto depth = [&](const std::string& spec) {
     return registry().choose(parse_spec(spec)).build(scene, workload)->statistics().depth;
@@ -158,4 +161,4 @@ TEST(BeamCost, CrowdsOfBeamsMakeItChooseAShallowerTreeThanRaysDo) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

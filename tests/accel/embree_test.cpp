@@ -10,20 +10,20 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include "accel/core/hit_buffer.hpp"
+#include "accel/core/registry.hpp"
 #include "accel/embree/isa.hpp"
 #include "accel/embree/oracle.hpp"
 #include "accel/embree/version.hpp"
-#include "accel/hit_buffer.hpp"
-#include "accel/registry.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/embree_modes.hpp"
 #include "tests/only_target.hpp"
 #include "tests/random_scene.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 using testing::embree_modes;
@@ -39,8 +39,8 @@ Ray ray(const glm::vec3& origin, const glm::vec3& direction) {
 
 /// Along the x axis: a sphere, one seen from inside only, a cylinder across, one from inside only,
 /// two polygons of one square at x = 12.
-Scene row_of_primitives() {
-  SceneBuilder builder("row");
+scenes::Scene row_of_primitives() {
+  scenes::SceneBuilder builder("row");
   builder.add_sphere({0.0, 0.0, 0.0}, 1.0);
   builder.add_sphere({3.0, 0.0, 0.0}, -1.0);
   builder.add_cone({6.0, 0.0, -1.0}, 1.0, {6.0, 0.0, 1.0}, 1.0);
@@ -52,15 +52,16 @@ Scene row_of_primitives() {
   return std::move(builder).build();
 }
 
-void expect_hit(const std::optional<ExactHit>& hit, double t, PrimitiveId primitive) {
+void expect_hit(const std::optional<embree::ExactHit>& hit, double t,
+                scenes::PrimitiveId primitive) {
   ASSERT_TRUE(hit.has_value());
   EXPECT_DOUBLE_EQ(hit->t, t);
   EXPECT_EQ(hit->primitive, primitive);
 }
 
 TEST(EmbreeOracle, HitsEachKindWhereItsDefinitionSays) {
-  const Scene scene = row_of_primitives();
-  const EmbreeOracle oracle(scene, 10.0);
+  const scenes::Scene scene = row_of_primitives();
+  const embree::EmbreeOracle oracle(scene, 10.0);
   Ray along = ray({-5.0F, 0.0F, 0.25F}, {2.0F, 0.0F, 0.0F});
   const double half = std::sqrt(1.0 - 0.0625);
   expect_hit(oracle.closest_hit(along), (5.0 - half) / 2.0, 0);
@@ -81,8 +82,8 @@ TEST(EmbreeOracle, HitsEachKindWhereItsDefinitionSays) {
 }
 
 TEST(EmbreeOracle, TakesTheRangeAsClosed) {
-  const Scene scene = row_of_primitives();
-  const EmbreeOracle oracle(scene, 10.0);
+  const scenes::Scene scene = row_of_primitives();
+  const embree::EmbreeOracle oracle(scene, 10.0);
   Ray exact = ray({10.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F});
   exact.t_min = 2.0F;
   exact.t_max = 2.0F;
@@ -95,16 +96,16 @@ TEST(EmbreeOracle, TakesTheRangeAsClosed) {
 }
 
 TEST(EmbreeOracle, SeesNoCapsOnACone) {
-  const Scene scene = row_of_primitives();
-  const EmbreeOracle oracle(scene, 10.0);
+  const scenes::Scene scene = row_of_primitives();
+  const embree::EmbreeOracle oracle(scene, 10.0);
   EXPECT_FALSE(oracle.any_hit(ray({6.0F, 0.0F, -5.0F}, {0.0F, 0.0F, 1.0F})));
   EXPECT_TRUE(oracle.any_hit(ray({6.0F, 0.0F, -5.0F}, {0.2F, 0.0F, 1.0F})));
 }
 
 TEST(EmbreeOracle, LosesNoRayAtTheVerticesOfAClosedMesh) {
-  const Scene scene = load_scene("bumpy:triangles=5000");
+  const scenes::Scene scene = scenes::load_scene("bumpy:triangles=5000");
   const glm::vec3 inside(0.1F, -0.2F, 0.05F);  // from here no vertex is on a silhouette
-  const EmbreeOracle oracle(scene, glm::length(inside));
+  const embree::EmbreeOracle oracle(scene, glm::length(inside));
   for (const glm::vec3& vertex : scene.vertices) {
     const Ray aimed = ray(inside, vertex - inside);
     ASSERT_TRUE(oracle.any_hit(aimed));
@@ -114,17 +115,17 @@ TEST(EmbreeOracle, LosesNoRayAtTheVerticesOfAClosedMesh) {
 
 TEST(EmbreeOracle, AnswersAnyHitAsClosestHit) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const Scene scene = random_scene(seed, 30);
-    const EmbreeOracle oracle(scene, 20'000.0);
+    const scenes::Scene scene = verify::random_scene(seed, 30);
+    const embree::EmbreeOracle oracle(scene, 20'000.0);
     Random random(seed);
     for (int i = 0; i < 200; ++i) {
-      const Ray shot = random_ray(scene, random);
+      const Ray shot = verify::random_ray(scene, random);
       ASSERT_EQ(oracle.any_hit(shot), oracle.closest_hit(shot).has_value()) << scene.name;
     }
   }
 }
 
-std::unique_ptr<Accelerator> embree(const std::string& parameters, const Scene& scene) {
+std::unique_ptr<Accelerator> embree(const std::string& parameters, const scenes::Scene& scene) {
   return registry().choose(parse_spec("embree:" + parameters)).build(scene);
 }
 
@@ -132,10 +133,10 @@ class EmbreeModes : public ::testing::TestWithParam<std::string> {
  protected:
   std::string mode() const { return "mode=" + GetParam(); }
 };
-INSTANTIATE_TEST_SUITE_P(All, EmbreeModes, ::testing::ValuesIn(embree_modes()));
+INSTANTIATE_TEST_SUITE_P(All, EmbreeModes, ::testing::ValuesIn(testing::embree_modes()));
 
 TEST_P(EmbreeModes, WriteEverySampleOfAnImageOfAnySize) {
-  const Scene scene = row_of_primitives();  // user geometry meets packets, too
+  const scenes::Scene scene = row_of_primitives();  // user geometry meets packets, too
   const auto structure = embree(mode(), scene);
   for (const auto& [width, height, samples] :
        {std::tuple(1, 1, 1), std::tuple(17, 5, 1), std::tuple(3, 18, 4), std::tuple(33, 31, 5)}) {
@@ -164,8 +165,8 @@ TEST_P(EmbreeModes, WriteEverySampleOfAnImageOfAnySize) {
 }
 
 /// A camera at some distance and a random angle.
-Camera random_camera(Random& random) {
-  Camera camera;
+scenes::Camera random_camera(Random& random) {
+  scenes::Camera camera;
   const auto number = [&] { return static_cast<float>(random.uniform(-1.0, 1.0)); };
   camera.from = {30.0F * number(), 25.0F + number(), 30.0F * number()};
   camera.at = {3.0F * number(), number(), number()};
@@ -177,8 +178,8 @@ Camera random_camera(Random& random) {
 
 /// Hollow spheres seen from the inside only and cones, scattered: user geometry, whose t comes from
 /// our own test in double, whatever packet the ray came in. A ray that differs in one bit shows.
-Scene user_primitives(Random& random) {
-  SceneBuilder builder("user primitives");
+scenes::Scene user_primitives(Random& random) {
+  scenes::SceneBuilder builder("user primitives");
   const auto place = [&] {
     return glm::dvec3(random.uniform(-12.0, 12.0), random.uniform(-12.0, 12.0),
                       random.uniform(-12.0, 12.0));
@@ -192,7 +193,7 @@ Scene user_primitives(Random& random) {
 
 TEST_P(EmbreeModes, TraceTheVeryRaysOfTheImageOnEveryInstructionSet) {
   Random random(7);
-  const Scene scene = user_primitives(random);
+  const scenes::Scene scene = user_primitives(random);
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));
     const testing::OnlyTarget only(target);
@@ -217,7 +218,7 @@ TEST_P(EmbreeModes, TraceTheVeryRaysOfTheImageOnEveryInstructionSet) {
 }
 
 TEST_P(EmbreeModes, MissEverythingInAnEmptyScene) {
-  const Scene scene = SceneBuilder("empty").build();
+  const scenes::Scene scene = scenes::SceneBuilder("empty").build();
   const auto structure = embree(mode(), scene);
   const PrimaryRays rays(scene.cameras.front(), 20, 20, 1);
   HitBuffer buffer(20, 20, 1);
@@ -228,12 +229,12 @@ TEST_P(EmbreeModes, MissEverythingInAnEmptyScene) {
 
 TEST(Embree, AnswersAnyHitAsClosestHit) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Scene scene = random_scene(seed, 30);
+    const scenes::Scene scene = verify::random_scene(seed, 30);
     const auto structure = embree("mode=single", scene);
     Random random(seed);
     int differences = 0;
     for (int i = 0; i < 200; ++i) {
-      const Ray shot = random_ray(scene, random);
+      const Ray shot = verify::random_ray(scene, random);
       differences += structure->any_hit(shot) != structure->closest_hit(shot).has_value() ? 1 : 0;
     }
     EXPECT_LE(differences, 1) << scene.name;  // float kernels: a grazing ray may go either way
@@ -241,7 +242,7 @@ TEST(Embree, AnswersAnyHitAsClosestHit) {
 }
 
 TEST(Embree, TellsItsMemoryAndWhatItHolds) {
-  const Scene scene = load_scene("balls:n=3");
+  const scenes::Scene scene = scenes::load_scene("balls:n=3");
   const Statistics statistics = embree("quality=medium", scene)->statistics();
   EXPECT_GT(statistics.bytes, scene.primitives.size() * 16);
   EXPECT_LT(statistics.bytes, scene.primitives.size() * 2000);
@@ -252,12 +253,12 @@ TEST(Embree, TellsItsMemoryAndWhatItHolds) {
 
 TEST(Embree, HasStreamsBeforeVersion4) {
   std::vector<std::string> expected = {"single", "packet4", "packet8", "packet16"};
-  if (embree_version().starts_with("3.")) expected.emplace_back("stream");
-  EXPECT_EQ(embree_modes(), expected);
+  if (embree::embree_version().starts_with("3.")) expected.emplace_back("stream");
+  EXPECT_EQ(testing::embree_modes(), expected);
 }
 
 TEST(Embree, RefusesAnUnknownMode) {
-  const Scene scene = row_of_primitives();
+  const scenes::Scene scene = row_of_primitives();
   EXPECT_THROW(embree("mode=packet32", scene), InputError);
 }
 
@@ -277,7 +278,7 @@ TEST(Embree, ReadsItsInstructionSetOffWhatItPrints) {
 }
 
 TEST(Embree, IsHeldToAnInstructionSet) {
-  const Scene scene = load_scene("tetra:n=3");
+  const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const PrimaryRays rays(scene.cameras.front(), 40, 30, 1);
   HitBuffer best(40, 30, 1);
   embree("mode=packet8", scene)->trace(rays, best);
@@ -291,17 +292,17 @@ TEST(Embree, IsHeldToAnInstructionSet) {
                   best.t()[i] == kInfinity ? 0.0F : best.t()[i], 1e-5F);
     }
   }
-  EXPECT_EQ(embree("mode=single", scene)->statistics().instruction_set, embree_isa());
+  EXPECT_EQ(embree("mode=single", scene)->statistics().instruction_set, embree::embree_isa());
 }
 
 // Streams are made in packets as wide as the instruction set's registers: 4, 8 or 16 rays.
 TEST(Embree, OfEachInstructionSetEveryModeGivesTheHitsOfSingleRays) {
-  const Scene scene = load_scene("tetra:n=3");
+  const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const PrimaryRays rays(scene.cameras.front(), 45, 35, 5);  // tiles and blocks that are cut off
   for (const char* isa : {"best", "avx2", "sse4"}) {
     HitBuffer single(45, 35, 5);
     embree(fmt::format("mode=single,isa={}", isa), scene)->trace(rays, single);
-    for (const std::string& mode : embree_modes()) {
+    for (const std::string& mode : testing::embree_modes()) {
       HitBuffer hits(45, 35, 5);
       embree(fmt::format("mode={},isa={}", mode, isa), scene)->trace(rays, hits);
       for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -314,17 +315,17 @@ TEST(Embree, OfEachInstructionSetEveryModeGivesTheHitsOfSingleRays) {
 }
 
 TEST(Embree, NamesTheTypesOfItsGeometry) {
-  const auto types = [](const Scene& scene) {
+  const auto types = [](const scenes::Scene& scene) {
     return embree("mode=single", scene)->statistics().library_geometry;
   };
-  EXPECT_EQ(types(load_scene("tetra:n=1")), "triangles");
-  EXPECT_EQ(types(load_scene("balls:n=1")), "triangles+points");
+  EXPECT_EQ(types(scenes::load_scene("tetra:n=1")), "triangles");
+  EXPECT_EQ(types(scenes::load_scene("balls:n=1")), "triangles+points");
   EXPECT_EQ(types(row_of_primitives()), "triangles+points+callbacks");
 }
 
 // What is subtracted from Embree's times is the time of making the same rays, with a miss for each.
 TEST(Embree, TheNullOfItsOwnRaysAnswersEveryRayOfAnImage) {
-  const Scene scene = load_scene("tetra:n=1");
+  const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   const auto null = registry().choose({"null", {{"rays", "simd"}}}).build(scene);
   EXPECT_EQ(null->statistics().image_rays, embree("mode=packet8", scene)->statistics().image_rays);
   for (const int samples : {1, 5}) {
@@ -344,18 +345,19 @@ TEST(Embree, TheNullOfItsOwnRaysAnswersEveryRayOfAnImage) {
 }
 
 TEST(Embree, RefusesAnInstructionSetThatTheMachineLacks) {
-  const Scene scene = row_of_primitives();
+  const scenes::Scene scene = row_of_primitives();
   const testing::OnlyTarget only(HWY_SSE4);
-  EXPECT_TRUE(says(thrown_message([&] { embree("isa=avx2", scene); }),
-                   {"avx2", "does not have", "isa=best"}));
+  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { embree("isa=avx2", scene); }),
+                           {"avx2", "does not have", "isa=best"}));
   EXPECT_NO_THROW(embree("isa=best", scene)) << "Embree runs on more than is asked for";
 }
 
 TEST(Embree, TellsItsVersionAndInstructionSet) {
-  EXPECT_TRUE(embree_version().starts_with("3.") || embree_version().starts_with("4."));
-  EXPECT_NE(embree_isa(), "unknown");
-  EXPECT_EQ(embree_isa(), embree_isa());
+  EXPECT_TRUE(embree::embree_version().starts_with("3.") ||
+              embree::embree_version().starts_with("4."));
+  EXPECT_NE(embree::embree_isa(), "unknown");
+  EXPECT_EQ(embree::embree_isa(), embree::embree_isa());
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

@@ -5,17 +5,17 @@
 
 #include <gtest/gtest.h>
 
+#include "accel/core/registry.hpp"
 #include "accel/octree/samet.hpp"
-#include "accel/registry.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 /// Two triangles in opposite corners of [0, 4]^3: eight leaves of size 2, six of them empty.
-Scene two_corners() {
-  SceneBuilder builder("two corners");
+scenes::Scene two_corners() {
+  scenes::SceneBuilder builder("two corners");
   const std::array<glm::dvec3, 3> low{{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}};
   const std::array<glm::dvec3, 3> high{{{3.0, 3.0, 4.0}, {4.0, 3.0, 4.0}, {4.0, 4.0, 4.0}}};
   builder.add_polygon(low);
@@ -23,8 +23,8 @@ Scene two_corners() {
   return std::move(builder).build();
 }
 
-OctreeOptions eight_cells() {
-  OctreeOptions options;
+octree::OctreeOptions eight_cells() {
+  octree::OctreeOptions options;
   options.max_level = 2;
   options.pad = 0.0;
   return options;
@@ -46,8 +46,8 @@ void expect_leaf(const TraceStep& step, std::uint64_t index, const glm::dvec3& l
 }
 
 TEST(Explain, SametWalksASmallOctreeAsByHand) {
-  const Scene scene = two_corners();
-  const Samet samet(scene, eight_cells());
+  const scenes::Scene scene = two_corners();
+  const octree::Samet samet(scene, eight_cells());
   Ray ray;
   ray.origin = {3.25F, 0.25F, 1.5F};
   ray.direction = {-1.0F, 0.0F, -0.5F};
@@ -65,8 +65,8 @@ TEST(Explain, SametWalksASmallOctreeAsByHand) {
 }
 
 TEST(Explain, ATestThatFindsNothingIsAMiss) {
-  const Scene scene = two_corners();
-  const Samet samet(scene, eight_cells());
+  const scenes::Scene scene = two_corners();
+  const octree::Samet samet(scene, eight_cells());
   Ray ray;
   ray.origin = {3.25F, 3.75F, 10.0F};  // beside the upper triangle, in its cell
 
@@ -81,10 +81,10 @@ TEST(Explain, ATestThatFindsNothingIsAMiss) {
 }
 
 TEST(Explain, ARayThatPassesByEntersNothing) {
-  const Scene scene = two_corners();
+  const scenes::Scene scene = two_corners();
   Ray ray;
   ray.origin = {9.0F, 9.0F, 9.0F};
-  EXPECT_TRUE(Samet(scene, eight_cells()).explain(ray).empty());
+  EXPECT_TRUE(octree::Samet(scene, eight_cells()).explain(ray).empty());
 }
 
 std::optional<Hit> nearest(const std::vector<TraceStep>& steps) {
@@ -102,7 +102,7 @@ std::optional<Hit> nearest(const std::vector<TraceStep>& steps) {
 TEST(Explain, TellsTheWorkThatIsCountedAndTheHitThatIsFound) {
   int told = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const Scene scene = testing::random_scene(seed, 30);
+    const scenes::Scene scene = testing::random_scene(seed, 30);
     for (const StructureInfo& info : registry().structures()) {
       const auto structure = registry().choose(Spec{info.name, {}}).build(scene);
       Random random(seed);
@@ -127,8 +127,8 @@ TEST(Explain, TellsTheWorkThatIsCountedAndTheHitThatIsFound) {
 
 TEST(Explain, SametsLeavesFollowEachOther) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const Scene scene = testing::random_scene(seed, 20);
-    const Samet samet(scene, {});
+    const scenes::Scene scene = testing::random_scene(seed, 20);
+    const octree::Samet samet(scene, {});
     Random random(seed);
     const std::vector<TraceStep> steps = samet.explain(testing::random_ray(scene, random));
     for (std::size_t i = 1; i < steps.size(); ++i) {
@@ -138,4 +138,4 @@ TEST(Explain, SametsLeavesFollowEachOther) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

@@ -11,27 +11,28 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "accel/core/registry.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
-#include "accel/registry.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
-using Order = GoldsmithSalmonOptions::Order;
+using Order = bvh::GoldsmithSalmonOptions::Order;
 
-GoldsmithSalmonOptions options_for(Order order, Insertion insertion = Insertion::kEverywhere) {
-  GoldsmithSalmonOptions options;
+bvh::GoldsmithSalmonOptions options_for(Order order,
+                                        bvh::Insertion insertion = bvh::Insertion::kEverywhere) {
+  bvh::GoldsmithSalmonOptions options;
   options.order = order;
   options.insertion = insertion;
   return options;
 }
 
-constexpr std::array kInsertions{Insertion::kEverywhere, Insertion::kTerminal};
+constexpr std::array kInsertions{bvh::Insertion::kEverywhere, bvh::Insertion::kTerminal};
 
-bool contains(const Bounds& outer, const Bounds& inner) {
+bool contains(const scenes::Bounds& outer, const scenes::Bounds& inner) {
   for (int axis = 0; axis < 3; ++axis) {
     if (inner.lower[axis] < outer.lower[axis] || inner.upper[axis] > outer.upper[axis]) {
       return false;
@@ -42,7 +43,7 @@ bool contains(const Bounds& outer, const Bounds& inner) {
 
 /// Every primitive once and within its box; every box the union of those below it; volumes with at
 /// least two children (the root may have one).
-void expect_valid(const InsertionHierarchy& hierarchy, const Scene& scene) {
+void expect_valid(const bvh::InsertionHierarchy& hierarchy, const scenes::Scene& scene) {
   const auto& entries = hierarchy.entries;
   std::vector<int> seen(scene.primitives.size(), 0);
   std::uint64_t volumes = 0;
@@ -52,11 +53,11 @@ void expect_valid(const InsertionHierarchy& hierarchy, const Scene& scene) {
     if (!entries[i].is_volume()) {
       ASSERT_EQ(entries[i].end, i + 1);
       ++seen[entries[i].primitive];
-      EXPECT_TRUE(contains(entries[i].box, primitive_bounds(scene, entries[i].primitive)));
+      EXPECT_TRUE(contains(entries[i].box, scenes::primitive_bounds(scene, entries[i].primitive)));
       continue;
     }
     ++volumes;
-    Bounds below;
+    scenes::Bounds below;
     std::uint64_t children = 0;
     for (std::uint32_t child = i + 1; child < entries[i].end; child = entries[child].end) {
       ASSERT_LE(entries[child].end, entries[i].end) << "a child reaches beyond its parent";
@@ -76,43 +77,43 @@ void expect_valid(const InsertionHierarchy& hierarchy, const Scene& scene) {
 TEST(GoldsmithSalmon, HoldsEveryPrimitiveOnceInBoxesThatFit) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
-    const Scene scene = testing::random_scene(seed, static_cast<int>(1 + seed * 3));
+    const scenes::Scene scene = testing::random_scene(seed, static_cast<int>(1 + seed * 3));
     for (const Order order : {Order::kGiven, Order::kShuffled, Order::kSorted}) {
-      for (const Insertion insertion : kInsertions) {
-        expect_valid(GoldsmithSalmon(scene, options_for(order, insertion)).hierarchy(), scene);
+      for (const bvh::Insertion insertion : kInsertions) {
+        expect_valid(bvh::GoldsmithSalmon(scene, options_for(order, insertion)).hierarchy(), scene);
       }
     }
   }
   for (const char* name : {"balls:n=3", "tetra:n=4", "bumpy:triangles=3072"}) {
     SCOPED_TRACE(name);
-    const Scene scene = load_scene(name);
-    for (const Insertion insertion : kInsertions) {
-      expect_valid(GoldsmithSalmon(scene, options_for(Order::kGiven, insertion)).hierarchy(),
+    const scenes::Scene scene = scenes::load_scene(name);
+    for (const bvh::Insertion insertion : kInsertions) {
+      expect_valid(bvh::GoldsmithSalmon(scene, options_for(Order::kGiven, insertion)).hierarchy(),
                    scene);
     }
   }
 }
 
-Bounds cube(float low, float high) { return {glm::vec3(low), glm::vec3(high)}; }
+scenes::Bounds cube(float low, float high) { return {glm::vec3(low), glm::vec3(high)}; }
 
-InsertionHierarchy insert_in_order(const std::vector<Bounds>& boxes,
-                                   Insertion insertion = Insertion::kEverywhere) {
-  std::vector<PrimitiveId> order(boxes.size());
-  for (PrimitiveId id = 0; id < order.size(); ++id) order[id] = id;
-  return build_by_insertion(boxes, order, insertion);
+bvh::InsertionHierarchy insert_in_order(const std::vector<scenes::Bounds>& boxes,
+                                        bvh::Insertion insertion = bvh::Insertion::kEverywhere) {
+  std::vector<scenes::PrimitiveId> order(boxes.size());
+  for (scenes::PrimitiveId id = 0; id < order.size(); ++id) order[id] = id;
+  return bvh::build_by_insertion(boxes, order, insertion);
 }
 
 // Half areas: a cube of side s has 3 s^2.
 TEST(GoldsmithSalmon, ChoosesAsByHand) {
   // Two cubes of side 1 at either end of a cube of side 10; the third lies beside the first. One
   // more child of the root: 300. A pair with the first, two units long: 2 x 12 = 24.
-  const InsertionHierarchy paired = insert_in_order({cube(0, 1), cube(9, 10), cube(1, 2)});
+  const bvh::InsertionHierarchy paired = insert_in_order({cube(0, 1), cube(9, 10), cube(1, 2)});
   EXPECT_EQ(paired.volumes, 2U);
   EXPECT_DOUBLE_EQ(paired.cost, 2.0 + 2.0 * 12.0 / 300.0);
 
   // The fourth lies within the pair: one more child there costs 12; a pair with one of its cubes of
   // side 1 and an overlap of one half, of side 1.5: 13.5.
-  const InsertionHierarchy wider =
+  const bvh::InsertionHierarchy wider =
       insert_in_order({cube(0, 1), cube(9, 10), cube(1, 2), cube(0.5F, 1.5F)});
   EXPECT_EQ(wider.volumes, 2U);
   EXPECT_EQ(wider.widest, 3U);
@@ -120,7 +121,7 @@ TEST(GoldsmithSalmon, ChoosesAsByHand) {
 
   // Three cubes in one place share a volume; far away a fourth would make it grow by 3 x 297 more
   // than a new root above both.
-  const InsertionHierarchy above =
+  const bvh::InsertionHierarchy above =
       insert_in_order({cube(0, 1), cube(0, 1), cube(0, 1), cube(9, 10)});
   EXPECT_EQ(above.volumes, 2U);
   EXPECT_EQ(above.depth, 2U);
@@ -129,29 +130,29 @@ TEST(GoldsmithSalmon, ChoosesAsByHand) {
 
 TEST(GoldsmithSalmon, ChoosesBesideTheTerminalNodeByHand) {
   // The third cube's way ends at the first cube. One more child of the root: 300. A pair: 24.
-  const InsertionHierarchy paired =
-      insert_in_order({cube(0, 1), cube(9, 10), cube(1, 2)}, Insertion::kTerminal);
+  const bvh::InsertionHierarchy paired =
+      insert_in_order({cube(0, 1), cube(9, 10), cube(1, 2)}, bvh::Insertion::kTerminal);
   EXPECT_EQ(paired.volumes, 2U);
   EXPECT_DOUBLE_EQ(paired.cost, 2.0 + 2.0 * 12.0 / 300.0);
 
   // The fourth goes into the pair, to one of its two cubes: beside it 12, with it 2 x 6.75.
-  const InsertionHierarchy wider = insert_in_order(
-      {cube(0, 1), cube(9, 10), cube(1, 2), cube(0.5F, 1.5F)}, Insertion::kTerminal);
+  const bvh::InsertionHierarchy wider = insert_in_order(
+      {cube(0, 1), cube(9, 10), cube(1, 2), cube(0.5F, 1.5F)}, bvh::Insertion::kTerminal);
   EXPECT_EQ(wider.volumes, 2U);
   EXPECT_EQ(wider.widest, 3U);
   EXPECT_DOUBLE_EQ(wider.cost, 2.0 + 3.0 * 12.0 / 300.0);
 
   // No volume is put above one that is passed: the far cube grows the only one and stays in it.
-  const InsertionHierarchy below =
-      insert_in_order({cube(0, 1), cube(0, 1), cube(0, 1), cube(9, 10)}, Insertion::kTerminal);
+  const bvh::InsertionHierarchy below =
+      insert_in_order({cube(0, 1), cube(0, 1), cube(0, 1), cube(9, 10)}, bvh::Insertion::kTerminal);
   EXPECT_EQ(below.volumes, 1U);
   EXPECT_DOUBLE_EQ(below.cost, 4.0);
 
   // The least growth leads into a volume, or to an object beside it: the fourth into the pair at 0,
   // the fifth to the cube at 9, with which it makes a pair in the root.
-  const InsertionHierarchy two =
+  const bvh::InsertionHierarchy two =
       insert_in_order({cube(0, 1), cube(9, 10), cube(1, 2), cube(0.5F, 1.5F), cube(8.5F, 9.5F)},
-                      Insertion::kTerminal);
+                      bvh::Insertion::kTerminal);
   EXPECT_EQ(two.volumes, 3U);
   EXPECT_DOUBLE_EQ(two.cost, 2.0 + 3.0 * 12.0 / 300.0 + 2.0 * 6.75 / 300.0);
 }
@@ -161,27 +162,27 @@ TEST(GoldsmithSalmon, ChoosesBesideTheTerminalNodeByHand) {
 TEST(GoldsmithSalmon, HasTheseSizesInScenesOfTheThesis) {
   struct Sizes {
     const char* scene;
-    Insertion insertion;
+    bvh::Insertion insertion;
     std::uint64_t boxes;
     double cost;
   };
-  for (const Sizes& expected : {Sizes{"tetera", Insertion::kEverywhere, 449, 25.749},
-                                Sizes{"tetera", Insertion::kTerminal, 385, 70.362},
-                                Sizes{"bola-espacial", Insertion::kEverywhere, 825, 57.483},
-                                Sizes{"bola-espacial", Insertion::kTerminal, 890, 103.104},
-                                Sizes{"escena1", Insertion::kEverywhere, 296, 56.212},
-                                Sizes{"escena1", Insertion::kTerminal, 293, 59.849}}) {
+  for (const Sizes& expected : {Sizes{"tetera", bvh::Insertion::kEverywhere, 449, 25.749},
+                                Sizes{"tetera", bvh::Insertion::kTerminal, 385, 70.362},
+                                Sizes{"bola-espacial", bvh::Insertion::kEverywhere, 825, 57.483},
+                                Sizes{"bola-espacial", bvh::Insertion::kTerminal, 890, 103.104},
+                                Sizes{"escena1", bvh::Insertion::kEverywhere, 296, 56.212},
+                                Sizes{"escena1", bvh::Insertion::kTerminal, 293, 59.849}}) {
     SCOPED_TRACE(expected.scene);
-    const Scene scene = load_scene(expected.scene);
-    const GoldsmithSalmon structure(scene, options_for(Order::kGiven, expected.insertion));
+    const scenes::Scene scene = scenes::load_scene(expected.scene);
+    const bvh::GoldsmithSalmon structure(scene, options_for(Order::kGiven, expected.insertion));
     EXPECT_EQ(structure.hierarchy().volumes, expected.boxes);
     EXPECT_NEAR(structure.hierarchy().cost, expected.cost, 0.001);
   }
 }
 
 TEST(GoldsmithSalmon, StatisticsTellSizeAndCost) {
-  const Scene scene = load_scene("escena1");
-  const GoldsmithSalmon structure(scene, {});
+  const scenes::Scene scene = scenes::load_scene("escena1");
+  const bvh::GoldsmithSalmon structure(scene, {});
   const Statistics statistics = structure.statistics();
   EXPECT_EQ(statistics.references, 430U);
   EXPECT_EQ(statistics.nodes, structure.hierarchy().volumes);
@@ -191,13 +192,13 @@ TEST(GoldsmithSalmon, StatisticsTellSizeAndCost) {
 }
 
 TEST(GoldsmithSalmon, OrderMattersToTheTreeAndNotToTheHits) {
-  const Scene scene = load_scene("bumpy:triangles=3072");
-  const Exhaustive exhaustive(scene);
+  const scenes::Scene scene = scenes::load_scene("bumpy:triangles=3072");
+  const exhaustive::Exhaustive exhaustive(scene);
   Random random(5);
-  for (const Insertion insertion : kInsertions) {
+  for (const bvh::Insertion insertion : kInsertions) {
     std::vector<double> costs;
     for (const Order order : {Order::kGiven, Order::kShuffled, Order::kSorted}) {
-      const GoldsmithSalmon structure(scene, options_for(order, insertion));
+      const bvh::GoldsmithSalmon structure(scene, options_for(order, insertion));
       costs.push_back(structure.hierarchy().cost);
       for (int i = 0; i < 300; ++i) {
         const Ray ray = testing::random_ray(scene, random);
@@ -207,19 +208,19 @@ TEST(GoldsmithSalmon, OrderMattersToTheTreeAndNotToTheHits) {
     }
     EXPECT_LT(costs[1], costs[0]) << "a mesh in its own order makes a worse tree than at random";
     EXPECT_NE(costs[0], costs[2]);
-    GoldsmithSalmonOptions other_seed = options_for(Order::kShuffled, insertion);
+    bvh::GoldsmithSalmonOptions other_seed = options_for(Order::kShuffled, insertion);
     other_seed.seed = 2;
-    EXPECT_NE(GoldsmithSalmon(scene, other_seed).hierarchy().cost, costs[1]);
+    EXPECT_NE(bvh::GoldsmithSalmon(scene, other_seed).hierarchy().cost, costs[1]);
   }
 }
 
 TEST(GoldsmithSalmon, BothInsertionsGiveTheHitsOfExhaustiveSearch) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
-    const Scene scene = testing::random_scene(seed, static_cast<int>(1 + seed * 3));
-    const Exhaustive exhaustive(scene);
-    for (const Insertion insertion : kInsertions) {
-      const GoldsmithSalmon structure(scene, options_for(Order::kGiven, insertion));
+    const scenes::Scene scene = testing::random_scene(seed, static_cast<int>(1 + seed * 3));
+    const exhaustive::Exhaustive exhaustive(scene);
+    for (const bvh::Insertion insertion : kInsertions) {
+      const bvh::GoldsmithSalmon structure(scene, options_for(Order::kGiven, insertion));
       Random random(seed);
       for (int i = 0; i < 100; ++i) {
         const Ray ray = testing::random_ray(scene, random);
@@ -235,14 +236,14 @@ TEST(GoldsmithSalmon, BothInsertionsGiveTheHitsOfExhaustiveSearch) {
 TEST(GoldsmithSalmon, TheQueueEntersNoMoreThanTheStack) {
   for (const char* name : {"balls:n=3", "tetra:n=5", "escena1"}) {
     SCOPED_TRACE(name);
-    const Scene scene = load_scene(name);
-    GoldsmithSalmonOptions stack;
-    stack.queue = GoldsmithSalmonOptions::Queue::kStack;
+    const scenes::Scene scene = scenes::load_scene(name);
+    bvh::GoldsmithSalmonOptions stack;
+    stack.queue = bvh::GoldsmithSalmonOptions::Queue::kStack;
     std::array<HitBuffer, 2> hits{HitBuffer(64, 64, 1), HitBuffer(64, 64, 1)};
     std::array<WorkCounters, 2> work;
     const PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
-    GoldsmithSalmon(scene, {}).trace(rays, hits[0], work[0]);
-    GoldsmithSalmon(scene, stack).trace(rays, hits[1], work[1]);
+    bvh::GoldsmithSalmon(scene, {}).trace(rays, hits[0], work[0]);
+    bvh::GoldsmithSalmon(scene, stack).trace(rays, hits[1], work[1]);
     EXPECT_EQ(hits[0], hits[1]);
     EXPECT_LE(work[0].get(Counter::kTraversalSteps), work[1].get(Counter::kTraversalSteps));
     EXPECT_LE(work[0].get(Counter::kBoxTests), work[1].get(Counter::kBoxTests));
@@ -250,19 +251,19 @@ TEST(GoldsmithSalmon, TheQueueEntersNoMoreThanTheStack) {
 }
 
 /// Boxes weighed for each object.
-double work_a_primitive(const Scene& scene, const GoldsmithSalmonOptions& options) {
-  const GoldsmithSalmon structure(scene, options);
+double work_a_primitive(const scenes::Scene& scene, const bvh::GoldsmithSalmonOptions& options) {
+  const bvh::GoldsmithSalmon structure(scene, options);
   return static_cast<double>(structure.hierarchy().boxes_weighed) /
          static_cast<double>(scene.primitives.size());
 }
 
 TEST(GoldsmithSalmon, BuildingIsFarFromQuadratic) {
-  const Scene small_scene = load_scene("bumpy:triangles=4000");
-  const Scene large_scene = load_scene("bumpy:triangles=64000");
+  const scenes::Scene small_scene = scenes::load_scene("bumpy:triangles=4000");
+  const scenes::Scene large_scene = scenes::load_scene("bumpy:triangles=64000");
   // 16 times as many; when this was written, the work a primitive grew 2.0 times at most where the
   // object may be placed anywhere, 3.6 times where the terminal node decides.
   for (const auto& [insertion, growth] :
-       {std::pair(Insertion::kEverywhere, 3.0), std::pair(Insertion::kTerminal, 4.5)}) {
+       {std::pair(bvh::Insertion::kEverywhere, 3.0), std::pair(bvh::Insertion::kTerminal, 4.5)}) {
     for (const Order order : {Order::kGiven, Order::kShuffled, Order::kSorted}) {
       const double small = work_a_primitive(small_scene, options_for(order, insertion));
       const double large = work_a_primitive(large_scene, options_for(order, insertion));
@@ -274,7 +275,7 @@ TEST(GoldsmithSalmon, BuildingIsFarFromQuadratic) {
 
 TEST(GoldsmithSalmon, AHeapInOnePlaceIsBuiltInLinearTime) {
   for (const double jitter : {0.0, 1e-6, 0.05}) {
-    SceneBuilder builder("heap");
+    scenes::SceneBuilder builder("heap");
     Random random(1);
     for (int i = 0; i < 10'000; ++i) {
       builder.add_sphere(
@@ -287,12 +288,12 @@ TEST(GoldsmithSalmon, AHeapInOnePlaceIsBuiltInLinearTime) {
 
 // Each sphere larger than all before: volumes above volumes, as deep as it gets.
 TEST(GoldsmithSalmon, TakesADeepHierarchy) {
-  SceneBuilder builder("shells");
+  scenes::SceneBuilder builder("shells");
   for (int i = 0; i < 150; ++i) builder.add_sphere({0.0, 0.0, 0.0}, 1e-12 * std::pow(1.35, i));
-  const Scene scene = std::move(builder).build();
-  const GoldsmithSalmon structure(scene, {});
+  const scenes::Scene scene = std::move(builder).build();
+  const bvh::GoldsmithSalmon structure(scene, {});
   EXPECT_GT(structure.hierarchy().depth, 30U);
-  const Exhaustive exhaustive(scene);
+  const exhaustive::Exhaustive exhaustive(scene);
   Random random(3);
   for (int i = 0; i < 200; ++i) {
     const Ray ray = testing::random_ray(scene, random);
@@ -302,4 +303,4 @@ TEST(GoldsmithSalmon, TakesADeepHierarchy) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

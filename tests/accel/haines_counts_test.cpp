@@ -18,7 +18,7 @@
 #include "accel/bvh/sah_bvh.hpp"
 #include "scenes/catalogue.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 constexpr double kHainesRays = 263'169.0 + 46'112.0;
@@ -31,18 +31,18 @@ struct RaySet {
   std::uint64_t hits = 0;
 };
 
-glm::dvec3 normal_of(const Scene& scene, PrimitiveId id) {
-  const Polygon& polygon = scene.polygons[scene.primitives[id].index];
+glm::dvec3 normal_of(const scenes::Scene& scene, scenes::PrimitiveId id) {
+  const scenes::Polygon& polygon = scene.polygons[scene.primitives[id].index];
   const auto& corner = scene.triangles[polygon.first_triangle].vertex;
   const glm::dvec3 first(scene.vertices[corner[0]]);
   return glm::cross(glm::dvec3(scene.vertices[corner[1]]) - first,
                     glm::dvec3(scene.vertices[corner[2]]) - first);
 }
 
-RaySet rays_of(const Scene& scene) {
+RaySet rays_of(const scenes::Scene& scene) {
   RaySet set;
   const PrimaryRays image(scene.cameras.front(), 512, 512, 1);
-  const SahBvh finder(scene, {});
+  const bvh::SahBvh finder(scene, {});
   for (int y = 0; y <= 512; ++y) {
     for (int x = 0; x <= 512; ++x) {
       const Ray eye = image.ray_at(x, y);
@@ -54,7 +54,7 @@ RaySet rays_of(const Scene& scene) {
       const glm::dvec3 point = glm::dvec3(eye.origin) + direction * static_cast<double>(hit->t);
       glm::dvec3 normal = normal_of(scene, hit->primitive);
       if (glm::dot(normal, direction) > 0.0) normal = -normal;
-      for (const Light& light : scene.lights) {
+      for (const scenes::Light& light : scene.lights) {
         const glm::dvec3 to_light = glm::dvec3(light.position) - point;
         if (glm::dot(normal, to_light) <= 0.0) continue;
         set.shadow.push_back({glm::vec3(point), 1e-5F, glm::vec3(to_light), 1.0F});
@@ -69,7 +69,7 @@ struct Counts {
   std::uint64_t polygons = 0;
 };
 
-Counts count_ours(const GoldsmithSalmon& structure, const RaySet& rays) {
+Counts count_ours(const bvh::GoldsmithSalmon& structure, const RaySet& rays) {
   WorkCounters work;
   for (const Ray& ray : rays.eye) structure.closest_hit(ray, work);
   for (const Ray& ray : rays.shadow) structure.any_hit(ray, work);
@@ -78,12 +78,12 @@ Counts count_ours(const GoldsmithSalmon& structure, const RaySet& rays) {
 
 /// A walk that enters every volume the ray meets and tests all of its objects; a shadow ray ends at
 /// the first hit.
-void walk_plainly(const InsertionHierarchy& hierarchy, const Scene& scene, const Ray& ray,
-                  bool shadow, Counts& counts) {
-  const SlabRay slabs(ray);
+void walk_plainly(const bvh::InsertionHierarchy& hierarchy, const scenes::Scene& scene,
+                  const Ray& ray, bool shadow, Counts& counts) {
+  const bvh::SlabRay slabs(ray);
   const CanonicalRay canonical(ray);
   for (std::uint32_t index = 0; index < hierarchy.entries.size();) {
-    const HierarchyEntry& entry = hierarchy.entries[index];
+    const bvh::HierarchyEntry& entry = hierarchy.entries[index];
     if (!entry.is_volume()) {
       ++counts.polygons;
       if (shadow && is_hit(intersect(canonical, scene, entry.primitive))) return;
@@ -95,7 +95,8 @@ void walk_plainly(const InsertionHierarchy& hierarchy, const Scene& scene, const
   }
 }
 
-Counts count_plainly(const GoldsmithSalmon& structure, const Scene& scene, const RaySet& rays) {
+Counts count_plainly(const bvh::GoldsmithSalmon& structure, const scenes::Scene& scene,
+                     const RaySet& rays) {
   Counts counts;
   for (const Ray& ray : rays.eye) {
     walk_plainly(structure.hierarchy(), scene, ray, false, counts);
@@ -117,16 +118,16 @@ void print_row(const char* what, const Counts& counts, const RaySet& set) {
 }
 
 TEST(HainesCounts, GoldsmithSalmonOnTetra) {
-  const Scene scene = load_scene("tetra:n=6");
+  const scenes::Scene scene = scenes::load_scene("tetra:n=6");
   const RaySet rays = rays_of(scene);
   EXPECT_EQ(rays.eye.size(), 263'169U);
   EXPECT_EQ(rays.hits, 49'949U);           // his: 49,788; Havran's: 49,950
   EXPECT_EQ(rays.shadow.size(), 46'260U);  // his: 46,112
 
-  const GoldsmithSalmon given(scene, {});
-  GoldsmithSalmonOptions at_random;
-  at_random.order = GoldsmithSalmonOptions::Order::kShuffled;
-  const GoldsmithSalmon shuffled(scene, at_random);
+  const bvh::GoldsmithSalmon given(scene, {});
+  bvh::GoldsmithSalmonOptions at_random;
+  at_random.order = bvh::GoldsmithSalmonOptions::Order::kShuffled;
+  const bvh::GoldsmithSalmon shuffled(scene, at_random);
 
   fmt::print("  {:<44} {:>10} {:>9} {:>12}\n", "TETRA n = 6", "box tests", "polygons", "a ray");
   print_row("Haines", kHainesBoxes, kHainesPolygons, kHainesRays);
@@ -152,4 +153,4 @@ TEST(HainesCounts, GoldsmithSalmonOnTetra) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

@@ -1,6 +1,6 @@
 // The canonical ray-primitive tests.
 
-#include "accel/intersect.hpp"
+#include "accel/core/intersect.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include "scenes/catalogue.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 Ray ray(glm::vec3 origin, glm::vec3 direction, float t_min = 0.0F, float t_max = kInfinity) {
@@ -22,14 +22,14 @@ Ray ray(glm::vec3 origin, glm::vec3 direction, float t_min = 0.0F, float t_max =
 
 std::optional<float> hit_or_none(float t) { return is_hit(t) ? std::optional(t) : std::nullopt; }
 
-std::optional<float> hit(const Sphere& sphere, const Ray& asked) {
+std::optional<float> hit(const scenes::Sphere& sphere, const Ray& asked) {
   return hit_or_none(intersect_sphere(CanonicalRay(asked), sphere));
 }
-std::optional<float> hit(const Cone& cone, const Ray& asked) {
+std::optional<float> hit(const scenes::Cone& cone, const Ray& asked) {
   return hit_or_none(intersect_cone(CanonicalRay(asked), cone));
 }
 
-const Sphere kUnitSphere{{0, 0, 0}, 1.0F, false};
+const scenes::Sphere kUnitSphere{{0, 0, 0}, 1.0F, false};
 
 TEST(IntersectSphere, NearRootThenFarRoot) {
   EXPECT_EQ(hit(kUnitSphere, ray({0, 0, 3}, {0, 0, -1})), 2.0F);
@@ -48,13 +48,13 @@ TEST(IntersectSphere, IntervalIsClosed) {
 }
 
 TEST(IntersectSphere, InsideOnlyIsHitWhereTheRayLeaves) {
-  const Sphere inside{{0, 0, 0}, 1.0F, true};
+  const scenes::Sphere inside{{0, 0, 0}, 1.0F, true};
   EXPECT_EQ(hit(inside, ray({0, 0, 3}, {0, 0, -1})), 4.0F);
   EXPECT_EQ(hit(inside, ray({0, 0, 3}, {0, 0, -1}, 0.0F, 3.0F)), std::nullopt);
 }
 
 TEST(IntersectCone, CylinderBothWallsNoCaps) {
-  const Cone cylinder{{0, 0, 0}, 1.0F, {0, 0, 2}, 1.0F, false};
+  const scenes::Cone cylinder{{0, 0, 0}, 1.0F, {0, 0, 2}, 1.0F, false};
   EXPECT_EQ(hit(cylinder, ray({3, 0, 1}, {-1, 0, 0})), 2.0F);
   EXPECT_EQ(hit(cylinder, ray({0, 0, 1}, {-1, 0, 0})), 1.0F);
   EXPECT_EQ(hit(cylinder, ray({0, 0, 5}, {0, 0, -1})), std::nullopt) << "down the open end";
@@ -64,14 +64,14 @@ TEST(IntersectCone, CylinderBothWallsNoCaps) {
 }
 
 TEST(IntersectCone, TaperedTipAndInsideOnly) {
-  const Cone cone{{0, 0, 0}, 1.0F, {0, 0, 1}, 0.0F, false};
+  const scenes::Cone cone{{0, 0, 0}, 1.0F, {0, 0, 1}, 0.0F, false};
   EXPECT_EQ(hit(cone, ray({2, 0, 0.5F}, {-1, 0, 0})), 1.5F);
   EXPECT_EQ(hit(cone, ray({2, 0, 1.5F}, {-1, 0, 0})), std::nullopt) << "the other nappe";
   EXPECT_EQ(hit(cone, ray({2, 0, -0.5F}, {-1, 0, 0})), std::nullopt) << "below the base";
   // Parallel to one generator: the quadratic is linear.
   EXPECT_EQ(hit(cone, ray({-1, 0, 0.5F}, {1, 0, -1})), 0.25F);
   EXPECT_EQ(hit(cone, ray({2, 0, -0.5F}, {-1, 0, 1})), std::nullopt) << "along the far generator";
-  const Cone inside{{0, 0, 0}, 1.0F, {0, 0, 1}, 0.5F, true};
+  const scenes::Cone inside{{0, 0, 0}, 1.0F, {0, 0, 1}, 0.5F, true};
   EXPECT_EQ(hit(inside, ray({2, 0, 0.5F}, {-1, 0, 0})), 2.75F);
 }
 
@@ -92,9 +92,9 @@ TEST(IntersectTriangle, ClosedEdgesBothSides) {
 }
 
 TEST(IntersectTriangle, ClosedMeshIsWatertight) {
-  const Scene scene = load_scene("bumpy:triangles=768");
+  const scenes::Scene scene = scenes::load_scene("bumpy:triangles=768");
   const auto any = [&](const CanonicalRay& asked) {
-    for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+    for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
       if (is_hit(intersect(asked, scene, id))) return true;
     }
     return false;
@@ -105,7 +105,7 @@ TEST(IntersectTriangle, ClosedMeshIsWatertight) {
     // the ray.
     const glm::vec3 eye(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3),
                         random.uniform(-0.3, 0.3));
-    const Triangle& triangle = scene.triangles[random.below(scene.triangles.size())];
+    const scenes::Triangle& triangle = scene.triangles[random.below(scene.triangles.size())];
     const glm::vec3 v0 = scene.vertices[triangle.vertex[0]];
     const glm::vec3 v1 = scene.vertices[triangle.vertex[1]];
     const glm::vec3 target = random.below(2) == 0 ? v0 : (v0 + v1) * 0.5F;
@@ -127,14 +127,14 @@ double distance_to_triangle(const glm::dvec3& p, const glm::dvec3 (&v)[3]) {
   return above ? std::min(nearest_edge, std::abs(glm::dot(normal, p - v[0]))) : nearest_edge;
 }
 
-double distance_to(const Scene& scene, PrimitiveId id, const glm::dvec3& p) {
-  const Primitive& primitive = scene.primitives[id];
-  if (primitive.kind == PrimitiveKind::kSphere) {
-    const Sphere& sphere = scene.spheres[primitive.index];
+double distance_to(const scenes::Scene& scene, scenes::PrimitiveId id, const glm::dvec3& p) {
+  const scenes::Primitive& primitive = scene.primitives[id];
+  if (primitive.kind == scenes::PrimitiveKind::kSphere) {
+    const scenes::Sphere& sphere = scene.spheres[primitive.index];
     return std::abs(glm::length(p - glm::dvec3(sphere.center)) - sphere.radius);
   }
-  if (primitive.kind == PrimitiveKind::kCone) {
-    const Cone& cone = scene.cones[primitive.index];
+  if (primitive.kind == scenes::PrimitiveKind::kCone) {
+    const scenes::Cone& cone = scene.cones[primitive.index];
     const glm::dvec3 axis = glm::dvec3(cone.apex) - glm::dvec3(cone.base);
     const glm::dvec3 m = p - glm::dvec3(cone.base);
     const double s = glm::dot(m, axis) / glm::dot(axis, axis);
@@ -145,7 +145,7 @@ double distance_to(const Scene& scene, PrimitiveId id, const glm::dvec3& p) {
     // Both are at most the way from a point of the surface.
     return std::max(std::abs(glm::length(m - axis * s) - radius) / std::hypot(1.0, slant), beyond);
   }
-  const Polygon& polygon = scene.polygons[primitive.index];
+  const scenes::Polygon& polygon = scene.polygons[primitive.index];
   double nearest = INFINITY;
   for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
     const auto& vertex = scene.triangles[polygon.first_triangle + i].vertex;
@@ -157,13 +157,13 @@ double distance_to(const Scene& scene, PrimitiveId id, const glm::dvec3& p) {
 }
 
 RC_GTEST_PROP(Intersect, PointAtTheHitLiesOnThePrimitive, (std::uint32_t seed)) {
-  const Scene scene = testing::random_scene(seed, 12);
+  const scenes::Scene scene = testing::random_scene(seed, 12);
   Random random(seed);
   for (int i = 0; i < 100; ++i) {
     const Ray asked = testing::random_ray(scene, random);
     const CanonicalRay canonical(asked);
     const double diagonal = glm::length(glm::dvec3(scene.bounds.extent()));
-    for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+    for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
       const float t = intersect(canonical, scene, id);
       if (!is_hit(t)) continue;
       RC_ASSERT(t >= asked.t_min);
@@ -175,4 +175,4 @@ RC_GTEST_PROP(Intersect, PointAtTheHitLiesOnThePrimitive, (std::uint32_t seed)) 
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

@@ -8,12 +8,12 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "accel/mirrored.hpp"
-#include "accel/registry.hpp"
+#include "accel/core/mirrored.hpp"
+#include "accel/core/registry.hpp"
 #include "scenes/catalogue.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 using glm::dvec3;
@@ -26,14 +26,14 @@ struct Compared {
 };
 
 /// Each sample by beams and by a single ray, bit for bit.
-void compare(const Scene& scene, const BeamOptions& options, const PrimaryRays& rays,
+void compare(const scenes::Scene& scene, const beam::BeamOptions& options, const PrimaryRays& rays,
              Compared& compared) {
-  const BeamTracer tracer(scene, options);
+  const beam::BeamTracer tracer(scene, options);
   HitBuffer hits(rays.width(), rays.height(), rays.samples());
   tracer.trace(rays, hits);
   const auto exhaustive = registry().choose({"exhaustive", {}}).build(scene);
-  for (const PlanarMirror& mirror : planar_mirrors(scene)) {
-    const auto view = view_in(mirror, scene, rays, hits);
+  for (const beam::PlanarMirror& mirror : beam::planar_mirrors(scene)) {
+    const auto view = beam::view_in(mirror, scene, rays, hits);
     if (!view) continue;
     ++compared.mirrors;
     HitBuffer found(rays.width(), rays.height(), rays.samples());
@@ -43,12 +43,12 @@ void compare(const Scene& scene, const BeamOptions& options, const PrimaryRays& 
       for (int x = 0; x < rays.width(); ++x) {
         for (int sample = 0; sample < rays.samples(); ++sample) {
           const std::size_t index = found.index(x, y, sample);
-          const PrimitiveId id = hits.primitive()[index];
+          const scenes::PrimitiveId id = hits.primitive()[index];
           if (std::ranges::find(mirror.polygons, id) == mirror.polygons.end()) {
             ASSERT_FALSE(found.get(index)) << x << ", " << y;
             continue;
           }
-          const auto expected = exhaustive->closest_hit(ray_behind(*view, x, y, sample));
+          const auto expected = exhaustive->closest_hit(beam::ray_behind(*view, x, y, sample));
           ASSERT_EQ(found.get(index), expected) << x << ", " << y;
           ++samples;
           compared.hits += expected ? 1 : 0;
@@ -61,9 +61,9 @@ void compare(const Scene& scene, const BeamOptions& options, const PrimaryRays& 
 }
 
 /// A random scene of mirrors.
-Scene mirrors(std::uint64_t seed) {
-  Scene scene = testing::random_scene(seed, 40);
-  for (Surface& surface : scene.surfaces) surface.specular = 0.5F;
+scenes::Scene mirrors(std::uint64_t seed) {
+  scenes::Scene scene = testing::random_scene(seed, 40);
+  for (scenes::Surface& surface : scene.surfaces) surface.specular = 0.5F;
   return scene;
 }
 
@@ -71,8 +71,8 @@ TEST(MirrorBeams, FindWhatSingleRaysFindInRandomScenes) {
   Compared compared;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
-    const Scene scene = mirrors(seed);
-    BeamOptions options;
+    const scenes::Scene scene = mirrors(seed);
+    beam::BeamOptions options;
     options.octree.max_level = static_cast<int>(3 + seed % 3);
     options.continue_with_rays = seed % 2 == 0;
     options.handover = seed % 3 == 0 ? 6 : 0;
@@ -86,9 +86,9 @@ TEST(MirrorBeams, FindWhatSingleRaysFindInRandomScenes) {
 TEST(MirrorBeams, FindWhatSingleRaysFindInScenes) {
   for (const char* name : {"teapot:n=2", "gears:n=1"}) {
     SCOPED_TRACE(name);
-    const Scene scene = load_scene(name);
+    const scenes::Scene scene = scenes::load_scene(name);
     Compared compared;
-    BeamOptions options;
+    beam::BeamOptions options;
     options.octree.max_level = 5;
     compare(scene, options, PrimaryRays(scene.cameras.front(), 60, 60, 1), compared);
     if (::testing::Test::HasFatalFailure()) return;
@@ -98,13 +98,13 @@ TEST(MirrorBeams, FindWhatSingleRaysFindInScenes) {
 }
 
 TEST(MirrorBeams, RaysBehindAMirrorAreReflectedRays) {
-  const Scene scene = load_scene("teapot:n=2");
+  const scenes::Scene scene = scenes::load_scene("teapot:n=2");
   const PrimaryRays rays(scene.cameras.front(), 50, 50, 1);
   HitBuffer hits(50, 50, 1);
   registry().choose({"samet", {}}).build(scene)->trace(rays, hits);
-  const auto mirrors = planar_mirrors(scene);
+  const auto mirrors = beam::planar_mirrors(scene);
   ASSERT_EQ(mirrors.size(), 1U);  // the checkerboard, all squares of it
-  const auto view = view_in(mirrors[0], scene, rays, hits);
+  const auto view = beam::view_in(mirrors[0], scene, rays, hits);
   ASSERT_TRUE(view.has_value());
   const double size = scene.bounds.largest_coordinate();
   std::size_t compared = 0;
@@ -116,7 +116,7 @@ TEST(MirrorBeams, RaysBehindAMirrorAreReflectedRays) {
         continue;
       }
       const Ray eye = rays.ray(x, y, 0);
-      const Ray behind = ray_behind(*view, x, y, 0);
+      const Ray behind = beam::ray_behind(*view, x, y, 0);
       const dvec3 point = dvec3(eye.origin) + double{hit->t} * dvec3(eye.direction);
       const dvec3 begin = dvec3(behind.origin) + double{behind.t_min} * dvec3(behind.direction);
       EXPECT_LT(glm::length(begin - point), 1e-4 * size);
@@ -130,9 +130,9 @@ TEST(MirrorBeams, RaysBehindAMirrorAreReflectedRays) {
 }
 
 TEST(MirrorBeams, ScenesWithoutMirrorsHaveNone) {
-  EXPECT_TRUE(planar_mirrors(load_scene("tetra:n=2")).empty());
-  EXPECT_TRUE(planar_mirrors(load_scene("escena1")).empty());  // spheres
+  EXPECT_TRUE(beam::planar_mirrors(scenes::load_scene("tetra:n=2")).empty());
+  EXPECT_TRUE(beam::planar_mirrors(scenes::load_scene("escena1")).empty());  // spheres
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

@@ -11,7 +11,7 @@
 
 #include "scenes/catalogue.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -20,18 +20,18 @@ class ObjectSpaceSampling : public ::testing::Test {
  protected:
   ObjectSpaceSampling() { tracer_.trace(rays_, all_); }
 
-  SparseSamples sampled(double few, double many) const {
-    return trace_object_space(tracer_, rays_, {few, many});
+  beam::SparseSamples sampled(double few, double many) const {
+    return beam::trace_object_space(tracer_, rays_, {few, many});
   }
 
-  Scene scene_ = load_scene("delfines");
-  BeamTracer tracer_{scene_, BeamOptions{}};
+  scenes::Scene scene_ = scenes::load_scene("delfines");
+  beam::BeamTracer tracer_{scene_, beam::BeamOptions{}};
   PrimaryRays rays_{scene_.cameras.front(), 80, 64, 25};
   HitBuffer all_{80, 64, 25};
 };
 
 TEST_F(ObjectSpaceSampling, SamplesThatWereTakenHitWhatUniformSamplesHit) {
-  const SparseSamples some = sampled(0.1, 0.5);
+  const beam::SparseSamples some = sampled(0.1, 0.5);
   std::size_t others = 0;
   for (std::size_t i = 0; i < all_.size(); ++i) {
     if (some.number[i] != 0) {
@@ -50,16 +50,16 @@ TEST_F(ObjectSpaceSampling, WhereAllLeavesWantAllSamplesNoHitIsMissing) {
 }
 
 TEST_F(ObjectSpaceSampling, NumbersAreThoseOfTheirPatterns) {
-  const SparseSamples some = sampled(1.0, 4.0);
+  const beam::SparseSamples some = sampled(1.0, 4.0);
   std::array<std::size_t, 26> of_number{};
   for (std::size_t i = 0; i < some.number.size(); ++i) {
     const int number = some.number[i];
     if (number == 0) continue;
-    const auto pattern = chosen_samples(number);
+    const auto pattern = beam::chosen_samples(number);
     ASSERT_NE(std::ranges::find(pattern, static_cast<int>(i % 25)), pattern.end()) << number;
     ++of_number[static_cast<std::size_t>(number)];
   }
-  for (const int number : kSampleNumbers) {
+  for (const int number : beam::kSampleNumbers) {
     EXPECT_GT(of_number[static_cast<std::size_t>(number)], 0U) << number;
   }
 }
@@ -75,17 +75,17 @@ TEST_F(ObjectSpaceSampling, LowerThresholdsTakeMoreSamples) {
 
 TEST_F(ObjectSpaceSampling, OnlyImagesOf25SamplesAreTaken) {
   const PrimaryRays five(scene_.cameras.front(), 8, 8, 5);
-  EXPECT_THROW(trace_object_space(tracer_, five, {}), std::invalid_argument);
+  EXPECT_THROW(beam::trace_object_space(tracer_, five, {}), std::invalid_argument);
 }
 
 TEST(ChosenSamples, SpreadOverTheGrid) {
-  for (const int number : kSampleNumbers) {
-    EXPECT_EQ(chosen_samples(number).size(), static_cast<std::size_t>(number));
+  for (const int number : beam::kSampleNumbers) {
+    EXPECT_EQ(beam::chosen_samples(number).size(), static_cast<std::size_t>(number));
   }
-  EXPECT_EQ(chosen_samples(1).front(), 12) << "the middle of 5 x 5";
+  EXPECT_EQ(beam::chosen_samples(1).front(), 12) << "the middle of 5 x 5";
   std::uint32_t rows = 0;
   std::uint32_t columns = 0;
-  for (const int sample : chosen_samples(5)) {
+  for (const int sample : beam::chosen_samples(5)) {
     rows |= 1U << (sample / 5);
     columns |= 1U << (sample % 5);
   }
@@ -94,4 +94,4 @@ TEST(ChosenSamples, SpreadOverTheGrid) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

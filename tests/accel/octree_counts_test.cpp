@@ -6,12 +6,12 @@
 
 #include <gtest/gtest.h>
 
+#include "accel/core/primary_rays.hpp"
 #include "accel/octree/leaf_walk.hpp"
 #include "accel/octree/samet.hpp"
-#include "accel/primary_rays.hpp"
 #include "scenes/catalogue.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 /// A row of the tables: what the thesis prints, and what our scene has.
@@ -44,36 +44,36 @@ constexpr std::array<Row, 14> kRows = {{
     {"delfines", 7, 0, 2385, 786570, 2083, 811166},
 }};
 
-const Scene& scene_of(const Row& row) {
-  static const Scene maceta = load_scene("maceta");
-  static const Scene delfines = load_scene("delfines");
+const scenes::Scene& scene_of(const Row& row) {
+  static const scenes::Scene maceta = scenes::load_scene("maceta");
+  static const scenes::Scene delfines = scenes::load_scene("delfines");
   return row.scene == std::string_view("maceta") ? maceta : delfines;
 }
 
-Octree octree_of(const Row& row) {
-  OctreeOptions options;
+octree::Octree octree_of(const Row& row) {
+  octree::OctreeOptions options;
   options.max_level = row.max_level;
   options.max_objects = row.max_objects;
-  return Octree(scene_of(row), options);
+  return octree::Octree(scene_of(row), options);
 }
 
 /// The pixels that a beam takes out of the root without an occupied leaf on its way: their ray
 /// crosses the root cube through empty leaves only.
-std::int64_t exit_pixels(const Octree& octree, const Camera& camera) {
+std::int64_t exit_pixels(const octree::Octree& octree, const scenes::Camera& camera) {
   const PrimaryRays rays(camera, 1280, 1024, 1);
-  const AncestorNeighbours neighbours(octree);
+  const octree::AncestorNeighbours neighbours(octree);
   NoCounting counting;
   std::int64_t pixels = 0;
   for (int y = 0; y < rays.height(); ++y) {
     for (int x = 0; x < rays.width(); ++x) {
       bool crosses = false;
       bool occupied = false;
-      walk_leaves(octree, neighbours, rays.ray(x, y, 0), counting,
-                  [&](const OctreeNode& leaf, double) {
-                    crosses = true;
-                    occupied = leaf.count > 0;
-                    return occupied;
-                  });
+      octree::walk_leaves(octree, neighbours, rays.ray(x, y, 0), counting,
+                          [&](const octree::OctreeNode& leaf, double) {
+                            crosses = true;
+                            occupied = leaf.count > 0;
+                            return occupied;
+                          });
       if (crosses && !occupied) ++pixels;
     }
   }
@@ -111,4 +111,4 @@ INSTANTIATE_TEST_SUITE_P(Thesis, OctreeCounts, testing::ValuesIn(kRows), [](cons
 });
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

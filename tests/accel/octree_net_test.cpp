@@ -10,24 +10,25 @@
 #include "scenes/catalogue.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
-OctreeOptions small_octree(std::uint64_t seed) {
-  OctreeOptions options;
+octree::OctreeOptions small_octree(std::uint64_t seed) {
+  octree::OctreeOptions options;
   options.max_level = static_cast<int>(1 + seed % 5);
   options.max_objects = static_cast<std::uint32_t>(seed % 3);
   return options;
 }
 
 /// Calls visit(cursor) at every node.
-void for_each_node(const Octree& octree, const OctreeCursor& cursor, const auto& visit) {
+void for_each_node(const octree::Octree& octree, const octree::OctreeCursor& cursor,
+                   const auto& visit) {
   visit(cursor);
   if (cursor.node().is_leaf()) return;
   const std::int32_t half = cursor.size() / 2;
   for (std::uint32_t octant = 0; octant < 8; ++octant) {
     const glm::ivec3 offset(octant & 1U, (octant >> 1U) & 1U, octant >> 2U);
-    OctreeCursor child = cursor;
+    octree::OctreeCursor child = cursor;
     child.jump(cursor.node().first + octant, cursor.corner() + offset * half, half);
     for_each_node(octree, child, visit);
   }
@@ -37,17 +38,17 @@ TEST(OctreeNet, EachLinkLeadsWhereSametsSearchLeads) {
   std::uint64_t links = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     SCOPED_TRACE(seed);
-    const Scene scene = testing::random_scene(seed, 20);
-    const Octree octree(scene, small_octree(seed));
-    const OctreeNet net(octree);
-    for_each_node(octree, OctreeCursor(octree), [&](const OctreeCursor& node) {
+    const scenes::Scene scene = testing::random_scene(seed, 20);
+    const octree::Octree octree(scene, small_octree(seed));
+    const octree::OctreeNet net(octree);
+    for_each_node(octree, octree::OctreeCursor(octree), [&](const octree::OctreeCursor& node) {
       for (int face = 0; face < 6; ++face) {
         glm::ivec3 step(0);
         step[face / 2] = face % 2 == 0 ? -1 : 1;
-        OctreeCursor expected = node;
-        OctreeCursor actual = node;
-        if (AncestorNeighbours::move(expected, step) == 0) {
-          ASSERT_EQ(net.neighbour(node.index(), face), OctreeNet::kOutside);
+        octree::OctreeCursor expected = node;
+        octree::OctreeCursor actual = node;
+        if (octree::AncestorNeighbours::move(expected, step) == 0) {
+          ASSERT_EQ(net.neighbour(node.index(), face), octree::OctreeNet::kOutside);
           ASSERT_EQ(net.move(actual, step), 0);
           continue;
         }
@@ -65,9 +66,9 @@ TEST(OctreeNet, EachLinkLeadsWhereSametsSearchLeads) {
 TEST(OctreeNet, LeavesTheirOrderAndTheTestsAreThoseOfSamet) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
-    const Scene scene = testing::random_scene(seed, 25);
-    const Samet samet(scene, small_octree(seed));
-    const SametNet net(scene, small_octree(seed));
+    const scenes::Scene scene = testing::random_scene(seed, 25);
+    const octree::Samet samet(scene, small_octree(seed));
+    const octree::SametNet net(scene, small_octree(seed));
     Random random(seed);
     for (int i = 0; i < 100; ++i) {
       const Ray ray = testing::random_ray(scene, random);
@@ -88,7 +89,7 @@ TEST(OctreeNet, LeavesTheirOrderAndTheTestsAreThoseOfSamet) {
 TEST(OctreeNet, OneStepForEachNeighbourWhereSametClimbs) {
   for (const char* name : {"tetra:n=4", "balls:n=2", "escena1"}) {
     SCOPED_TRACE(name);
-    const Scene scene = load_scene(name);
+    const scenes::Scene scene = scenes::load_scene(name);
     const PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
     const auto count = [&](const Accelerator& structure) {
       HitBuffer buffer(64, 64, 1);
@@ -96,8 +97,8 @@ TEST(OctreeNet, OneStepForEachNeighbourWhereSametClimbs) {
       structure.trace(rays, buffer, counters);
       return counters.by_name();
     };
-    auto samet = count(Samet(scene, {}));
-    auto net = count(SametNet(scene, {}));
+    auto samet = count(octree::Samet(scene, {}));
+    auto net = count(octree::SametNet(scene, {}));
     EXPECT_EQ(net["leaves"], samet["leaves"]);
     EXPECT_EQ(net["empty_leaves"], samet["empty_leaves"]);
     EXPECT_EQ(net["primitive_tests"], samet["primitive_tests"]);
@@ -112,9 +113,9 @@ TEST(OctreeNet, OneStepForEachNeighbourWhereSametClimbs) {
 }
 
 TEST(OctreeNet, TellsWhatItsLinksTake) {
-  const Scene scene = load_scene("tetra:n=4");
-  const Statistics samet = Samet(scene, {}).statistics();
-  const Statistics net = SametNet(scene, {}).statistics();
+  const scenes::Scene scene = scenes::load_scene("tetra:n=4");
+  const Statistics samet = octree::Samet(scene, {}).statistics();
+  const Statistics net = octree::SametNet(scene, {}).statistics();
   EXPECT_EQ(net.nodes, samet.nodes);
   EXPECT_EQ(net.references, samet.references);
   ASSERT_EQ(net.more.size(), 1U);
@@ -124,4 +125,4 @@ TEST(OctreeNet, TellsWhatItsLinksTake) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

@@ -6,13 +6,13 @@
 
 #include <gtest/gtest.h>
 
-#include "accel/registry.hpp"
-#include "accel/tolerance.hpp"
+#include "accel/core/registry.hpp"
+#include "accel/core/tolerance.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 struct HavranRow {
@@ -26,15 +26,15 @@ struct HavranRow {
 class Havran : public ::testing::TestWithParam<HavranRow> {};
 
 TEST_P(Havran, CountsOfTetra) {
-  static const Scene scene = load_scene("tetra:n=6");
+  static const scenes::Scene scene = scenes::load_scene("tetra:n=6");
   const HavranRow& row = GetParam();
-  OctreeOptions options;
+  octree::OctreeOptions options;
   options.max_level = row.depth + 1;
   options.max_objects = 1;
-  options.root = OctreeOptions::Root::kBox;
-  options.assign = OctreeOptions::Assign::kBounds;
+  options.root = octree::OctreeOptions::Root::kBox;
+  options.assign = octree::OctreeOptions::Assign::kBounds;
   options.pad = 1e-6;
-  const Statistics statistics = Octree(scene, options).statistics();
+  const Statistics statistics = octree::Octree(scene, options).statistics();
   EXPECT_EQ(statistics.nodes - statistics.leaves, row.interior);
   EXPECT_EQ(statistics.leaves, row.leaves);
   EXPECT_EQ(statistics.empty_leaves, row.empty_leaves);
@@ -52,9 +52,9 @@ INSTANTIATE_TEST_SUITE_P(Depths, Havran,
                          });
 
 /// Walks all leaves with their places.
-void for_each_leaf(const Octree& octree, std::uint32_t index, const glm::ivec3& corner,
+void for_each_leaf(const octree::Octree& octree, std::uint32_t index, const glm::ivec3& corner,
                    std::int32_t size, const auto& visit) {
-  const OctreeNode& node = octree.nodes()[index];
+  const octree::OctreeNode& node = octree.nodes()[index];
   if (node.is_leaf()) {
     visit(node, corner, size);
     return;
@@ -70,18 +70,18 @@ void for_each_leaf(const Octree& octree, std::uint32_t index, const glm::ivec3& 
 TEST(Octree, LeavesReferToExactlyWhatOverlapsThem) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    const Scene scene = testing::random_scene(seed, 25);
-    OctreeOptions options;
+    const scenes::Scene scene = testing::random_scene(seed, 25);
+    octree::OctreeOptions options;
     options.max_level = static_cast<int>(2 + seed % 4);
     options.max_objects = static_cast<std::uint32_t>(seed % 3);
-    const Octree octree(scene, options);
+    const octree::Octree octree(scene, options);
     std::uint64_t volume = 0;
     for_each_leaf(octree, 0, glm::ivec3(0), octree.grid().cells.x,
-                  [&](const OctreeNode& leaf, const glm::ivec3& corner, std::int32_t size) {
+                  [&](const octree::OctreeNode& leaf, const glm::ivec3& corner, std::int32_t size) {
                     volume += static_cast<std::uint64_t>(size) * size * size;
                     const auto references = octree.references(leaf);
-                    std::vector<PrimitiveId> expected;
-                    for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+                    std::vector<scenes::PrimitiveId> expected;
+                    for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
                       if (surface_overlaps(scene, id, octree.grid().box(corner, size),
                                            overlap_tolerance(scene))) {
                         expected.push_back(id);
@@ -92,8 +92,8 @@ TEST(Octree, LeavesReferToExactlyWhatOverlapsThem) {
                     EXPECT_TRUE(std::is_sorted(references.begin(), references.end()));
                     // More than the definition asks for only within rounding of the boundary (the
                     // overlap of cones is conservative, so theirs may be more).
-                    for (const PrimitiveId id : references) {
-                      if (scene.primitives[id].kind == PrimitiveKind::kCone) continue;
+                    for (const scenes::PrimitiveId id : references) {
+                      if (scene.primitives[id].kind == scenes::PrimitiveKind::kCone) continue;
                       EXPECT_TRUE(surface_overlaps(scene, id, octree.grid().box(corner, size),
                                                    3.0 * overlap_tolerance(scene)));
                     }
@@ -104,30 +104,31 @@ TEST(Octree, LeavesReferToExactlyWhatOverlapsThem) {
 }
 
 TEST(Octree, SplitsWhileALeafHoldsMoreThanMaxObjects) {
-  const Scene scene = load_scene("balls:n=2");
+  const scenes::Scene scene = scenes::load_scene("balls:n=2");
   for (const std::uint32_t max_objects : {0U, 1U, 10U, 40U}) {
-    OctreeOptions options;
+    octree::OctreeOptions options;
     options.max_objects = max_objects;
     options.max_level = 6;
-    const Octree octree(scene, options);
+    const octree::Octree octree(scene, options);
     for_each_leaf(octree, 0, glm::ivec3(0), octree.grid().cells.x,
-                  [&](const OctreeNode& leaf, const glm::ivec3&, std::int32_t size) {
+                  [&](const octree::OctreeNode& leaf, const glm::ivec3&, std::int32_t size) {
                     EXPECT_TRUE(leaf.count <= max_objects || size == 1);
                   });
   }
 }
 
 TEST(Octree, MaxLevelCountsTheRootAsOne) {
-  const Scene scene = load_scene("tetra:n=2");
-  OctreeOptions options;
+  const scenes::Scene scene = scenes::load_scene("tetra:n=2");
+  octree::OctreeOptions options;
   options.max_level = 1;
-  EXPECT_EQ(Octree(scene, options).statistics().nodes, 1U);
+  EXPECT_EQ(octree::Octree(scene, options).statistics().nodes, 1U);
   options.max_level = 6;
-  EXPECT_EQ(Octree(scene, options).grid().cells.x, 32) << "thesis: level 6 is 32 cells an axis";
+  EXPECT_EQ(octree::Octree(scene, options).grid().cells.x, 32)
+      << "thesis: level 6 is 32 cells an axis";
 }
 
 TEST(Octree, CapOnReferencesIsAClearError) {
-  const Scene scene = load_scene("escena1");
+  const scenes::Scene scene = scenes::load_scene("escena1");
   try {
     registry().choose(parse_spec("samet:max_level=8,max_references=1000")).build(scene);
     FAIL() << "the cap was ignored";
@@ -141,4 +142,4 @@ TEST(Octree, CapOnReferencesIsAClearError) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

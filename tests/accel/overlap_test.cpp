@@ -1,6 +1,6 @@
 // Box-primitive overlap: never false where a hit can be, and not true for much more.
 
-#include "accel/overlap.hpp"
+#include "accel/core/overlap.hpp"
 
 #include <algorithm>
 #include <array>
@@ -11,12 +11,12 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "accel/intersect.hpp"
-#include "accel/tolerance.hpp"
+#include "accel/core/intersect.hpp"
+#include "accel/core/tolerance.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 Box cube(double x, double y, double z, double half) {
@@ -24,7 +24,7 @@ Box cube(double x, double y, double z, double half) {
 }
 
 TEST(OverlapSphere, SurfaceNotSolid) {
-  const Sphere sphere{{0, 0, 0}, 1.0F, false};
+  const scenes::Sphere sphere{{0, 0, 0}, 1.0F, false};
   EXPECT_FALSE(sphere_overlaps(sphere, cube(0, 0, 0, 0.5), 0.0)) << "box wholly inside";
   EXPECT_TRUE(sphere_overlaps(sphere, cube(0, 0, 0, 0.6), 0.0)) << "its corners stick out";
   EXPECT_TRUE(sphere_overlaps(sphere, cube(0, 0, 0, 3.0), 0.0)) << "sphere wholly inside";
@@ -45,17 +45,17 @@ TEST(OverlapTriangle, EveryKindOfSeparation) {
 }
 
 TEST(OverlapPolygon, TheNotchOfAConcavePolygonIsEmpty) {
-  SceneBuilder builder("arrow");
+  scenes::SceneBuilder builder("arrow");
   const glm::dvec3 corners[] = {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {2, 1, 0}, {0, 4, 0}};
   builder.add_polygon(corners);
-  const Scene scene = std::move(builder).build();
+  const scenes::Scene scene = std::move(builder).build();
   EXPECT_FALSE(surface_overlaps(scene, 0, cube(2, 3, 0, 0.3), 0.0));
   EXPECT_TRUE(surface_overlaps(scene, 0, cube(2, 1, 0, 0.3), 0.0));
   EXPECT_TRUE(surface_overlaps(scene, 0, cube(0.3, 3, 0, 0.2), 0.0));
 }
 
 TEST(OverlapCone, HollowAndOpen) {
-  const Cone cylinder{{0, 0, 0}, 1.0F, {0, 0, 4}, 1.0F, false};
+  const scenes::Cone cylinder{{0, 0, 0}, 1.0F, {0, 0, 4}, 1.0F, false};
   EXPECT_TRUE(cone_overlaps(cylinder, cube(1, 0, 2, 0.1), 0.0));
   EXPECT_FALSE(cone_overlaps(cylinder, cube(0, 0, 2, 0.3), 0.0)) << "inside";
   EXPECT_FALSE(cone_overlaps(cylinder, cube(0, 0, 5, 0.5), 0.0)) << "beyond an end";
@@ -75,13 +75,13 @@ Box box_with(const glm::dvec3& point, Random& random) {
 }
 
 RC_GTEST_PROP(Overlap, NeverFalseWhereAHitIs, (std::uint32_t seed)) {
-  const Scene scene = testing::random_scene(seed, 10);
+  const scenes::Scene scene = testing::random_scene(seed, 10);
   const double tolerance = overlap_tolerance(scene);
   Random random(seed);
   for (int i = 0; i < 100; ++i) {
     const Ray ray = testing::random_ray(scene, random);
     CanonicalRay canonical(ray);
-    for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+    for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
       const float t = intersect(canonical, scene, id);
       if (!is_hit(t)) continue;
       // The point at the rounded t: widen by that rounding, as the traversal has the unrounded t.
@@ -136,4 +136,4 @@ RC_GTEST_PROP(OverlapTriangle, AgreesWithClipping, (std::uint32_t seed)) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

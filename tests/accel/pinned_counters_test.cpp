@@ -9,10 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include "accel/registry.hpp"
+#include "accel/core/registry.hpp"
 #include "scenes/catalogue.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 /// What 64x64 primary rays cost.
@@ -26,7 +26,7 @@ class PinnedWork : public ::testing::TestWithParam<Row> {};
 
 TEST_P(PinnedWork, IsUnchanged) {
   const Row& row = GetParam();
-  const Scene scene = load_scene(row.scene);
+  const scenes::Scene scene = scenes::load_scene(row.scene);
   const auto structure = registry().choose(parse_spec(row.structure)).build(scene);
   HitBuffer buffer(64, 64, 1);
   WorkCounters counters;
@@ -81,4 +81,4 @@ INSTANTIATE_TEST_SUITE_P(Structures, PinnedWork, ::testing::Values(
 // clang-format on
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

@@ -1,17 +1,17 @@
 // Primary rays: where samples lie, and that t is view depth.
 
-#include "accel/primary_rays.hpp"
+#include "accel/core/primary_rays.hpp"
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
-Camera camera() {
-  Camera camera;
+scenes::Camera camera() {
+  scenes::Camera camera;
   camera.from = {1, 2, 3};
   camera.at = {1, 2, -7};
   camera.up = {0, 1, 0};
@@ -30,7 +30,7 @@ TEST(PrimaryRays, CornersOfTheFrustum) {
 }
 
 TEST(PrimaryRays, TIsViewDepth) {
-  Camera skew = camera();
+  scenes::Camera skew = camera();
   skew.at = {4, 5, -1};
   skew.aspect = 1.6F;
   const PrimaryRays rays(skew, 33, 17, 4);
@@ -86,4 +86,4 @@ TEST(RequireValid, RefusesBadNumbers) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

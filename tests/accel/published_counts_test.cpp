@@ -21,7 +21,7 @@
 #include "scenes/catalogue.hpp"
 #include "tests/spd_rays.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 /// Averages, each under the definition of the paper (see above).
@@ -53,22 +53,22 @@ void PrintTo(const Row& row, std::ostream* out) { *out << "depth " << row.depth;
 
 /// Havran's octree: the root being depth 0, a leaf at one object, objects by their bounding box, in
 /// the scene's own box (as in octree_test.cpp, where its size is compared).
-OctreeOptions octree_of_depth(int depth) {
-  OctreeOptions options;
+octree::OctreeOptions octree_of_depth(int depth) {
+  octree::OctreeOptions options;
   options.max_level = depth + 1;
   options.max_objects = 1;
-  options.root = OctreeOptions::Root::kBox;
-  options.assign = OctreeOptions::Assign::kBounds;
+  options.root = octree::OctreeOptions::Root::kBox;
+  options.assign = octree::OctreeOptions::Assign::kBounds;
   options.pad = 1e-6;
   return options;
 }
 
-std::uint64_t climb_out(const Samet& samet, const Ray& ray) {
+std::uint64_t climb_out(const octree::Samet& samet, const Ray& ray) {
   const auto steps = samet.explain(ray);
   return steps.empty() ? 0 : static_cast<std::uint64_t>(steps.back().level - 1);
 }
 
-Totals count(const Samet& samet, const testing::SpdRays& rays) {
+Totals count(const octree::Samet& samet, const testing::SpdRays& rays) {
   Totals totals;
   WorkCounters work;
   const auto end = [&](const Ray& ray, bool hit) {
@@ -101,8 +101,8 @@ void print(const char* who, int depth, const Averages& averages) {
 
 class HavranRays : public ::testing::TestWithParam<Row> {
  protected:
-  static const Scene& scene() {
-    static const Scene tetra = load_scene("tetra:n=6");
+  static const scenes::Scene& scene() {
+    static const scenes::Scene tetra = scenes::load_scene("tetra:n=6");
     return tetra;
   }
   static const testing::SpdRays& rays() {
@@ -113,7 +113,7 @@ class HavranRays : public ::testing::TestWithParam<Row> {
 
 TEST_P(HavranRays, CountsOfSametOnTetra) {
   const Row& row = GetParam();
-  const Totals totals = count(Samet(scene(), octree_of_depth(row.depth)), rays());
+  const Totals totals = count(octree::Samet(scene(), octree_of_depth(row.depth)), rays());
   const Averages ours = as_published(totals, rays().size());
   const auto all = static_cast<double>(rays().size());
   fmt::print("                              tests/hit    steps   leaves    empty\n");
@@ -152,4 +152,4 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return "Depth" + std::to_string(info.param.depth); });
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

@@ -3,10 +3,10 @@
 #include <glm/vec2.hpp>
 #include <gtest/gtest.h>
 
-#include "accel/registry.hpp"
+#include "accel/core/registry.hpp"
 #include "scenes/catalogue.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 // Not inlined, so that the two conversions stay side by side: GCC 12.2 at -O2 and above gives the
@@ -26,7 +26,7 @@ TEST(Rounding, ToFloatAndBackLosesBits) {
 // The same where it hurt: inlined into a structure's loop over pixels, rays kept unrounded
 // directions, and 7% of the hits of this scene had other bits than those of the rays asked alone.
 TEST(Rounding, ATraceShootsTheVeryRaysOfTheCamera) {
-  const Scene scene = load_scene("escena1");
+  const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 64, 48, 4);
   for (const StructureChoice& choice : registry().choose_list("all")) {
     if (choice.info().name == "tile-beam") continue;  // its images are made without rays
@@ -46,4 +46,4 @@ TEST(Rounding, ATraceShootsTheVeryRaysOfTheCamera) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

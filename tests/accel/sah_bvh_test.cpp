@@ -8,19 +8,19 @@
 #include <gtest/gtest.h>
 
 #include "accel/bvh/padded_bounds.hpp"
-#include "accel/tolerance.hpp"
+#include "accel/core/tolerance.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/only_target.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 /// Hits of rays that look for trouble, and of the same rays with any_hit.
-void expect_equal_to_exhaustive(const SahBvh& structure, const Scene& scene, std::uint64_t seed,
-                                int rays) {
-  const Exhaustive exhaustive(scene);
+void expect_equal_to_exhaustive(const bvh::SahBvh& structure, const scenes::Scene& scene,
+                                std::uint64_t seed, int rays) {
+  const exhaustive::Exhaustive exhaustive(scene);
   Random random(seed);
   for (int i = 0; i < rays; ++i) {
     const Ray ray = testing::random_ray(scene, random);
@@ -38,8 +38,8 @@ TEST(SahBvh, EveryInstructionSetGivesTheSameHits) {
     const testing::OnlyTarget only(target);
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
       SCOPED_TRACE(seed);
-      const Scene scene = testing::random_scene(seed, 80);
-      const SahBvh structure(scene, {});
+      const scenes::Scene scene = testing::random_scene(seed, 80);
+      const bvh::SahBvh structure(scene, {});
       ASSERT_STREQ(structure.instruction_set(), hwy::TargetName(target));
       expect_equal_to_exhaustive(structure, scene, seed, 200);
     }
@@ -47,8 +47,8 @@ TEST(SahBvh, EveryInstructionSetGivesTheSameHits) {
 }
 
 TEST(SahBvh, PicksTheBestInstructionSet) {
-  const Scene scene = testing::random_scene(1, 5);
-  EXPECT_STREQ(SahBvh(scene, {}).instruction_set(),
+  const scenes::Scene scene = testing::random_scene(1, 5);
+  EXPECT_STREQ(bvh::SahBvh(scene, {}).instruction_set(),
                hwy::TargetName(hwy::SupportedAndGeneratedTargets().front()));
 }
 
@@ -56,14 +56,14 @@ TEST(SahBvh, PicksTheBestInstructionSet) {
 TEST(SahBvh, LosesNothingOnMeshes) {
   for (const char* name : {"bumpy:triangles=3072", "tetra:n=5", "balls:n=3"}) {
     SCOPED_TRACE(name);
-    const Scene scene = load_scene(name);
-    expect_equal_to_exhaustive(SahBvh(scene, {}), scene, 11, 1500);
+    const scenes::Scene scene = scenes::load_scene(name);
+    expect_equal_to_exhaustive(bvh::SahBvh(scene, {}), scene, 11, 1500);
   }
 }
 
 // Slivers seen from eight scene sizes away: where float tests err most.
 TEST(SahBvh, LosesNoSliverSeenFromAfar) {
-  SceneBuilder builder("slivers");
+  scenes::SceneBuilder builder("slivers");
   Random random(7);
   const auto point = [&] {
     return glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
@@ -74,16 +74,16 @@ TEST(SahBvh, LosesNoSliverSeenFromAfar) {
     builder.add_polygon(std::array<glm::dvec3, 3>{a, b, b + point() * 1e-5});
     builder.add_sphere(point(), 1e-4);
   }
-  const Scene scene = std::move(builder).build();
-  const SahBvh structure(scene, {});
-  const Exhaustive exhaustive(scene);
+  const scenes::Scene scene = std::move(builder).build();
+  const bvh::SahBvh structure(scene, {});
+  const exhaustive::Exhaustive exhaustive(scene);
   int hits = 0;
   for (int i = 0; i < 4000; ++i) {
     Ray ray;
     ray.origin = glm::vec3(glm::normalize(point()) * 24.0);
-    const Primitive& primitive = scene.primitives[random.below(scene.primitives.size())];
+    const scenes::Primitive& primitive = scene.primitives[random.below(scene.primitives.size())];
     glm::dvec3 target;
-    if (primitive.kind == PrimitiveKind::kSphere) {
+    if (primitive.kind == scenes::PrimitiveKind::kSphere) {
       // A point on the silhouette, where one ray hits and its neighbour does not.
       const glm::dvec3 center(scene.spheres[primitive.index].center);
       const glm::dvec3 beside = glm::cross(center - glm::dvec3(ray.origin), point());
@@ -102,9 +102,9 @@ TEST(SahBvh, LosesNoSliverSeenFromAfar) {
 }
 
 TEST(SahBvh, TakesDirectionsOfAnyLength) {
-  const Scene scene = testing::random_scene(3, 30);
-  const SahBvh structure(scene, {});
-  const Exhaustive exhaustive(scene);
+  const scenes::Scene scene = testing::random_scene(3, 30);
+  const bvh::SahBvh structure(scene, {});
+  const exhaustive::Exhaustive exhaustive(scene);
   Random random(1);
   for (const float scale : {1e-38F, 1e-30F, 1e-19F, 1e-10F, 1e8F}) {
     for (int i = 0; i < 100; ++i) {
@@ -121,20 +121,20 @@ TEST(SahBvh, TakesDirectionsOfAnyLength) {
 /// Checks a child's box against all that is below it and counts what is met.
 class WideBvhCheck {
  public:
-  WideBvhCheck(const WideBvh& bvh, const Scene& scene) : bvh_(bvh), scene_(scene) {}
+  WideBvhCheck(const bvh::WideBvh& bvh, const scenes::Scene& scene) : bvh_(bvh), scene_(scene) {}
 
-  void visit(ChildReference at, const Bounds& box, std::uint32_t depth) {
+  void visit(bvh::ChildReference at, const scenes::Bounds& box, std::uint32_t depth) {
     deepest = std::max(deepest, depth);
     if (at.is_leaf()) {
       ++leaves;
       for (std::uint32_t i = 0; i < at.block_count(); ++i) visit(at.first_block() + i, box);
       return;
     }
-    const WideNode& node = bvh_.nodes[at.node_index()];
+    const bvh::WideNode& node = bvh_.nodes[at.node_index()];
     EXPECT_GE(node.count, 2U);
-    Bounds together;
-    for (std::uint32_t lane = 0; lane < kBvhLanes; ++lane) {
-      const Bounds child = box_of(node, lane);
+    scenes::Bounds together;
+    for (std::uint32_t lane = 0; lane < bvh::kBvhLanes; ++lane) {
+      const scenes::Bounds child = box_of(node, lane);
       EXPECT_EQ(child.empty(), lane >= node.count);
       if (lane >= node.count) continue;
       together.include(child);
@@ -151,52 +151,52 @@ class WideBvhCheck {
   std::uint32_t deepest = 0;
 
  private:
-  static Bounds box_of(const WideNode& node, std::size_t lane) {
+  static scenes::Bounds box_of(const bvh::WideNode& node, std::size_t lane) {
     return {glm::vec3(node.planes[0][lane], node.planes[1][lane], node.planes[2][lane]),
             glm::vec3(node.planes[3][lane], node.planes[4][lane], node.planes[5][lane])};
   }
 
-  void visit(std::uint32_t index, const Bounds& box) {
-    const PrimitiveBlock& block = bvh_.blocks[index];
+  void visit(std::uint32_t index, const scenes::Bounds& box) {
+    const bvh::PrimitiveBlock& block = bvh_.blocks[index];
     EXPECT_GE(block.count, 1U);
-    EXPECT_LE(block.count, kBvhLanes);
+    EXPECT_LE(block.count, bvh::kBvhLanes);
     for (std::uint32_t lane = 0; lane < block.count; ++lane) {
-      const PrimitiveId id = block.primitives[lane];
+      const scenes::PrimitiveId id = block.primitives[lane];
       ++pieces;
       ++triangles_of[id];
       EXPECT_EQ(scene_.primitives[id].kind, block.kind);
-      Bounds piece = primitive_bounds(scene_, id);
-      if (block.kind == PrimitiveKind::kPolygon) {
-        piece = Bounds{};
+      scenes::Bounds piece = scenes::primitive_bounds(scene_, id);
+      if (block.kind == scenes::PrimitiveKind::kPolygon) {
+        piece = scenes::Bounds{};
         for (std::size_t corner = 0; corner < 3; ++corner)
           piece.include(block.corner(corner, lane));
       }
-      piece = padded(piece, overlap_tolerance(scene_));
-      Bounds both = box;
+      piece = bvh::padded(piece, overlap_tolerance(scene_));
+      scenes::Bounds both = box;
       both.include(piece);
       EXPECT_EQ(both.lower, box.lower);
       EXPECT_EQ(both.upper, box.upper);
     }
   }
 
-  const WideBvh& bvh_;
-  const Scene& scene_;
+  const bvh::WideBvh& bvh_;
+  const scenes::Scene& scene_;
 };
 
 TEST(SahBvh, HoldsEveryPrimitiveOnceInBoxesThatFit) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
-    const Scene scene = testing::random_scene(seed, static_cast<int>(2 + 10 * seed));
-    const SahBvh structure(scene, {});
-    const WideBvh& bvh = structure.bvh();
+    const scenes::Scene scene = testing::random_scene(seed, static_cast<int>(2 + 10 * seed));
+    const bvh::SahBvh structure(scene, {});
+    const bvh::WideBvh& bvh = structure.bvh();
     WideBvhCheck check(bvh, scene);
-    check.visit(bvh.root, padded(scene.bounds, overlap_tolerance(scene)), 1);
+    check.visit(bvh.root, bvh::padded(scene.bounds, overlap_tolerance(scene)), 1);
     EXPECT_EQ(check.leaves, bvh.leaves);
     EXPECT_EQ(check.deepest, bvh.depth);
     EXPECT_EQ(check.pieces, bvh.references);
-    for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-      const Primitive& primitive = scene.primitives[id];
-      EXPECT_EQ(check.triangles_of[id], primitive.kind == PrimitiveKind::kPolygon
+    for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+      const scenes::Primitive& primitive = scene.primitives[id];
+      EXPECT_EQ(check.triangles_of[id], primitive.kind == scenes::PrimitiveKind::kPolygon
                                             ? scene.polygons[primitive.index].triangle_count
                                             : 1U);
     }
@@ -204,11 +204,11 @@ TEST(SahBvh, HoldsEveryPrimitiveOnceInBoxesThatFit) {
 }
 
 TEST(SahBvh, BuiltInParallelIsTheSame) {
-  const Scene scene = load_scene("bumpy:triangles=50000");
-  BvhOptions options;
-  const SahBvh serial(scene, options);
+  const scenes::Scene scene = scenes::load_scene("bumpy:triangles=50000");
+  bvh::BvhOptions options;
+  const bvh::SahBvh serial(scene, options);
   options.parallel = true;
-  const SahBvh parallel(scene, options);
+  const bvh::SahBvh parallel(scene, options);
   ASSERT_EQ(serial.bvh().nodes.size(), parallel.bvh().nodes.size());
   ASSERT_EQ(serial.bvh().blocks.size(), parallel.bvh().blocks.size());
   for (std::size_t i = 0; i < serial.bvh().nodes.size(); ++i) {
@@ -220,8 +220,8 @@ TEST(SahBvh, BuiltInParallelIsTheSame) {
 }
 
 TEST(SahBvh, TellsWhatItDid) {
-  const Scene scene = load_scene("tetra:n=3");
-  const SahBvh structure(scene, {});
+  const scenes::Scene scene = scenes::load_scene("tetra:n=3");
+  const bvh::SahBvh structure(scene, {});
   const Ray ray = PrimaryRays(scene.cameras.front(), 64, 64, 1).ray(31, 32, 0);
   WorkCounters work;
   const auto hit = structure.closest_hit(ray, work);
@@ -243,8 +243,8 @@ TEST(SahBvh, TellsWhatItDid) {
 
 // The float tests leave little to the canonical one.
 TEST(SahBvh, ConfirmsAboutOncePerHit) {
-  const Scene scene = load_scene("bumpy:triangles=20000");
-  const SahBvh structure(scene, {});
+  const scenes::Scene scene = scenes::load_scene("bumpy:triangles=20000");
+  const bvh::SahBvh structure(scene, {});
   WorkCounters work;
   HitBuffer hits(128, 128, 1);
   structure.trace(PrimaryRays(scene.cameras.front(), 128, 128, 1), hits, work);
@@ -255,4 +255,4 @@ TEST(SahBvh, ConfirmsAboutOncePerHit) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

@@ -12,11 +12,11 @@
 
 #include "scenes/catalogue.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
-BeamOptions options_with(int level) {
-  BeamOptions options;
+beam::BeamOptions options_with(int level) {
+  beam::BeamOptions options;
   options.octree.max_level = level;
   return options;
 }
@@ -24,7 +24,7 @@ BeamOptions options_with(int level) {
 /// Which beam, in which leaf: what it meets, the leaf and the outline name it.
 using Name = std::tuple<BeamKind, std::uint32_t, std::vector<std::pair<double, double>>>;
 
-Name name_of(const BeamPassage& passage) {
+Name name_of(const beam::BeamPassage& passage) {
   std::vector<std::pair<double, double>> corners;
   for (const glm::dvec2& corner : passage.corners) corners.emplace_back(corner.x, corner.y);
   return {passage.kind, passage.node, std::move(corners)};
@@ -32,7 +32,7 @@ Name name_of(const BeamPassage& passage) {
 
 struct Case {
   const char* scene;
-  BeamOptions options;
+  beam::BeamOptions options;
   int samples;
 };
 
@@ -53,9 +53,9 @@ std::vector<Case> cases() {
 class SampleWays : public ::testing::TestWithParam<Case> {};
 
 TEST_P(SampleWays, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
-  const Scene scene = load_scene(GetParam().scene);
-  const BeamOptions& options = GetParam().options;
-  const BeamTracer tracer(scene, options);
+  const scenes::Scene scene = scenes::load_scene(GetParam().scene);
+  const beam::BeamOptions& options = GetParam().options;
+  const beam::BeamTracer tracer(scene, options);
   const PrimaryRays rays(scene.cameras.front(), 10, 8, GetParam().samples);
   HitBuffer hits(10, 8, GetParam().samples);
   tracer.trace(rays, hits);
@@ -65,7 +65,7 @@ TEST_P(SampleWays, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
     for (int x = 0; x < 10; ++x) {
       for (int sample = 0; sample < GetParam().samples; ++sample) {
         SCOPED_TRACE(::testing::Message() << x << "," << y << " sample " << sample);
-        const SampleWay way = way_of_sample(tracer, rays, x, y, sample);
+        const beam::SampleWay way = beam::way_of_sample(tracer, rays, x, y, sample);
         ASSERT_EQ(way.hit, hits.get(hits.index(x, y, sample)));
         const Ray ray = rays.ray(x, y, sample);
         const std::vector<TraceStep> alone = tracer.explain(ray);
@@ -75,7 +75,7 @@ TEST_P(SampleWays, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
         }
         ASSERT_FALSE(way.beams.empty());
         for (std::size_t i = 0; i < way.beams.size(); ++i) {
-          const BeamPassage& beam = way.beams[i];
+          const beam::BeamPassage& beam = way.beams[i];
           ++samples[name_of(beam)].second;
           samples[name_of(beam)].first = beam.samples;
           if (beam.kind == BeamKind::kLeaving) {
@@ -112,19 +112,19 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SampleWays, ::testing::ValuesIn(cases()));
 
 // What goes on whole has no new cut and the same outline; what is cut has both.
 TEST(SampleWay, NamesTheCutsOfADividedBeamOnly) {
-  const Scene scene = load_scene("escena2");
-  const BeamTracer tracer(scene, options_with(6));
+  const scenes::Scene scene = scenes::load_scene("escena2");
+  const beam::BeamTracer tracer(scene, options_with(6));
   const PrimaryRays rays(scene.cameras.front(), 16, 12, 1);
   int whole = 0;
   int divided = 0;
   for (int x = 0; x < 16; ++x) {
-    const SampleWay way = way_of_sample(tracer, rays, x, 6, 0);
+    const beam::SampleWay way = beam::way_of_sample(tracer, rays, x, 6, 0);
     for (std::size_t i = 1; i < way.beams.size(); ++i) {
       const bool is_same = way.beams[i].corners == way.beams[i - 1].corners;
       EXPECT_EQ(way.beams[i].cuts.empty(), is_same);
       ++(is_same ? whole : divided);
       EXPECT_LE(way.beams[i].samples, way.beams[i - 1].samples);
-      for (const PlaneOrder& cut : way.beams[i].cuts) {
+      for (const beam::PlaneOrder& cut : way.beams[i].cuts) {
         EXPECT_TRUE(cut.first.axis != cut.second.axis || cut.first.at != cut.second.at);
       }
     }
@@ -134,4 +134,4 @@ TEST(SampleWay, NamesTheCutsOfADividedBeamOnly) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

@@ -11,13 +11,13 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "accel/registry.hpp"
+#include "accel/core/registry.hpp"
 #include "scenes/catalogue.hpp"
+#include "scenes/core/random.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/box.hpp"
-#include "scenes/random.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 struct StandIn {
@@ -47,7 +47,7 @@ constexpr std::array<StandIn, 15> kStandIns = {{{"ajedrez", 19734, 0},
 class StandIns : public testing::TestWithParam<StandIn> {};
 
 TEST_P(StandIns, HaveTheThesissCounts) {
-  const Scene scene = load_scene(GetParam().name);
+  const scenes::Scene scene = scenes::load_scene(GetParam().name);
   EXPECT_EQ(scene.polygons.size(), GetParam().polygons);
   EXPECT_EQ(scene.spheres.size(), GetParam().spheres);
   EXPECT_EQ(scene.primitives.size(), GetParam().polygons + GetParam().spheres);
@@ -57,9 +57,9 @@ using Place = std::tuple<float, float, float>;
 Place place_of(const glm::vec3& p) { return {p.x, p.y, p.z}; }
 
 TEST_P(StandIns, RepeatNoPrimitive) {
-  const Scene scene = load_scene(GetParam().name);
+  const scenes::Scene scene = scenes::load_scene(GetParam().name);
   std::set<std::set<Place>> polygons;
-  for (const Polygon& polygon : scene.polygons) {
+  for (const scenes::Polygon& polygon : scene.polygons) {
     std::set<Place> corners;
     for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {
       corners.insert(place_of(scene.vertices[scene.corners[polygon.first_corner + i]]));
@@ -67,20 +67,20 @@ TEST_P(StandIns, RepeatNoPrimitive) {
     EXPECT_TRUE(polygons.insert(corners).second) << "polygon " << &polygon - scene.polygons.data();
   }
   std::set<std::tuple<Place, float>> spheres;
-  for (const Sphere& sphere : scene.spheres) {
+  for (const scenes::Sphere& sphere : scene.spheres) {
     EXPECT_TRUE(spheres.insert({place_of(sphere.center), sphere.radius}).second);
   }
 }
 
 /// No sliver: every polygon has an area that counts beside its longest side.
 TEST_P(StandIns, HaveNoPolygonWithoutArea) {
-  const Scene scene = load_scene(GetParam().name);
+  const scenes::Scene scene = scenes::load_scene(GetParam().name);
   for (std::size_t id = 0; id < scene.polygons.size(); ++id) {
-    const Polygon& polygon = scene.polygons[id];
+    const scenes::Polygon& polygon = scene.polygons[id];
     double area = 0.0;
     double longest = 0.0;
     for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
-      const Triangle& triangle = scene.triangles[polygon.first_triangle + i];
+      const scenes::Triangle& triangle = scene.triangles[polygon.first_triangle + i];
       const glm::dvec3 a(scene.vertices[triangle.vertex[0]]);
       const glm::dvec3 b(scene.vertices[triangle.vertex[1]]);
       const glm::dvec3 c(scene.vertices[triangle.vertex[2]]);
@@ -94,7 +94,7 @@ TEST_P(StandIns, HaveNoPolygonWithoutArea) {
 /// Looks for a free way from a polygon to where somebody can look at it from.
 class Onlooker {
  public:
-  Onlooker(const Scene& scene, bool inside)
+  Onlooker(const scenes::Scene& scene, bool inside)
       : scene_(scene), structure_(registry().choose(Spec{"sah-bvh", {}}).build(scene)) {
     const glm::dvec3 lower(scene.bounds.lower);
     const glm::dvec3 extent(glm::dvec3(scene.bounds.upper) - lower);
@@ -109,7 +109,7 @@ class Onlooker {
     }
   }
 
-  bool sees(const Polygon& polygon) {
+  bool sees(const scenes::Polygon& polygon) {
     constexpr int kTries = 1500;
     for (int i = 0; i < kTries; ++i) {
       const glm::dvec3 point = point_on(polygon);
@@ -126,9 +126,9 @@ class Onlooker {
   }
 
  private:
-  glm::dvec3 point_on(const Polygon& polygon) {
+  glm::dvec3 point_on(const scenes::Polygon& polygon) {
     const auto chosen = static_cast<std::uint32_t>(random_.below(polygon.triangle_count));
-    const Triangle& triangle = scene_.triangles[polygon.first_triangle + chosen];
+    const scenes::Triangle& triangle = scene_.triangles[polygon.first_triangle + chosen];
     double u = random_.unit();
     double v = random_.unit();
     if (u + v > 1.0) {
@@ -151,7 +151,7 @@ class Onlooker {
     return structure_->any_hit(ray);
   }
 
-  const Scene& scene_;
+  const scenes::Scene& scene_;
   std::unique_ptr<Accelerator> structure_;
   Random random_{1};
   double size_ = 0.0;
@@ -160,7 +160,7 @@ class Onlooker {
 
 // Spheres of the SPD's flake and shell overlap by definition; those scenes are Haines's own.
 TEST_P(StandIns, HideNearlyNothing) {
-  const Scene scene = load_scene(GetParam().name);
+  const scenes::Scene scene = scenes::load_scene(GetParam().name);
   Onlooker onlooker(scene, GetParam().inside);
   std::vector<std::size_t> hidden;
   for (std::size_t id = 0; id < scene.polygons.size(); ++id) {
@@ -176,12 +176,13 @@ INSTANTIATE_TEST_SUITE_P(Thesis, StandIns, testing::ValuesIn(kStandIns), [](cons
 });
 
 TEST(Onlooker, SeesNothingOfABoxInABoxButFromInside) {
-  SceneBuilder builder("boxes");
+  scenes::SceneBuilder builder("boxes");
   builder.add_camera({.from = {0.9F, 0.5F, 0.5F}, .at = {0.0F, 0.5F, 0.5F}, .up = {0, 0, 1}});
-  add_flat(builder, box({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}));
-  add_flat(builder, box({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6}));
-  add_flat(builder, box({0.45, 0.45, 0.45}, {0.55, 0.55, 0.55}));
-  const Scene scene = std::move(builder).build();
+  scenes::modelling::add_flat(builder, scenes::modelling::box({0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}));
+  scenes::modelling::add_flat(builder, scenes::modelling::box({0.4, 0.4, 0.4}, {0.6, 0.6, 0.6}));
+  scenes::modelling::add_flat(builder,
+                              scenes::modelling::box({0.45, 0.45, 0.45}, {0.55, 0.55, 0.55}));
+  const scenes::Scene scene = std::move(builder).build();
   Onlooker outside(scene, false);
   Onlooker inside(scene, true);
   for (std::size_t id = 0; id < scene.polygons.size(); ++id) {
@@ -192,7 +193,7 @@ TEST(Onlooker, SeesNothingOfABoxInABoxButFromInside) {
 
 // Whole images are judged by `beambench verify`; this holds for scenes too large for that, too.
 TEST_P(StandIns, GiveASampleOfRaysTheHitsOfExhaustiveSearch) {
-  const Scene scene = load_scene(GetParam().name);
+  const scenes::Scene scene = scenes::load_scene(GetParam().name);
   const auto exhaustive = registry().choose({"exhaustive", {}}).build(scene);
   const auto sah = registry().choose({"sah-bvh", {}}).build(scene);
   const auto samet = registry().choose({"samet", {}}).build(scene);
@@ -211,7 +212,7 @@ TEST_P(StandIns, GiveASampleOfRaysTheHitsOfExhaustiveSearch) {
 }
 
 TEST(Habitacion, IsClosed) {
-  const Scene scene = load_scene("habitacion");
+  const scenes::Scene scene = scenes::load_scene("habitacion");
   const auto structure = registry().choose(Spec{"sah-bvh", {}}).build(scene);
   Random random(1);
   for (int i = 0; i < 20000; ++i) {
@@ -226,7 +227,7 @@ TEST(Habitacion, IsClosed) {
 // Section 5.4.2: when a beam comes to an occupied leaf, nearly all of its rays hit there. Section
 // 5.3.3: 63% of the beams are at occupied leaves.
 TEST(BolaEspacial, LetsMostRaysHitWhereTheirBeamEnds) {
-  const Scene scene = load_scene("bola-espacial");
+  const scenes::Scene scene = scenes::load_scene("bola-espacial");
   const PrimaryRays rays(scene.cameras.front(), 1280, 1024, 1);
   const auto samples = static_cast<double>(rays.count());
   for (const auto& [level, least_share] : {std::pair(5, 0.79), std::pair(6, 0.70)}) {
@@ -251,8 +252,8 @@ TEST(BolaEspacial, LetsMostRaysHitWhereTheirBeamEnds) {
 }
 
 TEST(Caracol, IsTheShellWithoutItsTip) {
-  const Scene whole = load_scene("shells:n=5");
-  const Scene cut = load_scene("caracol");
+  const scenes::Scene whole = scenes::load_scene("shells:n=5");
+  const scenes::Scene cut = scenes::load_scene("caracol");
   const std::size_t left_out = whole.spheres.size() - cut.spheres.size();
   EXPECT_EQ(left_out, 90U);
   for (std::size_t i = 0; i < cut.spheres.size(); ++i) {
@@ -262,4 +263,4 @@ TEST(Caracol, IsTheShellWithoutItsTip) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

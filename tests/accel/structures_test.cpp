@@ -8,18 +8,18 @@
 
 #include <gtest/gtest.h>
 
-#include "accel/registry.hpp"
-#include "harness/selftest/selftest.hpp"
-#include "scenes/error.hpp"
+#include "accel/core/registry.hpp"
+#include "harness/verify/selftest/selftest.hpp"
+#include "scenes/core/error.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 /// A check of the self-test, and the structure that it is made of.
 struct CheckOfStructure {
   std::string structure;
-  const Check* check;
+  const verify::Check* check;
 };
 
 void PrintTo(const CheckOfStructure& parameter, std::ostream* stream) {
@@ -29,9 +29,9 @@ void PrintTo(const CheckOfStructure& parameter, std::ostream* stream) {
 std::vector<CheckOfStructure> all_checks() {
   std::vector<CheckOfStructure> all;
   for (const StructureInfo& info : registry().structures()) {
-    const Subject subject(registry().choose({info.name, {}}));
-    for (const Check& check : selftest_checks()) {
-      if (applies(check, subject)) all.push_back({info.name, &check});
+    const verify::Subject subject(registry().choose({info.name, {}}));
+    for (const verify::Check& check : verify::selftest_checks()) {
+      if (verify::applies(check, subject)) all.push_back({info.name, &check});
     }
   }
   return all;
@@ -48,9 +48,9 @@ std::string test_name(const ::testing::TestParamInfo<CheckOfStructure>& info) {
 class Contract : public ::testing::TestWithParam<CheckOfStructure> {};
 
 TEST_P(Contract, IsKept) {
-  const SelftestEffort effort{.seed = 1, .scenes = 240};
-  const Subject subject(registry().choose({GetParam().structure, {}}));
-  const CheckOutcome outcome = run_check(*GetParam().check, subject, effort);
+  const verify::SelftestEffort effort{.seed = 1, .scenes = 240};
+  const verify::Subject subject(registry().choose({GetParam().structure, {}}));
+  const verify::CheckOutcome outcome = verify::run_check(*GetParam().check, subject, effort);
   EXPECT_EQ(outcome.failure, "");
 }
 
@@ -78,7 +78,7 @@ TEST(Registry, EveryStructureExplainsItself) {
 }
 
 TEST(Null, AnswersNothing) {
-  const Scene scene = testing::random_scene(3, 10);
+  const scenes::Scene scene = testing::random_scene(3, 10);
   const auto null = registry().choose({"null", {}}).build(scene);
   HitBuffer buffer(8, 8, 1);
   null->trace(PrimaryRays(scene.cameras.front(), 8, 8, 1), buffer);
@@ -93,4 +93,4 @@ TEST(Null, AnswersNothing) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

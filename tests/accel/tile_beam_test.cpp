@@ -11,26 +11,26 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include "accel/core/registry.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
-#include "accel/registry.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/only_target.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 using testing::random_ray;
 using testing::random_scene;
 
 /// An eye outside, inside or in the middle planes of the scene's box, looking somewhere.
-Camera random_camera(const Scene& scene, Random& random) {
+scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
   const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
   const glm::vec3 size = scene.bounds.upper - scene.bounds.lower;
   const float reach = std::max({size.x, size.y, size.z, 1e-3F});
   const float spread = random.below(2) == 0 ? 0.4F : 2.5F;
-  Camera camera;
+  scenes::Camera camera;
   for (int axis = 0; axis < 3; ++axis) {
     camera.from[axis] = middle[axis];
     camera.at[axis] = middle[axis];
@@ -51,15 +51,15 @@ Camera random_camera(const Scene& scene, Random& random) {
 }
 
 /// How far apart places are that float cannot tell apart, K u of the differ.
-double indistinct(const Scene& scene, const glm::vec3& eye) {
+double indistinct(const scenes::Scene& scene, const glm::vec3& eye) {
   return 16.0 * 0x1p-24 *
          (static_cast<double>(scene.bounds.largest_coordinate()) + glm::length(glm::dvec3(eye)));
 }
 
 /// Do rays near the given one, at the distance of the hits in question, get both answers? Then the
 /// answers differ by rounding only.
-bool is_close_call(const Exhaustive& exhaustive, const Ray& ray, const std::optional<Hit>& answer,
-                   double slack) {
+bool is_close_call(const exhaustive::Exhaustive& exhaustive, const Ray& ray,
+                   const std::optional<Hit>& answer, double slack) {
   const float t = answer ? answer->t : 1.0F;
   const glm::dvec3 d(ray.direction);
   const glm::dvec3 side = glm::normalize(glm::cross(
@@ -89,8 +89,8 @@ struct Comparison {
 };
 
 /// Compares an image with exhaustive search, sample by sample.
-Comparison compare(const Scene& scene, const PrimaryRays& rays, const HitBuffer& image) {
-  const Exhaustive exhaustive(scene);
+Comparison compare(const scenes::Scene& scene, const PrimaryRays& rays, const HitBuffer& image) {
+  const exhaustive::Exhaustive exhaustive(scene);
   const double slack = indistinct(scene, rays.eye());
   Comparison found;
   for (int y = 0; y < rays.height(); ++y) {
@@ -111,8 +111,8 @@ Comparison compare(const Scene& scene, const PrimaryRays& rays, const HitBuffer&
         if (found.errors++ == 0) {
           found.first = fmt::format(
               "({}, {}) sample {}: expected {} at {}, got {} at {}", x, y, sample,
-              expected ? expected->primitive : kNoPrimitive, expected ? expected->t : -1,
-              actual ? actual->primitive : kNoPrimitive, actual ? actual->t : -1);
+              expected ? expected->primitive : scenes::kNoPrimitive, expected ? expected->t : -1,
+              actual ? actual->primitive : scenes::kNoPrimitive, actual ? actual->t : -1);
         }
       }
     }
@@ -120,7 +120,7 @@ Comparison compare(const Scene& scene, const PrimaryRays& rays, const HitBuffer&
   return found;
 }
 
-HitBuffer image_of(const TileBeam& structure, const PrimaryRays& rays) {
+HitBuffer image_of(const tile_beam::TileBeam& structure, const PrimaryRays& rays) {
   HitBuffer image(rays.width(), rays.height(), rays.samples());
   std::fill_n(image.t(), image.size(), -1.0F);  // what is not written shows
   structure.trace(rays, image);
@@ -133,12 +133,13 @@ TEST(TileBeam, ImagesOfRandomScenesAreThoseOfExhaustive) {
   std::size_t close_calls = 0;
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
     Random random(seed);
-    const Scene scene = random_scene(seed, static_cast<int>(1 + random.below(80)));
-    const Camera camera = random_camera(scene, random);
+    const scenes::Scene scene = verify::random_scene(seed, static_cast<int>(1 + random.below(80)));
+    const scenes::Camera camera = random_camera(scene, random);
     const int pattern[] = {1, 5, 9, 1};
     const PrimaryRays rays(camera, static_cast<int>(1 + random.below(90)),
                            static_cast<int>(1 + random.below(90)), pattern[random.below(4)]);
-    const TileBeam structure(scene, {.max_leaf = static_cast<std::uint32_t>(1 + random.below(32))});
+    const tile_beam::TileBeam structure(
+        scene, {.max_leaf = static_cast<std::uint32_t>(1 + random.below(32))});
     const Comparison found = compare(scene, rays, image_of(structure, rays));
     EXPECT_EQ(found.errors, 0U) << "seed " << seed << ", " << rays.width() << "x" << rays.height()
                                 << "x" << rays.samples() << " first " << found.first;
@@ -153,8 +154,8 @@ TEST(TileBeam, ImagesOfRandomScenesAreThoseOfExhaustive) {
 
 TEST(TileBeam, ImagesOfCatalogueScenesAreThoseOfExhaustive) {
   for (const char* name : {"tetra:n=4", "balls:n=2", "escena1", "escena2", "bumpy:triangles=768"}) {
-    const Scene scene = load_scene(name);
-    const TileBeam structure(scene, {});
+    const scenes::Scene scene = scenes::load_scene(name);
+    const tile_beam::TileBeam structure(scene, {});
     for (const int samples : {1, 5, 9}) {
       const PrimaryRays rays(scene.cameras.front(), 67, 53, samples);
       const Comparison found = compare(scene, rays, image_of(structure, rays));
@@ -166,13 +167,13 @@ TEST(TileBeam, ImagesOfCatalogueScenesAreThoseOfExhaustive) {
 /// An eye that touches what it looks at: hits at t = 0 lie in the interval.
 struct Touching {
   std::string name;
-  Scene scene;
+  scenes::Scene scene;
   glm::vec3 eye;
 };
 
 std::vector<Touching> touching_eyes() {
   std::vector<Touching> all;
-  const auto add = [&](const char* name, SceneBuilder builder, const glm::vec3& eye) {
+  const auto add = [&](const char* name, scenes::SceneBuilder builder, const glm::vec3& eye) {
     all.push_back({name, std::move(builder).build(), eye});
   };
   const std::vector<glm::dvec3> square{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
@@ -180,7 +181,7 @@ std::vector<Touching> touching_eyes() {
   const std::vector<glm::dvec3> angle{{0, 0, 0}, {2, 0, 0}, {2, 1, 0},
                                       {1, 1, 0}, {1, 2, 0}, {0, 2, 0}};  // concave
   const auto polygon = [](const std::vector<glm::dvec3>& corners) {
-    SceneBuilder builder("polygon");
+    scenes::SceneBuilder builder("polygon");
     builder.add_polygon(corners);
     builder.add_sphere({0.0, 0.0, 5.0}, 1.0);
     return builder;
@@ -197,13 +198,13 @@ std::vector<Touching> touching_eyes() {
   add("where it is cut out", polygon(angle), {1.5F, 1.5F, 0});
 
   const auto sphere = [](double radius) {
-    SceneBuilder builder("sphere");
+    scenes::SceneBuilder builder("sphere");
     builder.add_sphere({1.0, 0.0, 0.0}, radius);
     return builder;
   };
   add("on a sphere", sphere(1.0), {0, 0, 0});
   add("on a sphere seen from the inside only", sphere(-1.0), {0, 0, 0});
-  SceneBuilder kissing("kissing spheres");
+  scenes::SceneBuilder kissing("kissing spheres");
   for (const glm::dvec3& center :
        {glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(1, 1, 0), glm::dvec3(0, 1, 1)}) {
     kissing.add_sphere(center, 0.5);
@@ -211,7 +212,7 @@ std::vector<Touching> touching_eyes() {
   add("where spheres touch", std::move(kissing), {0.5F, 0, 0});
 
   const auto cone = [](double apex_radius) {
-    SceneBuilder builder("cone");
+    scenes::SceneBuilder builder("cone");
     builder.add_cone({0.0, 0.0, 0.0}, 1.0, {0.0, 2.0, 0.0}, apex_radius);
     return builder;
   };
@@ -223,11 +224,11 @@ std::vector<Touching> touching_eyes() {
 }
 
 /// Looking along an axis, a diagonal, and neither.
-std::vector<Camera> cameras_at(const glm::vec3& eye) {
-  std::vector<Camera> cameras;
+std::vector<scenes::Camera> cameras_at(const glm::vec3& eye) {
+  std::vector<scenes::Camera> cameras;
   for (const glm::vec3& way : {glm::vec3(1, 0, 0), glm::vec3(0, 0, -1), glm::vec3(-1, 1, 0),
                                glm::vec3(0.3F, -0.8F, 0.4F)}) {
-    Camera camera;
+    scenes::Camera camera;
     camera.from = eye;
     camera.at = eye + way;
     camera.up = std::abs(way.y) < 0.75F ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
@@ -238,8 +239,9 @@ std::vector<Camera> cameras_at(const glm::vec3& eye) {
 }
 
 /// Sample for sample what exhaustive search finds at the eye. Elsewhere float may differ.
-std::size_t wrong_at_eye(const Scene& scene, const PrimaryRays& rays, const HitBuffer& image) {
-  const Exhaustive exhaustive(scene);
+std::size_t wrong_at_eye(const scenes::Scene& scene, const PrimaryRays& rays,
+                         const HitBuffer& image) {
+  const exhaustive::Exhaustive exhaustive(scene);
   std::size_t wrong = 0;
   for (int y = 0; y < rays.height(); ++y) {
     for (int x = 0; x < rays.width(); ++x) {
@@ -262,8 +264,8 @@ TEST(TileBeam, FindsHitsAtTheEye) {
     SCOPED_TRACE(hwy::TargetName(target));
     const testing::OnlyTarget only(target);
     for (const Touching& touching : touching_eyes()) {
-      const TileBeam structure(touching.scene, {});
-      for (const Camera& camera : cameras_at(touching.eye)) {
+      const tile_beam::TileBeam structure(touching.scene, {});
+      for (const scenes::Camera& camera : cameras_at(touching.eye)) {
         for (const auto& [width, samples] : {std::pair{33, 1}, {16, 1}, {9, 1}, {19, 5}, {8, 4}}) {
           const PrimaryRays rays(camera, width, 20, samples);
           const HitBuffer image = image_of(structure, rays);
@@ -284,11 +286,11 @@ TEST(TileBeam, FindsHitsAtTheOriginOfSingleRays) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     const testing::OnlyTarget only(target);
     for (const Touching& touching : touching_eyes()) {
-      const TileBeam structure(touching.scene, {});
-      const Exhaustive exhaustive(touching.scene);
+      const tile_beam::TileBeam structure(touching.scene, {});
+      const exhaustive::Exhaustive exhaustive(touching.scene);
       Random random(3);
       for (int i = 0; i < 200; ++i) {
-        Ray ray = random_ray(touching.scene, random);
+        Ray ray = verify::random_ray(touching.scene, random);
         ray.origin = touching.eye;
         ray.t_min = 0.0F;
         for (const float t_max : {kInfinity, 1.0F, 0.0F}) {
@@ -303,8 +305,8 @@ TEST(TileBeam, FindsHitsAtTheOriginOfSingleRays) {
 }
 
 TEST(TileBeam, OnePixelIsAnImage) {
-  const Scene scene = load_scene("tetra:n=3");
-  const TileBeam structure(scene, {});
+  const scenes::Scene scene = scenes::load_scene("tetra:n=3");
+  const tile_beam::TileBeam structure(scene, {});
   for (const auto& [width, height] :
        {std::pair{1, 1}, {1, 97}, {131, 1}, {127, 65}, {128, 64}, {129, 63}}) {
     const PrimaryRays rays(scene.cameras.front(), width, height, 1);
@@ -315,12 +317,12 @@ TEST(TileBeam, OnePixelIsAnImage) {
 /// A closed mesh seen from within: every sample must be covered, wherever edges and vertices lie.
 TEST(TileBeam, AClosedMeshHasNoGap) {
   for (const char* name : {"bumpy:triangles=768", "bumpy:triangles=12288"}) {
-    const Scene scene = load_scene(name);
-    const TileBeam structure(scene, {});
+    const scenes::Scene scene = scenes::load_scene(name);
+    const tile_beam::TileBeam structure(scene, {});
     Random random(5);
     std::size_t background = 0;
     for (int view = 0; view < 200; ++view) {
-      Camera camera = random_camera(scene, random);
+      scenes::Camera camera = random_camera(scene, random);
       const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
       // Well within: the mesh is a sphere with bumps, of a quarter of its box's side at least.
       const glm::vec3 to = 0.2F * (scene.bounds.upper - scene.bounds.lower);
@@ -331,7 +333,7 @@ TEST(TileBeam, AClosedMeshHasNoGap) {
       const PrimaryRays rays(camera, 200, 150, 1);
       const HitBuffer image = image_of(structure, rays);
       background += static_cast<std::size_t>(
-          std::count(image.primitive(), image.primitive() + image.size(), kNoPrimitive));
+          std::count(image.primitive(), image.primitive() + image.size(), scenes::kNoPrimitive));
     }
     EXPECT_EQ(background, 0U) << name;
   }
@@ -339,7 +341,7 @@ TEST(TileBeam, AClosedMeshHasNoGap) {
 
 /// A room whose walls are two triangles each: nearly all of them cross the plane of the eye.
 TEST(TileBeam, WallsBehindTheEyeLeaveNoGap) {
-  SceneBuilder builder("box");
+  scenes::SceneBuilder builder("box");
   for (int axis = 0; axis < 3; ++axis) {
     for (const double side : {0.0, 1.0}) {
       std::vector<glm::dvec3> corners(4, glm::dvec3(0.0));
@@ -349,31 +351,32 @@ TEST(TileBeam, WallsBehindTheEyeLeaveNoGap) {
       builder.add_polygon(corners);
     }
   }
-  const Scene scene = std::move(builder).build();
-  const TileBeam structure(scene, {});
+  const scenes::Scene scene = std::move(builder).build();
+  const tile_beam::TileBeam structure(scene, {});
   Random random(9);
   for (int view = 0; view < 60; ++view) {
-    Camera camera = random_camera(scene, random);
+    scenes::Camera camera = random_camera(scene, random);
     for (int axis = 0; axis < 3; ++axis) {
       camera.from[axis] = static_cast<float>(random.uniform(0.001, 0.999));
     }
     const PrimaryRays rays(camera, 150, 120, 1);
     const HitBuffer image = image_of(structure, rays);
-    EXPECT_EQ(std::count(image.primitive(), image.primitive() + image.size(), kNoPrimitive), 0)
+    EXPECT_EQ(std::count(image.primitive(), image.primitive() + image.size(), scenes::kNoPrimitive),
+              0)
         << view;
     EXPECT_EQ(compare(scene, rays, image).errors, 0U) << view;
   }
 }
 
 TEST(TileBeam, BackgroundOfAnEmptySceneIsPainted) {
-  const Scene scene = SceneBuilder("empty").build();
-  const PrimaryRays rays(Camera{}, 70, 3, 5);
-  EXPECT_EQ(image_of(TileBeam(scene, {}), rays), HitBuffer(70, 3, 5));
+  const scenes::Scene scene = scenes::SceneBuilder("empty").build();
+  const PrimaryRays rays(scenes::Camera{}, 70, 3, 5);
+  EXPECT_EQ(image_of(tile_beam::TileBeam(scene, {}), rays), HitBuffer(70, 3, 5));
 }
 
 TEST(TileBeam, CrowdedTilesGoToRays) {
-  const Scene scene = load_scene("bumpy:triangles=12288");
-  const TileBeam structure(scene, {});
+  const scenes::Scene scene = scenes::load_scene("bumpy:triangles=12288");
+  const tile_beam::TileBeam structure(scene, {});
   const PrimaryRays rays(scene.cameras.front(), 7, 5, 1);
   HitBuffer image(7, 5, 1);
   WorkCounters counters;
@@ -383,8 +386,8 @@ TEST(TileBeam, CrowdedTilesGoToRays) {
 }
 
 TEST(TileBeam, CountingChangesNoHit) {
-  const Scene scene = load_scene("escena1");
-  const TileBeam structure(scene, {});
+  const scenes::Scene scene = scenes::load_scene("escena1");
+  const tile_beam::TileBeam structure(scene, {});
   const PrimaryRays rays(scene.cameras.front(), 200, 80, 1);
   HitBuffer counted(200, 80, 1);
   WorkCounters counters;
@@ -396,9 +399,9 @@ TEST(TileBeam, CountingChangesNoHit) {
 
 TEST(TileBeam, ThreadsChangeNoHitAndNoCount) {
   for (const char* name : {"escena1", "bumpy:triangles=12288", "escena2"}) {
-    const Scene scene = load_scene(name);
-    const TileBeam alone(scene, {});
-    const TileBeam together(scene, {.parallel = true});
+    const scenes::Scene scene = scenes::load_scene(name);
+    const tile_beam::TileBeam alone(scene, {});
+    const tile_beam::TileBeam together(scene, {.parallel = true});
     for (const int samples : {1, 5}) {
       const PrimaryRays rays(scene.cameras.front(), 300, 170, samples);
       HitBuffer expected(300, 170, samples);
@@ -415,16 +418,17 @@ TEST(TileBeam, ThreadsChangeNoHitAndNoCount) {
 }
 
 TEST(TileBeam, IsBuiltTheSameOnAllCores) {
-  const Scene scene = load_scene("bumpy:triangles=100000");
-  const TileHierarchy alone = build_tile_hierarchy(scene, {});
-  const TileHierarchy together = build_tile_hierarchy(scene, {.parallel = true});
+  const scenes::Scene scene = scenes::load_scene("bumpy:triangles=100000");
+  const tile_beam::TileHierarchy alone = tile_beam::build_tile_hierarchy(scene, {});
+  const tile_beam::TileHierarchy together =
+      tile_beam::build_tile_hierarchy(scene, {.parallel = true});
   ASSERT_GT(alone.leaves(), 2048U);  // enough for several tasks
   ASSERT_EQ(together.nodes.size(), alone.nodes.size());
   ASSERT_EQ(together.meshlets.size(), alone.meshlets.size());
   EXPECT_EQ(together.depth, alone.depth);
   for (std::size_t i = 0; i < alone.nodes.size(); ++i) {
-    const TileNode& node = alone.nodes[i];
-    const TileNode& other = together.nodes[i];
+    const tile_beam::TileNode& node = alone.nodes[i];
+    const tile_beam::TileNode& other = together.nodes[i];
     ASSERT_EQ(other.count, node.count) << i;
     ASSERT_EQ(other.boxes.planes, node.boxes.planes) << i;
     ASSERT_EQ(other.leaves, node.leaves) << i;
@@ -446,8 +450,8 @@ TEST(TileBeam, EveryInstructionSetIsRight) {
     SCOPED_TRACE(hwy::TargetName(target));
     const testing::OnlyTarget only(target);
     for (const char* name : {"tetra:n=4", "balls:n=2", "bumpy:triangles=3072"}) {
-      const Scene scene = load_scene(name);
-      const TileBeam structure(scene, {});
+      const scenes::Scene scene = scenes::load_scene(name);
+      const tile_beam::TileBeam structure(scene, {});
       ASSERT_STREQ(structure.instruction_set(), hwy::TargetName(target));
       for (const int width : {131, 512}) {  // of which the rows of one are whole cache lines
         const PrimaryRays rays(scene.cameras.front(), width, 45, 1);
@@ -457,20 +461,20 @@ TEST(TileBeam, EveryInstructionSetIsRight) {
     }
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
       Random random(seed);
-      const Scene scene = random_scene(seed, 60);
-      const TileBeam structure(scene, {});
+      const scenes::Scene scene = verify::random_scene(seed, 60);
+      const tile_beam::TileBeam structure(scene, {});
       const PrimaryRays rays(random_camera(scene, random), 50, 40, 1);
       EXPECT_EQ(compare(scene, rays, image_of(structure, rays)).errors, 0U) << "seed " << seed;
       for (int i = 0; i < 100; ++i) {
-        const Ray ray = random_ray(scene, random);
-        ASSERT_EQ(structure.closest_hit(ray), Exhaustive(scene).closest_hit(ray));
+        const Ray ray = verify::random_ray(scene, random);
+        ASSERT_EQ(structure.closest_hit(ray), exhaustive::Exhaustive(scene).closest_hit(ray));
       }
     }
   }
 }
 
 TEST(TileBeam, CanBeHeldToAnInstructionSet) {
-  const Scene scene = load_scene("tetra:n=2");
+  const scenes::Scene scene = scenes::load_scene("tetra:n=2");
   const auto best = registry().choose({"tile-beam", {}}).build(scene);
   EXPECT_EQ(best->statistics().instruction_set, best_simd_target());
   if ((hwy::SupportedTargets() & HWY_AVX2) == 0) GTEST_SKIP() << "this machine has no AVX2";
@@ -479,8 +483,8 @@ TEST(TileBeam, CanBeHeldToAnInstructionSet) {
 }
 
 TEST(TileBeam, LargeImagesAreWrittenPastTheCaches) {
-  const Scene scene = load_scene("tetra:n=3");
-  const TileBeam structure(scene, {});
+  const scenes::Scene scene = scenes::load_scene("tetra:n=3");
+  const tile_beam::TileBeam structure(scene, {});
   const PrimaryRays rays(scene.cameras.front(), 448, 301, 1);  // as many as are streamed, and odd
   EXPECT_EQ(compare(scene, rays, image_of(structure, rays)).errors, 0U);
 }
@@ -488,11 +492,12 @@ TEST(TileBeam, LargeImagesAreWrittenPastTheCaches) {
 TEST(TileBeam, SingleRaysAreExact) {
   for (std::uint64_t seed = 1; seed <= 80; ++seed) {
     Random random(seed);
-    const Scene scene = random_scene(seed, static_cast<int>(1 + random.below(120)));
-    const TileBeam structure(scene, {.max_leaf = static_cast<std::uint32_t>(1 + random.below(32))});
-    const Exhaustive exhaustive(scene);
+    const scenes::Scene scene = verify::random_scene(seed, static_cast<int>(1 + random.below(120)));
+    const tile_beam::TileBeam structure(
+        scene, {.max_leaf = static_cast<std::uint32_t>(1 + random.below(32))});
+    const exhaustive::Exhaustive exhaustive(scene);
     for (int i = 0; i < 200; ++i) {
-      const Ray ray = random_ray(scene, random);
+      const Ray ray = verify::random_ray(scene, random);
       const auto hit = exhaustive.closest_hit(ray);
       ASSERT_EQ(structure.closest_hit(ray), hit) << "seed " << seed << " ray " << i;
       ASSERT_EQ(structure.any_hit(ray), hit.has_value()) << "seed " << seed << " ray " << i;
@@ -501,4 +506,4 @@ TEST(TileBeam, SingleRaysAreExact) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

@@ -1,6 +1,6 @@
 // An image on several threads: the same hits and the same counts, whoever found them.
 
-#include "accel/trace_on.hpp"
+#include "accel/core/trace_on.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -17,12 +17,12 @@
 #include <tbb/info.h>
 #include <xmmintrin.h>
 
-#include "accel/registry.hpp"
-#include "accel/traversal_accelerator.hpp"
+#include "accel/core/registry.hpp"
+#include "accel/core/traversal_accelerator.hpp"
 #include "scenes/catalogue.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 constexpr int kThreads[] = {1, 2, 3, 8};
@@ -35,7 +35,7 @@ std::map<std::string, std::uint64_t, std::less<>> counts(const WorkCounters& cou
 }
 
 /// What `trace` finds and counts must come from any number of threads.
-void expect_same_on_threads(const StructureChoice& choice, const Scene& scene,
+void expect_same_on_threads(const StructureChoice& choice, const scenes::Scene& scene,
                             const PrimaryRays& rays) {
   SCOPED_TRACE(choice.label() + " over " + scene.name);
   const auto structure = choice.build(scene);
@@ -64,14 +64,14 @@ class Threads : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Threads, ChangeNoHitAndNoCount) {
   for (const char* name : {"escena1", "escena2", "bumpy:triangles=768"}) {
-    const Scene scene = load_scene(name);
+    const scenes::Scene scene = scenes::load_scene(name);
     for (const int samples : {1, 5}) {
       const PrimaryRays rays(scene.cameras.front(), 61, 47, samples);
       expect_same_on_threads(registry().choose({GetParam(), {}}), scene, rays);
     }
   }
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const Scene scene = testing::random_scene(seed, 40);
+    const scenes::Scene scene = testing::random_scene(seed, 40);
     const PrimaryRays rays(scene.cameras.front(), 40, 33, 1);
     expect_same_on_threads(registry().choose({GetParam(), {}}), scene, rays);
   }
@@ -93,7 +93,7 @@ TEST(ThreadsOf, EveryModeChangeNoHitAndNoCount) {
         "beam:max_level=8", "beam:max_level=1", "embree:mode=packet4", "embree:mode=packet16",
         "voxel-grid:fill=lazy", "tile-beam:parallel=true"}) {
     const StructureChoice choice = registry().choose(parse_spec(spec));
-    const Scene scene = load_scene("escena1");
+    const scenes::Scene scene = scenes::load_scene("escena1");
     const PrimaryRays rays(scene.cameras.front(), 80, 60, 5);
     expect_same_on_threads(choice, scene, rays);
   }
@@ -134,7 +134,7 @@ class Meeting : public TraversalAccelerator<Meeting> {
 };
 
 TEST(TraceOn, TakesAsManyThreadsAsAskedFor) {
-  const Scene scene = load_scene("escena1");
+  const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 1, 64, 1);
   HitBuffer buffer(1, 64, 1);
   for (const int threads : kThreads) {
@@ -148,7 +148,7 @@ TEST(TraceOn, TakesAsManyThreadsAsAskedFor) {
 
 // Embree holds TBB to the threads of its devices, and would hold back who else traces, too.
 TEST(TraceOn, EmbreeLeavesTheThreadsThatItsWorkloadHas) {
-  const Scene scene = load_scene("escena1");
+  const scenes::Scene scene = scenes::load_scene("escena1");
   Workload workload = usual_workload(scene);
   workload.threads = 2;
   const auto embree = registry().choose({"embree", {}}).build(scene, workload);
@@ -157,7 +157,7 @@ TEST(TraceOn, EmbreeLeavesTheThreadsThatItsWorkloadHas) {
 }
 
 TEST(TraceOn, ThreadsComputeInTheCallersMode) {
-  const Scene scene = load_scene("escena1");
+  const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 1, 64, 1);
   HitBuffer buffer(1, 64, 1);
   const unsigned before = _mm_getcsr();
@@ -171,4 +171,4 @@ TEST(TraceOn, ThreadsComputeInTheCallersMode) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

@@ -8,29 +8,29 @@
 
 #include <gtest/gtest.h>
 
+#include "accel/core/registry.hpp"
+#include "accel/core/tolerance.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
 #include "accel/grid/eager_voxels.hpp"
 #include "accel/grid/lazy_voxels.hpp"
 #include "accel/grid/mailboxes.hpp"
-#include "accel/registry.hpp"
-#include "accel/tolerance.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::accel {
 namespace {
 
 constexpr std::uint64_t kNoCap = 1'000'000'000;
 
-VoxelGridOptions with_resolution(std::int32_t x, std::int32_t y, std::int32_t z) {
-  VoxelGridOptions options;
+grid::VoxelGridOptions with_resolution(std::int32_t x, std::int32_t y, std::int32_t z) {
+  grid::VoxelGridOptions options;
   options.resolution = {x, y, z};
   return options;
 }
 
-std::unique_ptr<Accelerator> build(const std::string& spec, const Scene& scene) {
+std::unique_ptr<Accelerator> build(const std::string& spec, const scenes::Scene& scene) {
   return registry().choose(parse_spec(spec)).build(scene);
 }
 
@@ -44,21 +44,22 @@ double more(const Statistics& statistics, std::string_view name) {
 TEST(VoxelGrid, ListsHoldExactlyWhatOverlapsTheVoxel) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    const Scene scene = testing::random_scene(seed, 25);
+    const scenes::Scene scene = testing::random_scene(seed, 25);
     const auto n = static_cast<std::int32_t>(seed);
-    const CellGrid grid = make_voxel_grid(scene, with_resolution(1 + n % 7, 1 + n % 5, 1 + n % 9));
-    const EagerVoxels eager(scene, grid, kNoCap);
-    const LazyVoxels lazy(scene, grid, kNoCap);
-    for (std::size_t voxel = 0; voxel < voxel_count(grid); ++voxel) {
-      const Box box = grid.box(voxel_at(grid, voxel), 1);
+    const CellGrid grid =
+        grid::make_voxel_grid(scene, with_resolution(1 + n % 7, 1 + n % 5, 1 + n % 9));
+    const grid::EagerVoxels eager(scene, grid, kNoCap);
+    const grid::LazyVoxels lazy(scene, grid, kNoCap);
+    for (std::size_t voxel = 0; voxel < grid::voxel_count(grid); ++voxel) {
+      const Box box = grid.box(grid::voxel_at(grid, voxel), 1);
       for (const auto& references : {eager.references(voxel), lazy.references(voxel)}) {
         EXPECT_TRUE(std::is_sorted(references.begin(), references.end()));
-        for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+        for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
           const bool listed = std::binary_search(references.begin(), references.end(), id);
           if (listed == surface_overlaps(scene, id, box, overlap_tolerance(scene))) continue;
           // Other than the definition only within rounding of the boundary; the overlap of cones is
           // conservative, and a voxel's may say yes where that of a block around it says no.
-          if (scene.primitives[id].kind == PrimitiveKind::kCone) continue;
+          if (scene.primitives[id].kind == scenes::PrimitiveKind::kCone) continue;
           EXPECT_TRUE(listed && surface_overlaps(scene, id, box, 3.0 * overlap_tolerance(scene)))
               << "primitive " << id << " voxel " << voxel;
         }
@@ -68,15 +69,16 @@ TEST(VoxelGrid, ListsHoldExactlyWhatOverlapsTheVoxel) {
 }
 
 TEST(VoxelGrid, NumbersItsVoxelsAndFindsThemAgain) {
-  const CellGrid grid = make_voxel_grid(load_scene("escena1"), with_resolution(3, 5, 4));
-  EXPECT_EQ(voxel_count(grid), 60U);
-  for (std::size_t voxel = 0; voxel < voxel_count(grid); ++voxel) {
-    EXPECT_EQ(voxel_index(grid, voxel_at(grid, voxel)), voxel);
+  const CellGrid grid =
+      grid::make_voxel_grid(scenes::load_scene("escena1"), with_resolution(3, 5, 4));
+  EXPECT_EQ(grid::voxel_count(grid), 60U);
+  for (std::size_t voxel = 0; voxel < grid::voxel_count(grid); ++voxel) {
+    EXPECT_EQ(grid::voxel_index(grid, grid::voxel_at(grid, voxel)), voxel);
   }
 }
 
 TEST(VoxelGrid, VoxelsFollowEachOtherAndTouch) {
-  const Scene scene = load_scene("escena1");
+  const scenes::Scene scene = scenes::load_scene("escena1");
   const auto grid = build("voxel-grid:resolution=9x17x33", scene);
   Random random(1);
   for (int i = 0; i < 200; ++i) {
@@ -96,7 +98,7 @@ TEST(VoxelGrid, VoxelsFollowEachOtherAndTouch) {
 }
 
 TEST(VoxelGrid, LazyEvaluatesWhatRaysVisitAndNoMore) {
-  const Scene scene = load_scene("escena1");
+  const scenes::Scene scene = scenes::load_scene("escena1");
   const auto lazy = build("voxel-grid:resolution=16,fill=lazy", scene);
   EXPECT_EQ(more(lazy->statistics(), "evaluated_voxels"), 0.0);
   EXPECT_EQ(lazy->statistics().references, 0U);
@@ -112,7 +114,7 @@ TEST(VoxelGrid, LazyEvaluatesWhatRaysVisitAndNoMore) {
 TEST(VoxelGrid, LazyAndEagerDoTheSameWork) {
   for (const char* name : {"tetra:n=4", "balls:n=2", "escena1"}) {
     SCOPED_TRACE(name);
-    const Scene scene = load_scene(name);
+    const scenes::Scene scene = scenes::load_scene(name);
     const PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
     const auto count = [&](const char* spec) {
       HitBuffer buffer(64, 64, 1);
@@ -126,8 +128,8 @@ TEST(VoxelGrid, LazyAndEagerDoTheSameWork) {
 
 TEST(VoxelGrid, LazyLivesThroughManyThreadsAtOnce) {
   for (const std::uint64_t seed : {3U, 4U, 5U, 6U}) {
-    const Scene scene = testing::random_scene(seed, 60);
-    const Exhaustive exhaustive(scene);
+    const scenes::Scene scene = testing::random_scene(seed, 60);
+    const exhaustive::Exhaustive exhaustive(scene);
     std::vector<Ray> rays;
     std::vector<std::optional<Hit>> expected;
     Random random(seed);
@@ -135,7 +137,8 @@ TEST(VoxelGrid, LazyLivesThroughManyThreadsAtOnce) {
       rays.push_back(testing::random_ray(scene, random));
       expected.push_back(exhaustive.closest_hit(rays.back()));
     }
-    const VoxelGrid<LazyVoxels, Mailboxes> grid(scene, with_resolution(12, 12, 12));
+    const grid::VoxelGrid<grid::LazyVoxels, grid::Mailboxes> grid(scene,
+                                                                  with_resolution(12, 12, 12));
     // All ask for all: the same voxels are wanted at the same time.
     std::vector<std::vector<std::optional<Hit>>> found(4);
     {
@@ -148,15 +151,15 @@ TEST(VoxelGrid, LazyLivesThroughManyThreadsAtOnce) {
       }
     }
     for (const auto& each : found) EXPECT_EQ(each, expected);
-    const EagerVoxels eager(scene, grid.grid(), kNoCap);
-    for (std::size_t voxel = 0; voxel < voxel_count(grid.grid()); ++voxel) {
+    const grid::EagerVoxels eager(scene, grid.grid(), kNoCap);
+    for (std::size_t voxel = 0; voxel < grid::voxel_count(grid.grid()); ++voxel) {
       EXPECT_GE(grid.voxels().references(voxel).size(), eager.references(voxel).size());
     }
   }
 }
 
 TEST(VoxelGrid, MailboxesSaveTestsAndNoHit) {
-  const Scene scene = load_scene("balls:n=2");
+  const scenes::Scene scene = scenes::load_scene("balls:n=2");
   const PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
   HitBuffer with(64, 64, 1);
   HitBuffer without(64, 64, 1);
@@ -171,53 +174,53 @@ TEST(VoxelGrid, MailboxesSaveTestsAndNoHit) {
 
 TEST(VoxelGrid, MailboxesTellEachPrimitiveOnceARay) {
   for (int ray = 0; ray < 3; ++ray) {
-    Mailboxes boxes(10);
+    grid::Mailboxes boxes(10);
     EXPECT_TRUE(boxes.is_first(7));
     EXPECT_FALSE(boxes.is_first(7));
     EXPECT_TRUE(boxes.is_first(8));
   }
-  Mailboxes larger(1000);  // of another scene
+  grid::Mailboxes larger(1000);  // of another scene
   EXPECT_TRUE(larger.is_first(7));
   EXPECT_TRUE(larger.is_first(999));
 }
 
 TEST(VoxelGrid, AutomaticVoxelsAreCubesByDensity) {
-  SceneBuilder builder("slab");
+  scenes::SceneBuilder builder("slab");
   Random random(1);
   for (int i = 0; i < 1000; ++i) {
     builder.add_sphere(
         {random.uniform(0.0, 80.0), random.uniform(0.0, 40.0), random.uniform(0.0, 10.0)}, 0.01);
   }
-  const Scene scene = std::move(builder).build();
-  VoxelGridOptions options;
+  const scenes::Scene scene = std::move(builder).build();
+  grid::VoxelGridOptions options;
   options.density = 4.0;
-  const CellGrid grid = make_voxel_grid(scene, options);
+  const CellGrid grid = grid::make_voxel_grid(scene, options);
   EXPECT_NEAR(grid.cells.x, 40, 1);  // 4,000 voxels of edge 2
   EXPECT_NEAR(grid.cells.y, 20, 1);
   EXPECT_NEAR(grid.cells.z, 5, 1);
 }
 
 TEST(VoxelGrid, AFlatSceneHasOneLayerOfVoxels) {
-  SceneBuilder builder("floor");
+  scenes::SceneBuilder builder("floor");
   for (int i = 0; i < 100; ++i) {
     const std::vector<glm::dvec3> corners{
         {i, 0.0, 1.0}, {i + 1.0, 0.0, 1.0}, {i + 1.0, 100.0, 1.0}};
     builder.add_polygon(corners);
   }
-  const Scene scene = std::move(builder).build();
-  VoxelGridOptions options;
+  const scenes::Scene scene = std::move(builder).build();
+  grid::VoxelGridOptions options;
   options.density = 9.0;
-  EXPECT_EQ(make_voxel_grid(scene, options).cells, glm::ivec3(30, 30, 1));
+  EXPECT_EQ(grid::make_voxel_grid(scene, options).cells, glm::ivec3(30, 30, 1));
 }
 
 TEST(VoxelGrid, AutomaticVoxelsGetFewerForAHeap) {
-  SceneBuilder builder("heap");
+  scenes::SceneBuilder builder("heap");
   for (int i = 0; i < 2'000; ++i) builder.add_sphere({0.0, 0.0, 0.0}, 1.0);
-  const Scene scene = std::move(builder).build();
+  const scenes::Scene scene = std::move(builder).build();
   EXPECT_LE(build("voxel-grid:max_references=100000", scene)->statistics().references, 100'000U);
 }
 
-std::string refusal(const std::string& spec, const Scene& scene) {
+std::string refusal(const std::string& spec, const scenes::Scene& scene) {
   try {
     build(spec, scene);
   } catch (const InputError& error) {
@@ -227,7 +230,7 @@ std::string refusal(const std::string& spec, const Scene& scene) {
 }
 
 TEST(VoxelGrid, RefusesWhatIsTooLargeBeforeItIsMade) {
-  const Scene scene = load_scene("escena1");
+  const scenes::Scene scene = scenes::load_scene("escena1");
   const std::string voxels = refusal("voxel-grid:resolution=4096", scene);
   for (const char* word : {"4096x4096x4096", "68719476736 voxels", "max_voxels", "resolution"}) {
     EXPECT_NE(voxels.find(word), std::string::npos) << word << " in: " << voxels;
@@ -241,14 +244,14 @@ TEST(VoxelGrid, RefusesWhatIsTooLargeBeforeItIsMade) {
 }
 
 TEST(VoxelGrid, LazyListsHaveTheSameCap) {
-  const Scene scene = load_scene("escena1");
+  const scenes::Scene scene = scenes::load_scene("escena1");
   const auto lazy = build("voxel-grid:resolution=30,fill=lazy,max_references=10", scene);
   HitBuffer buffer(32, 32, 1);
   EXPECT_THROW(lazy->trace(PrimaryRays(scene.cameras.front(), 32, 32, 1), buffer), InputError);
 }
 
 TEST(VoxelGrid, TellsItsSizes) {
-  const Scene scene = load_scene("tetra:n=4");
+  const scenes::Scene scene = scenes::load_scene("tetra:n=4");
   const Statistics eager = build("voxel-grid:resolution=10x20x30", scene)->statistics();
   EXPECT_EQ(eager.leaves, 6000U);
   EXPECT_GT(eager.empty_leaves, 3000U);
@@ -258,4 +261,4 @@ TEST(VoxelGrid, TellsItsSizes) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::accel

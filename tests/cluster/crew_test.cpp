@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 using Processes = std::vector<ProcessId>;
@@ -86,4 +86,4 @@ TEST(Crew, ForgetsWhoWasSentHome) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::cluster

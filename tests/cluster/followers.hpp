@@ -8,7 +8,7 @@
 #include "harness/cluster/lead.hpp"
 #include "tests/cluster/local_network.hpp"
 
-namespace beambench::testing {
+namespace beambench::cluster {
 
 /// What `lead` makes of the request on process 0, while all others follow.
 template <class Lead>
@@ -22,4 +22,4 @@ auto led(Lead lead, const ClusterRequest& request, LocalNetwork& network) {
   return lead(request, network.at(0));
 }
 
-}  // namespace beambench::testing
+}  // namespace beambench::cluster

@@ -14,7 +14,7 @@
 
 #include "harness/cluster/transport.hpp"
 
-namespace beambench::testing {
+namespace beambench::cluster {
 
 /// Delivers each message after a random time of its own, so that they overtake each other.
 class LocalNetwork {
@@ -103,4 +103,4 @@ class LocalNetwork {
   std::optional<Bytes> broadcast_;
 };
 
-}  // namespace beambench::testing
+}  // namespace beambench::cluster

@@ -11,31 +11,31 @@
 #include "harness/cluster/leaf_code.hpp"
 #include "harness/cluster/parcel.hpp"
 #include "harness/cluster/task_sources.hpp"
-#include "scenes/error.hpp"
-#include "scenes/random.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/random.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 using testing::random_scene;
 
-BeamOptions options_with(int max_level) {
-  BeamOptions options;
+accel::beam::BeamOptions options_with(int max_level) {
+  accel::beam::BeamOptions options;
   options.octree.max_level = max_level;
   return options;
 }
 
 /// Calls `visit(cursor)` for all leaves under the cursor.
 template <class Visit>
-void for_each_leaf(const OctreeCursor& cursor, Visit visit) {
+void for_each_leaf(const accel::octree::OctreeCursor& cursor, Visit visit) {
   if (cursor.node().is_leaf()) {
     visit(cursor);
     return;
   }
   for (int octant = 0; octant < 8; ++octant) {
     const int half = cursor.size() / 2;
-    OctreeCursor child = cursor;
+    accel::octree::OctreeCursor child = cursor;
     child.enter_child(cursor.corner() +
                       glm::ivec3(octant & 1, (octant >> 1) & 1, (octant >> 2) & 1) * half);
     for_each_leaf(child, visit);
@@ -44,36 +44,37 @@ void for_each_leaf(const OctreeCursor& cursor, Visit visit) {
 
 TEST(LeafCode, NamesEachLeafAndNothingElse) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    const Scene scene = random_scene(seed, 30);
-    const Octree octree(scene, options_with(1 + static_cast<int>(seed)).octree);
+    const scenes::Scene scene = verify::random_scene(seed, 30);
+    const accel::octree::Octree octree(scene, options_with(1 + static_cast<int>(seed)).octree);
     std::set<std::uint64_t> codes;
-    for_each_leaf(OctreeCursor(octree), [&](const OctreeCursor& leaf) {
-      const std::uint64_t code = leaf_code(octree, leaf.corner(), leaf.size());
-      EXPECT_TRUE(codes.insert(code).second);
-      const OctreeCursor found = find_leaf(octree, code);
-      EXPECT_EQ(found.index(), leaf.index());
-      EXPECT_EQ(found.corner(), leaf.corner());
-      EXPECT_EQ(found.size(), leaf.size());
-      EXPECT_THROW(find_leaf(octree, 8 * code), ProtocolError);  // below a leaf
-      EXPECT_THROW(find_leaf(octree, 2 * code), ProtocolError);
-      if (code > 1) {  // an inner node
-        EXPECT_THROW(find_leaf(octree, code / 8), ProtocolError);
-      }
-    });
+    for_each_leaf(accel::octree::OctreeCursor(octree),
+                  [&](const accel::octree::OctreeCursor& leaf) {
+                    const std::uint64_t code = leaf_code(octree, leaf.corner(), leaf.size());
+                    EXPECT_TRUE(codes.insert(code).second);
+                    const accel::octree::OctreeCursor found = find_leaf(octree, code);
+                    EXPECT_EQ(found.index(), leaf.index());
+                    EXPECT_EQ(found.corner(), leaf.corner());
+                    EXPECT_EQ(found.size(), leaf.size());
+                    EXPECT_THROW(find_leaf(octree, 8 * code), ProtocolError);  // below a leaf
+                    EXPECT_THROW(find_leaf(octree, 2 * code), ProtocolError);
+                    if (code > 1) {  // an inner node
+                      EXPECT_THROW(find_leaf(octree, code / 8), ProtocolError);
+                    }
+                  });
     EXPECT_THROW(find_leaf(octree, 0), ProtocolError);
   }
 }
 
-bool same_line(const ImageLine& a, const ImageLine& b) {
+bool same_line(const accel::beam::ImageLine& a, const accel::beam::ImageLine& b) {
   // -0 == 0 may differ in the sign: it is compared with, never divided by.
   return a.x == b.x && a.y == b.y && a.constant == b.constant;
 }
 
-bool same_plane(const Crossing& a, const Crossing& b) {
+bool same_plane(const accel::beam::Crossing& a, const accel::beam::Crossing& b) {
   return a.index == b.index && a.axis == b.axis && a.side == b.side;
 }
 
-void expect_same(const Beam& a, const Beam& b) {
+void expect_same(const accel::beam::Beam& a, const accel::beam::Beam& b) {
   EXPECT_EQ(a.node, b.node);
   EXPECT_EQ(a.size, b.size);
   EXPECT_EQ(a.corner, b.corner);
@@ -90,16 +91,16 @@ void expect_same(const Beam& a, const Beam& b) {
 TEST(TaskMessage, BringsABeamBackBitForBit) {
   std::size_t beams = 0;
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
-    const Scene scene = random_scene(seed, 40);
-    const BeamTracer tracer(scene, options_with(5));
-    const PrimaryRays rays(scene.cameras.front(), 64, 48, 1);
-    const EyeView view(tracer.octree().grid(), rays);
-    BeamQueue queue;
-    begin_beams(tracer.octree(), view, view.screen(), queue);
-    BeamStep step;
+    const scenes::Scene scene = verify::random_scene(seed, 40);
+    const accel::beam::BeamTracer tracer(scene, options_with(5));
+    const accel::PrimaryRays rays(scene.cameras.front(), 64, 48, 1);
+    const accel::beam::EyeView view(tracer.octree().grid(), rays);
+    accel::beam::BeamQueue queue;
+    accel::beam::begin_beams(tracer.octree(), view, view.screen(), queue);
+    accel::beam::BeamStep step;
     while (!queue.waiting.empty()) {
       queue.waiting.pop(step);
-      if (step.kind == BeamKind::kLeaving) continue;
+      if (step.kind == accel::BeamKind::kLeaving) continue;
       Bytes bytes;
       write_task({BeamTask::Kind::kTestLeaf, step.beam}, tracer.octree(), bytes);
       const auto task = read_task(bytes, tracer.octree(), view);
@@ -107,8 +108,8 @@ TEST(TaskMessage, BringsABeamBackBitForBit) {
       expect_same(std::get<BeamTask>(task).beam, step.beam);
       EXPECT_LT(bytes.size(), 1000U);
       ++beams;
-      if (step.kind == BeamKind::kNonTerminal && !step.beam.crowded()) {
-        continue_beam(tracer.octree(), view, step.beam, queue);
+      if (step.kind == accel::BeamKind::kNonTerminal && !step.beam.crowded()) {
+        accel::beam::continue_beam(tracer.octree(), view, step.beam, queue);
       }
     }
   }
@@ -116,10 +117,10 @@ TEST(TaskMessage, BringsABeamBackBitForBit) {
 }
 
 TEST(TaskMessage, RefusesWhatIsNoTask) {
-  const Scene scene = random_scene(3, 40);
-  const BeamTracer tracer(scene, options_with(5));
-  const PrimaryRays rays(scene.cameras.front(), 64, 48, 1);
-  const EyeView view(tracer.octree().grid(), rays);
+  const scenes::Scene scene = verify::random_scene(3, 40);
+  const accel::beam::BeamTracer tracer(scene, options_with(5));
+  const accel::PrimaryRays rays(scene.cameras.front(), 64, 48, 1);
+  const accel::beam::EyeView view(tracer.octree().grid(), rays);
   BeamSource source(tracer, rays);
   Bytes task;
   ASSERT_TRUE(source.next(task));
@@ -140,10 +141,10 @@ TEST(TaskMessage, RefusesWhatIsNoTask) {
 }
 
 TEST(BlockTask, ComesBack) {
-  const Scene scene = random_scene(3, 10);
-  const BeamTracer tracer(scene, options_with(3));
-  const PrimaryRays rays(scene.cameras.front(), 64, 48, 1);
-  const EyeView view(tracer.octree().grid(), rays);
+  const scenes::Scene scene = verify::random_scene(3, 10);
+  const accel::beam::BeamTracer tracer(scene, options_with(3));
+  const accel::PrimaryRays rays(scene.cameras.front(), 64, 48, 1);
+  const accel::beam::EyeView view(tracer.octree().grid(), rays);
   Bytes bytes;
   write_task(BlockTask{1, 16383, 3, 4}, bytes);
   const auto block = std::get<BlockTask>(read_task(bytes, tracer.octree(), view));
@@ -183,7 +184,7 @@ TEST(JobMessage, ComesBack) {
   job.height = 20;
   job.samples = 5;
   job.light = true;
-  job.whitted = {3, 0.25, ShadowMethod::kCache};
+  job.whitted = {3, 0.25, render::ShadowMethod::kCache};
   job.alive_every = 0.5;
   const Job read = read_job(write_job(job));
   EXPECT_EQ(read.scene, job.scene);
@@ -195,7 +196,7 @@ TEST(JobMessage, ComesBack) {
   EXPECT_TRUE(read.light);
   EXPECT_EQ(read.whitted.max_depth, 3);
   EXPECT_EQ(read.whitted.least_weight, 0.25);
-  EXPECT_EQ(read.whitted.shadows, ShadowMethod::kCache);
+  EXPECT_EQ(read.whitted.shadows, render::ShadowMethod::kCache);
   EXPECT_EQ(read.alive_every, 0.5);
 }
 
@@ -242,10 +243,10 @@ TEST(JobMessage, OfAnotherVersionIsRefused) {
 }
 
 TEST(LookHash, SeesWhatThePictureDependsOn) {
-  const Scene scene = random_scene(5, 10);
+  const scenes::Scene scene = verify::random_scene(5, 10);
   const std::uint64_t before = look_hash(scene);
   EXPECT_EQ(look_hash(scene), before);
-  Scene other = scene;
+  scenes::Scene other = scene;
   other.lights.push_back({glm::vec3(1.0F), glm::vec3(1.0F)});
   EXPECT_NE(look_hash(other), before);
   other = scene;
@@ -260,4 +261,4 @@ TEST(LookHash, SeesWhatThePictureDependsOn) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -15,23 +15,21 @@
 #include "harness/cluster/sample_results.hpp"
 #include "harness/cluster/task_sources.hpp"
 #include "harness/rays/fingerprint.hpp"
-#include "harness/shade/preview.hpp"
-#include "harness/shade/whitted_picture.hpp"
+#include "harness/render/preview.hpp"
+#include "harness/render/whitted_picture.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 #include "tests/cluster/followers.hpp"
 #include "tests/cluster/local_network.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
-using testing::led;
-using testing::LocalNetwork;
 using testing::random_scene;
 
-BeamOptions options_with(int max_level, std::int64_t handover = 0) {
-  BeamOptions options;
+accel::beam::BeamOptions options_with(int max_level, std::int64_t handover = 0) {
+  accel::beam::BeamOptions options;
   options.octree.max_level = max_level;
   options.handover = handover;
   return options;
@@ -42,36 +40,38 @@ void accept_anybody(ProcessId, std::span<const std::byte>) {}
 /// An image that all the processes of a network make.
 class Workplace {
  public:
-  Workplace(const Scene& scene, const BeamOptions& options, int samples)
+  Workplace(const scenes::Scene& scene, const accel::beam::BeamOptions& options, int samples)
       : tracer_(scene, options),
         rays_(scene.cameras.front(), 53, 41, samples),
         light_(scene, tracer_, {}) {}
 
-  HitBuffer sequential_hits() const {
-    HitBuffer hits(rays_.width(), rays_.height(), rays_.samples());
+  accel::HitBuffer sequential_hits() const {
+    accel::HitBuffer hits(rays_.width(), rays_.height(), rays_.samples());
     tracer_.trace(rays_, hits);
     return hits;
   }
-  Image sequential_picture() const {
-    return whitted_picture(light_, eye_rays(rays_), sequential_hits()).image;
+  render::Image sequential_picture() const {
+    return render::whitted_picture(light_, render::eye_rays(rays_), sequential_hits()).image;
   }
 
   ClusterReport hits(LocalNetwork& network, int processes, const ProducerOptions& options,
-                     HitBuffer& hits, std::optional<int> block = {}) const {
+                     accel::HitBuffer& hits, std::optional<int> block = {}) const {
     HitSink sink(hits);
     return run(network, processes, options, sink, nullptr, block);
   }
-  Image picture(LocalNetwork& network, int processes, const ProducerOptions& options) const {
+  render::Image picture(LocalNetwork& network, int processes,
+                        const ProducerOptions& options) const {
     ColorSink sink(rays_.width(), rays_.height(), rays_.samples(),
-                   glm::dvec3(background_color(tracer_.scene())));
+                   glm::dvec3(render::background_color(tracer_.scene())));
     run(network, processes, options, sink, &light_, {});
     return sink.image();
   }
-  HitBuffer no_hits() const { return {rays_.width(), rays_.height(), rays_.samples()}; }
+  accel::HitBuffer no_hits() const { return {rays_.width(), rays_.height(), rays_.samples()}; }
 
  private:
   ClusterReport run(LocalNetwork& network, int processes, const ProducerOptions& options,
-                    ResultSink& sink, const Whitted* light, std::optional<int> block) const {
+                    ResultSink& sink, const render::Whitted* light,
+                    std::optional<int> block) const {
     std::vector<std::jthread> consumers;
     for (ProcessId process = 1; process < processes; ++process) {
       consumers.emplace_back([this, process, light, &network] {
@@ -85,12 +85,12 @@ class Workplace {
     return Producer(network.at(kProducer), *source, sink, own, accept_anybody, options).run();
   }
 
-  BeamTracer tracer_;
-  PrimaryRays rays_;
-  Whitted light_;
+  accel::beam::BeamTracer tracer_;
+  accel::PrimaryRays rays_;
+  render::Whitted light_;
 };
 
-bool same_picture(const Image& a, const Image& b) {
+bool same_picture(const render::Image& a, const render::Image& b) {
   for (int y = 0; y < a.height(); ++y) {
     for (int x = 0; x < a.width(); ++x) {
       if (a.at(x, y) != b.at(x, y)) return false;
@@ -101,12 +101,12 @@ bool same_picture(const Image& a, const Image& b) {
 
 TEST(Cluster, FindsTheSequentialHitsWhateverTheOrderOfMessages) {
   for (unsigned seed = 0; seed < 8; ++seed) {
-    const Scene scene = random_scene(seed, 40);
+    const scenes::Scene scene = verify::random_scene(seed, 40);
     const Workplace place(scene, options_with(5, seed % 2 == 0 ? 0 : 60), seed % 2 == 0 ? 1 : 5);
-    const HitBuffer expected = place.sequential_hits();
+    const accel::HitBuffer expected = place.sequential_hits();
     for (const int processes : {1, 2, 3, 6}) {
       LocalNetwork network(processes, seed, 0.0003);
-      HitBuffer hits = place.no_hits();
+      accel::HitBuffer hits = place.no_hits();
       const ClusterReport report = place.hits(network, processes, {}, hits);
       EXPECT_TRUE(hits == expected) << "seed " << seed << ", " << processes << " processes";
       EXPECT_TRUE(report.remarks.empty());
@@ -116,15 +116,15 @@ TEST(Cluster, FindsTheSequentialHitsWhateverTheOrderOfMessages) {
 }
 
 TEST(Cluster, FindsTheSequentialHitsWithEveryOption) {
-  const Scene scene = random_scene(4, 60);
+  const scenes::Scene scene = verify::random_scene(4, 60);
   const Workplace place(scene, options_with(5), 5);
-  const HitBuffer expected = place.sequential_hits();
+  const accel::HitBuffer expected = place.sequential_hits();
   for (const std::size_t batch : {1, 3, 1000}) {
     for (const int in_flight : {1, 2, 3}) {
       for (const bool consumes : {false, true}) {
         for (const std::optional<int> block : {std::optional<int>{}, std::optional<int>{16}}) {
           LocalNetwork network(4, 1, 0.0003);
-          HitBuffer hits = place.no_hits();
+          accel::HitBuffer hits = place.no_hits();
           ProducerOptions options;
           options.batch = batch;
           options.in_flight = in_flight;
@@ -139,10 +139,10 @@ TEST(Cluster, FindsTheSequentialHitsWithEveryOption) {
 
 TEST(Cluster, MakesTheSequentialPicture) {
   for (const char* name : {"balls:n=1", "rings:n=1", "escena1"}) {
-    const Scene scene = load_scene(name);
+    const scenes::Scene scene = scenes::load_scene(name);
     for (const int samples : {1, 5}) {
       const Workplace place(scene, options_with(5), samples);
-      const Image expected = place.sequential_picture();
+      const render::Image expected = place.sequential_picture();
       for (const int processes : {1, 3}) {
         LocalNetwork network(processes, 2, 0.0003);
         EXPECT_TRUE(same_picture(place.picture(network, processes, {}), expected))
@@ -153,10 +153,10 @@ TEST(Cluster, MakesTheSequentialPicture) {
 }
 
 TEST(Cluster, TellsWhatEachProcessDid) {
-  const Scene scene = random_scene(2, 40);
+  const scenes::Scene scene = verify::random_scene(2, 40);
   const Workplace place(scene, options_with(5), 1);
   LocalNetwork network(3, 1, 0.0001);
-  HitBuffer hits = place.no_hits();
+  accel::HitBuffer hits = place.no_hits();
   const ClusterReport report = place.hits(network, 3, {}, hits);
   ASSERT_EQ(report.processes.size(), 3U);
   EXPECT_EQ(report.processes[0].tasks, 0U);
@@ -188,13 +188,13 @@ ProducerOptions impatient() {
 }
 
 TEST(Cluster, DoesWithoutAConsumerThatFallsSilent) {
-  const Scene scene = random_scene(6, 60);
+  const scenes::Scene scene = verify::random_scene(6, 60);
   const Workplace place(scene, options_with(5), 1);
-  const HitBuffer expected = place.sequential_hits();
+  const accel::HitBuffer expected = place.sequential_hits();
   for (const int answers : {0, 1, 5}) {
     LocalNetwork network(3, 1, 0.0);
     network.mute_after(2, 1 + answers);  // it says that it is there
-    HitBuffer hits = place.no_hits();
+    accel::HitBuffer hits = place.no_hits();
     ProducerOptions options = impatient();
     options.in_flight = 2;
     options.batch = 2;
@@ -208,23 +208,23 @@ TEST(Cluster, DoesWithoutAConsumerThatFallsSilent) {
 }
 
 TEST(Cluster, FinishesAloneWhereAllFallSilentOrNobodyComes) {
-  const Scene scene = random_scene(6, 60);
+  const scenes::Scene scene = verify::random_scene(6, 60);
   const Workplace place(scene, options_with(5), 1);
-  const HitBuffer expected = place.sequential_hits();
+  const accel::HitBuffer expected = place.sequential_hits();
   for (const int messages : {0, 1, 3}) {
     LocalNetwork network(3, 1, 0.0);
     network.mute_after(1, messages);
     network.mute_after(2, messages);
-    HitBuffer hits = place.no_hits();
+    accel::HitBuffer hits = place.no_hits();
     place.hits(network, 3, impatient(), hits);
     EXPECT_TRUE(hits == expected) << messages;
   }
 }
 
 TEST(Cluster, EndsWithAnErrorWhereAProcessDoesNotFit) {
-  const Scene scene = random_scene(6, 20);
-  const BeamTracer tracer(scene, options_with(4));
-  const PrimaryRays rays(scene.cameras.front(), 20, 20, 1);
+  const scenes::Scene scene = verify::random_scene(6, 20);
+  const accel::beam::BeamTracer tracer(scene, options_with(4));
+  const accel::PrimaryRays rays(scene.cameras.front(), 20, 20, 1);
   LocalNetwork network(3, 1, 0.0);
   std::vector<std::jthread> consumers;  // they are sent home, or this would not end
   for (const ProcessId process : {1, 2}) {
@@ -234,7 +234,7 @@ TEST(Cluster, EndsWithAnErrorWhereAProcessDoesNotFit) {
     });
   }
   BeamSource source(tracer, rays);
-  HitBuffer hits(20, 20, 1);
+  accel::HitBuffer hits(20, 20, 1);
   HitSink sink(hits);
   ImageWorker own(tracer, rays, nullptr);
   const auto check = [](ProcessId process, std::span<const std::byte>) {
@@ -244,9 +244,10 @@ TEST(Cluster, EndsWithAnErrorWhereAProcessDoesNotFit) {
 }
 
 TEST(Cluster, RunsFromACommandLineToItsEnd) {
-  HitBuffer expected(40, 30, 4);
-  const Scene scene = load_scene("tetra:n=2");
-  BeamTracer(scene, options_with(6)).trace(PrimaryRays(scene.cameras.front(), 40, 30, 4), expected);
+  accel::HitBuffer expected(40, 30, 4);
+  const scenes::Scene scene = scenes::load_scene("tetra:n=2");
+  accel::beam::BeamTracer(scene, options_with(6))
+      .trace(accel::PrimaryRays(scene.cameras.front(), 40, 30, 4), expected);
   ClusterRequest request;
   request.job.scene = "tetra:n=2";
   request.job.structure = "beam:max_level=6";
@@ -255,7 +256,7 @@ TEST(Cluster, RunsFromACommandLineToItsEnd) {
   request.job.samples = 4;
   LocalNetwork network(3, 1, 0.0001);
   const ClusterRun run = led(lead, request, network);
-  EXPECT_EQ(run.result_hash, fingerprint(expected));
+  EXPECT_EQ(run.result_hash, rays::fingerprint(expected));
   EXPECT_EQ(run.introductions[2].identity, run.introductions[0].identity);
 }
 
@@ -268,4 +269,4 @@ TEST(Cluster, SendsAllHomeWhereTheSceneIsMissing) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -12,10 +12,8 @@
 #include "harness/cluster/simulation/replay.hpp"
 #include "tests/cluster/local_network.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
-
-using testing::LocalNetwork;
 
 TaskCosts two_tasks() {
   TaskCosts costs;
@@ -127,4 +125,4 @@ TEST(ChargedTransport, IsPaidForBySenderAndReceiverAndForLooks) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::cluster

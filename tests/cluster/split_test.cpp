@@ -15,27 +15,25 @@
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 #include "tests/cluster/followers.hpp"
 #include "tests/cluster/local_network.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
-using testing::led;
-using testing::LocalNetwork;
 using testing::random_scene;
 
-BeamOptions options_with(int max_level, std::int64_t handover = 0) {
-  BeamOptions options;
+accel::beam::BeamOptions options_with(int max_level, std::int64_t handover = 0) {
+  accel::beam::BeamOptions options;
   options.octree.max_level = max_level;
   options.handover = handover;
   return options;
 }
 
 TEST(SceneSplit, GivesEveryCellToOneProcessAndWorkToEach) {
-  const Scene scene = load_scene("tetra:n=4");
+  const scenes::Scene scene = scenes::load_scene("tetra:n=4");
   for (const int processes : {1, 2, 3, 7}) {
     const SceneSplit split(scene, options_with(6).octree, 4, processes);
     ASSERT_EQ(split.cell_count(), 512U);
@@ -56,17 +54,17 @@ TEST(SceneSplit, GivesEveryCellToOneProcessAndWorkToEach) {
 
 TEST(ScenePart, IsTheSameGeometryUnderLocalIds) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
-    const Scene scene = random_scene(seed, 60);
+    const scenes::Scene scene = verify::random_scene(seed, 60);
     const SceneSplit split(scene, options_with(5).octree, 3, 3);
-    std::set<PrimitiveId> all;
+    std::set<scenes::PrimitiveId> all;
     for (ProcessId process = 0; process < 3; ++process) {
       const ScenePart part = part_of(scene, split, process);
       ASSERT_EQ(part.global.size(), part.scene.primitives.size());
       EXPECT_TRUE(std::ranges::is_sorted(part.global));
-      for (PrimitiveId id = 0; id < part.global.size(); ++id) {
+      for (scenes::PrimitiveId id = 0; id < part.global.size(); ++id) {
         all.insert(part.global[id]);
-        const Bounds here = primitive_bounds(part.scene, id);
-        const Bounds there = primitive_bounds(scene, part.global[id]);
+        const scenes::Bounds here = scenes::primitive_bounds(part.scene, id);
+        const scenes::Bounds there = scenes::primitive_bounds(scene, part.global[id]);
         EXPECT_EQ(here.lower, there.lower);
         EXPECT_EQ(here.upper, there.upper);
         EXPECT_EQ(part.scene.primitives[id].surface, scene.primitives[part.global[id]].surface);
@@ -78,12 +76,13 @@ TEST(ScenePart, IsTheSameGeometryUnderLocalIds) {
 }
 
 /// Traces an image by several processes that are threads.
-HitBuffer traced_in_parts(const Scene& scene, const BeamOptions& options, const PrimaryRays& rays,
-                          int level, int processes, unsigned seed,
-                          std::vector<SplitAccount>* accounts = nullptr) {
+accel::HitBuffer traced_in_parts(const scenes::Scene& scene,
+                                 const accel::beam::BeamOptions& options,
+                                 const accel::PrimaryRays& rays, int level, int processes,
+                                 unsigned seed, std::vector<SplitAccount>* accounts = nullptr) {
   LocalNetwork network(processes, seed, 0.0003);
   const SceneSplit split(scene, options.octree, level, processes);
-  HitBuffer hits(rays.width(), rays.height(), rays.samples());
+  accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
   std::mutex mutex;
   const auto trace = [&](ProcessId self) {
     Outbox outbox(network.at(self), split);
@@ -112,11 +111,11 @@ HitBuffer traced_in_parts(const Scene& scene, const BeamOptions& options, const 
 
 TEST(SplitScene, GivesTheHitsOfOneProcessBitForBit) {
   for (unsigned seed = 0; seed < 12; ++seed) {
-    const Scene scene = random_scene(seed, 60);
-    const BeamOptions options = options_with(5, seed % 3 == 0 ? 50 : 0);
-    const PrimaryRays rays(scene.cameras.front(), 61, 43, seed % 2 == 0 ? 1 : 5);
-    HitBuffer expected(rays.width(), rays.height(), rays.samples());
-    BeamTracer(scene, options).trace(rays, expected);
+    const scenes::Scene scene = verify::random_scene(seed, 60);
+    const accel::beam::BeamOptions options = options_with(5, seed % 3 == 0 ? 50 : 0);
+    const accel::PrimaryRays rays(scene.cameras.front(), 61, 43, seed % 2 == 0 ? 1 : 5);
+    accel::HitBuffer expected(rays.width(), rays.height(), rays.samples());
+    accel::beam::BeamTracer(scene, options).trace(rays, expected);
     for (const int processes : {1, 2, 5}) {
       const int level = 2 + static_cast<int>(seed) % 4;
       EXPECT_TRUE(traced_in_parts(scene, options, rays, level, processes, seed) == expected)
@@ -126,25 +125,25 @@ TEST(SplitScene, GivesTheHitsOfOneProcessBitForBit) {
 }
 
 TEST(SplitScene, SeesTheSameFromInside) {
-  const Scene scene = random_scene(1, 40);
+  const scenes::Scene scene = verify::random_scene(1, 40);
   const auto size = glm::vec3(scene.bounds.upper - scene.bounds.lower);
   const auto middle = scene.bounds.lower + 0.5F * size;
   for (const glm::vec3 place :
        {middle, middle + 0.1F * size, middle - glm::vec3(0.2F, 0.0F, 0.3F) * size}) {
-    Camera camera;
+    scenes::Camera camera;
     camera.from = place;
     camera.at = place + glm::vec3(1.0F, 0.3F, -0.2F);
     camera.angle = 100.0F;
-    const PrimaryRays rays(camera, 60, 60, 1);
-    HitBuffer expected(60, 60, 1);
-    BeamTracer(scene, options_with(5)).trace(rays, expected);
+    const accel::PrimaryRays rays(camera, 60, 60, 1);
+    accel::HitBuffer expected(60, 60, 1);
+    accel::beam::BeamTracer(scene, options_with(5)).trace(rays, expected);
     EXPECT_TRUE(traced_in_parts(scene, options_with(5), rays, 3, 4, 1) == expected);
   }
 }
 
 TEST(SplitScene, AccountsForWhatCrossed) {
-  const Scene scene = random_scene(2, 200);
-  const PrimaryRays rays(scene.cameras.front(), 80, 60, 1);
+  const scenes::Scene scene = verify::random_scene(2, 200);
+  const accel::PrimaryRays rays(scene.cameras.front(), 80, 60, 1);
   std::vector<SplitAccount> accounts;
   traced_in_parts(scene, options_with(6), rays, 3, 3, 1, &accounts);
   Traffic out;
@@ -166,9 +165,10 @@ TEST(SplitScene, AccountsForWhatCrossed) {
 }
 
 TEST(SplitScene, RunsFromACommandLineToItsEnd) {
-  const Scene scene = load_scene("tetra:n=3");
-  HitBuffer expected(40, 30, 1);
-  BeamTracer(scene, options_with(6)).trace(PrimaryRays(scene.cameras.front(), 40, 30, 1), expected);
+  const scenes::Scene scene = scenes::load_scene("tetra:n=3");
+  accel::HitBuffer expected(40, 30, 1);
+  accel::beam::BeamTracer(scene, options_with(6))
+      .trace(accel::PrimaryRays(scene.cameras.front(), 40, 30, 1), expected);
   ClusterRequest request;
   request.job.scene = "tetra:n=3";
   request.job.structure = "beam:max_level=6";
@@ -176,13 +176,13 @@ TEST(SplitScene, RunsFromACommandLineToItsEnd) {
   request.job.height = 30;
   request.job.split_level = 3;
   LocalNetwork network(3, 1, 0.0);
-  EXPECT_EQ(led(lead_split, request, network).result_hash, fingerprint(expected));
+  EXPECT_EQ(led(lead_split, request, network).result_hash, rays::fingerprint(expected));
 }
 
 TEST(SplitScene, EndsWithAnErrorWhereAProcessIsSilent) {
-  const Scene scene = random_scene(2, 60);
-  const BeamOptions options = options_with(5);
-  const PrimaryRays rays(scene.cameras.front(), 60, 60, 1);
+  const scenes::Scene scene = verify::random_scene(2, 60);
+  const accel::beam::BeamOptions options = options_with(5);
+  const accel::PrimaryRays rays(scene.cameras.front(), 60, 60, 1);
   const SceneSplit split(scene, options.octree, 3, 2);
   LocalNetwork network(2, 1, 0.0);
   network.mute_after(1, 1);  // it says that it is ready
@@ -201,10 +201,10 @@ TEST(SplitScene, EndsWithAnErrorWhereAProcessIsSilent) {
 }
 
 TEST(SplitScene, RefusesOptionsThatNeedTheWholeImage) {
-  const Scene scene = random_scene(2, 10);
-  const PrimaryRays rays(scene.cameras.front(), 10, 10, 5);
+  const scenes::Scene scene = verify::random_scene(2, 10);
+  const accel::PrimaryRays rays(scene.cameras.front(), 10, 10, 5);
   LocalNetwork network(1, 1, 0.0);
-  BeamOptions options = options_with(3);
+  accel::beam::BeamOptions options = options_with(3);
   const SceneSplit split(scene, options.octree, 4, 1);
   Outbox outbox(network.at(0), split);
   const auto make = [&] {
@@ -220,4 +220,4 @@ TEST(SplitScene, RefusesOptionsThatNeedTheWholeImage) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -280,7 +280,7 @@ def test_the_aims_name_the_scenes_of_the_sweeps() -> None:
     named = {scene for group in groups() for scene in group.scenes}
     swept = set()
     for sweep in ("beat-embree", "beat-embree-scenes", "beat-embree-soup", "beat-embree-avx2"):
-        config = json.loads((REPOSITORY / f"harness/sweeps/{sweep}.json").read_text())
+        config = json.loads((REPOSITORY / f"harness/bench/sweeps/{sweep}.json").read_text())
         swept |= {
             json.loads(output_of("scene", scene, "--json"))["name"] for scene in config["scenes"]
         }

@@ -6,11 +6,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "scenes/random.hpp"
+#include "scenes/core/random.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 using Points = std::vector<glm::dvec3>;
@@ -340,4 +340,4 @@ TEST(SceneHash, DependsOnOrder) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -16,7 +16,7 @@
 #include "scenes/catalogue.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 struct Expected {
@@ -395,4 +395,4 @@ TEST(Bumpy, ComesAsNearToTheWantedNumberAsItCan) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::scenes

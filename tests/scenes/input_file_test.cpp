@@ -1,4 +1,4 @@
-#include "scenes/input_file.hpp"
+#include "scenes/core/input_file.hpp"
 
 #include <array>
 #include <string>
@@ -9,11 +9,11 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "scenes/nff_reader.hpp"
-#include "tests/harness/temporary_folder.hpp"
+#include "scenes/formats/nff/nff_reader.hpp"
 #include "tests/scenes/thrown_message.hpp"
+#include "tests/temporary_folder.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 /// A terminal of our own: what is written at its one end can be read at the other, and when the
@@ -94,9 +94,9 @@ TEST(Input, ThatIsNoneIsRefused) {
 }
 
 TEST(Input, OfASceneIsRefusedInTheSameWords) {
-  EXPECT_TRUE(says(thrown_message([] { read_nff("/proc/self/mem"); }),
+  EXPECT_TRUE(says(thrown_message([] { nff::read_nff("/proc/self/mem"); }),
                    {"/proc/self/mem: cannot be read: Input/output error"}));
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 constexpr std::array<std::array<float, 3>, 4> kCorners = {
@@ -138,4 +138,4 @@ std::string with_coordinate(std::string text, const std::string& number) {
   return with_count(std::move(text), "1 0 0\n", number + " 0 0\n");
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes

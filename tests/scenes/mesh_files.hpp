@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-namespace beambench {
+namespace beambench::scenes {
 
 /// Corners (0,0,0), (1,0,0), (0,2,0), (0,0,3).
 std::string tetrahedron_obj();
@@ -25,4 +25,4 @@ std::string with_coordinate(std::string text, const std::string& number);
 /// The text with its first `old` replaced.
 std::string with_count(std::string text, const std::string& old, const std::string& by);
 
-}  // namespace beambench
+}  // namespace beambench::scenes

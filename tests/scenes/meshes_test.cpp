@@ -7,20 +7,20 @@
 #include <zlib.h>
 
 #include "scenes/catalogue.hpp"
-#include "scenes/meshes/fitted_cameras.hpp"
-#include "scenes/meshes/mesh_cache.hpp"
-#include "scenes/meshes/mesh_cleaning.hpp"
-#include "scenes/meshes/mesh_codec.hpp"
-#include "scenes/meshes/mesh_format.hpp"
-#include "scenes/meshes/mesh_import.hpp"
-#include "scenes/meshes/mesh_registry.hpp"
-#include "scenes/random.hpp"
+#include "scenes/core/random.hpp"
+#include "scenes/formats/mesh/fitted_cameras.hpp"
+#include "scenes/formats/mesh/mesh_cache.hpp"
+#include "scenes/formats/mesh/mesh_cleaning.hpp"
+#include "scenes/formats/mesh/mesh_codec.hpp"
+#include "scenes/formats/mesh/mesh_format.hpp"
+#include "scenes/formats/mesh/mesh_import.hpp"
+#include "scenes/formats/mesh/mesh_registry.hpp"
 #include "scenes/scene_builder.hpp"
-#include "tests/harness/temporary_folder.hpp"
 #include "tests/scenes/mesh_files.hpp"
 #include "tests/scenes/thrown_message.hpp"
+#include "tests/temporary_folder.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 namespace fs = std::filesystem;
@@ -32,7 +32,7 @@ class Meshes : public testing::Test {
   ~Meshes() override { ::unsetenv("BEAMBENCH_CACHE"); }
 
   void SetUp() override {
-    if (importer_version() == 0) GTEST_SKIP() << "built without Assimp";
+    if (mesh::importer_version() == 0) GTEST_SKIP() << "built without Assimp";
   }
 
   fs::path cache() const { return folder_.path() / "cache"; }
@@ -295,7 +295,8 @@ RC_GTEST_PROP(FittedCameras, SeeAllPointsAndFillTheImage, ()) {
   for (int i = 0; i < count; ++i) points.emplace_back(*coordinate, *coordinate, *coordinate);
   const auto [up, front] = *rc::gen::element(std::pair("y", "z"), std::pair("z", "-y"),
                                              std::pair("-z", "y"), std::pair("x", "-y"));
-  const auto cameras = fitted_cameras(points, {*parse_axis(up), *parse_axis(front)});
+  const auto cameras =
+      mesh::fitted_cameras(points, {*mesh::parse_axis(up), *mesh::parse_axis(front)});
   RC_ASSERT(cameras.size() == 4U);
   for (const Camera& camera : cameras) {
     SceneBuilder("accepts").add_camera(camera);
@@ -335,8 +336,8 @@ TEST_F(Meshes, AreFoundByTheirRegisteredName) {
   EXPECT_EQ(scene.name, "mesh:shape");
   expect_tetrahedron(scene);
   EXPECT_LT(backward(camera_named(scene, "top")).z, 0.0F);
-  EXPECT_EQ(registered_mesh_names(), std::vector<std::string>{"shape"});
-  EXPECT_EQ(find_registered_mesh("shape").about, "A test.");
+  EXPECT_EQ(mesh::registered_mesh_names(), std::vector<std::string>{"shape"});
+  EXPECT_EQ(mesh::find_registered_mesh("shape").about, "A test.");
 }
 
 TEST_F(Meshes, AnUnknownNameSaysHowToGetMore) {
@@ -364,43 +365,43 @@ TEST_F(Meshes, AMalformedEntryIsNamed) {
 // The pieces
 
 TEST(MeshFormat, IsToldByTheEnding) {
-  EXPECT_EQ(mesh_ending("a/b.PLY"), "ply");
-  EXPECT_EQ(mesh_ending("dragon.ply.gz"), "ply");
-  EXPECT_EQ(mesh_ending("scene.nff"), "");
-  EXPECT_EQ(mesh_ending("a.obj/file"), "");
-  EXPECT_EQ(mesh_ending("obj"), "");
-  EXPECT_EQ(mesh_stem("dragon.ply.gz"), "dragon");
+  EXPECT_EQ(mesh::mesh_ending("a/b.PLY"), "ply");
+  EXPECT_EQ(mesh::mesh_ending("dragon.ply.gz"), "ply");
+  EXPECT_EQ(mesh::mesh_ending("scene.nff"), "");
+  EXPECT_EQ(mesh::mesh_ending("a.obj/file"), "");
+  EXPECT_EQ(mesh::mesh_ending("obj"), "");
+  EXPECT_EQ(mesh::mesh_stem("dragon.ply.gz"), "dragon");
 }
 
 TEST(MeshCodec, GivesBackWhatItGot) {
-  ImportedMesh mesh{{{{1.0F, 2.0F, 3.0F}, {0.0F, 1.0F, 0.0F}, {4.0F, 0.0F, 0.0F}},
-                     {{0, 1, 2}},
-                     {{{.color = {0.5F, 0.0F, 1.0F}}, 1}}},
-                    {"a warning"},
-                    {{"paint.mtl", 42}}};
-  const std::string bytes = encode(mesh);
-  const ImportedMesh again = decode(bytes);
+  mesh::ImportedMesh mesh{{{{1.0F, 2.0F, 3.0F}, {0.0F, 1.0F, 0.0F}, {4.0F, 0.0F, 0.0F}},
+                           {{0, 1, 2}},
+                           {{{.color = {0.5F, 0.0F, 1.0F}}, 1}}},
+                          {"a warning"},
+                          {{"paint.mtl", 42}}};
+  const std::string bytes = mesh::encode(mesh);
+  const mesh::ImportedMesh again = mesh::decode(bytes);
   EXPECT_EQ(again.mesh.vertices, mesh.mesh.vertices);
   EXPECT_EQ(again.mesh.triangles, mesh.mesh.triangles);
   EXPECT_EQ(again.mesh.parts, mesh.mesh.parts);
   EXPECT_EQ(again.warnings, mesh.warnings);
   EXPECT_EQ(again.companions[0].hash, 42U);
   for (std::size_t size = 0; size < bytes.size(); ++size) {
-    EXPECT_THROW(decode(bytes.substr(0, size)), std::out_of_range) << size;
+    EXPECT_THROW(mesh::decode(bytes.substr(0, size)), std::out_of_range) << size;
   }
 }
 
 TEST(MeshCollector, JoinsWhatIsAtTheSamePlace) {
-  MeshCollector collector;
+  mesh::MeshCollector collector;
   for (int i = 0; i < 100; ++i) {
     const auto x = static_cast<float>(i);
     collector.add({glm::vec3(x, 0.0F, 0.0F), {x + 1.0F, 0.0F, 0.0F}, {x, 1.0F, -0.0F}});
     collector.add({glm::vec3(x + 1.0F, 0.0F, 0.0F), {x + 1.0F, 1.0F, 0.0F}, {x, 1.0F, 0.0F}});
   }
-  const TriangleMesh mesh = std::move(collector).finish();
+  const mesh::TriangleMesh mesh = std::move(collector).finish();
   EXPECT_EQ(mesh.triangles.size(), 200U);
   EXPECT_EQ(mesh.vertices.size(), 202U);
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::scenes

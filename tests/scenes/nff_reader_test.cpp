@@ -1,4 +1,4 @@
-#include "scenes/nff_reader.hpp"
+#include "scenes/formats/nff/nff_reader.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -10,15 +10,15 @@
 #include <rapidcheck/gtest.h>
 
 #include "scenes/catalogue.hpp"
-#include "scenes/random.hpp"
+#include "scenes/core/random.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 const std::string kFolder = std::string(BEAMBENCH_TEST_FILES) + "/golden/nff/";
 
-NffResult parse(std::string_view text) { return parse_nff(text, "test.nff"); }
+nff::NffResult parse(std::string_view text) { return nff::parse_nff(text, "test.nff"); }
 
 TEST(NffReader, RefusesASceneThatIsTooSmall) {
   EXPECT_NO_THROW(parse("s 0 0 0 1e-8\n"));
@@ -26,7 +26,7 @@ TEST(NffReader, RefusesASceneThatIsTooSmall) {
 }
 
 TEST(NffReader, ReadsOneOfEverything) {
-  const NffResult result = read_nff(kFolder + "complete.nff");
+  const nff::NffResult result = nff::read_nff(kFolder + "complete.nff");
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_TRUE(says(result.warnings[0], {":25: ", "normal of length 0"}));
   const Scene& scene = result.scene;
@@ -72,7 +72,7 @@ TEST(NffReader, ReadsOneOfEverything) {
 
 TEST(NffReader, ReadsFilesAsTheyAreFound) {
   const std::string file = kFolder + "quirks.nff";
-  const NffResult result = read_nff(file);
+  const nff::NffResult result = nff::read_nff(file);
   const Scene& scene = result.scene;
   EXPECT_EQ(scene.name, file);
   ASSERT_EQ(scene.spheres.size(), 2U);
@@ -101,7 +101,7 @@ TEST(NffReader, CatalogueHandsOnTheWarnings) {
 }
 
 TEST(NffReader, WordsOfTheThesisHoldUntilTheNext) {
-  const NffResult result = read_nff(kFolder + "thesis.nff");
+  const nff::NffResult result = nff::read_nff(kFolder + "thesis.nff");
   EXPECT_TRUE(result.warnings.empty());
   const Scene& scene = result.scene;
   ASSERT_EQ(scene.spheres.size(), 14U);
@@ -149,11 +149,11 @@ TEST_P(PrivateWord, IsSkippedAndReportedOnce) {
   quoted.insert(0, 1, '\'').push_back('\'');
   const std::string text = "b 0 0 0\n" + line + "s 0 0 0 1\n" + line + "  7 8\n" + line +
                            "p 3\n0 0 0\n1 0 0\n0 1 0\n" + line;
-  const NffResult result = parse(text);
+  const nff::NffResult result = parse(text);
   EXPECT_EQ(result.scene.primitives.size(), 2U);
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_TRUE(says(result.warnings[0], {"test.nff:2: ", quoted, "line 3", "(and 2 more)"}));
-  EXPECT_TRUE(says(thrown_message([&] { parse_nff(text, "test.nff", {.strict = true}); }),
+  EXPECT_TRUE(says(thrown_message([&] { nff::parse_nff(text, "test.nff", {.strict = true}); }),
                    {"test.nff:2: ", quoted, "--strict"}));
 }
 
@@ -166,7 +166,7 @@ TEST(NffReader, SurfacesHaveThreeToNineFields) {
   std::string text = "f .7 .8 .9";
   for (std::size_t given = 0; given <= fields.size(); ++given) {
     if (given > 0) text += fields[given - 1];
-    const NffResult result = parse(text + "\ns 0 0 0 1\n");
+    const nff::NffResult result = parse(text + "\ns 0 0 0 1\n");
     const Surface& surface = result.scene.surfaces.at(0);
     EXPECT_EQ(surface.color, glm::vec3(0.7F, 0.8F, 0.9F));
     EXPECT_EQ(surface.diffuse, given > 0 ? 0.1F : 1.0F);
@@ -206,14 +206,14 @@ TEST(NffReader, DegeneratePrimitivesAreSkippedAndCounted) {
       "p 2\n0 0 0\n1 1 1\n"
       "pp 4\n0 0 0 0 0 1\n0 0 0 0 0 1\n1 0 0 0 0 1\n1 0 0 0 0 1\n"
       "s 3 0 0 2\n";
-  const NffResult result = parse(text);
+  const nff::NffResult result = parse(text);
   ASSERT_EQ(result.scene.primitives.size(), 2U);
   EXPECT_EQ(result.scene.spheres[1].radius, 2.0F);
   EXPECT_TRUE(result.scene.vertices.empty()) << "of a skipped polygon nothing is left";
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_TRUE(says(result.warnings[0], {"test.nff:2: ", "degenerate", "skipped",
                                         "polygon (primitive 1)", "no area", "(and 5 more)"}));
-  EXPECT_TRUE(says(thrown_message([&] { parse_nff(text, "test.nff", {.strict = true}); }),
+  EXPECT_TRUE(says(thrown_message([&] { nff::parse_nff(text, "test.nff", {.strict = true}); }),
                    {"test.nff:2: polygon (primitive 1): ", "no area", "--strict"}));
 }
 
@@ -223,7 +223,7 @@ TEST(NffReader, OneDegenerateTriangleOfManyRefusesNoFile) {
     const std::string x = std::to_string(i);
     text += "p 3\n" + x + " 0 0\n" + x + " 1 0\n" + x + (i == 900 ? " 2 0\n" : " 0 1\n");
   }
-  const NffResult result = parse(text);
+  const nff::NffResult result = parse(text);
   EXPECT_EQ(result.scene.primitives.size(), 1843U);
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_TRUE(says(result.warnings[0], {"test.nff:3601: ", "polygon (primitive 900)"}));
@@ -233,14 +233,14 @@ TEST(NffReader, OneDegenerateTriangleOfManyRefusesNoFile) {
 
 TEST(NffReader, FillOfPhongSurfacesHasTheFieldsOfF) {
   const std::string fields = " .2 .4 .6 .1 .9 64 0.5 1.5\ns 0 0 0 1\n";
-  const NffResult result = parse("fp" + fields);
+  const nff::NffResult result = parse("fp" + fields);
   EXPECT_TRUE(result.warnings.empty());
   EXPECT_EQ(result.scene.surfaces, parse("f" + fields).scene.surfaces);
   EXPECT_EQ(result.scene.surfaces[0].color, glm::vec3(.2F, .4F, .6F));
 }
 
 TEST(NffReader, AreaLightsBecomePointsBeforeTheirMiddles) {
-  const NffResult result =
+  const nff::NffResult result =
       parse("la 4 10 4  2 0 0  0 0 8  5 4 3\nla 0 0 0 1 0 0 0 1 0\ns 0 0 0 1\nl 1 2 3\n");
   const std::vector<Light>& lights = result.scene.lights;
   ASSERT_EQ(lights.size(), 3U);
@@ -256,7 +256,7 @@ TEST(NffReader, AreaLightsBecomePointsBeforeTheirMiddles) {
 }
 
 TEST(NffReader, ALightWordOfAnotherDialectIsSkipped) {
-  const NffResult result = parse("la 0 0 0 5\nl 1 2 3\ns 0 0 0 1\n");
+  const nff::NffResult result = parse("la 0 0 0 5\nl 1 2 3\ns 0 0 0 1\n");
   EXPECT_EQ(result.scene.lights.size(), 1U);
   ASSERT_EQ(result.warnings.size(), 1U);
   EXPECT_TRUE(says(result.warnings[0], {"test.nff:1: ", "unknown word 'la'"}));
@@ -278,8 +278,9 @@ TEST(NffReader, StrictReadingRefusesWhatItWouldRepair) {
         Case{"p 4\n0 0 0\n0 0 0\n1 0 0\n0 1 0\n", 1, "same place"},
         Case{"pp 3\n0 0 0 0 0 0\n1 0 0 0 0 1\n0 1 0 0 0 1\n", 1, "normal of length 0"}}) {
     EXPECT_EQ(parse(wrong.text).warnings.size(), 1U) << wrong.text;
-    EXPECT_TRUE(says(thrown_message([&] { parse_nff(wrong.text, "test.nff", {.strict = true}); }),
-                     {"test.nff:" + std::to_string(wrong.line) + ": ", wrong.words}));
+    EXPECT_TRUE(
+        says(thrown_message([&] { nff::parse_nff(wrong.text, "test.nff", {.strict = true}); }),
+             {"test.nff:" + std::to_string(wrong.line) + ": ", wrong.words}));
   }
 }
 
@@ -302,11 +303,11 @@ TEST(NffReader, LaterViewsAreFurtherCameras) {
 
 TEST(NffReader, OurOwnCommentsTellNameAndAspect) {
   const std::string view = "v\nfrom 1 2 3\nat 0 0 0\nup 0 0 1\nangle 40\nresolution 8 8\n";
-  const NffResult result = parse(view +
-                                 "#beambench name  from the side  # the left one\r\n"
-                                 " #beambench aspect 1.5\n"
-                                 "#beambench\n#beambenchs 0 0 0 1\n# #beambench s 0 0 0 2\n"
-                                 "s 0 0 0 3 #beambench s 0 0 0 4\n");
+  const nff::NffResult result = parse(view +
+                                      "#beambench name  from the side  # the left one\r\n"
+                                      " #beambench aspect 1.5\n"
+                                      "#beambench\n#beambenchs 0 0 0 1\n# #beambench s 0 0 0 2\n"
+                                      "s 0 0 0 3 #beambench s 0 0 0 4\n");
   EXPECT_TRUE(result.warnings.empty());
   EXPECT_EQ(result.scene.cameras[0].name, "from the side");
   EXPECT_EQ(result.scene.cameras[0].aspect, 1.5F);
@@ -398,9 +399,9 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& info) { return std::string(info.param.name); });
 
 TEST(NffReader, UnreadableFilesAreRefused) {
-  EXPECT_TRUE(says(thrown_message([] { read_nff("/no/such/file.nff"); }),
+  EXPECT_TRUE(says(thrown_message([] { nff::read_nff("/no/such/file.nff"); }),
                    {"/no/such/file.nff", "No such file"}));
-  EXPECT_TRUE(says(thrown_message([] { read_nff(kFolder); }), {kFolder, "folder"}));
+  EXPECT_TRUE(says(thrown_message([] { nff::read_nff(kFolder); }), {kFolder, "folder"}));
 }
 
 /// Parses text that may be anything: it gives a scene or an InputError that names the place.
@@ -473,4 +474,4 @@ TEST(NffReader, TenMegabytesTakeWellUnderASecond) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -1,4 +1,4 @@
-#include "scenes/nff_writer.hpp"
+#include "scenes/formats/nff/nff_writer.hpp"
 
 #include <bit>
 #include <cmath>
@@ -8,17 +8,17 @@
 #include <rapidcheck/gtest.h>
 
 #include "scenes/catalogue.hpp"
-#include "scenes/nff_reader.hpp"
-#include "scenes/random.hpp"
+#include "scenes/core/random.hpp"
+#include "scenes/formats/nff/nff_reader.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 std::string written(const Scene& scene) {
   std::ostringstream stream;
-  write_nff(scene, stream);
+  nff::write_nff(scene, stream);
   return stream.str();
 }
 
@@ -92,7 +92,7 @@ class Contents {
 
 /// Whether the written scene reads back the same, without a word of complaint.
 testing::AssertionResult survives(const Scene& scene) {
-  const NffResult result = parse_nff(written(scene), "test.nff", {.strict = true});
+  const nff::NffResult result = nff::parse_nff(written(scene), "test.nff", {.strict = true});
   if (Contents(result.scene) != Contents(scene)) {
     return testing::AssertionFailure() << scene.name << " reads back changed";
   }
@@ -109,7 +109,7 @@ TEST(NffWriter, AllScenesOfTheCatalogueReadBackTheSame) {
 TEST(NffWriter, FilesReadBackTheSame) {
   const std::string folder = std::string(BEAMBENCH_TEST_FILES) + "/golden/nff/";
   for (const char* name : {"complete.nff", "quirks.nff", "thesis.nff"}) {
-    EXPECT_TRUE(survives(read_nff(folder + name).scene));
+    EXPECT_TRUE(survives(nff::read_nff(folder + name).scene));
   }
 }
 
@@ -217,7 +217,7 @@ RC_GTEST_PROP(NffWriter, AnySceneReadsBackTheSame, (std::uint64_t seed)) {
   const Scene scene = std::move(builder).build();
   RC_ASSERT(survives(scene));
   // The same but for the name of the first, which is in a comment.
-  const Scene again = parse_nff(written(scene), "random").scene;
+  const Scene again = nff::parse_nff(written(scene), "random").scene;
   RC_ASSERT(written(again) == written(scene));
 }
 
@@ -254,9 +254,9 @@ TEST(NffWriter, WritesWhatOtherProgramsRead) {
 TEST(NffWriter, SaysWhenTheStreamFails) {
   std::ostringstream stream;
   stream.setstate(std::ios::badbit);
-  write_nff(SceneBuilder("test").build(), stream);
+  nff::write_nff(SceneBuilder("test").build(), stream);
   EXPECT_TRUE(stream.bad());
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::scenes

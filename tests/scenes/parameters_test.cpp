@@ -1,4 +1,4 @@
-#include "scenes/parameters.hpp"
+#include "scenes/core/parameters.hpp"
 
 #include <stdexcept>
 
@@ -6,7 +6,7 @@
 
 #include "tests/scenes/thrown_message.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 using Given = std::vector<std::pair<std::string, std::string>>;
@@ -146,4 +146,4 @@ TEST(Parameters, InvalidDefaultIsAnErrorOfTheOwner) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -1,11 +1,11 @@
-#include "scenes/portable_math.hpp"
+#include "scenes/core/portable_math.hpp"
 
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 // Against the library's own, which is correct to one unit in the last place where we build.
@@ -40,4 +40,4 @@ TEST(PortableMath, Logarithm) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::scenes

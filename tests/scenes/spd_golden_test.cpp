@@ -10,9 +10,9 @@
 #include <gtest/gtest.h>
 
 #include "scenes/catalogue.hpp"
-#include "scenes/nff_reader.hpp"
+#include "scenes/formats/nff/nff_reader.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 /// What NFF prints of a primitive, in one list.
@@ -68,7 +68,7 @@ void PrintTo(const Golden& golden, std::ostream* stream) { *stream << golden.fil
 class SpdOutput : public testing::TestWithParam<Golden> {
  protected:
   Scene printed_ =
-      read_nff(std::string(BEAMBENCH_TEST_FILES) + "/golden/spd/" + GetParam().file).scene;
+      nff::read_nff(std::string(BEAMBENCH_TEST_FILES) + "/golden/spd/" + GetParam().file).scene;
   Scene ours_ = load_scene(GetParam().spec);
 };
 
@@ -136,11 +136,11 @@ INSTANTIATE_TEST_SUITE_P(Spd, SpdOutput,
 
 TEST(SpdShells, BeginsAndEndsWhereTheSpdDoes) {
   const Scene printed =
-      read_nff(std::string(BEAMBENCH_TEST_FILES) + "/golden/spd/shells-2.nff").scene;
+      nff::read_nff(std::string(BEAMBENCH_TEST_FILES) + "/golden/spd/shells-2.nff").scene;
   const Scene ours = load_scene("shells:n=2");
   EXPECT_TRUE(agree(numbers(ours, 0, false), numbers(printed, 0, false)));
   EXPECT_TRUE(agree(numbers(ours, 720, false), numbers(printed, 79, false)));
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -16,7 +16,7 @@
 
 #include "scenes/catalogue.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 struct Count {
@@ -416,4 +416,4 @@ TEST(Catalogue, EveryPolygonHasArea) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::scenes

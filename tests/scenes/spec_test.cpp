@@ -1,11 +1,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "scenes/nearest_name.hpp"
-#include "scenes/parameters.hpp"
+#include "scenes/core/nearest_name.hpp"
+#include "scenes/core/parameters.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 /// A spec as it would be typed.
@@ -117,4 +117,4 @@ TEST(NearestName, IsNoneOfSeveralThatTheWordIsAPartOf) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::scenes

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 
 /// The message of the InputError that the call throws; "(nothing thrown)" when it throws none.
 template <typename Call>
@@ -32,4 +32,4 @@ inline ::testing::AssertionResult says(std::string_view message,
   return ::testing::AssertionSuccess();
 }
 
-}  // namespace beambench
+}  // namespace beambench::scenes

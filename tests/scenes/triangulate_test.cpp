@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "scenes/random.hpp"
+#include "scenes/core/random.hpp"
 
-namespace beambench {
+namespace beambench::scenes {
 namespace {
 
 using Corners = std::vector<glm::vec3>;
@@ -152,4 +152,4 @@ TEST(Triangulate, TenThousandCornersAreQuick) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::scenes

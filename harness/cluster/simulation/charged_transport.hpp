@@ -6,7 +6,7 @@
 #include "harness/cluster/simulation/spend.hpp"
 #include "harness/cluster/transport.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// Processor seconds for messages, which a network does not know of.
 struct MessageCost {
@@ -59,4 +59,4 @@ class ChargedTransport : public Transport {
   Spend spend_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

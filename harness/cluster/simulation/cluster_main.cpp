@@ -9,9 +9,9 @@
 
 #include "harness/cluster/simulation/cluster_options.hpp"
 #include "harness/cluster/simulation/simulated_cluster.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -118,11 +118,11 @@ int answer(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::cluster
 
 int main(int argc, char** argv) {
   try {
-    return beambench::answer(argc, argv);
+    return beambench::cluster::answer(argc, argv);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "error: %s\n", error.what());
   }

@@ -1,6 +1,6 @@
 #include "harness/cluster/simulation/cluster_options.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 void add_cluster_options(CLI::App& app, ClusterRequested& cluster) {
   const CLI::Range positive(1e-12, 1e12);
@@ -53,4 +53,4 @@ ClusterModel cluster_of(const ClusterRequested& cluster, int processes) {
   return model;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -8,7 +8,7 @@
 
 #include "harness/cluster/simulation/machines.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 struct ClusterRequested {
   ClusterModel model;
@@ -21,4 +21,4 @@ void add_cluster_options(CLI::App& app, ClusterRequested& cluster);
 /// With a machine of speed 1 for process 0; the speeds that were given are repeated for the others.
 ClusterModel cluster_of(const ClusterRequested& cluster, int processes);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

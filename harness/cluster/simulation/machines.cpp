@@ -14,7 +14,7 @@
 
 #include "harness/cluster/mpi_transport.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 namespace s4u = simgrid::s4u;
@@ -154,4 +154,4 @@ double run_on(const ClusterModel& cluster, const char* program, const Play& play
   return stage.seconds;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

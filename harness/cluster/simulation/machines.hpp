@@ -7,7 +7,7 @@
 #include "harness/cluster/simulation/charged_transport.hpp"
 #include "harness/cluster/simulation/spend.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// Speeds are relative: a machine of speed 1 takes the recorded seconds.
 struct ClusterModel {
@@ -34,4 +34,4 @@ using Play = std::function<void(Transport& transport, const Spend& spend)>;
 /// the life of a program: SimGrid has one engine.
 double run_on(const ClusterModel& cluster, const char* program, const Play& play);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 using Number = std::uint32_t;
@@ -48,4 +48,4 @@ std::size_t ReplayedSink::accept(std::span<const std::byte> result) {
   return costs_->tasks[number].samples;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -9,7 +9,7 @@
 #include "harness/cluster/simulation/spend.hpp"
 #include "harness/cluster/simulation/task_costs.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// Makes the recorded tasks in their order. A task is its number and as many bytes as it had.
 class ReplayedSource : public TaskSource {
@@ -47,4 +47,4 @@ class ReplayedSink : public ResultSink {
   std::vector<bool> came_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

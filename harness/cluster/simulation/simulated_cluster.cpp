@@ -3,7 +3,7 @@
 #include "harness/cluster/consumer.hpp"
 #include "harness/cluster/simulation/replay.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 ClusterReport play_producer(Transport& transport, const Spend& spend, const TaskCosts& costs,
@@ -34,4 +34,4 @@ SimulatedRun simulate(const ClusterModel& cluster, const TaskCosts& costs, doubl
   return run;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

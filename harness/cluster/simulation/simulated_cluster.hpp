@@ -7,7 +7,7 @@
 #include "harness/cluster/simulation/machines.hpp"
 #include "harness/cluster/simulation/task_costs.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// What the producer reported, and how long all of it took.
 struct SimulatedRun {
@@ -20,4 +20,4 @@ struct SimulatedRun {
 SimulatedRun simulate(const ClusterModel& cluster, const TaskCosts& costs, double build_seconds,
                       const ProducerOptions& options, const char* program);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

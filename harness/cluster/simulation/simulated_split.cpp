@@ -8,7 +8,7 @@
 #include "harness/cluster/split/split_studio.hpp"
 #include "harness/rays/fingerprint.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 /// Does something, lets as much simulated time pass as it took, and adds it up.
@@ -37,8 +37,8 @@ SplitMember::Meter meter_of(const Spend& spend, const Slowness& slowness, SplitP
 }  // namespace
 
 SimulatedSplit simulate_split(const ClusterModel& cluster, const Job& job,
-                              const std::shared_ptr<const Scene>& whole, const Slowness& slowness,
-                              const char* program) {
+                              const std::shared_ptr<const scenes::Scene>& whole,
+                              const Slowness& slowness, const char* program) {
   SimulatedSplit run;
   run.processes.resize(cluster.speeds.size());
   run.seconds = run_on(cluster, program, [&](Transport& transport, const Spend& spend) {
@@ -61,15 +61,15 @@ SimulatedSplit simulate_split(const ClusterModel& cluster, const Job& job,
       });
     }
     std::vector<Bytes> results = member.lead();
-    const PrimaryRays& rays = studio->rays();
-    HitBuffer hits(rays.width(), rays.height(), rays.samples());
+    const accel::PrimaryRays& rays = studio->rays();
+    accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
     do_for(spend, slowness.work, process.take_seconds, [&] {
       results[kProducer] = write_result(member.account(), worker);
       for (std::size_t i = 0; i < results.size(); ++i) {
         run.processes[i].account = take_result(results[i], hits);
       }
     });
-    run.result_hash = fingerprint(hits);
+    run.result_hash = rays::fingerprint(hits);
   });
   double last_ready = 0.0;
   for (const SplitProcess& each : run.processes) last_ready = std::max(last_ready, each.ready);
@@ -77,4 +77,4 @@ SimulatedSplit simulate_split(const ClusterModel& cluster, const Job& job,
   return run;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

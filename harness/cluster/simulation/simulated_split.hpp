@@ -11,7 +11,7 @@
 #include "harness/cluster/simulation/machines.hpp"
 #include "harness/cluster/split/split_member.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// So many times as long as here a machine of speed 1 takes.
 struct Slowness {
@@ -41,7 +41,7 @@ struct SimulatedSplit {
 /// Traces `job` over the whole scene, each process of the cluster with its part. To read the scene
 /// takes no time: it is the same for all, and depends on how it is stored. As `run_on`.
 SimulatedSplit simulate_split(const ClusterModel& cluster, const Job& job,
-                              const std::shared_ptr<const Scene>& whole, const Slowness& slowness,
-                              const char* program);
+                              const std::shared_ptr<const scenes::Scene>& whole,
+                              const Slowness& slowness, const char* program);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

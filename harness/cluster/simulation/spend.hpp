@@ -3,9 +3,9 @@
 
 #include <functional>
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// Lets seconds of the (simulated) processor pass.
 using Spend = std::function<void(double seconds)>;
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -13,16 +13,16 @@
 #include "harness/cluster/simulation/cluster_options.hpp"
 #include "harness/cluster/simulation/simulated_split.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 struct Request {
   Job job;
-  ImageRequest image;
+  cli::ImageRequest image;
   int processes = 8;
   Slowness slowness;
   ClusterRequested cluster;
@@ -43,11 +43,11 @@ Json to_json(const SplitProcess& process) {
           {"busy", process.busy}};
 }
 
-Json to_json(const Scene& whole, const SimulatedSplit& run) {
+Json to_json(const scenes::Scene& whole, const SimulatedSplit& run) {
   Json processes = Json::array();
   for (const SplitProcess& each : run.processes) processes.push_back(to_json(each));
   return {{"primitives", whole.primitives.size()},
-          {"scene_bytes", memory_bytes(whole)},
+          {"scene_bytes", scenes::memory_bytes(whole)},
           {"seconds", run.seconds},
           {"traced_seconds", run.traced_seconds},
           {"result_hash", fmt::format("{:016x}", run.result_hash)},
@@ -55,10 +55,10 @@ Json to_json(const Scene& whole, const SimulatedSplit& run) {
 }
 
 int run(const Request& request, const char* program) {
-  const auto whole = std::make_shared<const Scene>(load_scene(request.job.scene));
+  const auto whole = std::make_shared<const scenes::Scene>(scenes::load_scene(request.job.scene));
   Job job = request.job;
   if (!request.image.resolution.empty()) {
-    const Resolution resolution = parse_resolution(request.image.resolution);
+    const rays::Resolution resolution = rays::parse_resolution(request.image.resolution);
     job.width = resolution.width;
     job.height = resolution.height;
   }
@@ -72,11 +72,11 @@ int run(const Request& request, const char* program) {
 
 void add_options(CLI::App& app, Request& request) {
   const CLI::Range positive(1e-12, 1e12);
-  add_scene_option(app, request.job.scene);
+  cli::add_scene_option(app, request.job.scene);
   app.add_option("--accel", request.job.structure, "beam, with parameters: beam:max_level=6,...")
       ->capture_default_str();
-  add_size_options(app, request.image);
-  add_camera_option(app, request.image.view);
+  cli::add_size_options(app, request.image);
+  cli::add_camera_option(app, request.image.view);
   app.add_option("--split", request.job.split_level,
                  "Level of the octree's cells that are shared out")
       ->capture_default_str()
@@ -110,11 +110,11 @@ int answer(int argc, char** argv) {
 }
 
 }  // namespace
-}  // namespace beambench
+}  // namespace beambench::cluster
 
 int main(int argc, char** argv) {
   try {
-    return beambench::answer(argc, argv);
+    return beambench::cluster::answer(argc, argv);
   } catch (const std::bad_alloc&) {
     std::fputs("error: the memory does not suffice; choose a smaller scene or resolution\n",
                stderr);

@@ -11,10 +11,10 @@
 
 #include <fmt/format.h>
 
-#include "scenes/error.hpp"
-#include "scenes/input_file.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/input_file.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 constexpr std::string_view kRemedy = "'beambench-cluster SCENE --tasks FILE.csv' writes such files";
@@ -145,4 +145,4 @@ TaskCosts with_results_of(double bytes_a_sample, TaskCosts costs) {
   return costs;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// One task: seconds of the processor, bytes of its messages.
 struct TaskCost {
@@ -35,4 +35,4 @@ TaskCosts slowed(TaskCosts costs, double walk, double work);
 /// Results of so many bytes a sample, whatever was recorded: what another program would send.
 TaskCosts with_results_of(double bytes_a_sample, TaskCosts costs);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -2,7 +2,7 @@
 
 #include "harness/cluster/beam_shape.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 enum class Kind : std::uint8_t { kBeam, kRay };
@@ -13,7 +13,7 @@ CrossingRay read_ray(ByteReader& reader) {
   ray.sample = reader.get<std::uint32_t>();
   ray.t = reader.get<double>();
   ray.best_t = reader.get<float>();
-  ray.best = reader.get<PrimitiveId>();
+  ray.best = reader.get<scenes::PrimitiveId>();
   return ray;
 }
 
@@ -37,7 +37,7 @@ void write_traveller(const CrossingRay& ray, Bytes& bytes) {
   writer.put(ray.best);
 }
 
-Traveller read_traveller(ByteReader& reader, const EyeView& view) {
+Traveller read_traveller(ByteReader& reader, const accel::beam::EyeView& view) {
   switch (static_cast<Kind>(reader.get<std::uint8_t>())) {
     case Kind::kBeam: {
       CrossingBeam beam{};
@@ -52,4 +52,4 @@ Traveller read_traveller(ByteReader& reader, const EyeView& view) {
   throw ProtocolError("neither a beam nor a ray crosses the border");
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

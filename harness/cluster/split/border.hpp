@@ -7,23 +7,23 @@
 #include "accel/beam/beam.hpp"
 #include "harness/cluster/bytes.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// A beam that enters another process's cell by a face. Its `node`, `corner` and `size` mean
 /// nothing there.
 struct CrossingBeam {
   std::uint32_t cell;
-  Crossing face;
-  Beam beam;
+  accel::beam::Crossing face;
+  accel::beam::Beam beam;
 };
 
 /// A ray that enters another process's cell, and the best that it found before.
 struct CrossingRay {
   std::uint32_t cell;
-  std::uint32_t sample;  ///< its place in the hit buffer
-  double t;              ///< where it enters
-  float best_t;          ///< infinity: nothing found
-  PrimitiveId best;      ///< in the whole scene
+  std::uint32_t sample;      ///< its place in the hit buffer
+  double t;                  ///< where it enters
+  float best_t;              ///< infinity: nothing found
+  scenes::PrimitiveId best;  ///< in the whole scene
 };
 
 using Traveller = std::variant<CrossingBeam, CrossingRay>;
@@ -32,6 +32,6 @@ void write_traveller(const CrossingBeam& beam, Bytes& bytes);
 void write_traveller(const CrossingRay& ray, Bytes& bytes);
 
 /// The next of them in a message. Throws ProtocolError for what is neither.
-Traveller read_traveller(ByteReader& reader, const EyeView& view);
+Traveller read_traveller(ByteReader& reader, const accel::beam::EyeView& view);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

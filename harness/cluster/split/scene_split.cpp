@@ -4,14 +4,14 @@
 #include <numeric>
 #include <unordered_map>
 
-#include "accel/tolerance.hpp"
+#include "accel/core/tolerance.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 /// Calls `visit(cell)` for all cells of a range.
 template <class Visit>
-void for_each_cell(const CellRange& range, Visit visit) {
+void for_each_cell(const accel::CellRange& range, Visit visit) {
   for (int z = range.first[2]; z <= range.last[2]; ++z) {
     for (int y = range.first[1]; y <= range.last[1]; ++y) {
       for (int x = range.first[0]; x <= range.last[0]; ++x) visit(glm::ivec3(x, y, z));
@@ -33,21 +33,21 @@ std::uint32_t morton(const glm::ivec3& cell) {
 /// Copies what a primitive refers to, each vertex once.
 class PartBuilder {
  public:
-  PartBuilder(const Scene& whole, ScenePart& part) : whole_(&whole), part_(&part) {}
+  PartBuilder(const scenes::Scene& whole, ScenePart& part) : whole_(&whole), part_(&part) {}
 
-  void add(PrimitiveId id) {
-    Scene& scene = part_->scene;
-    Primitive primitive = whole_->primitives[id];
+  void add(scenes::PrimitiveId id) {
+    scenes::Scene& scene = part_->scene;
+    scenes::Primitive primitive = whole_->primitives[id];
     switch (primitive.kind) {
-      case PrimitiveKind::kSphere:
+      case scenes::PrimitiveKind::kSphere:
         scene.spheres.push_back(whole_->spheres[primitive.index]);
         primitive.index = static_cast<std::uint32_t>(scene.spheres.size() - 1);
         break;
-      case PrimitiveKind::kCone:
+      case scenes::PrimitiveKind::kCone:
         scene.cones.push_back(whole_->cones[primitive.index]);
         primitive.index = static_cast<std::uint32_t>(scene.cones.size() - 1);
         break;
-      case PrimitiveKind::kPolygon:
+      case scenes::PrimitiveKind::kPolygon:
         add_polygon(whole_->polygons[primitive.index]);
         primitive.index = static_cast<std::uint32_t>(scene.polygons.size() - 1);
         break;
@@ -57,20 +57,20 @@ class PartBuilder {
   }
 
  private:
-  void add_polygon(Polygon polygon) {
-    Scene& scene = part_->scene;
+  void add_polygon(scenes::Polygon polygon) {
+    scenes::Scene& scene = part_->scene;
     const auto first_corner = static_cast<std::uint32_t>(scene.corners.size());
     const auto first_triangle = static_cast<std::uint32_t>(scene.triangles.size());
     for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {
       scene.corners.push_back(vertex(whole_->corners[polygon.first_corner + i]));
     }
     for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
-      Triangle triangle = whole_->triangles[polygon.first_triangle + i];
+      scenes::Triangle triangle = whole_->triangles[polygon.first_triangle + i];
       for (std::uint32_t& each : triangle.vertex) each = vertex(each);
-      triangle.primitive = static_cast<PrimitiveId>(scene.primitives.size());
+      triangle.primitive = static_cast<scenes::PrimitiveId>(scene.primitives.size());
       scene.triangles.push_back(triangle);
     }
-    if (polygon.first_normal != Polygon::kFlat) {
+    if (polygon.first_normal != scenes::Polygon::kFlat) {
       const auto first = whole_->normals.begin() + polygon.first_normal;
       polygon.first_normal = static_cast<std::uint32_t>(scene.normals.size());
       scene.normals.insert(scene.normals.end(), first, first + polygon.corner_count);
@@ -88,25 +88,27 @@ class PartBuilder {
     return found->second;
   }
 
-  const Scene* whole_;
+  const scenes::Scene* whole_;
   ScenePart* part_;
   std::unordered_map<std::uint32_t, std::uint32_t> places_;  ///< of vertices
 };
 
 }  // namespace
 
-SceneSplit::SceneSplit(const Scene& scene, const OctreeOptions& options, int level, int processes)
+SceneSplit::SceneSplit(const scenes::Scene& scene, const accel::octree::OctreeOptions& options,
+                       int level, int processes)
     : level_(level), cells_(1 << (level - 1)) {
-  OctreeOptions coarse = options;
+  accel::octree::OctreeOptions coarse = options;
   coarse.max_level = level;
-  const CellGrid grid = octree_grid(scene, coarse);
+  const accel::CellGrid grid = accel::octree::octree_grid(scene, coarse);
   const auto count = static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_) *
                      static_cast<std::size_t>(cells_);
   // A little for each cell, so that empty ones are shared out, too.
   std::vector<double> weight(count, 0.01);
   ranges_.reserve(scene.primitives.size());
-  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-    ranges_.push_back(cell_range(grid, primitive_bounds(scene, id), overlap_tolerance(scene)));
+  for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+    ranges_.push_back(accel::cell_range(grid, scenes::primitive_bounds(scene, id),
+                                        accel::overlap_tolerance(scene)));
     for_each_cell(ranges_.back(), [&](const glm::ivec3& cell) { weight[index(cell)] += 1.0; });
   }
   std::vector<std::uint32_t> order(count);
@@ -123,14 +125,14 @@ SceneSplit::SceneSplit(const Scene& scene, const OctreeOptions& options, int lev
   }
 }
 
-bool SceneSplit::reaches(ProcessId process, PrimitiveId id) const {
+bool SceneSplit::reaches(ProcessId process, scenes::PrimitiveId id) const {
   bool found = false;
   for_each_cell(ranges_[id],
                 [&](const glm::ivec3& cell) { found = found || owner(index(cell)) == process; });
   return found;
 }
 
-ScenePart part_of(const Scene& scene, const SceneSplit& split, ProcessId process) {
+ScenePart part_of(const scenes::Scene& scene, const SceneSplit& split, ProcessId process) {
   ScenePart part;
   part.scene.name = scene.name;
   part.scene.cameras = scene.cameras;
@@ -139,14 +141,14 @@ ScenePart part_of(const Scene& scene, const SceneSplit& split, ProcessId process
   part.scene.surfaces = scene.surfaces;
   part.scene.bounds = scene.bounds;
   PartBuilder builder(scene, part);
-  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+  for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     if (split.reaches(process, id)) builder.add(id);
   }
-  Scene& kept = part.scene;
+  scenes::Scene& kept = part.scene;
   const auto shrink = [](auto&... lists) { (lists.shrink_to_fit(), ...); };
   shrink(kept.primitives, kept.spheres, kept.cones, kept.polygons, kept.triangles, kept.vertices,
          kept.corners, kept.normals, part.global);
   return part;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

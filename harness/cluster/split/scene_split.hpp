@@ -4,12 +4,12 @@
 #include <cstdint>
 #include <vector>
 
-#include "accel/cell_grid.hpp"
+#include "accel/core/cell_grid.hpp"
 #include "accel/octree/octree.hpp"
 #include "harness/cluster/transport.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// The cells of one level of an octree, divided among processes. Cells that follow each other in
 /// Morton's order go together, so that a process's cells are neighbours, and about as many
@@ -17,7 +17,8 @@ namespace beambench {
 class SceneSplit {
  public:
   /// Cells of `level`, at most 7 and not deeper than the octree of `options`.
-  SceneSplit(const Scene& scene, const OctreeOptions& options, int level, int processes);
+  SceneSplit(const scenes::Scene& scene, const accel::octree::OctreeOptions& options, int level,
+             int processes);
 
   int level() const { return level_; }
   /// Along each axis.
@@ -33,25 +34,25 @@ class SceneSplit {
   ProcessId owner(std::uint32_t index) const { return owners_[index]; }
 
   /// Does the primitive's box reach into a cell of the process? Not after `forget_primitives`.
-  bool reaches(ProcessId process, PrimitiveId id) const;
+  bool reaches(ProcessId process, scenes::PrimitiveId id) const;
   /// Gives up the memory that grows with the scene.
   void forget_primitives() { ranges_ = {}; }
 
  private:
   int level_;
   std::int32_t cells_;
-  std::vector<std::uint16_t> owners_;  ///< by cell
-  std::vector<CellRange> ranges_;      ///< by primitive
+  std::vector<std::uint16_t> owners_;     ///< by cell
+  std::vector<accel::CellRange> ranges_;  ///< by primitive
 };
 
 /// What one process keeps of a scene.
 struct ScenePart {
   /// Its primitives, in their order; bounds, cameras, surfaces and lights are those of the whole.
-  Scene scene;
+  scenes::Scene scene;
   /// The ids that they have in the whole scene, ascending.
-  std::vector<PrimitiveId> global;
+  std::vector<scenes::PrimitiveId> global;
 };
 
-ScenePart part_of(const Scene& scene, const SceneSplit& split, ProcessId process);
+ScenePart part_of(const scenes::Scene& scene, const SceneSplit& split, ProcessId process);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

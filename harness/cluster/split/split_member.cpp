@@ -6,7 +6,7 @@
 
 #include "harness/cluster/cpu_timer.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 constexpr std::size_t kLarge = 1 << 15;  // bytes that are worth a message before all is done
@@ -113,7 +113,7 @@ void SplitMember::follow(const std::function<Bytes()>& result) {
 SplitAccount SplitMember::account() const {
   SplitAccount account;
   account.primitives = worker_->scene().primitives.size();
-  account.scene_bytes = memory_bytes(worker_->scene());
+  account.scene_bytes = scenes::memory_bytes(worker_->scene());
   account.structure_bytes = worker_->structure_bytes();
   account.beams_out = outbox_->beams();
   account.rays_out = outbox_->rays();
@@ -284,4 +284,4 @@ void SplitMember::require_signs_of_life() {
   }
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

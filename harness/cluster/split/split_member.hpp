@@ -7,9 +7,9 @@
 #include "harness/cluster/process_report.hpp"
 #include "harness/cluster/split/split_worker.hpp"
 #include "harness/cluster/transport.hpp"
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// A process is not there any more, and will not come to MPI's end, either.
 class LostProcess : public InputError {
@@ -135,4 +135,4 @@ class SplitMember {
   std::optional<Wave> last_wave_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

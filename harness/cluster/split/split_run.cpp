@@ -6,17 +6,17 @@
 
 #include <fmt/format.h>
 
+#include "harness/bench/record/build_info.hpp"
 #include "harness/cluster/set_up.hpp"
 #include "harness/cluster/split/split_studio.hpp"
 #include "harness/cluster/studio.hpp"
-#include "harness/files/pending_file.hpp"
-#include "harness/picture/image_file.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "harness/record/build_info.hpp"
+#include "harness/render/picture/image_file.hpp"
 #include "scenes/catalogue.hpp"
+#include "scenes/core/pending_file.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -29,8 +29,9 @@ struct Workplace {
 };
 
 Workplace set_up(const Job& job, Transport& transport, std::vector<std::string>* warnings) {
-  auto whole = std::make_shared<const Scene>(load_scene(job.scene, warnings));
-  Workplace place{{look_hash(*whole), whole->primitives.size(), 0}, memory_bytes(*whole), nullptr};
+  auto whole = std::make_shared<const scenes::Scene>(scenes::load_scene(job.scene, warnings));
+  Workplace place{
+      {look_hash(*whole), whole->primitives.size(), 0}, scenes::memory_bytes(*whole), nullptr};
   place.studio = std::make_unique<SplitStudio>(std::move(whole), job, transport);
   return place;
 }
@@ -70,17 +71,18 @@ SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
   SplitMember member(transport, studio.worker(), studio.outbox(), request.producer.timeout, check);
   std::vector<Bytes> results = member.lead();
   results[kProducer] = write_result(member.account(), studio.worker());
-  const PrimaryRays& rays = studio.rays();
-  HitBuffer hits(rays.width(), rays.height(), rays.samples());
+  const accel::PrimaryRays& rays = studio.rays();
+  accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
   for (const Bytes& result : results) run.accounts.push_back(take_result(result, hits));
   run.seconds = transport.seconds() - begin;
-  run.result_hash = fingerprint(hits);
+  run.result_hash = rays::fingerprint(hits);
   run.job.width = rays.width();
   run.job.height = rays.height();
   if (!request.picture.empty()) {
     // The ids are those of the whole scene, of which each process has a part.
-    HitCheck(run.whole_primitives, "structure 'beam'").require(hits, rays);
-    write_image(request.picture, shade(studio.worker().scene(), rays, hits, request.shading));
+    rays::HitCheck(run.whole_primitives, "structure 'beam'").require(hits, rays);
+    render::write_image(request.picture,
+                        render::shade(studio.worker().scene(), rays, hits, request.shading));
   }
   if (!request.report.empty()) write_file(request.report, to_json(run).dump(2) + "\n");
   return run;
@@ -100,7 +102,7 @@ void follow_split(const Job& job, Transport& transport) {
 }
 
 nlohmann::ordered_json to_json(const SplitRun& run) {
-  const BuildInfo& build = build_info();
+  const bench::BuildInfo& build = bench::build_info();
   Json json{{"version", build.version},
             {"commit", build.commit},
             {"dirty", build.dirty},
@@ -143,4 +145,4 @@ std::string summary(const SplitRun& run) {
       1e-6 * static_cast<double>(largest));
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -9,7 +9,7 @@
 #include "harness/cluster/split/split_member.hpp"
 #include "harness/cluster/transport.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 struct SplitRun {
   Job job;
@@ -28,4 +28,4 @@ void follow_split(const Job& job, Transport& transport);
 nlohmann::ordered_json to_json(const SplitRun& run);
 std::string summary(const SplitRun& run);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

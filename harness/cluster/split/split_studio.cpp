@@ -5,11 +5,13 @@
 #include "harness/cli/inputs.hpp"
 #include "harness/cluster/sample_results.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
-SplitStudio::SplitStudio(std::shared_ptr<const Scene> whole, const Job& job, Transport& transport) {
-  const BeamOptions options = BeamOptions::from(choose_one("--accel", job.structure).parameters());
-  const ImageOfRays image = job_image(job, *whole);
+SplitStudio::SplitStudio(std::shared_ptr<const scenes::Scene> whole, const Job& job,
+                         Transport& transport) {
+  const accel::beam::BeamOptions options =
+      accel::beam::BeamOptions::from(cli::choose_one("--accel", job.structure).parameters());
+  const rays::ImageOfRays image = job_image(job, *whole);
   rays_.emplace(image.camera, image.resolution.width, image.resolution.height, image.samples);
   split_.emplace(*whole, options.octree, job.split_level, transport.processes());
   ScenePart part = part_of(*whole, *split_, transport.self());
@@ -28,11 +30,11 @@ Bytes write_result(const SplitAccount& account, const SplitWorker& worker) {
   return bytes;
 }
 
-SplitAccount take_result(std::span<const std::byte> result, HitBuffer& hits) {
+SplitAccount take_result(std::span<const std::byte> result, accel::HitBuffer& hits) {
   ByteReader reader(result);
   const SplitAccount account = read_split_account(reader);
   HitSink(hits).accept(reader.rest());
   return account;
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

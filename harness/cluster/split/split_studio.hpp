@@ -8,21 +8,21 @@
 #include "harness/cluster/job.hpp"
 #include "harness/cluster/split/split_member.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// A process's part of a scene, ready to be traced.
 class SplitStudio {
  public:
   /// Lets go of the whole scene before it builds. Throws InputError for what the job cannot be done
   /// with.
-  SplitStudio(std::shared_ptr<const Scene> whole, const Job& job, Transport& transport);
+  SplitStudio(std::shared_ptr<const scenes::Scene> whole, const Job& job, Transport& transport);
 
-  const PrimaryRays& rays() const { return *rays_; }
+  const accel::PrimaryRays& rays() const { return *rays_; }
   SplitWorker& worker() { return *worker_; }
   Outbox& outbox() { return *outbox_; }
 
  private:
-  std::optional<PrimaryRays> rays_;
+  std::optional<accel::PrimaryRays> rays_;
   std::optional<SceneSplit> split_;
   std::unique_ptr<Outbox> outbox_;
   std::unique_ptr<SplitWorker> worker_;
@@ -31,6 +31,6 @@ class SplitStudio {
 /// What a process did, and what was found there.
 Bytes write_result(const SplitAccount& account, const SplitWorker& worker);
 /// Puts that to the others' hits. Throws ProtocolError for what it is not.
-SplitAccount take_result(std::span<const std::byte> result, HitBuffer& hits);
+SplitAccount take_result(std::span<const std::byte> result, accel::HitBuffer& hits);
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -2,20 +2,20 @@
 
 #include <utility>
 
-#include "scenes/error.hpp"
+#include "scenes/core/error.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 namespace {
 
-constexpr Hit kNothing{kInfinity, kNoPrimitive};
+constexpr accel::Hit kNothing{accel::kInfinity, scenes::kNoPrimitive};
 
-OctreePart own_cells(const SceneSplit& split, ProcessId self) {
+accel::octree::OctreePart own_cells(const SceneSplit& split, ProcessId self) {
   return {split.level(), [&split, self](const glm::ivec3& cell) {
             return split.owner(split.index(cell)) == self;
           }};
 }
 
-BeamOptions checked(const BeamOptions& options, const SceneSplit& split) {
+accel::beam::BeamOptions checked(const accel::beam::BeamOptions& options, const SceneSplit& split) {
   if (!options.continue_with_rays || options.share_corners) {
     throw InputError(
         "beams over a scene in parts need continue=rays and share_corners=false; leave them out");
@@ -30,24 +30,28 @@ BeamOptions checked(const BeamOptions& options, const SceneSplit& split) {
 
 }  // namespace
 
-ForeignLeaves::ForeignLeaves(const Octree& octree, const SceneSplit& split, ProcessId self)
+ForeignLeaves::ForeignLeaves(const accel::octree::Octree& octree, const SceneSplit& split,
+                             ProcessId self)
     : cells_(octree.nodes().size(), kOwn) {
   const std::int32_t finest = octree.grid().cells.x / split.cells();
   for (std::uint32_t cell = 0; cell < split.cell_count(); ++cell) {
     if (split.owner(cell) == self) continue;
-    cells_[cursor_of(octree, split.cell(cell) * finest, finest).index()] = cell;
+    cells_[accel::octree::cursor_of(octree, split.cell(cell) * finest, finest).index()] = cell;
   }
 }
 
 SplitWorker::SplitWorker(ScenePart part, const SceneSplit& split, ProcessId self,
-                         const BeamOptions& options, const PrimaryRays& rays, BorderPost& post)
+                         const accel::beam::BeamOptions& options, const accel::PrimaryRays& rays,
+                         BorderPost& post)
     : part_(std::move(part)),
       split_(&split),
       self_(self),
       rays_(&rays),
       post_(&post),
       tracer_(part_.scene,
-              Octree(part_.scene, checked(options, split).octree, own_cells(split, self)), options),
+              accel::octree::Octree(part_.scene, checked(options, split).octree,
+                                    own_cells(split, self)),
+              options),
       foreign_(tracer_.octree(), split, self),
       view_(tracer_.octree().grid(), rays),
       found_here_(rays.width(), rays.height(), rays.samples()),
@@ -57,7 +61,7 @@ SplitWorker::SplitWorker(ScenePart part, const SceneSplit& split, ProcessId self
                watch_),
       samples_(static_cast<double>(rays.count())) {
   queue_.border = this;
-  begin_beams(tracer_.octree(), view_, view_.screen(), queue_);
+  accel::beam::begin_beams(tracer_.octree(), view_, view_.screen(), queue_);
   beginning_ = false;
 }
 
@@ -81,7 +85,7 @@ SplitWork SplitWorker::work() {
   for (; walked < kBeamsAtOnce && (!entering_.empty() || has_next()); ++walked) {
     if (!entering_.empty()) {
       const CrossingBeam& beam = entering_.front();
-      enter_node(view_, beam.face, cell_cursor(beam.cell), beam.beam, queue_);
+      accel::beam::enter_node(view_, beam.face, cell_cursor(beam.cell), beam.beam, queue_);
       entering_.pop_front();
     } else if (const auto end = end_of_walk(*next_)) {
       if (walked > 0) break;
@@ -113,33 +117,36 @@ void SplitWorker::trace_rays() {
 }
 
 /// A beam that begins in a foreign leaf is begun there.
-bool SplitWorker::takes(std::uint32_t leaf, const Crossing& face, const Beam& beam) {
+bool SplitWorker::takes(std::uint32_t leaf, const accel::beam::Crossing& face,
+                        const accel::beam::Beam& beam) {
   const auto cell = foreign_.cell_at(leaf);
   if (cell && !beginning_) post_->hand_over(CrossingBeam{*cell, face, beam});
   return cell.has_value();
 }
 
 /// Why a beam's samples are looked for now; nothing where the beam goes on.
-std::optional<SplitWorker::EndOfWalk> SplitWorker::end_of_walk(const BeamStep& step) const {
-  if (step.kind == BeamKind::kLeaving || is_foreign(step.beam)) return std::nullopt;
-  if (step.kind == BeamKind::kOccupied) return EndOfWalk::kOccupied;
+std::optional<SplitWorker::EndOfWalk> SplitWorker::end_of_walk(
+    const accel::beam::BeamStep& step) const {
+  if (step.kind == accel::BeamKind::kLeaving || is_foreign(step.beam)) return std::nullopt;
+  if (step.kind == accel::BeamKind::kOccupied) return EndOfWalk::kOccupied;
   if (step.beam.crowded()) return EndOfWalk::kCrowded;
   const auto handover = static_cast<double>(tracer_.options().handover);
-  if (handover > 0.0 && area(step.beam.outline) * samples_ < handover) return EndOfWalk::kHandover;
+  if (handover > 0.0 && accel::beam::area(step.beam.outline) * samples_ < handover)
+    return EndOfWalk::kHandover;
   return std::nullopt;
 }
 
-void SplitWorker::walk(const BeamStep& step) {
-  if (step.kind == BeamKind::kLeaving || is_foreign(step.beam)) return;
-  continue_beam(tracer_.octree(), view_, step.beam, queue_);
+void SplitWorker::walk(const accel::beam::BeamStep& step) {
+  if (step.kind == accel::BeamKind::kLeaving || is_foreign(step.beam)) return;
+  accel::beam::continue_beam(tracer_.octree(), view_, step.beam, queue_);
 }
 
-void SplitWorker::test(const Beam& beam, EndOfWalk end) {
+void SplitWorker::test(const accel::beam::Beam& beam, EndOfWalk end) {
   if (end == EndOfWalk::kOccupied) {
     painter_.test_leaf(beam);
   } else {
-    painter_.hand_over(beam,
-                       end == EndOfWalk::kCrowded ? RayReason::kCrowded : RayReason::kHandover);
+    painter_.hand_over(beam, end == EndOfWalk::kCrowded ? accel::beam::RayReason::kCrowded
+                                                        : accel::beam::RayReason::kHandover);
   }
   see_to_samples();
 }
@@ -149,7 +156,7 @@ void SplitWorker::see_to_samples() {
     settle(sample, global(found_here_.get(sample)));
   }
   for (const BorderWatch::Crossed& each : watch_.crossed) {
-    const Hit best = global(found_here_.get(each.sample));
+    const accel::Hit best = global(found_here_.get(each.sample));
     post_->hand_over(CrossingRay{each.cell, each.sample, each.t, best.t, best.primitive});
   }
   watch_.decided.clear();
@@ -159,38 +166,38 @@ void SplitWorker::see_to_samples() {
 /// Goes on where the ray came in. What it found before limits what is looked for: nothing farther
 /// is kept, and an equal t is compared by the whole scene's ids.
 void SplitWorker::trace_ray(const CrossingRay& crossing) {
-  const Ray ray = ray_of(crossing.sample);
-  const CellRay way(tracer_.octree().grid(), ray);
-  ClosestHit closest(ray);
+  const accel::Ray ray = ray_of(crossing.sample);
+  const accel::CellRay way(tracer_.octree().grid(), ray);
+  accel::ClosestHit closest(ray);
   closest.ray.t_max = crossing.best_t;
-  NoCounting none;
+  accel::NoCounting none;
   std::optional<CrossingRay> next;
   double t = crossing.t;
-  const OctreeNode* nodes = tracer_.octree().nodes().data();
-  walk_leaves_from(
+  const accel::octree::OctreeNode* nodes = tracer_.octree().nodes().data();
+  accel::octree::walk_leaves_from(
       cell_cursor(crossing.cell), t, 0, tracer_.octree(), tracer_.neighbours(), ray, way, none,
-      [&](const OctreeNode& leaf, double exit_t) {
+      [&](const accel::octree::OctreeNode& leaf, double exit_t) {
         if (const auto cell = foreign_.cell_at(static_cast<std::uint32_t>(&leaf - nodes))) {
           next = CrossingRay{*cell, crossing.sample, t, 0.0F, 0};
           return true;
         }
         t = exit_t;
-        return test_references(part_.scene, tracer_.octree().references(leaf), exit_t, none,
-                               closest);
+        return accel::test_references(part_.scene, tracer_.octree().references(leaf), exit_t, none,
+                                      closest);
       });
-  Hit best{crossing.best_t, crossing.best};
-  if (const Hit here = global(closest.result()); precedes(here, best)) best = here;
+  accel::Hit best{crossing.best_t, crossing.best};
+  if (const accel::Hit here = global(closest.result()); accel::precedes(here, best)) best = here;
   if (!next) return settle(crossing.sample, best);
   next->best_t = best.t;
   next->best = best.primitive;
   post_->hand_over(*next);
 }
 
-void SplitWorker::settle(std::uint32_t sample, const Hit& best) {
-  if (best.primitive != kNoPrimitive) found_.set(sample, best);
+void SplitWorker::settle(std::uint32_t sample, const accel::Hit& best) {
+  if (best.primitive != scenes::kNoPrimitive) found_.set(sample, best);
 }
 
-Hit SplitWorker::global(const std::optional<Hit>& local) const {
+accel::Hit SplitWorker::global(const std::optional<accel::Hit>& local) const {
   if (!local) return kNothing;
   return {local->t, part_.global[local->primitive]};
 }
@@ -201,12 +208,12 @@ void SplitWorker::require_own(std::uint32_t cell) const {
   }
 }
 
-OctreeCursor SplitWorker::cell_cursor(std::uint32_t cell) const {
+accel::octree::OctreeCursor SplitWorker::cell_cursor(std::uint32_t cell) const {
   const std::int32_t finest = tracer_.octree().grid().cells.x / split_->cells();
-  return cursor_of(tracer_.octree(), split_->cell(cell) * finest, finest);
+  return accel::octree::cursor_of(tracer_.octree(), split_->cell(cell) * finest, finest);
 }
 
-Ray SplitWorker::ray_of(std::uint32_t sample) const {
+accel::Ray SplitWorker::ray_of(std::uint32_t sample) const {
   const auto each = static_cast<std::uint32_t>(rays_->samples());
   const auto width = static_cast<std::uint32_t>(rays_->width());
   const std::uint32_t pixel = sample / each;
@@ -217,7 +224,8 @@ Ray SplitWorker::ray_of(std::uint32_t sample) const {
 std::vector<std::uint32_t> SplitWorker::hit_samples() const {
   std::vector<std::uint32_t> samples;
   for (std::size_t i = 0; i < found_.size(); ++i) {
-    if (found_.primitive()[i] != kNoPrimitive) samples.push_back(static_cast<std::uint32_t>(i));
+    if (found_.primitive()[i] != scenes::kNoPrimitive)
+      samples.push_back(static_cast<std::uint32_t>(i));
   }
   return samples;
 }
@@ -226,4 +234,4 @@ std::uint64_t SplitWorker::structure_bytes() const {
   return tracer_.statistics().bytes + foreign_.memory_bytes();
 }
 
-}  // namespace beambench
+}  // namespace beambench::cluster

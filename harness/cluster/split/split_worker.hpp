@@ -10,12 +10,12 @@
 #include "harness/cluster/split/border.hpp"
 #include "harness/cluster/split/scene_split.hpp"
 
-namespace beambench {
+namespace beambench::cluster {
 
 /// Which leaves of a process's octree are other processes' cells.
 class ForeignLeaves {
  public:
-  ForeignLeaves(const Octree& octree, const SceneSplit& split, ProcessId self);
+  ForeignLeaves(const accel::octree::Octree& octree, const SceneSplit& split, ProcessId self);
 
   /// The cell that a leaf stands for; nothing where it is our own.
   std::optional<std::uint32_t> cell_at(std::uint32_t leaf) const {
@@ -30,12 +30,12 @@ class ForeignLeaves {
 };
 
 /// Notes which samples beams decided, and which went on as rays into a foreign leaf.
-class BorderWatch : public NoBeamWatch {
+class BorderWatch : public accel::beam::NoBeamWatch {
  public:
-  BorderWatch(const Octree& octree, const ForeignLeaves& foreign)
+  BorderWatch(const accel::octree::Octree& octree, const ForeignLeaves& foreign)
       : nodes_(octree.nodes().data()), foreign_(&foreign) {}
 
-  bool leaves_part(const OctreeNode& leaf, double t) {
+  bool leaves_part(const accel::octree::OctreeNode& leaf, double t) {
     const auto cell = foreign_->cell_at(static_cast<std::uint32_t>(&leaf - nodes_));
     if (cell) crossing_ = Crossed{*cell, 0, t};
     return cell.has_value();
@@ -59,7 +59,7 @@ class BorderWatch : public NoBeamWatch {
   std::vector<Crossed> crossed;
 
  private:
-  const OctreeNode* nodes_;
+  const accel::octree::OctreeNode* nodes_;
   const ForeignLeaves* foreign_;
   std::optional<Crossed> crossing_;
 };
@@ -88,12 +88,13 @@ enum class SplitWork {
 /// sample what one process with the whole scene finds, bit for bit: beams are divided by the same
 /// planes, a primitive is tested in every cell that it reaches into, and ties go to the lowest id
 /// of the whole scene.
-class SplitWorker : private BeamBorder {
+class SplitWorker : private accel::beam::BeamBorder {
  public:
   /// Takes the process's part of the scene and begins the beams that begin in it. Rays and post
   /// must outlive the worker. Throws InputError for options that do not go together with a part.
-  SplitWorker(ScenePart part, const SceneSplit& split, ProcessId self, const BeamOptions& options,
-              const PrimaryRays& rays, BorderPost& post);
+  SplitWorker(ScenePart part, const SceneSplit& split, ProcessId self,
+              const accel::beam::BeamOptions& options, const accel::PrimaryRays& rays,
+              BorderPost& post);
   SplitWorker(const SplitWorker&) = delete;
   SplitWorker& operator=(const SplitWorker&) = delete;
   ~SplitWorker() override = default;
@@ -108,10 +109,10 @@ class SplitWorker : private BeamBorder {
 
   /// The samples that were found here to hit something, ascending, and what they hit.
   std::vector<std::uint32_t> hit_samples() const;
-  const HitBuffer& hits() const { return found_; }
+  const accel::HitBuffer& hits() const { return found_; }
 
-  const EyeView& view() const { return view_; }
-  const Scene& scene() const { return part_.scene; }
+  const accel::beam::EyeView& view() const { return view_; }
+  const scenes::Scene& scene() const { return part_.scene; }
   std::uint64_t structure_bytes() const;
 
  private:
@@ -121,41 +122,44 @@ class SplitWorker : private BeamBorder {
 
   enum class EndOfWalk { kOccupied, kCrowded, kHandover };
 
-  bool takes(std::uint32_t leaf, const Crossing& face, const Beam& beam) override;
+  bool takes(std::uint32_t leaf, const accel::beam::Crossing& face,
+             const accel::beam::Beam& beam) override;
   void trace_rays();
   bool has_next();
   /// The eye's leaf may be another's.
-  bool is_foreign(const Beam& beam) const { return foreign_.cell_at(beam.node).has_value(); }
-  std::optional<EndOfWalk> end_of_walk(const BeamStep& step) const;
-  void walk(const BeamStep& step);
-  void test(const Beam& beam, EndOfWalk end);
+  bool is_foreign(const accel::beam::Beam& beam) const {
+    return foreign_.cell_at(beam.node).has_value();
+  }
+  std::optional<EndOfWalk> end_of_walk(const accel::beam::BeamStep& step) const;
+  void walk(const accel::beam::BeamStep& step);
+  void test(const accel::beam::Beam& beam, EndOfWalk end);
   void trace_ray(const CrossingRay& ray);
   void see_to_samples();
   void require_own(std::uint32_t cell) const;
-  void settle(std::uint32_t sample, const Hit& best);
-  Hit global(const std::optional<Hit>& local) const;
-  OctreeCursor cell_cursor(std::uint32_t cell) const;
-  Ray ray_of(std::uint32_t sample) const;
+  void settle(std::uint32_t sample, const accel::Hit& best);
+  accel::Hit global(const std::optional<accel::Hit>& local) const;
+  accel::octree::OctreeCursor cell_cursor(std::uint32_t cell) const;
+  accel::Ray ray_of(std::uint32_t sample) const;
 
   ScenePart part_;
   const SceneSplit* split_;
   ProcessId self_;
-  const PrimaryRays* rays_;
+  const accel::PrimaryRays* rays_;
   BorderPost* post_;
-  BeamTracer tracer_;
+  accel::beam::BeamTracer tracer_;
   ForeignLeaves foreign_;
-  EyeView view_;
-  WholeImage sight_;
-  HitBuffer found_here_;  ///< by this scene's ids, while a beam is being traced
-  HitBuffer found_;       ///< by the whole scene's
+  accel::beam::EyeView view_;
+  accel::beam::WholeImage sight_;
+  accel::HitBuffer found_here_;  ///< by this scene's ids, while a beam is being traced
+  accel::HitBuffer found_;       ///< by the whole scene's
   BorderWatch watch_;
-  BeamPainter<BorderWatch, WholeImage> painter_;
+  accel::beam::BeamPainter<BorderWatch, accel::beam::WholeImage> painter_;
   double samples_;
   bool beginning_ = true;
-  BeamQueue queue_;
-  std::optional<BeamStep> next_;  ///< of the queue, taken off
+  accel::beam::BeamQueue queue_;
+  std::optional<accel::beam::BeamStep> next_;  ///< of the queue, taken off
   std::deque<CrossingBeam> entering_;
   std::deque<CrossingRay> waiting_;
 };
 
-}  // namespace beambench
+}  // namespace beambench::cluster

@@ -19,6 +19,9 @@
 namespace {
 
 using namespace beambench;
+using namespace beambench::accel;
+using namespace beambench::plugin;
+using namespace beambench::scenes;
 
 using Vec3 = bvh::v2::Vec<float, 3>;
 using Box3 = bvh::v2::BBox<float, 3>;

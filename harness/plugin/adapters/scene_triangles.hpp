@@ -12,13 +12,14 @@
 namespace adapters {
 
 /// The three corners of triangle `index`, which is part of a polygon's surface.
-inline std::array<glm::vec3, 3> corners(const beambench::Scene& scene, std::size_t index) {
+inline std::array<glm::vec3, 3> corners(const beambench::scenes::Scene& scene, std::size_t index) {
   const auto& vertex = scene.triangles[index].vertex;
   return {scene.vertices[vertex[0]], scene.vertices[vertex[1]], scene.vertices[vertex[2]]};
 }
 
 /// Throws InputError when the scene holds something else.
-inline void require_triangles_only(const beambench::Scene& scene, const std::string& structure) {
+inline void require_triangles_only(const beambench::scenes::Scene& scene,
+                                   const std::string& structure) {
   if (scene.spheres.empty() && scene.cones.empty()) return;
   throw beambench::InputError(structure + " takes triangles, and '" + scene.name +
                               "' holds spheres or cones; choose a scene of polygons");
@@ -28,15 +29,16 @@ inline void require_triangles_only(const beambench::Scene& scene, const std::str
 /// and the differ would not always pass it; where the triangle's plane is met is told by double.
 /// Whether the triangle is hit remains the library's word: next to an edge beambench's own test may
 /// see the ray pass by, and the hit would be lost.
-inline beambench::Hit with_exact_t(const beambench::Scene& scene, const beambench::Ray& ray,
-                                   std::size_t triangle, float t) {
-  const beambench::CanonicalRay canonical(ray);
+inline beambench::accel::Hit with_exact_t(const beambench::scenes::Scene& scene,
+                                          const beambench::accel::Ray& ray, std::size_t triangle,
+                                          float t) {
+  const beambench::accel::CanonicalRay canonical(ray);
   const auto [a, b, c] = corners(scene, triangle);
   const glm::dvec3 from(a);
   const glm::dvec3 normal = glm::cross(glm::dvec3(b) - from, glm::dvec3(c) - from);
   const float exact = canonical.accept(glm::dot(normal, from - canonical.origin) /
                                        glm::dot(normal, canonical.direction));
-  return {beambench::is_hit(exact) ? exact : t, scene.triangles[triangle].primitive};
+  return {beambench::accel::is_hit(exact) ? exact : t, scene.triangles[triangle].primitive};
 }
 
 /// The parameter that turns it off.

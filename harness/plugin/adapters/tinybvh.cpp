@@ -17,6 +17,9 @@
 namespace {
 
 using namespace beambench;
+using namespace beambench::accel;
+using namespace beambench::plugin;
+using namespace beambench::scenes;
 
 tinybvh::bvhvec3 vec3(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 

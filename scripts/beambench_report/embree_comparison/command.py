@@ -35,6 +35,6 @@ def _duels_of(runs: Sequence[Path]) -> list[Duel]:
         names = ", ".join(str(run) for run in runs)
         raise Problem(
             f"{names}: no image was traced rightly by tile-beam and by embree; measure "
-            "harness/sweeps/beat-embree.json"
+            "harness/bench/sweeps/beat-embree.json"
         )
     return found

@@ -21,7 +21,7 @@ from beambench_report.nightly.nights import read_nights
 from beambench_report.nightly.page import write_night_page
 from beambench_report.nightly.run import Wish, describe, rebuild_history, record, run_night
 
-_SWEEP = ROOT / "harness/sweeps/nightly.json"
+_SWEEP = ROOT / "harness/bench/sweeps/nightly.json"
 _PUBLISHED = ROOT / "results/published/nightly"
 
 

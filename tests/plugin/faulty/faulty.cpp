@@ -13,6 +13,9 @@
 namespace {
 
 using namespace beambench;
+using namespace beambench::accel;
+using namespace beambench::plugin;
+using namespace beambench::scenes;
 
 bool fault_is(std::string_view name) {
   const char* fault = std::getenv("FAULT");

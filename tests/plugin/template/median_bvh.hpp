@@ -10,18 +10,22 @@
 
 #include <beambench/plugin.hpp>
 
-class MedianBvh : public beambench::TraversalAccelerator<MedianBvh> {
+class MedianBvh : public beambench::accel::TraversalAccelerator<MedianBvh> {
  public:
-  MedianBvh(const beambench::Scene& scene, std::uint32_t max_leaf)
-      : scene_(&scene), boxes_(beambench::padded_primitive_bounds(scene)), order_(boxes_.size()) {
+  MedianBvh(const beambench::scenes::Scene& scene, std::uint32_t max_leaf)
+      : scene_(&scene),
+        boxes_(beambench::accel::bvh::padded_primitive_bounds(scene)),
+        order_(boxes_.size()) {
     std::iota(order_.begin(), order_.end(), 0U);
     if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()), max_leaf, 1);
   }
 
-  /// `counting` is told of the work; in timed code its calls are empty (accel/work_counters.hpp).
+  /// `counting` is told of the work; in timed code its calls are empty
+  /// (accel/core/work_counters.hpp).
   template <class Counting>
-  std::optional<beambench::Hit> find_closest(const beambench::Ray& ray, Counting& counting) const {
-    beambench::ClosestHit closest(ray);
+  std::optional<beambench::accel::Hit> find_closest(const beambench::accel::Ray& ray,
+                                                    Counting& counting) const {
+    beambench::accel::ClosestHit closest(ray);
     visit(
         ray, counting,
         [&](std::uint32_t id) {
@@ -33,18 +37,18 @@ class MedianBvh : public beambench::TraversalAccelerator<MedianBvh> {
   }
 
   template <class Counting>
-  bool find_any(const beambench::Ray& ray, Counting& counting) const {
-    const beambench::CanonicalRay canonical(ray);
+  bool find_any(const beambench::accel::Ray& ray, Counting& counting) const {
+    const beambench::accel::CanonicalRay canonical(ray);
     return visit(
         ray, counting,
         [&](std::uint32_t id) {
-          return beambench::is_hit(beambench::intersect(canonical, *scene_, id));
+          return beambench::accel::is_hit(beambench::accel::intersect(canonical, *scene_, id));
         },
         canonical.t_max);
   }
 
-  beambench::Statistics statistics() const override {
-    beambench::Statistics statistics;
+  beambench::accel::Statistics statistics() const override {
+    beambench::accel::Statistics statistics;
     statistics.nodes = nodes_.size();
     statistics.leaves = (nodes_.size() + 1) / 2;
     statistics.references = order_.size();
@@ -55,7 +59,7 @@ class MedianBvh : public beambench::TraversalAccelerator<MedianBvh> {
 
  private:
   struct Node {
-    beambench::Bounds box;
+    beambench::scenes::Bounds box;
     std::uint32_t first;  ///< of a leaf: its primitives in order_; else the second child's index
     std::uint32_t count;  ///< 0: an inner node, whose first child comes right behind it
   };
@@ -85,9 +89,10 @@ class MedianBvh : public beambench::TraversalAccelerator<MedianBvh> {
   /// Depth first; ends early when `test` says so. `t_max` shrinks while hits are found. A box is
   /// passed by only where it is entered behind t_max: at the same t a lower id may still be found.
   template <class Counting, class Test>
-  bool visit(const beambench::Ray& ray, Counting& counting, Test test, const float& t_max) const {
+  bool visit(const beambench::accel::Ray& ray, Counting& counting, Test test,
+             const float& t_max) const {
     if (nodes_.empty()) return false;
-    const beambench::SlabRay slabs(ray);
+    const beambench::accel::bvh::SlabRay slabs(ray);
     std::uint32_t stack[64];  // the median halves: 2^32 primitives are 32 levels
     int size = 0;
     stack[size++] = 0;
@@ -111,8 +116,8 @@ class MedianBvh : public beambench::TraversalAccelerator<MedianBvh> {
     return false;
   }
 
-  const beambench::Scene* scene_;
-  std::vector<beambench::Bounds>
+  const beambench::scenes::Scene* scene_;
+  std::vector<beambench::scenes::Bounds>
       boxes_;  ///< of the primitives, as wide as a hit may lie beside one
   std::vector<std::uint32_t> order_;
   std::vector<Node> nodes_;

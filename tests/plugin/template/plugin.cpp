@@ -7,15 +7,15 @@
 
 namespace {
 
-std::unique_ptr<beambench::Accelerator> build_median_bvh(const beambench::Scene& scene,
-                                                         const beambench::Parameters& parameters,
-                                                         const beambench::Workload&) {
+std::unique_ptr<beambench::accel::Accelerator> build_median_bvh(
+    const beambench::scenes::Scene& scene, const beambench::Parameters& parameters,
+    const beambench::accel::Workload&) {
   return std::make_unique<MedianBvh>(scene,
                                      static_cast<std::uint32_t>(parameters.integer("max_leaf")));
 }
 
-beambench::Scene generate_helix(const beambench::Parameters& parameters) {
-  beambench::SceneBuilder builder(parameters.label());
+beambench::scenes::Scene generate_helix(const beambench::Parameters& parameters) {
+  beambench::scenes::SceneBuilder builder(parameters.label());
   const auto count = parameters.integer("spheres");
   for (std::int64_t i = 0; i < count; ++i) {
     const double turn = 0.2 * static_cast<double>(i);
@@ -26,9 +26,9 @@ beambench::Scene generate_helix(const beambench::Parameters& parameters) {
 
 }  // namespace
 
-const beambench::Plugin beambench_plugin{
+const beambench::plugin::Plugin beambench_plugin{
     .description = "A hierarchy to start from, and a scene to try it on",
-    .fill = [](beambench::PluginContents& contents) {
+    .fill = [](beambench::plugin::PluginContents& contents) {
       contents.structures.push_back(
           {"mine",
            "a binary hierarchy split at the median",

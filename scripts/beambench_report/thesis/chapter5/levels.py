@@ -388,7 +388,7 @@ def levels_of_runs(runs: Sequence[Path]) -> Section:
         names = ", ".join(str(run) for run in runs)
         raise Problem(
             f"{names}: no cell of max_level=auto has two fixed levels beside it; measure "
-            "harness/sweeps/levels.json"
+            "harness/bench/sweeps/levels.json"
         )
     return section
 

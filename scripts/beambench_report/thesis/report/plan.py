@@ -130,7 +130,7 @@ SWEEPS = (
 )
 
 
-FOLDER = ROOT / "harness/sweeps/thesis"
+FOLDER = ROOT / "harness/bench/sweeps/thesis"
 
 LEVELS = "levels"
 """The sweep that max_level=auto is judged by; its file lies in the folder above FOLDER."""

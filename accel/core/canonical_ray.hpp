@@ -1,0 +1,63 @@
+#pragma once
+// A ray as the canonical ray-primitive tests see it.
+
+#include <array>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/gtc/type_ptr.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "accel/core/ray.hpp"
+
+namespace beambench::accel {
+
+/// What a ray-primitive test returns when there is no hit: a NaN, so that it neither precedes nor
+/// equals any t. (An optional<float> would be passed through memory in two halves, which cost more
+/// than the tests themselves.)
+inline constexpr float kMiss = std::numeric_limits<float>::quiet_NaN();
+inline bool is_hit(float t) { return t == t; }
+
+/// A ray widened to double. `t_max` shrinks while a traversal finds nearer hits.
+struct CanonicalRay {
+  explicit CanonicalRay(const Ray& ray)
+      : origin(ray.origin), direction(ray.direction), t_min(ray.t_min), t_max(ray.t_max) {
+    const glm::vec3 size = glm::abs(ray.direction);
+    main_axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+    side_axis[0] = (main_axis + 1) % 3;
+    side_axis[1] = (main_axis + 2) % 3;
+    shear[0] = direction[side_axis[0]] / direction[main_axis];
+    shear[1] = direction[side_axis[1]] / direction[main_axis];
+  }
+
+  glm::dvec3 at(double t) const { return origin + direction * t; }
+
+  /// t rounded once to float, if it lies in the closed interval; otherwise kMiss.
+  float accept(double t) const {
+    const auto rounded = static_cast<float>(t);
+    return rounded >= t_min && rounded <= t_max ? rounded : kMiss;
+  }
+
+  /// A point's place beside the ray: relative to the origin and sheared along the main axis so that
+  /// the ray becomes that axis (Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection",
+  /// 2013).
+  glm::dvec2 beside(const glm::vec3& point) const {
+    // By address: glm's operator[] is a chain of branches, which cost 5% of a trace of triangles.
+    const float* place = glm::value_ptr(point);
+    const double* from = glm::value_ptr(origin);
+    const double along = place[main_axis] - from[main_axis];
+    return {place[side_axis[0]] - from[side_axis[0]] - shear[0] * along,
+            place[side_axis[1]] - from[side_axis[1]] - shear[1] * along};
+  }
+
+  glm::dvec3 origin;
+  glm::dvec3 direction;
+  float t_min;
+  float t_max;
+  int main_axis;                 ///< in which the direction is largest
+  std::array<int, 2> side_axis;  ///< the other two
+  std::array<double, 2> shear;   ///< direction on the side axes over that on the main axis
+};
+
+}  // namespace beambench::accel

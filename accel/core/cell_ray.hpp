@@ -1,0 +1,113 @@
+#pragma once
+// A ray's way through the planes of a grid of cells.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "accel/core/cell_grid.hpp"
+#include "accel/core/ray.hpp"
+
+namespace beambench::accel {
+
+/// Answers all questions about a ray and the planes of a grid from one function, `plane_t`, so that
+/// a cell's exit and its neighbour's entry are the same number and no cell is skipped or visited
+/// twice. A ray parallel to an axis is on one side of that axis' planes for good.
+class CellRay {
+ public:
+  CellRay(const CellGrid& grid, const Ray& ray) : grid_(&grid) {
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto slot = static_cast<std::size_t>(axis);
+      origin_[slot] = ray.origin[axis];
+      direction_[slot] = ray.direction[axis];
+      inverse_[slot] = 1.0 / static_cast<double>(ray.direction[axis]);
+      step_[slot] = ray.direction[axis] > 0.0F ? 1 : (ray.direction[axis] < 0.0F ? -1 : 0);
+    }
+  }
+
+  /// +1, -1 or 0: the direction in which the ray crosses planes of the axis.
+  int step(int axis) const { return step_[static_cast<std::size_t>(axis)]; }
+
+  /// Where the ray crosses a plane; monotonic in `index`. Not for axes with step 0.
+  [[gnu::always_inline]] double plane_t(int axis, std::int32_t index) const {
+    const auto slot = static_cast<std::size_t>(axis);
+    return (grid_->plane(axis, index) - origin_[slot]) * inverse_[slot];
+  }
+
+  /// At parameter t, is the ray on the upper side of a plane? On the plane itself it is on the side
+  /// it is going to.
+  [[gnu::always_inline]] bool above(int axis, std::int32_t index, double t) const {
+    switch (step(axis)) {
+      case 1:
+        return plane_t(axis, index) <= t;
+      case -1:
+        return plane_t(axis, index) > t;
+      default:
+        return grid_->plane(axis, index) <= origin_[static_cast<std::size_t>(axis)];
+    }
+  }
+
+  /// The t at which the ray leaves the cube of `size` cells at `corner` through an axis' planes;
+  /// infinite when it is parallel to them.
+  [[gnu::always_inline]] double exit_t(int axis, const glm::ivec3& corner,
+                                       std::int32_t size) const {
+    switch (step(axis)) {
+      case 1:
+        return plane_t(axis, corner[axis] + size);
+      case -1:
+        return plane_t(axis, corner[axis]);
+      default:
+        return std::numeric_limits<double>::infinity();
+    }
+  }
+
+  /// The cell along an axis that the ray is in at t, a t in the grid.
+  std::int32_t cell_at(int axis, double t) const {
+    const auto slot = static_cast<std::size_t>(axis);
+    const std::int32_t last = grid_->cells[axis] - 1;
+    // A guess to round-off; `above` has the last word.
+    const double guess =
+        (origin_[slot] + t * direction_[slot] - grid_->lower[axis]) / grid_->cell[axis];
+    auto index = static_cast<std::int32_t>(std::clamp(guess, 0.0, static_cast<double>(last)));
+    while (index > 0 && !above(axis, index, t)) --index;
+    while (index < last && above(axis, index + 1, t)) ++index;
+    return index;
+  }
+
+  /// How much t grows from one plane of an axis to the next; infinite when the ray is parallel to
+  /// them.
+  double delta_t(int axis) const {
+    return grid_->cell[axis] * std::abs(inverse_[static_cast<std::size_t>(axis)]);
+  }
+
+  /// The t from which on the ray is in the grid, but not before t_min (rounded down, for a hit's t
+  /// may round up to t_min); infinite when it never is.
+  double enter(float t_min) const {
+    double first = std::nextafter(t_min, -kInfinity);
+    constexpr double kNever = std::numeric_limits<double>::infinity();
+    double last = kNever;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double at = origin_[static_cast<std::size_t>(axis)];
+      if (step(axis) == 0) {
+        if (at < grid_->plane(axis, 0) || at > grid_->plane(axis, grid_->cells[axis]))
+          return kNever;
+      } else {
+        const double low = plane_t(axis, 0);
+        const double high = plane_t(axis, grid_->cells[axis]);
+        first = std::max(first, std::min(low, high));
+        last = std::min(last, std::max(low, high));
+      }
+    }
+    return first <= last ? first : kNever;
+  }
+
+ private:
+  const CellGrid* grid_;
+  std::array<double, 3> origin_;
+  std::array<double, 3> direction_;
+  std::array<double, 3> inverse_;
+  std::array<int, 3> step_;
+};
+
+}  // namespace beambench::accel

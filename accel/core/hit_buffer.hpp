@@ -1,0 +1,57 @@
+#pragma once
+// The hits of an image or of a list of rays: what structures write and the differ judges.
+
+#include <cstddef>
+#include <optional>
+
+#include "accel/core/large_pages.hpp"
+#include "accel/core/ray.hpp"
+
+namespace beambench::accel {
+
+/// For each sample of each pixel the t of its hit and the primitive hit; a miss is t = infinity
+/// and kNoPrimitive. Samples of one pixel are neighbours; pixels go row by row from the top left.
+/// The hits of a list of rays are an image of one row.
+class HitBuffer {
+ public:
+  HitBuffer(int width, int height, int samples);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int samples() const { return samples_; }
+  std::size_t size() const { return t_.size(); }
+
+  std::size_t index(int x, int y, int sample) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+            static_cast<std::size_t>(x)) *
+               static_cast<std::size_t>(samples_) +
+           static_cast<std::size_t>(sample);
+  }
+
+  void set(std::size_t index, const std::optional<Hit>& hit) {
+    t_[index] = hit ? hit->t : kInfinity;
+    primitive_[index] = hit ? hit->primitive : scenes::kNoPrimitive;
+  }
+  std::optional<Hit> get(std::size_t index) const {
+    if (primitive_[index] == scenes::kNoPrimitive) return std::nullopt;
+    return Hit{t_[index], primitive_[index]};
+  }
+
+  /// The raw arrays, for structures that write whole packets. They begin with a cache line, so
+  /// that lines can be written past the caches, without reading them.
+  float* t() { return t_.data(); }
+  const float* t() const { return t_.data(); }
+  scenes::PrimitiveId* primitive() { return primitive_.data(); }
+  const scenes::PrimitiveId* primitive() const { return primitive_.data(); }
+
+  friend bool operator==(const HitBuffer&, const HitBuffer&) = default;
+
+ private:
+  int width_;
+  int height_;
+  int samples_;
+  LargePageVector<float> t_;
+  LargePageVector<scenes::PrimitiveId> primitive_;
+};
+
+}  // namespace beambench::accel

@@ -1,0 +1,44 @@
+#include "accel/core/instruction_set.hpp"
+
+#include <fmt/format.h>
+#include <hwy/targets.h>
+
+#include "scenes/core/error.hpp"
+
+namespace beambench::accel {
+namespace {
+
+std::int64_t all_of(const std::string& isa) {
+#if HWY_ARCH_X86
+  // The better a target, the lower its bit: AVX-512 comes in several below AVX2.
+  if (isa == "avx512") return HWY_AVX2 - 1;
+  if (isa == "avx2") return HWY_AVX2;
+  if (isa == "sse4") return HWY_SSE4;
+#endif
+  return isa == "best" ? ~std::int64_t{0} : 0;
+}
+
+}  // namespace
+
+ParameterInfo isa_parameter() {
+  return choice_parameter("isa", "best", {"best", "avx512", "avx2", "sse4"},
+                          "the instruction set it runs on: the machine's best, or held to less to "
+                          "compare on equal terms");
+}
+
+std::int64_t targets_of(const std::string& isa) {
+  const std::int64_t targets = all_of(isa);
+  if ((targets & hwy::SupportedTargets() & HWY_TARGETS) == 0) {
+    throw InputError(
+        fmt::format("isa is {}, which this machine does not have; choose isa=best or "
+                    "an older instruction set",
+                    isa));
+  }
+  return targets;
+}
+
+std::string best_simd_target() {
+  return hwy::TargetName(hwy::SupportedAndGeneratedTargets().front());
+}
+
+}  // namespace beambench::accel

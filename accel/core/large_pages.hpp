@@ -1,0 +1,49 @@
+#pragma once
+// Memory in pages of two megabytes.
+
+#include <cstddef>
+#include <new>
+#include <vector>
+
+#include <sys/mman.h>
+
+namespace beambench::accel {
+
+/// For arrays of many megabytes that are visited here and there: with pages of 4 KiB, an address is
+/// hardly ever among those that the processor has translated lately, and the first touch of each
+/// page costs more than what is written there. Linux gives pages of 2 MiB to those who ask
+/// ("madvise"); where it does not, these are ordinary pages. Always begins with a cache line.
+template <class T>
+struct LargePages {
+  using value_type = T;
+  static constexpr std::size_t kPage = std::size_t{1} << 21U;
+  static constexpr std::size_t kLine = 64;
+
+  LargePages() = default;
+  template <class U>
+  explicit LargePages(const LargePages<U>&) {}
+
+  T* allocate(std::size_t count) {
+    const std::size_t bytes = count * sizeof(T);
+    void* const memory = ::operator new(bytes, alignment(bytes));
+#if defined(MADV_HUGEPAGE)
+    // A wish: that it is not granted changes no answer.
+    if (bytes >= kPage) static_cast<void>(::madvise(memory, bytes, MADV_HUGEPAGE));
+#endif
+    return static_cast<T*>(memory);
+  }
+  void deallocate(T* memory, std::size_t count) {
+    ::operator delete(memory, alignment(count * sizeof(T)));
+  }
+  friend bool operator==(const LargePages&, const LargePages&) { return true; }
+
+ private:
+  static std::align_val_t alignment(std::size_t bytes) {
+    return std::align_val_t{bytes >= kPage ? kPage : kLine};
+  }
+};
+
+template <class T>
+using LargePageVector = std::vector<T, LargePages<T>>;
+
+}  // namespace beambench::accel

@@ -1,0 +1,43 @@
+#pragma once
+// Box-primitive overlap: does a primitive's surface reach into a closed box?
+
+#include <array>
+
+#include <glm/vec3.hpp>
+
+#include "scenes/scene.hpp"
+
+namespace beambench::accel {
+
+/// A closed axis-aligned box in double, such as a cell of an octree or a grid.
+struct Box {
+  glm::dvec3 lower;
+  glm::dvec3 upper;
+};
+
+/// Does the surface come within `tolerance` of the box? Never false when it does; true for a little
+/// more where noted. The box is solid, the primitive hollow: a box wholly inside a sphere does not
+/// overlap it.
+bool surface_overlaps(const scenes::Scene& scene, scenes::PrimitiveId id, const Box& box,
+                      double tolerance);
+
+/// Exact, by interval evaluation of |x - c|^2 - r^2 over the box (Ratschek and Rokne, "Test for
+/// intersection between box and sphere", 1994; Arvo, Graphics Gems, 1990).
+bool sphere_overlaps(const scenes::Sphere& sphere, const Box& box, double tolerance);
+
+/// Exact but for the widening at corners. The polygon's corners are first held against the 6 face,
+/// 12 edge and 8 corner planes of the box (Voorhies, Graphics Gems III, 1992; as outcodes: Green
+/// and Hatch, Graphics Gems V, 1995); what remains is decided triangle by triangle of its surface,
+/// so that concave polygons need no case of their own.
+bool polygon_overlaps(const scenes::Scene& scene, const scenes::Polygon& polygon, const Box& box,
+                      double tolerance);
+
+/// Exact but for the widening at corners, by the 13 separating axes of box and triangle
+/// (Akenine-Möller, "Fast 3D triangle-box overlap testing", 2001).
+bool triangle_overlaps(const std::array<glm::dvec3, 3>& corners, const Box& box, double tolerance);
+
+/// Conservative: the box of the end discs, the planes of the ends, the distance to the axis and,
+/// inside, the corners against the solid cone.
+bool cone_overlaps(const scenes::Cone& cone, const Box& box, double tolerance);
+
+}  // namespace beambench::accel

@@ -1,0 +1,24 @@
+#pragma once
+// Which of Highway's targets a kernel runs on, where not simply the best is wanted.
+
+#include <cstdint>
+#include <type_traits>
+
+#include <hwy/targets.h>
+
+namespace beambench::accel {
+
+/// The entry of a HWY_DISPATCH_TABLE for the best of `targets` (of `targets_of`) that this machine
+/// has. HWY_DYNAMIC_DISPATCH would ask a global variable.
+template <class Table>
+auto pick_target(const Table& table, std::int64_t targets) {
+  if constexpr (std::extent_v<Table> == 1) {  // compiled for one target alone
+    return table[0];
+  } else {
+    hwy::ChosenTarget chosen;
+    chosen.Update(hwy::SupportedTargets() & targets);
+    return table[chosen.GetIndex()];
+  }
+}
+
+}  // namespace beambench::accel

@@ -1,0 +1,71 @@
+#include "accel/core/primary_rays.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "accel/core/mirrored.hpp"
+#include "scenes/core/error.hpp"
+
+namespace beambench::accel {
+
+namespace {
+
+constexpr int kLargestSide = 16384;
+constexpr int kLargestGrid = 16;
+
+}  // namespace
+
+std::vector<glm::dvec2> sample_offsets(int samples) {
+  if (samples == 5) {
+    return {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}, {0.5, 0.5}};
+  }
+  for (int n = 1; n <= kLargestGrid; ++n) {
+    if (n * n != samples) continue;
+    std::vector<glm::dvec2> offsets;
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) offsets.emplace_back((i + 0.5) / n, (j + 0.5) / n);
+    }
+    return offsets;
+  }
+  throw InputError(fmt::format(
+      "{} samples a pixel have no pattern; expected 5 (corners and centre) or n x n with n from 1 "
+      "to {}",
+      samples, kLargestGrid));
+}
+
+PrimaryRays::PrimaryRays(const scenes::Camera& camera, int width, int height, int samples)
+    : width_(width), height_(height), offsets_(sample_offsets(samples)), eye_(camera.from) {
+  if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide) {
+    throw InputError(fmt::format("resolution is {}x{}; expected 1 to {} pixels a side", width,
+                                 height, kLargestSide));
+  }
+  forward_ = glm::normalize(glm::dvec3(camera.at) - glm::dvec3(camera.from));
+  const glm::dvec3 right = glm::normalize(glm::cross(forward_, glm::dvec3(camera.up)));
+  const glm::dvec3 up = glm::cross(right, forward_);
+  constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
+  const double half_height = std::tan(0.5 * camera.angle * kRadiansPerDegree);
+  const double half_width = half_height * camera.aspect;
+  right_ = right * (2.0 * half_width / width);
+  down_ = -up * (2.0 * half_height / height);
+  across_ = right * (2.0 * half_width);
+  all_down_ = -up * (2.0 * half_height);
+  top_left_ = forward_ - right * half_width + up * half_height;
+}
+
+PrimaryRays PrimaryRays::mirrored(const glm::dvec3& point, const glm::dvec3& normal) const {
+  PrimaryRays rays = *this;
+  rays.eye_ = glm::vec3(point + beambench::accel::mirrored(glm::dvec3(eye_) - point, normal));
+  for (glm::dvec3* way : {&rays.forward_, &rays.top_left_, &rays.right_, &rays.down_, &rays.across_,
+                          &rays.all_down_}) {
+    *way = beambench::accel::mirrored(*way, normal);
+  }
+  return rays;
+}
+
+std::size_t PrimaryRays::count() const {
+  return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * offsets_.size();
+}
+
+}  // namespace beambench::accel

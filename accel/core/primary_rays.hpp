@@ -1,0 +1,78 @@
+#pragma once
+// The primary rays of a camera at a resolution: the one place where pixels become directions.
+
+#include <cstddef>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "accel/core/ray.hpp"
+#include "scenes/camera.hpp"
+
+namespace beambench::accel {
+
+/// Where the samples of a pixel lie, as offsets in [0, 1]^2 from its top left corner: 1 is the
+/// centre; 5 the four corners and the centre (thesis, section 5.3.2; corners are not shared between
+/// pixels); any other square number n x n is a regular grid of cell centres, row by row.
+/// Throws InputError for other counts.
+std::vector<glm::dvec2> sample_offsets(int samples);
+
+/// The rays of an image, made on demand. Directions satisfy forward . d = 1 before rounding, so t
+/// is view depth. They are computed in double and each component is rounded once to float.
+class PrimaryRays {
+ public:
+  /// Throws InputError when width or height is not in 1 ... 16384 or samples has no pattern.
+  PrimaryRays(const scenes::Camera& camera, int width, int height, int samples);
+
+  /// The rays of the same samples behind a mirror, the plane through `point` with a unit `normal`:
+  /// those of a virtual eye, which is where the mirror shows the eye (Heckbert and Hanrahan, "Beam
+  /// tracing polygonal objects", SIGGRAPH 1984). A ray's t goes on counting where the real one's
+  /// stopped. The eye is rounded to float.
+  PrimaryRays mirrored(const glm::dvec3& point, const glm::dvec3& normal) const;
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  int samples() const { return static_cast<int>(offsets_.size()); }
+  /// width * height * samples.
+  std::size_t count() const;
+
+  /// The ray of a sample; (0, 0) is the top left pixel.
+  Ray ray(int x, int y, int sample) const {
+    const glm::dvec2& offset = offsets_[static_cast<std::size_t>(sample)];
+    return ray_at(x + offset.x, y + offset.y);
+  }
+  /// The ray through a point of the image plane in pixel units, (0, 0) being its top left corner.
+  Ray ray_at(double px, double py) const {
+    Ray ray;
+    ray.origin = eye_;
+    ray.direction = glm::vec3(top_left_ + right_ * px + down_ * py);
+    return ray;
+  }
+
+  const glm::vec3& eye() const { return eye_; }
+  /// Unit view direction.
+  const glm::dvec3& forward() const { return forward_; }
+  /// direction(px, py) = top_left + right * px + down * py, before rounding.
+  const glm::dvec3& top_left() const { return top_left_; }
+  const glm::dvec3& right() const { return right_; }
+  const glm::dvec3& down() const { return down_; }
+  /// From one side of the image to the other, the same at every resolution.
+  const glm::dvec3& across() const { return across_; }
+  const glm::dvec3& all_down() const { return all_down_; }
+  const std::vector<glm::dvec2>& offsets() const { return offsets_; }
+
+ private:
+  int width_;
+  int height_;
+  std::vector<glm::dvec2> offsets_;
+  glm::vec3 eye_;
+  glm::dvec3 forward_;
+  glm::dvec3 top_left_;
+  glm::dvec3 right_;
+  glm::dvec3 down_;
+  glm::dvec3 across_;
+  glm::dvec3 all_down_;
+};
+
+}  // namespace beambench::accel

@@ -1,0 +1,39 @@
+#include "accel/core/ray.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "scenes/core/error.hpp"
+
+namespace beambench::accel {
+
+namespace {
+
+constexpr float kLargestCoordinate = 1e9F;
+
+void require_component(const char* what, char axis, float value, float limit) {
+  if (!std::isfinite(value) || std::abs(value) > limit) {
+    throw InputError(fmt::format("ray {}.{} is {}; expected a finite number of size at most {:g}",
+                                 what, axis, value, limit));
+  }
+}
+
+}  // namespace
+
+void require_valid(const Ray& ray) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const char name = static_cast<char>('x' + axis);
+    require_component("origin", name, ray.origin[axis], kLargestCoordinate);
+    require_component("direction", name, ray.direction[axis], kLargestCoordinate);
+  }
+  if (ray.direction == glm::vec3(0.0F)) {
+    throw InputError("ray direction is zero; expected at least one component other than 0");
+  }
+  if (!(ray.t_min >= 0.0F) || std::isnan(ray.t_max)) {
+    throw InputError(fmt::format("ray interval is [{}, {}]; expected t_min >= 0 and a number t_max",
+                                 ray.t_min, ray.t_max));
+  }
+}
+
+}  // namespace beambench::accel

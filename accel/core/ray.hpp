@@ -1,0 +1,43 @@
+#pragma once
+// Rays and hits: what every structure is asked and what it answers.
+
+#include <cstdint>
+#include <limits>
+
+#include <glm/vec3.hpp>
+
+#include "scenes/primitive.hpp"
+
+namespace beambench::accel {
+
+inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// The points origin + t * direction with t in the closed interval [t_min, t_max]. The direction is
+/// not zero and need not have unit length; t counts in its units (for primary rays: view depth).
+struct Ray {
+  glm::vec3 origin{0.0F};
+  float t_min = 0.0F;
+  glm::vec3 direction{0.0F, 0.0F, -1.0F};
+  float t_max = kInfinity;
+};
+
+/// Where a ray meets a primitive first. `t` was computed in double and rounded once.
+struct Hit {
+  float t;
+  scenes::PrimitiveId primitive;
+
+  friend bool operator==(const Hit&, const Hit&) = default;
+};
+
+/// The order of hits: the nearer first, at equal t the lower primitive id. This makes "the closest
+/// hit" one hit, whatever the order in which primitives are tested.
+constexpr bool precedes(const Hit& a, const Hit& b) {
+  return a.t < b.t || (a.t == b.t && a.primitive < b.primitive);
+}
+
+/// Throws InputError when a number is NaN, an origin or direction is not finite, a coordinate is
+/// beyond 1e9, the direction is zero, or t_min < 0. Called wherever rays come from outside; kernels
+/// rely on it.
+void require_valid(const Ray& ray);
+
+}  // namespace beambench::accel

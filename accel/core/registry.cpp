@@ -1,0 +1,99 @@
+#include "accel/core/registry.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "accel/core/extend_registry.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/nearest_name.hpp"
+
+namespace beambench::accel {
+
+// Defined by the build from its list of families (register_families.cpp.in).
+void register_families(Registry& registry);
+
+std::unique_ptr<Accelerator> StructureChoice::build(const scenes::Scene& scene,
+                                                    const Workload& workload) const {
+  auto accelerator = info_->build(scene, parameters_, workload);
+  parameters_.require_given_were_read();
+  return accelerator;
+}
+
+std::unique_ptr<Accelerator> StructureChoice::build(const scenes::Scene& scene) const {
+  return build(scene, usual_workload(scene));
+}
+
+std::span<const CounterInfo> common_counters() {
+  static const auto all = std::to_array<CounterInfo>({
+      {"traversal_steps", "cells or nodes entered on the way of a ray, leaves included"},
+      {"leaves", "leaves entered, empty ones included"},
+      {"empty_leaves", "leaves entered that hold no reference"},
+      {"box_tests", "ray-box tests"},
+      {"primitive_tests", "ray-primitive tests"},
+  });
+  return all;
+}
+
+void Registry::add(StructureInfo info) { structures_.push_back(std::move(info)); }
+
+void Registry::describe_counters(const std::string& structure, std::vector<CounterInfo> counters) {
+  own_counters_[structure] = std::move(counters);
+}
+
+std::span<const CounterInfo> Registry::own_counters(const std::string& structure) const {
+  const auto found = own_counters_.find(structure);
+  if (found == own_counters_.end()) return {};
+  return found->second;
+}
+
+StructureChoice Registry::choose(const Spec& spec) const {
+  const auto found =
+      std::find_if(structures_.begin(), structures_.end(),
+                   [&](const StructureInfo& info) { return info.name == spec.name; });
+  if (found == structures_.end()) {
+    std::vector<std::string> names;
+    for (const auto& info : structures_) names.push_back(info.name);
+    throw InputError(
+        fmt::format("unknown structure '{}'; {}expected one of {}; one of a plug-in is known after "
+                    "--plugin FILE",
+                    spec.name, did_you_mean(spec.name, names), fmt::join(names, ", ")));
+  }
+  return {*found, Parameters(found->name, found->parameters, spec.parameters)};
+}
+
+std::vector<StructureChoice> Registry::choose_list(std::string_view text) const {
+  std::vector<StructureChoice> choices;
+  for (const Spec& spec : parse_spec_list(text)) {
+    if (spec.name == "all" && spec.parameters.empty()) {
+      for (const auto& info : structures_) choices.push_back(choose({info.name, {}}));
+    } else {
+      choices.push_back(choose(spec));
+    }
+  }
+  return choices;
+}
+
+namespace {
+
+Registry& whole_registry() {
+  static Registry all = [] {
+    Registry built;
+    register_families(built);
+    return built;
+  }();
+  return all;
+}
+
+}  // namespace
+
+const Registry& registry() { return whole_registry(); }
+
+void extend_registry(std::vector<StructureInfo> structures) {
+  for (StructureInfo& info : structures) whole_registry().add(std::move(info));
+}
+
+}  // namespace beambench::accel

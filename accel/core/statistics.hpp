@@ -1,0 +1,36 @@
+#pragma once
+// What a structure says of itself after it was built.
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace beambench::accel {
+
+/// How a structure gets the rays of an image (`Accelerator::trace`): the harness's own part of a
+/// trace is to make them and to store the hits.
+enum class ImageRays : std::uint8_t {
+  kSingle,  ///< one by one, from `PrimaryRays::ray`
+  kSimd,    ///< in packets made by SIMD, hits stored by SIMD
+  kOwn      ///< it makes samples of its own, or does without rays: the harness has no part in it
+};
+
+/// Sizes of a built structure; 0 where a family has no such thing.
+struct Statistics {
+  std::uint64_t nodes = 0;         ///< interior nodes and leaves
+  std::uint64_t leaves = 0;        ///< empty ones included
+  std::uint64_t empty_leaves = 0;  ///< leaves without a reference
+  std::uint64_t references = 0;    ///< entries in the leaves' lists of primitives
+  std::uint64_t depth = 0;         ///< levels of the deepest leaf, the root being level 1
+  std::uint64_t bytes = 0;         ///< memory the structure holds, without the scene
+  /// What it runs on where it chooses among several; empty: what the build's flags say.
+  std::string instruction_set;
+  ImageRays image_rays = ImageRays::kSingle;
+  /// The types in which a library holds the primitives, joined by '+'; empty where they are tested
+  /// by the project's own functions (accel/core/intersect.hpp).
+  std::string library_geometry;
+  std::vector<std::pair<std::string, double>> more;  ///< what the family adds, by name
+};
+
+}  // namespace beambench::accel

@@ -1,0 +1,26 @@
+#pragma once
+// How far a computed hit may lie from its primitive, and by how much overlaps are widened for it.
+
+#include "scenes/scene.hpp"
+
+namespace beambench::accel {
+
+/// The numeric contract in one number.
+///
+/// A canonical ray-primitive test computes t in double; before it is rounded to float the point
+/// origin + t * direction lies within `kHitSlack` x (distance to the farthest point involved) of
+/// its primitive: the tests reject what does not (`intersect_*.hpp`). An eye within 8 scene sizes
+/// is at most 10 diagonals from any primitive, and 2 x 10 x 2^-35 < 2^-30 (2: beside a corner).
+///
+/// Overlaps of cells and boxes with primitives are therefore widened by 2^-30 diagonals, plus what
+/// double arithmetic loses on coordinates far from the origin. A traversal in double then finds the
+/// primitive in the cell that holds the point of its unrounded t. Rounding to float is monotonic:
+/// a traversal may stop at a cell when the best rounded t is strictly less than the cell's
+/// *rounded* exit t, for a hit beyond the exit cannot round below it, and one that rounds to the
+/// same t as the best (a tie, which goes to the lowest id) is still tested.
+inline constexpr double kHitSlack = 0x1p-35;
+
+/// By how much box-primitive overlaps over this scene are widened on every side, in scene units.
+double overlap_tolerance(const scenes::Scene& scene);
+
+}  // namespace beambench::accel

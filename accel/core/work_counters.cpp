@@ -1,0 +1,27 @@
+#include "accel/core/work_counters.hpp"
+
+namespace beambench::accel {
+
+void WorkCounters::add(std::string_view name, std::uint64_t amount) {
+  const auto found = own_.find(name);
+  if (found != own_.end()) {
+    found->second += amount;
+  } else {
+    own_.emplace(name, amount);
+  }
+}
+
+void WorkCounters::add(const WorkCounters& other) {
+  for (std::size_t i = 0; i < standard_.size(); ++i) standard_[i] += other.standard_[i];
+  for (const auto& [name, amount] : other.own_) add(name, amount);
+}
+
+std::map<std::string, std::uint64_t, std::less<>> WorkCounters::by_name() const {
+  auto all = own_;
+  for (std::size_t i = 0; i < kCounterNames.size(); ++i) {
+    all.emplace(std::string(kCounterNames[i]), standard_[i]);
+  }
+  return all;
+}
+
+}  // namespace beambench::accel

@@ -1,0 +1,66 @@
+#pragma once
+// Watching a traversal work: a compile-time policy, so that timed code has none of it.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "scenes/primitive.hpp"
+
+namespace beambench::accel {
+
+/// The counters that mean the same in every family of structures.
+enum class Counter : std::size_t {
+  kTraversalSteps,  ///< cells or nodes entered on the way of a ray, leaves included
+  kLeaves,          ///< leaves entered, empty ones included
+  kEmptyLeaves,     ///< leaves entered that hold no reference
+  kBoxTests,        ///< ray-box tests
+  kPrimitiveTests,  ///< ray-primitive tests
+  kCount
+};
+
+/// Column names, in the order of `Counter`.
+inline constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::kCount)>
+    kCounterNames{"traversal_steps", "leaves", "empty_leaves", "box_tests", "primitive_tests"};
+
+/// The policy of timed code: nothing is counted, no step recorded. A traversal tells its policy
+/// - how much work it does (`add`),
+/// - each place it enters (`enter`): `make()` returns the `TraceStep`, and is called by the policy
+///   that wants it only (`StepRecorder`),
+/// - each ray-primitive test in that place, and its t or kMiss (`tested`).
+struct NoCounting {
+  static constexpr void add(Counter, std::uint64_t = 1) {}
+  static constexpr void add(std::string_view, std::uint64_t = 1) {}
+  static constexpr void add(const NoCounting&) {}
+  template <class Make>
+  static constexpr void enter(const Make&) {}
+  static constexpr void tested(scenes::PrimitiveId, float) {}
+};
+
+/// The policy of the counting pass. A family adds counters of its own by name.
+class WorkCounters {
+ public:
+  template <class Make>
+  static constexpr void enter(const Make&) {}
+  static constexpr void tested(scenes::PrimitiveId, float) {}
+
+  void add(Counter counter, std::uint64_t amount = 1) {
+    standard_[static_cast<std::size_t>(counter)] += amount;
+  }
+  void add(std::string_view name, std::uint64_t amount = 1);
+  /// What another has counted.
+  void add(const WorkCounters& other);
+
+  std::uint64_t get(Counter counter) const { return standard_[static_cast<std::size_t>(counter)]; }
+  /// All counters by name: the standard ones, then the family's own.
+  std::map<std::string, std::uint64_t, std::less<>> by_name() const;
+
+ private:
+  std::array<std::uint64_t, static_cast<std::size_t>(Counter::kCount)> standard_{};
+  std::map<std::string, std::uint64_t, std::less<>> own_;
+};
+
+}  // namespace beambench::accel

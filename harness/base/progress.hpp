@@ -1,0 +1,59 @@
+#pragma once
+// How far a long job is, and how long it still takes.
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+namespace beambench::base {
+
+/// "7 s", "3 min 20 s", "2 h 5 min": what a person wants to read.
+std::string format_duration(double seconds);
+
+/// Reports a job of several cells on a stream (stderr). On a terminal one line is redrawn: cells
+/// done, the present cell, the remaining time estimated from the pace so far. Elsewhere each
+/// finished cell leaves one line. Not for use from several threads at once.
+class Progress {
+ public:
+  /// `cells` may differ in length; give `advance` the work done if they differ much.
+  explicit Progress(std::size_t cells, std::FILE* stream = stderr);
+  Progress(std::size_t cells, std::FILE* stream, bool terminal);
+  /// Clears.
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// A cell begins; `name` is shown.
+  void start(std::string_view name);
+  /// The present cell is done to this part (0 ... 1). Cheap: redraws a few times a second at most.
+  void advance(double part);
+  /// The present cell is done; `result` is what its line says behind the name.
+  void finish(std::string_view result);
+  /// So many cells will not come.
+  void skip(std::size_t cells);
+  /// A line of its own (a warning, a result) that does not get mixed up with the progress line.
+  void say(std::string_view line);
+  /// Wipes the progress line, before something else writes to the terminal.
+  void clear();
+
+  bool on_terminal() const { return terminal_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  void draw(double part);
+
+  std::FILE* stream_;
+  bool terminal_;
+  std::size_t cells_;
+  std::size_t done_ = 0;
+  std::string name_;
+  bool drawn_ = false;
+  Clock::time_point begin_;
+  Clock::time_point last_draw_;
+};
+
+/// Seconds that remain when `part` (0 ... 1] of the work took `elapsed` seconds.
+double remaining_seconds(double elapsed, double part);
+
+}  // namespace beambench::base

@@ -1,0 +1,183 @@
+#include "harness/bench/config.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "accel/core/primary_rays.hpp"
+#include "harness/bench/json_node.hpp"
+#include "harness/bench/structure_entry.hpp"
+
+namespace beambench::bench {
+namespace {
+
+constexpr double kDefaultPrecision = 0.02;
+constexpr double kDefaultWarmUp = 0.5;  // seconds
+constexpr double kMaxWarmUp = 60.0;
+constexpr std::int64_t kMaxRepetitions = 100'000;
+constexpr std::int64_t kMaxThreads = 1024;
+constexpr double kMaxBudgetSeconds = 1e7;  // some four months
+
+/// The name ends up in run ids and folder names.
+std::string read_name(const JsonNode& node) {
+  constexpr std::size_t kMaxLength = 64;
+  std::string name = node.text();
+  const auto is_plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  };
+  const auto is_allowed = [&](char c) { return is_plain(c) || c == '.' || c == '_' || c == '-'; };
+  if (name.empty() || name.size() > kMaxLength || !is_plain(name.front()) ||
+      !std::all_of(name.begin(), name.end(), is_allowed)) {
+    node.fail(
+        fmt::format("expected 1 to {} of the letters A-Z, a-z, 0-9, '.', '_', '-', the first "
+                    "one a letter or digit",
+                    kMaxLength));
+  }
+  return name;
+}
+
+SceneEntry read_scene(const JsonNode& node) {
+  if (node.value().is_string()) return {node.text(), {}, node.place()};
+  node.require_object({"scene", "cameras"});
+  SceneEntry entry{node.require("scene").text(), {}, node.place()};
+  if (const auto cameras = node.find("cameras")) {
+    for (const JsonNode& camera : cameras->elements()) entry.cameras.push_back(camera.text());
+  }
+  return entry;
+}
+
+int read_samples(const JsonNode& node) {
+  const int samples = static_cast<int>(node.integer(1, 4096));
+  node.checked([&] { return accel::sample_offsets(samples); });
+  return samples;
+}
+
+Exclusion read_exclusion(const JsonNode& node, const accel::Registry& structures) {
+  node.require_object({"structure", "scene", "primitives_above", "rays_above"});
+  if (node.members().empty())
+    node.fail("expected at least one condition; this excludes everything");
+  Exclusion exclusion;
+  if (const auto structure = node.find("structure")) {
+    const std::string name = structure->text();
+    structure->checked([&] { return structures.choose({name, {}}); });
+    exclusion.structure = name;
+  }
+  if (const auto scene = node.find("scene")) exclusion.scene = scene->text();
+  const auto limit = [&](const char* key) -> std::optional<std::uint64_t> {
+    const auto member = node.find(key);
+    if (!member) return std::nullopt;
+    return static_cast<std::uint64_t>(member->integer(0, INT64_MAX));
+  };
+  exclusion.primitives_above = limit("primitives_above");
+  exclusion.rays_above = limit("rays_above");
+  return exclusion;
+}
+
+void read_repetitions(const JsonNode& root, SweepConfig& config) {
+  config.minimum_repetitions = 5;
+  config.maximum_repetitions = 50;
+  const auto node = root.find("repetitions");
+  if (!node) return;
+  node->require_object({"minimum", "maximum"});
+  if (const auto minimum = node->find("minimum")) {
+    config.minimum_repetitions = static_cast<int>(minimum->integer(1, kMaxRepetitions));
+    config.maximum_repetitions = std::max(config.maximum_repetitions, config.minimum_repetitions);
+  }
+  if (const auto maximum = node->find("maximum")) {
+    config.maximum_repetitions =
+        static_cast<int>(maximum->integer(config.minimum_repetitions, kMaxRepetitions));
+  }
+}
+
+void read_effort(const JsonNode& root, SweepConfig& config) {
+  const auto precision = root.find("precision");
+  config.precision = precision ? precision->number(0.0, 1.0) : kDefaultPrecision;
+  config.budget_seconds = root.require("budget_seconds").number(0.0, kMaxBudgetSeconds);
+  const auto warm_up = root.find("warm_up_seconds");
+  config.warm_up =
+      std::chrono::duration<double>(warm_up ? warm_up->number(0.0, kMaxWarmUp) : kDefaultWarmUp);
+  read_repetitions(root, config);
+}
+
+void read_structures(const JsonNode& list, const accel::Registry& structures, SweepConfig& config) {
+  for (const JsonNode& node : list.elements()) {
+    for (accel::StructureChoice& choice : read_structure_entry(node, structures)) {
+      config.structures.push_back(std::move(choice));
+    }
+  }
+}
+
+/// Refuses a file of rays that is not there before hours are spent on other cells.
+rays::RayChoice existing(rays::RayChoice choice) {
+  if (!choice.file.empty() && !std::filesystem::is_regular_file(choice.file)) {
+    throw InputError(fmt::format("there is no ray file '{}'; 'beambench rays' writes one",
+                                 choice.file.string()));
+  }
+  return choice;
+}
+
+void read_rays(const JsonNode& root, SweepConfig& config) {
+  for (const JsonNode& node : root.require("resolutions").elements()) {
+    const std::string text = node.text();
+    config.resolutions.push_back(node.checked([&] { return rays::parse_resolution(text); }));
+  }
+  config.samples = {1};
+  if (const auto samples = root.find("samples")) {
+    config.samples.clear();
+    for (const JsonNode& node : samples->elements()) config.samples.push_back(read_samples(node));
+  }
+  for (const rays::Resolution& resolution : config.resolutions) {
+    for (const int samples : config.samples) {
+      root.checked([&] { rays::require_ray_count(resolution, samples); });
+    }
+  }
+  config.rays = {rays::RayChoice()};
+  if (const auto rays = root.find("rays")) {
+    config.rays.clear();
+    for (const JsonNode& node : rays->elements()) {
+      const std::string name = node.text();
+      config.rays.push_back(node.checked([&] { return existing(rays::parse_ray_choice(name)); }));
+    }
+  }
+}
+
+int read_threads(const JsonNode& root, const SweepConfig& config) {
+  const auto node = root.find("threads");
+  if (!node) return 1;
+  const int threads = static_cast<int>(node->integer(1, kMaxThreads));
+  for (const rays::RayChoice& rays : config.rays) {
+    if (threads == 1 || rays == rays::RayChoice()) continue;
+    node->fail(
+        "only images of primary rays are traced on several threads; leave out the other "
+        "rays or 'threads'");
+  }
+  return threads;
+}
+
+}  // namespace
+
+SweepConfig read_sweep(const std::filesystem::path& path, const accel::Registry& structures) {
+  SweepConfig config{};
+  config.source = read_json_file(path);
+  const JsonNode root(config.source, path.string());
+  root.require_object({"$schema", "name", "description", "scenes", "structures", "resolutions",
+                       "samples", "rays", "threads", "precision", "repetitions", "budget_seconds",
+                       "warm_up_seconds", "exclude"});
+  config.name = read_name(root.require("name"));
+  if (const auto description = root.find("description")) config.description = description->text();
+  for (const JsonNode& node : root.require("scenes").elements()) {
+    config.scenes.push_back(read_scene(node));
+  }
+  read_structures(root.require("structures"), structures, config);
+  read_rays(root, config);
+  config.threads = read_threads(root, config);
+  read_effort(root, config);
+  if (const auto exclude = root.find("exclude")) {
+    for (const JsonNode& node : exclude->elements()) {
+      config.exclude.push_back(read_exclusion(node, structures));
+    }
+  }
+  return config;
+}
+
+}  // namespace beambench::bench

@@ -1,0 +1,58 @@
+#pragma once
+// The configuration of a sweep: what is to be measured, read from JSON.
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "accel/core/registry.hpp"
+#include "harness/rays/ray_choice.hpp"
+#include "harness/rays/resolution.hpp"
+
+namespace beambench::bench {
+
+/// A scene of a sweep.
+struct SceneEntry {
+  std::string spec;                  ///< a catalogue name with parameters, or a path
+  std::vector<std::string> cameras;  ///< by name; empty: the scene's first
+  std::string place;                 ///< where it stands in the file, for messages
+};
+
+/// Cells to leave out: those to which everything that is given applies.
+struct Exclusion {
+  std::optional<std::string> structure;  ///< the bare name
+  std::optional<std::string> scene;      ///< as the configuration spells it
+  std::optional<std::uint64_t> primitives_above;
+  std::optional<std::uint64_t> rays_above;
+};
+
+struct SweepConfig {
+  std::string name;
+  std::string description;
+  std::vector<SceneEntry> scenes;
+  std::vector<accel::StructureChoice> structures;  ///< lists of parameters multiplied out
+  std::vector<rays::Resolution> resolutions;
+  std::vector<int> samples;
+  std::vector<rays::RayChoice> rays;
+  int threads;       ///< that trace an image
+  double precision;  ///< wanted half-width of the interval of a repeat, relative to the median
+  int minimum_repetitions;
+  int maximum_repetitions;
+  double budget_seconds;  ///< for the whole run; the least repetitions are made all the same
+  std::chrono::duration<double> warm_up;  ///< of the machine, before anything is timed
+  std::vector<Exclusion> exclude;
+
+  nlohmann::json source;  ///< as it was read
+};
+
+/// Reads and checks a configuration (schema: harness/bench/sweep.schema.json). Structures and their
+/// parameters are checked against `structures`, which outlives the result. Throws InputError
+/// `file: /structures/1/parameters/max_level: ...`.
+SweepConfig read_sweep(const std::filesystem::path& path, const accel::Registry& structures);
+
+}  // namespace beambench::bench

@@ -1,0 +1,181 @@
+#include "harness/bench/contender.hpp"
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <new>
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include "harness/bench/clock_rate.hpp"
+#include "harness/bench/conditions.hpp"
+#include "harness/bench/heap.hpp"
+#include "harness/bench/phase_timer.hpp"
+#include "harness/bench/record/machine.hpp"
+
+namespace beambench::bench {
+namespace {
+
+constexpr const char* kError = "error";
+
+std::string mismatch_message(const verify::DiffReport& report) {
+  if (report.verdict == verify::Verdict::kGrazes) {
+    return fmt::format("{} of {} rays graze, more than the differ's budget",
+                       report.count(verify::DiffClass::kGraze), report.rays);
+  }
+  return fmt::format("{} of {} rays got a wrong hit", report.count(verify::DiffClass::kEngineError),
+                     report.rays);
+}
+
+/// What an exception says to the user.
+std::string message_of(const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
+    return "the memory does not suffice for this structure over this scene";
+  }
+  return error.what();
+}
+
+bool is_all_zero(const std::map<std::string, std::uint64_t, std::less<>>& counters) {
+  return std::all_of(counters.begin(), counters.end(),
+                     [](const auto& counter) { return counter.second == 0; });
+}
+
+}  // namespace
+
+Contender::Contender(const PlannedCell& cell, Task& task) : cell_(&cell), task_(&task) {
+  record_.index = cell.index;
+  record_.id = cell.id;
+  record_.rays = task.facts();
+}
+
+void Contender::count() {
+  try {
+    const MeasuringFloatMode mode;
+    const auto heap_before = heap_in_use();
+    const auto structure = cell_->structure.build(task_->scene(), task_->workload());
+    record_.allocated_bytes = heap_growth(heap_before, heap_in_use());
+    task_->poison();
+    record_.work = task_->count(*structure);
+    counted_hits_ = task_->fingerprint();
+    record_.statistics = structure->statistics();
+    record_.harness = task_->harness_share(*structure);
+  } catch (const std::exception& error) {
+    fail(kError, message_of(error));
+  }
+  // A structure that counts nothing at all cannot count; zeros would claim that it does no work.
+  if (is_all_zero(record_.work.counters)) record_.work.counters.clear();
+}
+
+void Contender::repeat(const Instruments& instruments, int round, int position) {
+  try {
+    const PinnedThread pin(instruments.core);
+    task_->poison();
+    std::unique_ptr<accel::Accelerator> structure;
+    const double clock_before = clock_ghz();
+    Repetition repetition = time_once(instruments, structure);
+    repetition.clock_ghz = 0.5 * (clock_before + clock_ghz());
+    repetition.round = round;
+    repetition.position = position;
+    record_.repetitions.push_back(repetition);
+    cycles_.push_back(repetition.total_mcycles());
+    spent_ms_ += repetition.total_ms();
+    examine(*structure);
+    if (!failed_ && record_.repetitions.size() <= kWarmTraces) trace_warm(*structure);
+  } catch (const std::exception& error) {
+    fail(kError, message_of(error));
+  }
+}
+
+Repetition Contender::time_once(const Instruments& instruments,
+                                std::unique_ptr<accel::Accelerator>& structure) {
+  Repetition repetition{};
+  std::exception_ptr problem;
+  instruments.benchmark.run_once(cell_->id.name(), [&](benchmark::State& state) {
+    const MeasuringFloatMode mode;
+    try {
+      for ([[maybe_unused]] auto iteration : state) {
+        PhaseTime build{};
+        PhaseTime trace{};
+        const HardwareCounts build_counts = instruments.counters.count([&] {
+          build = time_phase(
+              [&] { structure = cell_->structure.build(task_->scene(), task_->workload()); });
+        });
+        HardwareCounts trace_counts = instruments.counters.count([&] {
+          trace = time_phase([&] { task_->ask(*structure); }, cpu_clock(instruments.threads));
+        });
+        if (instruments.threads > 1) trace_counts = {};  // they are of the calling thread alone
+        state.SetIterationTime(1e-3 * (build.wall_ms + trace.wall_ms));
+        repetition = {0,
+                      0,
+                      build.wall_ms,
+                      trace.wall_ms,
+                      build.cpu_ms,
+                      trace.cpu_ms,
+                      build_counts,
+                      trace_counts,
+                      {}};
+      }
+    } catch (...) {
+      // The library is not made for exceptions to pass through it.
+      problem = std::current_exception();
+      state.SkipWithError("the structure threw");
+    }
+  });
+  if (problem) std::rethrow_exception(problem);
+  return repetition;
+}
+
+void Contender::examine(const accel::Accelerator& structure) {
+  const bool first = record_.repetitions.size() == 1;
+  if (first) return judge_first(structure);
+  if (task_->fingerprint() == record_.hits_hash) return;
+  fail(std::string(verify::to_string(verify::Verdict::kMismatch)),
+       fmt::format("repetition {} wrote other hits than the first: the structure's answers depend "
+                   "on more than scene and rays",
+                   record_.repetitions.size()));
+}
+
+void Contender::trace_warm(const accel::Accelerator& structure) {
+  const MeasuringFloatMode mode;
+  task_->poison();
+  const PhaseTime again = time_phase([&] { task_->ask(structure); });
+  record_.repetitions.back().warm_trace_ms = again.wall_ms;
+  spent_ms_ += again.wall_ms;
+  if (task_->fingerprint() == record_.hits_hash) return;
+  fail(std::string(verify::to_string(verify::Verdict::kMismatch)),
+       "a second trace of the same structure wrote other hits than its first");
+}
+
+void Contender::judge_first(const accel::Accelerator& structure) {
+  record_.hits_hash = task_->fingerprint();
+  Judgement judgement = task_->judge(structure, cell_->structure);
+  record_.diff = std::move(judgement.report);
+  record_.verdict = verify::to_string(record_.diff->verdict);
+  if (!record_.keeps_times()) {
+    record_.examples = std::move(judgement.examples);
+    return fail(record_.verdict, mismatch_message(*record_.diff));
+  }
+  if (task_->fingerprint() != record_.hits_hash) {
+    return fail(std::string(verify::to_string(verify::Verdict::kMismatch)),
+                "asked again to be judged, the structure gave other answers");
+  }
+  if (record_.hits_hash != counted_hits_) {
+    fail(std::string(verify::to_string(verify::Verdict::kMismatch)),
+         "the counting pass found other hits than the timed one");
+  }
+}
+
+void Contender::fail(std::string verdict, std::string message) {
+  record_.verdict = std::move(verdict);
+  record_.message = std::move(message);
+  failed_ = true;
+}
+
+CellRecord Contender::finish(std::optional<StopReason> reason) && {
+  record_.stop_reason = reason;
+  record_.time_utc = utc_now();
+  return std::move(record_);
+}
+
+}  // namespace beambench::bench

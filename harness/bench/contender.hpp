@@ -1,0 +1,71 @@
+#pragma once
+// One structure in the group of those that are asked with the same rays.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "harness/bench/google_benchmark.hpp"
+#include "harness/bench/hardware_counters.hpp"
+#include "harness/bench/plan.hpp"
+#include "harness/bench/record/cell_record.hpp"
+#include "harness/bench/task.hpp"
+
+namespace beambench::bench {
+
+/// What a repetition is measured with.
+struct Instruments {
+  const GoogleBenchmark& benchmark;
+  const HardwareCounters& counters;
+  int core;     ///< to pin it to; -1: any
+  int threads;  ///< that trace an image
+};
+
+/// A cell while it is measured. Its first timed answers are judged by the differ, and those of
+/// every other pass, the counting one included, must equal them bit for bit: so the verdict speaks
+/// of all answers that a timed repetition wrote. Whatever a structure does wrong is noted here and
+/// ends its measurement; nothing is thrown.
+class Contender {
+ public:
+  Contender(const PlannedCell& cell, Task& task);
+
+  /// The untimed pass: sizes and counters.
+  void count();
+  /// One timed repetition, run through Google Benchmark; the first `kWarmTraces` times followed by
+  /// a second trace of the same structure.
+  void repeat(const Instruments& instruments, int round, int position);
+
+  /// The fewest whose median has a 95% interval (see median_interval).
+  static constexpr std::size_t kWarmTraces = 6;
+
+  const CellId& id() const { return cell_->id; }
+  bool failed() const { return failed_; }
+  /// Total cycles of each repetition, in millions.
+  std::span<const double> cycles() const { return cycles_; }
+  /// Warm traces included.
+  double spent_ms() const { return spent_ms_; }
+  /// The finished cell.
+  CellRecord finish(std::optional<StopReason> reason) &&;
+
+ private:
+  /// Leaves the structure that it built in `structure`.
+  Repetition time_once(const Instruments& instruments,
+                       std::unique_ptr<accel::Accelerator>& structure);
+  void examine(const accel::Accelerator& structure);
+  void trace_warm(const accel::Accelerator& structure);
+  void judge_first(const accel::Accelerator& structure);
+  void fail(std::string verdict, std::string message);
+
+  const PlannedCell* cell_;
+  Task* task_;
+  CellRecord record_;
+  std::vector<double> cycles_;
+  double spent_ms_ = 0.0;
+  std::uint64_t counted_hits_ = 0;  ///< fingerprint of the counting pass's answers
+  bool failed_ = false;
+};
+
+}  // namespace beambench::bench

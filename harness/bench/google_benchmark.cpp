@@ -1,0 +1,156 @@
+#include "harness/bench/google_benchmark.hpp"
+
+#include <sstream>
+#include <vector>
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include "scenes/core/error.hpp"
+
+namespace beambench::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Keeps the names of what ran; says nothing.
+class NameCollector : public benchmark::BenchmarkReporter {
+ public:
+  NameCollector() { SetErrorStream(&messages_); }
+  bool ReportContext(const Context&) override { return true; }
+  void ReportRuns(const std::vector<Run>& runs) override {
+    for (const Run& run : runs) names_.insert(run.run_name.function_name);
+  }
+  const std::set<std::string>& names() const { return names_; }
+  std::string messages() const { return messages_.str(); }
+
+ private:
+  std::set<std::string> names_;
+  std::ostringstream messages_;
+};
+
+/// Takes the benchmarks out of the library's global list again, whatever happens.
+struct RegisteredBenchmarks {
+  RegisteredBenchmarks() = default;
+  RegisteredBenchmarks(const RegisteredBenchmarks&) = delete;
+  RegisteredBenchmarks& operator=(const RegisteredBenchmarks&) = delete;
+  ~RegisteredBenchmarks() { benchmark::ClearRegisteredBenchmarks(); }
+};
+
+/// To fail is what ends a benchmark at once that was asked for no certain number of iterations.
+void do_nothing(benchmark::State& state) { state.SkipWithError("not meant to be measured"); }
+
+benchmark::BenchmarkReporter::Run base_run(const Json& cell) {
+  benchmark::BenchmarkReporter::Run run;
+  run.run_name.function_name = cell.at("name").get<std::string>();
+  run.run_name.time_type = "manual_time";
+  run.family_index = 0;
+  run.per_family_instance_index = 0;
+  run.repetition_index = 0;
+  run.repetitions = 1;
+  run.time_unit = benchmark::kMillisecond;
+  run.statistics = nullptr;
+  return run;
+}
+
+/// Version 1.8 of the library gave the fields other names.
+template <class Run>
+void mark_failed(Run& run, const std::string& message) {
+  if constexpr (requires { run.error_occurred; }) {
+    run.error_occurred = true;
+    run.error_message = message;
+  } else {
+    run.skipped = decltype(run.skipped)::SkippedWithError;
+    run.skip_message = message;
+  }
+}
+
+benchmark::BenchmarkReporter::Run failed_run(const Json& cell) {
+  auto run = base_run(cell);
+  mark_failed(run, cell.at("message").get<std::string>());
+  return run;
+}
+
+benchmark::BenchmarkReporter::Run repetition_run(const Json& cell, const Json& repetition) {
+  auto run = base_run(cell);
+  const double build_ms = repetition.at("build_ms").get<double>();
+  const double trace_ms = repetition.at("trace_ms").get<double>();
+  run.real_accumulated_time = 1e-3 * (build_ms + trace_ms);
+  run.cpu_accumulated_time = 1e-3 * (repetition.at("build_cpu_ms").get<double>() +
+                                     repetition.at("trace_cpu_ms").get<double>());
+  run.counters["build_ms"] = build_ms;
+  run.counters["trace_ms"] = trace_ms;
+  run.counters["rays"] = cell.at("row").at("rays").get<double>();
+  return run;
+}
+
+std::vector<benchmark::BenchmarkReporter::Run> runs_of(const Json& cell, std::int64_t index) {
+  std::vector<benchmark::BenchmarkReporter::Run> runs;
+  const Json& repetitions = cell.at("repetitions");
+  for (const Json& repetition : repetitions) {
+    auto run = repetition_run(cell, repetition);
+    run.repetition_index = static_cast<std::int64_t>(runs.size());
+    run.repetitions = static_cast<std::int64_t>(repetitions.size());
+    runs.push_back(std::move(run));
+  }
+  if (runs.empty()) runs.push_back(failed_run(cell));
+  for (auto& run : runs) run.family_index = index;
+  return runs;
+}
+
+}  // namespace
+
+GoogleBenchmark::GoogleBenchmark(const BenchmarkFlags& flags) {
+  // The library also reads flags from the environment. Those that would repeat, redirect or list
+  // are set back: repetitions, files and lists are made here.
+  std::vector<std::string> arguments{"beambench", "--benchmark_min_warmup_time=0",
+                                     "--benchmark_repetitions=1", "--benchmark_list_tests=false",
+                                     "--benchmark_out="};
+  arguments.insert(arguments.end(), flags.passed_on.begin(), flags.passed_on.end());
+  std::vector<char*> pointers;
+  pointers.reserve(arguments.size());
+  for (std::string& argument : arguments) pointers.push_back(argument.data());
+  int count = static_cast<int>(pointers.size());
+  benchmark::Initialize(&count, pointers.data());
+  // It keeps a pointer to the program's name, and leaves behind the arguments that it refuses.
+  benchmark::BenchmarkReporter::Context::executable_name = "beambench";
+  if (count > 1) {
+    throw InputError(
+        fmt::format("Google Benchmark cannot read '{}'; check its value", pointers[1]));
+  }
+}
+
+std::set<std::string> GoogleBenchmark::select(std::span<const std::string> names) const {
+  const RegisteredBenchmarks registered;
+  for (const std::string& name : names) benchmark::RegisterBenchmark(name.c_str(), do_nothing);
+  NameCollector collector;
+  benchmark::RunSpecifiedBenchmarks(&collector);
+  if (collector.names().empty()) {
+    throw InputError(fmt::format(
+        "--benchmark_filter='{}' selects none of the {} cells; list their names with --dry-run",
+        benchmark::GetBenchmarkFilter(), names.size()));
+  }
+  return collector.names();
+}
+
+void GoogleBenchmark::run_once(const std::string& name, const TimedWork& work) const {
+  const RegisteredBenchmarks registered;
+  benchmark::RegisterBenchmark(name.c_str(), work)->Iterations(1)->UseManualTime();
+  NameCollector collector;
+  benchmark::RunSpecifiedBenchmarks(&collector, ".");
+}
+
+std::string google_benchmark_json(std::span<const Json> cells, const Json& context) {
+  std::ostringstream text;
+  benchmark::JSONReporter reporter;
+  reporter.SetOutputStream(&text);
+  reporter.ReportContext(benchmark::BenchmarkReporter::Context());
+  std::int64_t index = 0;
+  for (const Json& cell : cells) reporter.ReportRuns(runs_of(cell, index++));
+  reporter.Finalize();
+  Json document = Json::parse(text.str());
+  document["context"].update(context);
+  return document.dump(2) + '\n';
+}
+
+}  // namespace beambench::bench

@@ -1,0 +1,44 @@
+#pragma once
+// All that is known here of Google Benchmark: its filter, its runs, its JSON.
+
+#include <functional>
+#include <set>
+#include <span>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/bench/benchmark_flags.hpp"
+
+namespace benchmark {
+class State;
+}
+
+namespace beambench::bench {
+
+/// A timed piece of work. It loops over the state once and sets the iteration's time (manual time).
+using TimedWork = std::function<void(benchmark::State&)>;
+
+/// Runs timed work through Google Benchmark. One object at a time: the library's state is global.
+class GoogleBenchmark {
+ public:
+  /// Throws InputError when the library refuses a flag.
+  explicit GoogleBenchmark(const BenchmarkFlags& flags);
+
+  /// The names that --benchmark_filter selects, by the library's own matching. Throws InputError
+  /// when it selects none.
+  std::set<std::string> select(std::span<const std::string> names) const;
+
+  /// Runs the work for one iteration. Which contender's turn it is, the caller decides: the
+  /// library's own interleaving shuffles all repetitions at once and cannot stop one contender
+  /// earlier than another.
+  void run_once(const std::string& name, const TimedWork& work) const;
+};
+
+/// Finished cells (their JSON files) as Google Benchmark writes its results: one entry each
+/// repetition, `context` put into its context. Derived from the cells, so that a resumed run loses
+/// none.
+std::string google_benchmark_json(std::span<const nlohmann::ordered_json> cells,
+                                  const nlohmann::ordered_json& context);
+
+}  // namespace beambench::bench

@@ -1,0 +1,159 @@
+#include "harness/bench/picture_task.hpp"
+
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "harness/bench/conditions.hpp"
+#include "harness/bench/harness_time.hpp"
+#include "harness/rays/answers.hpp"
+#include "harness/rays/fingerprint.hpp"
+#include "harness/render/judged_picture.hpp"
+#include "harness/render/whitted_picture.hpp"
+
+namespace beambench::bench {
+namespace {
+
+accel::HitBuffer rounded(const verify::ReferenceHits& reference, const accel::PrimaryRays& rays) {
+  accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const std::optional<accel::embree::ExactHit>& hit = reference.hits()[i];
+    if (hit) hits.set(i, accel::Hit{static_cast<float>(hit->t), hit->primitive});
+  }
+  return hits;
+}
+
+/// As the literature counts: a shadow ray is a point and a light.
+std::uint64_t all_rays(const render::RayCensus& census) {
+  return census.eye + census.reflected + census.refracted + census.shadow;
+}
+
+/// Of everything that is asked, eye rays first.
+std::uint64_t hash_of(const accel::PrimaryRays& eye, const render::RecordedPicture& picture) {
+  std::string hashes = rays::hex_digits(rays::fingerprint(eye));
+  for (const render::AskedRays& asked : picture.asked) {
+    hashes += rays::hex_digits(rays::fingerprint(asked.closest)) +
+              rays::hex_digits(rays::fingerprint(asked.any));
+  }
+  return rays::fingerprint(hashes);
+}
+
+std::uint64_t hash_of(const render::Image& image) {
+  const std::span<const glm::vec3> pixels = image.pixels();
+  return rays::fingerprint(
+      std::string_view(reinterpret_cast<const char*>(pixels.data()),  // NOLINT: bytes
+                       pixels.size_bytes()));
+}
+
+double share(std::uint64_t part, std::uint64_t whole) {
+  return static_cast<double>(part) / static_cast<double>(whole);
+}
+
+}  // namespace
+
+PictureTask::PictureTask(const CellGroup& group, std::uint64_t scene_hash, int core)
+    : Task(group),
+      rays_(group.camera, group.resolution.width, group.resolution.height, group.samples),
+      options_(render::whitted_options(group.rays)),
+      eye_reference_(*group.scene, rays_),
+      eye_(rays_.width(), rays_.height(), rays_.samples()),
+      image_(rays_.width(), rays_.height()) {
+  learn_facts(scene_hash, core);
+}
+
+/// Of the picture that the oracle's hits give. Its answers, known beforehand, also tell what the
+/// picture takes without a structure.
+void PictureTask::learn_facts(std::uint64_t scene_hash, int core) {
+  const accel::embree::EmbreeOracle oracle(scene(), glm::length(glm::dvec3(rays_.eye())));
+  const render::RecordedPicture picture = render::record_picture(
+      scene(), render::OracleQueries(oracle), rays_, rounded(eye_reference_, rays_), options_,
+      rays::HitCheck(scene(), "the oracle"));
+  const render::RayCensus& census = picture.census;
+  facts_.scene_hash = scene_hash;
+  facts_.rays_hash = hash_of(rays_, picture);
+  facts_.primitives = scene().primitives.size();
+  facts_.rays = all_rays(census);
+  facts_.query = rays::Query::kPicture;
+  facts_.hit_share = share(census.eye_hits + census.secondary_hits,
+                           census.eye + census.reflected + census.refracted);
+  if (census.shadow > 0) facts_.occluded_share = share(census.shadow_hidden, census.shadow);
+  eye_ = picture.eye;
+  const auto& [reflected, refracted, shadow] = picture.asked;
+  shading_ms_ = harness_ms(core, [&] {
+    const render::ReplayedAnswers mirrors(reflected);
+    const render::ReplayedAnswers glass(refracted);
+    const render::ReplayedAnswers lights(shadow);
+    draw({&mirrors, &glass, &lights});
+  });
+}
+
+render::RayCensus PictureTask::draw(const render::Answerers& answerers) {
+  return render::draw_in_order(
+      render::Whitted(scene(), answerers, options_, rays::HitCheck(scene())),
+      render::eye_rays(rays_), eye_, image_);
+}
+
+void PictureTask::poison() {
+  beambench::rays::poison(eye_);
+  constexpr float kNoLight = std::numeric_limits<float>::quiet_NaN();
+  image_ = render::Image(image_.width(), image_.height(), glm::vec3(kNoLight));
+}
+
+void PictureTask::ask(const accel::Accelerator& structure) {
+  structure.trace(rays_, eye_);
+  draw({&structure, &structure, &structure});
+}
+
+CountedWork PictureTask::count(const accel::Accelerator& structure) {
+  accel::WorkCounters eye;
+  render::ByFollowingRays<accel::WorkCounters> following;
+  structure.trace(rays_, eye_, eye);
+  const render::CountedQueries reflected(structure, following[0]);
+  const render::CountedQueries refracted(structure, following[1]);
+  const render::CountedQueries shadow(structure, following[2]);
+  const render::RayCensus census = draw({&reflected, &refracted, &shadow});
+
+  CountedWork work;
+  const render::ByFollowingRays<std::uint64_t> rays{census.reflected, census.refracted,
+                                                    census.shadow};
+  work.kinds.push_back({"eye", census.eye, eye.by_name()});
+  for (std::size_t i = 0; i < render::kFollowingRays; ++i) {
+    work.kinds.push_back(
+        {std::string(render::kFollowingRayNames[i]), rays[i], following[i].by_name()});
+    eye.add(following[i]);
+  }
+  work.counters = eye.by_name();
+  return work;
+}
+
+std::uint64_t PictureTask::fingerprint() const {
+  return beambench::rays::fingerprint(rays::hex_digits(beambench::rays::fingerprint(eye_)) +
+                                      rays::hex_digits(hash_of(image_)));
+}
+
+Judgement PictureTask::judge(const accel::Accelerator& structure,
+                             const accel::StructureChoice& choice) {
+  poison();
+  render::RecordedPicture picture = [&] {
+    const MeasuringFloatMode mode;  // as it was timed
+    structure.trace(rays_, eye_);
+    return render::record_picture(scene(), structure, rays_, eye_, options_,
+                                  rays::HitCheck(scene(), choice));
+  }();
+  image_ = picture.image;
+  const std::vector<render::JudgedRays> judged =
+      render::judge_picture(eye_reference_, std::move(picture), choice.info().conformance);
+  Judgement judgement{render::sum_of(judged), {}};
+  for (const render::JudgedRays& rays : judged) {
+    if (verify::is_right(rays.report.verdict)) continue;
+    for (const verify::Mismatch& example : rays.report.examples) {
+      judgement.examples.push_back(
+          fmt::format("{} rays, {}", rays.kind, verify::describe(scene(), rays.question, example)));
+    }
+  }
+  return judgement;
+}
+
+}  // namespace beambench::bench

@@ -1,0 +1,63 @@
+#pragma once
+// The plan of a sweep: its cells, in groups that share their rays.
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/bench/config.hpp"
+#include "harness/bench/record/cell_record.hpp"
+#include "harness/bench/record/manifest.hpp"
+#include "harness/rays/question.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::bench {
+
+/// One cell to measure.
+struct PlannedCell {
+  std::size_t index;  ///< in the whole plan: the order of the record's rows
+  CellId id;
+  accel::StructureChoice structure;
+};
+
+/// The cells that are asked with the same rays over the same scene: contenders, measured in turns.
+struct CellGroup {
+  std::shared_ptr<const scenes::Scene> scene;  ///< freed when the last of its groups is done
+  scenes::Camera camera;
+  rays::Resolution resolution;
+  int samples;
+  rays::RayChoice rays;
+  int threads = 1;  ///< that trace an image
+  std::vector<PlannedCell> cells;
+
+  /// `escena1/default/320x200/1/primary`.
+  std::string name() const;
+  rays::ImageOfRays image() const { return {camera, resolution, samples}; }
+};
+
+struct Plan {
+  std::vector<CellGroup> groups;
+  std::size_t merged = 0;  ///< cells that the configuration asked for more than once
+
+  std::size_t cell_count() const;
+};
+
+/// Loads every scene once and multiplies the configuration out: scene by scene, all structures of a
+/// group together. Cells asked for twice are made once. Throws InputError when a scene cannot be
+/// loaded, has no camera of that name, or nothing is left to measure.
+Plan make_plan(const SweepConfig& config);
+
+/// The scenes that the plan measures, each once.
+std::vector<SceneFacts> scene_facts(const Plan& plan);
+
+/// Leaves out the cells that `keep` refuses, and groups without cells.
+template <class Keep>
+void filter_cells(Plan& plan, Keep keep) {
+  for (CellGroup& group : plan.groups) {
+    std::erase_if(group.cells, [&](const PlannedCell& cell) { return !keep(cell.id); });
+  }
+  std::erase_if(plan.groups, [](const CellGroup& group) { return group.cells.empty(); });
+}
+
+}  // namespace beambench::bench

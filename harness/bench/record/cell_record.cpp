@@ -1,0 +1,291 @@
+#include "harness/bench/record/cell_record.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "accel/core/work_counters.hpp"
+#include "harness/bench/record/robust_statistics.hpp"
+#include "harness/rays/fingerprint.hpp"
+
+namespace beambench::bench {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array<std::string_view, 3> kStopReasonNames{"precision", "budget", "repetitions"};
+
+/// One figure of every repetition.
+template <class Figure>
+std::vector<double> collect(const CellRecord& cell, Figure figure) {
+  std::vector<double> values;
+  for (const Repetition& repetition : cell.repetitions) {
+    values.push_back(std::invoke(figure, repetition));
+  }
+  return values;
+}
+
+bool has_times(const CellRecord& cell) { return cell.keeps_times() && !cell.repetitions.empty(); }
+
+void add_run(Row& row, const RunFacts& run, const CellRecord& cell) {
+  row["schema_version"] = kSchemaVersion;
+  row["run_id"] = run.run_id;
+  row["time_utc"] = cell.time_utc;
+  row["commit"] = run.commit;
+  row["dirty"] = run.dirty;
+  row["machine_id"] = run.machine_id;
+  row["build_type"] = run.build_type;
+  row["flags"] = run.flags;
+  row["isa"] = run.isa;
+  const bool chose = cell.statistics && !cell.statistics->instruction_set.empty();
+  row["structure_isa"] = chose ? Json(cell.statistics->instruction_set) : Json();
+  const bool of_library = cell.statistics && !cell.statistics->library_geometry.empty();
+  row["library_geometry"] = of_library ? Json(cell.statistics->library_geometry) : Json();
+  row["threads"] = run.threads;
+}
+
+void add_identity(Row& row, const CellRecord& cell) {
+  row["scene"] = cell.id.scene;
+  row["camera"] = cell.id.camera;
+  row["scene_hash"] = rays::hex_digits(cell.rays.scene_hash);
+  row["rays_hash"] = rays::hex_digits(cell.rays.rays_hash);
+  row["seed"] = cell.rays.seed;
+  row["primitives"] = cell.rays.primitives;
+  row["structure"] = cell.id.structure;
+  row["parameters"] = cell.id.parameters;
+  row["width"] = cell.id.resolution.width;
+  row["height"] = cell.id.resolution.height;
+  row["samples"] = cell.id.samples;
+  row["ray_kind"] = cell.id.rays;
+  row["query"] = rays::to_string(cell.rays.query);
+  row["query_path"] = cell.harness ? Json(to_string(cell.harness->path)) : Json();
+  row["rays"] = cell.rays.rays;
+  const auto known = [](const std::optional<double>& figure) {
+    return figure ? Json(*figure) : Json();
+  };
+  row["hit_share"] = known(cell.rays.hit_share);
+  row["occluded_share"] = known(cell.rays.occluded_share);
+  row["coherence"] = known(cell.rays.coherence);
+}
+
+/// The 95% interval of a median.
+void add_interval(Row& row, const std::string& phase, const std::vector<double>& samples) {
+  const std::optional<Interval> interval = median_interval(samples);
+  row[phase + "_ms_ci_low"] = interval ? Json(interval->low) : Json();
+  row[phase + "_ms_ci_high"] = interval ? Json(interval->high) : Json();
+}
+
+void add_wall_time(Row& row, const std::string& phase, const std::vector<double>& samples) {
+  const bool known = !samples.empty();
+  row[phase + "_ms_median"] = known ? Json(median(samples)) : Json();
+  row[phase + "_ms_min"] = known ? Json(minimum(samples)) : Json();
+  row[phase + "_ms_mad"] = known ? Json(median_absolute_deviation(samples)) : Json();
+}
+
+std::vector<double> warm_traces(const CellRecord& cell) {
+  std::vector<double> warm;
+  for (const Repetition& repetition : cell.repetitions) {
+    if (repetition.warm_trace_ms) warm.push_back(*repetition.warm_trace_ms);
+  }
+  return warm;
+}
+
+/// Nothing where nothing is left: of `null`, and of a plug-in that does not say that it makes no
+/// rays one by one.
+Json net_of_harness(const CellRecord& cell) {
+  if (!cell.harness || cell.verdict == "baseline") return {};
+  const double net = median(collect(cell, &Repetition::trace_ms)) - cell.harness->ms;
+  return net > 0.0 ? Json(net) : Json();
+}
+
+void add_times(Row& row, const CellRecord& cell) {
+  const bool known = has_times(cell);
+  const auto samples = [&](auto figure) {
+    return known ? collect(cell, figure) : std::vector<double>();
+  };
+  const auto median_of = [&](auto figure) {
+    return known ? Json(median(collect(cell, figure))) : Json();
+  };
+  row["repetitions"] = cell.repetitions.size();
+  row["stop_reason"] = cell.stop_reason ? Json(to_string(*cell.stop_reason)) : Json();
+  add_wall_time(row, "build", samples(&Repetition::build_ms));
+  add_wall_time(row, "trace", samples(&Repetition::trace_ms));
+  add_interval(row, "trace", samples(&Repetition::trace_ms));
+  const std::vector<double> warm = known ? warm_traces(cell) : std::vector<double>();
+  row["trace_warm_ms_median"] = warm.empty() ? Json() : Json(median(warm));
+  add_interval(row, "trace_warm", warm);
+  row["harness_ms"] = known && cell.harness ? Json(cell.harness->ms) : Json();
+  row["trace_net_ms_median"] = known ? net_of_harness(cell) : Json();
+  const std::vector<double> totals = samples(&Repetition::total_ms);
+  add_wall_time(row, "total", totals);
+  add_interval(row, "total", totals);
+  const std::vector<double> cycles = samples(&Repetition::total_mcycles);
+  const std::optional<Interval> repeat = repeat_interval(cycles);
+  row["clock_ghz_median"] = median_of(&Repetition::clock_ghz);
+  row["total_mcycles_median"] = median_of(&Repetition::total_mcycles);
+  row["total_mcycles_repeat_low"] = repeat ? Json(repeat->low * (1.0 - kBetweenRuns)) : Json();
+  row["total_mcycles_repeat_high"] = repeat ? Json(repeat->high * (1.0 + kBetweenRuns)) : Json();
+  row["build_cpu_ms_median"] = median_of(&Repetition::build_cpu_ms);
+  row["trace_cpu_ms_median"] = median_of(&Repetition::trace_cpu_ms);
+  row["mrays_per_s"] = Json();
+  if (known) {
+    const double trace_us = 1e3 * median(collect(cell, &Repetition::trace_ms));
+    if (trace_us > 0.0) row["mrays_per_s"] = static_cast<double>(cell.rays.rays) / trace_us;
+  }
+}
+
+/// The median count of an event; null where not every repetition has one.
+Json median_count(const CellRecord& cell, HardwareCounts Repetition::*counts, std::size_t event) {
+  std::vector<double> values;
+  for (const Repetition& repetition : cell.repetitions) {
+    const auto& count = (repetition.*counts)[event];
+    if (!count) return {};
+    values.push_back(static_cast<double>(*count));
+  }
+  return std::llround(median(values));
+}
+
+void add_hardware_counts(Row& row, const CellRecord& cell) {
+  const bool known = has_times(cell);
+  const auto add = [&](std::string_view phase, HardwareCounts Repetition::*counts) {
+    for (std::size_t event = 0; event < kHardwareEvents.size(); ++event) {
+      row[fmt::format("{}_{}", phase, kHardwareEvents[event])] =
+          known ? median_count(cell, counts, event) : Json();
+    }
+  };
+  add("build", &Repetition::build_counts);
+  add("trace", &Repetition::trace_counts);
+}
+
+/// A figure that a family adds to its statistics; null where it does not.
+Json own_figure(const accel::Statistics& statistics, std::string_view name) {
+  const auto found =
+      std::ranges::find(statistics.more, name, &std::pair<std::string, double>::first);
+  return found == statistics.more.end() ? Json() : Json(found->second);
+}
+
+/// A family without nodes (Embree does not tell, `exhaustive` has none) leaves their sizes empty.
+void add_statistics(Row& row, const CellRecord& cell) {
+  row["memory_bytes"] = cell.statistics ? Json(cell.statistics->bytes) : Json();
+  row["allocated_bytes"] = cell.allocated_bytes ? Json(*cell.allocated_bytes) : Json();
+  const bool has_nodes = cell.statistics && cell.statistics->nodes > 0;
+  const auto size = [&](std::uint64_t accel::Statistics::*member) {
+    return has_nodes ? Json((*cell.statistics).*member) : Json();
+  };
+  row["nodes"] = size(&accel::Statistics::nodes);
+  row["leaves"] = size(&accel::Statistics::leaves);
+  row["empty_leaves"] = size(&accel::Statistics::empty_leaves);
+  row["references"] = size(&accel::Statistics::references);
+  row["depth"] = size(&accel::Statistics::depth);
+  row["tree_cost"] = cell.statistics ? own_figure(*cell.statistics, "cost") : Json();
+}
+
+void add_counters(Row& row, const CellRecord& cell) {
+  const NamedCounters& counters = cell.work.counters;
+  const auto rays = static_cast<double>(cell.rays.rays);
+  for (const std::string_view name : accel::kCounterNames) {
+    const auto found = counters.find(name);
+    row[fmt::format("{}_per_ray", name)] =
+        found == counters.end() ? Json() : Json(static_cast<double>(found->second) / rays);
+  }
+  for (const auto& [name, count] : counters) {
+    row[name + "_per_ray"] = static_cast<double>(count) / rays;
+  }
+}
+
+/// Of whole pictures: `shadow_rays`, and `shadow_box_tests_per_ray` of the shadow rays alone. A
+/// family's own counters are not told apart: most are of beams, which the eye's rays alone have.
+void add_kinds(Row& row, const CellRecord& cell) {
+  for (const RaysOfKind& kind : cell.work.kinds) {
+    row[kind.kind + "_rays"] = kind.rays;
+    if (cell.work.counters.empty() || kind.rays == 0) continue;
+    for (const std::string_view name : accel::kCounterNames) {
+      const auto count = kind.counters.find(name);
+      if (count == kind.counters.end()) continue;
+      row[fmt::format("{}_{}_per_ray", kind.kind, name)] =
+          static_cast<double>(count->second) / static_cast<double>(kind.rays);
+    }
+  }
+}
+
+void add_judgement(Row& row, const CellRecord& cell) {
+  row["hits"] = cell.diff ? Json(cell.diff->hits) : Json();
+  for (std::size_t i = 0; i < verify::kDiffClassNames.size(); ++i) {
+    row[std::string(verify::kDiffClassNames[i])] = cell.diff ? Json(cell.diff->counts[i]) : Json();
+  }
+  row["verdict"] = cell.verdict;
+}
+
+void add_counts(Json& json, std::string_view phase, const HardwareCounts& counts) {
+  for (std::size_t event = 0; event < counts.size(); ++event) {
+    if (counts[event]) json[fmt::format("{}_{}", phase, kHardwareEvents[event])] = *counts[event];
+  }
+}
+
+Json repetition_json(const Repetition& repetition) {
+  Json json{{"round", repetition.round},
+            {"position", repetition.position},
+            {"build_ms", repetition.build_ms},
+            {"trace_ms", repetition.trace_ms},
+            {"build_cpu_ms", repetition.build_cpu_ms},
+            {"trace_cpu_ms", repetition.trace_cpu_ms},
+            {"clock_ghz", repetition.clock_ghz}};
+  if (repetition.warm_trace_ms) json["warm_trace_ms"] = *repetition.warm_trace_ms;
+  add_counts(json, "build", repetition.build_counts);
+  add_counts(json, "trace", repetition.trace_counts);
+  return json;
+}
+
+}  // namespace
+
+std::string CellId::name() const {
+  return fmt::format("{}/{}/{}/{}/{}/{}{}{}", scene, camera, rays::to_string(resolution), samples,
+                     rays, structure, parameters.empty() ? "" : ":", parameters);
+}
+
+std::string CellId::key() const { return rays::hex_digits(rays::fingerprint(name())); }
+
+std::string_view to_string(StopReason reason) {
+  return kStopReasonNames[static_cast<std::size_t>(reason)];
+}
+
+Row to_row(const RunFacts& run, const CellRecord& cell) {
+  Row row = Row::object();
+  add_run(row, run, cell);
+  add_identity(row, cell);
+  add_times(row, cell);
+  add_hardware_counts(row, cell);
+  add_statistics(row, cell);
+  add_counters(row, cell);
+  add_kinds(row, cell);
+  add_judgement(row, cell);
+  return row;
+}
+
+Json to_json(const RunFacts& run, const CellRecord& cell) {
+  Json repetitions = Json::array();
+  if (cell.keeps_times()) {
+    for (const Repetition& repetition : cell.repetitions) {
+      repetitions.push_back(repetition_json(repetition));
+    }
+  }
+  Json more = Json::object();
+  if (cell.statistics) {
+    for (const auto& [name, value] : cell.statistics->more) more[name] = value;
+  }
+  return {{"index", cell.index},
+          {"name", cell.id.name()},
+          {"key", cell.id.key()},
+          {"row", to_row(run, cell)},
+          {"hits_hash", cell.hits_hash ? Json(rays::hex_digits(*cell.hits_hash)) : Json()},
+          {"message", cell.message},
+          {"examples", cell.examples},
+          {"family_statistics", more},
+          {"repetitions", repetitions}};
+}
+
+}  // namespace beambench::bench

@@ -1,0 +1,149 @@
+#pragma once
+// The record of one cell: one structure asked with one set of rays.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accel/core/statistics.hpp"
+#include "harness/bench/record/csv.hpp"
+#include "harness/bench/record/hardware_counts.hpp"
+#include "harness/bench/record/query_path.hpp"
+#include "harness/rays/resolution.hpp"
+#include "harness/verify/differ.hpp"
+
+namespace beambench::bench {
+
+/// The version of the columns of results.csv, their first one. Counted up when a column changes its
+/// name, meaning or unit or goes away, since a reader of the old ones would err; a new column alone
+/// is no new version. What each means is in scripts/beambench_report/columns.json.
+inline constexpr int kSchemaVersion = 1;
+
+/// What two runs differ by however often each repeats: another process has its code and data at
+/// other addresses (Mytkowicz et al., Producing Wrong Data Without Doing Anything Obviously Wrong!,
+/// ASPLOS 2009), of which a run alone knows nothing. Found by repeating a sweep of 48 cells:
+/// without this allowance 81% and 88% of the medians were found again, not 95%.
+inline constexpr double kBetweenRuns = 0.015;
+
+/// What tells a cell from every other cell of a sweep.
+struct CellId {
+  std::string scene;
+  std::string camera;
+  std::string structure;   ///< the bare name
+  std::string parameters;  ///< all of them, canonical
+  rays::Resolution resolution;
+  int samples;
+  std::string rays;  ///< as `RayChoice::label`
+
+  /// `escena1/default/320x200/1/primary/samet:max_level=6,max_objects=0`.
+  std::string name() const;
+  /// The fingerprint of the name, sixteen hexadecimal digits.
+  std::string key() const;
+};
+
+/// One timed repetition: built, traced, thrown away.
+struct Repetition {
+  int round;     ///< the contenders of a group take turns, one repetition each a round
+  int position;  ///< in the order of that round
+  double build_ms;
+  double trace_ms;
+  double build_cpu_ms;
+  double trace_cpu_ms;
+  HardwareCounts build_counts{};
+  HardwareCounts trace_counts{};
+  /// A second trace of the same structure, which may have kept something of the first.
+  std::optional<double> warm_trace_ms{};
+  /// The rate of the core's clock, measured just before and after.
+  double clock_ghz = 1.0;
+
+  double total_ms() const { return build_ms + trace_ms; }
+  /// Millions of clock cycles: a time that a clock that changes its rate does not change.
+  double total_mcycles() const { return total_ms() * clock_ghz; }
+};
+
+/// Why no further repetition was made.
+enum class StopReason {
+  kPrecision,   ///< the median's interval is as narrow as was wanted
+  kBudget,      ///< the time was up
+  kRepetitions  ///< as many as were allowed
+};
+std::string_view to_string(StopReason reason);  // "precision", "budget", "repetitions"
+
+/// What every row of a run has in common.
+struct RunFacts {
+  std::string run_id;
+  std::string commit;
+  bool dirty;
+  std::string machine_id;
+  std::string build_type;
+  std::string flags;
+  std::string isa;
+  int threads;
+};
+
+/// What every cell of a group has in common.
+struct RaySetFacts {
+  std::uint64_t scene_hash = 0;
+  std::uint64_t rays_hash = 0;
+  std::uint64_t seed = 0;  ///< of a random set of rays; 0 where nothing is random
+  std::uint64_t primitives = 0;
+  std::uint64_t rays = 0;  ///< 0 where they could not be made
+  rays::Query query = rays::Query::kClosestHit;
+  /// By the oracle: of the rays that ask for the closest hit, and of those that ask for any.
+  std::optional<double> hit_share{}, occluded_share{};
+  std::optional<double> coherence{};  ///< between neighbours
+};
+
+/// Work by name.
+using NamedCounters = std::map<std::string, std::uint64_t, std::less<>>;
+
+/// Rays of one kind within a whole picture.
+struct RaysOfKind {
+  std::string kind;  ///< "eye", "reflected", "refracted", "shadow"
+  std::uint64_t rays;
+  NamedCounters counters;
+};
+
+/// What the counting pass found.
+struct CountedWork {
+  NamedCounters counters;         ///< empty where the structure counts nothing
+  std::vector<RaysOfKind> kinds;  ///< of a whole picture: the same kind by kind
+};
+
+/// A cell and all that was found out about it.
+struct CellRecord {
+  std::size_t index;  ///< in the plan of the whole sweep: the order of rows
+  CellId id;
+  RaySetFacts rays;
+  std::string time_utc;  ///< when it was finished
+
+  CountedWork work;
+  /// Absent where the structure could not be built.
+  std::optional<accel::Statistics> statistics;
+  /// By how much the heap grew when it was built (harness/bench/heap.hpp).
+  std::optional<std::uint64_t> allocated_bytes;
+  /// Absent where the structure could not be built.
+  std::optional<HarnessShare> harness;
+  std::vector<Repetition> repetitions;
+  std::optional<StopReason> stop_reason;
+  /// The judgement of the timed buffer, and its fingerprint. Absent where there is none.
+  std::optional<verify::DiffReport> diff;
+  std::optional<std::uint64_t> hits_hash;
+
+  std::string verdict;                ///< a Verdict's name, "error": it could not be built, kNoRays
+  std::string message;                ///< what is wrong, in one sentence; empty when nothing is
+  std::vector<std::string> examples;  ///< disputed rays, described
+
+  /// Are its times worth showing? Only hits that are right (or absent by design) were earned.
+  bool keeps_times() const { return verdict == "ok" || verdict == "baseline"; }
+};
+
+/// One row of results.csv. A cell that does not keep its times has null there.
+Row to_row(const RunFacts& run, const CellRecord& cell);
+
+/// The file of a cell: name, key, row, message, examples, and every repetition.
+nlohmann::ordered_json to_json(const RunFacts& run, const CellRecord& cell);
+
+}  // namespace beambench::bench

@@ -1,0 +1,45 @@
+#pragma once
+// The machine a run was made on, as far as it tells.
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace beambench::bench {
+
+struct Machine {
+  std::string id;  ///< see machine_id
+  std::string cpu;
+  unsigned cores;  ///< that this process may use
+  std::uint64_t memory_bytes;
+  std::string kernel;
+  std::string instructions;  ///< the widest vector instructions it has, "AVX2"
+  bool virtual_machine;      ///< does it say that it runs under a hypervisor?
+  std::uint64_t page_bytes;
+  std::string huge_pages;         ///< "always", "madvise", "never", or empty: transparent ones
+  std::string governor;           ///< of the first core; empty where the system does not tell
+  std::string turbo;              ///< "on", "off", or empty where the system does not tell
+  double load;                    ///< one-minute load average at the time of asking
+  std::uint64_t executable_hash;  ///< of this program's file
+};
+
+Machine inspect_machine();
+
+/// Sixteen hexadecimal digits that differ between machines, without naming them: a fingerprint of
+/// the processor (maker, family, model and stepping, not its name alone, which virtual machines
+/// share) and of the installation (machine-id(5), else the host's name). A machine whose processor
+/// or system is exchanged is another one, for its times are.
+std::string machine_id(std::string_view processor, std::string_view installation);
+
+/// What identifies the first processor in a text laid out as Linux's /proc/cpuinfo, line by line;
+/// empty where the text has nothing of that.
+std::string processor_identity(std::string_view cpuinfo);
+
+/// What of it disturbs timings and cannot be controlled from here, a sentence each.
+std::vector<std::string> disturbances(const Machine& machine);
+
+/// Now in UTC, `2024-05-31T14:07:09Z`.
+std::string utc_now();
+
+}  // namespace beambench::bench

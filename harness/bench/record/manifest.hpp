@@ -1,0 +1,55 @@
+#pragma once
+// The manifest of a run: what was measured, by what, where, and what could not be controlled.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/bench/record/cell_record.hpp"
+#include "harness/bench/record/machine.hpp"
+#include "harness/plugin/load_plugin.hpp"
+
+namespace beambench::bench {
+
+/// One scene of a run.
+struct SceneFacts {
+  std::string name;
+  std::uint64_t hash;
+  std::uint64_t primitives;
+};
+
+/// How the timed code was run.
+struct MeasurementFacts {
+  bool flush_to_zero;     ///< MXCSR's FTZ and DAZ bits were set for every contender
+  int pinned_core;        ///< -1 where the thread could not be pinned
+  unsigned control_word;  ///< MXCSR in the timed code
+  double warm_up_seconds;
+  std::string simd_target;       ///< Highway's best on this machine, what our own SIMD runs on
+  std::optional<double> noise;   ///< of equal work in the warm-up (harness/bench/noise.hpp)
+  std::string hardware_problem;  ///< why the processor's counters are not read; empty: they are
+};
+
+struct Manifest {
+  RunFacts run;
+  std::string sweep;  ///< the configuration's name
+  std::string begun_utc;
+  std::string part_begun_utc;  ///< later than `begun_utc` when the run was cut off and goes on
+  std::string finished_utc;    ///< empty while the run goes on, or when it was cut off
+  Machine machine;
+  MeasurementFacts measurement;
+  std::vector<plugin::LoadedPlugin> plugins;
+  std::vector<SceneFacts> scenes;
+  nlohmann::ordered_json overhead;        ///< of the harness, by `null`; null where it is not known
+  std::vector<std::string> uncontrolled;  ///< sentences
+  /// The conditions of the parts that the run had before it was cut off and went on.
+  nlohmann::ordered_json earlier_parts = nlohmann::ordered_json::array();
+};
+
+/// Makes `now` the manifest of the run that was begun under `before` (its file) and goes on.
+void go_on(Manifest& now, const nlohmann::ordered_json& before);
+
+nlohmann::ordered_json to_json(const Manifest& manifest);
+
+}  // namespace beambench::bench

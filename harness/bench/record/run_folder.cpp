@@ -1,0 +1,138 @@
+#include "harness/bench/record/run_folder.hpp"
+
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "harness/bench/record/csv.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/input_file.hpp"
+#include "scenes/core/pending_file.hpp"
+
+namespace beambench::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr const char* kCells = "cells";
+constexpr const char* kManifest = "manifest.json";
+constexpr const char* kResults = "results.csv";
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) {
+    throw InputError(fmt::format("cannot make the folder '{}': {}; choose another with -o",
+                                 path.string(), error.message()));
+  }
+}
+
+Json parse_file(const fs::path& path) {
+  constexpr const char* kRemedy =
+      "remove a cell's file to have the cell measured again, or begin a new run with -o";
+  try {
+    Json document = Json::parse(read_input(path), nullptr, /*allow_exceptions=*/false);
+    if (!document.is_discarded()) return document;
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}; {}", error.what(), kRemedy));
+  }
+  throw InputError(fmt::format("cannot read '{}', which a run should have left whole; {}",
+                               path.string(), kRemedy));
+}
+
+void remove_left_behind(const fs::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (is_left_behind(entry.path())) fs::remove(entry.path(), ignored);
+  }
+}
+
+/// A run that was killed before its manifest was whole has measured nothing and counts as none.
+bool holds_run(const fs::path& path) {
+  const fs::path cells = path / kCells;
+  return fs::exists(path / kManifest) || fs::exists(path / kResults) ||
+         (fs::exists(cells) && !fs::is_empty(cells));
+}
+
+}  // namespace
+
+void require_run(const fs::path& folder) {
+  if (fs::exists(folder / kManifest)) return;
+  throw InputError(fmt::format("'{}' holds no run to resume: there is no {}; begin one with -o",
+                               folder.string(), kManifest));
+}
+
+RunFolder RunFolder::create(const fs::path& path) {
+  make_folder(path);
+  RunFolder folder(path);
+  if (holds_run(path)) {
+    throw InputError(
+        fmt::format("'{}' already holds a run; go on with it by --resume '{}', or "
+                    "choose another folder with -o",
+                    path.string(), path.string()));
+  }
+  make_folder(path / kCells);
+  remove_left_behind(path);
+  return folder;
+}
+
+RunFolder RunFolder::open(const fs::path& path) {
+  require_run(path);
+  RunFolder folder(path);
+  make_folder(path / kCells);
+  remove_left_behind(path);
+  remove_left_behind(path / kCells);
+  folder.load_cells();
+  return folder;
+}
+
+Json RunFolder::read_json(const std::string& name) const { return parse_file(path_ / name); }
+
+void RunFolder::write_json(const std::string& name, const Json& document) const {
+  write_text(name, document.dump(2) + '\n');
+}
+
+void RunFolder::write_text(const std::string& name, const std::string& text) const {
+  write_file(path_ / name, text);
+}
+
+void RunFolder::add_cell(const Json& cell) {
+  const auto key = cell.at("key").get<std::string>();
+  write_file(path_ / kCells / (key + ".json"), cell.dump(2) + '\n');
+  remember(cell);
+  write_results();
+}
+
+std::vector<Json> RunFolder::cells() const {
+  std::vector<Json> list;
+  for (const auto& [index, cell] : cells_) list.push_back(cell);
+  return list;
+}
+
+void RunFolder::load_cells() {
+  for (const auto& entry : fs::directory_iterator(path_ / kCells)) {
+    if (entry.path().extension() != ".json") continue;
+    Json cell = parse_file(entry.path());
+    for (const char* member : {"index", "key", "row", "repetitions", "name", "message"}) {
+      if (cell.contains(member)) continue;
+      throw InputError(fmt::format("'{}' is not a cell of a run: it has no '{}'; remove it",
+                                   entry.path().string(), member));
+    }
+    remember(std::move(cell));
+  }
+}
+
+void RunFolder::remember(Json cell) {
+  keys_.insert(cell.at("key").get<std::string>());
+  const auto index = cell.at("index").get<std::size_t>();
+  cells_.insert_or_assign(index, std::move(cell));
+}
+
+void RunFolder::write_results() const {
+  std::vector<Row> rows;
+  for (const auto& [index, cell] : cells_) rows.push_back(cell.at("row"));
+  write_text(kResults, csv_table(rows));
+}
+
+}  // namespace beambench::bench

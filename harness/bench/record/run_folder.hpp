@@ -1,0 +1,57 @@
+#pragma once
+// The folder of a run: one file for each finished cell, and all that is derived from them.
+
+#include <filesystem>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "scenes/core/folder_lock.hpp"
+
+namespace beambench::bench {
+
+/// Keeps what is finished, whatever happens next (Ctrl-C, a kill, a full disk, a power loss):
+/// `cells/<key>.json` is whole or not there, results.csv is made anew from the cells after each,
+/// and a folder with a manifest.json holds a run. One process at a time may have a folder. Methods
+/// throw InputError when the folder cannot be written.
+class RunFolder {
+ public:
+  /// Makes a folder for a new run; throws InputError when it already holds one.
+  static RunFolder create(const std::filesystem::path& path);
+  /// Opens the folder of a run that was begun; throws InputError when it holds none or a file of it
+  /// cannot be read. What a kill left half-written is removed.
+  static RunFolder open(const std::filesystem::path& path);
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path results() const { return path_ / "results.csv"; }
+
+  nlohmann::ordered_json read_json(const std::string& name) const;
+  void write_json(const std::string& name, const nlohmann::ordered_json& document) const;
+  void write_text(const std::string& name, const std::string& text) const;
+
+  bool has_cell(const std::string& key) const { return keys_.contains(key); }
+  /// Keeps a finished cell and brings results.csv up to date.
+  void add_cell(const nlohmann::ordered_json& cell);
+  /// Makes results.csv from the cells: a kill may have come between a cell and its row.
+  void write_results() const;
+  /// All finished cells in the order of the plan.
+  std::vector<nlohmann::ordered_json> cells() const;
+
+ private:
+  explicit RunFolder(std::filesystem::path path) : path_(std::move(path)), lock_(path_) {}
+  void load_cells();
+  void remember(nlohmann::ordered_json cell);
+
+  std::filesystem::path path_;
+  FolderLock lock_;
+  std::set<std::string> keys_;
+  std::map<std::size_t, nlohmann::ordered_json> cells_;  ///< by index in the plan
+};
+
+/// Throws InputError when a folder holds no run that could go on.
+void require_run(const std::filesystem::path& folder);
+
+}  // namespace beambench::bench

@@ -1,0 +1,76 @@
+#pragma once
+// What the contenders of a group are asked, whatever it is.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accel/core/accelerator.hpp"
+#include "accel/core/registry.hpp"
+#include "harness/bench/plan.hpp"
+#include "harness/bench/record/cell_record.hpp"
+#include "harness/verify/differ.hpp"
+
+namespace beambench::bench {
+
+/// What is found out about answers.
+struct Judgement {
+  verify::DiffReport report;
+  std::vector<std::string> examples;  ///< disputed rays, described, where the verdict is bad
+};
+
+/// Rays, and room for one set of answers: contenders take turns.
+class Task {
+ public:
+  Task(const Task&) = delete;
+  Task& operator=(const Task&) = delete;
+  virtual ~Task() = default;
+
+  const scenes::Scene& scene() const { return *group_.scene; }
+  const RaySetFacts& facts() const { return facts_; }
+  accel::Workload workload() const {
+    return {group_.camera, static_cast<std::size_t>(facts_.rays), group_.threads};
+  }
+
+  /// What should be known of the rays themselves; nothing where they are as one expects.
+  virtual std::optional<std::string> warning() const { return std::nullopt; }
+
+  /// Overwrites all answers with some that cannot be: the differ finds every one left unwritten.
+  virtual void poison() = 0;
+  /// Asks a structure. What is timed.
+  virtual void ask(const accel::Accelerator& structure) = 0;
+  /// The same, counting work.
+  virtual CountedWork count(const accel::Accelerator& structure) = 0;
+  /// Of all answers, bit for bit.
+  virtual std::uint64_t fingerprint() const = 0;
+  /// Judges the answers; may ask `structure`, which `choice` has built, again for them.
+  virtual Judgement judge(const accel::Accelerator& structure,
+                          const accel::StructureChoice& choice) = 0;
+
+  /// How `structure` is asked, and the harness's own share of a trace by that way, which is
+  /// measured when it is wanted first. Overwrites all answers.
+  HarnessShare harness_share(const accel::Accelerator& structure);
+
+ protected:
+  /// The group must outlive it.
+  explicit Task(const CellGroup& group) : group_(group) {}
+
+  virtual QueryPath path_of(const accel::Accelerator& structure) const = 0;
+  /// What a trace by `path`, which is not the structure's own, takes where answers cost nothing.
+  virtual double measure_harness_ms(QueryPath path) = 0;
+
+  const CellGroup& group_;
+  RaySetFacts facts_;
+
+ private:
+  std::map<QueryPath, double> harness_ms_;
+};
+
+/// The task of a group. `core` is to measure the harness's own time on (-1: any). Throws as
+/// `make_question`.
+std::unique_ptr<Task> make_task(const CellGroup& group, std::uint64_t scene_hash, int core);
+
+}  // namespace beambench::bench

@@ -1,0 +1,37 @@
+#pragma once
+// A picture in memory.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+namespace beambench::render {
+
+/// Pixels row by row from the top left, in linear light of the sRGB primaries.
+class Image {
+ public:
+  Image(int width, int height, const glm::vec3& fill = glm::vec3(0.0F))
+      : width_(width),
+        height_(height),
+        pixels_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), fill) {}
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  glm::vec3& at(int x, int y) { return pixels_[index(x, y)]; }
+  const glm::vec3& at(int x, int y) const { return pixels_[index(x, y)]; }
+  std::span<const glm::vec3> pixels() const { return pixels_; }
+
+ private:
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+
+  int width_;
+  int height_;
+  std::vector<glm::vec3> pixels_;
+};
+
+}  // namespace beambench::render

@@ -1,0 +1,35 @@
+#pragma once
+// Pictures as files, through OpenImageIO.
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "harness/render/picture/image.hpp"
+
+namespace beambench::render {
+
+/// What a format can hold.
+enum class ImageFormat {
+  kPng,  ///< 8 bits of sRGB for each of R, G, B; data channels are left out
+  kExr   ///< linear float R, G, B, and the data channels as they are
+};
+
+/// The format by the file's ending. Throws InputError unless that is .png or .exr.
+ImageFormat image_format(const std::filesystem::path& file);
+
+/// One number for each pixel beside its colour: depth, ids, counters.
+struct DataChannel {
+  std::string name;
+  std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
+};
+
+/// Writes the file whole or not at all. Throws InputError when it cannot be written, and
+/// std::logic_error when a channel has not one value for each pixel.
+void write_image(const std::filesystem::path& file, const Image& image,
+                 std::span<const DataChannel> data = {});
+
+}  // namespace beambench::render

@@ -1,0 +1,47 @@
+#pragma once
+// How many rays of which kind a picture took.
+
+#include <cstdint>
+
+namespace beambench::render {
+
+/// Rays by kind, as the literature counts them (Haines, "A proposal for standard graphics
+/// environments", IEEE CG&A 7(11), 1987).
+struct RayCensus {
+  std::uint64_t eye = 0;
+  std::uint64_t eye_hits = 0;
+  std::uint64_t reflected = 0;
+  std::uint64_t refracted = 0;
+  std::uint64_t totally_reflected = 0;  ///< of the reflected: in place of a refracted ray
+  std::uint64_t secondary_hits = 0;     ///< of reflected and refracted rays
+  std::uint64_t too_faint = 0;          ///< not traced: too small a part of the pixel's colour
+  std::uint64_t shadow = 0;             ///< a point and a light that its side of the surface faces
+  std::uint64_t shadow_hidden = 0;      ///< of these: the light is hidden by something opaque
+  std::uint64_t shadow_cached = 0;      ///< of these: the shadow cache knew it
+  std::uint64_t shadow_listed = 0;      ///< of all shadow rays: the light buffer answered
+  std::uint64_t shadow_tests = 0;       ///< ray-primitive tests of cache and light buffer
+  std::uint64_t shadow_queries = 0;     ///< closest-hit and any-hit queries for shadow rays
+
+  /// Rays of all kinds.
+  std::uint64_t all_rays() const { return eye + reflected + refracted + shadow; }
+
+  RayCensus& operator+=(const RayCensus& other) {
+    eye += other.eye;
+    eye_hits += other.eye_hits;
+    reflected += other.reflected;
+    refracted += other.refracted;
+    totally_reflected += other.totally_reflected;
+    secondary_hits += other.secondary_hits;
+    too_faint += other.too_faint;
+    shadow += other.shadow;
+    shadow_hidden += other.shadow_hidden;
+    shadow_cached += other.shadow_cached;
+    shadow_listed += other.shadow_listed;
+    shadow_tests += other.shadow_tests;
+    shadow_queries += other.shadow_queries;
+    return *this;
+  }
+  friend bool operator==(const RayCensus&, const RayCensus&) = default;
+};
+
+}  // namespace beambench::render

@@ -1,0 +1,102 @@
+#include "harness/render/texture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "harness/render/noise.hpp"
+
+namespace beambench::render {
+namespace {
+
+using glm::dvec3;
+
+/// How many times the largest feature of a texture fits into the scene's longest side.
+constexpr double kFeatures = 12.0;
+
+double smooth_step(double low, double high, double x) {
+  const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
+  return t * t * (3.0 - 2.0 * t);
+}
+
+/// Layers bent by turbulence, thin dark veins between them (Perlin 1985).
+dvec3 marble(const dvec3& p, const dvec3& stone, const dvec3& vein) {
+  const double layer = std::sin(2.0 * p.x + 1.0 * p.y + 6.0 * turbulence(p, 5));
+  const double vein_share = std::pow(0.5 + 0.5 * layer, 6.0);
+  const double cloud = 0.12 * fractal_noise(0.7 * p, 3);
+  return glm::clamp(glm::mix(stone * (1.0 + cloud), vein, vein_share), 0.0, 1.0);
+}
+
+/// Grains of two stones in a third.
+dvec3 granite(const dvec3& p, const dvec3& mean) {
+  const double dark = smooth_step(0.05, 0.25, fractal_noise(6.0 * p, 3));
+  const double light = smooth_step(0.1, 0.3, fractal_noise(5.0 * p + dvec3(17.0), 3));
+  dvec3 color = glm::mix(mean, 0.35 * mean, dark);
+  color = glm::mix(color, glm::min(1.45 * mean, dvec3(1.0)), light);
+  return color * (1.0 + 0.15 * gradient_noise(14.0 * p));
+}
+
+/// Rings about an axis that leans, and grain along it.
+dvec3 wood(const dvec3& p, const dvec3& early, const dvec3& late) {
+  const dvec3 bent =
+      p + 0.25 * dvec3(fractal_noise(0.5 * p, 2), fractal_noise(0.5 * p + 9.0, 2), 0.0);
+  const double from_axis = std::hypot(bent.x + 0.2 * bent.z, bent.y);
+  const double ring = from_axis * 3.0;
+  const double in_ring = ring - std::floor(ring);
+  const double late_share =
+      smooth_step(0.2, 0.85, in_ring) * (1.0 - smooth_step(0.9, 1.0, in_ring));
+  const double grain = 0.08 * gradient_noise(dvec3(20.0, 20.0, 1.5) * p);
+  return glm::clamp(glm::mix(early, late, late_share) * (1.0 + grain), 0.0, 1.0);
+}
+
+dvec3 clouds(const dvec3& p) {
+  const double cover = smooth_step(-0.15, 0.55, fractal_noise(0.8 * p, 6));
+  return glm::mix(dvec3(0.36, 0.58, 0.9), dvec3(1.0), cover);
+}
+
+}  // namespace
+
+TextureSpace::TextureSpace(const scenes::Scene& scene) {
+  if (scene.primitives.empty()) return;
+  const dvec3 low(scene.bounds.lower);
+  const dvec3 high(scene.bounds.upper);
+  const dvec3 size = high - low;
+  const double longest = std::max({size.x, size.y, size.z});
+  middle_ = 0.5 * (low + high);
+  if (longest > 0.0) scale_ = kFeatures / longest;
+}
+
+dvec3 TextureSpace::color_at(const scenes::Surface& surface, const dvec3& point) const {
+  const dvec3 p = (point - middle_) * scale_;
+  const dvec3 own(surface.color);
+  switch (surface.finish) {
+    case scenes::Finish::kGranite:
+      return granite(p, own);
+    case scenes::Finish::kBlackMarble:
+      return marble(p, own, dvec3(0.75, 0.73, 0.7));
+    case scenes::Finish::kBlueMarble:
+      return marble(p, own, dvec3(0.88, 0.9, 0.95));
+    case scenes::Finish::kRedMarble:
+      return marble(p, own, dvec3(0.92, 0.82, 0.78));
+    case scenes::Finish::kWhiteMarble:
+      return marble(p, own, dvec3(0.38, 0.4, 0.44));
+    case scenes::Finish::kCherryWood:
+      return wood(p, own * 1.15, own * 0.6);
+    case scenes::Finish::kDarkWood:
+      return wood(p, own * 1.2, own * 0.5);
+    case scenes::Finish::kPineWood:
+      return wood(p, own * 1.05, own * dvec3(0.75, 0.62, 0.5));
+    case scenes::Finish::kClouds:
+      return clouds(p);
+    case scenes::Finish::kPlain:
+    case scenes::Finish::kReflect:
+    case scenes::Finish::kGlass:
+    case scenes::Finish::kShiny:
+      break;
+  }
+  return own;
+}
+
+}  // namespace beambench::render

@@ -1,0 +1,213 @@
+#include "harness/verify/differ.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <tbb/parallel_for.h>
+
+#include "harness/verify/classify.hpp"
+#include "harness/verify/judge_ray.hpp"
+
+namespace beambench::verify {
+namespace {
+
+constexpr std::uint64_t kEnoughErrors = 64;
+constexpr std::uint64_t kSearchBudget = 400'000'000;  // primitive tests
+constexpr std::size_t kBatch = 64;                    // rays searched at once, on all cores
+
+double graze_budget(std::uint64_t rays) { return std::max(2.0, 1e-4 * static_cast<double>(rays)); }
+
+/// The judging of one structure's answers.
+class Judge {
+ public:
+  Judge(const ReferenceHits& reference, const rays::Answers& answers, std::span<DiffClass> classes)
+      : scene_(reference.scene()),
+        question_(reference.question()),
+        hits_(reference.hits()),
+        answers_(answers),
+        classes_(classes) {
+    report_.rays = question_.size();
+    report_.hits = reference.hit_count();
+    std::fill(classes_.begin(), classes_.end(), DiffClass::kAgree);
+  }
+
+  DiffReport against_oracle() {
+    std::vector<std::size_t> disputed;
+    for (std::size_t i = 0; i < question_.size(); ++i) {
+      if (agrees_at_once(i)) continue;
+      Mismatch found = mismatch(i);
+      if (settle_by_rules(scene_, tolerance_of(found), found)) {
+        record(found);
+      } else {
+        disputed.push_back(i);
+      }
+    }
+    agree_with_the_rest(disputed.size());
+    adjudicate(disputed);
+    return finish(judge_counts());
+  }
+
+  DiffReport as_baseline() {
+    for (std::size_t i = 0; i < question_.size(); ++i) {
+      if (is_silent(i)) continue;
+      Mismatch found = mismatch(i);
+      settle_as_baseline(found);
+      record(found);
+    }
+    const bool silent = report_.count(DiffClass::kEngineError) == 0;
+    return finish(silent ? Verdict::kBaseline : Verdict::kMismatch);
+  }
+
+ private:
+  double tolerance_of(const Mismatch& found) const { return tolerance(scene_, found.ray.origin); }
+
+  static accel::Hit answer(const accel::HitBuffer& hits, std::size_t i) {
+    return {hits.t()[i], hits.primitive()[i]};
+  }
+  static bool is_miss(const accel::Hit& hit) {
+    return hit == accel::Hit{accel::kInfinity, scenes::kNoPrimitive};
+  }
+
+  bool is_silent(std::size_t i) const {
+    if (const auto* any = std::get_if<rays::AnyHits>(&answers_)) return (*any)[i] == 0;
+    return is_miss(answer(std::get<accel::HitBuffer>(answers_), i));
+  }
+
+  /// Nearly every ray of a right structure ends here: the same primitive, and so near that the
+  /// angle of incidence does not matter.
+  bool agrees_at_once(std::size_t i) const {
+    if (const auto* any = std::get_if<rays::AnyHits>(&answers_)) {
+      return (*any)[i] == (hits_[i] ? 1 : 0);
+    }
+    const accel::Hit hit = answer(std::get<accel::HitBuffer>(answers_), i);
+    if (!hits_[i]) return is_miss(hit);
+    if (hit.primitive != hits_[i]->primitive) return false;
+    const double apart = std::abs(static_cast<double>(hit.t) - hits_[i]->t);
+    const accel::Ray ray = question_.ray(i);
+    const double near = tolerance(scene_, ray.origin);
+    const glm::dvec3 direction(ray.direction);
+    return hit.t >= ray.t_min && hit.t <= ray.t_max &&
+           apart * apart * glm::dot(direction, direction) <= near * near;
+  }
+
+  Mismatch mismatch(std::size_t i) const { return ask_again(question_, answers_, i, hits_[i]); }
+
+  void agree_with_the_rest(std::size_t disputed) {
+    std::uint64_t others = disputed;
+    for (const std::uint64_t count : report_.counts) others += count;
+    report_.counts[static_cast<std::size_t>(DiffClass::kAgree)] += report_.rays - others;
+  }
+
+  /// Rule 4, batch by batch, so that the outcome does not depend on the number of threads.
+  void adjudicate(const std::vector<std::size_t>& disputed) {
+    std::uint64_t tests = 0;
+    std::vector<Mismatch> batch;
+    for (std::size_t first = 0; first < disputed.size(); first += kBatch) {
+      const std::size_t last = std::min(first + kBatch, disputed.size());
+      batch.clear();
+      for (std::size_t i = first; i < last; ++i) batch.push_back(mismatch(disputed[i]));
+      if (report_.count(DiffClass::kEngineError) < kEnoughErrors && tests < kSearchBudget) {
+        tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
+          beambench::verify::adjudicate(scene_, tolerance_of(batch[i]), batch[i]);
+        });
+        tests += batch.size() * (scene_.triangles.size() + scene_.primitives.size());
+      } else {
+        for (Mismatch& found : batch) presume_error(found);
+      }
+      for (const Mismatch& found : batch) record(found);
+    }
+  }
+
+  static void presume_error(Mismatch& found) {
+    found.diff_class = DiffClass::kEngineError;
+    found.reason = "disputed, and not searched since enough errors or tests were counted before";
+  }
+
+  void record(const Mismatch& found) {
+    std::uint64_t& count = report_.counts[static_cast<std::size_t>(found.diff_class)];
+    if (found.diff_class != DiffClass::kAgree && count < DiffReport::kMaxExamples) {
+      report_.examples.push_back(found);
+    }
+    ++count;
+    if (!classes_.empty()) classes_[found.index] = found.diff_class;
+  }
+
+  Verdict judge_counts() const {
+    if (report_.count(DiffClass::kEngineError) > 0) return Verdict::kMismatch;
+    const auto grazes = static_cast<double>(report_.count(DiffClass::kGraze));
+    return grazes > graze_budget(report_.rays) ? Verdict::kGrazes : Verdict::kOk;
+  }
+
+  DiffReport finish(Verdict verdict) {
+    // Errors of the structure first, then the oracle's, grazes and ties; by pixel within a class.
+    const auto rank = [](const Mismatch& m) {
+      return m.diff_class == DiffClass::kEngineError ? -10 : -static_cast<int>(m.diff_class);
+    };
+    std::stable_sort(report_.examples.begin(), report_.examples.end(),
+                     [&](const Mismatch& a, const Mismatch& b) { return rank(a) < rank(b); });
+    report_.verdict = verdict;
+    return std::move(report_);
+  }
+
+  const scenes::Scene& scene_;
+  const rays::Question& question_;
+  std::span<const std::optional<accel::embree::ExactHit>> hits_;
+  const rays::Answers& answers_;
+  std::span<DiffClass> classes_;
+  DiffReport report_;
+};
+
+std::array<std::size_t, 3> shape_of(const rays::Answers& answers) {
+  if (const auto* any = std::get_if<rays::AnyHits>(&answers)) return {any->size(), 1, 0};
+  const auto& hits = std::get<accel::HitBuffer>(answers);
+  return {static_cast<std::size_t>(hits.width()), static_cast<std::size_t>(hits.height()),
+          static_cast<std::size_t>(hits.samples())};
+}
+
+std::array<std::size_t, 3> shape_of(const rays::Question& question) {
+  if (question.query() == rays::Query::kAnyHit) return {question.size(), 1, 0};
+  const accel::PrimaryRays* image = question.image();
+  if (image == nullptr) return {question.size(), 1, 1};
+  return {static_cast<std::size_t>(image->width()), static_cast<std::size_t>(image->height()),
+          static_cast<std::size_t>(image->samples())};
+}
+
+void require_shape(const rays::Question& question, const rays::Answers& answers) {
+  const auto given = shape_of(answers);
+  const auto expected = shape_of(question);
+  if (given == expected) return;
+  throw std::logic_error(fmt::format("answers of {}x{}x{} are judged by rays of {}x{}x{}", given[0],
+                                     given[1], given[2], expected[0], expected[1], expected[2]));
+}
+
+}  // namespace
+
+std::string_view to_string(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kOk:
+      return "ok";
+    case Verdict::kMismatch:
+      return "mismatch";
+    case Verdict::kGrazes:
+      return "grazes";
+    case Verdict::kBaseline:
+      return "baseline";
+  }
+  return "unknown";
+}
+
+DiffReport judge(const ReferenceHits& reference, const rays::Answers& answers,
+                 accel::Conformance conformance, std::span<DiffClass> classes) {
+  require_shape(reference.question(), answers);
+  if (!classes.empty() && classes.size() != reference.question().size()) {
+    throw std::logic_error("the classes need one place for each ray");
+  }
+  Judge judging(reference, answers, classes);
+  return conformance == accel::Conformance::kBaseline ? judging.as_baseline()
+                                                      : judging.against_oracle();
+}
+
+}  // namespace beambench::verify

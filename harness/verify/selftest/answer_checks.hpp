@@ -1,0 +1,16 @@
+#pragma once
+// Checks of a structure's answers against the right ones.
+
+#include "harness/verify/selftest/selftest.hpp"
+
+namespace beambench::verify {
+
+CheckOutcome check_random_scenes(const Subject& subject, const SelftestEffort& effort);
+CheckOutcome check_scene_families(const Subject& subject, const SelftestEffort& effort);
+CheckOutcome check_images(const Subject& subject, const SelftestEffort& effort);
+CheckOutcome check_smallest_scenes(const Subject& subject, const SelftestEffort& effort);
+CheckOutcome check_faces_edges_corners(const Subject& subject, const SelftestEffort& effort);
+CheckOutcome check_heap(const Subject& subject, const SelftestEffort& effort);
+CheckOutcome check_degenerate_rays(const Subject& subject, const SelftestEffort& effort);
+
+}  // namespace beambench::verify

@@ -1,0 +1,258 @@
+#include "harness/verify/selftest/behaviour_checks.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <thread>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "harness/rays/answers.hpp"
+#include "harness/verify/selftest/hit_comparison.hpp"
+#include "harness/verify/selftest/random_scene.hpp"
+
+namespace beambench::verify {
+namespace {
+
+constexpr int kPrimitives = 40;
+
+using Counts = std::map<std::string, std::uint64_t, std::less<>>;
+
+/// A scene and rays for all these checks: no multiple of a packet's size, some of them short.
+struct Ground {
+  Ground(const Subject& subject, std::uint64_t seed)
+      : scene(random_scene(seed, kPrimitives, subject.kinds())) {
+    Random random(seed);
+    for (int i = 0; i < 503; ++i) {
+      rays.push_back(random_ray(scene, random));
+      if (i % 3 == 0) rays.back().t_max = 0.5F * static_cast<float>(i);
+    }
+  }
+
+  accel::PrimaryRays image() const { return {scene.cameras.front(), 37, 23, 5}; }
+
+  scenes::Scene scene;
+  std::vector<accel::Ray> rays;
+};
+
+/// All that a structure can be asked.
+std::vector<rays::Question> questions(const Ground& ground) {
+  return {rays::Question(
+              rays::RaySet{"closest", rays::Query::kClosestHit, 0, std::nullopt, ground.rays}),
+          rays::Question(rays::RaySet{"any", rays::Query::kAnyHit, 0, std::nullopt, ground.rays}),
+          rays::Question(ground.image())};
+}
+
+/// Nothing of an earlier answer can be taken for one of these.
+template <class... Counters>
+rays::Answers asked(const accel::Accelerator& structure, const rays::Question& question,
+                    Counters&... counters) {
+  rays::Answers answers = rays::room_for(question);
+  rays::poison(answers);
+  rays::ask(structure, question, answers, counters...);
+  return answers;
+}
+
+std::string first_difference(const rays::Answers& a, const rays::Answers& b,
+                             std::string_view what) {
+  if (a == b) return "";
+  return fmt::format("{} are not the same", what);
+}
+
+/// Times, which some families count, too, are their own each time.
+std::string first_difference(const Counts& a, const Counts& b) {
+  for (const auto& [name, count] : a) {
+    if (name.ends_with("_ns")) continue;
+    const auto other = b.find(name);
+    if (other == b.end() || other->second != count) {
+      return fmt::format("two builds count {} {} and {} for the same rays", count, name,
+                         other == b.end() ? 0 : other->second);
+    }
+  }
+  return a.size() == b.size() ? "" : "two builds count other things";
+}
+
+/// What is wrong with the counters of one ray; empty: nothing.
+std::string impossible_count(const accel::Ray& ray, bool hit, const accel::WorkCounters& counters) {
+  const auto count = [&](accel::Counter counter) { return counters.get(counter); };
+  if (hit && count(accel::Counter::kPrimitiveTests) == 0) {
+    return show(ray) + " found a hit without a primitive test counted";
+  }
+  if (count(accel::Counter::kEmptyLeaves) > count(accel::Counter::kLeaves)) {
+    return show(ray) + " entered more empty leaves than leaves";
+  }
+  if (count(accel::Counter::kLeaves) > count(accel::Counter::kTraversalSteps)) {
+    return show(ray) + " entered more leaves than nodes or cells, which include them";
+  }
+  return "";
+}
+
+}  // namespace
+
+CheckOutcome check_lists(const Subject& subject, const SelftestEffort& effort) {
+  const Ground ground(subject, effort.seed);
+  const auto structure = subject.build(ground.scene);
+  const std::vector<rays::Question> all = questions(ground);
+  const auto closest = std::get<accel::HitBuffer>(asked(*structure, all[0]));
+  const auto any = std::get<rays::AnyHits>(asked(*structure, all[1]));
+  for (std::size_t i = 0; i < ground.rays.size(); ++i) {
+    const accel::Ray& ray = ground.rays[i];
+    const accel::Hit written{closest.t()[i], closest.primitive()[i]};
+    const auto alone = structure->closest_hit(ray);
+    if (written != alone.value_or(accel::Hit{accel::kInfinity, scenes::kNoPrimitive})) {
+      return {
+          ground.rays.size(),
+          fmt::format("{} gets {} alone, but t {:a} and primitive {} in a list (a miss is "
+                      "infinity and {})",
+                      show(ray), show(alone), written.t, written.primitive, scenes::kNoPrimitive)};
+    }
+    if (any[i] != (structure->any_hit(ray) ? 1 : 0)) {
+      return {ground.rays.size(), fmt::format("any_hit of {} is {} alone, but {} in a list",
+                                              show(ray), structure->any_hit(ray), any[i])};
+    }
+  }
+  return {ground.rays.size(), ""};
+}
+
+CheckOutcome check_counting(const Subject& subject, const SelftestEffort& effort) {
+  const Ground ground(subject, effort.seed);
+  const auto structure = subject.build(ground.scene);
+  CheckOutcome outcome;
+  accel::WorkCounters counters;
+  for (const rays::Question& question : questions(ground)) {
+    outcome.rays += question.size();
+    outcome.failure =
+        first_difference(asked(*structure, question), asked(*structure, question, counters),
+                         "answers with and without counting");
+    if (!outcome.passed()) return outcome;
+  }
+  for (const accel::Ray& ray : ground.rays) {
+    if (structure->closest_hit(ray) != structure->closest_hit(ray, counters) ||
+        structure->any_hit(ray) != structure->any_hit(ray, counters)) {
+      outcome.failure = show(ray) + " gets another answer when work is counted";
+      return outcome;
+    }
+  }
+  return outcome;
+}
+
+CheckOutcome check_two_builds(const Subject& subject, const SelftestEffort& effort) {
+  const Ground ground(subject, effort.seed);
+  const auto first = subject.build(ground.scene);
+  const auto second = subject.build(ground.scene);
+  CheckOutcome outcome;
+  for (const rays::Question& question : questions(ground)) {
+    outcome.rays += question.size();
+    accel::WorkCounters counters_of_first;
+    accel::WorkCounters counters_of_second;
+    outcome.failure =
+        first_difference(asked(*first, question, counters_of_first),
+                         asked(*second, question, counters_of_second), "the answers of two builds");
+    if (outcome.passed()) {
+      outcome.failure = first_difference(counters_of_first.by_name(), counters_of_second.by_name());
+    }
+    if (!outcome.passed()) return outcome;
+  }
+  const accel::Statistics a = first->statistics();
+  const accel::Statistics b = second->statistics();
+  if (a.nodes != b.nodes || a.leaves != b.leaves || a.references != b.references ||
+      a.depth != b.depth) {
+    outcome.failure = "two builds over one scene have other nodes, leaves, references or depth";
+  }
+  return outcome;
+}
+
+CheckOutcome check_threads(const Subject& subject, const SelftestEffort& effort) {
+  const Ground ground(subject, effort.seed);
+  const auto structure = subject.build(ground.scene);
+  const std::vector<rays::Question> all = questions(ground);
+  const rays::Answers closest = asked(*structure, all[0]);
+  const rays::Answers any = asked(*structure, all[1]);
+  std::array<std::string, 4> wrong;
+  {
+    std::vector<std::jthread> threads;
+    threads.reserve(wrong.size());
+    for (std::string& mine : wrong) {
+      threads.emplace_back([&] {
+        try {
+          for (int again = 0; again < 3; ++again) {
+            if (asked(*structure, all[0]) != closest || asked(*structure, all[1]) != any) {
+              mine = "four threads at once get other answers than one alone";
+            }
+          }
+        } catch (const std::exception& error) {
+          mine = error.what();
+        }
+      });
+    }
+  }
+  CheckOutcome outcome{wrong.size() * 3 * 2 * ground.rays.size(), ""};
+  for (const std::string& one : wrong) {
+    if (!one.empty()) outcome.failure = one;
+  }
+  return outcome;
+}
+
+CheckOutcome check_counters(const Subject& subject, const SelftestEffort& effort) {
+  const Ground ground(subject, effort.seed);
+  const auto structure = subject.build(ground.scene);
+  CheckOutcome outcome;
+  accel::WorkCounters all;
+  for (const accel::Ray& ray : ground.rays) {
+    ++outcome.rays;
+    accel::WorkCounters counters;
+    const auto hit = structure->closest_hit(ray, counters);
+    all.add(counters);
+    if (outcome.passed()) outcome.failure = impossible_count(ray, hit.has_value(), counters);
+  }
+  // A structure need not count; then records leave its counters empty.
+  const bool counts =
+      std::ranges::any_of(all.by_name(), [](const auto& c) { return c.second > 0; });
+  return counts ? outcome : CheckOutcome{outcome.rays, ""};
+}
+
+CheckOutcome check_statistics(const Subject& subject, const SelftestEffort& effort) {
+  const Ground ground(subject, effort.seed);
+  const accel::Statistics told = subject.build(ground.scene)->statistics();
+  const auto wrong = [](std::string what) { return CheckOutcome{0, std::move(what)}; };
+  if (told.leaves > told.nodes)
+    return wrong("there are more leaves than nodes, which include them");
+  if (told.empty_leaves > told.leaves) return wrong("there are more empty leaves than leaves");
+  if (told.depth > told.nodes) return wrong("it is deeper than it has nodes");
+  if (told.nodes > 0 && told.bytes == 0) return wrong("there are nodes, but they take no memory");
+  for (const auto& [name, value] : told.more) {
+    if (!std::isfinite(value)) return wrong(fmt::format("'{}' is no number", name));
+  }
+  return {};
+}
+
+CheckOutcome check_explanation(const Subject& subject, const SelftestEffort& effort) {
+  const Ground ground(subject, effort.seed);
+  const auto structure = subject.build(ground.scene);
+  CheckOutcome outcome;
+  for (const accel::Ray& ray : ground.rays) {
+    const std::vector<accel::TraceStep> steps = structure->explain(ray);
+    if (steps.empty()) continue;
+    ++outcome.rays;
+    std::optional<accel::Hit> nearest;
+    for (const accel::TraceStep& step : steps) {
+      for (const accel::TestedPrimitive& test : step.tests) {
+        const accel::Hit hit{test.t, test.primitive};
+        if (test.t == test.t && (!nearest || accel::precedes(hit, *nearest))) nearest = hit;
+      }
+    }
+    const auto found = structure->closest_hit(ray);
+    // A structure that tells no tests explains its way, not its hit.
+    if (nearest && nearest != found) {
+      outcome.failure = fmt::format("{} is explained to hit {}, but hits {}", show(ray),
+                                    show(nearest), show(found));
+      return outcome;
+    }
+  }
+  return outcome;
+}
+
+}  // namespace beambench::verify

@@ -1,0 +1,56 @@
+#include "harness/verify/selftest/selftest.hpp"
+
+#include <array>
+#include <exception>
+
+#include "harness/verify/selftest/answer_checks.hpp"
+#include "harness/verify/selftest/behaviour_checks.hpp"
+
+namespace beambench::verify {
+
+std::span<const Check> selftest_checks() {
+  static constexpr std::array<Check, 14> kChecks{{
+      {"random scenes", "spheres, cones and polygons anywhere, at any of its parameters", false,
+       false, check_random_scenes},
+      {"scene families",
+       "flat cones, eyes on surfaces, touching spheres, tiny scale, coplanar polygons, needles, "
+       "nested surfaces: images and rays",
+       false, false, check_scene_families},
+      {"smallest scenes", "nothing, one sphere, one cone, one triangle without depth", false, false,
+       check_smallest_scenes},
+      {"images", "the images of five scenes, with one and five samples a pixel", false, false,
+       check_images},
+      {"faces, edges, corners", "rays in the planes, lines and points where cells and boxes meet",
+       true, true, check_faces_edges_corners},
+      {"degenerate rays", "directions of all lengths, nearly along axes; no interval", true, false,
+       check_degenerate_rays},
+      {"heap", "ten thousand equal primitives in one place: the lowest id is hit", false, false,
+       check_heap},
+      {"lists", "a list of rays gets what each ray gets alone", false, false, check_lists},
+      {"counting", "counting work changes no answer", false, false, check_counting},
+      {"two builds", "the same scene gives the same structure, work and answers", false, false,
+       check_two_builds},
+      {"threads", "four threads at once get what one gets", false, false, check_threads},
+      {"counters", "the counters of each ray can be", false, false, check_counters},
+      {"statistics", "the sizes that it tells can be", false, false, check_statistics},
+      {"explanation", "the way that it explains ends at the hit that it finds", false, false,
+       check_explanation},
+  }};
+  return kChecks;
+}
+
+bool applies(const Check& check, const Subject& subject) {
+  if (subject.conformance() == accel::Conformance::kBaseline) return false;
+  if (check.of_polygons && !subject.kinds().polygons) return false;
+  return subject.conformance() == accel::Conformance::kBitExact || !check.bit_exact_only;
+}
+
+CheckOutcome run_check(const Check& check, const Subject& subject, const SelftestEffort& effort) {
+  try {
+    return check.run(subject, effort);
+  } catch (const std::exception& error) {
+    return {0, error.what()};
+  }
+}
+
+}  // namespace beambench::verify

@@ -1,0 +1,65 @@
+#include "harness/verify/selftest/subject.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace beambench::verify {
+namespace {
+
+/// Caps are numbers of things; to reach one takes another test than this.
+constexpr double kSmallDefault = 1000.0;
+
+std::string small_integer(const ParameterInfo& parameter, Random& random) {
+  const auto low = static_cast<std::uint64_t>(parameter.minimum);
+  const auto high = static_cast<std::uint64_t>(parameter.maximum);
+  return std::to_string(std::min(low + random.below(9), high));
+}
+
+/// A value to try; empty: the default.
+std::string random_value(const ParameterInfo& parameter, Random& random) {
+  using Type = ParameterInfo::Type;
+  switch (parameter.type) {
+    case Type::kIntegerOrAuto:
+      if (random.below(4) == 0) return "auto";
+      [[fallthrough]];
+    case Type::kInteger:
+      if (parameter.default_value != "auto" && std::stod(parameter.default_value) > kSmallDefault) {
+        return "";
+      }
+      return small_integer(parameter, random);
+    case Type::kFlag:
+      return random.below(2) == 0 ? "false" : "true";
+    case Type::kChoice:
+      return parameter.choices[random.below(parameter.choices.size())];
+    case Type::kCells:
+      if (random.below(4) == 0) return "";
+      return fmt::format("{}x{}x{}", 1 + random.below(20), 1 + random.below(20),
+                         1 + random.below(20));
+    case Type::kReal:
+      break;
+  }
+  return "";
+}
+
+}  // namespace
+
+Parameters random_parameters(const accel::StructureInfo& info, Random& random) {
+  std::vector<std::pair<std::string, std::string>> given;
+  for (const ParameterInfo& parameter : info.parameters) {
+    std::string value = random_value(parameter, random);
+    if (!value.empty()) given.emplace_back(parameter.name, std::move(value));
+  }
+  return {info.name, info.parameters, given};
+}
+
+accel::StructureChoice Subject::vary(Random& random) const {
+  const bool asked_for_some = choice_.short_label() != info().name;
+  return asked_for_some ? choice_
+                        : accel::StructureChoice(info(), random_parameters(info(), random));
+}
+
+}  // namespace beambench::verify

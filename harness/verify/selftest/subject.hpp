@@ -1,0 +1,41 @@
+#pragma once
+// The structure that a self-test is about.
+
+#include <memory>
+
+#include "accel/core/registry.hpp"
+#include "harness/verify/selftest/primitive_kinds.hpp"
+#include "scenes/core/random.hpp"
+
+namespace beambench::verify {
+
+/// Values near the lower end of each parameter's range, where structures are forced to their
+/// special cases; defaults for reals and for large caps.
+Parameters random_parameters(const accel::StructureInfo& info, Random& random);
+
+/// A structure with the parameters that were asked for. Where none were, some scenes get random
+/// ones.
+class Subject {
+ public:
+  /// Builds it over three tiny scenes, to see which primitives it takes.
+  explicit Subject(accel::StructureChoice choice)
+      : choice_(std::move(choice)), kinds_(kinds_taken(choice_)) {}
+
+  const accel::StructureInfo& info() const { return choice_.info(); }
+  accel::Conformance conformance() const { return info().conformance; }
+  const accel::StructureChoice& choice() const { return choice_; }
+  /// What the scenes that it is asked over are made of.
+  PrimitiveKinds kinds() const { return kinds_; }
+  /// With parameters of its own for each call, if it may.
+  accel::StructureChoice vary(Random& random) const;
+
+  std::unique_ptr<accel::Accelerator> build(const scenes::Scene& scene) const {
+    return choice_.build(scene);
+  }
+
+ private:
+  accel::StructureChoice choice_;
+  PrimitiveKinds kinds_;
+};
+
+}  // namespace beambench::verify

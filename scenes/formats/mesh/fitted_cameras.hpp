@@ -1,0 +1,19 @@
+#pragma once
+// Cameras that see all of a mesh.
+
+#include <span>
+#include <vector>
+
+#include "scenes/camera.hpp"
+#include "scenes/formats/mesh/orientation.hpp"
+
+namespace beambench::scenes::mesh {
+
+/// Standard views of these points, as in modelling programs: `three-quarter` (from in front, the
+/// right and above), `front`, `side` (from the right) and `top`. Each sees all points and fills the
+/// frustum of 45 degrees with them, but for a small margin. None where there is no point, or where
+/// an eye would be beyond the limit of coordinates.
+std::vector<Camera> fitted_cameras(std::span<const glm::vec3> points,
+                                   const Orientation& orientation);
+
+}  // namespace beambench::scenes::mesh

@@ -1,0 +1,44 @@
+#pragma once
+// What a mesh file holds, as far as rays are concerned.
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "scenes/surface.hpp"
+
+namespace beambench::scenes::mesh {
+
+/// Triangles in a row that have one surface.
+struct MeshPart {
+  Surface surface;
+  std::uint32_t triangle_count = 0;
+
+  bool operator==(const MeshPart&) const = default;
+};
+
+/// Triangles over shared vertices.
+struct TriangleMesh {
+  std::vector<glm::vec3> vertices;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into vertices
+  std::vector<MeshPart> parts;                          ///< together they are all triangles
+};
+
+/// A file that a mesh file brought in (a material library, a glTF buffer): its path, relative to
+/// the mesh's folder, and the hash of its bytes; 0 when there was no such file.
+struct MeshCompanion {
+  std::string path;
+  std::uint64_t hash = 0;
+};
+
+/// A mesh made fit to be a scene, and what was noticed on the way (without the file's name).
+struct ImportedMesh {
+  TriangleMesh mesh;
+  std::vector<std::string> warnings;
+  std::vector<MeshCompanion> companions;
+};
+
+}  // namespace beambench::scenes::mesh

@@ -1,0 +1,116 @@
+#include "scenes/formats/mesh/mesh_bytes.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include "scenes/core/error.hpp"
+#include "scenes/core/input_file.hpp"
+
+namespace beambench::scenes::mesh {
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, std::string_view why) {
+  throw InputError(fmt::format("{}: {}", path.string(), why));
+}
+
+[[noreturn]] void refuse_size(const std::filesystem::path& path) {
+  refuse(path, "it holds more than 4 GiB; split it, or reduce its triangles");
+}
+
+/// zlib's state of reading one gzip file.
+class Inflation {
+ public:
+  explicit Inflation(std::string_view packed) : packed_(packed) {
+    usable_ = inflateInit2(&stream_, 16 + MAX_WBITS) == Z_OK;  // 16: gzip's header and checksum
+  }
+  ~Inflation() {
+    if (usable_) inflateEnd(&stream_);
+  }
+  Inflation(const Inflation&) = delete;
+  Inflation& operator=(const Inflation&) = delete;
+
+  /// Fills the buffer as far as possible; how many bytes came.
+  std::size_t fill(char* buffer, std::size_t size) {
+    stream_.next_out = reinterpret_cast<Bytef*>(buffer);
+    stream_.avail_out = limited(size);
+    const std::size_t wanted = stream_.avail_out;
+    while (usable_ && !done_ && stream_.avail_out > 0) step();
+    return wanted - stream_.avail_out;
+  }
+  bool done() const { return done_; }
+  bool damaged() const { return !usable_; }
+
+ private:
+  static uInt limited(std::size_t size) {
+    return static_cast<uInt>(std::min<std::size_t>(size, std::numeric_limits<uInt>::max()));
+  }
+
+  void step() {
+    const auto* next = reinterpret_cast<const Bytef*>(packed_.data());
+    stream_.next_in = const_cast<Bytef*>(next);  // zlib only reads it
+    stream_.avail_in = limited(packed_.size());
+    const uInt before = stream_.avail_in;
+    const int result = inflate(&stream_, Z_NO_FLUSH);
+    packed_.remove_prefix(before - stream_.avail_in);
+    if (result == Z_STREAM_END) {
+      done_ = packed_.empty();
+      if (!done_ && inflateReset(&stream_) != Z_OK) fail();  // gzip files may be put in a row
+    } else if (result != Z_OK) {
+      fail();  // Z_BUF_ERROR among them: the file ends too early
+    }
+  }
+  void fail() {
+    inflateEnd(&stream_);
+    usable_ = false;
+  }
+
+  std::string_view packed_;
+  z_stream stream_{};
+  bool usable_ = false;
+  bool done_ = false;
+};
+
+}  // namespace
+
+std::filesystem::path companion_folder(const std::filesystem::path& path) {
+  std::error_code not_there;
+  const std::filesystem::path real = std::filesystem::canonical(path, not_there);
+  return (not_there ? std::filesystem::absolute(path) : real).parent_path();
+}
+
+std::string read_bytes(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code unknown;
+  const fs::file_status status = fs::status(path, unknown);
+  if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) {
+    refuse(path, "it is not a regular file; a mesh is read from a file of its own");
+  }
+  if (fs::is_regular_file(status) && fs::file_size(path, unknown) > kLargestMeshFile && !unknown) {
+    refuse_size(path);
+  }
+  std::string bytes = read_input(path, kLargestMeshFile);
+  if (bytes.empty()) refuse(path, "the file is empty; export the mesh again");
+  return bytes;
+}
+
+std::string gunzip(std::string_view packed, const std::filesystem::path& path) {
+  Inflation inflation(packed);
+  std::string bytes;
+  std::size_t used = 0;
+  while (!inflation.done()) {
+    if (bytes.size() - used < packed.size()) bytes.resize(bytes.size() + 4 * packed.size() + 4096);
+    used += inflation.fill(bytes.data() + used, bytes.size() - used);
+    if (inflation.damaged()) {
+      refuse(path, "its gzip data is damaged or cut off; get the file again");
+    }
+    if (used > kLargestMeshFile) refuse_size(path);
+  }
+  bytes.resize(used);
+  if (bytes.empty()) refuse(path, "it unpacks to an empty file; export the mesh again");
+  return bytes;
+}
+
+}  // namespace beambench::scenes::mesh

@@ -1,0 +1,80 @@
+#include "scenes/formats/mesh/mesh_cleaning.hpp"
+
+#define XXH_INLINE_ALL
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include "scenes/core/error.hpp"
+#include "scenes/scene_builder.hpp"
+#include "scenes/triangulate.hpp"
+
+namespace beambench::scenes::mesh {
+namespace {
+
+constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
+
+/// -0 becomes 0, so that equal places have equal bits; throws for what no scene can hold.
+glm::vec3 checked(const glm::vec3& position, std::size_t triangle) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(std::abs(position[axis]) <= static_cast<float>(kLargestNumber))) {  // catches NaN too
+      throw InputError(fmt::format(
+          "triangle {}: a corner has the coordinate {}, but must have numbers from -1e9 to 1e9; "
+          "export the mesh again without it, or scale it",
+          triangle, position[axis]));
+    }
+  }
+  return position + 0.0F;
+}
+
+std::size_t hash_of(const glm::vec3& position) { return XXH3_64bits(&position, sizeof(position)); }
+
+}  // namespace
+
+void MeshCollector::set_surface(const Surface& surface) { surface_ = surface; }
+
+void MeshCollector::add(const std::array<glm::vec3, 3>& corners) {
+  const std::size_t number = mesh_.triangles.size() + degenerate_;
+  std::array<glm::vec3, 3> places{};
+  for (std::size_t i = 0; i < 3; ++i) places[i] = checked(corners[i], number);
+  if (!has_area(places[0], places[1], places[2])) {
+    if (degenerate_++ == 0) first_degenerate_ = number;
+    return;
+  }
+  if (mesh_.triangles.size() >= kFree / 3) {
+    throw InputError("it has too many triangles for 32-bit indices; reduce them");
+  }
+  mesh_.triangles.push_back({vertex(places[0]), vertex(places[1]), vertex(places[2])});
+  if (mesh_.parts.empty() || mesh_.parts.back().surface != surface_) {
+    mesh_.parts.push_back({surface_, 0});
+  }
+  ++mesh_.parts.back().triangle_count;
+}
+
+std::uint32_t MeshCollector::vertex(const glm::vec3& position) {
+  if (slots_.size() < 2 * (mesh_.vertices.size() + 1)) grow();
+  const std::size_t mask = slots_.size() - 1;
+  std::size_t slot = hash_of(position) & mask;
+  for (; slots_[slot] != kFree; slot = (slot + 1) & mask) {
+    if (mesh_.vertices[slots_[slot]] == position) return slots_[slot];
+  }
+  slots_[slot] = static_cast<std::uint32_t>(mesh_.vertices.size());
+  mesh_.vertices.push_back(position);
+  return slots_[slot];
+}
+
+void MeshCollector::grow() {
+  slots_.assign(slots_.empty() ? 64 : 4 * slots_.size(), kFree);
+  const std::size_t mask = slots_.size() - 1;
+  for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
+    std::size_t slot = hash_of(mesh_.vertices[i]) & mask;
+    while (slots_[slot] != kFree) slot = (slot + 1) & mask;
+    slots_[slot] = static_cast<std::uint32_t>(i);
+  }
+}
+
+TriangleMesh MeshCollector::finish() && { return std::move(mesh_); }
+
+}  // namespace beambench::scenes::mesh

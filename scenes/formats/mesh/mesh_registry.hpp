@@ -1,0 +1,33 @@
+#pragma once
+// Meshes that have a name: `mesh:dragon`.
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/formats/mesh/orientation.hpp"
+
+namespace beambench::scenes::mesh {
+
+/// How the names of registered meshes begin where a scene is asked for.
+inline constexpr std::string_view kMeshPrefix = "mesh:";
+
+/// A mesh of the registry: the file NAME.json in the folder `registered` of `cache_folder()`,
+/// `{"path": "...", "up": "y", "front": "z", "about": "..."}`. Only the path is needed; it is
+/// relative to that folder. scripts/meshes puts some there, users may add their own.
+struct RegisteredMesh {
+  std::string name;
+  std::filesystem::path path;
+  Orientation orientation;
+  std::string about;  ///< one sentence; empty if there is none
+};
+
+/// The names of all of them, sorted.
+std::vector<std::string> registered_mesh_names();
+
+/// Throws InputError: an unknown name, naming those that are there and how to get more; a
+/// malformed entry, naming its file.
+RegisteredMesh find_registered_mesh(std::string_view name);
+
+}  // namespace beambench::scenes::mesh

@@ -1,0 +1,102 @@
+#include "scenes/formats/mesh/mesh_scene.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "scenes/core/error.hpp"
+#include "scenes/formats/mesh/cache_folder.hpp"
+#include "scenes/formats/mesh/fitted_cameras.hpp"
+#include "scenes/formats/mesh/guarded_import.hpp"
+#include "scenes/formats/mesh/mesh_bytes.hpp"
+#include "scenes/formats/mesh/mesh_cache.hpp"
+#include "scenes/formats/mesh/mesh_format.hpp"
+#include "scenes/formats/mesh/mesh_import.hpp"
+#include "scenes/scene_builder.hpp"
+
+namespace beambench::scenes::mesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A strong light above the camera's left shoulder, and a weak bluish one from its right.
+void add_lights(SceneBuilder& builder, const Camera& camera) {
+  const glm::dvec3 center(camera.at);
+  const glm::dvec3 back = glm::dvec3(camera.from) - center;
+  const glm::dvec3 up = glm::length(back) * glm::normalize(glm::dvec3(camera.up));
+  const glm::dvec3 right = glm::cross(up, glm::normalize(back));
+  const auto add = [&](const glm::dvec3& offset, const glm::dvec3& color) {
+    const glm::dvec3 limit(kLargestNumber);
+    builder.add_light(glm::clamp(center + offset, -limit, limit), color);
+  };
+  add(back - 0.7 * right + 0.8 * up, {1.0, 0.97, 0.92});
+  add(0.6 * back + 1.0 * right + 0.1 * up, {0.35, 0.38, 0.45});
+}
+
+/// Looks into the cache, reads the file where that does not help, and fills the cache then.
+ImportedMesh cached_import(const fs::path& path, const std::string& ending,
+                           std::vector<std::string>& notes) {
+  const std::string bytes = read_bytes(path);
+  const auto import = [&] {
+    const std::string name = path.string();
+    return is_gzipped(name) ? guarded_import(gunzip(bytes, path), ending, path)
+                            : guarded_import(bytes, ending, path);
+  };
+  const auto cache = cache_folder();
+  if (!cache) return import();
+
+  const fs::path folder = *cache / "meshes";
+  const std::string key = mesh_key(bytes, ending, importer_version());
+  CachedMesh cached = find_cached_mesh(folder, key, companion_folder(path));
+  if (cached.state == CachedMesh::State::kFound) return std::move(cached.mesh);
+  if (cached.state == CachedMesh::State::kDamaged) {
+    notes.push_back(
+        fmt::format("what the cache {} held of it was damaged, and is made anew", folder.string()));
+  }
+  ImportedMesh imported = import();
+  if (!cache_mesh(folder, key, imported)) {
+    notes.push_back(
+        fmt::format("the cache {} cannot be written, so that it is read as slowly the "
+                    "next time; set BEAMBENCH_CACHE to a folder that can",
+                    folder.string()));
+  }
+  return imported;
+}
+
+}  // namespace
+
+Scene mesh_scene(const TriangleMesh& mesh, const std::string& name,
+                 const Orientation& orientation) {
+  SceneBuilder builder(name);
+  builder.set_background({0.16, 0.19, 0.24});
+  const std::vector<Camera> cameras = fitted_cameras(mesh.vertices, orientation);
+  for (const Camera& camera : cameras) builder.add_camera(camera);
+  if (!cameras.empty()) add_lights(builder, cameras.front());
+  for (const glm::vec3& vertex : mesh.vertices) builder.add_vertex(vertex);
+  auto triangle = mesh.triangles.begin();
+  for (const MeshPart& part : mesh.parts) {
+    builder.set_surface(part.surface);
+    for (std::uint32_t i = 0; i < part.triangle_count; ++i) builder.add_polygon(*triangle++);
+  }
+  return std::move(builder).build();
+}
+
+Scene load_mesh(const MeshRequest& request, std::vector<std::string>* warnings) {
+  const std::string file = request.path.string();
+  std::vector<std::string> notes;
+  const ImportedMesh imported = cached_import(request.path, mesh_ending(file), notes);
+  if (request.strict && !imported.warnings.empty()) {
+    throw InputError(fmt::format("{}: {}; correct the file, or read it without --strict", file,
+                                 imported.warnings.front()));
+  }
+  notes.insert(notes.end(), imported.warnings.begin(), imported.warnings.end());
+  if (warnings != nullptr) {
+    for (const std::string& note : notes) warnings->push_back(fmt::format("{}: {}", file, note));
+  }
+  return mesh_scene(imported.mesh, request.name, request.orientation);
+}
+
+}  // namespace beambench::scenes::mesh

@@ -1,0 +1,32 @@
+#pragma once
+// Scenes from mesh files.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "scenes/formats/mesh/mesh.hpp"
+#include "scenes/formats/mesh/orientation.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::scenes::mesh {
+
+/// A scene of a mesh: flat triangles in the order of the file, fitted cameras (`three-quarter`,
+/// which is the default, `front`, `side`, `top`), two lights on the side of the default camera.
+Scene mesh_scene(const TriangleMesh& mesh, const std::string& name, const Orientation& orientation);
+
+/// What to read, and how.
+struct MeshRequest {
+  std::filesystem::path path;
+  std::string name;  ///< of the scene
+  Orientation orientation;
+  bool strict = false;  ///< what would be left out of the mesh is an error
+};
+
+/// Reads a mesh file, or takes what it held from the cache (`meshes` in `cache_folder()`), where it
+/// is put when it was read. What was noticed is appended to `warnings` when given, as
+/// `file: message`. Throws InputError with the file's name when it cannot be read, is malformed or
+/// has no triangle.
+Scene load_mesh(const MeshRequest& request, std::vector<std::string>* warnings = nullptr);
+
+}  // namespace beambench::scenes::mesh

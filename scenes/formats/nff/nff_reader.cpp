@@ -1,0 +1,326 @@
+#include "scenes/formats/nff/nff_reader.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <new>
+#include <optional>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "scenes/core/error.hpp"
+#include "scenes/core/input_file.hpp"
+#include "scenes/degenerate_primitive.hpp"
+#include "scenes/formats/nff/nff_notes.hpp"
+#include "scenes/formats/nff/nff_tokens.hpp"
+#include "scenes/formats/nff/nff_view.hpp"
+#include "scenes/scene_builder.hpp"
+
+namespace beambench::scenes::nff {
+namespace {
+
+/// Reads one file, command by command, into a builder.
+class NffReader {
+ public:
+  NffReader(std::string_view text, const std::string& file, NffOptions options)
+      : tokens_(text, file), builder_(file), options_(options) {}
+
+  NffResult read() &&;
+
+ private:
+  struct Command {
+    std::string_view word;
+    void (NffReader::*read)();
+  };
+  static const std::array<Command, 8> kCommands;
+  std::optional<Command> next_command() const;
+  std::optional<Command> dialect_command() const;
+  void skip_unknown();
+  void note(std::size_t line, const std::string& cause, const std::string& more = "");
+
+  void read_view();
+  void read_background();
+  void read_light();
+  void read_area_light();
+  void read_surface();
+  void read_finish();
+  void read_surface_fields(Surface surface);
+  void read_sphere();
+  void read_cone();
+  void read_polygon() { read_corners(false); }
+  void read_smooth_polygon() { read_corners(true); }
+  void read_corners(bool smooth);
+
+  /// Runs a call of the builder and puts file and line of the command before its complaints.
+  template <typename Add>
+  void add(Add call) {
+    try {
+      call();
+    } catch (const InputError& error) {
+      tokens_.refuse(command_.line, error.what());
+    }
+  }
+
+  /// The same for a primitive: a degenerate one is skipped where the options allow it.
+  template <typename Add>
+  void add_primitive(Add call) {
+    add([&] {
+      try {
+        call();
+      } catch (const DegeneratePrimitive& degenerate) {
+        skip_degenerate(degenerate.what());
+      }
+    });
+  }
+  void skip_degenerate(const std::string& why);
+  void require_remains() const;
+
+  NffTokens tokens_;
+  SceneBuilder builder_;
+  NffOptions options_;
+  NffNotes notes_;
+  NffToken command_;          // the one being read
+  bool any_command_ = false;  // what precedes the first command may be the header of an e-mail
+  std::size_t view_count_ = 0;
+  std::size_t degenerate_count_ = 0;
+  std::size_t first_degenerate_line_ = 0;
+  std::string first_degenerate_;
+};
+
+const std::array<NffReader::Command, 8> NffReader::kCommands = {{
+    {"p", &NffReader::read_polygon},
+    {"pp", &NffReader::read_smooth_polygon},
+    {"s", &NffReader::read_sphere},
+    {"c", &NffReader::read_cone},
+    {"f", &NffReader::read_surface},
+    {"l", &NffReader::read_light},
+    {"b", &NffReader::read_background},
+    {"v", &NffReader::read_view},
+}};
+
+NffResult NffReader::read() && {
+  if (tokens_.peek().text == "nff" || tokens_.peek().text == "NFF") {
+    tokens_.refuse(
+        tokens_.peek().line,
+        "this is a Sense8 WorldToolKit file, another format of the same name; convert it "
+        "to Haines's Neutral File Format");
+  }
+  while (!tokens_.at_end()) {
+    const std::optional<Command> command = next_command();
+    if (!command) {
+      skip_unknown();
+      continue;
+    }
+    any_command_ = true;
+    command_ = tokens_.take();
+    (this->*command->read)();
+  }
+  if (!any_command_) {
+    tokens_.refuse(1, "there is no NFF command (v, b, l, f, s, c, p or pp) in the file");
+  }
+  require_remains();
+  return {std::move(builder_).build(), notes_.messages()};
+}
+
+std::optional<NffReader::Command> NffReader::next_command() const {
+  const NffToken& token = tokens_.peek();
+  if (!token.starts_line) return std::nullopt;
+  const auto* const command = std::find_if(kCommands.begin(), kCommands.end(),
+                                           [&](const Command& c) { return c.word == token.text; });
+  if (command != kCommands.end()) return *command;
+  if (find_finish(token.text)) return Command{token.text, &NffReader::read_finish};
+  return dialect_command();
+}
+
+/// Words of other programs whose meaning is known, where they have as many numbers as there; cut
+/// off by the end of the file, they have fewer.
+/// - `fp`: the fields of `f`, of surfaces that are shaded by Phong where those of `f` are flat
+///   (github.com/mfandre/raytracer, Scene.cc);
+/// - `la`: a rectangular light's corner, two edges and, if any, colour (of a path tracer,
+///   `do_area_light` in its nff2scene, and its exporter from Blender, `WriteAreaLamp`).
+std::optional<NffReader::Command> NffReader::dialect_command() const {
+  const std::string_view word = tokens_.peek().text;
+  if (word != "fp" && word != "la") return std::nullopt;
+  NffTokens ahead = tokens_;
+  ahead.take();
+  std::size_t numbers = 0;
+  for (; ahead.at_number(); ++numbers) ahead.take();
+  const auto has = [&](std::size_t all) {
+    return numbers == all || (numbers < all && ahead.at_end());
+  };
+  if (word == "fp" && has(8)) return Command{word, &NffReader::read_surface};
+  if (word == "la" && (numbers == 9 || has(12))) return Command{word, &NffReader::read_area_light};
+  return std::nullopt;
+}
+
+void NffReader::skip_unknown() {
+  const NffToken unknown = tokens_.peek();
+  if (any_command_ && tokens_.at_number()) {
+    tokens_.refuse(unknown.line, fmt::format("the number '{}' stands where a command should; the "
+                                             "command at line {} takes fewer numbers",
+                                             unknown.text, command_.line));
+  }
+  while (!tokens_.at_end() && !next_command()) tokens_.take();
+  const std::string end =
+      tokens_.at_end() ? "the end of the file" : fmt::format("line {}", tokens_.peek().line);
+  note(unknown.line, fmt::format("unknown word '{}'", unknown.text), ", skipped up to " + end);
+}
+
+/// Remarks on something that the file can be read in spite of.
+void NffReader::note(std::size_t line, const std::string& cause, const std::string& more) {
+  if (options_.strict) {
+    tokens_.refuse(line, cause + "; correct the file, or read it without --strict");
+  }
+  notes_.add(cause, tokens_.located(line, cause + more));
+}
+
+void NffReader::skip_degenerate(const std::string& why) {
+  if (options_.strict) {
+    throw InputError(why + "; correct the file, or read it without --strict");
+  }
+  if (degenerate_count_++ == 0) {
+    first_degenerate_line_ = command_.line;
+    first_degenerate_ = why;
+  }
+  notes_.add("degenerate",
+             tokens_.located(command_.line, "a degenerate primitive is skipped: " + why));
+}
+
+/// A file from which everything was skipped is no scene.
+void NffReader::require_remains() const {
+  if (degenerate_count_ == 0 || builder_.primitive_count() > 0) return;
+  tokens_.refuse(first_degenerate_line_,
+                 fmt::format("{}; no primitive remains of the file, {} degenerate ones are skipped",
+                             first_degenerate_, degenerate_count_));
+}
+
+void NffReader::read_view() {
+  Camera camera = read_nff_view(tokens_, command_);
+  if (camera.name.empty()) {
+    camera.name = view_count_ == 0 ? "default" : fmt::format("view {}", view_count_ + 1);
+  }
+  ++view_count_;
+  add([&] { builder_.add_camera(camera); });
+}
+
+void NffReader::read_background() {
+  const glm::dvec3 color = tokens_.triple("the background colour");
+  add([&] { builder_.set_background(color); });
+}
+
+void NffReader::read_light() {
+  const glm::dvec3 position = tokens_.triple("the light's position");
+  glm::dvec3 color(1.0);
+  if (tokens_.at_number()) color = tokens_.triple("the light's colour");
+  add([&] { builder_.add_light(position, color); });
+}
+
+/// Our lights are points. The rectangle of an area light shines to the side of the normal
+/// edge x edge, so the point stands a little on that side of its middle: the ceiling that the
+/// rectangle may lie in does not hide it.
+void NffReader::read_area_light() {
+  constexpr double kOffset = 1e-3;  // of the side of a square of the same area
+  const glm::dvec3 corner = tokens_.triple("the area light's corner");
+  const glm::dvec3 edge = tokens_.triple("the area light's first edge");
+  const glm::dvec3 other_edge = tokens_.triple("the area light's second edge");
+  glm::dvec3 color(1.0);
+  if (tokens_.at_number()) color = tokens_.triple("the area light's colour");
+  const glm::dvec3 normal = glm::cross(edge, other_edge);
+  const double area = glm::length(normal);
+  glm::dvec3 position = corner + 0.5 * (edge + other_edge);
+  if (area > 0.0) position += kOffset / std::sqrt(area) * normal;
+  note(command_.line, "an area light is read as a point light at its middle",
+       "; its shadows have no soft edges, and it is not seen itself");
+  add([&] { builder_.add_light(position, color); });
+}
+
+void NffReader::read_surface() {
+  if (!tokens_.at_number()) tokens_.number("the colour");  // refuses
+  read_surface_fields({});
+}
+
+void NffReader::read_finish() {
+  read_surface_fields(finished_surface(*find_finish(command_.text)));
+}
+
+/// Numbers that are given replace the surface's own.
+void NffReader::read_surface_fields(Surface surface) {
+  if (tokens_.at_number()) surface.color = tokens_.triple("the colour");
+  for (float* field : {&surface.diffuse, &surface.specular, &surface.shine, &surface.transmittance,
+                       &surface.refraction_index}) {
+    if (!tokens_.at_number()) break;
+    *field = tokens_.number("a factor of the surface");
+  }
+  if (tokens_.at_number()) {
+    // "Extensions of the Neutral File Format", 1993 (paulbourke.net/dataformats/nff/enff.html).
+    note(command_.line, "the ninth field of a surface, ENFF's ambient factor, is ignored");
+    tokens_.number("the ninth field of the surface");
+  }
+  add([&] { builder_.set_surface(surface); });
+}
+
+void NffReader::read_sphere() {
+  const glm::dvec3 center = tokens_.triple("the sphere's centre");
+  const double radius = tokens_.number("the sphere's radius");
+  add_primitive([&] { builder_.add_sphere(center, radius); });
+}
+
+void NffReader::read_cone() {
+  const glm::dvec3 base = tokens_.triple("the cone's base");
+  const double base_radius = tokens_.number("the cone's base radius");
+  const glm::dvec3 apex = tokens_.triple("the cone's apex");
+  const double apex_radius = tokens_.number("the cone's apex radius");
+  add_primitive([&] { builder_.add_cone(base, base_radius, apex, apex_radius); });
+}
+
+void NffReader::read_corners(bool smooth) {
+  const long count = tokens_.integer("the number of vertices");
+  if (count < 1) {  // fewer than 3 are degenerate
+    tokens_.refuse(command_.line,
+                   fmt::format("a polygon of {} vertices; it must have at least 3", count));
+  }
+  const auto size = static_cast<std::size_t>(count);
+  if (size > tokens_.most_numbers_left() / (smooth ? 6 : 3)) {
+    tokens_.refuse(command_.line,
+                   fmt::format("a polygon of {} vertices, more than the rest of the file can "
+                               "hold; is the file cut off?",
+                               count));
+  }
+  std::vector<glm::dvec3> vertices;
+  std::vector<glm::dvec3> normals;
+  vertices.reserve(size);
+  normals.reserve(smooth ? size : 0);
+  for (std::size_t i = 0; i < size; ++i) {
+    vertices.emplace_back(tokens_.triple("a vertex"));
+    if (smooth) normals.emplace_back(tokens_.triple("a normal"));
+  }
+  const Repairs before = builder_.repairs();
+  add_primitive([&] { builder_.add_polygon(vertices, normals); });
+  const Repairs& after = builder_.repairs();
+  if (after.merged_corners > before.merged_corners) {
+    note(command_.line, "a polygon has consecutive corners at the same place, taken as one");
+  }
+  if (after.replaced_normals > before.replaced_normals) {
+    note(command_.line, "a polygon has a normal of length 0, its own taken instead");
+  }
+}
+
+}  // namespace
+
+NffResult parse_nff(std::string_view text, const std::string& file, NffOptions options) {
+  return NffReader(text, file, options).read();
+}
+
+NffResult read_nff(const std::filesystem::path& path, NffOptions options) {
+  const std::string text = read_input(path);
+  try {
+    return parse_nff(text, path.string(), options);
+  } catch (const std::bad_alloc&) {
+    throw InputError(fmt::format(
+        "{}: out of memory for its primitives; close other programs, or divide the scene",
+        path.string()));
+  }
+}
+
+}  // namespace beambench::scenes::nff

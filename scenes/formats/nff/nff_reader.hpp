@@ -1,0 +1,37 @@
+#pragma once
+// Reads Haines's Neutral File Format (NFF).
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/scene.hpp"
+
+namespace beambench::scenes::nff {
+
+/// How to read: strictly, whatever would give a warning is an error.
+struct NffOptions {
+  bool strict = false;
+};
+
+/// A scene read from NFF and what was noticed on the way (unknown words and degenerate primitives
+/// that were skipped, fields that were ignored, repaired polygons), each as `file:line: message`;
+/// what happened often is reported once, with a count.
+struct NffResult {
+  Scene scene;
+  std::vector<std::string> warnings;
+};
+
+/// Parses NFF text (Haines, "A Proposal for Standard Graphics Environments", 1987, with the words
+/// that the thesis adds; quirks of files in the wild are listed in the README). `file` is used in
+/// messages and as the scene's name. Throws InputError with file, line and word when the text is
+/// malformed or truncated, when a number is not finite or beyond 1e9, when only degenerate
+/// primitives are in it, for Sense8 WTK files (first word `nff`), and for what the options do not
+/// allow.
+NffResult parse_nff(std::string_view text, const std::string& file, NffOptions options = {});
+
+/// Reads and parses a file; throws InputError also when it cannot be read whole (`read_input`).
+NffResult read_nff(const std::filesystem::path& path, NffOptions options = {});
+
+}  // namespace beambench::scenes::nff

@@ -1,0 +1,66 @@
+#pragma once
+// The words and numbers of an NFF text, each with its line.
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include <glm/vec3.hpp>
+
+namespace beambench::scenes::nff {
+
+/// Comments that begin with this word on a line of their own, and so mean nothing to other
+/// programs, are read as if the word were not there.
+inline constexpr std::string_view kOwnComment = "#beambench";
+
+/// One word or number. The text is empty at the end of the file.
+struct NffToken {
+  std::string_view text;
+  std::size_t line = 1;
+  bool starts_line = false;
+};
+
+/// Walks over the tokens of an NFF text: whatever stands between blanks, comments (`#` to the end
+/// of the line) left out, but for `kOwnComment`.
+class NffTokens {
+ public:
+  /// The text must outlive this object; `file` is used in messages.
+  NffTokens(std::string_view text, std::string file);
+
+  const std::string& file() const { return file_; }
+  const NffToken& peek() const { return token_; }
+  bool at_end() const { return token_.text.empty(); }
+  /// Whether the next token is, or tries to be, a number: `nan` and `1.2.3` count.
+  bool at_number() const;
+  /// How many numbers the rest of the text can hold at most.
+  std::size_t most_numbers_left() const;
+
+  NffToken take();
+  /// Takes a number, rounded once (by way of double, 7.038531e-26 would become another float);
+  /// `what` names it in messages. Refuses what is not a number from -1e9 to 1e9.
+  float number(std::string_view what);
+  glm::vec3 triple(std::string_view what);
+  /// Takes a number that must be an integer.
+  long integer(std::string_view what);
+  /// Takes the rest of the line after `word`, the last token taken, without a comment and the
+  /// blanks around it. Refuses to take nothing.
+  std::string_view rest_of_line(const NffToken& word, std::string_view what);
+
+  /// `file:line: message`
+  std::string located(std::size_t line, std::string_view message) const;
+  /// Throws InputError with the located message.
+  [[noreturn]] void refuse(std::size_t line, std::string_view message) const;
+
+ private:
+  void advance();
+  bool at_own_comment() const;
+  template <typename Number>
+  Number take_number(std::string_view what);
+
+  std::string file_;
+  const char* position_;
+  const char* end_;
+  NffToken token_;
+};
+
+}  // namespace beambench::scenes::nff

@@ -1,0 +1,30 @@
+#pragma once
+// The balls of Escena 1, for scenes that make spheres of them and those that make triangles.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "scenes/scene_builder.hpp"
+
+namespace beambench::scenes::generators {
+
+struct Ball {
+  glm::dvec3 center;
+  double radius;
+};
+
+/// Balls of random sizes in the cube [-10, 10]^3, spread evenly by best-candidate sampling
+/// (Mitchell 1991): of several random places each ball takes the one with most room, and shrinks
+/// where that is too little.
+std::vector<Ball> scattered_balls(std::int64_t count, std::uint64_t seed);
+
+/// Their camera, background and lights.
+void light_balls(SceneBuilder& builder);
+
+/// The surface of one of `count` balls: six colours, one after the other.
+Surface surface_of_ball(std::size_t number, std::size_t count);
+
+}  // namespace beambench::scenes::generators

@@ -1,0 +1,45 @@
+#include "scenes/generators/thesis/escena2.hpp"
+
+#include <array>
+
+#include "scenes/generators/spd/sphereflake.hpp"
+#include "scenes/scene_builder.hpp"
+
+namespace beambench::scenes::generators {
+namespace {
+
+Scene generate(const Parameters& parameters) {
+  SceneBuilder builder(parameters.label());
+  Camera camera;
+  camera.from = {5.0F, -54.0F, 7.0F};
+  camera.at = {0.0F, 0.0F, 0.0F};
+  camera.up = {0.0F, 0.0F, 1.0F};
+  builder.add_camera(camera);
+  builder.set_background({0.078, 0.361, 0.753});
+  builder.add_light({15.0, -30.0, 30.0});
+  builder.add_light({-30.0, -20.0, 10.0});
+
+  // The wall alone makes the cube around the scene: 40 on each side, with the flake, of radius
+  // 0.9, near its centre. A cell of the thesis's octree of level 6 is 1.25 wide.
+  builder.set_surface({.color = {0.55F, 0.75F, 0.45F}, .diffuse = 0.8F});
+  const std::array<glm::dvec3, 4> wall = {
+      {{-20.0, 10.0, -20.0}, {20.0, 10.0, -20.0}, {20.0, 10.0, 20.0}, {-20.0, 10.0, 20.0}}};
+  builder.add_polygon(wall);
+  builder.set_surface(
+      {.color = {1.0F, 0.9F, 0.7F}, .diffuse = 0.5F, .specular = 0.5F, .shine = 3.0827F});
+  add_sphereflake(builder, glm::dvec3(0.0), 0.5, 2);
+  return std::move(builder).build();
+}
+
+}  // namespace
+
+SceneInfo escena2_scene() {
+  return {
+      "escena2",
+      "The thesis's Escena 2: a large polygon at the back and a sphereflake of 91 spheres, tiny "
+      "in the middle of a huge volume",
+      {},
+      generate};
+}
+
+}  // namespace beambench::scenes::generators

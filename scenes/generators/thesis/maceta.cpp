@@ -1,0 +1,91 @@
+#include "scenes/generators/thesis/maceta.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "scenes/core/random.hpp"
+#include "scenes/generators/thesis/plant.hpp"
+#include "scenes/modelling/add_mesh.hpp"
+#include "scenes/modelling/lathe.hpp"
+#include "scenes/modelling/subdivide.hpp"
+#include "scenes/modelling/sweep.hpp"
+
+namespace beambench::scenes::generators {
+namespace {
+
+constexpr std::size_t kPolygons = 1284;
+constexpr int kLeaves = 29;
+constexpr double kTop = 0.612;  // of the stem, where the last leaf stands
+
+/// The pot without its unseen bottom: wall, rim, and inside down to the soil.
+modelling::PolygonMesh pot() {
+  const std::vector<glm::dvec2> profile = {{0.149, 0.000}, {0.204, 0.230}, {0.227, 0.230},
+                                           {0.231, 0.295}, {0.207, 0.295}, {0.199, 0.262}};
+  return modelling::lathe(profile, 16);
+}
+
+modelling::PolygonMesh soil() {
+  const std::vector<glm::dvec2> profile = {{0.199, 0.262}, {0.0, 0.272}};
+  return modelling::lathe(profile, 16);
+}
+
+modelling::PolygonMesh stem() {
+  const std::vector<glm::dvec3> path = {
+      {0.0, 0.0, 0.268}, {0.012, 0.006, 0.40}, {-0.006, 0.010, 0.54}, {0.0, 0.0, kTop + 0.02}};
+  const std::vector<double> radii = {0.026, 0.020, 0.015, 0.0};
+  return modelling::tube(path, radii, 6);
+}
+
+/// Leaves around the stem in the spiral of phyllotaxis (Vogel 1979): each a golden angle further
+/// than the one below, the lower ones long and hanging, the upper ones steep and short. Sizes and
+/// seed are fitted to the thesis's octree counts (tests/accel/octree_counts_test.cpp).
+modelling::PolygonMesh leaves() {
+  const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
+  modelling::PolygonMesh mesh;
+  Random random(281);
+  for (int i = 0; i < kLeaves; ++i) {
+    const double s = (i + 0.5) / kLeaves;
+    ArchingLeaf leaf;
+    leaf.root = {0.0, 0.0, std::lerp(0.30, kTop, s)};
+    leaf.azimuth = golden * i + random.uniform(-0.15, 0.15);
+    leaf.rise = std::lerp(0.442, 1.433, s) + random.uniform(-0.2, 0.2);
+    leaf.fall = std::lerp(0.964, 0.657, s) + random.uniform(-0.3, 0.3);
+    leaf.length = std::lerp(0.818, 0.298, s) * random.uniform(0.75, 1.1);
+    leaf.width = std::lerp(0.135, 0.120, s) * random.uniform(0.85, 1.1);
+    modelling::append(mesh, arching_leaf(leaf, 10));
+  }
+  return mesh;
+}
+
+Scene generate(const Parameters& parameters) {
+  SceneBuilder builder(parameters.label());
+  builder.add_camera({.from = {1.456F, -2.015F, 0.874F},
+                      .at = {0.0F, 0.0F, 0.433F},
+                      .up = {0.0F, 0.0F, 1.0F},
+                      .angle = 16.448F});
+  builder.set_background({0.80, 0.86, 0.88});
+  builder.add_light({1.0, -4.0, 5.0}, glm::dvec3(0.9));
+  builder.add_light({3.0, 1.0, 1.5}, glm::dvec3(0.4));
+
+  builder.set_surface({.color = {0.76F, 0.38F, 0.22F}, .diffuse = 0.9F});
+  modelling::add_smooth(builder, pot());
+  builder.set_surface({.color = {0.25F, 0.16F, 0.10F}, .diffuse = 0.9F});
+  modelling::add_smooth(builder, soil());
+  builder.set_surface({.color = {0.42F, 0.36F, 0.18F}, .diffuse = 0.9F});
+  modelling::add_smooth(builder, stem());
+  builder.set_surface(
+      {.color = {0.24F, 0.55F, 0.20F}, .diffuse = 0.85F, .specular = 0.2F, .shine = 12.0F});
+  modelling::add_smooth(builder, modelling::subdivided_to(modelling::triangulated(leaves()),
+                                                          kPolygons - builder.primitive_count()));
+  return std::move(builder).build();
+}
+
+}  // namespace
+
+SceneInfo maceta_scene() {
+  return {
+      "maceta", "The thesis's Maceta: a potted plant spread over the whole volume", {}, generate};
+}
+
+}  // namespace beambench::scenes::generators

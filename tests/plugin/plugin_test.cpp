@@ -1,0 +1,131 @@
+// Plug-ins from the inside; from the outside they are tested by tests/python/test_plugins.py.
+
+#include "harness/plugin/plugin.hpp"
+
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "harness/plugin/activity.hpp"
+#include "harness/plugin/check_scene.hpp"
+#include "harness/plugin/requested_plugins.hpp"
+#include "scenes/core/plugin_error.hpp"
+#include "scenes/scene_builder.hpp"
+#include "tests/random_scene.hpp"
+
+namespace beambench::plugin {
+namespace {
+
+// Plug-ins that were made with other types are refused, and the number says why to their authors.
+TEST(PluginStamp, TheInterfaceIsCountedUpWhenTypesChange) {
+#if defined(__x86_64__) && defined(__GLIBCXX__) && !defined(_GLIBCXX_DEBUG)
+  constexpr std::uint64_t kLayoutOfVersion2 = 0xBA9C39D29BD17761;
+  EXPECT_EQ(kPluginStamp.layout, kLayoutOfVersion2)
+      << std::hex << kPluginStamp.layout
+      << ": types that cross the door have changed; count up kPluginInterface and write their "
+         "fingerprint here";
+#endif
+  EXPECT_EQ(kPluginInterface, 2U);
+}
+
+TEST(PluginStamp, TheLayoutIsThatOfAllTypes) {
+  struct Small {
+    char c;
+  };
+  struct Large {
+    char c[3];
+  };
+  struct alignas(4) Aligned {
+    char c[4];
+  };
+  struct Whole {
+    char c[4];
+  };
+  using plugin_stamp::layout_of;
+  EXPECT_NE((plugin_stamp::layout_of<Small, Large>()), (plugin_stamp::layout_of<Large, Small>()));
+  EXPECT_NE(plugin_stamp::layout_of<Aligned>(), plugin_stamp::layout_of<Whole>());
+  EXPECT_EQ((plugin_stamp::layout_of<Small, Large>()), (plugin_stamp::layout_of<Small, Large>()));
+}
+
+TEST(RequestedPlugins, AreTakenOffTheCommandLineWhereverTheyStand) {
+  ::unsetenv("BEAMBENCH_PLUGINS");
+  std::vector<std::string> arguments{"beambench",     "--plugin", "a.so", "list", "--json",
+                                     "--plugin=b.so", "--plugin", "a.so", "--",   "--plugin"};
+  EXPECT_EQ(take_requested_plugins(arguments), (std::vector<std::string>{"a.so", "b.so"}));
+  EXPECT_EQ(arguments, (std::vector<std::string>{"beambench", "list", "--json", "--", "--plugin"}));
+}
+
+TEST(RequestedPlugins, TheEnvironmentsComeFirst) {
+  ::setenv("BEAMBENCH_PLUGINS", "/x/a.so::/y/b.so", 1);
+  std::vector<std::string> arguments{"beambench", "--plugin", "c.so"};
+  EXPECT_EQ(take_requested_plugins(arguments),
+            (std::vector<std::string>{"/x/a.so", "/y/b.so", "c.so"}));
+  ::unsetenv("BEAMBENCH_PLUGINS");
+}
+
+TEST(Activity, KeepsLinesApartAndCutsOffWhatIsTooLong) {
+  Activity activity;
+  activity.write(Activity::Line::kForeign, "asking ", "'mine'");
+  activity.write(Activity::Line::kRunFolder, std::string(10'000, 'x'));
+  activity.write(Activity::Line::kCell, "cell");
+  EXPECT_EQ(activity.read(Activity::Line::kForeign), "asking 'mine'");
+  EXPECT_EQ(activity.read(Activity::Line::kRunFolder), std::string(4095, 'x'));
+  EXPECT_EQ(activity.read(Activity::Line::kCell), "cell");
+  activity.clear(Activity::Line::kForeign);
+  EXPECT_EQ(activity.read(Activity::Line::kForeign), "");
+}
+
+TEST(CheckScene, PassesWhatTheBuilderMakes) {
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    EXPECT_NO_THROW(check_scene(testing::random_scene(seed, 50))) << seed;
+  }
+  EXPECT_NO_THROW(check_scene(scenes::SceneBuilder("empty").build()));
+}
+
+TEST(CheckScene, RefusesWhatLeavesItsArraysOrIsNoNumber) {
+  const scenes::Scene sound = testing::random_scene(7, 60);
+  ASSERT_FALSE(sound.spheres.empty());
+  ASSERT_FALSE(sound.cones.empty());
+  ASSERT_FALSE(sound.polygons.empty());
+  const auto refuses = [&](auto change) {
+    scenes::Scene scene = sound;
+    change(scene);
+    EXPECT_THROW(check_scene(scene), PluginError);
+  };
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  refuses([](scenes::Scene& s) { s.primitives[3].index = 10'000; });
+  refuses([](scenes::Scene& s) { s.primitives[3].surface = 10'000; });
+  refuses([](scenes::Scene& s) { s.primitives[3].kind = static_cast<scenes::PrimitiveKind>(7); });
+  refuses([](scenes::Scene& s) { s.spheres[0].radius = 0.0F; });
+  refuses([&](scenes::Scene& s) { s.spheres[0].center.y = nan; });
+  refuses([](scenes::Scene& s) { s.cones[0].apex = s.cones[0].base; });
+  refuses([](scenes::Scene& s) { s.polygons[0].first_corner = 1'000'000; });
+  refuses([](scenes::Scene& s) { s.polygons[0].triangle_count = 0; });
+  refuses([](scenes::Scene& s) { s.triangles[0].vertex[1] = 1'000'000; });
+  refuses([](scenes::Scene& s) { s.triangles[0].primitive += 1; });
+  refuses([](scenes::Scene& s) { s.vertices[0].x = 2e9F; });
+  refuses([](scenes::Scene& s) { s.bounds.upper.x += 1.0F; });
+  refuses([](scenes::Scene& s) { s.cameras.clear(); });
+  refuses([](scenes::Scene& s) { s.cameras.front().angle = 0.0F; });
+}
+
+TEST(CheckScene, RefusesASceneThatIsTooSmall) {
+  scenes::SceneBuilder builder("small");
+  builder.add_sphere({0.0, 0.0, 0.0}, 1.0);
+  scenes::Scene scene = std::move(builder).build();
+  const auto resize = [&](float radius) {
+    scene.spheres[0].radius = radius;
+    scene.bounds = scenes::primitive_bounds(scene, 0);
+  };
+  resize(1e-8F);
+  EXPECT_NO_THROW(check_scene(scene));
+  resize(1e-15F);
+  EXPECT_THROW(check_scene(scene), PluginError);
+}
+
+}  // namespace
+}  // namespace beambench::plugin

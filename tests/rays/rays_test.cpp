@@ -1,0 +1,351 @@
+// Rays beside the primary ones: made, judged, saved and loaded.
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <gtest/gtest.h>
+
+#include "harness/rays/answers.hpp"
+#include "harness/rays/fingerprint.hpp"
+#include "harness/rays/question.hpp"
+#include "harness/rays/random_rays.hpp"
+#include "harness/rays/ray_set_file.hpp"
+#include "harness/rays/secondary_rays.hpp"
+#include "harness/rays/share_warning.hpp"
+#include "harness/verify/differ.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/scene_builder.hpp"
+#include "tests/embree_modes.hpp"
+#include "tests/scenes/thrown_message.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace beambench::rays {
+namespace {
+
+using glm::dvec3;
+
+Question question_over(const scenes::Scene& scene, std::string_view rays,
+                       Resolution resolution = {64, 48}) {
+  return make_question(scene, {scene.cameras.front(), resolution, 1}, parse_ray_choice(rays));
+}
+
+/// One sphere, lit from two sides and seen from the front.
+scenes::Scene lonely_sphere() {
+  scenes::SceneBuilder builder("sphere");
+  builder.add_sphere({1.0, 2.0, 3.0}, 2.0);
+  builder.add_light({1.0, 2.0, 23.0});
+  builder.add_light({1.0, 2.0, -17.0});
+  scenes::Camera camera;
+  camera.from = {1.0F, 2.0F, 13.0F};
+  camera.at = {1.0F, 2.0F, 3.0F};
+  camera.angle = 30.0F;
+  builder.add_camera(camera);
+  return std::move(builder).build();
+}
+
+std::vector<PrimaryHitPoint> points_of(const scenes::Scene& scene) {
+  return surface_points(scene, {scene.cameras.front(), 64, 48, 1});
+}
+
+TEST(ShadowRays, LeadFromFacedSurfacesToTheLight) {
+  const scenes::Scene scene = lonely_sphere();
+  const auto points = points_of(scene);
+  ASSERT_GT(points.size(), 100U);
+  const auto rays = shadow_rays(scene, points);
+  ASSERT_EQ(rays.size(), points.size());  // the light behind is faced by no point that is seen
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    EXPECT_NEAR(glm::length(dvec3(rays[i].origin) - points[i].point), 0.0, 1e-3);
+    const dvec3 end = dvec3(rays[i].origin) + dvec3(rays[i].direction);
+    EXPECT_NEAR(glm::length(end - dvec3(scene.lights[0].position)), 0.0, 1e-5);
+    EXPECT_EQ(rays[i].t_max, 1.0F);
+  }
+}
+
+TEST(ReflectionRays, LeaveAsTheyCame) {
+  const scenes::Scene scene = lonely_sphere();
+  const auto points = points_of(scene);
+  const auto rays = reflection_rays(scene, points);
+  ASSERT_EQ(rays.size(), points.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const dvec3 out(rays[i].direction);
+    const dvec3& normal = points[i].normal;
+    EXPECT_NEAR(glm::length(out), 1.0, 1e-6);
+    EXPECT_NEAR(glm::dot(out, normal), -glm::dot(points[i].incoming, normal), 1e-6);
+    EXPECT_NEAR(glm::dot(glm::cross(points[i].incoming, out), normal), 0.0, 1e-6);  // one plane
+  }
+}
+
+TEST(DiffuseRays, FollowTheCosineAndTheSeed) {
+  const scenes::Scene scene = lonely_sphere();
+  const auto points = points_of(scene);
+  double cosines = 0.0;
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    const auto rays = diffuse_rays(scene, points, seed);
+    ASSERT_EQ(rays.size(), points.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const double cosine = glm::dot(dvec3(rays[i].direction), points[i].normal);
+      ASSERT_GT(cosine, -1e-6);
+      cosines += cosine;
+      squares += cosine * cosine;
+      ++count;
+    }
+  }
+  // With density cos / pi the mean of cos is 2/3 and that of its square 1/2; five standard errors.
+  EXPECT_NEAR(cosines / static_cast<double>(count), 2.0 / 3.0,
+              5.0 * std::sqrt(1.0 / 18.0 / static_cast<double>(count)));
+  EXPECT_NEAR(squares / static_cast<double>(count), 0.5,
+              5.0 * std::sqrt(1.0 / 12.0 / static_cast<double>(count)));
+  EXPECT_EQ(fingerprint(diffuse_rays(scene, points, 1)),
+            fingerprint(diffuse_rays(scene, points, 1)));
+  EXPECT_NE(fingerprint(diffuse_rays(scene, points, 1)),
+            fingerprint(diffuse_rays(scene, points, 2)));
+}
+
+TEST(SecondaryRays, DoNotMeetTheSurfaceTheyLeave) {
+  const scenes::Scene scene = lonely_sphere();
+  for (const char* kind : {"shadow", "reflection", "diffuse"}) {
+    const verify::ReferenceHits reference(scene, question_over(scene, kind));
+    EXPECT_EQ(reference.hit_count(), 0U) << kind;
+  }
+}
+
+TEST(RandomRays, MeetAConvexBodyAsOftenAsItsSurfaceSays) {
+  const scenes::Scene scene = lonely_sphere();
+  constexpr std::size_t kCount = 200'000;
+  RaySet set{"random", Query::kClosestHit, 1, {}, random_rays(scene.bounds, kCount, 1)};
+  ASSERT_EQ(set.rays.size(), kCount);
+  const verify::ReferenceHits reference(scene, Question(std::move(set)));
+  const double pad = 2.0 * 0x1p-10 * std::sqrt(3.0) * 4.0;  // the box is a little wider
+  const double expected = 4.0 * std::numbers::pi * 4.0 / (6.0 * (4.0 + pad) * (4.0 + pad));
+  const double share = static_cast<double>(reference.hit_count()) / kCount;
+  EXPECT_NEAR(share, expected, 5.0 * std::sqrt(expected * (1.0 - expected) / kCount));
+}
+
+TEST(RandomRays, TakeFlatAndEmptyBoxes) {
+  EXPECT_TRUE(random_rays(scenes::Bounds(), 10, 1).empty());
+  scenes::Bounds point;
+  point.include(glm::vec3(5.0F, 0.0F, 0.0F));
+  for (const accel::Ray& ray : random_rays(point, 10, 1)) accel::require_valid(ray);
+  scenes::Bounds flat = point;
+  flat.include(glm::vec3(5.0F, 3.0F, 2.0F));
+  EXPECT_EQ(random_rays(flat, 10, 1).size(), 10U);
+}
+
+TEST(Coherence, IsTheMeanCosineOfNeighbours) {
+  accel::Ray x;
+  x.direction = {2.0F, 0.0F, 0.0F};
+  accel::Ray y;
+  y.direction = {0.0F, 0.1F, 0.0F};
+  EXPECT_DOUBLE_EQ(coherence(std::vector{x, x, y, y}), 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(coherence(std::vector{x}), 1.0);
+  const scenes::Scene scene = lonely_sphere();
+  const Question image = question_over(scene, "primary", {5, 4});
+  std::vector<accel::Ray> rays;
+  for (std::size_t i = 0; i < image.size(); ++i) rays.push_back(image.ray(i));
+  EXPECT_NEAR(coherence(image), coherence(rays), 1e-12);
+}
+
+TEST(ShareWarning, IsGivenBelowOneAndAboveNinetyNinePercent) {
+  const Question image(accel::PrimaryRays(lonely_sphere().cameras.front(), 100, 10, 1));
+  EXPECT_TRUE(share_warning(image, 9));
+  EXPECT_FALSE(share_warning(image, 10));
+  EXPECT_FALSE(share_warning(image, 990));
+  EXPECT_TRUE(share_warning(image, 991));
+}
+
+TEST(MakeQuestion, ExplainsWhyThereAreNoRays) {
+  scenes::Scene scene = lonely_sphere();
+  scene.lights.clear();
+  EXPECT_TRUE(
+      scenes::says(scenes::thrown_message([&] { question_over(scene, "shadow"); }), {"no lights"}));
+  scene.cameras.front().at = {1.0F, 2.0F, 23.0F};
+  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { question_over(scene, "diffuse"); }),
+                           {"no diffuse rays", "another camera"}));
+}
+
+TEST(EveryKindOfRays, FindsExhaustiveAndEmbreeRight) {
+  std::vector<std::string> structures{"exhaustive", "samet"};
+  for (const std::string& mode : testing::embree_modes())
+    structures.push_back("embree:mode=" + mode);
+  for (const char* name : {"tetra:n=3", "escena1:spheres=60", "balls:n=1"}) {
+    const scenes::Scene scene = scenes::load_scene(name);
+    for (const char* kind : {"shadow", "reflection", "diffuse", "random"}) {
+      const verify::ReferenceHits reference(scene, question_over(scene, kind));
+      for (const std::string& structure : structures) {
+        const accel::StructureChoice choice = accel::registry().choose(parse_spec(structure));
+        Answers answers = room_for(reference.question());
+        poison(answers);
+        ask(*choice.build(scene), reference.question(), answers);
+        const verify::DiffReport report =
+            verify::judge(reference, answers, choice.info().conformance);
+        EXPECT_EQ(report.verdict, verify::Verdict::kOk) << name << " " << kind << " " << structure;
+        EXPECT_EQ(report.rays, reference.question().size());
+      }
+    }
+  }
+}
+
+/// A right answer to shadow rays, to be spoilt.
+class AnyHitAnswers : public ::testing::Test {
+ protected:
+  AnyHitAnswers() {
+    ask(*accel::registry().choose({"exhaustive", {}}).build(scene_), reference_.question(),
+        answers_);
+  }
+  verify::DiffReport judged() const {
+    return verify::judge(reference_, answers_, accel::Conformance::kBitExact);
+  }
+  std::uint8_t& answer(std::size_t i) { return std::get<AnyHits>(answers_)[i]; }
+  std::size_t first_that_is(std::uint8_t value) {
+    std::size_t i = 0;
+    while (answer(i) != value) ++i;
+    return i;
+  }
+
+  scenes::Scene scene_ = scenes::load_scene("escena1:spheres=60");
+  verify::ReferenceHits reference_{scene_, question_over(scene_, "shadow")};
+  Answers answers_ = room_for(reference_.question());
+};
+
+TEST_F(AnyHitAnswers, AreOkWhenTheyAreRight) {
+  const verify::DiffReport report = judged();
+  EXPECT_EQ(report.verdict, verify::Verdict::kOk);
+  EXPECT_EQ(report.count(verify::DiffClass::kAgree), report.rays);
+}
+
+TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsWrong) {
+  for (const std::uint8_t value : {std::uint8_t{0}, std::uint8_t{1}}) {
+    const std::size_t at = first_that_is(value);
+    answer(at) = 1 - value;
+    const verify::DiffReport report = judged();
+    EXPECT_EQ(report.verdict, verify::Verdict::kMismatch);
+    ASSERT_EQ(report.examples.size(), 1U);
+    EXPECT_EQ(report.examples[0].index, at);
+    EXPECT_TRUE(scenes::says(
+        verify::describe(scene_, reference_.question(), report.examples[0]),
+        {fmt::format("ray {}: engine_error", at), value == 1 ? "lost a hit" : "there is none"}));
+    answer(at) = value;
+  }
+}
+
+TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsNoAnswer) {
+  answer(7) = 2;
+  EXPECT_EQ(judged().count(verify::DiffClass::kEngineError), 1U);
+  poison(answers_);
+  EXPECT_EQ(judged().count(verify::DiffClass::kEngineError), reference_.question().size());
+}
+
+TEST_F(AnyHitAnswers, OfABaselineAreAllNo) {
+  EXPECT_EQ(verify::judge(reference_, answers_, accel::Conformance::kBaseline).verdict,
+            verify::Verdict::kMismatch);
+  EXPECT_EQ(
+      verify::judge(reference_, room_for(reference_.question()), accel::Conformance::kBaseline)
+          .verdict,
+      verify::Verdict::kBaseline);
+}
+
+TEST(AnyHitOfAGrazingRay, MayBeEither) {
+  scenes::SceneBuilder builder("two triangles");
+  const dvec3 near[] = {{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  const dvec3 far[] = {{-3.0, -3.0, -5.0}, {3.0, -3.0, -5.0}, {0.0, 3.0, -5.0}};
+  builder.add_polygon(near);
+  builder.add_polygon(far);
+  const scenes::Scene scene = std::move(builder).build();
+  const auto verdict_on = [&](float x, float t_max, std::uint8_t answer) {
+    accel::Ray ray;
+    ray.origin = {x, 0.0F, 4.0F};
+    ray.direction = {0.0F, 0.0F, -1.0F};
+    ray.t_max = t_max;
+    const verify::ReferenceHits reference(scene,
+                                          Question(RaySet{"a ray", Query::kAnyHit, 0, {}, {ray}}));
+    return verify::judge(reference, AnyHits{answer}, accel::Conformance::kTolerance).examples;
+  };
+  const auto class_of = [](const std::vector<verify::Mismatch>& examples) {
+    return examples.empty() ? verify::DiffClass::kAgree : examples[0].diff_class;
+  };
+  // Along the near triangle's edge: either answer will do, unless the far one is in reach.
+  for (const std::uint8_t answer : {std::uint8_t{0}, std::uint8_t{1}}) {
+    EXPECT_NE(class_of(verdict_on(0.0F, 6.0F, answer)), verify::DiffClass::kEngineError);
+    EXPECT_NE(class_of(verdict_on(-1e-7F, 6.0F, answer)), verify::DiffClass::kEngineError);
+    EXPECT_NE(class_of(verdict_on(0.2F, 4.0F, answer)),
+              verify::DiffClass::kEngineError);  // ends on it
+  }
+  EXPECT_EQ(class_of(verdict_on(0.0F, 20.0F, 0)), verify::DiffClass::kEngineError);
+  EXPECT_EQ(class_of(verdict_on(-0.01F, 6.0F, 1)), verify::DiffClass::kEngineError);
+  EXPECT_EQ(class_of(verdict_on(0.2F, 3.9F, 1)), verify::DiffClass::kEngineError);
+  EXPECT_EQ(class_of(verdict_on(0.2F, 4.1F, 0)), verify::DiffClass::kEngineError);
+}
+
+class RayFile : public ::testing::Test {
+ protected:
+  RayFile() { write_ray_file(path_, set_, {{"why", "a test"}}); }
+
+  std::string refusal() const {
+    return scenes::thrown_message([&] { read_ray_file(path_); });
+  }
+  void write(const std::string& text) const { std::ofstream(path_, std::ios::binary) << text; }
+
+  TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_.path() / "some.rays";
+  scenes::Scene scene_ = lonely_sphere();
+  RaySet set_ = *question_over(scene_, "diffuse:seed=9").list();
+};
+
+TEST_F(RayFile, HoldsTheSameRays) {
+  const Question read = question_over(scene_, path_.string());
+  EXPECT_EQ(fingerprint(read), fingerprint(set_.rays));
+  EXPECT_EQ(read.seed(), 9U);
+  EXPECT_EQ(read.query(), Query::kClosestHit);
+  EXPECT_EQ(read.label(), path_.string());
+}
+
+TEST_F(RayFile, OfAnotherSceneIsRefused) {
+  const scenes::Scene other = scenes::load_scene("tetra:n=1");
+  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { question_over(other, path_.string()); }),
+                           {"some.rays", "made for a scene with hash", "tetra:n=1"}));
+}
+
+TEST_F(RayFile, ThatIsDamagedIsRefused) {
+  const std::string whole = read_text(path_);
+  std::string damaged = whole;
+  damaged.back() = static_cast<char>(damaged.back() ^ 1);
+  write(damaged);
+  EXPECT_TRUE(scenes::says(refusal(), {"some.rays", "hash"}));
+  write(whole.substr(0, whole.size() - 5));
+  EXPECT_TRUE(scenes::says(refusal(), {"some.rays", "bytes of rays"}));
+  write(whole + "x");
+  EXPECT_TRUE(scenes::says(refusal(), {"some.rays", "bytes of rays"}));
+}
+
+TEST_F(RayFile, ThatIsNoneIsRefused) {
+  std::filesystem::remove(path_);
+  EXPECT_TRUE(scenes::says(refusal(), {"some.rays: cannot be read: No such file"}));
+  for (const char* text :
+       {"", "v\nfrom 0 0 0\n", "beambench-rays 2\n{}\n", "beambench-rays 1",
+        "beambench-rays 1\n[]\n", "beambench-rays 1\n{\"query\":\"all\",\"rays\":1}\n",
+        "beambench-rays 1\n{\"query\":\"any\"}\n",
+        "beambench-rays 1\n{\"query\":\"any\",\"rays\":0}\n",
+        "beambench-rays 1\n{\"query\":\"any\",\"rays\":-1}\n",
+        "beambench-rays 1\n{\"query\":\"any\",\"rays\":1e99}\n",
+        "beambench-rays 1\n{\"query\":\"any\",\"rays\":1,\"hash\":5}\n",
+        "beambench-rays 1\n{\"query\":\"any\",\"rays\":1,\"seed\":\"x\"}\n",
+        "beambench-rays 1\n{\"query\":\"any\",\"rays\":200000000}\n"}) {
+    write(text);
+    EXPECT_TRUE(scenes::says(refusal(), {"some.rays"})) << text;
+  }
+}
+
+TEST_F(RayFile, NamesARayThatIsNone) {
+  set_.rays[3].direction = glm::vec3(0.0F);
+  write_ray_file(path_, set_, {});
+  EXPECT_TRUE(scenes::says(refusal(), {"some.rays", "ray 3"}));
+}
+
+}  // namespace
+}  // namespace beambench::rays

@@ -1,0 +1,164 @@
+// Whole pictures as a task of sweeps: every ray that follows the eye's is counted and judged.
+
+#include <memory>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "accel/core/traversal_accelerator.hpp"
+#include "harness/bench/task.hpp"
+#include "harness/render/judged_picture.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/core/error.hpp"
+#include "tests/drawn.hpp"
+#include "tests/scenes/thrown_message.hpp"
+
+namespace beambench::render {
+namespace {
+
+/// A group that asks for a whole picture of a scene.
+bench::CellGroup group_of(scenes::Scene scene, const std::string& rays = "whitted") {
+  const scenes::Camera camera = scene.cameras.front();
+  return {std::make_shared<const scenes::Scene>(std::move(scene)),
+          camera,
+          {40, 30},
+          1,
+          rays::parse_ray_choice(rays),
+          1,
+          {}};
+}
+
+accel::StructureChoice choice(const std::string& spec) {
+  return accel::registry().choose(parse_spec(spec));
+}
+
+/// Asks a structure as a contender does; the judgement of what it answered.
+verify::DiffReport judged(bench::Task& task, const std::string& spec) {
+  const auto structure = choice(spec).build(task.scene());
+  task.poison();
+  task.ask(*structure);
+  const std::uint64_t timed = task.fingerprint();
+  verify::DiffReport report = task.judge(*structure, choice(spec)).report;
+  EXPECT_EQ(task.fingerprint(), timed) << "what is judged is what was timed";
+  return report;
+}
+
+std::uint64_t ray_count(const bench::CountedWork& work) {
+  std::uint64_t rays = 0;
+  for (const bench::RaysOfKind& kind : work.kinds) rays += kind.rays;
+  return rays;
+}
+
+TEST(WholePicture, EveryStructureIsRightInEveryRay) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    const bench::CellGroup group = group_of(scene_of_all_surfaces(seed));
+    const auto task = bench::make_task(group, 0, -1);
+    std::uint64_t expected = 0;
+    for (const char* spec : {"exhaustive", "samet", "samet-net", "voxel-grid", "goldsmith-salmon",
+                             "sah-bvh", "beam", "tile-beam", "embree"}) {
+      SCOPED_TRACE(spec);
+      const verify::DiffReport report = judged(*task, spec);
+      EXPECT_EQ(report.verdict, verify::Verdict::kOk);
+      EXPECT_GT(report.rays, 1U * 40 * 30);
+      if (choice(spec).info().conformance != accel::Conformance::kBitExact) continue;
+      if (expected == 0) expected = task->fingerprint();
+      EXPECT_EQ(task->fingerprint(), expected);
+    }
+    EXPECT_EQ(judged(*task, "null").verdict, verify::Verdict::kBaseline);
+  }
+}
+
+TEST(WholePicture, CountsWorkByKindOfRays) {
+  const bench::CellGroup group = group_of(scene_of_all_surfaces(2));  // with glass
+  const auto task = bench::make_task(group, 0, -1);
+  const auto structure = choice("exhaustive").build(task->scene());
+  task->ask(*structure);
+  const std::uint64_t timed = task->fingerprint();
+  const bench::CountedWork work = task->count(*structure);
+  EXPECT_EQ(task->fingerprint(), timed);
+  EXPECT_EQ(ray_count(work), task->facts().rays);
+  const RayCensus census = picture(task->scene(), "exhaustive", {}).census;
+  ASSERT_EQ(work.kinds.size(), 4U);
+  EXPECT_EQ(work.kinds[0].rays, census.eye);
+  EXPECT_EQ(work.kinds[1].rays, census.reflected);
+  EXPECT_EQ(work.kinds[2].rays, census.refracted);
+  EXPECT_EQ(work.kinds[3].rays, census.shadow);
+  // Each ray of these meets all primitives.
+  const std::uint64_t primitives = task->scene().primitives.size();
+  std::uint64_t tests = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const std::uint64_t of_kind = work.kinds[i].counters.at("primitive_tests");
+    if (i < 3) {
+      EXPECT_EQ(of_kind, primitives * work.kinds[i].rays);
+    }
+    tests += of_kind;
+  }
+  EXPECT_EQ(work.counters.at("primitive_tests"), tests);
+}
+
+TEST(WholePicture, ItsFactsAreThoseOfTheOraclesPicture) {
+  const bench::CellGroup group = group_of(scenes::load_scene("balls:n=1"));
+  const auto task = bench::make_task(group, 7, -1);
+  const bench::RaySetFacts& facts = task->facts();
+  EXPECT_EQ(facts.scene_hash, 7U);
+  EXPECT_EQ(facts.query, rays::Query::kPicture);
+  const bench::HarnessShare share = task->harness_share(*choice("exhaustive").build(task->scene()));
+  EXPECT_EQ(share.path, bench::QueryPath::kPicture);
+  EXPECT_GT(share.ms, 0.0);
+  EXPECT_GT(facts.hit_share.value(), 0.2);
+  EXPECT_LT(facts.occluded_share.value(), 0.9);
+  EXPECT_FALSE(facts.coherence);
+  EXPECT_EQ(bench::make_task(group, 7, -1)->facts().rays_hash, facts.rays_hash);
+  const bench::CellGroup shallow = group_of(scenes::load_scene("balls:n=1"), "whitted:depth=1");
+  EXPECT_NE(bench::make_task(shallow, 7, -1)->facts().rays_hash, facts.rays_hash);
+}
+
+/// `exhaustive`, wrong only where it is asked for single rays, and there now and then.
+class WrongAlone : public accel::TraversalAccelerator<WrongAlone> {
+ public:
+  enum class In { kClosest, kAny };
+  WrongAlone(const scenes::Scene& scene, In in) : right_(built(scene, "exhaustive")), in_(in) {}
+
+  accel::Statistics statistics() const override { return {}; }
+  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer) const override {
+    right_->trace(rays, buffer);
+  }
+  template <class Counting>
+  std::optional<accel::Hit> find_closest(const accel::Ray& ray, Counting&) const {
+    const auto hit = right_->closest_hit(ray);
+    return in_ == In::kClosest && hit && hit->primitive % 7 == 0 ? std::nullopt : hit;
+  }
+  template <class Counting>
+  bool find_any(const accel::Ray& ray, Counting&) const {
+    return in_ == In::kAny ? false : right_->any_hit(ray);
+  }
+
+ private:
+  std::unique_ptr<accel::Accelerator> right_;
+  In in_;
+};
+
+TEST(WholePicture, AWrongRayThatFollowsIsFoundAndNamed) {
+  const bench::CellGroup group = group_of(scene_of_all_surfaces(1));  // without glass
+  const auto task = bench::make_task(group, 0, -1);
+  for (const auto& [in, name] : {std::pair{WrongAlone::In::kClosest, "reflected rays, ray "},
+                                 std::pair{WrongAlone::In::kAny, "shadow rays, ray "}}) {
+    const WrongAlone structure(task->scene(), in);
+    task->ask(structure);
+    const bench::Judgement judgement = task->judge(structure, choice("exhaustive"));
+    EXPECT_EQ(judgement.report.verdict, verify::Verdict::kMismatch);
+    EXPECT_GT(judgement.report.count(verify::DiffClass::kEngineError), 0U);
+    ASSERT_FALSE(judgement.examples.empty());
+    for (const std::string& example : judgement.examples)
+      EXPECT_TRUE(scenes::says(example, {name}));
+  }
+}
+
+TEST(WholePicture, IsNoListOfRays) {
+  const scenes::Scene scene = scenes::load_scene("tetra:n=1");
+  const rays::ImageOfRays image{scene.cameras.front(), {8, 8}, 1};
+  EXPECT_THROW(rays::make_question(scene, image, rays::parse_ray_choice("whitted")), InputError);
+}
+
+}  // namespace
+}  // namespace beambench::render

@@ -1,0 +1,381 @@
+// The differ: right structures pass, planted faults do not.
+
+#include "harness/verify/differ.hpp"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "accel/core/registry.hpp"
+#include "harness/verify/classify.hpp"
+#include "harness/verify/exact_search.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/scene_builder.hpp"
+#include "tests/embree_modes.hpp"
+#include "tests/random_scene.hpp"
+
+namespace beambench::verify {
+namespace {
+
+using testing::embree_modes;
+using testing::random_ray;
+using testing::random_scene;
+
+accel::HitBuffer traced(const std::string& structure, const scenes::Scene& scene,
+                        const accel::PrimaryRays& rays) {
+  accel::HitBuffer buffer(rays.width(), rays.height(), rays.samples());
+  accel::registry().choose(parse_spec(structure)).build(scene)->trace(rays, buffer);
+  return buffer;
+}
+
+std::string first_example(const ReferenceHits& reference, const DiffReport& report) {
+  return report.examples.empty()
+             ? ""
+             : describe(reference.scene(), reference.question(), report.examples.front());
+}
+
+TEST(Oracle, GivesTheLongDoubleAnswer) {
+  std::uint64_t rays = 0;
+  std::uint64_t not_equal = 0;
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    const scenes::Scene scene = random_scene(seed, 30);
+    const accel::embree::EmbreeOracle oracle(scene, 20'000.0);
+    Random random(seed);
+    for (int i = 0; i < 300; ++i) {
+      const accel::Ray ray = random_ray(scene, random);
+      const auto found = oracle.closest_hit(ray);
+      const auto exact = exact_closest_hit(scene, ray);
+      ++rays;
+      if (found.has_value() == exact.has_value() &&
+          (!exact || (found->primitive == exact->primitive &&
+                      std::abs(found->t - exact->t) <= 1e-9 * (1.0 + exact->t)))) {
+        continue;
+      }
+      // What is left must be a tie or a graze.
+      ++not_equal;
+      std::optional<accel::Hit> rounded;
+      if (found) rounded = accel::Hit{static_cast<float>(found->t), found->primitive};
+      const double length = tolerance(scene, ray.origin);
+      ASSERT_TRUE(classify(scene, ray, rounded, exact, length).has_value())
+          << scene.name << " ray " << i;
+    }
+  }
+  EXPECT_LT(not_equal, rays / 10);
+}
+
+TEST(Judge, FindsNoErrorInExhaustiveSearchOnRandomScenes) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    const scenes::Scene scene = random_scene(seed, 40);
+    const accel::PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
+    const ReferenceHits reference(scene, rays);
+    const DiffReport report =
+        judge(reference, traced("exhaustive", scene, rays), accel::Conformance::kBitExact);
+    ASSERT_EQ(report.verdict, Verdict::kOk) << first_example(reference, report);
+    ASSERT_EQ(report.count(DiffClass::kEmbreeError), 0U) << first_example(reference, report);
+    ASSERT_EQ(report.rays, rays.count());
+  }
+}
+
+TEST(Judge, AcceptsEveryModeOfEmbree) {
+  std::vector<std::string> variants = {"mode=packet16,coherent=false", "quality=low",
+                                       "quality=medium", "robust=false"};
+  for (const std::string& mode : testing::embree_modes()) variants.push_back("mode=" + mode);
+  for (const char* name : {"tetra:n=4", "escena1", "balls:n=2", "bumpy:triangles=2000"}) {
+    const scenes::Scene scene = scenes::load_scene(name);
+    const accel::PrimaryRays rays(scene.cameras.front(), 200, 160, 1);
+    const ReferenceHits reference(scene, rays);
+    for (const std::string& variant : variants) {
+      const std::string structure = "embree:" + variant;
+      const DiffReport report =
+          judge(reference, traced(structure, scene, rays), accel::Conformance::kTolerance);
+      EXPECT_EQ(report.verdict, Verdict::kOk) << name << " " << structure << "\n"
+                                              << first_example(reference, report);
+      EXPECT_GT(report.hits, 0U);
+    }
+  }
+}
+
+TEST(Judge, AcceptsEmbreesOwnConesAndInsideSpheres) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const scenes::Scene scene =
+        random_scene(4 * seed + 3, 40);  // neither snapped, repeated nor remote
+    const accel::PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
+    const ReferenceHits reference(scene, rays);
+    for (const std::string& mode : testing::embree_modes()) {
+      const std::string structure = "embree:mode=" + mode;
+      const DiffReport report =
+          judge(reference, traced(structure, scene, rays), accel::Conformance::kTolerance);
+      ASSERT_EQ(report.verdict, Verdict::kOk) << structure << "\n"
+                                              << first_example(reference, report);
+    }
+  }
+}
+
+/// A sphere, a polygon facing the camera and, behind both, a wall and a cone; seen along -z.
+class FaultyBuffer : public ::testing::Test {
+ protected:
+  static constexpr scenes::PrimitiveId kSphere = 0;
+  static constexpr scenes::PrimitiveId kTile = 1;
+  static constexpr scenes::PrimitiveId kWall = 2;
+  static constexpr scenes::PrimitiveId kCone = 3;
+
+  static scenes::Scene make_scene() {
+    scenes::SceneBuilder builder("planted");
+    builder.add_sphere({-1.0, 0.0, 0.0}, 0.8);
+    add_square(builder, {1.0, 0.0, 0.0}, 0.8);
+    add_square(builder, {0.0, 0.0, -2.0}, 3.0);
+    builder.add_cone({-1.0, -1.5, 0.0}, 0.4, {1.0, -1.5, 0.0}, 0.2);
+    scenes::Camera camera;
+    camera.from = {0.0F, 0.0F, 4.0F};
+    camera.at = {0.0F, 0.0F, 0.0F};
+    camera.angle = 50.0F;
+    builder.add_camera(camera);
+    return std::move(builder).build();
+  }
+  static void add_square(scenes::SceneBuilder& builder, const glm::dvec3& center, double half) {
+    const glm::dvec3 corners[] = {
+        center + glm::dvec3(-half, -half, 0.0), center + glm::dvec3(half, -half, 0.0),
+        center + glm::dvec3(half, half, 0.0), center + glm::dvec3(-half, half, 0.0)};
+    builder.add_polygon(corners);
+  }
+
+  /// The index of a pixel that sees the point.
+  std::size_t seeing(double x, double y, double z) const {
+    const double scale = 0.5 * 65.0 / std::tan(25.0 * 3.14159265358979 / 180.0) / (4.0 - z);
+    return buffer_.index(static_cast<int>(32.5 + x * scale), static_cast<int>(32.5 - y * scale), 0);
+  }
+  std::size_t on_sphere() const { return seeing(-1.0, 0.1, 0.8); }
+  std::size_t on_tile() const { return seeing(1.0, 0.1, 0.0); }
+  std::size_t on_wall() const { return seeing(0.0, 1.5, -2.0); }
+  std::size_t on_cone() const { return seeing(0.0, -1.5, 0.3); }
+
+  DiffReport judged() const { return judge(reference_, buffer_, accel::Conformance::kTolerance); }
+  void expect_engine_error() const {
+    const DiffReport report = judged();
+    EXPECT_EQ(report.verdict, Verdict::kMismatch);
+    EXPECT_EQ(report.count(DiffClass::kEngineError), 1U);
+    EXPECT_EQ(report.count(DiffClass::kAgree), report.rays - 1)
+        << first_example(reference_, report);
+    ASSERT_EQ(report.examples.size(), 1U);
+    EXPECT_EQ(report.examples.front().diff_class, DiffClass::kEngineError);
+  }
+  void shift(std::size_t index, double tolerances) {
+    accel::Hit hit = *buffer_.get(index);
+    hit.t = static_cast<float>(hit.t + tolerances * tolerance(scene_, rays_.eye()));
+    buffer_.set(index, hit);
+  }
+
+  scenes::Scene scene_ = make_scene();
+  accel::PrimaryRays rays_{scene_.cameras.front(), 65, 65, 1};
+  ReferenceHits reference_{scene_, rays_};
+  accel::HitBuffer buffer_ = traced("exhaustive", scene_, rays_);
+};
+
+TEST_F(FaultyBuffer, NoneIsFoundWhereNoneIs) {
+  const DiffReport report = judged();
+  EXPECT_EQ(report.verdict, Verdict::kOk);
+  EXPECT_EQ(report.count(DiffClass::kAgree), report.rays);
+  EXPECT_TRUE(report.examples.empty());
+  EXPECT_EQ(buffer_.get(on_sphere())->primitive, kSphere);
+  EXPECT_EQ(buffer_.get(on_tile())->primitive, kTile);
+  EXPECT_EQ(buffer_.get(on_wall())->primitive, kWall);
+  EXPECT_EQ(buffer_.get(on_cone())->primitive, kCone);
+}
+
+TEST_F(FaultyBuffer, ShiftOfTByTenTolerances) {
+  for (const std::size_t index : {on_sphere(), on_tile(), on_wall(), on_cone()}) {
+    for (const double shifted : {10.0, -10.0}) {
+      const accel::Hit before = *buffer_.get(index);
+      shift(index, shifted);
+      expect_engine_error();
+      buffer_.set(index, before);
+    }
+  }
+}
+
+TEST_F(FaultyBuffer, ShiftOfTBelowTheToleranceAgrees) {
+  for (const std::size_t index : {on_sphere(), on_tile(), on_wall(), on_cone()}) shift(index, 0.4);
+  EXPECT_EQ(judged().count(DiffClass::kAgree), judged().rays);
+  EXPECT_EQ(judged().verdict, Verdict::kOk);
+}
+
+TEST_F(FaultyBuffer, HitReplacedByAMiss) {
+  buffer_.set(on_tile(), std::nullopt);
+  expect_engine_error();
+  EXPECT_TRUE(judged().examples.front().adjudicated);
+  EXPECT_EQ(judged().examples.front().exact->primitive, kTile);
+}
+
+TEST_F(FaultyBuffer, FartherPrimitiveBehindTheRightOne) {
+  const accel::Ray ray =
+      rays_.ray(static_cast<int>(on_tile() % 65), static_cast<int>(on_tile() / 65), 0);
+  buffer_.set(on_tile(), accel::Hit{(ray.origin.z + 2.0F) / -ray.direction.z, kWall});
+  expect_engine_error();
+}
+
+TEST_F(FaultyBuffer, HitWhereThereIsNone) {
+  buffer_.set(on_wall(), accel::Hit{4.0F, kTile});
+  expect_engine_error();
+}
+
+TEST_F(FaultyBuffer, RightPlaceWithTheWrongPrimitive) {
+  buffer_.set(on_tile(), accel::Hit{buffer_.get(on_tile())->t, kSphere});
+  expect_engine_error();
+}
+
+TEST_F(FaultyBuffer, FarSideOfTheSphereAndTheCone) {
+  // Both far points lie on the surface to the last bit, and are wrong all the same.
+  for (const auto& [index, id] : {std::pair(on_sphere(), kSphere), std::pair(on_cone(), kCone)}) {
+    const accel::Hit before = *buffer_.get(index);
+    accel::Ray ray = rays_.ray(static_cast<int>(index % 65), static_cast<int>(index / 65), 0);
+    ray.t_min = before.t + 0.01F;
+    const auto far_side = exact_closest_hit(scene_, ray);
+    ASSERT_EQ(far_side->primitive, id);
+    buffer_.set(index, accel::Hit{static_cast<float>(far_side->t), id});
+    expect_engine_error();
+    buffer_.set(index, before);
+  }
+}
+
+TEST_F(FaultyBuffer, AnswersThatAreNone) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const accel::Hit none[] = {{nan, kTile},
+                             {4.0F, 4},
+                             {4.0F, scenes::kNoPrimitive - 1},
+                             {-4.0F, kTile},
+                             {accel::kInfinity, kTile},
+                             {-accel::kInfinity, kTile},
+                             {nan, scenes::kNoPrimitive},
+                             {4.0F, scenes::kNoPrimitive}};
+  const accel::Hit before = *buffer_.get(on_tile());
+  for (const accel::Hit& answer : none) {
+    buffer_.t()[on_tile()] = answer.t;
+    buffer_.primitive()[on_tile()] = answer.primitive;
+    expect_engine_error();
+    EXPECT_FALSE(describe(scene_, rays_, judged().examples.front()).empty());
+  }
+  buffer_.set(on_tile(), before);
+  EXPECT_EQ(judged().verdict, Verdict::kOk);
+}
+
+TEST_F(FaultyBuffer, ErrorOfTheOracleIsNotTheStructures) {
+  std::vector<std::optional<accel::embree::ExactHit>> hits(reference_.hits().begin(),
+                                                           reference_.hits().end());
+  hits[on_tile()] = std::nullopt;
+  hits[on_wall()] = accel::embree::ExactHit{4.0, kTile};
+  const ReferenceHits wrong(scene_, rays_, hits);
+  const DiffReport report = judge(wrong, buffer_, accel::Conformance::kTolerance);
+  EXPECT_EQ(report.count(DiffClass::kEmbreeError), 2U);
+  EXPECT_EQ(report.verdict, Verdict::kOk);
+}
+
+TEST_F(FaultyBuffer, DescriptionNamesPixelRayBothHitsAndTheExactAnswer) {
+  buffer_.set(on_tile(), std::nullopt);
+  const DiffReport report = judged();
+  const Mismatch& mismatch = report.examples.at(0);
+  EXPECT_EQ(mismatch.index, on_tile());
+  const std::string text = describe(scene_, rays_, mismatch);
+  EXPECT_NE(text.find("pixel ("), std::string::npos) << text;
+  EXPECT_NE(text.find("from (0, 0, 4) along ("), std::string::npos) << text;
+  EXPECT_NE(text.find("engine miss"), std::string::npos) << text;
+  EXPECT_NE(text.find("oracle primitive 1 (polygon) at t = 4"), std::string::npos) << text;
+  EXPECT_NE(text.find("exact  primitive 1 (polygon) at t = 4"), std::string::npos) << text;
+  EXPECT_NE(text.find("lost"), std::string::npos) << text;
+}
+
+TEST_F(FaultyBuffer, ManyAreAllCountedAndAFewShown) {
+  for (std::size_t i = 0; i < buffer_.size(); ++i) buffer_.set(i, std::nullopt);
+  const DiffReport report = judged();
+  EXPECT_EQ(report.verdict, Verdict::kMismatch);
+  EXPECT_EQ(report.count(DiffClass::kEngineError) + report.count(DiffClass::kGraze), report.hits);
+  EXPECT_LE(report.examples.size(), 2 * DiffReport::kMaxExamples);
+  EXPECT_EQ(report.examples.front().diff_class, DiffClass::kEngineError);
+}
+
+TEST_F(FaultyBuffer, BufferOfAnotherSizeIsAMistakeOfTheCaller) {
+  EXPECT_THROW(judge(reference_, accel::HitBuffer(64, 65, 1), accel::Conformance::kTolerance),
+               std::logic_error);
+}
+
+TEST_F(FaultyBuffer, BaselineMustBeSilent) {
+  EXPECT_EQ(judge(reference_, buffer_, accel::Conformance::kBaseline).verdict, Verdict::kMismatch);
+  const DiffReport silent =
+      judge(reference_, accel::HitBuffer(65, 65, 1), accel::Conformance::kBaseline);
+  EXPECT_EQ(silent.verdict, Verdict::kBaseline);
+  EXPECT_EQ(silent.count(DiffClass::kEngineError), 0U);
+}
+
+/// Rays that pass a triangle's edge and a sphere's silhouette at a chosen distance, in units of K
+/// u.
+class Grazing : public ::testing::Test {
+ protected:
+  static scenes::Scene make_scene() {
+    scenes::SceneBuilder builder("grazing");
+    const glm::dvec3 corners[] = {{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+    builder.add_polygon(corners);
+    builder.add_sphere({-2.0, 0.0, 0.0}, 1.0);
+    builder.add_cone({4.0, -1.0, 0.0}, 1.0, {4.0, 1.0, 0.0}, 1.0);
+    return std::move(builder).build();
+  }
+  std::optional<DiffClass> missing(double x, double y, scenes::PrimitiveId id) const {
+    accel::Ray ray;
+    ray.origin = glm::vec3(static_cast<float>(x), static_cast<float>(y), 2.0F);
+    const auto exact = exact_closest_hit(scene_, ray);
+    EXPECT_TRUE(exact && exact->primitive == id) << x << " " << y;
+    return classify(scene_, ray, std::nullopt, exact, kUnit);
+  }
+
+  static constexpr double kUnit = 1e-3;  // the tolerance; coarse, so that floats can hit it
+  scenes::Scene scene_ = make_scene();
+};
+
+TEST_F(Grazing, IsWithinOneToleranceOfAnEdge) {
+  EXPECT_EQ(missing(0.5 * kUnit, 0.0, 0), DiffClass::kGraze);
+  EXPECT_EQ(missing(2.0 * kUnit, 0.0, 0), std::nullopt);
+}
+
+TEST_F(Grazing, IsWithinOneToleranceOfASilhouette) {
+  EXPECT_EQ(missing(-1.0 - 0.5 * kUnit, 0.0, 1), DiffClass::kGraze);
+  EXPECT_EQ(missing(-1.0 - 2.0 * kUnit, 0.0, 1), std::nullopt);
+  EXPECT_EQ(missing(3.0 + 0.5 * kUnit, 0.0, 2), DiffClass::kGraze);
+  EXPECT_EQ(missing(3.0 + 2.0 * kUnit, 0.0, 2), std::nullopt);
+}
+
+TEST_F(Grazing, IsWithinOneToleranceOfARim) {
+  EXPECT_EQ(missing(4.5, 1.0 - 0.5 * kUnit, 2), DiffClass::kGraze);
+  EXPECT_EQ(missing(4.5, 1.0 - 2.0 * kUnit, 2), std::nullopt);
+}
+
+TEST(GrazeBudget, IsTwoForASmallImage) {
+  // The middle column of pixels looks exactly along an edge of a triangle: a structure may see it
+  // there or not.
+  scenes::SceneBuilder builder("edge");
+  const glm::dvec3 corners[] = {{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  builder.add_polygon(corners);
+  scenes::Camera camera;
+  camera.from = {0.0F, 0.0F, 4.0F};
+  camera.at = {0.0F, 0.0F, 0.0F};
+  builder.add_camera(camera);
+  const scenes::Scene scene = std::move(builder).build();
+  const accel::PrimaryRays rays(camera, 33, 33, 1);
+  const ReferenceHits reference(scene, rays);
+  accel::HitBuffer buffer = traced("exhaustive", scene, rays);
+  const auto change = [&](int y) {
+    const std::size_t index = buffer.index(16, y, 0);
+    const bool seen = reference.hits()[index].has_value();
+    buffer.set(index, seen ? std::nullopt : std::optional(accel::Hit{4.0F, 0}));
+  };
+  change(15);
+  change(16);
+  EXPECT_EQ(judge(reference, buffer, accel::Conformance::kTolerance).count(DiffClass::kGraze), 2U);
+  EXPECT_EQ(judge(reference, buffer, accel::Conformance::kTolerance).verdict, Verdict::kOk);
+  change(17);
+  EXPECT_EQ(judge(reference, buffer, accel::Conformance::kTolerance).verdict, Verdict::kGrazes);
+}
+
+}  // namespace
+}  // namespace beambench::verify

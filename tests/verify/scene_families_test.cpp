@@ -1,0 +1,250 @@
+// Awkward scenes: no structure errs on them, by any kind of rays, on any instruction set.
+//
+// BEAMBENCH_FAMILY_SCENES=1000 in the environment asks for more of them, BEAMBENCH_FAMILY_SEED=N
+// for others.
+
+#include "harness/verify/selftest/scene_families.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include "accel/core/registry.hpp"
+#include "harness/rays/answers.hpp"
+#include "harness/render/judged_picture.hpp"
+#include "harness/verify/classify.hpp"
+#include "harness/verify/selftest/subject.hpp"
+#include "scenes/core/error.hpp"
+#include "tests/only_target.hpp"
+
+namespace beambench::verify {
+namespace {
+
+std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
+  const char* text = std::getenv(variable);
+  return text == nullptr ? otherwise : std::strtoull(text, nullptr, 10);
+}
+
+/// A structure held to one instruction set.
+struct Contender {
+  std::string label;
+  accel::Conformance conformance;
+  std::unique_ptr<accel::Accelerator> structure;
+};
+
+/// Every structure, with its defaults or with random parameters, on every instruction set that it
+/// can be held to.
+std::vector<Contender> contenders_over(const scenes::Scene& scene, Random& random) {
+  std::vector<Contender> all;
+  for (const accel::StructureInfo& info : accel::registry().structures()) {
+    if (info.conformance == accel::Conformance::kBaseline) continue;
+    const bool varied = random.below(2) == 0;
+    const auto isa =
+        std::ranges::find(info.parameters, "isa", [](const auto& each) { return each.name; });
+    const std::vector<std::string> sets =
+        isa == info.parameters.end() ? std::vector<std::string>{""} : isa->choices;
+    const Random before = random;
+    for (const std::string& set : sets) {
+      random = before;  // the same parameters on all of them
+      Spec spec{info.name, {}};
+      const Parameters chosen =
+          varied ? random_parameters(info, random) : Parameters(info.name, info.parameters, {});
+      for (const auto& [name, value] : parse_spec(chosen.label()).parameters) {
+        if (name != "isa") spec.parameters.emplace_back(name, value);
+      }
+      if (!set.empty()) spec.parameters.emplace_back("isa", set);
+      try {
+        const accel::StructureChoice choice = accel::registry().choose(spec);
+        all.push_back({choice.short_label(), info.conformance, choice.build(scene)});
+      } catch (const InputError&) {  // this machine lacks the instruction set, or a cap is exceeded
+      }
+    }
+  }
+  return all;
+}
+
+std::string first_error(const scenes::Scene& scene, const rays::Question& question,
+                        const DiffReport& report) {
+  for (const Mismatch& example : report.examples) {
+    if (example.diff_class == DiffClass::kEngineError) return describe(scene, question, example);
+  }
+  return "";
+}
+
+constexpr const char* kKinds[] = {"primary", "shadow", "reflection", "diffuse", "random"};
+
+/// One scene with its rays, and how the structures do.
+class Trial {
+ public:
+  explicit Trial(std::uint64_t seed) : scene_(family_scene(seed)), random_(seed) {
+    constexpr int kWidths[] = {8, 15, 16, 17, 24, 33};
+    const rays::Resolution resolution{kWidths[random_.below(6)], 14};
+    const int samples = random_.below(4) == 0 ? 5 : 1;
+    const rays::ImageOfRays image{scene_.cameras.front(), resolution, samples};
+    for (const char* kind : kKinds) {
+      try {
+        references_.emplace_back(scene_,
+                                 rays::make_question(scene_, image, rays::parse_ray_choice(kind)));
+      } catch (const InputError&) {  // nothing is hit for rays to start from
+      }
+    }
+  }
+
+  void judge_all() {
+    for (const Contender& contender : contenders_over(scene_, random_)) {
+      for (const ReferenceHits& reference : references_) judge_rays(contender, reference);
+      judge_picture_of(contender);
+    }
+  }
+  std::size_t judged() const { return judged_; }
+
+ private:
+  void judge_rays(const Contender& contender, const ReferenceHits& reference) {
+    const rays::Question& question = reference.question();
+    rays::Answers answers = rays::room_for(question);
+    rays::poison(answers);
+    rays::ask(*contender.structure, question, answers);
+    const DiffReport report = judge(reference, answers, contender.conformance);
+    judged_ += report.rays;
+    EXPECT_EQ(report.count(DiffClass::kEngineError), 0U)
+        << contender.label << " over " << scene_.name << ", " << question.label() << " rays\n"
+        << first_error(scene_, question, report);
+    if (contender.conformance == accel::Conformance::kBitExact) {
+      const auto [exact, first] = exact_.try_emplace(question.label(), answers);
+      EXPECT_TRUE(first || exact->second == answers)
+          << contender.label << " over " << scene_.name << ", " << question.label()
+          << " rays: other bits than exhaustive";
+    }
+  }
+
+  void judge_picture_of(const Contender& contender) {
+    const ReferenceHits& eye = references_.front();
+    const accel::PrimaryRays& rays = *eye.question().image();
+    accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
+    contender.structure->trace(rays, hits);
+    std::vector<render::JudgedRays> judged;
+    try {
+      judged = render::judge_picture(eye,
+                                     render::record_picture(scene_, *contender.structure, rays,
+                                                            hits, {}, rays::HitCheck(scene_)),
+                                     contender.conformance);
+    } catch (const rays::InvalidHit& error) {
+      ADD_FAILURE() << contender.label << " over " << scene_.name << ": " << error.what();
+    }
+    for (const render::JudgedRays& of_kind : judged) {
+      judged_ += of_kind.report.rays;
+      EXPECT_EQ(of_kind.report.count(DiffClass::kEngineError), 0U)
+          << contender.label << " over " << scene_.name << ", whitted " << of_kind.kind << " rays\n"
+          << first_error(scene_, of_kind.question, of_kind.report);
+    }
+  }
+
+  scenes::Scene scene_;
+  Random random_;
+  std::vector<ReferenceHits> references_;
+  std::map<std::string, rays::Answers> exact_;  ///< of exhaustive, by kinds of rays
+  std::size_t judged_ = 0;
+};
+
+TEST(SceneFamilies, NoStructureErrs) {
+  const std::uint64_t scenes = number_from("BEAMBENCH_FAMILY_SCENES", 28);
+  const std::uint64_t first = number_from("BEAMBENCH_FAMILY_SEED", 1);
+  std::size_t judged = 0;
+  for (std::uint64_t seed = first; seed < first + scenes; ++seed) {
+    SCOPED_TRACE(fmt::format("seed {}", seed));
+    Trial trial(seed);
+    trial.judge_all();
+    judged += trial.judged();
+  }
+  fmt::print("{} scenes, {} answers\n", scenes, judged);
+  EXPECT_GT(judged, scenes * 10'000);
+}
+
+/// The image of a structure compiled for one of Highway's targets.
+accel::HitBuffer image_on(std::int64_t target, const std::string& name, const scenes::Scene& scene,
+                          const accel::PrimaryRays& rays) {
+  const testing::OnlyTarget only(target);
+  const auto structure = accel::registry().choose({name, {}}).build(scene);
+  accel::HitBuffer image(rays.width(), rays.height(), rays.samples());
+  rays::poison(image);
+  structure->trace(rays, image);
+  return image;
+}
+
+/// Sample for sample, every instruction set against every other: equal bits where structures are
+/// bit-exact, otherwise one place by the differ's rules, without a search for who is right.
+TEST(SceneFamilies, EveryInstructionSetReturnsTheSame) {
+  const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
+  ASSERT_GE(targets.size(), 2U);
+  std::size_t compared = 0;
+  for (std::uint64_t seed = 1; seed <= 21; ++seed) {
+    const scenes::Scene scene = family_scene(seed);
+    for (const auto& [width, samples] : {std::pair{9, 1}, {16, 1}, {33, 1}, {20, 4}, {7, 5}}) {
+      const accel::PrimaryRays rays(scene.cameras.front(), width, 17, samples);
+      const rays::Question question(rays);
+      const double length = tolerance(scene, rays.eye());
+      for (const char* name : {"tile-beam", "sah-bvh", "beam"}) {
+        std::vector<accel::HitBuffer> images;
+        for (const std::int64_t target : targets) {
+          images.push_back(image_on(target, name, scene, rays));
+        }
+        for (std::size_t a = 0; a < images.size(); ++a) {
+          for (std::size_t b = a + 1; b < images.size(); ++b) {
+            SCOPED_TRACE(fmt::format("{} over {}, seed {}, {}x17x{}: {} and {}", name, scene.name,
+                                     seed, width, samples, hwy::TargetName(targets[a]),
+                                     hwy::TargetName(targets[b])));
+            if (std::string(name) != "tile-beam") {
+              ASSERT_EQ(images[a], images[b]);
+              continue;
+            }
+            for (std::size_t i = 0; i < images[a].size(); ++i) {
+              const auto one = images[a].get(i);
+              const auto other = images[b].get(i);
+              if (one == other) continue;
+              ++compared;
+              const auto as_exact = [](const std::optional<accel::Hit>& hit) {
+                return hit ? std::optional(accel::embree::ExactHit{hit->t, hit->primitive})
+                           : std::nullopt;
+              };
+              ASSERT_TRUE(classify(scene, question.ray(i), one, as_exact(other), length))
+                  << rays::place_text(question, i) << ": primitive "
+                  << (one ? one->primitive : scenes::kNoPrimitive) << " at "
+                  << (one ? one->t : accel::kInfinity) << " and primitive "
+                  << (other ? other->primitive : scenes::kNoPrimitive) << " at "
+                  << (other ? other->t : accel::kInfinity);
+            }
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(compared, 0U) << "no two instruction sets round differently: are they different?";
+}
+
+TEST(SceneFamilies, AreTheSameForASeedAndOfTheKindsThatAreTaken) {
+  for (std::uint64_t seed = 0; seed < 70; ++seed) {
+    const scenes::Scene scene = family_scene(seed);
+    EXPECT_EQ(scenes::scene_hash(scene), scenes::scene_hash(family_scene(seed))) << seed;
+    EXPECT_TRUE(scene.name.starts_with(kSceneFamilies[seed % kSceneFamilies.size()])) << seed;
+    EXPECT_GE(scene.primitives.size(), 3U) << scene.name;
+    for (const PrimitiveKinds kinds :
+         {PrimitiveKinds{true, false, false}, PrimitiveKinds{false, true, false},
+          PrimitiveKinds{false, false, true}, PrimitiveKinds{true, true, false}}) {
+      const scenes::Scene of_kinds = family_scene(seed, kinds);
+      EXPECT_TRUE(kinds.include(of_kinds)) << of_kinds.name;
+      EXPECT_FALSE(of_kinds.primitives.empty()) << of_kinds.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace beambench::verify

@@ -1,0 +1,195 @@
+// The self-test can fail: for each of its checks there is a fault that it finds.
+
+#include "harness/verify/selftest/selftest.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "accel/exhaustive/exhaustive.hpp"
+#include "scenes/core/error.hpp"
+
+namespace beambench::verify {
+namespace {
+
+enum class Fault {
+  kNone,
+  kHighestIdAtTies,
+  kNoCones,
+  kMissesAtTheEnd,
+  kImageUpsideDown,
+  kAnyHitAlways,
+  kOtherInLists,
+  kOtherWhenCounting,
+  kOtherInEveryBuild,
+  kOneRayAtATime,
+  kCountsNoTests,
+  kMoreLeavesThanNodes,
+  kExplainsAnother,
+  kThrows,
+  kRefusesAll,
+};
+
+std::atomic<int> builds = 0;
+std::atomic<int> at_once = 0;
+
+/// Exhaustive search with a fault.
+class Faulty : public accel::TraversalAccelerator<Faulty> {
+ public:
+  Faulty(const scenes::Scene& scene, Fault fault)
+      : scene_(&scene), fault_(fault), number_(builds++) {}
+
+  using TraversalAccelerator::closest_hits;
+  using TraversalAccelerator::trace;
+  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer) const override {
+    TraversalAccelerator::trace(rays, buffer);
+    if (fault_ == Fault::kImageUpsideDown) std::reverse(buffer.t(), buffer.t() + buffer.size());
+  }
+  void closest_hits(std::span<const accel::Ray> rays, accel::HitBuffer& buffer) const override {
+    TraversalAccelerator::closest_hits(rays, buffer);
+    if (fault_ == Fault::kOtherInLists) buffer.t()[buffer.size() - 1] = 1.0F;  // of a miss, too
+  }
+
+  template <class Counting>
+  std::optional<accel::Hit> find_closest(const accel::Ray& ray, Counting& counting) const {
+    constexpr bool kCounts = std::is_same_v<Counting, accel::WorkCounters>;
+    constexpr bool kExplains = std::is_same_v<Counting, accel::StepRecorder>;
+    if (fault_ == Fault::kThrows) throw std::runtime_error("no way");
+    const bool alone = at_once++ == 0;
+    counting.add(accel::Counter::kTraversalSteps);
+    accel::ClosestHit closest(ray);
+    for (scenes::PrimitiveId id = 0; id < scene_->primitives.size(); ++id) {
+      if (fault_ == Fault::kNoCones && scene_->primitives[id].kind == scenes::PrimitiveKind::kCone)
+        continue;
+      if (fault_ == Fault::kExplainsAnother && kExplains && id % 2 == 0) continue;
+      if (fault_ != Fault::kCountsNoTests) counting.add(accel::Counter::kPrimitiveTests);
+      const float t = closest.test(*scene_, id);
+      counting.tested(id, t);
+      if (fault_ == Fault::kHighestIdAtTies && t == closest.ray.t_max) closest.primitive = id;
+    }
+    --at_once;
+    std::optional<accel::Hit> hit = closest.result();
+    const bool loses = (fault_ == Fault::kMissesAtTheEnd && hit && hit->t == ray.t_max) ||
+                       (fault_ == Fault::kOtherWhenCounting && kCounts) ||
+                       (fault_ == Fault::kOtherInEveryBuild && number_ % 2 == 0) ||
+                       (fault_ == Fault::kOneRayAtATime && !alone);
+    return loses ? std::nullopt : hit;
+  }
+  template <class Counting>
+  bool find_any(const accel::Ray& ray, Counting& counting) const {
+    return fault_ == Fault::kAnyHitAlways || find_closest(ray, counting).has_value();
+  }
+  accel::Statistics statistics() const override {
+    accel::Statistics told;
+    if (fault_ == Fault::kMoreLeavesThanNodes) told.leaves = 1;
+    return told;
+  }
+
+ private:
+  const scenes::Scene* scene_;
+  Fault fault_;
+  int number_;
+};
+
+accel::StructureInfo faulty(Fault fault) {
+  return {"faulty",
+          "a fault",
+          accel::Conformance::kBitExact,
+          {},
+          [fault](const scenes::Scene& scene, const Parameters&, const accel::Workload&) {
+            if (fault == Fault::kRefusesAll) throw InputError("not this one");
+            return std::make_unique<Faulty>(scene, fault);
+          }};
+}
+
+CheckOutcome outcome_of(std::string_view name, Fault fault) {
+  const accel::StructureInfo info = faulty(fault);
+  const Subject subject(accel::StructureChoice(info, Parameters(info.name, info.parameters, {})));
+  for (const Check& check : selftest_checks()) {
+    if (check.name == name) return run_check(check, subject, {.seed = 1, .scenes = 20});
+  }
+  ADD_FAILURE() << "there is no check " << name;
+  return {};
+}
+
+TEST(Selftest, PassesWhatIsRight) {
+  for (const Check& check : selftest_checks()) {
+    EXPECT_EQ(outcome_of(check.name, Fault::kNone).failure, "") << check.name;
+  }
+}
+
+/// Exhaustive search that refuses all but some kinds of primitives.
+accel::StructureInfo picky(PrimitiveKinds takes) {
+  return {"picky",
+          "not everything",
+          accel::Conformance::kBitExact,
+          {},
+          [takes](const scenes::Scene& scene, const Parameters&, const accel::Workload&) {
+            if (!takes.include(scene)) throw InputError("not this one");
+            return std::make_unique<Faulty>(scene, Fault::kNone);
+          }};
+}
+
+TEST(Selftest, AsksOverThePrimitivesThatAreTaken) {
+  for (const PrimitiveKinds takes :
+       {PrimitiveKinds{.cones = false}, PrimitiveKinds{false, true, false},
+        PrimitiveKinds{true, false, false}, PrimitiveKinds{false, false, true}}) {
+    const accel::StructureInfo info = picky(takes);
+    const Subject subject(accel::StructureChoice(info, Parameters(info.name, info.parameters, {})));
+    EXPECT_EQ(subject.kinds().names(), takes.names());
+    for (const Check& check : selftest_checks()) {
+      if (!applies(check, subject)) {
+        EXPECT_TRUE(check.of_polygons && !takes.polygons) << check.name;
+        continue;
+      }
+      const CheckOutcome outcome = run_check(check, subject, {.seed = 1, .scenes = 40});
+      EXPECT_EQ(outcome.failure, "") << check.name << " over " << takes.names().front();
+      EXPECT_TRUE(outcome.rays > 0 || check.name == "statistics") << check.name;
+    }
+  }
+}
+
+TEST(Selftest, FindsAFaultByEachCheck) {
+  const std::pair<const char*, Fault> expected[] = {
+      {"random scenes", Fault::kNoCones},
+      {"random scenes", Fault::kHighestIdAtTies},
+      {"random scenes", Fault::kAnyHitAlways},
+      {"random scenes", Fault::kRefusesAll},
+      {"random scenes", Fault::kThrows},
+      {"scene families", Fault::kNoCones},
+      {"scene families", Fault::kHighestIdAtTies},
+      {"scene families", Fault::kImageUpsideDown},
+      {"scene families", Fault::kNoCones},
+      {"scene families", Fault::kHighestIdAtTies},
+      {"scene families", Fault::kImageUpsideDown},
+      {"smallest scenes", Fault::kNoCones},
+      {"images", Fault::kImageUpsideDown},
+      {"faces, edges, corners", Fault::kHighestIdAtTies},
+      {"degenerate rays", Fault::kMissesAtTheEnd},
+      {"heap", Fault::kHighestIdAtTies},
+      {"lists", Fault::kOtherInLists},
+      {"counting", Fault::kOtherWhenCounting},
+      {"two builds", Fault::kOtherInEveryBuild},
+      {"threads", Fault::kOneRayAtATime},
+      {"counters", Fault::kCountsNoTests},
+      {"statistics", Fault::kMoreLeavesThanNodes},
+      {"explanation", Fault::kExplainsAnother},
+  };
+  for (const auto& [check, fault] : expected) {
+    EXPECT_NE(outcome_of(check, fault).failure, "")
+        << check << ", fault " << static_cast<int>(fault);
+  }
+  for (const Check& check : selftest_checks()) {
+    EXPECT_TRUE(
+        std::ranges::any_of(expected, [&](const auto& one) { return check.name == one.first; }))
+        << check.name << " has never been seen to fail";
+  }
+}
+
+}  // namespace
+}  // namespace beambench::verify
