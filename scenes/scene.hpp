@@ -15,7 +15,7 @@
 
 namespace beambench::scenes {
 
-/// A point light; colour components may exceed 1.
+/// A point light; color components may exceed 1.
 struct Light {
   glm::vec3 position;
   glm::vec3 color{1.0F};

@@ -134,7 +134,7 @@ void append(std::vector<T>& list, const std::vector<T>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
-/// The eye that far from the centre, but no coordinate beyond the limit: where there is no room, it
+/// The eye that far from the center, but no coordinate beyond the limit: where there is no room, it
 /// is put on the origin's side or nearer.
 glm::dvec3 fitted_eye(const glm::dvec3& center, double distance) {
   glm::dvec3 direction = glm::normalize(glm::dvec3(1.0, 0.8, 1.3));
@@ -155,7 +155,7 @@ Camera fitted_camera(const Bounds& bounds) {
   const glm::dvec3 upper(bounds.empty() ? glm::vec3(1.0F) : bounds.upper);
   const glm::dvec3 center = 0.5 * (lower + upper);
   // The sphere around the box fills the frustum; far from the origin it is kept large enough for
-  // the eye to differ from the centre in float.
+  // the eye to differ from the center in float.
   const glm::dvec3 farthest = glm::max(glm::abs(lower), glm::abs(upper));
   const double radius = std::max(0.5 * glm::length(upper - lower), 1e-5 * glm::length(farthest));
   const double distance = radius / std::sin(0.5 * glm::radians(static_cast<double>(camera.angle)));
@@ -171,7 +171,7 @@ SceneBuilder::SceneBuilder(std::string name) { scene_.name = std::move(name); }
 void SceneBuilder::set_surface(const Surface& surface) {
   const Subject subject{"surface {}", scene_.surfaces.size()};
   Surface checked = surface;
-  checked.color = rounded(glm::dvec3(surface.color), subject, "colour");
+  checked.color = rounded(glm::dvec3(surface.color), subject, "color");
   for (float* factor : {&checked.diffuse, &checked.specular, &checked.shine, &checked.transmittance,
                         &checked.refraction_index}) {
     *factor = rounded(*factor, subject, "factor");
@@ -181,13 +181,13 @@ void SceneBuilder::set_surface(const Surface& surface) {
 }
 
 void SceneBuilder::set_background(const glm::dvec3& color) {
-  scene_.background = rounded(color, {"background", 0}, "colour");
+  scene_.background = rounded(color, {"background", 0}, "color");
 }
 
 void SceneBuilder::add_light(const glm::dvec3& position, const glm::dvec3& color) {
   const Subject subject{"light {}", scene_.lights.size()};
   scene_.lights.push_back(
-      {rounded(position, subject, "position"), rounded(color, subject, "colour")});
+      {rounded(position, subject, "position"), rounded(color, subject, "color")});
 }
 
 void SceneBuilder::add_camera(const Camera& camera) {
@@ -220,7 +220,7 @@ void SceneBuilder::add_camera(const Camera& camera) {
 
 void SceneBuilder::add_sphere(const glm::dvec3& center, double radius) {
   const Subject subject{"sphere (primitive {})", primitive_count()};
-  const glm::vec3 place = rounded(center, subject, "centre");
+  const glm::vec3 place = rounded(center, subject, "center");
   const float size = rounded(radius, subject, "radius");
   if (size == 0.0F) {
     refuse_degenerate(

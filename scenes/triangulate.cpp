@@ -106,7 +106,7 @@ std::optional<std::uint32_t> find_corner(const Ring& ring, std::uint32_t start,
 }
 
 /// The corner to clip next: an ear; failing that, a corner without area, so that corners on a
-/// straight edge are kept as long as another triangle can use them (neighbours that share such a
+/// straight edge are kept as long as another triangle can use them (neighbors that share such a
 /// corner then meet without a crack); failing that, the polygon crosses itself and any convex
 /// corner will do.
 std::optional<std::uint32_t> next_to_clip(const Ring& ring, std::uint32_t start) {

@@ -1,5 +1,5 @@
 #pragma once
-// What tests of the whole ray tracer share: rays and pictures drawn, colours by hand.
+// What tests of the whole ray tracer share: rays and pictures drawn, colors by hand.
 
 #include <array>
 #include <cstddef>

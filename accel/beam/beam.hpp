@@ -22,7 +22,7 @@ struct BeamCut {
 };
 
 /// A piece narrower than this (in the units of `ImageLine`) is none: the rays in it go where its
-/// neighbours go. They stray by 10 scene diagonals x 2^-39 at most from where they should be, far
+/// neighbors go. They stray by 10 scene diagonals x 2^-39 at most from where they should be, far
 /// less than references are widened by (`tolerance.hpp`), so no hit is lost; rays that run exactly
 /// in a cell's face do not tear beams into slivers.
 inline constexpr double kSliver = 0x1p-39;
@@ -41,7 +41,7 @@ struct Beam {
   ImagePolygon outline;
   FixedVector<BeamCut, 56> cuts;
 
-  /// More cuts than one more division has room for: 5 for the exit, 2 a level for the neighbours.
+  /// More cuts than one more division has room for: 5 for the exit, 2 a level for the neighbors.
   bool crowded() const { return cuts.size() > 20; }
 };
 

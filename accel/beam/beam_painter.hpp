@@ -112,7 +112,7 @@ class BeamPainter {
   void follow(const octree::OctreeCursor& place, const CellRay& way, LeafBatch::Sample& sample) {
     ClosestHit closest = sample.closest;  // nobody else's: it can stay in registers
     double t = octree::leaf_exit(way, place).t;
-    octree::walk_leaves_behind(place, octree(), tracer_->neighbours(), sample.ray, way, counting_,
+    octree::walk_leaves_behind(place, octree(), tracer_->neighbors(), sample.ray, way, counting_,
                                [&](const octree::OctreeNode& leaf, double exit_t) {
                                  if (watch_->leaves_part(leaf, t)) return true;
                                  t = exit_t;

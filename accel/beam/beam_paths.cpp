@@ -230,8 +230,8 @@ void continue_beam(const octree::Octree& octree, const EyeView& view, const Beam
     cursor.jump(beam.node, beam.corner, beam.size);
     glm::ivec3 step(0);
     step[face.axis] = face.side;
-    ++queue.neighbour_searches;
-    if (cursor.move_to_neighbour(step) == 0) {
+    ++queue.neighbor_searches;
+    if (cursor.move_to_neighbor(step) == 0) {
       queue.waiting.push(BeamKind::kLeaving, part);
       ++queue.appended;
     } else {

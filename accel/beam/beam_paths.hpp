@@ -29,7 +29,7 @@ class BeamBorder {
 struct BeamQueue {
   BeamStack waiting;
   std::uint64_t clips = 0;
-  std::uint64_t neighbour_searches = 0;
+  std::uint64_t neighbor_searches = 0;
   std::uint64_t appended = 0;      ///< to `waiting`, or taken at the border
   std::uint64_t made = 0;          ///< those at the beginning, and the parts of divided beams
   std::uint64_t divided = 0;       ///< beams that went on in several parts

@@ -27,7 +27,7 @@ void CountingBeamWatch::finished() {
   counters_->add("beams_made", made_);
   counters_->add("beams_divided", divided_);
   counters_->add("beams_passed_whole", passed_whole_);
-  counters_->add("neighbour_searches", neighbour_searches_);
+  counters_->add("neighbor_searches", neighbor_searches_);
   counters_->add("samples_leaving", left_);
   counters_->add("samples_in_leaves", tested_);
 }

@@ -95,7 +95,7 @@ class CountingBeamWatch {
   }
   void divided(const BeamQueue& queue) {
     clips_ += queue.clips;
-    neighbour_searches_ += queue.neighbour_searches;
+    neighbor_searches_ += queue.neighbor_searches;
     made_ += queue.made;
     divided_ += queue.divided;
     passed_whole_ += queue.passed_whole;
@@ -119,7 +119,7 @@ class CountingBeamWatch {
   std::array<std::uint64_t, 3> reasons_{};
   std::uint64_t edges_ = 0;
   std::uint64_t clips_ = 0;
-  std::uint64_t neighbour_searches_ = 0;
+  std::uint64_t neighbor_searches_ = 0;
   std::uint64_t made_ = 0;
   std::uint64_t divided_ = 0;
   std::uint64_t passed_whole_ = 0;

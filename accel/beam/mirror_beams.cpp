@@ -53,7 +53,7 @@ bool lies_in(const scenes::Scene& scene, const scenes::Polygon& polygon, const P
 using PlaneCell = std::array<std::int64_t, 4>;
 
 /// Only planes of one cell are compared, so that a million small mirrors are no matter. Two halves
-/// of a plane that fall into neighbouring cells are two mirrors, which show the same.
+/// of a plane that fall into neighboring cells are two mirrors, which show the same.
 PlaneCell cell_of(const scenes::Scene& scene, const PlanarMirror& mirror) {
   constexpr double kNormals = 0x1p8;
   constexpr double kDistances = 0x1p10;

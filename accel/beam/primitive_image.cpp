@@ -108,7 +108,7 @@ SphereImage PrimitiveImages::image_of_sphere(const scenes::Sphere& sphere) const
   const glm::dvec3 middle = center / depth;  // view depth 1, as all directions
   const glm::dvec2 place(glm::dot(middle - top_left_, right_) / glm::dot(right_, right_),
                          glm::dot(middle - top_left_, down_) / glm::dot(down_, down_));
-  // A sample's place relative to the centre's is rounded in float, its direction as well: see the
+  // A sample's place relative to the center's is rounded in float, its direction as well: see the
   // sphere by so much larger.
   const double slip = rounding_ + 0x1p-22 * ((std::abs(place.x) + size_.x) * glm::length(right_) +
                                              (std::abs(place.y) + size_.y) * glm::length(down_));
@@ -126,7 +126,7 @@ SphereImage PrimitiveImages::image_of_sphere(const scenes::Sphere& sphere) const
   const auto scaled = [&](double value) { return static_cast<float>(value * scale); };
   return {static_cast<float>(place.x), static_cast<float>(place.y), scaled(product(right_, right_)),
           scaled(2.0 * product(right_, down_)), scaled(product(down_, down_)),
-          // middle is parallel to the centre, so the large terms cancel exactly.
+          // middle is parallel to the center, so the large terms cancel exactly.
           scaled(2.0 * glm::dot(middle, right_) * squared),
           scaled(2.0 * glm::dot(middle, down_) * squared), 1.0F};
 }

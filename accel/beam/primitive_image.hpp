@@ -31,7 +31,7 @@ struct TriangleImage {
 };
 
 /// A sphere's outline: xx u^2 + xy u v + yy v^2 + x u + y v + constant, not negative for the
-/// samples that may hit it; (u, v) is a sample's place relative to the centre's, in pixels. Widened
+/// samples that may hit it; (u, v) is a sample's place relative to the center's, in pixels. Widened
 /// as above.
 struct SphereImage {
   float center_x;

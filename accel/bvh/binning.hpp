@@ -11,7 +11,7 @@
 
 namespace beambench::accel::bvh {
 
-/// Maps centres to bins, on all axes.
+/// Maps centers to bins, on all axes.
 class Binning {
  public:
   static constexpr std::size_t kMost = 32;
@@ -31,7 +31,7 @@ class Binning {
 
   std::size_t count() const { return count_; }
   bool divides(std::size_t axis) const { return scale_[axis] > 0.0F; }
-  /// The bins of a centre, an axis a lane.
+  /// The bins of a center, an axis a lane.
   IntQuad bins(Quad center) const {
     return __builtin_convertvector(smaller((center - lower_) * scale_, last_), IntQuad);
   }

@@ -9,7 +9,7 @@
 
 namespace beambench::accel::bvh {
 
-/// Three coordinates; what is in the fourth lane of a box or a centre does not matter.
+/// Three coordinates; what is in the fourth lane of a box or a center does not matter.
 using Quad = float __attribute__((vector_size(16)));
 using IntQuad = std::int32_t __attribute__((vector_size(16)));
 
@@ -40,7 +40,7 @@ struct QuadBox {
   }
 };
 
-/// An item while it is sorted in place: its box stays near its neighbours'.
+/// An item while it is sorted in place: its box stays near its neighbors'.
 class BuildItem {
  public:
   BuildItem(const scenes::Bounds& box, std::uint32_t index)
@@ -48,7 +48,7 @@ class BuildItem {
 
   const QuadBox& box() const { return box_; }
   std::uint32_t index() const { return std::bit_cast<std::uint32_t>(box_.upper[3]); }
-  /// Twice the centre, which spares a multiplication.
+  /// Twice the center, which spares a multiplication.
   Quad center() const {
     // Arithmetic with the bits of an index would be slow: they are no ordinary number.
     constexpr IntQuad kCoordinates{-1, -1, -1, 0};
@@ -59,7 +59,7 @@ class BuildItem {
   QuadBox box_;  ///< the fourth lane of `upper` holds the index
 };
 
-/// The boxes of some items, and the box of their centres.
+/// The boxes of some items, and the box of their centers.
 struct BuildExtent {
   QuadBox boxes = QuadBox::empty();
   QuadBox centers = QuadBox::empty();

@@ -9,7 +9,7 @@
 
 namespace beambench::accel::bvh {
 
-/// What the builder optimises for.
+/// What the builder optimizes for.
 struct BvhOptions {
   std::uint32_t max_leaf = 8;    ///< most items of a leaf
   std::uint32_t block_size = 8;  ///< items tested at once: a leaf of n costs ceil(n / block_size)
@@ -37,7 +37,7 @@ struct BinaryBvh {
 inline constexpr std::uint32_t kMaxBvhDepth = 96;
 
 /// Top-down splits at the best of up to 32 bins along each of the three axes (Wald, "On fast
-/// construction of SAH-based bounding volume hierarchies", 2007). Boxes whose centres cannot be
+/// construction of SAH-based bounding volume hierarchies", 2007). Boxes whose centers cannot be
 /// told apart, and those below a depth that only contrived input reaches, are split in the middle.
 BinaryBvh build_bvh(std::span<const scenes::Bounds> boxes, const BvhOptions& options);
 

@@ -42,7 +42,7 @@ InsertionHierarchy build(const scenes::Scene& scene, const GoldsmithSalmonOption
 
 std::vector<ParameterInfo> GoldsmithSalmonOptions::parameters() {
   return {choice_parameter("order", "given", {"given", "shuffled", "sorted"},
-                           "insertion order: the scene's, at random, or by centre along the "
+                           "insertion order: the scene's, at random, or by center along the "
                            "scene's longest axis"),
           integer_parameter("seed", 1, 0, 1'000'000'000, "seed of order=shuffled"),
           choice_parameter("queue", "heap", {"heap", "stack"},

@@ -20,7 +20,7 @@ struct GoldsmithSalmonOptions {
   enum class Order { kGiven, kShuffled, kSorted };
   enum class Queue { kHeap, kStack };
 
-  Order order = Order::kGiven;  ///< sorted: by centre along the scene's longest axis
+  Order order = Order::kGiven;  ///< sorted: by center along the scene's longest axis
   std::uint64_t seed = 1;       ///< of the shuffle
   Queue queue = Queue::kHeap;
   Insertion insertion = Insertion::kEverywhere;

@@ -51,7 +51,7 @@ enum class Insertion {
   kTerminal
 };
 
-/// Inserts the objects one by one in the given order. Nothing is moved afterwards. `boxes[i]` is
+/// Inserts the objects one by one in the given order. Nothing is moved afterward. `boxes[i]` is
 /// the box of primitive i.
 InsertionHierarchy build_by_insertion(std::span<const scenes::Bounds> boxes,
                                       std::span<const scenes::PrimitiveId> order,

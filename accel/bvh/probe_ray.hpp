@@ -34,7 +34,7 @@ namespace beambench::accel::bvh {
 /// Depths along the main axis are wrong by 3 e R, and the canonical hit is within 2^-10 e R x 20 of
 /// its triangle: 5 e R over |direction| covers both.
 ///
-/// **Spheres.** The vector from the centre to the nearest point of the line is wrong by at most
+/// **Spheres.** The vector from the center to the nearest point of the line is wrong by at most
 /// 21 e R: 32 e R is added to the radius, and as much to the depth of the sphere.
 class ProbeRay {
  public:

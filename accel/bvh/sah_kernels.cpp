@@ -123,7 +123,7 @@ inline LaneBits probe_spheres(const PrimitiveBlock& block, const ProbeRay& ray, 
     const Floats z = hn::Sub(row(2), hn::Set(tag, ray.origin[2]));
     const Floats along =
         hn::MulAdd(x, direction(0), hn::MulAdd(y, direction(1), hn::Mul(z, direction(2))));
-    const Floats t = hn::Mul(along, hn::Set(tag, per_square));  // of the point nearest the centre
+    const Floats t = hn::Mul(along, hn::Set(tag, per_square));  // of the point nearest the center
     const Floats beside_x = hn::NegMulAdd(t, direction(0), x);
     const Floats beside_y = hn::NegMulAdd(t, direction(1), y);
     const Floats beside_z = hn::NegMulAdd(t, direction(2), z);

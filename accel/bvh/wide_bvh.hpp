@@ -50,7 +50,7 @@ struct alignas(64) WideNode {
 /// Up to eight primitives of one kind.
 struct alignas(64) PrimitiveBlock {
   /// Triangles (kind kPolygon): the axes of three corners, corner by corner. Spheres: the axes of
-  /// the centre, the radius. Cones: nothing.
+  /// the center, the radius. Cones: nothing.
   std::array<std::array<float, kBvhLanes>, 9> coordinates;
   std::array<scenes::PrimitiveId, kBvhLanes>
       primitives;  ///< of triangles, the polygons they belong to

@@ -12,7 +12,7 @@
 namespace beambench::accel {
 
 /// Answers all questions about a ray and the planes of a grid from one function, `plane_t`, so that
-/// a cell's exit and its neighbour's entry are the same number and no cell is skipped or visited
+/// a cell's exit and its neighbor's entry are the same number and no cell is skipped or visited
 /// twice. A ray parallel to an axis is on one side of that axis' planes for good.
 class CellRay {
  public:

@@ -10,7 +10,7 @@
 namespace beambench::accel {
 
 /// For each sample of each pixel the t of its hit and the primitive hit; a miss is t = infinity
-/// and kNoPrimitive. Samples of one pixel are neighbours; pixels go row by row from the top left.
+/// and kNoPrimitive. Samples of one pixel are neighbors; pixels go row by row from the top left.
 /// The hits of a list of rays are an image of one row.
 class HitBuffer {
  public:

@@ -17,7 +17,7 @@ namespace {
 constexpr double kRounding = 0x1p-48;
 
 /// One bit for each of the box's 6 face, 12 edge and 8 corner planes that the point is outside of.
-/// `p` is relative to the centre of the box; the edge planes are |x| + |y| = h_x + h_y and so on,
+/// `p` is relative to the center of the box; the edge planes are |x| + |y| = h_x + h_y and so on,
 /// the corner planes |x| + |y| + |z| = h_x + h_y + h_z.
 std::uint32_t outcode(const glm::dvec3& p, const glm::dvec3& half) {
   std::uint32_t code = 0;
@@ -47,7 +47,7 @@ std::uint32_t outcode(const glm::dvec3& p, const glm::dvec3& half) {
   return code;
 }
 
-/// Do the projections on `axis` of the triangle `v` and of the centred box `half` lie apart?
+/// Do the projections on `axis` of the triangle `v` and of the centered box `half` lie apart?
 bool separated(const glm::dvec3& axis, const std::array<glm::dvec3, 3>& v, const glm::dvec3& half,
                double slack) {
   const double p0 = glm::dot(axis, v[0]);

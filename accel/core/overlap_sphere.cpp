@@ -5,7 +5,7 @@
 namespace beambench::accel {
 
 bool sphere_overlaps(const scenes::Sphere& sphere, const Box& box, double tolerance) {
-  double nearest = 0.0;   // squared distance from the centre to the box
+  double nearest = 0.0;   // squared distance from the center to the box
   double farthest = 0.0;  // and to its farthest corner
   for (int axis = 0; axis < 3; ++axis) {
     const double below = box.lower[axis] - sphere.center[axis];

@@ -30,7 +30,7 @@ std::vector<glm::dvec2> sample_offsets(int samples) {
     return offsets;
   }
   throw InputError(fmt::format(
-      "{} samples a pixel have no pattern; expected 5 (corners and centre) or n x n with n from 1 "
+      "{} samples a pixel have no pattern; expected 5 (corners and center) or n x n with n from 1 "
       "to {}",
       samples, kLargestGrid));
 }

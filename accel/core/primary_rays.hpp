@@ -13,8 +13,8 @@
 namespace beambench::accel {
 
 /// Where the samples of a pixel lie, as offsets in [0, 1]^2 from its top left corner: 1 is the
-/// centre; 5 the four corners and the centre (thesis, section 5.3.2; corners are not shared between
-/// pixels); any other square number n x n is a regular grid of cell centres, row by row.
+/// center; 5 the four corners and the center (thesis, section 5.3.2; corners are not shared between
+/// pixels); any other square number n x n is a regular grid of cell centers, row by row.
 /// Throws InputError for other counts.
 std::vector<glm::dvec2> sample_offsets(int samples);
 

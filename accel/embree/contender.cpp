@@ -126,14 +126,14 @@ void register_embree(Registry& registry) {
                          "how an image is traced: ray by ray, in packets (blocks of 2x2, 4x2 or "
                          "4x4 pixels) or, by Embree 3 only, as streams of a tile's rays"),
         choice_parameter("quality", "high", {"low", "medium", "high"},
-                         "Embree's build quality: low sorts by Morton codes, medium minimises "
+                         "Embree's build quality: low sorts by Morton codes, medium minimizes "
                          "surface area, high also splits triangles, which Embree 3 does for "
                          "robust=false only"),
         flag_parameter("robust", true,
                        "watertight traversal; without it Embree loses rays at vertices and edges, "
                        "which costs the verdict where they matter"),
         flag_parameter("coherent", true,
-                       "tells Embree that neighbouring rays are alike, which packets need"),
+                       "tells Embree that neighboring rays are alike, which packets need"),
         isa_parameter()},
        [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
          const std::string& isa = parameters.choice("isa");

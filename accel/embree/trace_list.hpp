@@ -1,5 +1,5 @@
 #pragma once
-// A list of rays through Embree: one by one, or in packets of neighbours in the list.
+// A list of rays through Embree: one by one, or in packets of neighbors in the list.
 
 #include <cstdint>
 #include <span>

@@ -13,11 +13,11 @@
 
 namespace beambench::accel::octree {
 
-/// What structures over an octree count beside the rest: nodes passed from a leaf to its neighbour
+/// What structures over an octree count beside the rest: nodes passed from a leaf to its neighbor
 /// of equal or larger size. The way down to a smaller leaf, the same for all, is not in it.
-inline constexpr std::string_view kNeighbourSteps = "neighbour_steps";
-inline constexpr std::string_view kNeighbourStepsMeaning =
-    "nodes of the octree passed from a leaf to its neighbour of equal or larger size; the way down "
+inline constexpr std::string_view kNeighborSteps = "neighbor_steps";
+inline constexpr std::string_view kNeighborStepsMeaning =
+    "nodes of the octree passed from a leaf to its neighbor of equal or larger size; the way down "
     "to a smaller leaf is not in it";
 
 /// Where a ray leaves a leaf: at t, over the face, edge or vertex that `step` (-1, 0 or 1 for each
@@ -39,9 +39,9 @@ struct LeafExit {
 
 /// Walks from a node that the ray enters at t, as `walk_leaves` does from the root. `passed` is the
 /// number of nodes already passed on the way to it.
-template <class Neighbours, class Counting, class Visit>
+template <class Neighbors, class Counting, class Visit>
 void walk_leaves_from(OctreeCursor cursor, double t, int passed, const Octree& octree,
-                      const Neighbours& neighbours, const Ray& ray, const CellRay& way,
+                      const Neighbors& neighbors, const Ray& ray, const CellRay& way,
                       Counting& counting, Visit visit) {
   while (true) {
     passed += cursor.descend(way, t);
@@ -61,9 +61,9 @@ void walk_leaves_from(OctreeCursor cursor, double t, int passed, const Octree& o
     });
     if (visit(leaf, exit.t)) return;
     t = exit.t;
-    passed = neighbours.move(cursor, exit.step);
+    passed = neighbors.move(cursor, exit.step);
     if (passed == 0) return;
-    counting.add(kNeighbourSteps, static_cast<std::uint64_t>(passed));
+    counting.add(kNeighborSteps, static_cast<std::uint64_t>(passed));
   }
 }
 
@@ -71,29 +71,29 @@ void walk_leaves_from(OctreeCursor cursor, double t, int passed, const Octree& o
 /// returns true or the ray leaves the root (Samet, "Implementing ray tracing with octrees and
 /// neighbor finding", Computers & Graphics 13(4), 1989; thesis, sections 2.2.2 and 5.4.1): the exit
 /// point of a leaf is computed, and the leaf behind it is found. A ray that leaves through an edge
-/// or a vertex goes to the edge or vertex neighbour.
+/// or a vertex goes to the edge or vertex neighbor.
 ///
-/// `neighbours.move(cursor, step)` takes the cursor from a leaf to the node of equal or larger size
+/// `neighbors.move(cursor, step)` takes the cursor from a leaf to the node of equal or larger size
 /// behind the face, edge or vertex that `step` (-1, 0 or 1 for each axis) points at, and returns
 /// how many nodes it passed on the way, the last one included; 0 where the root ends.
-template <class Neighbours, class Counting, class Visit>
-void walk_leaves(const Octree& octree, const Neighbours& neighbours, const Ray& ray,
+template <class Neighbors, class Counting, class Visit>
+void walk_leaves(const Octree& octree, const Neighbors& neighbors, const Ray& ray,
                  Counting& counting, Visit visit) {
   const CellRay way(octree.grid(), ray);
   const double t = way.enter(ray.t_min);
   if (!(t < kInfinity)) return;
-  walk_leaves_from(OctreeCursor(octree), t, 1, octree, neighbours, ray, way, counting, visit);
+  walk_leaves_from(OctreeCursor(octree), t, 1, octree, neighbors, ray, way, counting, visit);
 }
 
 /// Goes on from a leaf that was seen to already: the leaves behind it, in order.
-template <class Neighbours, class Counting, class Visit>
-void walk_leaves_behind(OctreeCursor cursor, const Octree& octree, const Neighbours& neighbours,
+template <class Neighbors, class Counting, class Visit>
+void walk_leaves_behind(OctreeCursor cursor, const Octree& octree, const Neighbors& neighbors,
                         const Ray& ray, const CellRay& way, Counting& counting, Visit visit) {
   const LeafExit exit = leaf_exit(way, cursor);
-  const int passed = neighbours.move(cursor, exit.step);
+  const int passed = neighbors.move(cursor, exit.step);
   if (passed == 0) return;
-  counting.add(kNeighbourSteps, static_cast<std::uint64_t>(passed));
-  walk_leaves_from(cursor, exit.t, passed, octree, neighbours, ray, way, counting, visit);
+  counting.add(kNeighborSteps, static_cast<std::uint64_t>(passed));
+  walk_leaves_from(cursor, exit.t, passed, octree, neighbors, ray, way, counting, visit);
 }
 
 }  // namespace beambench::accel::octree

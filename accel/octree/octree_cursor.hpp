@@ -53,13 +53,13 @@ class OctreeCursor {
     corner_ = corner;
   }
 
-  /// Samet's search for the neighbour of equal or larger size across the faces of one or more axes
-  /// (a face, edge or vertex neighbour): climbs to the nearest common ancestor and goes down again,
+  /// Samet's search for the neighbor of equal or larger size across the faces of one or more axes
+  /// (a face, edge or vertex neighbor): climbs to the nearest common ancestor and goes down again,
   /// the path mirrored, as far as there are nodes (Samet, "Implementing ray tracing with octrees
   /// and neighbor finding", Computers & Graphics 13(4), 1989; thesis, section 3.5.2.2). `step`
   /// holds -1, 0 or 1 for each axis. Returns the number of levels climbed and descended; 0 when the
-  /// neighbour would lie outside the root.
-  [[gnu::always_inline]] int move_to_neighbour(const glm::ivec3& step) {
+  /// neighbor would lie outside the root.
+  [[gnu::always_inline]] int move_to_neighbor(const glm::ivec3& step) {
     const glm::ivec3 target = corner_ + step * size_;
     std::uint32_t differing = 0;
     for (int axis = 0; axis < 3; ++axis) {

@@ -5,7 +5,7 @@ namespace beambench::accel::octree {
 OctreeNet::OctreeNet(const Octree& octree) {
   const auto nodes = octree.nodes();
   places_.resize(nodes.size());
-  places_[0].neighbours.fill(kOutside);
+  places_[0].neighbors.fill(kOutside);
   places_[0].size = static_cast<std::uint16_t>(octree.grid().cells.x);
   // Children stand after their parent, so that its links are known when theirs are made.
   for (std::size_t index = 0; index < nodes.size(); ++index) {
@@ -22,11 +22,11 @@ OctreeNet::OctreeNet(const Octree& octree) {
         const std::uint32_t mirrored = octant ^ bit;
         child.corner[axis] = static_cast<std::uint16_t>(parent.corner[axis] + (upper ? half : 0));
         // Behind the inner face lies a sibling; behind the outer one a child of the parent's
-        // neighbour, or that neighbour itself when it is a leaf.
-        child.neighbours[2 * axis + (upper ? 0 : 1)] = node.first + mirrored;
+        // neighbor, or that neighbor itself when it is a leaf.
+        child.neighbors[2 * axis + (upper ? 0 : 1)] = node.first + mirrored;
         const std::size_t outer = 2 * axis + (upper ? 1 : 0);
-        const std::uint32_t beyond = parent.neighbours[outer];
-        child.neighbours[outer] =
+        const std::uint32_t beyond = parent.neighbors[outer];
+        child.neighbors[outer] =
             beyond == kOutside || nodes[beyond].is_leaf() ? beyond : nodes[beyond].first + mirrored;
       }
     }

@@ -10,8 +10,8 @@
 
 namespace beambench::accel::octree {
 
-/// Links from each node through each of its six faces to the neighbour of equal or larger size: the
-/// node in which Samet's search over the common ancestor ends, one step away. Where the neighbours
+/// Links from each node through each of its six faces to the neighbor of equal or larger size: the
+/// node in which Samet's search over the common ancestor ends, one step away. Where the neighbors
 /// are smaller the link leads to their parent, from which the ray descends.
 ///
 /// Faces alone are linked. Through an edge or a vertex, which few rays meet exactly, the way is
@@ -24,8 +24,8 @@ class OctreeNet {
   /// As `walk_leaves` asks.
   int move(OctreeCursor& cursor, const glm::ivec3& step) const {
     const int face = face_of(step);
-    if (face == kNoFace) return cursor.move_to_neighbour(step);
-    const std::uint32_t next = places_[cursor.index()].neighbours[static_cast<std::size_t>(face)];
+    if (face == kNoFace) return cursor.move_to_neighbor(step);
+    const std::uint32_t next = places_[cursor.index()].neighbors[static_cast<std::size_t>(face)];
     if (next == kOutside) return 0;
     const Place& place = places_[next];
     cursor.jump(next, {place.corner[0], place.corner[1], place.corner[2]}, place.size);
@@ -34,8 +34,8 @@ class OctreeNet {
 
   /// The node behind a face, `2 * axis` (below) or `2 * axis + 1` (above); kOutside behind the
   /// root's.
-  std::uint32_t neighbour(std::uint32_t node, int face) const {
-    return places_[node].neighbours[static_cast<std::size_t>(face)];
+  std::uint32_t neighbor(std::uint32_t node, int face) const {
+    return places_[node].neighbors[static_cast<std::size_t>(face)];
   }
   static constexpr std::uint32_t kOutside = 0xFFFFFFFFU;
 
@@ -45,7 +45,7 @@ class OctreeNet {
  private:
   /// What a step needs to know of a node: half a cache line.
   struct Place {
-    std::array<std::uint32_t, 6> neighbours;
+    std::array<std::uint32_t, 6> neighbors;
     std::array<std::uint16_t, 3> corner;  ///< in finest cells
     std::uint16_t size;
   };

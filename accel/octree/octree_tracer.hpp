@@ -8,23 +8,23 @@
 
 namespace beambench::accel::octree {
 
-/// The octree of the thesis (section 3.3) for individual rays. `Neighbours` is how the way from a
+/// The octree of the thesis (section 3.3) for individual rays. `Neighbors` is how the way from a
 /// leaf to the next is found (see `walk_leaves`), made from the octree; it changes no leaf, no
 /// order and no hit.
-template <class Neighbours>
-class OctreeTracer : public TraversalAccelerator<OctreeTracer<Neighbours>> {
+template <class Neighbors>
+class OctreeTracer : public TraversalAccelerator<OctreeTracer<Neighbors>> {
  public:
   OctreeTracer(const scenes::Scene& scene, const OctreeOptions& options)
       : OctreeTracer(scene, Octree(scene, options)) {}
   OctreeTracer(const scenes::Scene& scene, Octree octree)
-      : scene_(&scene), octree_(std::move(octree)), neighbours_(octree_) {}
+      : scene_(&scene), octree_(std::move(octree)), neighbors_(octree_) {}
 
   const Octree& octree() const { return octree_; }
-  const Neighbours& neighbours() const { return neighbours_; }
+  const Neighbors& neighbors() const { return neighbors_; }
 
   Statistics statistics() const override {
     Statistics statistics = octree_.statistics();
-    neighbours_.describe(statistics);
+    neighbors_.describe(statistics);
     return statistics;
   }
 
@@ -43,7 +43,7 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Neighbours>> {
   template <class Counting>
   auto walk(const Ray& ray, Counting& counting) const {
     return [this, &ray, &counting](auto visit) {
-      walk_leaves(octree_, neighbours_, ray, counting, [&](const OctreeNode& leaf, double exit_t) {
+      walk_leaves(octree_, neighbors_, ray, counting, [&](const OctreeNode& leaf, double exit_t) {
         return visit(octree_.references(leaf), exit_t);
       });
     };
@@ -51,7 +51,7 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Neighbours>> {
 
   const scenes::Scene* scene_;
   Octree octree_;
-  Neighbours neighbours_;
+  Neighbors neighbors_;
 };
 
 }  // namespace beambench::accel::octree

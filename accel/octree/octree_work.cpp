@@ -35,7 +35,7 @@ bool enough(int rays, const WorkCounters& counters, const Workload& workload) {
 
 OctreeWork count_work(const scenes::Scene& scene, const Octree& octree, const Workload& workload) {
   const PrimaryRays sample(workload.camera, kColumns, kRows, 1);
-  const AncestorNeighbours neighbours(octree);
+  const AncestorNeighbors neighbors(octree);
   WorkCounters counters;
   std::size_t meet_objects = 0;
   int rays = 0;
@@ -44,7 +44,7 @@ OctreeWork count_work(const scenes::Scene& scene, const Octree& octree, const Wo
     const Ray ray = sample.ray(at % kColumns, at / kColumns, 0);
     ClosestHit closest(ray);
     bool met = false;
-    walk_leaves(octree, neighbours, ray, counters, [&](const OctreeNode& leaf, double exit_t) {
+    walk_leaves(octree, neighbors, ray, counters, [&](const OctreeNode& leaf, double exit_t) {
       met = met || leaf.count > 0;
       return test_references(scene, octree.references(leaf), exit_t, counters, closest);
     });

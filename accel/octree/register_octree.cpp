@@ -10,7 +10,7 @@ void register_octree(Registry& registry) {
   registry.add(
       {"samet",
        "the octree of the thesis with Samet's 1989 traversal: explicit exit point, "
-       "neighbours found over the nearest common ancestor",
+       "neighbors found over the nearest common ancestor",
        Conformance::kBitExact, OctreeOptions::parameters(),
        [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
          return std::make_unique<Samet>(scene, choose_octree(scene, OctreeOptions::from(parameters),
@@ -19,7 +19,7 @@ void register_octree(Registry& registry) {
   registry.add(
       {"samet-net",
        "the octree and the traversal of samet, each face linked beforehand to the "
-       "neighbour of equal or larger size (Endl and Sommer 1994)",
+       "neighbor of equal or larger size (Endl and Sommer 1994)",
        Conformance::kBitExact, OctreeOptions::parameters(),
        [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
          return std::make_unique<SametNet>(
@@ -27,8 +27,8 @@ void register_octree(Registry& registry) {
              choose_octree(scene, OctreeOptions::from(parameters), workload, samet_trace_cost));
        }});
   for (const char* structure : {"samet", "samet-net"}) {
-    registry.describe_counters(
-        structure, {{std::string(kNeighbourSteps), std::string(kNeighbourStepsMeaning)}});
+    registry.describe_counters(structure,
+                               {{std::string(kNeighborSteps), std::string(kNeighborStepsMeaning)}});
   }
 }
 

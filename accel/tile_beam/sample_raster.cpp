@@ -19,7 +19,7 @@ SampleRaster grid_of(const PrimaryRays& rays, int per_pixel, int sample) {
 }  // namespace
 
 std::vector<SampleRaster> sample_rasters(const PrimaryRays& rays) {
-  if (rays.samples() == 5) {  // corners and centre
+  if (rays.samples() == 5) {  // corners and center
     return {{rays.width() + 1,
              rays.height() + 1,
              1,

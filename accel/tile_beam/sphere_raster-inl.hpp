@@ -18,7 +18,7 @@ HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// The places on the screen between which a sphere lies along one axis: with `beside` and `depth`
-/// of its centre, of equal scale, the tangents from the eye to a circle. Valid for depth > radius.
+/// of its center, of equal scale, the tangents from the eye to a circle. Valid for depth > radius.
 struct Extent {
   Floats low;
   Floats high;
@@ -99,7 +99,7 @@ HWY_INLINE void see_spheres(const SphereBlock& block, const TileView& view, Sphe
 }
 
 /// Draws one sphere, whose largest 1/t is `nearest`, into the blocks of a box. As the canonical
-/// test does, t is found from the point of the ray nearest the centre (Haines et al., Ray Tracing
+/// test does, t is found from the point of the ray nearest the center (Haines et al., Ray Tracing
 /// Gems, 2019): the hit then lies within a few roundings of the distance from the surface, however
 /// small or far the sphere is.
 HWY_INLINE void draw_sphere(const glm::vec3& from_eye, float radius, bool inside_only,

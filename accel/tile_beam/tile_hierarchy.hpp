@@ -60,7 +60,7 @@ struct alignas(64) TileNode {
   std::uint32_t count;
 };
 
-/// A few neighbouring triangles over the corners that they share: each corner is seen once.
+/// A few neighboring triangles over the corners that they share: each corner is seen once.
 struct alignas(64) Meshlet {
   static constexpr std::size_t kMostVertices = 32;
   static constexpr std::size_t kMostTriangles = 32;

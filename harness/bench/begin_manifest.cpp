@@ -70,9 +70,9 @@ Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes
         fmt::format("beambench was built as '{}', not as Release.", build.build_type));
   }
   for (const plugin::LoadedPlugin& plugin : manifest.plugins) {
-    if (plugin.optimised) continue;
+    if (plugin.optimized) continue;
     manifest.uncontrolled.push_back(
-        fmt::format("The plug-in {} was built without optimisation.", plugin.file));
+        fmt::format("The plug-in {} was built without optimization.", plugin.file));
   }
   return manifest;
 }

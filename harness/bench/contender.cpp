@@ -149,11 +149,11 @@ void Contender::trace_warm(const accel::Accelerator& structure) {
 
 void Contender::judge_first(const accel::Accelerator& structure) {
   record_.hits_hash = task_->fingerprint();
-  Judgement judgement = task_->judge(structure, cell_->structure);
-  record_.diff = std::move(judgement.report);
+  Judgment judgment = task_->judge(structure, cell_->structure);
+  record_.diff = std::move(judgment.report);
   record_.verdict = verify::to_string(record_.diff->verdict);
   if (!record_.keeps_times()) {
-    record_.examples = std::move(judgement.examples);
+    record_.examples = std::move(judgment.examples);
     return fail(record_.verdict, mismatch_message(*record_.diff));
   }
   if (task_->fingerprint() != record_.hits_hash) {

@@ -133,8 +133,8 @@ std::uint64_t PictureTask::fingerprint() const {
                                       rays::hex_digits(hash_of(image_)));
 }
 
-Judgement PictureTask::judge(const accel::Accelerator& structure,
-                             const accel::StructureChoice& choice) {
+Judgment PictureTask::judge(const accel::Accelerator& structure,
+                            const accel::StructureChoice& choice) {
   poison();
   render::RecordedPicture picture = [&] {
     const MeasuringFloatMode mode;  // as it was timed
@@ -145,15 +145,15 @@ Judgement PictureTask::judge(const accel::Accelerator& structure,
   image_ = picture.image;
   const std::vector<render::JudgedRays> judged =
       render::judge_picture(eye_reference_, std::move(picture), choice.info().conformance);
-  Judgement judgement{render::sum_of(judged), {}};
+  Judgment judgment{render::sum_of(judged), {}};
   for (const render::JudgedRays& rays : judged) {
     if (verify::is_right(rays.report.verdict)) continue;
     for (const verify::Mismatch& example : rays.report.examples) {
-      judgement.examples.push_back(
+      judgment.examples.push_back(
           fmt::format("{} rays, {}", rays.kind, verify::describe(scene(), rays.question, example)));
     }
   }
-  return judgement;
+  return judgment;
 }
 
 }  // namespace beambench::bench

@@ -60,15 +60,14 @@ CountedWork RaysTask::count(const accel::Accelerator& structure) {
 
 std::uint64_t RaysTask::fingerprint() const { return beambench::rays::fingerprint(answers_); }
 
-Judgement RaysTask::judge(const accel::Accelerator&, const accel::StructureChoice& choice) {
-  Judgement judgement{beambench::verify::judge(reference_, answers_, choice.info().conformance),
-                      {}};
-  if (verify::is_right(judgement.report.verdict)) return judgement;
+Judgment RaysTask::judge(const accel::Accelerator&, const accel::StructureChoice& choice) {
+  Judgment judgment{beambench::verify::judge(reference_, answers_, choice.info().conformance), {}};
+  if (verify::is_right(judgment.report.verdict)) return judgment;
   const verify::ReplayCommand replay(scene(), group_.image(), choice, question());
-  for (const verify::Mismatch& example : judgement.report.examples) {
-    judgement.examples.push_back(verify::describe(scene(), question(), example, replay));
+  for (const verify::Mismatch& example : judgment.report.examples) {
+    judgment.examples.push_back(verify::describe(scene(), question(), example, replay));
   }
-  return judgement;
+  return judgment;
 }
 
 }  // namespace beambench::bench

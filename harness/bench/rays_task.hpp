@@ -15,8 +15,8 @@ class RaysTask : public Task {
   void ask(const accel::Accelerator& structure) override;
   CountedWork count(const accel::Accelerator& structure) override;
   std::uint64_t fingerprint() const override;
-  Judgement judge(const accel::Accelerator& structure,
-                  const accel::StructureChoice& choice) override;
+  Judgment judge(const accel::Accelerator& structure,
+                 const accel::StructureChoice& choice) override;
 
  private:
   QueryPath path_of(const accel::Accelerator& structure) const override;

@@ -17,7 +17,7 @@
 namespace beambench::bench {
 
 /// What is found out about answers.
-struct Judgement {
+struct Judgment {
   verify::DiffReport report;
   std::vector<std::string> examples;  ///< disputed rays, described, where the verdict is bad
 };
@@ -47,8 +47,8 @@ class Task {
   /// Of all answers, bit for bit.
   virtual std::uint64_t fingerprint() const = 0;
   /// Judges the answers; may ask `structure`, which `choice` has built, again for them.
-  virtual Judgement judge(const accel::Accelerator& structure,
-                          const accel::StructureChoice& choice) = 0;
+  virtual Judgment judge(const accel::Accelerator& structure,
+                         const accel::StructureChoice& choice) = 0;
 
   /// How `structure` is asked, and the harness's own share of a trace by that way, which is
   /// measured when it is wanted first. Overwrites all answers.

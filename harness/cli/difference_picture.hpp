@@ -18,9 +18,9 @@ struct ComparedNames {
 /// `kOracleName` as a reference stands for the oracle itself.
 inline constexpr const char* kOracleName = "oracle";
 
-/// Writes the classes of the rays of an image (the question's rays are primary) over a grey preview
+/// Writes the classes of the rays of an image (the question's rays are primary) over a gray preview
 /// of what the reference sees; a pixel shows the gravest class of its samples. A .png gets a
-/// legend; an .exr the preview in colours and the classes as numbers (0 agree, 1 tie, 2 graze, 3
+/// legend; an .exr the preview in colors and the classes as numbers (0 agree, 1 tie, 2 graze, 3
 /// the judged is wrong, 4 the reference is).
 void write_difference(const std::filesystem::path& file, const verify::ReferenceHits& reference,
                       std::span<const verify::DiffClass> classes, const ComparedNames& comparison);

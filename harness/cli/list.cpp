@@ -114,7 +114,7 @@ void print_plugins() {
     fmt::print("\n  {}\n{}", plugin.file, wrap(plugin.description, 6));
     fmt::print("      hash {}, built by {} for {}{}\n", rays::hex_digits(plugin.hash),
                plugin.compiler, plugin.instructions,
-               plugin.optimised ? "" : ", without optimisation");
+               plugin.optimized ? "" : ", without optimization");
   }
 }
 

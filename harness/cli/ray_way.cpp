@@ -167,8 +167,8 @@ bool same(const std::optional<accel::Hit>& a, const std::optional<accel::Hit>& b
 }
 
 std::string alone_text(const RayWay& way) {
-  if (!way.asked_all || way.judgement.query == rays::Query::kAnyHit) return "";
-  if (same(way.alone, way.judgement.engine)) return "";
+  if (!way.asked_all || way.judgment.query == rays::Query::kAnyHit) return "";
+  if (same(way.alone, way.judgment.engine)) return "";
   return fmt::format("  alone  {}: asked without the other rays\n",
                      way.alone
                          ? fmt::format("primitive {} at t = {}", way.alone->primitive, way.alone->t)
@@ -240,7 +240,7 @@ std::string to_text(const scenes::Scene& scene, const RayWay& way) {
                   way.question.label(), rays::to_string(way.image.resolution), samples,
                   samples == 1 ? "sample" : "samples");
   out += beams_text(way);
-  Account account(scene, way.judgement.ray);
+  Account account(scene, way.judgment.ray);
   for (std::size_t i = 0; i < way.steps.size(); ++i) {
     // In the leaf where its beam ends, the images of the primitives on the screen are looked at
     // first.
@@ -253,22 +253,22 @@ std::string to_text(const scenes::Scene& scene, const RayWay& way) {
   if (way.steps.empty() && way.beams.empty()) {
     out += fmt::format("{} tells no steps: it entered nothing, or cannot tell\n", way.structure);
   }
-  return out + '\n' + verify::describe(scene, way.question, way.judgement) + alone_text(way) +
+  return out + '\n' + verify::describe(scene, way.question, way.judgment) + alone_text(way) +
          counters_text(way);
 }
 
 nlohmann::ordered_json to_json(const scenes::Scene& scene, const RayWay& way) {
-  const verify::Mismatch& judgement = way.judgement;
-  const accel::Ray& ray = judgement.ray;
+  const verify::Mismatch& judgment = way.judgment;
+  const accel::Ray& ray = judgment.ray;
   Json out{{"scene", scene.name},
            {"structure", way.structure},
            {"width", way.image.resolution.width},
            {"height", way.image.resolution.height},
            {"samples", way.image.samples},
            {"ray_kind", way.question.label()},
-           {"query", rays::to_string(judgement.query)},
-           {"index", judgement.index}};
-  if (const auto pixel = way.question.pixel(judgement.index)) {
+           {"query", rays::to_string(judgment.query)},
+           {"index", judgment.index}};
+  if (const auto pixel = way.question.pixel(judgment.index)) {
     out["pixel"] = {pixel->x, pixel->y};
     out["sample"] = pixel->sample;
   }
@@ -283,19 +283,19 @@ nlohmann::ordered_json to_json(const scenes::Scene& scene, const RayWay& way) {
   }
   out["steps"] = Json::array();
   out["counters"] = way.counters;
-  if (judgement.query == rays::Query::kAnyHit) {
-    out["any_hit"] = judgement.engine_any_hit;
+  if (judgment.query == rays::Query::kAnyHit) {
+    out["any_hit"] = judgment.engine_any_hit;
   } else {
-    out["hit"] = hit_json(judgement.engine);
+    out["hit"] = hit_json(judgment.engine);
   }
   out["hit_alone"] = hit_json(way.alone);
   out["asked_all"] = way.asked_all;
-  out["oracle"] = hit_json(judgement.oracle);
+  out["oracle"] = hit_json(judgment.oracle);
   Account account(scene, ray);
   for (const accel::TraceStep& step : way.steps) out["steps"].push_back(step_json(step, account));
-  if (judgement.adjudicated) out["exact"] = hit_json(judgement.exact);
-  out["class"] = verify::kDiffClassNames[static_cast<std::size_t>(judgement.diff_class)];
-  out["reason"] = judgement.reason;
+  if (judgment.adjudicated) out["exact"] = hit_json(judgment.exact);
+  out["class"] = verify::kDiffClassNames[static_cast<std::size_t>(judgment.diff_class)];
+  out["reason"] = judgment.reason;
   return out;
 }
 

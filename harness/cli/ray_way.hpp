@@ -1,5 +1,5 @@
 #pragma once
-// One ray's way through a structure, its answers and their judgement: as text and as JSON.
+// One ray's way through a structure, its answers and their judgment: as text and as JSON.
 
 #include <map>
 #include <optional>
@@ -23,7 +23,7 @@ struct RayWay {
   std::map<std::string, std::uint64_t, std::less<>> counters;
   /// The ray, its answer among all rays (or, unless `asked_all`, alone), the oracle's, the
   /// class.
-  verify::Mismatch judgement;
+  verify::Mismatch judgment;
   std::optional<accel::Hit> alone;  ///< its closest hit, asked alone
   bool asked_all = true;            ///< were all rays of the question asked?
   /// With beams: those that the sample belongs to. The steps are then of the sample with its beams.

@@ -252,7 +252,7 @@ void add_render_command(CLI::App& app, int&) {
       ->check(CLI::Range(-32.0, 32.0))
       ->capture_default_str();
   CLI::Option* heatmap = command->add_option("--heatmap", request->heatmap,
-                                             "Instead of shading: a work counter in colours");
+                                             "Instead of shading: a work counter in colors");
   CLI::Option* difference =
       command
           ->add_option("--difference", request->difference,
@@ -268,10 +268,10 @@ void add_render_command(CLI::App& app, int&) {
   command->footer(
       "Counters for --heatmap: traversal_steps, leaves, empty_leaves, box_tests, primitive_tests,\n"
       "and a structure's own. A .png gets a legend; an .exr holds the counts beside linear float\n"
-      "R, G, B, the depth Z and the primitive id (4294967295 for a miss). --difference colours\n"
+      "R, G, B, the depth Z and the primitive id (4294967295 for a miss). --difference colors\n"
       "pixels by the classes that 'beambench verify --help' tells; who is wrong, the search of "
       "all\n"
-      "primitives says. --overlay beams colours those that end at occupied leaves, those that go\n"
+      "primitives says. --overlay beams colors those that end at occupied leaves, those that go\n"
       "on and those that leave the scene; --overlay cells leaves out what cells before them hide.\n"
       "Examples:\n"
       "  beambench render escena1 -o escena1.png\n"

@@ -118,7 +118,7 @@ void add_sampling_command(CLI::App& app, int&) {
       "Uniform sampling, as the thesis has it (none where beams leave the scene); object-space\n"
       "sampling, its future work: the leaf at which a beam ends chooses 1, 5 or 25 samples by its\n"
       "references and its size in pixels; image-space sampling: a pixel that differs from its\n"
-      "neighbours gets more. Errors are against 64 samples a pixel, in preview shading.\n"
+      "neighbors gets more. Errors are against 64 samples a pixel, in preview shading.\n"
       "Examples:\n"
       "  beambench sampling delfines\n"
       "  beambench sampling maceta --accel beam:max_level=7 --resolution 320x200 --json\n"

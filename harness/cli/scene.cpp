@@ -64,7 +64,7 @@ void print_text(const scenes::Scene& scene) {
                                camera.angle, camera.width, camera.height));
   }
   for (const scenes::Light& light : scene.lights) {
-    line("light", fmt::format("at {}, colour {}", to_text(light.position), to_text(light.color)));
+    line("light", fmt::format("at {}, color {}", to_text(light.position), to_text(light.color)));
   }
   const std::vector<std::string_view> finishes = finishes_of(scene);
   line("surfaces", fmt::format("{}{}{}", scene.surfaces.size(), finishes.empty() ? "" : ", with ",

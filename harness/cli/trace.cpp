@@ -139,12 +139,12 @@ int trace(const Request& request) {
     progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
     watched_ask(*accelerator, question, answers, 1, progress);
   }
-  way.judgement = verify::ask_again(question, answers, index, oracle.closest_hit(ray));
-  verify::judge_ray(scene, choice.info().conformance, way.judgement);
+  way.judgment = verify::ask_again(question, answers, index, oracle.closest_hit(ray));
+  verify::judge_ray(scene, choice.info().conformance, way.judgment);
 
   fmt::print("{}", request.json ? to_json(scene, way).dump(2) + '\n' : to_text(scene, way));
-  return way.judgement.diff_class == verify::DiffClass::kEngineError ? base::kMismatch
-                                                                     : base::kSuccess;
+  return way.judgment.diff_class == verify::DiffClass::kEngineError ? base::kMismatch
+                                                                    : base::kSuccess;
 }
 
 }  // namespace

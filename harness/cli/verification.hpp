@@ -15,7 +15,7 @@
 
 namespace beambench::cli {
 
-/// The judgement of one structure over one scene.
+/// The judgment of one structure over one scene.
 struct VerifiedCell {
   std::string scene;
   std::string rays;  ///< as `RayChoice::label`

@@ -190,7 +190,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
                    "That trace images of primary rays; 0: one for each core")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
-  command->add_option("--json", request->json, "Write the judgement to this file, too");
+  command->add_option("--json", request->json, "Write the judgment to this file, too");
   command
       ->add_option("--pictures", request->pictures,
                    "Write a picture of the differences to this folder where there are errors")

@@ -39,7 +39,7 @@ ImageWorker::ImageWorker(const accel::beam::BeamTracer& tracer, const accel::Pri
 void ImageWorker::perform(std::span<const std::byte> task, Bytes& result, const Pulse& pulse) {
   decided_.begin(pulse);
   std::visit([this](const auto& each) { trace(each); }, read_task(task, tracer_->octree(), view_));
-  // Beams find their samples lattice by lattice; sorted, a pixel's samples are neighbours.
+  // Beams find their samples lattice by lattice; sorted, a pixel's samples are neighbors.
   std::vector<std::uint32_t>& samples = decided_.samples();
   std::ranges::sort(samples);
   if (light_ == nullptr) {

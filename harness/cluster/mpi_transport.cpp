@@ -54,7 +54,7 @@ struct MpiTransport::Mpi {
   std::vector<MPI_Request> sending;
   std::vector<Bytes> sent;
   /// Room for any message, made when it is needed and, untouched, no burden.
-  std::unique_ptr<std::byte[]> room;  // NOLINT(modernize-avoid-c-arrays): not initialised
+  std::unique_ptr<std::byte[]> room;  // NOLINT(modernize-avoid-c-arrays): not initialized
 
   void forget_what_left();
   Message receive_next();

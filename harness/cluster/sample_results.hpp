@@ -19,7 +19,7 @@ namespace beambench::cluster {
 /// Indices in a hit buffer, ascending.
 using SampleList = std::span<const std::uint32_t>;
 
-/// Appends the hits of samples, 8 bytes each and 8 for each run of neighbours.
+/// Appends the hits of samples, 8 bytes each and 8 for each run of neighbors.
 void write_hits(SampleList samples, const accel::HitBuffer& hits, Bytes& bytes);
 
 /// Hits from everywhere.

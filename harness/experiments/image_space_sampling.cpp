@@ -25,7 +25,7 @@ double contrast(const glm::vec3& a, const glm::vec3& b) {
   return std::max({std::abs(a.x - b.x), std::abs(a.y - b.y), std::abs(a.z - b.z)});
 }
 
-/// The largest contrast of a pixel to its neighbours above, below, left and right.
+/// The largest contrast of a pixel to its neighbors above, below, left and right.
 double contrast_at(const render::Image& image, int x, int y) {
   double largest = 0.0;
   const auto look = [&](int other_x, int other_y) {

@@ -34,7 +34,7 @@ bool lies_within(std::uint64_t first, std::uint64_t count, std::size_t size) {
 }
 
 void check_sphere(const scenes::Sphere& sphere, scenes::PrimitiveId id) {
-  require(is_point(sphere.center), id, "has a centre that is no point");
+  require(is_point(sphere.center), id, "has a center that is no point");
   require(is_radius(sphere.radius) && sphere.radius > 0.0F, id, "has a radius that is none");
 }
 

@@ -206,7 +206,7 @@ void load_plugin(const std::string& file, Activity& activity) {
   const PluginStamp& stamp = plugin.stamp;
   all_loaded().push_back({file, plugin.description == nullptr ? "" : plugin.description,
                           fingerprint_of_file(file), stamp.compiler, stamp.instructions,
-                          stamp.optimised,
+                          stamp.optimized,
                           names_of(contents.structures, &accel::StructureInfo::name),
                           names_of(contents.scenes, &scenes::SceneInfo::name),
                           names_of(contents.readers, &scenes::SceneReader::ending)});

@@ -18,7 +18,7 @@ struct LoadedPlugin {
   std::uint64_t hash;  ///< fingerprint of the file
   std::string compiler;
   std::string instructions;
-  bool optimised;
+  bool optimized;
   std::vector<std::string> structures;  ///< their names
   std::vector<std::string> scenes;
   std::vector<std::string> readers;  ///< the endings of their files

@@ -21,7 +21,7 @@ inline constexpr std::uint32_t kPluginInterface = 2;
 struct PluginStamp {
   std::uint64_t magic;
   std::uint32_t interface_version;
-  bool optimised;
+  bool optimized;
   std::uint64_t layout;      ///< fingerprint of the types that cross the door
   const char* library;       ///< the C++ library and its binary interface
   const char* compiler;      ///< need not be the program's
@@ -82,16 +82,16 @@ inline constexpr const char* kInstructions = "the processor family's baseline";
 #endif
 
 #if defined(__OPTIMIZE__)
-inline constexpr bool kOptimised = true;
+inline constexpr bool kOptimized = true;
 #else
-inline constexpr bool kOptimised = false;
+inline constexpr bool kOptimized = false;
 #endif
 
 }  // namespace plugin_stamp
 
 /// The stamp of the code that includes this.
 inline constexpr PluginStamp kPluginStamp{plugin_stamp::kMagic,       kPluginInterface,
-                                          plugin_stamp::kOptimised,   plugin_stamp::kLayout,
+                                          plugin_stamp::kOptimized,   plugin_stamp::kLayout,
                                           plugin_stamp::kLibrary,     plugin_stamp::kCompiler,
                                           plugin_stamp::kInstructions};
 

@@ -21,7 +21,7 @@ struct RaySet {
   std::vector<accel::Ray> rays;
 };
 
-/// How alike neighbours in a list are: the mean cosine of the angle between the directions of a ray
+/// How alike neighbors in a list are: the mean cosine of the angle between the directions of a ray
 /// and the next. 1: all parallel; 0: nothing in common. 1 for fewer than two rays.
 double coherence(std::span<const accel::Ray> rays);
 

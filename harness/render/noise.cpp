@@ -25,7 +25,7 @@ std::uint64_t hash(const Lattice& at) {
   return bits ^ (bits >> 33U);
 }
 
-/// Towards the middles of a cube's edges, from its centre.
+/// Toward the middles of a cube's edges, from its center.
 double gradient_at(const Lattice& corner, const glm::dvec3& offset) {
   static constexpr std::array<std::array<int, 3>, 12> kDirections{{{1, 1, 0},
                                                                    {-1, 1, 0},

@@ -9,7 +9,7 @@
 namespace beambench::render {
 
 /// Linear light from a hit: Lambert and Phong under the scene's lights and a headlight at the eye,
-/// without shadows. The headlight leaves no side of a thing black. The scene's colours are display
+/// without shadows. The headlight leaves no side of a thing black. The scene's colors are display
 /// values, as they were in 1987; they are decoded to linear light first.
 glm::vec3 preview_color(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& hit);
 

@@ -14,7 +14,7 @@ struct RayCensus {
   std::uint64_t refracted = 0;
   std::uint64_t totally_reflected = 0;  ///< of the reflected: in place of a refracted ray
   std::uint64_t secondary_hits = 0;     ///< of reflected and refracted rays
-  std::uint64_t too_faint = 0;          ///< not traced: too small a part of the pixel's colour
+  std::uint64_t too_faint = 0;          ///< not traced: too small a part of the pixel's color
   std::uint64_t shadow = 0;             ///< a point and a light that its side of the surface faces
   std::uint64_t shadow_hidden = 0;      ///< of these: the light is hidden by something opaque
   std::uint64_t shadow_cached = 0;      ///< of these: the shadow cache knew it

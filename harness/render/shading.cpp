@@ -25,7 +25,7 @@ glm::vec3 normal_color(const scenes::Scene& scene, const accel::Ray& ray, const 
   return linear_from_srgb(glm::vec3(rays::geometric_normal(scene, ray, hit) * 0.5 + 0.5));
 }
 
-/// Light grey at the nearest hit of the image, dark grey at the farthest; black is a miss.
+/// Light gray at the nearest hit of the image, dark gray at the farthest; black is a miss.
 HitColor depth_color(const accel::HitBuffer& hits) {
   float nearest = accel::kInfinity;
   float farthest = 0.0F;

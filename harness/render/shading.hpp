@@ -13,9 +13,9 @@ namespace beambench::render {
 
 /// What a picture shows of a hit.
 enum class Shading {
-  kPreview,  ///< surface colours under the scene's lights and a headlight, without shadows
+  kPreview,  ///< surface colors under the scene's lights and a headlight, without shadows
   kNormals,  ///< the surface's direction: x, y, z as red, green, blue
-  kId,       ///< a colour for each primitive
+  kId,       ///< a color for each primitive
   kDepth,    ///< the nearer, the brighter
   kWhitted   ///< the whole ray tracer (`Whitted`), which needs more than hits
 };

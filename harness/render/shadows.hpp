@@ -14,7 +14,7 @@
 namespace beambench::render {
 
 /// The opaque primitive that hid each light last, for each depth of rays (as the ray tracer OORT
-/// has it; Wilt, Object-Oriented Ray Tracing in C++, 1994): neighbouring points are mostly hidden
+/// has it; Wilt, Object-Oriented Ray Tracing in C++, 1994): neighboring points are mostly hidden
 /// by the same one.
 struct ShadowCache {
   ShadowCache(std::size_t lights, int depths)

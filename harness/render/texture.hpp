@@ -1,5 +1,5 @@
 #pragma once
-// The colours of the thesis's textures in space.
+// The colors of the thesis's textures in space.
 
 #include <glm/vec3.hpp>
 
@@ -13,7 +13,7 @@ class TextureSpace {
  public:
   explicit TextureSpace(const scenes::Scene& scene);
 
-  /// The display colour of a surface at a point of the scene: its own where its finish is not a
+  /// The display color of a surface at a point of the scene: its own where its finish is not a
   /// texture.
   glm::dvec3 color_at(const scenes::Surface& surface, const glm::dvec3& point) const;
 

@@ -59,7 +59,7 @@ struct Whitted::Kind {
 /// How a ray came about.
 struct Whitted::Path {
   int depth = 1;        ///< rays from the eye to here
-  double weight = 1.0;  ///< the largest part that it can have in the pixel's colour
+  double weight = 1.0;  ///< the largest part that it can have in the pixel's color
   bool inside = false;  ///< in something transparent
 };
 

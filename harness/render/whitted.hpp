@@ -25,13 +25,13 @@ struct Answerers {
 };
 
 /// Recursive ray tracing (Whitted, "An improved illumination model for shaded display", CACM 23(6),
-/// 1980; chapter 4 of the thesis) with NFF's surfaces: the diffuse factor times the colour under
+/// 1980; chapter 4 of the thesis) with NFF's surfaces: the diffuse factor times the color under
 /// ambient light and every light that is seen; the specular factor for highlights (Phong) and for
 /// what a mirror ray sees; the transmittance for what a ray refracted by Snell's law sees, or at
 /// total reflection, where there is no such ray, for what the mirror ray sees.
 ///
-/// Colours of scenes are display values, as they were in 1987, and are decoded to linear light. A
-/// light without a colour of its own (white) has 1 / sqrt(lights), as NFF says. All in double, in
+/// Colors of scenes are display values, as they were in 1987, and are decoded to linear light. A
+/// light without a color of its own (white) has 1 / sqrt(lights), as NFF says. All in double, in
 /// one order: structures that return the same hits give the same bits.
 class Whitted {
  public:

@@ -25,7 +25,7 @@ struct WhittedOptions {
   /// Rays behind one another, the eye's included: Haines's databases (SPD) say 5.
   int max_depth = 5;
   /// Adaptive depth control (Hall and Greenberg, "A testbed for realistic image synthesis", IEEE
-  /// CG&A 3(8), 1983): a ray whose part in its pixel's colour is less than this is not traced. 0
+  /// CG&A 3(8), 1983): a ray whose part in its pixel's color is less than this is not traced. 0
   /// traces all.
   double least_weight = 0.0;
   ShadowMethod shadows = ShadowMethod::kRays;

@@ -18,7 +18,7 @@ std::string_view kind_of(const scenes::Scene& scene, scenes::PrimitiveId id) {
   return "unknown";
 }
 
-/// Floats and doubles are printed with as many digits as tell them apart from their neighbours.
+/// Floats and doubles are printed with as many digits as tell them apart from their neighbors.
 template <class AnyHit>
 std::string text(const scenes::Scene& scene, const std::optional<AnyHit>& hit) {
   if (!hit) return "miss";

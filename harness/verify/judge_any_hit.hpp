@@ -1,5 +1,5 @@
 #pragma once
-// The judgement of one answer to an any-hit query.
+// The judgment of one answer to an any-hit query.
 
 #include "harness/verify/differ.hpp"
 

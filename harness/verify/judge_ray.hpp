@@ -1,5 +1,5 @@
 #pragma once
-// The judgement of one ray: by rules where they suffice, by the long-double search where not.
+// The judgment of one ray: by rules where they suffice, by the long-double search where not.
 
 #include <cstddef>
 #include <optional>

@@ -12,7 +12,7 @@ namespace beambench::scenes::modelling {
 /// Adds every polygon, over shared vertices, with the builder's current surface.
 void add_flat(SceneBuilder& builder, const PolygonMesh& mesh);
 
-/// How polygons are smoothed and coloured.
+/// How polygons are smoothed and colored.
 struct SmoothOptions {
   double crease = 50.0;                                 ///< degrees; sharper edges stay sharp
   std::function<Surface(std::size_t polygon)> paint{};  ///< if any: the surface of each polygon

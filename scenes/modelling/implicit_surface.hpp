@@ -30,7 +30,7 @@ double joined(double a, double b, double blend);
 PolygonMesh implicit_surface(const Field& field, const glm::dvec3& lower, const glm::dvec3& upper,
                              double cell);
 
-/// Which of several colours a place of the surface has.
+/// Which of several colors a place of the surface has.
 using Region = std::function<int(const glm::dvec3&)>;
 
 /// Moves vertices of triangles over the surface onto the borders between regions, so that a border

@@ -14,7 +14,7 @@ class Profile {
 
   Profile& line(const glm::dvec2& to);
   /// A parabola in `steps` pieces whose middle is `bulge` outside the straight line (to the right
-  /// of the way, which walks upwards), inside where it is negative.
+  /// of the way, which walks upward), inside where it is negative.
   Profile& curve(const glm::dvec2& to, double bulge, int steps);
   /// A ball around a place on the axis, from where its surface has the present point's radius to
   /// its top, in `steps` pieces. The present point must be at or below that place.

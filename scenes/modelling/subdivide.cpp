@@ -148,10 +148,10 @@ class Subdivider {
     mesh_.vertices.push_back(0.5 *
                              (mesh_.vertices[longest.first] + mesh_.vertices[longest.second]));
     insert_corner(triangle, longest, middle, true);
-    for (const std::uint32_t neighbour : sharing) {
-      if (neighbour == triangle) continue;
-      const bool may_split = mesh_.size() < count_ && areas_[neighbour] > 0.0;
-      insert_corner(neighbour, longest, middle, may_split);
+    for (const std::uint32_t neighbor : sharing) {
+      if (neighbor == triangle) continue;
+      const bool may_split = mesh_.size() < count_ && areas_[neighbor] > 0.0;
+      insert_corner(neighbor, longest, middle, may_split);
     }
   }
 

@@ -21,9 +21,9 @@ class NearVertices {
                                     const glm::dvec3& place) const {
     const Cell cell = cell_of(place);
     std::optional<std::uint32_t> found;
-    for (std::int64_t neighbour = 0; neighbour < 27; ++neighbour) {
-      const Cell near = {cell[0] + neighbour % 3 - 1, cell[1] + neighbour / 3 % 3 - 1,
-                         cell[2] + neighbour / 9 - 1};
+    for (std::int64_t neighbor = 0; neighbor < 27; ++neighbor) {
+      const Cell near = {cell[0] + neighbor % 3 - 1, cell[1] + neighbor / 3 % 3 - 1,
+                         cell[2] + neighbor / 9 - 1};
       const auto [begin, end] = cells_.equal_range(near);
       for (auto it = begin; it != end; ++it) {
         const bool same = glm::length(vertices[it->second] - place) <= distance_;

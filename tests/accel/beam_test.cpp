@@ -227,7 +227,7 @@ TEST(Beam, MakesTheSameBeamsAtEveryResolution) {
       const auto counters = counters_of(scene, options_with(6), rays);
       for (const char* counter : {"beams", "beams_nonterminal", "beams_occupied", "beams_leaving",
                                   "beams_made", "beams_divided", "beams_passed_whole", "beam_edges",
-                                  "beam_clips", "neighbour_searches"}) {
+                                  "beam_clips", "neighbor_searches"}) {
         EXPECT_EQ(counters.at(counter), expected.at(counter)) << counter;
         EXPECT_GT(counters.at(counter), 0U) << counter;
       }

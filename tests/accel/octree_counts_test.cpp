@@ -61,14 +61,14 @@ octree::Octree octree_of(const Row& row) {
 /// crosses the root cube through empty leaves only.
 std::int64_t exit_pixels(const octree::Octree& octree, const scenes::Camera& camera) {
   const PrimaryRays rays(camera, 1280, 1024, 1);
-  const octree::AncestorNeighbours neighbours(octree);
+  const octree::AncestorNeighbors neighbors(octree);
   NoCounting counting;
   std::int64_t pixels = 0;
   for (int y = 0; y < rays.height(); ++y) {
     for (int x = 0; x < rays.width(); ++x) {
       bool crosses = false;
       bool occupied = false;
-      octree::walk_leaves(octree, neighbours, rays.ray(x, y, 0), counting,
+      octree::walk_leaves(octree, neighbors, rays.ray(x, y, 0), counting,
                           [&](const octree::OctreeNode& leaf, double) {
                             crosses = true;
                             occupied = leaf.count > 0;

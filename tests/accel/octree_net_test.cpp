@@ -1,4 +1,4 @@
-// The net over an octree: its links are Samet's neighbours, and nothing but the way to them
+// The net over an octree: its links are Samet's neighbors, and nothing but the way to them
 // changes.
 
 #include "accel/octree/octree_net.hpp"
@@ -47,8 +47,8 @@ TEST(OctreeNet, EachLinkLeadsWhereSametsSearchLeads) {
         step[face / 2] = face % 2 == 0 ? -1 : 1;
         octree::OctreeCursor expected = node;
         octree::OctreeCursor actual = node;
-        if (octree::AncestorNeighbours::move(expected, step) == 0) {
-          ASSERT_EQ(net.neighbour(node.index(), face), octree::OctreeNet::kOutside);
+        if (octree::AncestorNeighbors::move(expected, step) == 0) {
+          ASSERT_EQ(net.neighbor(node.index(), face), octree::OctreeNet::kOutside);
           ASSERT_EQ(net.move(actual, step), 0);
           continue;
         }
@@ -86,7 +86,7 @@ TEST(OctreeNet, LeavesTheirOrderAndTheTestsAreThoseOfSamet) {
   }
 }
 
-TEST(OctreeNet, OneStepForEachNeighbourWhereSametClimbs) {
+TEST(OctreeNet, OneStepForEachNeighborWhereSametClimbs) {
   for (const char* name : {"tetra:n=4", "balls:n=2", "escena1"}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
@@ -103,12 +103,12 @@ TEST(OctreeNet, OneStepForEachNeighbourWhereSametClimbs) {
     EXPECT_EQ(net["empty_leaves"], samet["empty_leaves"]);
     EXPECT_EQ(net["primitive_tests"], samet["primitive_tests"]);
     // Every ray moves on from a leaf at most once for each leaf.
-    EXPECT_LE(net["neighbour_steps"], net["leaves"]);
-    EXPECT_GT(net["neighbour_steps"], net["leaves"] / 2);
-    EXPECT_GT(samet["neighbour_steps"], 2 * net["neighbour_steps"]);
-    // What is saved is the way to the neighbour, and nothing else.
+    EXPECT_LE(net["neighbor_steps"], net["leaves"]);
+    EXPECT_GT(net["neighbor_steps"], net["leaves"] / 2);
+    EXPECT_GT(samet["neighbor_steps"], 2 * net["neighbor_steps"]);
+    // What is saved is the way to the neighbor, and nothing else.
     EXPECT_EQ(samet["traversal_steps"] - net["traversal_steps"],
-              samet["neighbour_steps"] - net["neighbour_steps"]);
+              samet["neighbor_steps"] - net["neighbor_steps"]);
   }
 }
 

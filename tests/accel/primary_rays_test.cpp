@@ -24,7 +24,7 @@ TEST(PrimaryRays, CornersOfTheFrustum) {
   // 90 degrees: the image plane at depth 1 reaches from -1 to 1 on both axes, whatever the pixels.
   EXPECT_EQ(rays.ray(0, 0, 0).direction, glm::vec3(-1, 1, -1)) << "top left corner";
   EXPECT_EQ(rays.ray(3, 1, 3).direction, glm::vec3(1, -1, -1)) << "bottom right corner";
-  EXPECT_EQ(rays.ray(0, 0, 4).direction, glm::vec3(-0.75F, 0.5F, -1)) << "centre of pixel (0, 0)";
+  EXPECT_EQ(rays.ray(0, 0, 4).direction, glm::vec3(-0.75F, 0.5F, -1)) << "center of pixel (0, 0)";
   EXPECT_EQ(rays.ray(2, 1, 1).origin, glm::vec3(1, 2, 3));
   EXPECT_EQ(rays.count(), 40U);
 }

@@ -4,7 +4,7 @@
 // What the comparison showed. Leaves and empty leaves a ray agree within 1%, and so do the other
 // two once they are counted alike:
 // - Traversal steps: ours end with the leaf in which a ray leaves the root, for integer coordinates
-//   say that there is no neighbour. Samet's search climbs to the root before it knows. With these
+//   say that there is no neighbor. Samet's search climbs to the root before it knows. With these
 //   climbs, which are counted here apart, the steps agree within 1%; without them ours are 4 to 7%
 //   fewer.
 // - Intersection tests: his are not an average over the rays. Divided by the rays that hit (eye

@@ -148,20 +148,20 @@ TEST(SplitScene, AccountsForWhatCrossed) {
   traced_in_parts(scene, options_with(6), rays, 3, 3, 1, &accounts);
   Traffic out;
   Traffic in;
-  std::uint64_t travellers = 0;
+  std::uint64_t travelers = 0;
   for (const SplitAccount& account : accounts) {
     out.messages += account.crossings_out.messages;
     out.bytes += account.crossings_out.bytes;
     in.messages += account.crossings_in.messages;
     in.bytes += account.crossings_in.bytes;
-    travellers += account.beams_out + account.rays_out;
+    travelers += account.beams_out + account.rays_out;
     EXPECT_LT(account.primitives, scene.primitives.size());
     EXPECT_GT(account.structure_bytes, 0U);
   }
-  EXPECT_GT(travellers, 0U);
+  EXPECT_GT(travelers, 0U);
   EXPECT_EQ(out.messages, in.messages);
   EXPECT_EQ(out.bytes, in.bytes);
-  EXPECT_GE(out.bytes, 25 * travellers);
+  EXPECT_GE(out.bytes, 25 * travelers);
 }
 
 TEST(SplitScene, RunsFromACommandLineToItsEnd) {

@@ -134,7 +134,7 @@ def _work() -> list[Row]:
                     "seconds_build": 1e-3,
                     "beams_nonterminal": inner,
                     "beam_clips": (seconds - 1e-6 * inner) / 1e-5,
-                    "neighbour_searches": 1,
+                    "neighbor_searches": 1,
                     "beams_occupied": 0.63 * beams,
                     "samples_in_leaves": each * 1e5,
                     "rays_after_leaf": each * 5e3,

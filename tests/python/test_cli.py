@@ -84,7 +84,7 @@ def test_list_as_json_says_all_of_each_parameter() -> None:
 @pytest.mark.parametrize(
     ("name", "words", "others"),
     [
-        ("samet", ["max_level=", "neighbour_steps", "[bit-exact]"], ["sah-bvh", "balls"]),
+        ("samet", ["max_level=", "neighbor_steps", "[bit-exact]"], ["sah-bvh", "balls"]),
         ("samet:max_level=4", ["max_level="], ["sah-bvh"]),
         ("balls", ["n=4", "balls:parameter"], ["samet", "tetra"]),
         ("diffuse", ["seed=", "--rays"], ["shadow rays", "samet"]),
@@ -103,7 +103,7 @@ def test_list_prints_several_in_the_order_given() -> None:
 
 def test_list_explains_what_is_counted() -> None:
     text = output_of("list", "--counters")
-    for name in ["traversal_steps", "confirmed_tests", "beams_made", "neighbour_steps"]:
+    for name in ["traversal_steps", "confirmed_tests", "beams_made", "neighbor_steps"]:
         assert re.search(rf"^ +{name}\n +\w", text, re.MULTILINE), name
     counted = json.loads(output_of("stats", "tetra:n=2", "--accel", "all", "--json"))
     names = {name for structure in counted["structures"] for name in structure["per_ray"]}

@@ -42,6 +42,13 @@ def test_a_column_of_the_family_s_own_is_a_counter(tmp_path: Path) -> None:
     assert "neighbour_climbs_per_ray" in read_run(write_run(tmp_path, rows)).counters
 
 
+def test_columns_of_older_records_are_read_under_their_new_names(tmp_path: Path) -> None:
+    rows = [{**row, "neighbour_steps_per_ray": 3.5} for row in made_up_rows()]
+    run = read_run(write_run(tmp_path, rows))
+    assert run.rows["neighbor_steps_per_ray"].eq(3.5).all()
+    assert "neighbour_steps_per_ray" not in run.rows
+
+
 def test_counters_of_a_kind_of_rays_are_told_apart(tmp_path: Path) -> None:
     rows = [{**row, "shadow_rays": 9, "shadow_box_tests_per_ray": 3.5} for row in made_up_rows()]
     run = read_run(write_run(tmp_path, rows))

@@ -89,7 +89,7 @@ def tasks(beams: float, ends: float, rays: float) -> Row:
         "beams_nonterminal": beams / rays,
         "beam_edges": beams * edges / rays,
         "beam_clips": beams * clips / rays,
-        "neighbour_searches": beams * searches / rays,
+        "neighbor_searches": beams * searches / rays,
         "beams_nonterminal_ns": passing / rays,
         "beams_occupied": ends / rays,
         "samples_in_leaves": samples,

@@ -131,7 +131,7 @@ def test_a_camera_is_turned_around_the_point_it_looks_at() -> None:
 def with_times_of_tasks(row: Row) -> Row:
     """As a real row of the beams has them."""
     names = ("beams_nonterminal_ns", "beams_occupied_ns", "beams_leaving_ns", "beam_clips")
-    names = (*names, "neighbour_searches", "samples_in_leaves", "rays_after_leaf")
+    names = (*names, "neighbor_searches", "samples_in_leaves", "rays_after_leaf")
     return row | {f"{name}_per_ray": 50 if row["structure"] == "beam" else "" for name in names}
 
 

@@ -137,7 +137,7 @@ TEST(RandomRays, TakeFlatAndEmptyBoxes) {
   EXPECT_EQ(random_rays(flat, 10, 1).size(), 10U);
 }
 
-TEST(Coherence, IsTheMeanCosineOfNeighbours) {
+TEST(Coherence, IsTheMeanCosineOfNeighbors) {
   accel::Ray x;
   x.direction = {2.0F, 0.0F, 0.0F};
   accel::Ray y;

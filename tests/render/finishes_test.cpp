@@ -33,7 +33,7 @@ TEST(Noise, IsNothingAtTheLatticeAndStaysInItsRange) {
   EXPECT_LT(least, -0.6);
 }
 
-TEST(Texture, VariesAboutTheColourOfItsSurface) {
+TEST(Texture, VariesAboutTheColorOfItsSurface) {
   scenes::SceneBuilder builder("ball");
   builder.add_sphere({0, 0, 0}, 10.0);
   const scenes::Scene scene = std::move(builder).build();
@@ -62,7 +62,7 @@ TEST(Texture, VariesAboutTheColourOfItsSurface) {
   }
 }
 
-/// The colour of a finish at the middle of its scene, where all noise is 0: veins of marble are 1/2
+/// The color of a finish at the middle of its scene, where all noise is 0: veins of marble are 1/2
 /// to the power of 6 of it, wood begins a ring, clouds are a smooth step, granite shows no grain.
 dvec3 color_in_the_middle(scenes::Finish finish) {
   const dvec3 own(scenes::finished_surface(finish).color);
@@ -91,7 +91,7 @@ dvec3 color_in_the_middle(scenes::Finish finish) {
   }
 }
 
-TEST(Finishes, HaveTheColoursComputedByHand) {
+TEST(Finishes, HaveTheColorsComputedByHand) {
   for (int i = 0; i <= static_cast<int>(scenes::Finish::kWhiteMarble); ++i) {
     const scenes::Surface surface = scenes::finished_surface(static_cast<scenes::Finish>(i));
     SCOPED_TRACE(scenes::finish_word(surface.finish));

@@ -35,7 +35,7 @@ accel::PrimaryRays view_along_x() {
 bool is_ground(const Image& image, int x, int y) {
   return glm::distance(image.at(x, y), dimmed(kGround)) < 1e-6F;
 }
-/// How much of a colour is mixed with the dimmed ground.
+/// How much of a color is mixed with the dimmed ground.
 float share_of(const glm::vec3& color, const Image& image, int x, int y) {
   const glm::vec3 ground = dimmed(kGround);
   return (image.at(x, y).x - ground.x) / (color.x - ground.x);
@@ -67,7 +67,7 @@ TEST(Line, CoversPixelsByTheirDistance) {
   EXPECT_EQ(coverage[49], 0.0F);
 }
 
-// The definition: all pixels of the image, each by its centre's distance from the segment.
+// The definition: all pixels of the image, each by its center's distance from the segment.
 RC_GTEST_PROP(Line, VisitsJustThePixelsNearIt, ()) {
   const auto coordinate = [] {
     return *rc::gen::element(1.0, 1.0, 1e4) * (*rc::gen::inRange(-300, 500) / 10.0);
@@ -83,11 +83,11 @@ RC_GTEST_PROP(Line, VisitsJustThePixelsNearIt, ()) {
   const glm::dvec2 way = line.to - line.from;
   for (int y = 0; y < 15; ++y) {
     for (int x = 0; x < 20; ++x) {
-      const glm::dvec2 centre(x + 0.5, y + 0.5);
+      const glm::dvec2 center(x + 0.5, y + 0.5);
       const double square = glm::dot(way, way);
       const double s =
-          square > 0.0 ? glm::clamp(glm::dot(centre - line.from, way) / square, 0.0, 1.0) : 0.0;
-      const double distance = glm::distance(centre, line.from + s * way);
+          square > 0.0 ? glm::clamp(glm::dot(center - line.from, way) / square, 0.0, 1.0) : 0.0;
+      const double distance = glm::distance(center, line.from + s * way);
       const double beyond = distance - 0.5 * (thickness + 1.0);
       if (std::abs(beyond) < 1e-6) continue;  // rounding decides
       RC_ASSERT(visits[static_cast<std::size_t>(20 * y + x)] == (beyond < 0.0 ? 1 : 0));
@@ -108,7 +108,7 @@ TEST(ConvexFill, GivesEachPixelToOneOfTheTrianglesAroundAPoint) {
   for (const int each : visits) EXPECT_EQ(each, 1);
 }
 
-TEST(OverlayBeams, DrawsEachKindInItsColourAndCounts) {
+TEST(OverlayBeams, DrawsEachKindInItsColorAndCounts) {
   const std::vector<accel::BeamOutline> beams{
       {accel::BeamKind::kNonTerminal, {{5.5, 5.5}, {55.5, 5.5}, {55.5, 25.5}, {5.5, 25.5}}},
       {accel::BeamKind::kOccupied, {{5.5, 5.5}, {30.5, 5.5}, {30.5, 25.5}, {5.5, 25.5}}},
@@ -134,7 +134,7 @@ TEST(OverlayBeams, DrawsEachKindInItsColourAndCounts) {
   EXPECT_TRUE(near(legend[2].color, 75, 40));
   EXPECT_TRUE(is_ground(image, 58, 30)) << "where no beam is";
   EXPECT_FALSE(is_ground(image, 15, 15)) << "ends are tinted";
-  EXPECT_NE(image.at(15, 15), image.at(45, 15)) << "each in its colour";
+  EXPECT_NE(image.at(15, 15), image.at(45, 15)) << "each in its color";
   EXPECT_EQ(image.at(45, 15), image.at(75, 50));
 }
 
@@ -196,7 +196,7 @@ TEST(OverlayCells, NearerCellsHideFartherOnes) {
   EXPECT_LT(yellow_across(apart, 50, 85, 99), 0.9F) << "but paler, being farther";
 }
 
-// Neighbours that are flush with each other: the edges between them lie in both, none hides them.
+// Neighbors that are flush with each other: the edges between them lie in both, none hides them.
 TEST(OverlayCells, TouchingCellsDoNotHideTheirCommonEdges) {
   const Image image = picture_of({{{2, -1, -1}, {4, 0, 1}}, {{2, 0, -1}, {4, 1, 1}}});
   for (int y = 27; y < 73; ++y) EXPECT_NEAR(yellow_across(image, y, 46, 53), 1.0F, 0.01F) << y;
@@ -207,7 +207,7 @@ TEST(OverlayCells, ACellAroundTheEyeShowsItsEdgesAndHidesNothing) {
   const accel::Box before{{2, -1, -1}, {4, 1, 1}};
   const Image image = picture_of({around, before});
   EXPECT_NEAR(yellow_across(image, 50, 22, 27), 1.0F, 0.01F);
-  // Its far face spans 25 ... 75, too, and lies behind the other cell; its edges towards the eye
+  // Its far face spans 25 ... 75, too, and lies behind the other cell; its edges toward the eye
   // run from there into the corners of the image.
   EXPECT_GT(share_of(okabe_ito::kYellow, image, 10, 10), 0.9F);
   EXPECT_GT(share_of(okabe_ito::kYellow, image, 90, 9), 0.9F);

@@ -1,4 +1,4 @@
-// Pictures: what is written can be read back, and heat maps say what their colours mean.
+// Pictures: what is written can be read back, and heat maps say what their colors mean.
 
 #include <algorithm>
 #include <chrono>
@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A picture whose every pixel is another colour.
+/// A picture whose every pixel is another color.
 Image colorful(int width, int height) {
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
@@ -188,7 +188,7 @@ TEST(HeatColor, GetsLighterWithEveryStepAndStaysInsideSrgb) {
   for (int i = 0; i < 1000; ++i) {
     const glm::vec3 color = heat_color(static_cast<float>(i) / 1000.0F);
     EXPECT_GT(luminance(heat_color(static_cast<float>(i + 1) / 1000.0F)), luminance(color)) << i;
-    // A colour outside sRGB would have been cut off at 0.
+    // A color outside sRGB would have been cut off at 0.
     EXPECT_GT(std::min({color.x, color.y, color.z}), 0.0F) << i;
     EXPECT_LT(std::max({color.x, color.y, color.z}), 1.0F) << i;
   }
@@ -289,7 +289,7 @@ TEST(Text, IsCutOffAtTheEdgesOfThePicture) {
   EXPECT_TRUE(is_inked(image, 0));
 }
 
-TEST(CategoryMap, ColoursItsPixelsAndDimsTheOthersToGrey) {
+TEST(CategoryMap, ColorsItsPixelsAndDimsTheOthersToGray) {
   const Image ground = colorful(120, 40);
   CategoryMap map{"a against b", {{"many", {1.0F, 0.0F, 0.0F}}, {"few", {0.0F, 0.0F, 1.0F}}}, {}};
   map.pixels.assign(120 * 40, CategoryMap::kNone);
@@ -303,10 +303,10 @@ TEST(CategoryMap, ColoursItsPixelsAndDimsTheOthersToGrey) {
   EXPECT_EQ(picture.at(60, 20), map.categories[1].color);
   EXPECT_EQ(picture.at(65, 20), map.categories[1].color) << "the frame of a pixel hard to find";
   EXPECT_NE(picture.at(50, 5), map.categories[0].color) << "no frames where there are many";
-  const glm::vec3 grey = picture.at(10, 30);
-  EXPECT_EQ(grey.x, grey.y);
-  EXPECT_EQ(grey.y, grey.z);
-  EXPECT_GT(grey.x, 0.0F);
+  const glm::vec3 gray = picture.at(10, 30);
+  EXPECT_EQ(gray.x, gray.y);
+  EXPECT_EQ(gray.y, gray.z);
+  EXPECT_GT(gray.x, 0.0F);
 }
 
 TEST(CategoryMap, IsWidenedForItsLegend) {

@@ -22,12 +22,12 @@ glm::dvec3 arbitrary_point(double size) {
   return {x, y, coordinate()};
 }
 
-/// The hit of a ray from `origin` towards `target`, by exhaustive search.
+/// The hit of a ray from `origin` toward `target`, by exhaustive search.
 std::optional<accel::Hit> shoot(const scenes::Scene& scene, const accel::Ray& ray) {
   return accel::registry().choose({"exhaustive", {}}).build(scene)->closest_hit(ray);
 }
 
-accel::Ray ray_towards(const glm::dvec3& origin, const glm::dvec3& target) {
+accel::Ray ray_toward(const glm::dvec3& origin, const glm::dvec3& target) {
   accel::Ray ray;
   ray.origin = glm::vec3(origin);
   ray.direction = glm::vec3(target - origin);
@@ -55,7 +55,7 @@ RC_GTEST_PROP(GeometricNormal, OfASpherePointsAlongTheRadiusFromOutsideAndInside
   const scenes::Scene scene = std::move(builder).build();
   const double distance = *rc::gen::element(0.5, 10.0);
   const glm::dvec3 origin = center + glm::dvec3(distance, 0.3, 0.1);
-  const accel::Ray ray = ray_towards(origin, center + arbitrary_point(0.3));
+  const accel::Ray ray = ray_toward(origin, center + arbitrary_point(0.3));
   const auto hit = shoot(scene, ray);
   RC_PRE(hit.has_value());
   const glm::dvec3 normal = rays::geometric_normal(scene, ray, *hit);
@@ -72,8 +72,8 @@ RC_GTEST_PROP(GeometricNormal, OfAConeIsUprightOnItsLinesAndItsCircles, ()) {
   scenes::SceneBuilder builder("one cone");
   builder.add_cone(base, base_radius, apex, apex_radius);
   const scenes::Scene scene = std::move(builder).build();
-  const accel::Ray ray = ray_towards(glm::dvec3(5.0, 0.7, 1.1) + arbitrary_point(1.0),
-                                     glm::dvec3(0.0, 0.0, 1.0) + arbitrary_point(0.3));
+  const accel::Ray ray = ray_toward(glm::dvec3(5.0, 0.7, 1.1) + arbitrary_point(1.0),
+                                    glm::dvec3(0.0, 0.0, 1.0) + arbitrary_point(0.3));
   const auto hit = shoot(scene, ray);
   RC_PRE(hit.has_value());
   const glm::dvec3 point = point_at(ray, *hit);
@@ -91,7 +91,7 @@ RC_GTEST_PROP(GeometricNormal, OfABentPolygonIsThatOfTheTriangleHit, ()) {
   builder.add_polygon(corners);
   const scenes::Scene scene = std::move(builder).build();
   const accel::Ray ray =
-      ray_towards({0.4, 0.6, 5.0}, glm::dvec3(0.5, 0.5, 0.2) + arbitrary_point(0.4));
+      ray_toward({0.4, 0.6, 5.0}, glm::dvec3(0.5, 0.5, 0.2) + arbitrary_point(0.4));
   const auto hit = shoot(scene, ray);
   RC_PRE(hit.has_value());
   const glm::dvec3 point = point_at(ray, *hit);
@@ -115,7 +115,7 @@ TEST(ShadingNormal, OfASmoothPolygonRunsBetweenItsCorners) {
   const std::vector<glm::dvec3> normals{{0, 0, 1}, {1, 0, 1}, {0, 0, 1}};
   builder.add_polygon(corners, normals);
   const scenes::Scene scene = std::move(builder).build();
-  const accel::Ray ray = ray_towards({0.5, 0.25, 3.0}, {0.5, 0.25, 0.0});
+  const accel::Ray ray = ray_toward({0.5, 0.25, 3.0}, {0.5, 0.25, 0.0});
   const accel::Hit hit = shoot(scene, ray).value();
   EXPECT_NEAR(glm::length(rays::geometric_normal(scene, ray, hit) - glm::dvec3(0, 0, 1)), 0.0,
               1e-6);
@@ -152,7 +152,7 @@ TEST(Shade, PreviewShowsTheSurfaceBeforeTheBackground) {
   EXPECT_EQ(image.at(0, 0), glm::vec3(0.0F, 0.0F, 1.0F));
   EXPECT_GT(image.at(16, 16).x, 0.9F);
   EXPECT_EQ(image.at(16, 16).z, 0.0F);
-  EXPECT_GT(image.at(16, 16).x, image.at(24, 16).x) << "it gets darker towards the rim";
+  EXPECT_GT(image.at(16, 16).x, image.at(24, 16).x) << "it gets darker toward the rim";
 }
 
 TEST(Shade, NormalsFaceTheEyeInTheMiddleOfABall) {

@@ -1,4 +1,4 @@
-// The whole ray tracer: hand-computed colours, the same bits from all classic structures and on any
+// The whole ray tracer: hand-computed colors, the same bits from all classic structures and on any
 // number of threads.
 
 #include <array>
@@ -28,7 +28,7 @@ TEST(Whitted, AMatteFloorHasTheCosineOfTheLight) {
   expect_color(seen(scene, {0, 0, 5}, {0, 0, -1}), 0.8 * linear(0.5, 0.25, 1.0) * (kAmbient + 0.8));
 }
 
-TEST(Whitted, LightsWithoutAColourShareOneOverTheRootOfTheirNumber) {
+TEST(Whitted, LightsWithoutAColorShareOneOverTheRootOfTheirNumber) {
   scenes::SceneBuilder builder = with_light({0.0, 0.0, 4.0});
   builder.add_light({0.0, 0.0, 9.0});
   builder.add_light({0.0, 0.0, 6.0}, {0.1, 0.2, 0.3});  // said, so taken as it is
@@ -147,7 +147,7 @@ TEST(Whitted, ASmoothPolygonIsLitByItsShadingNormal) {
   expect_color(seen(scene, {0, 0, 5}, {0, 0, -1}), dvec3(kAmbient + 0.8));
 }
 
-/// A slab of glass, 2 thick, above a floor whose colour changes at x = `edge`.
+/// A slab of glass, 2 thick, above a floor whose color changes at x = `edge`.
 scenes::Scene slab_above_two_floors(double edge) {
   scenes::SceneBuilder builder = with_light({0.0, 0.0, 90.0});
   builder.set_surface({.diffuse = 0.0F, .transmittance = 1.0F, .refraction_index = 1.5F});
@@ -268,7 +268,7 @@ TEST(Whitted, AShadingNormalSendsNoRefractedRayBackThroughItsSurface) {
   builder.add_polygon(corners, std::array<dvec3, 3>{leaning, leaning, leaning});
   const scenes::Scene scene = std::move(builder).build();
   // 75 degrees from the plane's normal, 38 from the shading normal, about which Snell's law has a
-  // way out, upwards. By the plane's own it has none: all is reflected.
+  // way out, upward. By the plane's own it has none: all is reflected.
   const auto structure = built(scene, "exhaustive");
   const Whitted tracer(scene, *structure, WhittedOptions{});
   Whitted::Progress progress = tracer.begin();

@@ -32,7 +32,7 @@ accel::StructureChoice choice(const std::string& spec) {
   return accel::registry().choose(parse_spec(spec));
 }
 
-/// Asks a structure as a contender does; the judgement of what it answered.
+/// Asks a structure as a contender does; the judgment of what it answered.
 verify::DiffReport judged(bench::Task& task, const std::string& spec) {
   const auto structure = choice(spec).build(task.scene());
   task.poison();
@@ -145,12 +145,11 @@ TEST(WholePicture, AWrongRayThatFollowsIsFoundAndNamed) {
                                  std::pair{WrongAlone::In::kAny, "shadow rays, ray "}}) {
     const WrongAlone structure(task->scene(), in);
     task->ask(structure);
-    const bench::Judgement judgement = task->judge(structure, choice("exhaustive"));
-    EXPECT_EQ(judgement.report.verdict, verify::Verdict::kMismatch);
-    EXPECT_GT(judgement.report.count(verify::DiffClass::kEngineError), 0U);
-    ASSERT_FALSE(judgement.examples.empty());
-    for (const std::string& example : judgement.examples)
-      EXPECT_TRUE(scenes::says(example, {name}));
+    const bench::Judgment judgment = task->judge(structure, choice("exhaustive"));
+    EXPECT_EQ(judgment.report.verdict, verify::Verdict::kMismatch);
+    EXPECT_GT(judgment.report.count(verify::DiffClass::kEngineError), 0U);
+    ASSERT_FALSE(judgment.examples.empty());
+    for (const std::string& example : judgment.examples) EXPECT_TRUE(scenes::says(example, {name}));
   }
 }
 

@@ -33,7 +33,7 @@ TEST(SceneBuilder, RefusesBadSpheres) {
   EXPECT_TRUE(says(refusal([](SceneBuilder& b) {
                      b.add_sphere({0, kNan, 0}, 1.0);
                    }),
-                   {"sphere (primitive 1)", "centre", "nan"}));
+                   {"sphere (primitive 1)", "center", "nan"}));
   EXPECT_TRUE(says(refusal([](SceneBuilder& b) {
                      b.add_sphere({0, 0, -kInfinity}, 1.0);
                    }),

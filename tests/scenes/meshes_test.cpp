@@ -100,7 +100,7 @@ TEST_F(Meshes, PolygonsBecomeTriangles) {
   EXPECT_EQ(scene.polygons.size(), 3U);
 }
 
-TEST_F(Meshes, TakeTheColoursOfTheirMaterials) {
+TEST_F(Meshes, TakeTheColorsOfTheirMaterials) {
   write("paint.mtl", "newmtl red\nKd 1 0 0\nnewmtl window\nKd 0 0 1\nd 0.25\n");
   const std::string path = write(
       "painted.obj",

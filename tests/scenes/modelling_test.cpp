@@ -181,7 +181,7 @@ TEST(Rotation, TurnsCounterClockwiseAboutEachAxis) {
 }
 
 TEST(AddSmooth, PaintsEachPolygon) {
-  SceneBuilder builder("two colours");
+  SceneBuilder builder("two colors");
   modelling::add_smooth(builder, modelling::box({0, 0, 0}, {1, 1, 1}),
                         {.paint = [](std::size_t polygon) {
                           return Surface{.color = glm::vec3(polygon < 3 ? 0.25F : 0.75F)};

@@ -221,7 +221,7 @@ TEST(Gears, FacesAreConcaveAndLookOutward) {
   }
 }
 
-TEST(Gears, TeethReachBetweenTheNeighboursTeeth) {
+TEST(Gears, TeethReachBetweenTheNeighborsTeeth) {
   const Scene scene = load_scene("gears:n=2");
   const double radius = 1.0 / 1.95;
   const auto left = corners_of(scene, scene.polygons[1]);         // at x = 0, y = 0
@@ -278,7 +278,7 @@ TEST(Rings, PentagonsAreRegularAndFillAUnitSphere) {
       nearest = std::min(nearest, glm::distance(p, glm::dvec3(scene.spheres[k].center)));
     }
   }
-  // The middles of a dodecahedron's edges: neighbours subtend 36 degrees.
+  // The middles of a dodecahedron's edges: neighbors subtend 36 degrees.
   EXPECT_NEAR(nearest, 2.0 * circle * std::sin(std::acos(-1.0) / 10.0), 1e-6);
 }
 

@@ -103,7 +103,7 @@ TEST(Triangulate, ConcaveQuadIsCutAtItsReflexCorner) {
 }
 
 TEST(Triangulate, CornersOnAStraightEdgeAreKept) {
-  // A neighbour may share such a corner; without it in a triangle there would be a crack.
+  // A neighbor may share such a corner; without it in a triangle there would be a crack.
   const Corners corners = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}};
   const Triangles triangles = triangulate(corners);
   EXPECT_EQ(triangles.size(), 4U);

@@ -48,7 +48,7 @@ class FaultySamet : public accel::TraversalAccelerator<FaultySamet> {
       }
       return closest.ray.t_max < static_cast<float>(exit_t);
     };
-    accel::octree::walk_leaves(octree_, accel::octree::AncestorNeighbours(octree_), ray, counting,
+    accel::octree::walk_leaves(octree_, accel::octree::AncestorNeighbors(octree_), ray, counting,
                                test_leaf);
     return closest.result();
   }
@@ -101,7 +101,7 @@ class PlantedFault : public ::testing::TestWithParam<Subject> {
         }
         return false;
       };
-      accel::octree::walk_leaves(octree, accel::octree::AncestorNeighbours(octree), ray, none,
+      accel::octree::walk_leaves(octree, accel::octree::AncestorNeighbors(octree), ray, none,
                                  look_for_hit);
       if (leaves == 1) return fault;  // no other leaf on the whole way knows the primitive
     }

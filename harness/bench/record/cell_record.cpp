@@ -212,7 +212,7 @@ void add_kinds(Row& row, const CellRecord& cell) {
   }
 }
 
-void add_judgement(Row& row, const CellRecord& cell) {
+void add_judgment(Row& row, const CellRecord& cell) {
   row["hits"] = cell.diff ? Json(cell.diff->hits) : Json();
   for (std::size_t i = 0; i < verify::kDiffClassNames.size(); ++i) {
     row[std::string(verify::kDiffClassNames[i])] = cell.diff ? Json(cell.diff->counts[i]) : Json();
@@ -262,7 +262,7 @@ Row to_row(const RunFacts& run, const CellRecord& cell) {
   add_statistics(row, cell);
   add_counters(row, cell);
   add_kinds(row, cell);
-  add_judgement(row, cell);
+  add_judgment(row, cell);
   return row;
 }
 

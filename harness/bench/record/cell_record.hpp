@@ -93,7 +93,7 @@ struct RaySetFacts {
   rays::Query query = rays::Query::kClosestHit;
   /// By the oracle: of the rays that ask for the closest hit, and of those that ask for any.
   std::optional<double> hit_share{}, occluded_share{};
-  std::optional<double> coherence{};  ///< between neighbours
+  std::optional<double> coherence{};  ///< between neighbors
 };
 
 /// Work by name.
@@ -128,7 +128,7 @@ struct CellRecord {
   std::optional<HarnessShare> harness;
   std::vector<Repetition> repetitions;
   std::optional<StopReason> stop_reason;
-  /// The judgement of the timed buffer, and its fingerprint. Absent where there is none.
+  /// The judgment of the timed buffer, and its fingerprint. Absent where there is none.
   std::optional<verify::DiffReport> diff;
   std::optional<std::uint64_t> hits_hash;
 

@@ -78,7 +78,7 @@ Json plugins_json(const std::vector<plugin::LoadedPlugin>& plugins) {
                     {"description", plugin.description},
                     {"compiler", plugin.compiler},
                     {"instructions", plugin.instructions},
-                    {"optimised", plugin.optimised},
+                    {"optimized", plugin.optimized},
                     {"structures", plugin.structures},
                     {"scenes", plugin.scenes},
                     {"readers", plugin.readers}});

@@ -19,7 +19,7 @@ CrossingRay read_ray(ByteReader& reader) {
 
 }  // namespace
 
-void write_traveller(const CrossingBeam& beam, Bytes& bytes) {
+void write_traveler(const CrossingBeam& beam, Bytes& bytes) {
   ByteWriter writer(bytes);
   writer.put(static_cast<std::uint8_t>(Kind::kBeam));
   writer.put(beam.cell);
@@ -27,7 +27,7 @@ void write_traveller(const CrossingBeam& beam, Bytes& bytes) {
   write_shape(beam.beam, writer);
 }
 
-void write_traveller(const CrossingRay& ray, Bytes& bytes) {
+void write_traveler(const CrossingRay& ray, Bytes& bytes) {
   ByteWriter writer(bytes);
   writer.put(static_cast<std::uint8_t>(Kind::kRay));
   writer.put(ray.cell);
@@ -37,7 +37,7 @@ void write_traveller(const CrossingRay& ray, Bytes& bytes) {
   writer.put(ray.best);
 }
 
-Traveller read_traveller(ByteReader& reader, const accel::beam::EyeView& view) {
+Traveler read_traveler(ByteReader& reader, const accel::beam::EyeView& view) {
   switch (static_cast<Kind>(reader.get<std::uint8_t>())) {
     case Kind::kBeam: {
       CrossingBeam beam{};

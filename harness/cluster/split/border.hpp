@@ -26,12 +26,12 @@ struct CrossingRay {
   scenes::PrimitiveId best;  ///< in the whole scene
 };
 
-using Traveller = std::variant<CrossingBeam, CrossingRay>;
+using Traveler = std::variant<CrossingBeam, CrossingRay>;
 
-void write_traveller(const CrossingBeam& beam, Bytes& bytes);
-void write_traveller(const CrossingRay& ray, Bytes& bytes);
+void write_traveler(const CrossingBeam& beam, Bytes& bytes);
+void write_traveler(const CrossingRay& ray, Bytes& bytes);
 
 /// The next of them in a message. Throws ProtocolError for what is neither.
-Traveller read_traveller(ByteReader& reader, const accel::beam::EyeView& view);
+Traveler read_traveler(ByteReader& reader, const accel::beam::EyeView& view);
 
 }  // namespace beambench::cluster

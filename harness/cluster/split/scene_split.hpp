@@ -12,7 +12,7 @@
 namespace beambench::cluster {
 
 /// The cells of one level of an octree, divided among processes. Cells that follow each other in
-/// Morton's order go together, so that a process's cells are neighbours, and about as many
+/// Morton's order go together, so that a process's cells are neighbors, and about as many
 /// primitives go to each process. All processes that see the same scene divide it alike.
 class SceneSplit {
  public:

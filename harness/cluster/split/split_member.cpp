@@ -43,12 +43,12 @@ Outbox::Outbox(Transport& transport, const SceneSplit& split)
       open_(static_cast<std::size_t>(transport.processes())) {}
 
 void Outbox::hand_over(const CrossingBeam& beam) {
-  write_traveller(beam, open_[static_cast<std::size_t>(split_->owner(beam.cell))]);
+  write_traveler(beam, open_[static_cast<std::size_t>(split_->owner(beam.cell))]);
   ++beams_;
 }
 
 void Outbox::hand_over(const CrossingRay& ray) {
-  write_traveller(ray, open_[static_cast<std::size_t>(split_->owner(ray.cell))]);
+  write_traveler(ray, open_[static_cast<std::size_t>(split_->owner(ray.cell))]);
   ++rays_;
 }
 
@@ -192,7 +192,7 @@ void SplitMember::take_crossings(const Message& message) {
   ByteReader reader(message.bytes);
   while (!reader.at_end()) {
     std::visit([this](const auto& each) { worker_->take(each); },
-               read_traveller(reader, worker_->view()));
+               read_traveler(reader, worker_->view()));
   }
   done(SplitWork::kTaking, timer.seconds());
 }

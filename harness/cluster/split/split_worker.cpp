@@ -175,7 +175,7 @@ void SplitWorker::trace_ray(const CrossingRay& crossing) {
   double t = crossing.t;
   const accel::octree::OctreeNode* nodes = tracer_.octree().nodes().data();
   accel::octree::walk_leaves_from(
-      cell_cursor(crossing.cell), t, 0, tracer_.octree(), tracer_.neighbours(), ray, way, none,
+      cell_cursor(crossing.cell), t, 0, tracer_.octree(), tracer_.neighbors(), ray, way, none,
       [&](const accel::octree::OctreeNode& leaf, double exit_t) {
         if (const auto cell = foreign_.cell_at(static_cast<std::uint32_t>(&leaf - nodes))) {
           next = CrossingRay{*cell, crossing.sample, t, 0.0F, 0};

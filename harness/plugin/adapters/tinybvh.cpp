@@ -33,7 +33,7 @@ std::size_t bytes_of(const tinybvh::BVH8_CPU& bvh) {
          bvh.bvh8.allocatedNodes * sizeof(tinybvh::MBVH<8>::MBVHNode) + bytes_of(bvh.bvh8.bvh);
 }
 
-/// One of tinybvh's layouts over the triangles of a scene. It normalises directions and knows no
+/// One of tinybvh's layouts over the triangles of a scene. It normalizes directions and knows no
 /// t_min, so rays begin at their t_min and t is scaled back.
 template <class Layout>
 class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {

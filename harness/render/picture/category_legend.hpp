@@ -1,5 +1,5 @@
 #pragma once
-// A legend that says what the colours of a picture stand for, and how much there is of each.
+// A legend that says what the colors of a picture stand for, and how much there is of each.
 
 #include <cstddef>
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace beambench::render {
 
-/// Colours that people with any kind of colour vision tell apart, and from grey: four of Okabe and
+/// Colors that people with any kind of color vision tell apart, and from gray: four of Okabe and
 /// Ito, "Color Universal Design", 2008. Linear light.
 namespace okabe_ito {
 extern const glm::vec3 kSkyBlue;
@@ -31,7 +31,7 @@ struct LegendEntry {
 Image with_legend(const Image& picture, const std::string& title,
                   std::span<const LegendEntry> entries);
 
-/// What a picture becomes where colours shall stand out from it: dimmed grey.
+/// What a picture becomes where colors shall stand out from it: dimmed gray.
 glm::vec3 dimmed(const glm::vec3& color);
 void dim(Image& image);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A picture of kinds: each pixel is left grey or gets the colour of its category, with a legend.
+// A picture of kinds: each pixel is left gray or gets the color of its category, with a legend.
 
 #include <cstdint>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace beambench::render {
 
-/// What a colour says.
+/// What a color says.
 struct Category {
   std::string name;
   glm::vec3 color;  ///< linear light
@@ -26,7 +26,7 @@ struct CategoryMap {
   std::vector<std::uint8_t> pixels;  ///< index into `categories`, or kNone
 };
 
-/// The map over `ground`, an image of its size that is shown in dimmed grey, above a legend with
+/// The map over `ground`, an image of its size that is shown in dimmed gray, above a legend with
 /// the number of pixels of each category. Pixels of a category that has only a few are framed, or
 /// nobody would find them. The picture is widened where it is narrower than its legend.
 Image draw_category_map(const CategoryMap& map, const Image& ground);

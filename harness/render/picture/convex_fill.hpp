@@ -10,13 +10,13 @@
 
 namespace beambench::render {
 
-/// Calls `visit(x, y)` for the pixels of an image whose centres lie in a convex polygon (in pixels,
-/// (0, 0) being the image's top left corner). Of a centre on an edge that two polygons share, only
+/// Calls `visit(x, y)` for the pixels of an image whose centers lie in a convex polygon (in pixels,
+/// (0, 0) being the image's top left corner). Of a center on an edge that two polygons share, only
 /// one of them gets the pixel.
 template <class Visit>
 void for_each_pixel_in(std::span<const glm::dvec2> corners, int width, int height, Visit visit) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  /// The first pixel whose centre is at a coordinate or behind it.
+  /// The first pixel whose center is at a coordinate or behind it.
   const auto first_from = [](double coordinate, int size) {
     return static_cast<int>(
         std::clamp(std::ceil(coordinate - 0.5), 0.0, static_cast<double>(size)));
@@ -32,7 +32,7 @@ void for_each_pixel_in(std::span<const glm::dvec2> corners, int width, int heigh
     double left = kInfinite;
     double right = -kInfinite;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      // From its lower end, whoever asks: neighbours compute the same number.
+      // From its lower end, whoever asks: neighbors compute the same number.
       const auto& [upper, lower] =
           std::minmax(corners[i], corners[(i + 1) % corners.size()],
                       [](const glm::dvec2& a, const glm::dvec2& b) { return a.y < b.y; });

@@ -21,7 +21,7 @@ enum class ImageFormat {
 /// The format by the file's ending. Throws InputError unless that is .png or .exr.
 ImageFormat image_format(const std::filesystem::path& file);
 
-/// One number for each pixel beside its colour: depth, ids, counters.
+/// One number for each pixel beside its color: depth, ids, counters.
 struct DataChannel {
   std::string name;
   std::variant<std::vector<float>, std::vector<std::uint32_t>> values;

@@ -29,7 +29,7 @@ std::optional<std::pair<double, double>> part_on_image(const PixelSegment& line,
 
 /// Calls `visit(x, y, coverage, along)` for the pixels of an image that a line of the given
 /// thickness covers: `coverage` in (0, 1] is the pixel's covered share, near enough, by the
-/// distance of its centre from the line; `along` in [0, 1] is the point of the line next to it.
+/// distance of its center from the line; `along` in [0, 1] is the point of the line next to it.
 template <class Visit>
 void for_each_pixel(const PixelSegment& line, double thickness, int width, int height,
                     Visit visit) {
@@ -56,22 +56,22 @@ void for_each_pixel(const PixelSegment& line, double thickness, int width, int h
     const int high = std::min(pixel(middle + span), sizes[cross] - 1);
     for (int j = low; j <= high; ++j) {
       const glm::ivec2 place = main == 0 ? glm::ivec2(i, j) : glm::ivec2(j, i);
-      const glm::dvec2 centre = glm::dvec2(place) + 0.5;
+      const glm::dvec2 center = glm::dvec2(place) + 0.5;
       const double along =
-          square > 0.0 ? std::clamp(glm::dot(centre - line.from, whole) / square, 0.0, 1.0) : 0.0;
+          square > 0.0 ? std::clamp(glm::dot(center - line.from, whole) / square, 0.0, 1.0) : 0.0;
       const double coverage =
-          std::min(reach - glm::distance(centre, line.from + whole * along), 1.0);
+          std::min(reach - glm::distance(center, line.from + whole * along), 1.0);
       if (coverage > 0.0) visit(place.x, place.y, static_cast<float>(coverage), along);
     }
   }
 }
 
 /// The strength, up to 1, of lines around something so many pixels wide: where they come to lie
-/// side by side they get fainter, or the picture would be a plain of their colour.
+/// side by side they get fainter, or the picture would be a plain of their color.
 float line_strength(double pixels);
 
-/// Lines of one colour, gathered before they are drawn: where they overlap, no pixel gets more than
-/// the strongest of them, so that an edge that two neighbours share looks like any other.
+/// Lines of one color, gathered before they are drawn: where they overlap, no pixel gets more than
+/// the strongest of them, so that an edge that two neighbors share looks like any other.
 class LineLayer {
  public:
   LineLayer(int width, int height)

@@ -46,7 +46,7 @@ PixelRange pixels_of(const accel::Box& box, const Projection& projection, int wi
     low = glm::min(low, glm::min(seen->line.from, seen->line.to));
     high = glm::max(high, glm::max(seen->line.from, seen->line.to));
   }
-  // Only pixels whose centres lie between: a box buffer asks nothing else.
+  // Only pixels whose centers lie between: a box buffer asks nothing else.
   const auto first = [](double x, int size) {
     return static_cast<int>(std::clamp(std::ceil(x - 0.5), 0.0, static_cast<double>(size)));
   };

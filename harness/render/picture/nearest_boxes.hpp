@@ -14,7 +14,7 @@
 namespace beambench::render {
 
 /// Decides what boxes hide: a box buffer (Catmull's z-buffer, 1974, that remembers the box, so that
-/// a depth can be asked for between the pixels' centres). Boxes around the eye hide nothing.
+/// a depth can be asked for between the pixels' centers). Boxes around the eye hide nothing.
 class NearestBoxes {
  public:
   /// The boxes must outlive it.

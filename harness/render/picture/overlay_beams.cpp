@@ -45,7 +45,7 @@ void add_outline(LineLayer& layer, const accel::BeamOutline& beam) {
 }
 
 /// An end tints its area: the edges of beams that go on run along it, too, and hide its own. What
-/// no beam ends at stays grey; where two did, the tint would be twice as strong.
+/// no beam ends at stays gray; where two did, the tint would be twice as strong.
 void tint(Image& image, const accel::BeamOutline& beam, const glm::vec3& color) {
   for_each_pixel_in(beam.corners, image.width(), image.height(),
                     [&](int x, int y) { image.at(x, y) = glm::mix(image.at(x, y), color, kTint); });

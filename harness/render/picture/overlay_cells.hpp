@@ -14,7 +14,7 @@ namespace beambench::render {
 /// Dims the picture that `rays` show and draws the cells over it as boxes that hide each other, of
 /// glass to what is in them: the edges of faces turned to the eye, as far as no other cell is
 /// before them, the paler the farther. A cell around the eye shows all its edges and hides none.
-/// Returns what the colour stands for.
+/// Returns what the color stands for.
 std::vector<LegendEntry> overlay_cells(Image& image, const accel::PrimaryRays& rays,
                                        std::span<const accel::Box> cells);
 

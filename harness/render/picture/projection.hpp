@@ -1,5 +1,5 @@
 #pragma once
-// From points of a scene to the image plane: `PrimaryRays` backwards.
+// From points of a scene to the image plane: `PrimaryRays` backward.
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>

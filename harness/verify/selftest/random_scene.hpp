@@ -17,7 +17,7 @@ namespace beambench::verify {
 /// `kinds` leaves some kinds of primitives out.
 scenes::Scene random_scene(std::uint64_t seed, int primitives, PrimitiveKinds kinds = {});
 
-/// A ray from outside, inside or a special place (the scene's centre planes, axes and centre, which
+/// A ray from outside, inside or a special place (the scene's center planes, axes and center, which
 /// are faces, edges and corners of octree cells; a vertex), in any direction, along an axis or a
 /// diagonal, or aimed at a vertex, an edge or a primitive's middle; now and then with a short
 /// interval.

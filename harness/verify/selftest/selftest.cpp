@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "harness/verify/selftest/answer_checks.hpp"
-#include "harness/verify/selftest/behaviour_checks.hpp"
+#include "harness/verify/selftest/behavior_checks.hpp"
 
 namespace beambench::verify {
 

@@ -46,7 +46,7 @@ bool is_default(const aiMaterial& material) {
          std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME;
 }
 
-/// Colour and transparency of a material. A black one with a picture on it is as grey as pictures
+/// Color and transparency of a material. A black one with a picture on it is as gray as pictures
 /// are on the average.
 Surface surface_of(const aiMaterial& material) {
   Surface surface = clay();

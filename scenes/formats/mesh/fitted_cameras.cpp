@@ -35,7 +35,7 @@ const std::array<View, 4> kViews = {{
     {"top", {0.0, 1.0, 0.0}, {0.0, 0.0, -1.0}},
 }};
 
-/// The axes of an image: right, top, and towards the eye.
+/// The axes of an image: right, top, and toward the eye.
 struct ImageAxes {
   glm::dvec3 right;
   glm::dvec3 up;

@@ -137,7 +137,7 @@ std::optional<NffReader::Command> NffReader::next_command() const {
 /// off by the end of the file, they have fewer.
 /// - `fp`: the fields of `f`, of surfaces that are shaded by Phong where those of `f` are flat
 ///   (github.com/mfandre/raytracer, Scene.cc);
-/// - `la`: a rectangular light's corner, two edges and, if any, colour (of a path tracer,
+/// - `la`: a rectangular light's corner, two edges and, if any, color (of a path tracer,
 ///   `do_area_light` in its nff2scene, and its exporter from Blender, `WriteAreaLamp`).
 std::optional<NffReader::Command> NffReader::dialect_command() const {
   const std::string_view word = tokens_.peek().text;
@@ -205,14 +205,14 @@ void NffReader::read_view() {
 }
 
 void NffReader::read_background() {
-  const glm::dvec3 color = tokens_.triple("the background colour");
+  const glm::dvec3 color = tokens_.triple("the background color");
   add([&] { builder_.set_background(color); });
 }
 
 void NffReader::read_light() {
   const glm::dvec3 position = tokens_.triple("the light's position");
   glm::dvec3 color(1.0);
-  if (tokens_.at_number()) color = tokens_.triple("the light's colour");
+  if (tokens_.at_number()) color = tokens_.triple("the light's color");
   add([&] { builder_.add_light(position, color); });
 }
 
@@ -225,7 +225,7 @@ void NffReader::read_area_light() {
   const glm::dvec3 edge = tokens_.triple("the area light's first edge");
   const glm::dvec3 other_edge = tokens_.triple("the area light's second edge");
   glm::dvec3 color(1.0);
-  if (tokens_.at_number()) color = tokens_.triple("the area light's colour");
+  if (tokens_.at_number()) color = tokens_.triple("the area light's color");
   const glm::dvec3 normal = glm::cross(edge, other_edge);
   const double area = glm::length(normal);
   glm::dvec3 position = corner + 0.5 * (edge + other_edge);
@@ -236,7 +236,7 @@ void NffReader::read_area_light() {
 }
 
 void NffReader::read_surface() {
-  if (!tokens_.at_number()) tokens_.number("the colour");  // refuses
+  if (!tokens_.at_number()) tokens_.number("the color");  // refuses
   read_surface_fields({});
 }
 
@@ -246,7 +246,7 @@ void NffReader::read_finish() {
 
 /// Numbers that are given replace the surface's own.
 void NffReader::read_surface_fields(Surface surface) {
-  if (tokens_.at_number()) surface.color = tokens_.triple("the colour");
+  if (tokens_.at_number()) surface.color = tokens_.triple("the color");
   for (float* field : {&surface.diffuse, &surface.specular, &surface.shine, &surface.transmittance,
                        &surface.refraction_index}) {
     if (!tokens_.at_number()) break;
@@ -261,7 +261,7 @@ void NffReader::read_surface_fields(Surface surface) {
 }
 
 void NffReader::read_sphere() {
-  const glm::dvec3 center = tokens_.triple("the sphere's centre");
+  const glm::dvec3 center = tokens_.triple("the sphere's center");
   const double radius = tokens_.number("the sphere's radius");
   add_primitive([&] { builder_.add_sphere(center, radius); });
 }

@@ -64,7 +64,7 @@ double wave(double x) {
 /// The point of the bumpy sphere over the point c of the cube [-1, 1]^3's surface.
 glm::dvec3 bumpy_point(const glm::dvec3& c) {
   const glm::dvec3 s = c * c;
-  // Spreads the grid more evenly over the unit sphere than normalising would.
+  // Spreads the grid more evenly over the unit sphere than normalizing would.
   const glm::dvec3 on_sphere(c.x * std::sqrt(1.0 - s.y / 2.0 - s.z / 2.0 + s.y * s.z / 3.0),
                              c.y * std::sqrt(1.0 - s.z / 2.0 - s.x / 2.0 + s.z * s.x / 3.0),
                              c.z * std::sqrt(1.0 - s.x / 2.0 - s.y / 2.0 + s.x * s.y / 3.0));

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kHalfSize = 10.0;  // the spheres fill the cube [-10, 10]^3
 
-/// The balls by the cell of a grid that holds their centre, as lists: millions find their room.
+/// The balls by the cell of a grid that holds their center, as lists: millions find their room.
 class BallGrid {
  public:
   /// `cells` on each axis.

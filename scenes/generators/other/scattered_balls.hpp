@@ -24,7 +24,7 @@ std::vector<Ball> scattered_balls(std::int64_t count, std::uint64_t seed);
 /// Their camera, background and lights.
 void light_balls(SceneBuilder& builder);
 
-/// The surface of one of `count` balls: six colours, one after the other.
+/// The surface of one of `count` balls: six colors, one after the other.
 Surface surface_of_ball(std::size_t number, std::size_t count);
 
 }  // namespace beambench::scenes::generators

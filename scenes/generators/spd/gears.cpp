@@ -58,7 +58,7 @@ void add_gear(SceneBuilder& builder, const Outline& corners, const glm::dvec3& c
   builder.add_polygon(face);
 }
 
-/// A colour that seems random, brightened until its largest component is 1; each fifth is of glass.
+/// A color that seems random, brightened until its largest component is 1; each fifth is of glass.
 Surface gear_surface(std::int64_t x, std::int64_t y, std::int64_t z) {
   const auto component = [](std::int64_t sevenths) {
     return 0.01 + static_cast<double>(sevenths % 7) / 7.0;
@@ -81,7 +81,7 @@ void add_gears(SceneBuilder& builder, std::int64_t n) {
   const double outer_radius = 1.0 / (count - (count - 1.0) * (1.0 - kFootRatio) / 2.0);
   const double thickness = std::min(kThickness, 1.0 / (2.0 * count));
   const double spacing = outer_radius * (1.0 + kFootRatio);
-  // Neighbours are turned by half a tooth.
+  // Neighbors are turned by half a tooth.
   const std::array<Outline, 2> outlines = {outline(outer_radius, 0.0),
                                            outline(outer_radius, std::numbers::pi / kTeeth)};
   for (std::int64_t z = 0; z < n; ++z) {

@@ -19,7 +19,7 @@ using Pentagons = std::array<std::array<glm::dvec3, 5>, 6>;
 
 Pentagons pentagons() {
   const double scale = 1.0 / (1.0 + kRadius);  // the whole fits a sphere of radius 1
-  // The cosine of the angle between neighbouring faces of a dodecahedron is -1 / sqrt 5.
+  // The cosine of the angle between neighboring faces of a dodecahedron is -1 / sqrt 5.
   const double tilt_cos = -std::sqrt(1.0 / 5.0);
   const double tilt_sin = std::sqrt(4.0 / 5.0);
   Pentagons rings{};

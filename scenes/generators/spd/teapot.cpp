@@ -67,7 +67,7 @@ class PatchMesh {
   std::vector<GridPoint> points_;
 };
 
-/// The squares of one colour of a chessboard of n x n over [-4, 4]^2.
+/// The squares of one color of a chessboard of n x n over [-4, 4]^2.
 void add_squares(SceneBuilder& builder, std::int64_t n, std::int64_t color) {
   const auto place = [n](std::int64_t i) {
     return 4.0 * (2.0 * static_cast<double>(i) / static_cast<double>(n) - 1.0);
@@ -97,9 +97,9 @@ Scene generate(const Parameters& parameters) {
   const Surface white = {.diffuse = 0.5F, .specular = 0.5F, .shine = 4.81884F};
   builder.set_surface(white);
   add_squares(builder, n, 1);
-  Surface grey = white;
-  grey.color = glm::vec3(0.5F);
-  builder.set_surface(grey);
+  Surface gray = white;
+  gray.color = glm::vec3(0.5F);
+  builder.set_surface(gray);
   add_squares(builder, n, 0);
   builder.set_surface(
       {.color = {1.0F, 0.5F, 0.1F}, .diffuse = 0.75F, .specular = 0.25F, .shine = 3.0827F});

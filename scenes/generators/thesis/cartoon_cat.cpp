@@ -150,7 +150,7 @@ double features(const glm::dvec3& place) {
                    modelling::ellipsoid_field(place, kTongue, kTongueSize)});
 }
 
-enum Colour : int { kOrange, kStripe, kCream, kWhite, kPink, kDark };
+enum Color : int { kOrange, kStripe, kCream, kWhite, kPink, kDark };
 
 bool is_stripe(const glm::dvec3& place, const glm::dvec3& p) {
   if (tail(place) < 0.03) {
@@ -180,8 +180,8 @@ int region(const glm::dvec3& place) {
   return is_stripe(place, p) ? kStripe : kOrange;
 }
 
-Surface surface_of(int colour) {
-  switch (colour) {
+Surface surface_of(int color) {
+  switch (color) {
     case kStripe:
       return {.color = {0.62F, 0.26F, 0.06F}, .diffuse = 0.9F};
     case kCream:

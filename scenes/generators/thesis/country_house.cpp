@@ -142,7 +142,7 @@ modelling::PolygonMesh around_chimney(modelling::PolygonMesh roof) {
 }
 
 void add_roof(SceneBuilder& builder) {
-  // The eaves hang half a metre over the walls, the tiles lie a hand above the gables.
+  // The eaves hang half a meter over the walls, the tiles lie a hand above the gables.
   const double rise = (kRidge - kWallTop) / 3.5;
   const double lift = 0.12;
   const glm::dvec3 ridge(0.0, 3.5, kRidge + lift);

@@ -120,7 +120,7 @@ modelling::PolygonMesh mirrored(modelling::PolygonMesh mesh) {
   return modelling::turned_inside_out(std::move(mesh));
 }
 
-/// Bends the x axis to an arc of `angle` radians over a length of 1, towards -`up`.
+/// Bends the x axis to an arc of `angle` radians over a length of 1, toward -`up`.
 glm::dvec3 bent(const glm::dvec3& place, double angle, int up) {
   if (angle == 0.0) return place;
   const double radius = 1.0 / angle;

@@ -74,7 +74,7 @@ double inner(const Section& section) { return section.inner; }
 double minus_outer(const Section& section) { return -section.outer; }
 double minus_inner(const Section& section) { return -section.inner; }
 
-/// A post along the places, a metre longer at both ends: into the floors and foundations.
+/// A post along the places, a meter longer at both ends: into the floors and foundations.
 modelling::PolygonMesh beam(Posts places, double thickness) {
   const std::size_t last = places.size() - 1;
   places[0] += glm::normalize(places[0] - places[1]);

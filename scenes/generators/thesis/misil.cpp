@@ -20,11 +20,11 @@ constexpr Surface kWhite{
     .color = {0.90F, 0.91F, 0.92F}, .diffuse = 0.8F, .specular = 0.25F, .shine = 30.0F};
 constexpr Surface kRed{
     .color = {0.82F, 0.14F, 0.12F}, .diffuse = 0.8F, .specular = 0.25F, .shine = 30.0F};
-constexpr Surface kGrey{
+constexpr Surface kGray{
     .color = {0.30F, 0.33F, 0.37F}, .diffuse = 0.7F, .specular = 0.4F, .shine = 20.0F};
 constexpr Surface kDark{.color = {0.10F, 0.10F, 0.11F}, .diffuse = 0.8F};
 
-/// The missile stands on z = 0 with its tip at 10; every part is a lathe of its own colour.
+/// The missile stands on z = 0 with its tip at 10; every part is a lathe of its own color.
 struct Part {
   Surface surface;
   std::vector<glm::dvec2> profile;
@@ -32,11 +32,11 @@ struct Part {
 
 std::vector<Part> hull() {
   return {{kDark, {{0.0, 0.75}, {0.22, 0.70}, {0.48, 0.0}}},
-          {kGrey, {{0.48, 0.0}, {0.52, 0.0}, {0.36, 0.60}, {0.70, 0.60}, {0.70, 0.95}}},
+          {kGray, {{0.48, 0.0}, {0.52, 0.0}, {0.36, 0.60}, {0.70, 0.60}, {0.70, 0.95}}},
           {kWhite, {{0.70, 0.95}, {0.70, 1.9}, {0.70, 2.85}, {0.70, 3.8}}},
           {kRed, {{0.70, 3.8}, {0.73, 3.9}, {0.73, 4.3}, {0.70, 4.4}}},
           {kWhite, {{0.70, 4.4}, {0.70, 5.3}, {0.70, 6.2}, {0.70, 7.1}}},
-          {kGrey, {{0.70, 7.1}, {0.67, 7.16}, {0.67, 7.30}, {0.70, 7.36}}},
+          {kGray, {{0.70, 7.1}, {0.67, 7.16}, {0.67, 7.30}, {0.70, 7.36}}},
           {kRed,
            {{0.70, 7.36},
             {0.675, 7.90},
@@ -87,7 +87,7 @@ Scene generate(const Parameters& parameters) {
   }
   const modelling::PolygonMesh wings =
       four(fin({{0.68, 4.9}, {1.75, 4.55}, {1.75, 4.80}, {0.68, 6.3}}, 0.06));
-  builder.set_surface(kGrey);
+  builder.set_surface(kGray);
   modelling::add_flat(builder, modelling::triangulated(wings));
   const modelling::PolygonMesh tail =
       four(fin({{0.68, 0.85}, {0.9, 0.55}, {2.1, 0.05}, {2.1, 0.95}, {0.68, 2.7}}, 0.08));

@@ -11,7 +11,7 @@ namespace beambench::scenes::generators {
 /// Control points by rows: s runs from the first row to the last, t along the rows.
 using BezierPatch = std::array<std::array<glm::dvec3, 4>, 4>;
 
-/// Rim, body, handle, spout, lid and bottom, standing on z = 0 around the z axis, the spout towards
+/// Rim, body, handle, spout, lid and bottom, standing on z = 0 around the z axis, the spout toward
 /// +x, 3.15 high: the SPD's, not lowered by Blinn's factor of 1.3.
 std::vector<BezierPatch> teapot_patches();
 

@@ -12,6 +12,10 @@ from typing import Literal
 
 _SOURCE = Path(__file__).parents[1] / "columns.json"
 COUNTER_SUFFIX = "_per_ray"
+RENAMED_COLUMNS = {  # name in older records: name today
+    "neighbour_searches_per_ray": "neighbor_searches_per_ray",
+    "neighbour_steps_per_ray": "neighbor_steps_per_ray",
+}
 _KINDS = "(eye|reflected|refracted|shadow)"  # of the rays of a whole picture
 
 

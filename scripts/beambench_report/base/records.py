@@ -8,7 +8,7 @@ from pathlib import Path
 import pandas as pd
 from pandas.api.types import is_bool_dtype, is_numeric_dtype
 
-from beambench_report.base.columns import COUNTER_SUFFIX, dictionary
+from beambench_report.base.columns import COUNTER_SUFFIX, RENAMED_COLUMNS, dictionary
 from beambench_report.base.files import Problem
 from beambench_report.base.names import contender_labels, view_titles
 
@@ -108,7 +108,7 @@ def _read_csv(path: Path) -> pd.DataFrame:
         # `null` is the name of a structure, so that only an empty field means "not measured".
         return pd.read_csv(
             path, dtype=texts, keep_default_na=False, na_values=[""], low_memory=False
-        )
+        ).rename(columns=RENAMED_COLUMNS)
     except FileNotFoundError:
         raise Problem(
             f"{path}: there is no such file; give the folder that `beambench run` wrote"

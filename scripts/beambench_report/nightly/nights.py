@@ -11,6 +11,7 @@ import numpy as np
 import pandas as pd
 
 from beambench_report.base.cell_files import IDENTITY
+from beambench_report.base.columns import RENAMED_COLUMNS
 from beambench_report.base.files import Problem
 from beambench_report.base.names import contender_labels
 from beambench_report.nightly.history import History
@@ -121,7 +122,7 @@ def read_nights(history: History, last: int | None = None, most: int | None = No
             ratios[at] = ratio
     used = set(np.unique(works[works >= 0]).tolist())
     counters = {
-        number: json.loads(text)
+        number: {RENAMED_COLUMNS.get(name, name): value for name, value in json.loads(text).items()}
         for number, text in history.read("SELECT id, counters FROM work")
         if number in used
     }

@@ -1,5 +1,5 @@
 #pragma once
-// The algorithm: a hierarchy of boxes split at the median of the centres along the longest axis.
+// The algorithm: a hierarchy of boxes split at the median of the centers along the longest axis.
 
 #include <algorithm>
 #include <cstdint>
@@ -73,12 +73,12 @@ class MedianBvh : public beambench::accel::TraversalAccelerator<MedianBvh> {
     const glm::vec3 size = nodes_[index].box.extent();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     const std::uint32_t middle = begin + (end - begin) / 2;
-    const auto centre = [&](std::uint32_t id) {
+    const auto center = [&](std::uint32_t id) {
       return boxes_[id].lower[axis] + boxes_[id].upper[axis];
     };
     std::nth_element(order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
                      [&](std::uint32_t a, std::uint32_t b) {
-                       return std::pair(centre(a), a) < std::pair(centre(b), b);
+                       return std::pair(center(a), a) < std::pair(center(b), b);
                      });
     nodes_[index].count = 0;
     build(begin, middle, max_leaf, level + 1);

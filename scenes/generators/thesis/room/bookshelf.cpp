@@ -23,8 +23,8 @@ const Surface kWalnut = {
     .color = {0.36F, 0.21F, 0.12F}, .diffuse = 0.85F, .specular = 0.3F, .shine = 30.0F};
 const Surface kPaper = {.color = {0.93F, 0.89F, 0.78F}, .diffuse = 0.9F};
 
-Surface cloth(const glm::vec3& colour) {
-  return {.color = colour, .diffuse = 0.9F, .specular = 0.2F, .shine = 20.0F};
+Surface cloth(const glm::vec3& color) {
+  return {.color = color, .diffuse = 0.9F, .specular = 0.2F, .shine = 20.0F};
 }
 
 constexpr std::array<glm::vec3, 10> kCovers = {{{0.62F, 0.13F, 0.12F},
@@ -41,7 +41,7 @@ constexpr std::array<glm::vec3, 10> kCovers = {{{0.62F, 0.13F, 0.12F},
 /// Where a book stands; its spine looks to -y.
 struct Book {
   double x, width, height, depth;
-  glm::vec3 colour;
+  glm::vec3 color;
 };
 
 /// Books from one side to the other, some shelves with a gap at their end.
@@ -69,11 +69,11 @@ std::vector<glm::dvec2> spine(const Book& book) {
   return line;
 }
 
-/// How far a book stands out before or above its neighbour, if there is one.
-bool stands_out(const Book& book, const Book* neighbour) {
+/// How far a book stands out before or above its neighbor, if there is one.
+bool stands_out(const Book& book, const Book* neighbor) {
   constexpr double kSeen = 0.012;
-  return neighbour == nullptr || book.height > neighbour->height + kSeen ||
-         book.depth > neighbour->depth + kSeen;
+  return neighbor == nullptr || book.height > neighbor->height + kSeen ||
+         book.depth > neighbor->depth + kSeen;
 }
 
 void add_standing_book(PlacedPiece& shelf, const Book& book, const Book* left, const Book* right) {
@@ -111,9 +111,9 @@ void add_standing_book(PlacedPiece& shelf, const Book& book, const Book* left, c
   if (stands_out(book, left)) seen.push_back(sides.polygons[0]);
   if (stands_out(book, right)) seen.push_back(sides.polygons[1]);
   sides.polygons = seen;
-  shelf.smooth(cloth(book.colour), back);
-  shelf.smooth(cloth(glm::mix(book.colour, glm::vec3(0.9F, 0.78F, 0.45F), 0.65F)), bands);
-  shelf.flat(cloth(book.colour), sides);
+  shelf.smooth(cloth(book.color), back);
+  shelf.smooth(cloth(glm::mix(book.color, glm::vec3(0.9F, 0.78F, 0.45F), 0.65F)), bands);
+  shelf.flat(cloth(book.color), sides);
   shelf.flat(kPaper, top);
 }
 
@@ -161,7 +161,7 @@ void add_bookshelf(SceneBuilder& builder, const glm::dmat4& place) {
     PlacedPiece shelf(builder, place * standing_at({kBoard + 0.002, -0.015, kFirst + kRise * i}));
     for (std::size_t k = 0; k < books.size(); ++k) {
       const bool at_gap = k + 1 == books.size() && kFilled[static_cast<std::size_t>(i)] < 0.99;
-      // The carcass hides an end as a neighbour of the same size would.
+      // The carcass hides an end as a neighbor of the same size would.
       const Book* left = k == 0 ? &books[k] : &books[k - 1];
       const Book* right = k + 1 < books.size() ? &books[k + 1] : at_gap ? nullptr : &books[k];
       add_standing_book(shelf, books[k], left, right);
@@ -170,7 +170,7 @@ void add_bookshelf(SceneBuilder& builder, const glm::dmat4& place) {
 }
 
 void add_lying_book(SceneBuilder& builder, const glm::dmat4& place, const glm::dvec3& size,
-                    const glm::vec3& colour) {
+                    const glm::vec3& color) {
   constexpr double kCover = 0.003;
   PlacedPiece book(builder, place);
   const glm::dvec3 half(0.5 * size.x, 0.5 * size.y, size.z);
@@ -181,7 +181,7 @@ void add_lying_book(SceneBuilder& builder, const glm::dmat4& place, const glm::d
       modelling::box({-half.x, -half.y, kCover}, {half.x, half.y, size.z - kCover});
   spine_side.polygons = {spine_side.polygons[2]};
   modelling::append(cover, spine_side);
-  book.flat(cloth(colour), cover);
+  book.flat(cloth(color), cover);
   modelling::PolygonMesh pages = modelling::box({-half.x + 0.004, -half.y, kCover},
                                                 {half.x - 0.004, half.y - 0.005, size.z - kCover});
   pages.polygons = {pages.polygons[0], pages.polygons[1], pages.polygons[3]};

@@ -15,6 +15,6 @@ void add_bookshelf(SceneBuilder& builder, const glm::dmat4& place);
 /// A closed book that lies at the origin, its spine to -y, of `size` (along the spine, across,
 /// thick).
 void add_lying_book(SceneBuilder& builder, const glm::dmat4& place, const glm::dvec3& size,
-                    const glm::vec3& colour);
+                    const glm::vec3& color);
 
 }  // namespace beambench::scenes::generators

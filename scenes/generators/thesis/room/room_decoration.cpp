@@ -13,7 +13,7 @@
 #include "scenes/generators/thesis/room/placed_piece.hpp"
 #include "scenes/modelling/box.hpp"
 #include "scenes/modelling/lathe.hpp"
-#include "scenes/modelling/moulding.hpp"
+#include "scenes/modelling/molding.hpp"
 #include "scenes/modelling/profile.hpp"
 #include "scenes/modelling/rotation.hpp"
 #include "scenes/modelling/sweep.hpp"
@@ -24,7 +24,7 @@ namespace {
 constexpr double kFrame = 0.055;
 constexpr double kCanvas = 0.010;  // before the wall
 
-Surface paint(const glm::vec3& colour) { return {.color = colour, .diffuse = 0.95F}; }
+Surface paint(const glm::vec3& color) { return {.color = color, .diffuse = 0.95F}; }
 
 /// The frame, and the canvas inside it.
 void add_frame(PlacedPiece& picture, const glm::dvec2& size, const glm::vec3& ground) {
@@ -32,7 +32,7 @@ void add_frame(PlacedPiece& picture, const glm::dvec2& size, const glm::vec3& gr
                                            {0.022, 0.030}, {0.036, 0.018},   {0.044, 0.022},
                                            {0.050, 0.020}, {kFrame, kCanvas}};
   picture.flat({.color = {0.72F, 0.53F, 0.22F}, .diffuse = 0.85F, .specular = 0.5F, .shine = 40.0F},
-               modelling::moulding(size, profile));
+               modelling::molding(size, profile));
   modelling::PolygonMesh canvas = modelling::box({kFrame, kFrame, 0.0}, {size - kFrame, kCanvas});
   canvas.polygons = {canvas.polygons[5]};
   picture.flat(paint(ground), canvas);

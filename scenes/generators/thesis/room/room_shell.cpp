@@ -13,7 +13,7 @@
 #include "scenes/generators/thesis/room/window_view.hpp"
 #include "scenes/modelling/box.hpp"
 #include "scenes/modelling/lathe.hpp"
-#include "scenes/modelling/moulding.hpp"
+#include "scenes/modelling/molding.hpp"
 #include "scenes/modelling/profile.hpp"
 
 namespace beambench::scenes::generators {
@@ -100,7 +100,7 @@ void add_skirting_and_cornice(SceneBuilder& builder) {
   PlacedPiece room(builder, glm::dmat4(1.0));
   const std::vector<glm::dvec2> skirting = {
       {0.0, 0.12}, {0.010, 0.12}, {0.018, 0.10}, {0.018, 0.0}};
-  room.flat(kPaintedWood, modelling::without_side(modelling::moulding(kRoom, skirting), 1));
+  room.flat(kPaintedWood, modelling::without_side(modelling::molding(kRoom, skirting), 1));
   // On the door's wall it stops at the architrave, on both sides of it.
   const std::array<modelling::Rectangle, 2> pieces = {
       {{{0.018, 0.0}, {kDoor.lower.x - kArchitrave, 0.12}},
@@ -113,7 +113,7 @@ void add_skirting_and_cornice(SceneBuilder& builder) {
   const std::vector<glm::dvec2> cornice = {{0.11, kRoom.z},         {0.10, kRoom.z - 0.015},
                                            {0.060, kRoom.z - 0.03}, {0.030, kRoom.z - 0.060},
                                            {0.015, kRoom.z - 0.10}, {0.0, kRoom.z - 0.11}};
-  room.flat(kWhite, modelling::moulding(kRoom, cornice));
+  room.flat(kWhite, modelling::molding(kRoom, cornice));
 }
 
 void add_window(SceneBuilder& builder) {
@@ -142,7 +142,7 @@ void add_door(SceneBuilder& builder) {
   leaf.flat(kPaintedWood, modelling::openings_filled(panels, 0.025));
   for (const modelling::Rectangle& panel : panels) {  // raised in its middle
     const std::vector<glm::dvec2> raised = {{0.03, -0.025}, {0.05, -0.008}};
-    modelling::PolygonMesh field = modelling::moulding(panel.upper - panel.lower, raised);
+    modelling::PolygonMesh field = modelling::molding(panel.upper - panel.lower, raised);
     field.polygons.push_back({4, 5, 6, 7});
     PlacedPiece(builder, moved(door_wall(), kDoor.lower + panel.lower, -kDoorReveal))
         .flat(kPaintedWood, field);
@@ -159,7 +159,7 @@ void add_door(SceneBuilder& builder) {
   const std::vector<glm::dvec2> profile = {{0.0, 0.0},    {0.0, 0.028},    {0.012, 0.034},
                                            {0.07, 0.022}, {kWidth, 0.018}, {kWidth, 0.0}};
   modelling::PolygonMesh frame =
-      modelling::without_side(modelling::moulding(size + 2.0 * kWidth, profile), 0);
+      modelling::without_side(modelling::molding(size + 2.0 * kWidth, profile), 0);
   for (glm::dvec3& vertex : frame.vertices) vertex.y = std::max(vertex.y, kWidth);  // the floor
   PlacedPiece(builder, moved(door_wall(), kDoor.lower - kWidth, 0.0)).flat(kPaintedWood, frame);
 }

@@ -24,7 +24,7 @@ constexpr int kKnotsX = 46;
 constexpr int kKnotsY = 32;
 
 enum Yarn : std::size_t { kRed, kNavy, kCream, kGold, kYarns };
-constexpr std::array<glm::vec3, kYarns> kYarnColours = {
+constexpr std::array<glm::vec3, kYarns> kYarnColors = {
     {{0.62F, 0.16F, 0.14F}, {0.14F, 0.20F, 0.38F}, {0.90F, 0.83F, 0.68F}, {0.80F, 0.58F, 0.24F}}};
 
 /// Borders around a red ground with a stepped medallion in its middle.
@@ -43,7 +43,7 @@ Yarn knot(int x, int y) {
   return steps < 19 ? kGold : kRed;
 }
 
-/// One curtain: u from its free edge to the window's side, v upwards.
+/// One curtain: u from its free edge to the window's side, v upward.
 modelling::PolygonMesh curtain(double free_edge, double side, double bottom, double top, double y) {
   constexpr double kTied = 0.34;  // where it is drawn aside
   constexpr int kFolds = 6;
@@ -126,7 +126,7 @@ void add_rug(SceneBuilder& builder, const modelling::Rectangle& place) {
   }
   PlacedPiece rug(builder, glm::dmat4(1.0));
   for (std::size_t yarn = 0; yarn < kYarns; ++yarn) {
-    rug.flat({.color = kYarnColours[yarn], .diffuse = 0.9F}, meshes[yarn]);
+    rug.flat({.color = kYarnColors[yarn], .diffuse = 0.9F}, meshes[yarn]);
   }
 }
 

@@ -22,8 +22,8 @@
 namespace beambench::scenes::generators {
 namespace {
 
-Surface glazed(const glm::vec3& colour) {
-  return {.color = colour, .diffuse = 0.85F, .specular = 0.6F, .shine = 60.0F};
+Surface glazed(const glm::vec3& color) {
+  return {.color = color, .diffuse = 0.85F, .specular = 0.6F, .shine = 60.0F};
 }
 const Surface kChina = glazed({0.95F, 0.95F, 0.92F});
 const Surface kBlueChina = glazed({0.22F, 0.38F, 0.68F});
@@ -78,7 +78,7 @@ modelling::PolygonMesh banana() {
 }
 
 /// A daisy looking to +z: petals around a dome.
-void add_daisy(SceneBuilder& builder, const glm::dmat4& place, const glm::vec3& colour) {
+void add_daisy(SceneBuilder& builder, const glm::dmat4& place, const glm::vec3& color) {
   constexpr int kPetals = 10;
   modelling::PolygonMesh petals;
   for (int i = 0; i < kPetals; ++i) {
@@ -88,7 +88,7 @@ void add_daisy(SceneBuilder& builder, const glm::dmat4& place, const glm::vec3& 
     modelling::append(petals, arching_leaf({root, azimuth, 0.55, 0.25, 0.040, 0.021}, 3));
   }
   PlacedPiece daisy(builder, place);
-  daisy.smooth({.color = colour, .diffuse = 0.95F}, petals);
+  daisy.smooth({.color = color, .diffuse = 0.95F}, petals);
   modelling::Profile dome({0.013, 0.0});
   dome.curve({0.0, 0.012}, 0.005, 3);
   daisy.smooth({.color = {0.95F, 0.72F, 0.15F}, .diffuse = 0.9F},
@@ -155,7 +155,7 @@ void add_fruit_bowl(SceneBuilder& builder, const glm::dmat4& place) {
   struct Fruit {
     glm::dvec3 place;
     double radius;
-    glm::vec3 colour;
+    glm::vec3 color;
     bool is_apple;
   };
   constexpr std::array<Fruit, 6> kFruit = {
@@ -171,7 +171,7 @@ void add_fruit_bowl(SceneBuilder& builder, const glm::dmat4& place) {
         fruit.is_apple ? apple(fruit.radius)
                        : modelling::ellipsoid(glm::dvec3(fruit.radius), 16, 12);
     // The bowl and the other fruit hide the lower part.
-    piece.smooth(glazed(fruit.colour), above(body, -0.35 * fruit.radius));
+    piece.smooth(glazed(fruit.color), above(body, -0.35 * fruit.radius));
     if (!fruit.is_apple) continue;
     piece.smooth({.color = {0.35F, 0.22F, 0.10F}, .diffuse = 0.9F}, stalk(fruit.radius));
   }
@@ -191,7 +191,7 @@ void add_vase_of_flowers(SceneBuilder& builder, const glm::dmat4& place) {
 
   struct Flower {
     glm::dvec3 head;
-    glm::vec3 colour;
+    glm::vec3 color;
   };
   constexpr std::array<Flower, 7> kFlowers = {{{{0.0, -0.01, 0.47}, {0.98F, 0.97F, 0.94F}},
                                                {{0.085, -0.03, 0.43}, {0.97F, 0.62F, 0.70F}},
@@ -214,7 +214,7 @@ void add_vase_of_flowers(SceneBuilder& builder, const glm::dmat4& place) {
     const glm::dvec3 side = glm::normalize(glm::cross(glm::dvec3(0.0, 1.0, 0.0), up));
     const glm::dmat4 head(glm::dvec4(side, 0.0), glm::dvec4(glm::cross(up, side), 0.0),
                           glm::dvec4(up, 0.0), glm::dvec4(flower.head, 1.0));
-    add_daisy(builder, place * head, flower.colour);
+    add_daisy(builder, place * head, flower.color);
   }
   modelling::PolygonMesh leaves;
   for (int i = 0; i < 6; ++i) {

@@ -49,14 +49,14 @@ void add_window_view(SceneBuilder& builder, const glm::dmat4& place, const glm::
                                      level(size, 0.62),
                                      level(size, 0.80),
                                      level(size, 1.0)};
-  constexpr std::array<glm::vec3, 5> kColours = {{{0.52F, 0.74F, 0.36F},
-                                                  {0.45F, 0.63F, 0.52F},
-                                                  {0.87F, 0.95F, 1.0F},
-                                                  {0.76F, 0.90F, 1.0F},
-                                                  {0.64F, 0.84F, 1.0F}}};
+  constexpr std::array<glm::vec3, 5> kColors = {{{0.52F, 0.74F, 0.36F},
+                                                 {0.45F, 0.63F, 0.52F},
+                                                 {0.87F, 0.95F, 1.0F},
+                                                 {0.76F, 0.90F, 1.0F},
+                                                 {0.64F, 0.84F, 1.0F}}};
   PlacedPiece view(builder, place);
-  for (std::size_t i = 0; i < kColours.size(); ++i) {
-    view.flat({.color = kColours[i], .diffuse = 1.0F}, between(lines[i], lines[i + 1]));
+  for (std::size_t i = 0; i < kColors.size(); ++i) {
+    view.flat({.color = kColors[i], .diffuse = 1.0F}, between(lines[i], lines[i + 1]));
   }
 }
 

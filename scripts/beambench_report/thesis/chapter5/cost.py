@@ -72,7 +72,7 @@ def thesis_formulas() -> tuple[Formula, Formula]:
             lambda cells: _tasks(
                 cells,
                 "beams_nonterminal_ns",
-                ("beams_nonterminal", "beam_edges", "beam_clips", "neighbour_searches"),
+                ("beams_nonterminal", "beam_edges", "beam_clips", "neighbor_searches"),
             ),
         ),
         Formula(

@@ -307,7 +307,7 @@ def occupied_leaves_take_the_time(e: Evidence) -> list[Check]:
 def formulas_explain_the_time(e: Evidence) -> list[Check]:
     """Fitted to ten cells or more: R2 of 0.9 or more, median error below a quarter."""
     return [
-        *formula(e, "nonterminal", ("beams_nonterminal", "beam_clips", "neighbour_searches")),
+        *formula(e, "nonterminal", ("beams_nonterminal", "beam_clips", "neighbor_searches")),
         *formula(
             e,
             "occupied",

@@ -1,4 +1,4 @@
-#include "harness/verify/selftest/behaviour_checks.hpp"
+#include "harness/verify/selftest/behavior_checks.hpp"
 
 #include <algorithm>
 #include <array>

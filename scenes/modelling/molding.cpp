@@ -1,8 +1,8 @@
-#include "scenes/modelling/moulding.hpp"
+#include "scenes/modelling/molding.hpp"
 
 namespace beambench::scenes::modelling {
 
-PolygonMesh moulding(const glm::dvec2& size, std::span<const glm::dvec2> profile) {
+PolygonMesh molding(const glm::dvec2& size, std::span<const glm::dvec2> profile) {
   PolygonMesh mesh;
   for (const glm::dvec2& point : profile) {
     const double inset = point.x;
@@ -21,11 +21,11 @@ PolygonMesh moulding(const glm::dvec2& size, std::span<const glm::dvec2> profile
   return mesh;
 }
 
-PolygonMesh without_side(const PolygonMesh& moulding, std::size_t side) {
+PolygonMesh without_side(const PolygonMesh& molding, std::size_t side) {
   PolygonMesh mesh;
-  mesh.vertices = moulding.vertices;
-  for (std::size_t i = 0; i < moulding.size(); ++i) {
-    if (i % 4 != side) mesh.polygons.push_back(moulding.polygons[i]);
+  mesh.vertices = molding.vertices;
+  for (std::size_t i = 0; i < molding.size(); ++i) {
+    if (i % 4 != side) mesh.polygons.push_back(molding.polygons[i]);
   }
   return mesh;
 }
