@@ -190,6 +190,9 @@ def test_links_lead_somewhere() -> None:
                 continue
             if not target.exists() or (anchor and anchor not in anchors(target.read_text("utf-8"))):
                 broken.append(f"{text.relative_to(REPOSITORY)}: {link}")
+        for file in re.findall(r"`([\w./-]+/[\w-]+\.(?:cpp|hpp|py))`", text.read_text("utf-8")):
+            if not any((folder / file).exists() for folder in (REPOSITORY, text.parent)):
+                broken.append(f"{text.relative_to(REPOSITORY)}: {file}")
     assert broken == []
 
 
