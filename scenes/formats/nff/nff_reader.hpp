@@ -24,9 +24,9 @@ struct NffResult {
 };
 
 /// Parses NFF text (Haines, "A Proposal for Standard Graphics Environments", 1987, with the words
-/// that the thesis adds; quirks of files in the wild are listed in scenes/README.md). `file` is used in
-/// messages and as the scene's name. Throws InputError with file, line and word when the text is
-/// malformed or truncated, when a number is not finite or beyond 1e9, when only degenerate
+/// that the thesis adds; quirks of files in the wild are listed in scenes/README.md). `file` is
+/// used in messages and as the scene's name. Throws InputError with file, line and word when the
+/// text is malformed or truncated, when a number is not finite or beyond 1e9, when only degenerate
 /// primitives are in it, for Sense8 WTK files (first word `nff`), and for what the options do not
 /// allow.
 NffResult parse_nff(std::string_view text, const std::string& file, NffOptions options = {});
