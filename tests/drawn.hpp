@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "accel/core/registry.hpp"
-#include "harness/render/picture/srgb.hpp"
+#include "harness/render/picture/color.hpp"
 #include "harness/render/whitted_picture.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/random_scene.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 // Random scenes and rays for the tests of every room: those of `beambench selftest`.
 
-#include "harness/verify/selftest/random_scene.hpp"
+#include "harness/verify/selftest/test_scenes.hpp"
 
 namespace beambench::testing {
 

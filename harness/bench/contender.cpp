@@ -8,10 +8,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
-#include "harness/bench/clock_rate.hpp"
-#include "harness/bench/conditions.hpp"
-#include "harness/bench/heap.hpp"
-#include "harness/bench/phase_timer.hpp"
+#include "harness/bench/measurement.hpp"
 #include "harness/bench/record/machine.hpp"
 
 namespace beambench::bench {

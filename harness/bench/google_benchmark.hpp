@@ -1,20 +1,32 @@
 #pragma once
-// All that is known here of Google Benchmark: its filter, its runs, its JSON.
+// Google Benchmark's command-line flags, as far as they mean something here.
 
 #include <functional>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
-
-#include "harness/bench/benchmark_flags.hpp"
 
 namespace benchmark {
 class State;
 }
 
 namespace beambench::bench {
+
+/// What the user's Google Benchmark flags ask for.
+struct BenchmarkFlags {
+  std::vector<std::string> passed_on;  ///< --benchmark_filter, --benchmark_context, --v
+  std::optional<int> repetitions;      ///< --benchmark_repetitions
+  bool list = false;                   ///< --benchmark_list_tests
+  std::vector<std::string> notes;      ///< sentences on flags that have no effect here, and why
+};
+
+/// Throws InputError for a flag that Google Benchmark does not have or cannot read, naming those
+/// that it has.
+BenchmarkFlags parse_benchmark_flags(const std::vector<std::string>& arguments);
 
 /// A timed piece of work. It loops over the state once and sets the iteration's time (manual time).
 using TimedWork = std::function<void(benchmark::State&)>;

@@ -9,7 +9,7 @@
 
 #include <linux/perf_event.h>
 
-#include "harness/bench/record/hardware_counts.hpp"
+#include "harness/bench/record/cell_record.hpp"
 
 namespace beambench::bench {
 

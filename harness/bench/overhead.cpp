@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "harness/bench/record/query_path.hpp"
+#include "harness/bench/record/cell_record.hpp"
 
 namespace beambench::bench {
 namespace {

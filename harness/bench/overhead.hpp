@@ -9,7 +9,7 @@
 
 namespace beambench::bench {
 
-/// The harness's own share of a trace (harness_time.hpp) in the cell where it is the largest part
+/// The harness's own share of a trace (`harness_ms`) in the cell where it is the largest part
 /// of the contender's time, of those that are asked by one path.
 struct Overhead {
   std::string path;  ///< the QueryPath, by name

@@ -9,7 +9,6 @@
 #include <string>
 #include <string_view>
 
-#include "harness/bench/benchmark_flags.hpp"
 #include "harness/bench/config.hpp"
 #include "harness/bench/google_benchmark.hpp"
 #include "harness/bench/plan.hpp"

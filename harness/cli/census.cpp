@@ -18,7 +18,7 @@
 #include "harness/cli/whitted_request.hpp"
 #include "harness/rays/answers.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "harness/render/picture/image_error.hpp"
+#include "harness/render/picture/image.hpp"
 #include "harness/render/picture/image_file.hpp"
 #include "harness/render/shading_order.hpp"
 #include "scenes/catalogue.hpp"

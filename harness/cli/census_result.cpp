@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "harness/cli/text.hpp"
-#include "harness/render/spd_counts.hpp"
+#include "harness/render/ray_census.hpp"
 
 namespace beambench::cli {
 namespace {

@@ -5,12 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "harness/render/picture/category_legend.hpp"
 #include "harness/render/picture/category_map.hpp"
 #include "harness/render/picture/image_file.hpp"
 #include "harness/render/shading.hpp"
-#include "harness/verify/classify.hpp"
-#include "harness/verify/judge_ray.hpp"
+#include "harness/verify/verify_ray.hpp"
 
 namespace beambench::cli {
 namespace {

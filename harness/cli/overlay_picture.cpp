@@ -7,8 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "harness/render/picture/overlay_beams.hpp"
-#include "harness/render/picture/overlay_cells.hpp"
+#include "harness/render/picture/overlay.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "accel/core/registry.hpp"
-#include "harness/render/picture/category_legend.hpp"
+#include "harness/render/picture/category_map.hpp"
 
 namespace beambench::cli {
 

@@ -11,6 +11,7 @@
 
 #include "accel/core/intersect.hpp"
 #include "harness/cli/text.hpp"
+#include "harness/verify/describe.hpp"
 
 namespace beambench::cli {
 namespace {

@@ -19,7 +19,7 @@
 #include "harness/cli/whitted_request.hpp"
 #include "harness/cli/work_picture.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "harness/render/picture/exposure.hpp"
+#include "harness/render/picture/image.hpp"
 #include "harness/render/picture/image_file.hpp"
 #include "harness/render/shading.hpp"
 #include "scenes/core/error.hpp"

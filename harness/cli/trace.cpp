@@ -13,7 +13,7 @@
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/ray_way.hpp"
 #include "harness/cli/watched_ask.hpp"
-#include "harness/verify/judge_ray.hpp"
+#include "harness/verify/verify_ray.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::cli {

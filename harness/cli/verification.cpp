@@ -12,6 +12,7 @@
 #include "harness/cli/watched_ask.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/rays/share_warning.hpp"
+#include "harness/verify/describe.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/plugin_error.hpp"
 

@@ -6,7 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "harness/render/judged_picture.hpp"
+#include "harness/render/verified_picture.hpp"
+#include "harness/verify/describe.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::cli {

@@ -3,7 +3,7 @@
 
 #include <chrono>
 
-#include "harness/bench/phase_timer.hpp"
+#include "harness/bench/measurement.hpp"
 
 namespace beambench::cluster {
 

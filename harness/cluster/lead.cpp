@@ -14,7 +14,7 @@
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/render/picture/image_file.hpp"
-#include "harness/render/preview.hpp"
+#include "harness/render/shading.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/pending_file.hpp"
 

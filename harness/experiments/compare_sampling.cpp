@@ -11,7 +11,7 @@
 #include "harness/experiments/image_space_sampling.hpp"
 #include "harness/experiments/sparse_image.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "harness/render/picture/image_error.hpp"
+#include "harness/render/picture/image.hpp"
 #include "harness/render/shading.hpp"
 
 namespace beambench::experiments {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "harness/rays/hit_check.hpp"
-#include "harness/render/picture/srgb.hpp"
+#include "harness/render/picture/color.hpp"
 #include "harness/render/shading.hpp"
 
 namespace beambench::experiments {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "harness/rays/hit_check.hpp"
-#include "harness/render/preview.hpp"
+#include "harness/render/shading.hpp"
 
 namespace beambench::experiments {
 

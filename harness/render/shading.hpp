@@ -1,15 +1,51 @@
 #pragma once
-// From the hits of an image to a picture.
+// From the hits of an image to a picture, and the laws of reflection that pictures share.
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <span>
 #include <string_view>
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
 #include "accel/core/hit_buffer.hpp"
+#include "accel/core/mirrored.hpp"
 #include "accel/core/primary_rays.hpp"
+#include "accel/core/ray.hpp"
 #include "harness/render/picture/image.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::render {
+
+/// Phong's (CACM 18(6), 1975): how near the eye is to where a mirror would send the light. All
+/// directions have unit length.
+inline double phong(const glm::dvec3& normal, const glm::dvec3& to_light, const glm::dvec3& to_eye,
+                    double shine) {
+  const double cosine = glm::dot(accel::mirrored(-to_light, normal), to_eye);
+  return cosine > 0.0 ? std::pow(cosine, std::max(shine, 1.0)) : 0.0;
+}
+
+/// Where a ray goes behind a surface, by Snell's law, or nothing where all of it is reflected.
+/// `incoming` and `normal` have unit length, the normal points to where the ray comes from; `ratio`
+/// is the index of refraction before the surface over that behind it. The result has unit length
+/// (Heckbert, "Writing a ray tracer", in Glassner, An Introduction to Ray Tracing, 1989).
+inline std::optional<glm::dvec3> refracted(const glm::dvec3& incoming, const glm::dvec3& normal,
+                                           double ratio) {
+  const double cosine = -glm::dot(incoming, normal);
+  const double behind = 1.0 - ratio * ratio * (1.0 - cosine * cosine);
+  if (behind < 0.0) return std::nullopt;
+  return glm::normalize(ratio * incoming + (ratio * cosine - std::sqrt(behind)) * normal);
+}
+
+/// Linear light from a hit: Lambert and Phong under the scene's lights and a headlight at the eye,
+/// without shadows. The headlight leaves no side of a thing black. The scene's colors are display
+/// values, as they were in 1987; they are decoded to linear light first.
+glm::vec3 preview_color(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& hit);
+
+/// Linear light of a miss.
+glm::vec3 background_color(const scenes::Scene& scene);
 
 /// What a picture shows of a hit.
 enum class Shading {

@@ -9,10 +9,8 @@
 #include "accel/core/mirrored.hpp"
 #include "harness/rays/beside_surface.hpp"
 #include "harness/rays/normal.hpp"
-#include "harness/render/phong.hpp"
-#include "harness/render/picture/srgb.hpp"
-#include "harness/render/preview.hpp"
-#include "harness/render/refracted.hpp"
+#include "harness/render/picture/color.hpp"
+#include "harness/render/shading.hpp"
 
 namespace beambench::render {
 namespace {

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
 #include <limits>
 
 #include <glm/geometric.hpp>
-
-#include "harness/verify/cone_contact.hpp"
-#include "harness/verify/ray_line.hpp"
 
 namespace beambench::verify {
 namespace {
@@ -77,6 +75,109 @@ Contact contact_with(const RayLine& line, const dvec3& point, const scenes::Sphe
   return found;
 }
 
+/// A cone as a segment that is turned round the axis, of unit direction (along_radius, along_axis)
+/// in the half plane of (distance from the axis, height over the base). Cones of hardly any height
+/// are nothing special so: nothing is divided by the height.
+struct Profile {
+  explicit Profile(const scenes::Cone& cone) : base(cone.base), base_radius(cone.base_radius) {
+    const dvec3 span = dvec3(cone.apex) - base;
+    const double height = glm::length(span);
+    const double taper = static_cast<double>(cone.apex_radius) - cone.base_radius;
+    axis = span / height;
+    length = std::hypot(taper, height);
+    along_radius = taper / length;
+    along_axis = height / length;
+  }
+
+  double height_of(const dvec3& point) const { return glm::dot(point - base, axis); }
+  /// From the axis to the point, perpendicular to the axis.
+  dvec3 radial(const dvec3& point) const { return point - base - height_of(point) * axis; }
+  /// The unit vector from the axis to the point; 0 for a point on the axis.
+  dvec3 outward(const dvec3& point) const {
+    const dvec3 across = radial(point);
+    const double distance = glm::length(across);
+    return distance > 0.0 ? across / distance : dvec3(0.0);
+  }
+  /// Distance of a point from the surface continued beyond its rims; negative inside.
+  double signed_distance(const dvec3& point) const {
+    return (glm::length(radial(point)) - base_radius) * along_axis -
+           height_of(point) * along_radius;
+  }
+  /// Where on the surface, continued beyond its rims, the point is nearest: from 0 at the base to
+  /// `length` at the apex.
+  double place(const dvec3& point) const {
+    return (glm::length(radial(point)) - base_radius) * along_radius +
+           height_of(point) * along_axis;
+  }
+  /// The rim at a place of 0 or `length`: its point on the same side of the axis as `point`.
+  dvec3 rim_point(const dvec3& point, double rim) const {
+    return base + rim * along_axis * axis + rim_radius(rim) * outward(point);
+  }
+  double rim_radius(double rim) const { return base_radius + rim * along_radius; }
+
+  dvec3 base;
+  dvec3 axis;
+  double base_radius, length, along_radius, along_axis;
+};
+
+/// A line seen from a cone's axis: at t from the line's point closest to the axis, its distance
+/// from the axis is sqrt(speed^2 t^2 + gap^2), and its height grows with `climb`.
+struct LineByAxis {
+  LineByAxis(const RayLine& line, const Profile& profile) : direction(line.direction) {
+    climb = glm::dot(direction, profile.axis);
+    const dvec3 across = direction - climb * profile.axis;
+    const dvec3 middle = profile.base + 0.5 * profile.length * profile.along_axis * profile.axis;
+    speed = glm::length(across);
+    start = middle - line.across(middle);
+    if (speed > 0.0) start -= glm::dot(profile.radial(start), across) / (speed * speed) * direction;
+    gap = glm::length(profile.radial(start));
+  }
+  dvec3 at(double t) const { return start + t * direction; }
+
+  dvec3 start;
+  dvec3 direction;
+  double climb, speed, gap;
+};
+
+/// How near the line comes to touching the surface without crossing it, or to having its entry and
+/// exit in one point. The signed distance of the line's points from the surface is convex in t, so
+/// it turns once, or never where the line is steeper than the surface.
+double silhouette_distance(const RayLine& line, const Profile& profile) {
+  const LineByAxis seen(line, profile);
+  const double rise = seen.climb * profile.along_radius;
+  const double spread = seen.speed * profile.along_axis;
+  const double square = (spread - rise) * (spread + rise);
+  if (!(square > 0.0)) return kFar;
+  const dvec3 turning_point = seen.at(rise * seen.gap / (seen.speed * std::sqrt(square)));
+  const double place = profile.place(turning_point);
+  if (!(0.0 <= place && place <= profile.length)) return kFar;
+  return std::abs(profile.signed_distance(turning_point));
+}
+
+/// The distance from the line to a rim: from where it crosses the rim's plane, and from where it
+/// passes over the rim or is closest to the axis, each improved by looking for the rim's point next
+/// to the line and the line's next to that in turn. Never too small.
+double rim_distance(const RayLine& line, const Profile& profile, double rim) {
+  constexpr int kTurns = 8;
+  const LineByAxis seen(line, profile);
+  const double radius = profile.rim_radius(rim);
+  const double over_rim =
+      std::sqrt(std::max((radius - seen.gap) * (radius + seen.gap), 0.0)) / seen.speed;
+  const double in_plane = (rim * profile.along_axis - profile.height_of(seen.start)) / seen.climb;
+  double nearest = kFar;
+  for (const double t : {in_plane, -over_rim, 0.0, over_rim}) {
+    if (!std::isfinite(t)) continue;
+    dvec3 point = seen.at(t);
+    for (int turn = 0; turn < kTurns; ++turn) {
+      const dvec3 on_rim = profile.rim_point(point, rim);
+      const dvec3 across = line.across(on_rim);
+      nearest = std::min(nearest, glm::length(across));
+      point = on_rim - across;
+    }
+  }
+  return nearest;
+}
+
 }  // namespace
 
 Contact contact(const scenes::Scene& scene, const accel::Ray& ray,
@@ -114,6 +215,31 @@ double boundary_distance(const scenes::Scene& scene, const accel::Ray& ray,
     nearest = std::min(nearest, edge_distance(line, corners_of(scene, triangle)));
   }
   return nearest;
+}
+
+double cone_boundary_distance(const RayLine& line, const scenes::Cone& cone) {
+  const Profile profile(cone);
+  return std::min({silhouette_distance(line, profile), rim_distance(line, profile, 0.0),
+                   rim_distance(line, profile, profile.length)});
+}
+
+Contact cone_contact(const RayLine& line, const dvec3& point, const scenes::Cone& cone,
+                     double grazing) {
+  const Profile profile(cone);
+  const double place = profile.place(point);
+  const double within = std::clamp(place, 0.0, profile.length);
+  double offset = std::abs(profile.signed_distance(point));
+  if (place != within) {
+    offset = std::max(offset, line.distance_to(profile.rim_point(point, within)));
+  }
+  const dvec3 normal =
+      profile.outward(point) * profile.along_axis - profile.along_radius * profile.axis;
+  const double outward = glm::dot(normal, line.direction);
+  Contact found{offset, std::abs(outward), outward > 0.0};
+  if (cone.inside_only && !found.leaving && cone_boundary_distance(line, cone) > grazing) {
+    found.offset = kFar;
+  }
+  return found;
 }
 
 }  // namespace beambench::verify

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include "harness/verify/classify.hpp"
-#include "harness/verify/judge_ray.hpp"
+#include "harness/verify/verify_ray.hpp"
 
 namespace beambench::verify {
 namespace {
@@ -208,6 +209,31 @@ DiffReport judge(const ReferenceHits& reference, const rays::Answers& answers,
   Judge judging(reference, answers, classes);
   return conformance == accel::Conformance::kBaseline ? judging.as_baseline()
                                                       : judging.against_oracle();
+}
+
+ReferenceHits::ReferenceHits(const scenes::Scene& scene, rays::Question question)
+    : scene_(&scene), question_(std::move(question)), hits_(question_.size()) {
+  const accel::embree::EmbreeOracle oracle(scene, question_.reach());
+  tbb::parallel_for(tbb::blocked_range(std::size_t{0}, hits_.size(), 1024),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        hits_[i] = oracle.closest_hit(question_.ray(i));
+                      }
+                    });
+}
+
+ReferenceHits::ReferenceHits(const scenes::Scene& scene, rays::Question question,
+                             std::vector<std::optional<accel::embree::ExactHit>> hits)
+    : scene_(&scene), question_(std::move(question)), hits_(std::move(hits)) {
+  if (hits_.size() != question_.size()) {
+    throw std::logic_error(
+        fmt::format("{} reference hits are given for {} rays", hits_.size(), question_.size()));
+  }
+}
+
+std::uint64_t ReferenceHits::hit_count() const {
+  return static_cast<std::uint64_t>(
+      std::ranges::count_if(hits_, [](const auto& hit) { return hit.has_value(); }));
 }
 
 }  // namespace beambench::verify

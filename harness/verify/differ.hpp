@@ -14,7 +14,6 @@
 #include "accel/embree/oracle.hpp"
 #include "harness/rays/answers.hpp"
 #include "harness/rays/question.hpp"
-#include "harness/verify/replay_command.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::verify {
@@ -110,13 +109,5 @@ class ReferenceHits {
 /// for.
 DiffReport judge(const ReferenceHits& reference, const rays::Answers& answers,
                  accel::Conformance conformance, std::span<DiffClass> classes = {});
-
-/// One mismatch as text: its place in the question, ray, both answers, the exact one, and why it
-/// was classed so.
-std::string describe(const scenes::Scene& scene, const rays::Question& question,
-                     const Mismatch& mismatch);
-/// The same, and the command that shows this ray's way (`ReplayCommand`).
-std::string describe(const scenes::Scene& scene, const rays::Question& question,
-                     const Mismatch& mismatch, const ReplayCommand& replay);
 
 }  // namespace beambench::verify

@@ -1,14 +1,11 @@
 // The conditions that timed code runs under.
 
-#include "harness/bench/conditions.hpp"
-
 #include <limits>
 
 #include <gtest/gtest.h>
 #include <sched.h>
 
-#include "harness/bench/noise.hpp"
-#include "harness/bench/phase_timer.hpp"
+#include "harness/bench/measurement.hpp"
 
 namespace beambench::bench {
 namespace {

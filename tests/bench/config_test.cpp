@@ -9,11 +9,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/bench/benchmark_flags.hpp"
-#include "harness/bench/clock_rate.hpp"
 #include "harness/bench/google_benchmark.hpp"
+#include "harness/bench/measurement.hpp"
 #include "harness/bench/plan.hpp"
-#include "harness/bench/stopping.hpp"
+#include "harness/bench/turns.hpp"
 #include "tests/scenes/thrown_message.hpp"
 #include "tests/temporary_folder.hpp"
 

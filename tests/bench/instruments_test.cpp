@@ -9,8 +9,7 @@
 #include <unistd.h>
 
 #include "harness/bench/hardware_counters.hpp"
-#include "harness/bench/heap.hpp"
-#include "harness/bench/noise.hpp"
+#include "harness/bench/measurement.hpp"
 #include "harness/bench/overhead.hpp"
 #include "tests/scenes/thrown_message.hpp"
 

@@ -13,7 +13,7 @@
 #include "harness/bench/record/cell_record.hpp"
 #include "harness/bench/record/csv.hpp"
 #include "harness/bench/record/machine.hpp"
-#include "harness/bench/record/preflight.hpp"
+#include "harness/bench/record/manifest.hpp"
 #include "harness/bench/record/robust_statistics.hpp"
 #include "harness/bench/record/run_folder.hpp"
 #include "harness/rays/fingerprint.hpp"

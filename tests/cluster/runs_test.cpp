@@ -15,7 +15,7 @@
 #include "harness/cluster/sample_results.hpp"
 #include "harness/cluster/task_sources.hpp"
 #include "harness/rays/fingerprint.hpp"
-#include "harness/render/preview.hpp"
+#include "harness/render/shading.hpp"
 #include "harness/render/whitted_picture.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"

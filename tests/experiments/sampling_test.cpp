@@ -7,7 +7,7 @@
 #include "harness/experiments/compare_sampling.hpp"
 #include "harness/experiments/image_space_sampling.hpp"
 #include "harness/experiments/sparse_image.hpp"
-#include "harness/render/picture/image_error.hpp"
+#include "harness/render/picture/image.hpp"
 #include "harness/render/shading.hpp"
 #include "scenes/catalogue.hpp"
 

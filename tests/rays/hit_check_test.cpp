@@ -14,7 +14,7 @@
 #include "accel/exhaustive/exhaustive.hpp"
 #include "harness/rays/normal.hpp"
 #include "harness/rays/secondary_rays.hpp"
-#include "harness/render/recorded_picture.hpp"
+#include "harness/render/verified_picture.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/drawn.hpp"
 

@@ -15,7 +15,7 @@
 #include "harness/rays/ray_set_file.hpp"
 #include "harness/rays/secondary_rays.hpp"
 #include "harness/rays/share_warning.hpp"
-#include "harness/verify/differ.hpp"
+#include "harness/verify/describe.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/scene_builder.hpp"

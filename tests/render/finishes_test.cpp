@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "harness/render/noise.hpp"
+#include "harness/render/texture.hpp"
 #include "tests/drawn.hpp"
 
 namespace beambench::render {

@@ -9,7 +9,7 @@
 #include <glm/trigonometric.hpp>
 #include <gtest/gtest.h>
 
-#include "harness/render/spd_counts.hpp"
+#include "harness/render/ray_census.hpp"
 #include "scenes/catalogue.hpp"
 #include "tests/drawn.hpp"
 

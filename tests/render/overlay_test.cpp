@@ -1,5 +1,7 @@
 // Overlays: lines lie where they should, boxes hide what is behind them, legends count.
 
+#include "harness/render/picture/overlay.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,10 +13,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "accel/core/registry.hpp"
-#include "harness/render/picture/convex_fill.hpp"
-#include "harness/render/picture/line.hpp"
-#include "harness/render/picture/overlay_beams.hpp"
-#include "harness/render/picture/overlay_cells.hpp"
+#include "harness/render/picture/raster.hpp"
 #include "scenes/catalogue.hpp"
 
 namespace beambench::render {

@@ -16,11 +16,10 @@
 #include <rapidcheck/gtest.h>
 
 #include "harness/render/picture/category_map.hpp"
-#include "harness/render/picture/color_map.hpp"
-#include "harness/render/picture/exposure.hpp"
+#include "harness/render/picture/color.hpp"
 #include "harness/render/picture/heat_map.hpp"
+#include "harness/render/picture/image.hpp"
 #include "harness/render/picture/image_file.hpp"
-#include "harness/render/picture/srgb.hpp"
 #include "harness/render/picture/text.hpp"
 #include "scenes/core/error.hpp"
 #include "tests/temporary_folder.hpp"

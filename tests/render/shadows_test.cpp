@@ -1,10 +1,11 @@
 // All ways of finding shadows find the same ones.
 
+#include "harness/render/shadows.hpp"
+
 #include <array>
 
 #include <gtest/gtest.h>
 
-#include "harness/render/light_buffer.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "tests/drawn.hpp"

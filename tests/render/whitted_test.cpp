@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <tbb/global_control.h>
 
-#include "harness/render/refracted.hpp"
+#include "harness/render/shading.hpp"
 #include "scenes/catalogue.hpp"
 #include "tests/drawn.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "accel/core/traversal_accelerator.hpp"
 #include "harness/bench/task.hpp"
-#include "harness/render/judged_picture.hpp"
+#include "harness/render/verified_picture.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "tests/drawn.hpp"

@@ -1,7 +1,5 @@
 // The differ: right structures pass, planted faults do not.
 
-#include "harness/verify/differ.hpp"
-
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -11,8 +9,9 @@
 #include <gtest/gtest.h>
 
 #include "accel/core/registry.hpp"
-#include "harness/verify/classify.hpp"
+#include "harness/verify/describe.hpp"
 #include "harness/verify/exact_search.hpp"
+#include "harness/verify/verify_ray.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/embree_modes.hpp"

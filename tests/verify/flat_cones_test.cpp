@@ -10,7 +10,7 @@
 #include "accel/core/registry.hpp"
 #include "harness/rays/question.hpp"
 #include "harness/rays/ray_choice.hpp"
-#include "harness/verify/differ.hpp"
+#include "harness/verify/describe.hpp"
 #include "harness/verify/exact_search.hpp"
 #include "scenes/scene_builder.hpp"
 

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
-#include "harness/verify/differ.hpp"
-#include "harness/verify/judge_ray.hpp"
+#include "harness/verify/describe.hpp"
+#include "harness/verify/verify_ray.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/shell_word.hpp"
 #include "tests/temporary_folder.hpp"

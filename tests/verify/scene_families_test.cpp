@@ -20,9 +20,10 @@
 
 #include "accel/core/registry.hpp"
 #include "harness/rays/answers.hpp"
-#include "harness/render/judged_picture.hpp"
-#include "harness/verify/classify.hpp"
+#include "harness/render/verified_picture.hpp"
+#include "harness/verify/describe.hpp"
 #include "harness/verify/selftest/subject.hpp"
+#include "harness/verify/verify_ray.hpp"
 #include "scenes/core/error.hpp"
 #include "tests/only_target.hpp"
 

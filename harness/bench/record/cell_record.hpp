@@ -1,20 +1,63 @@
 #pragma once
-// The record of one cell: one structure asked with one set of rays.
+// The record of one cell: one structure traced with one set of rays.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "accel/core/statistics.hpp"
 #include "harness/bench/record/csv.hpp"
-#include "harness/bench/record/hardware_counts.hpp"
-#include "harness/bench/record/query_path.hpp"
 #include "harness/rays/resolution.hpp"
 #include "harness/verify/differ.hpp"
 
 namespace beambench::bench {
+
+enum class QueryPath {
+  kImageSingle,  ///< an image, its rays made one by one
+  kImageSimd,    ///< an image, its rays made and its hits stored by SIMD
+  kImageOwn,     ///< an image, by the structure's own samples: no share is the harness's
+  kList,         ///< a list of rays: each is read, each answer is written
+  kPicture       ///< a whole picture, which is shaded
+};
+
+/// As records name them: "image-single", ...
+inline constexpr std::array<std::string_view, 5> kQueryPathNames{"image-single", "image-simd",
+                                                                 "image-own", "list", "picture"};
+
+constexpr std::string_view to_string(QueryPath path) {
+  return kQueryPathNames[static_cast<std::size_t>(path)];
+}
+
+/// How a structure that gets the rays of images so is asked for one.
+constexpr QueryPath image_path(accel::ImageRays rays) {
+  switch (rays) {
+    case accel::ImageRays::kSimd:
+      return QueryPath::kImageSimd;
+    case accel::ImageRays::kOwn:
+      return QueryPath::kImageOwn;
+    case accel::ImageRays::kSingle:
+      break;
+  }
+  return QueryPath::kImageSingle;
+}
+
+/// The harness's own share of a trace by a path: what it takes where answers cost nothing.
+struct HarnessShare {
+  QueryPath path;
+  double ms;
+};
+
+/// The events, as columns name them behind the phase: `trace_instructions`.
+inline constexpr std::array<std::string_view, 3> kHardwareEvents{"instructions", "cycles",
+                                                                 "cache_misses"};
+
+/// One count for each event; nothing for one that this machine does not count.
+using HardwareCounts = std::array<std::optional<std::uint64_t>, kHardwareEvents.size()>;
 
 /// The version of the columns of results.csv, their first one. Counted up when a column changes its
 /// name, meaning or unit or goes away, since a reader of the old ones would err; a new column alone
@@ -122,7 +165,7 @@ struct CellRecord {
   CountedWork work;
   /// Absent where the structure could not be built.
   std::optional<accel::Statistics> statistics;
-  /// By how much the heap grew when it was built (harness/bench/heap.hpp).
+  /// By how much the heap grew when it was built (`heap_in_use`).
   std::optional<std::uint64_t> allocated_bytes;
   /// Absent where the structure could not be built.
   std::optional<HarnessShare> harness;

@@ -1,6 +1,7 @@
 #pragma once
 // The manifest of a run: what was measured, by what, where, and what could not be controlled.
 
+#include <chrono>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ struct MeasurementFacts {
   unsigned control_word;  ///< MXCSR in the timed code
   double warm_up_seconds;
   std::string simd_target;       ///< Highway's best on this machine, what our own SIMD runs on
-  std::optional<double> noise;   ///< of equal work in the warm-up (harness/bench/noise.hpp)
+  std::optional<double> noise;   ///< of equal work in the warm-up (`noise`)
   std::string hardware_problem;  ///< why the processor's counters are not read; empty: they are
 };
 
@@ -51,5 +52,18 @@ struct Manifest {
 void go_on(Manifest& now, const nlohmann::ordered_json& before);
 
 nlohmann::ordered_json to_json(const Manifest& manifest);
+
+/// A sentence where equal work took too unequal times before the run (`noise`).
+std::optional<std::string> noise_warning(const std::optional<double>& noise);
+
+/// Two lines on the machine, and a warning in plain words for each thing that could not be
+/// controlled.
+std::vector<std::string> preflight(const Manifest& manifest);
+
+/// The manifest of a new run of the sweep of that name, whose timed code is pinned to `core` (-1:
+/// to none) and runs on so many threads, after a warm-up: asks this program, the machine and Embree
+/// for the rest.
+Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes, int core,
+                        int threads, std::chrono::duration<double> warm_up);
 
 }  // namespace beambench::bench

@@ -1,5 +1,7 @@
 #include "harness/bench/record/run_folder.hpp"
 
+#include <map>
+#include <string>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -8,6 +10,7 @@
 #include "scenes/core/error.hpp"
 #include "scenes/core/input_file.hpp"
 #include "scenes/core/pending_file.hpp"
+#include "scenes/core/shell_word.hpp"
 
 namespace beambench::bench {
 namespace {
@@ -53,6 +56,75 @@ bool holds_run(const fs::path& path) {
   const fs::path cells = path / kCells;
   return fs::exists(path / kManifest) || fs::exists(path / kResults) ||
          (fs::exists(cells) && !fs::is_empty(cells));
+}
+
+using Json = nlohmann::ordered_json;
+
+[[noreturn]] void refuse(const RunFolder& folder, const std::string& reason) {
+  throw InputError(fmt::format("cannot resume '{}': {}; begin a new run with -o",
+                               folder.path().string(), reason));
+}
+
+void require_same_config(const RunFolder& folder, const nlohmann::json& config) {
+  const nlohmann::json then = folder.read_json("config.json");
+  const nlohmann::json changes = nlohmann::json::diff(then, config);
+  if (changes.empty()) return;
+  refuse(folder, fmt::format("the configuration has changed at {}",
+                             changes.front().at("path").get<std::string>()));
+}
+
+/// A member of a manifest as text, whatever it is; empty where there is none.
+std::string member(const Json& manifest, const char* pointer) {
+  const Json::json_pointer place(pointer);
+  return manifest.contains(place) ? manifest.at(place).dump() : "";
+}
+
+void require_same_program(const RunFolder& folder, const Json& then, const Json& now) {
+  const auto differs = [&](const char* pointer) {
+    return member(then, pointer) != member(now, pointer);
+  };
+  if (differs("/program/commit")) {
+    refuse(folder, fmt::format("it was begun by beambench of commit {}, this one is of {}",
+                               member(then, "/program/commit"), member(now, "/program/commit")));
+  }
+  if (differs("/program/executable_hash")) {
+    refuse(folder,
+           "it was begun by another build of beambench, from changed sources or with other "
+           "options");
+  }
+  if (differs("/machine/id")) refuse(folder, "it was begun on another machine");
+}
+
+/// The plug-ins of a manifest: hash by file.
+std::map<std::string, std::string> plugins_of(const Json& manifest) {
+  std::map<std::string, std::string> plugins;
+  for (const Json& plugin : manifest.value("plugins", Json::array())) {
+    plugins[plugin.at("file").get<std::string>()] = plugin.at("hash").get<std::string>();
+  }
+  return plugins;
+}
+
+void require_same_plugins(const RunFolder& folder, const Json& then, const Json& now) {
+  const auto plugins = plugins_of(now);
+  for (const auto& [file, hash] : plugins_of(then)) {
+    const auto found = plugins.find(file);
+    if (found == plugins.end()) {
+      refuse(folder, fmt::format("it was begun with --plugin {}", shell_quoted(file)));
+    }
+    if (found->second != hash) {
+      refuse(folder, fmt::format("the plug-in {} has changed since", file));
+    }
+  }
+}
+
+void require_same_scenes(const RunFolder& folder, const Json& then, const Json& now) {
+  for (const Json& scene : now.at("scenes")) {
+    for (const Json& earlier : then.value("scenes", Json::array())) {
+      if (earlier.at("name") != scene.at("name")) continue;
+      if (earlier.at("hash") == scene.at("hash")) continue;
+      refuse(folder, fmt::format("the scene {} has changed since", scene.at("name").dump()));
+    }
+  }
 }
 
 }  // namespace
@@ -133,6 +205,14 @@ void RunFolder::write_results() const {
   std::vector<Row> rows;
   for (const auto& [index, cell] : cells_) rows.push_back(cell.at("row"));
   write_text(kResults, csv_table(rows));
+}
+
+void require_same_run(const RunFolder& folder, const nlohmann::json& config, const Json& manifest) {
+  const Json then = folder.read_json("manifest.json");
+  require_same_config(folder, config);
+  require_same_program(folder, then, manifest);
+  require_same_plugins(folder, then, manifest);
+  require_same_scenes(folder, then, manifest);
 }
 
 }  // namespace beambench::bench

@@ -54,4 +54,10 @@ class RunFolder {
 /// Throws InputError when a folder holds no run that could go on.
 void require_run(const std::filesystem::path& folder);
 
+/// Throws InputError when the run in `folder` was made with another configuration, by another
+/// program or machine, with other plug-ins or with a scene that has changed since: its cells and
+/// new ones would not compare. The reason is named.
+void require_same_run(const RunFolder& folder, const nlohmann::json& config,
+                      const nlohmann::ordered_json& manifest);
+
 }  // namespace beambench::bench

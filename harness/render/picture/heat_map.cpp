@@ -6,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/render/picture/color_map.hpp"
-#include "harness/render/picture/legend.hpp"
+#include "harness/render/picture/color.hpp"
 #include "harness/render/picture/text.hpp"
 
 namespace beambench::render {

@@ -34,4 +34,18 @@ class Image {
   std::vector<glm::vec3> pixels_;
 };
 
+/// Multiplies linear light by two to the power of `stops`, as a photographer counts.
+void expose(Image& image, double stops);
+
+struct Overexposure {
+  double share = 0.0;   ///< of the pixels, those with a component above 1: a display shows it as 1
+  double remedy = 0.0;  ///< stops, in tenths, that leave no more than one pixel of a hundred so
+};
+/// The remedy is 0 where nothing has to be done.
+Overexposure overexposure(const Image& image);
+
+/// The root of the mean squared difference of two pictures of one size, over pixels and channels,
+/// in display values from 0 to 255 before they are rounded.
+double root_mean_square_error(const Image& picture, const Image& reference);
+
 }  // namespace beambench::render

@@ -11,7 +11,7 @@
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
 
-#include "harness/render/picture/srgb.hpp"
+#include "harness/render/picture/color.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/pending_file.hpp"
 

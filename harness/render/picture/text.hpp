@@ -20,4 +20,9 @@ int text_width(std::string_view text, int scale);
 void draw_text(Image& image, int x, int y, std::string_view text, int scale,
                const glm::vec3& color);
 
+/// Linear light of a legend's ground and text.
+inline constexpr glm::vec3 kPaper(0.012F);
+inline constexpr glm::vec3 kInk(0.82F);
+inline constexpr int kLegendMargin = 8;  ///< in dots of the text
+
 }  // namespace beambench::render

@@ -1,5 +1,3 @@
-#include "harness/verify/selftest/answer_checks.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,10 +6,10 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "harness/verify/selftest/awkward_scenes.hpp"
+#include "harness/verify/selftest/checks.hpp"
 #include "harness/verify/selftest/hit_comparison.hpp"
-#include "harness/verify/selftest/random_scene.hpp"
 #include "harness/verify/selftest/scene_families.hpp"
+#include "harness/verify/selftest/test_scenes.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 

@@ -1,5 +1,3 @@
-#include "harness/verify/selftest/behavior_checks.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,8 +9,9 @@
 #include <fmt/format.h>
 
 #include "harness/rays/answers.hpp"
+#include "harness/verify/selftest/checks.hpp"
 #include "harness/verify/selftest/hit_comparison.hpp"
-#include "harness/verify/selftest/random_scene.hpp"
+#include "harness/verify/selftest/test_scenes.hpp"
 
 namespace beambench::verify {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/verify/differ.hpp"
+#include "harness/verify/describe.hpp"
 
 namespace beambench::verify {
 namespace {

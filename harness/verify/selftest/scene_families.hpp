@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "harness/verify/selftest/primitive_kinds.hpp"
+#include "harness/verify/selftest/subject.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::verify {

@@ -3,8 +3,7 @@
 #include <array>
 #include <exception>
 
-#include "harness/verify/selftest/answer_checks.hpp"
-#include "harness/verify/selftest/behavior_checks.hpp"
+#include "harness/verify/selftest/checks.hpp"
 
 namespace beambench::verify {
 

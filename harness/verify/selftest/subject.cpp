@@ -1,14 +1,29 @@
 #include "harness/verify/selftest/subject.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "harness/verify/selftest/test_scenes.hpp"
+#include "scenes/core/error.hpp"
+
 namespace beambench::verify {
 namespace {
+
+/// Whatever else goes wrong is for the checks to tell.
+bool refuses(const accel::StructureChoice& choice, const scenes::Scene& scene) {
+  try {
+    choice.build(scene);
+  } catch (const InputError&) {
+    return true;
+  } catch (const std::exception&) {
+  }
+  return false;
+}
 
 /// Caps are numbers of things; to reach one takes another test than this.
 constexpr double kSmallDefault = 1000.0;
@@ -46,6 +61,42 @@ std::string random_value(const ParameterInfo& parameter, Random& random) {
 }
 
 }  // namespace
+
+bool PrimitiveKinds::include(scenes::PrimitiveKind kind) const {
+  switch (kind) {
+    case scenes::PrimitiveKind::kSphere:
+      return spheres;
+    case scenes::PrimitiveKind::kCone:
+      return cones;
+    case scenes::PrimitiveKind::kPolygon:
+      break;
+  }
+  return polygons;
+}
+
+bool PrimitiveKinds::include(const scenes::Scene& scene) const {
+  return (spheres || scene.spheres.empty()) && (cones || scene.cones.empty()) &&
+         (polygons || scene.polygons.empty());
+}
+
+std::vector<std::string> PrimitiveKinds::names() const {
+  std::vector<std::string> names;
+  if (spheres) names.emplace_back("spheres");
+  if (cones) names.emplace_back("cones");
+  if (polygons) names.emplace_back("polygons");
+  return names;
+}
+
+PrimitiveKinds kinds_taken(const accel::StructureChoice& choice) {
+  PrimitiveKinds kinds;
+  for (const scenes::Scene& scene : smallest_scenes()) {
+    if (scene.primitives.empty() || !refuses(choice, scene)) continue;
+    if (!scene.spheres.empty()) kinds.spheres = false;
+    if (!scene.cones.empty()) kinds.cones = false;
+    if (!scene.polygons.empty()) kinds.polygons = false;
+  }
+  return kinds.none() ? PrimitiveKinds{} : kinds;
+}
 
 Parameters random_parameters(const accel::StructureInfo& info, Random& random) {
   std::vector<std::pair<std::string, std::string>> given;

@@ -1,13 +1,36 @@
 #pragma once
-// The structure that a self-test is about.
+// The structure that a self-test is about, and the primitives that it takes.
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "accel/core/registry.hpp"
-#include "harness/verify/selftest/primitive_kinds.hpp"
 #include "scenes/core/random.hpp"
+#include "scenes/scene.hpp"
 
 namespace beambench::verify {
+
+/// Some of the kinds of primitives.
+struct PrimitiveKinds {
+  bool spheres = true;
+  bool cones = true;
+  bool polygons = true;
+
+  bool all() const { return spheres && cones && polygons; }
+  bool none() const { return !spheres && !cones && !polygons; }
+  bool include(scenes::PrimitiveKind kind) const;
+  /// Is the scene made of nothing else?
+  bool include(const scenes::Scene& scene) const;
+  /// `spheres`, `cones`, `polygons`: those of them.
+  std::vector<std::string> names() const;
+  /// The others.
+  PrimitiveKinds without() const { return {!spheres, !cones, !polygons}; }
+};
+
+/// The kinds that a structure takes: those over a single primitive of which it is not refused by an
+/// InputError. All of them where it refuses each, for then its kinds are not what it refuses.
+PrimitiveKinds kinds_taken(const accel::StructureChoice& choice);
 
 /// Values near the lower end of each parameter's range, where structures are forced to their
 /// special cases; defaults for reals and for large caps.

@@ -1,0 +1,55 @@
+#include "harness/render/picture/image.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "harness/render/picture/color.hpp"
+
+namespace beambench::render {
+namespace {
+
+/// The component that a display clips first.
+float brightest(const glm::vec3& color) { return std::max({color.x, color.y, color.z}); }
+
+}  // namespace
+
+void expose(Image& image, double stops) {
+  const auto factor = static_cast<float>(std::exp2(stops));
+  for (int y = 0; y < image.height(); ++y) {
+    for (int x = 0; x < image.width(); ++x) image.at(x, y) *= factor;
+  }
+}
+
+Overexposure overexposure(const Image& image) {
+  std::vector<float> values;
+  values.reserve(image.pixels().size());
+  for (const glm::vec3& pixel : image.pixels()) values.push_back(brightest(pixel));
+  const auto too_bright =
+      std::count_if(values.begin(), values.end(), [](float value) { return value > 1.0F; });
+  const auto hundredth = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 100);
+  std::nth_element(values.begin(), hundredth, values.end(), std::greater<>());
+  Overexposure found;
+  found.share = static_cast<double>(too_bright) / static_cast<double>(values.size());
+  if (*hundredth > 1.0F) found.remedy = std::floor(-10.0 * std::log2(double{*hundredth})) / 10.0;
+  return found;
+}
+
+double root_mean_square_error(const Image& picture, const Image& reference) {
+  double sum = 0.0;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) {
+      const glm::dvec3 difference = glm::dvec3(srgb_from_linear(picture.at(x, y))) -
+                                    glm::dvec3(srgb_from_linear(reference.at(x, y)));
+      sum += glm::dot(difference, difference);
+    }
+  }
+  return 255.0 * std::sqrt(sum / (3.0 * picture.width() * picture.height()));
+}
+
+}  // namespace beambench::render

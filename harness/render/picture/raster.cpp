@@ -1,0 +1,54 @@
+#include "harness/render/picture/raster.hpp"
+
+#include <array>
+
+#include <glm/common.hpp>
+
+namespace beambench::render {
+
+std::optional<std::pair<double, double>> part_on_image(const PixelSegment& line, int width,
+                                                       int height, double margin) {
+  const glm::dvec2 way = line.to - line.from;
+  const std::array<double, 2> sizes{static_cast<double>(width), static_cast<double>(height)};
+  double first = 0.0;
+  double last = 1.0;
+  for (int axis = 0; axis < 2; ++axis) {
+    const double low = -margin - line.from[axis];
+    const double high = sizes[static_cast<std::size_t>(axis)] + margin - line.from[axis];
+    if (way[axis] == 0.0) {
+      if (low > 0.0 || high < 0.0) return std::nullopt;
+      continue;
+    }
+    const double a = low / way[axis];
+    const double b = high / way[axis];
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  if (!(first <= last)) return std::nullopt;
+  return std::pair(first, last);
+}
+
+float line_strength(double pixels) {
+  constexpr double kClear = 8.0;
+  constexpr double kFaintest = 0.35;
+  return static_cast<float>(std::clamp(pixels / kClear, kFaintest, 1.0));
+}
+
+void LineLayer::add(const PixelSegment& line, double thickness, float strength) {
+  for_each_pixel(line, thickness, width_, height_,
+                 [&](int x, int y, float coverage, double) { add(x, y, coverage, strength); });
+}
+
+void LineLayer::draw_on(Image& image, const Image& ground, const glm::vec3& color) const {
+  std::size_t index = 0;
+  for (int y = 0; y < height_; ++y) {
+    for (int x = 0; x < width_; ++x) {
+      const Pixel& line = pixels_[index++];
+      const glm::vec3 cleared = glm::mix(image.at(x, y), ground.at(x, y), line.coverage);
+      // The line's own share of what it has cleared, so that full strength is mere covering.
+      image.at(x, y) = cleared + line.strength * (color - ground.at(x, y));
+    }
+  }
+}
+
+}  // namespace beambench::render

@@ -1,0 +1,36 @@
+#pragma once
+// One mismatch as text, and the command that shows the ray again.
+
+#include <string>
+
+#include "accel/core/registry.hpp"
+#include "harness/verify/differ.hpp"
+
+namespace beambench::verify {
+
+/// `beambench trace SCENE --accel A --pixel X,Y ...` for the rays of an image,
+/// `... --rays KIND --ray N ...` for those of a list, to be pasted into a shell. Scenes from files
+/// are named by their path as it was typed, and so are plug-ins.
+class ReplayCommand {
+ public:
+  /// `image` is what the rays come from, be they primary or not.
+  ReplayCommand(const scenes::Scene& scene, const rays::ImageOfRays& image,
+                const accel::StructureChoice& structure, const rays::Question& question);
+
+  std::string of(std::size_t index) const;
+
+ private:
+  rays::Question question_;
+  std::string subject_;  ///< scene and structure
+  std::string image_;    ///< resolution, samples, camera
+};
+
+/// One mismatch as text: its place in the question, ray, both answers, the exact one, and why it
+/// was classed so.
+std::string describe(const scenes::Scene& scene, const rays::Question& question,
+                     const Mismatch& mismatch);
+/// The same, and the command that shows this ray's way (`ReplayCommand`).
+std::string describe(const scenes::Scene& scene, const rays::Question& question,
+                     const Mismatch& mismatch, const ReplayCommand& replay);
+
+}  // namespace beambench::verify
