@@ -68,9 +68,9 @@ def test_help_is_given(script: str, repository: Path) -> None:
     ("arguments", "message"),
     [
         (["HEAD"], "two commits are needed"),
-        (["HEAD", "no-such-commit"], "'no-such-commit' is no commit"),
-        (["HEAD", "HEAD", "--turns", "4"], "--turns must be an even number from 6 on"),
-        (["HEAD", "HEAD", "--turns", "13"], "--turns must be an even number from 6 on"),
+        (["HEAD", "no-such-commit"], "'no-such-commit' is not a commit"),
+        (["HEAD", "HEAD", "--turns", "4"], "--turns must be an even number, 6 or more"),
+        (["HEAD", "HEAD", "--turns", "13"], "--turns must be an even number, 6 or more"),
         (["HEAD", "HEAD", "--sweep", "no/such"], "no/such is not a file"),
         (["HEAD", "HEAD", "--fast"], "unknown argument '--fast'"),
     ],

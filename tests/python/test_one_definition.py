@@ -14,7 +14,7 @@ from pathlib import Path
 REPOSITORY = Path(__file__).resolve().parents[2]
 FOLDERS = ("accel", "harness", "scenes", "tests")
 # Definitions of which the preprocessor takes one.
-ALTERNATIVES = {"beambench::embree::Context": {"accel/embree/api3.hpp", "accel/embree/api4.hpp"}}
+ALTERNATIVES = {"beambench::accel::embree::Context": {"accel/embree/api3.hpp", "accel/embree/api4.hpp"}}
 
 NOT_CODE = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"(?P<mark>[^(\s]*)\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"'
@@ -77,7 +77,7 @@ def test_every_type_has_a_name_of_its_own() -> None:
 
 def test_the_scan_finds_the_types_of_the_program() -> None:
     sources = sources_of_the_program()
-    assert "beambench::Scene" in defined_types(sources["scenes/scene.hpp"])
+    assert "beambench::scenes::Scene" in defined_types(sources["scenes/scene.hpp"])
     assert "beambench::Accelerator" in defined_types(sources["accel/core/accelerator.hpp"])
     assert len({name for source in sources.values() for name in defined_types(source)}) > 300
 
