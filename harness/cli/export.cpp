@@ -19,7 +19,7 @@ namespace {
 struct Request {
   std::string scene;
   std::string file;
-  scenes::nff::NffOptions options;
+  scenes::ReadOptions options;
 };
 
 void export_scene(const Request& request) {

@@ -10,14 +10,13 @@
 #include <glm/geometric.hpp>
 
 #include "harness/rays/resolution.hpp"
-#include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/find_camera.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::cli {
 
-scenes::Scene open_scene(std::string_view spec, scenes::nff::NffOptions options) {
+scenes::Scene open_scene(std::string_view spec, scenes::ReadOptions options) {
   std::vector<std::string> warnings;
   scenes::Scene scene = scenes::load_scene(spec, &warnings, options);
   for (const std::string& warning : warnings) fmt::print(stderr, "beambench: {}\n", warning);

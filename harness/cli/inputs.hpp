@@ -10,14 +10,14 @@
 
 #include "accel/core/registry.hpp"
 #include "harness/rays/question.hpp"
-#include "scenes/formats/nff/nff_reader.hpp"
+#include "scenes/catalogue.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::cli {
 
 /// Loads a scene; what its file's reader noticed goes to stderr, or where the options are strict,
 /// is refused. Throws as load_scene.
-scenes::Scene open_scene(std::string_view spec, scenes::nff::NffOptions options = {});
+scenes::Scene open_scene(std::string_view spec, scenes::ReadOptions options = {});
 
 /// What SCENE may be, for the help of every command.
 inline constexpr const char* kSceneHelp =

@@ -113,7 +113,7 @@ struct Request {
   bool csv = false;
   bool growth = false;
   std::size_t growth_limit = 1000000;
-  scenes::nff::NffOptions options;
+  scenes::ReadOptions options;
 };
 
 void show(const Request& request) {

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "scenes/core/plugin_error.hpp"
-#include "scenes/formats/mesh/mesh_format.hpp"
 
 namespace beambench::plugin {
 namespace {
@@ -90,9 +89,8 @@ void check_reader(const scenes::SceneReader& reader, std::set<std::string>& endi
                      });
   require(sound, "reader of files", ending,
           "whose ending is none: a dot, then small letters and digits");
-  const bool free = ending != ".nff" && scenes::mesh::mesh_ending("file" + ending).empty();
-  require(free && endings.insert(ending).second, "reader of files", ending,
-          "but such files are read already");
+  require(!scenes::is_scene_file("file" + ending) && endings.insert(ending).second,
+          "reader of files", ending, "but such files are read already");
   require(!reader.summary.empty(), "reader of files", ending, "without a summary");
   require(static_cast<bool>(reader.read), "reader of files", ending, "without a function to read");
 }
@@ -118,7 +116,6 @@ void check_contents(const PluginContents& contents) {
     check_parameters("scene", info.name, info.parameters);
   }
   std::set<std::string> endings;
-  for (const scenes::SceneReader& reader : scenes::scene_readers()) endings.insert(reader.ending);
   for (const scenes::SceneReader& reader : contents.readers) check_reader(reader, endings);
 }
 

@@ -19,10 +19,10 @@
 #include "harness/plugin/foreign_call.hpp"
 #include "harness/plugin/guarded_structure.hpp"
 #include "harness/rays/fingerprint.hpp"
+#include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/plugin_error.hpp"
 #include "scenes/core/shell_word.hpp"
-#include "scenes/extend_catalogue.hpp"
 
 namespace beambench::plugin {
 namespace {
@@ -214,7 +214,7 @@ void load_plugin(const std::string& file, Activity& activity) {
   adopt(contents.scenes, file, activity);
   adopt(contents.readers, file, activity);
   accel::extend_registry(std::move(contents.structures));
-  scenes::extend_catalogue(std::move(contents.scenes), std::move(contents.readers));
+  scenes::register_plugin_scenes(std::move(contents.scenes), std::move(contents.readers));
 }
 
 std::span<const LoadedPlugin> loaded_plugins() { return all_loaded(); }

@@ -370,7 +370,6 @@ TEST(MeshFormat, IsToldByTheEnding) {
   EXPECT_EQ(mesh::mesh_ending("scene.nff"), "");
   EXPECT_EQ(mesh::mesh_ending("a.obj/file"), "");
   EXPECT_EQ(mesh::mesh_ending("obj"), "");
-  EXPECT_EQ(mesh::mesh_stem("dragon.ply.gz"), "dragon");
 }
 
 TEST(MeshCodec, GivesBackWhatItGot) {

@@ -42,8 +42,6 @@ bool contains(const List& list, std::string_view word) {
 
 }  // namespace
 
-std::span<const std::string_view> mesh_endings() { return kEndings; }
-
 bool is_gzipped(std::string_view file_name) { return lower_case(file_name).ends_with(kGzip); }
 
 std::string mesh_ending(std::string_view file_name) {
@@ -51,17 +49,14 @@ std::string mesh_ending(std::string_view file_name) {
   return contains(kEndings, ending) ? ending : std::string();
 }
 
-std::string mesh_stem(std::string_view file_name) {
-  if (is_gzipped(file_name)) file_name.remove_suffix(kGzip.size());
-  return std::string(file_name.substr(0, file_name.rfind('.')));
+bool is_foreign_model(std::string_view path) {
+  return path.find('/') != std::string_view::npos && contains(kForeign, last_ending(path));
 }
 
-void refuse_foreign_format(std::string_view file_name) {
-  const std::string ending = last_ending(file_name);
-  if (!contains(kForeign, ending)) return;
+void refuse_foreign_model(std::string_view path) {
   throw InputError(
       fmt::format("'{}': .{} files cannot be read; convert it to one of: {} (or write it as NFF)",
-                  file_name, ending, fmt::join(kEndings, ", ")));
+                  path, last_ending(path), fmt::join(kEndings, ", ")));
 }
 
 }  // namespace beambench::scenes::mesh

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/formats/mesh/cache_folder.hpp"
 #include "scenes/formats/mesh/fitted_cameras.hpp"
@@ -15,6 +16,7 @@
 #include "scenes/formats/mesh/mesh_cache.hpp"
 #include "scenes/formats/mesh/mesh_format.hpp"
 #include "scenes/formats/mesh/mesh_import.hpp"
+#include "scenes/formats/mesh/mesh_registry.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::mesh {
@@ -97,6 +99,27 @@ Scene load_mesh(const MeshRequest& request, std::vector<std::string>* warnings) 
     for (const std::string& note : notes) warnings->push_back(fmt::format("{}: {}", file, note));
   }
   return mesh_scene(imported.mesh, request.name, request.orientation);
+}
+
+void register_mesh(Catalogue& catalogue) {
+  using Warnings = std::vector<std::string>;
+  catalogue.add_format(
+      {[](std::string_view spec) { return spec.starts_with(kMeshPrefix); },
+       [](std::string_view spec, ReadOptions options, Warnings& warnings) {
+         const RegisteredMesh mesh = find_registered_mesh(spec.substr(kMeshPrefix.size()));
+         return load_mesh({mesh.path, std::string(spec), mesh.orientation, options.strict},
+                          &warnings);
+       }});
+  catalogue.add_format({[](std::string_view spec) { return !mesh_ending(spec).empty(); },
+                        [](std::string_view spec, ReadOptions options, Warnings& warnings) {
+                          return load_mesh({spec, std::string(spec),
+                                            usual_orientation(mesh_ending(spec)), options.strict},
+                                           &warnings);
+                        }});
+  // Its bytes would only be reported as a strange NFF file.
+  catalogue.add_format(
+      {is_foreign_model,
+       [](std::string_view spec, ReadOptions, Warnings&) -> Scene { refuse_foreign_model(spec); }});
 }
 
 }  // namespace beambench::scenes::mesh

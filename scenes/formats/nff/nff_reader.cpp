@@ -23,7 +23,7 @@ namespace {
 /// Reads one file, command by command, into a builder.
 class NffReader {
  public:
-  NffReader(std::string_view text, const std::string& file, NffOptions options)
+  NffReader(std::string_view text, const std::string& file, ReadOptions options)
       : tokens_(text, file), builder_(file), options_(options) {}
 
   NffResult read() &&;
@@ -78,7 +78,7 @@ class NffReader {
 
   NffTokens tokens_;
   SceneBuilder builder_;
-  NffOptions options_;
+  ReadOptions options_;
   NffNotes notes_;
   NffToken command_;          // the one being read
   bool any_command_ = false;  // what precedes the first command may be the header of an e-mail
@@ -308,11 +308,11 @@ void NffReader::read_corners(bool smooth) {
 
 }  // namespace
 
-NffResult parse_nff(std::string_view text, const std::string& file, NffOptions options) {
+NffResult parse_nff(std::string_view text, const std::string& file, ReadOptions options) {
   return NffReader(text, file, options).read();
 }
 
-NffResult read_nff(const std::filesystem::path& path, NffOptions options) {
+NffResult read_nff(const std::filesystem::path& path, ReadOptions options) {
   const std::string text = read_input(path);
   try {
     return parse_nff(text, path.string(), options);
@@ -321,6 +321,18 @@ NffResult read_nff(const std::filesystem::path& path, NffOptions options) {
         "{}: out of memory for its primitives; close other programs, or divide the scene",
         path.string()));
   }
+}
+
+void register_nff(Catalogue& catalogue) {
+  catalogue.add_format(
+      {[](std::string_view spec) {
+         return spec.find('/') != std::string_view::npos || spec.ends_with(".nff");
+       },
+       [](std::string_view spec, ReadOptions options, std::vector<std::string>& warnings) {
+         NffResult result = read_nff(spec, options);
+         warnings = std::move(result.warnings);
+         return std::move(result.scene);
+       }});
 }
 
 }  // namespace beambench::scenes::nff

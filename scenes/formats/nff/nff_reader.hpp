@@ -6,14 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/scene.hpp"
+#include "scenes/catalogue.hpp"
 
 namespace beambench::scenes::nff {
-
-/// How to read: strictly, whatever would give a warning is an error.
-struct NffOptions {
-  bool strict = false;
-};
 
 /// A scene read from NFF and what was noticed on the way (unknown words and degenerate primitives
 /// that were skipped, fields that were ignored, repaired polygons), each as `file:line: message`;
@@ -29,9 +24,9 @@ struct NffResult {
 /// text is malformed or truncated, when a number is not finite or beyond 1e9, when only degenerate
 /// primitives are in it, for Sense8 WTK files (first word `nff`), and for what the options do not
 /// allow.
-NffResult parse_nff(std::string_view text, const std::string& file, NffOptions options = {});
+NffResult parse_nff(std::string_view text, const std::string& file, ReadOptions options = {});
 
 /// Reads and parses a file; throws InputError also when it cannot be read whole (`read_input`).
-NffResult read_nff(const std::filesystem::path& path, NffOptions options = {});
+NffResult read_nff(const std::filesystem::path& path, ReadOptions options = {});
 
 }  // namespace beambench::scenes::nff

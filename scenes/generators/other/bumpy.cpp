@@ -1,11 +1,10 @@
-#include "scenes/generators/other/bumpy.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::generators {
@@ -133,13 +132,13 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo bumpy_scene() {
-  return {"bumpy",
-          "A closed bumpy sphere of 12 k^2 triangles (15,552 by default)",
-          {integer_parameter("triangles", 15680, 12, 20000000,
-                             "wanted number of triangles; 12 k^2 for the nearest k come")},
-          generate,
-          "triangles"};
+void register_bumpy(Catalogue& catalogue) {
+  catalogue.add({"bumpy",
+                 "A closed bumpy sphere of 12 k^2 triangles (15,552 by default)",
+                 {integer_parameter("triangles", 15680, 12, 20000000,
+                                    "wanted number of triangles; 12 k^2 for the nearest k come")},
+                 generate,
+                 "triangles"});
 }
 
 }  // namespace beambench::scenes::generators

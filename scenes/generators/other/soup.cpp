@@ -1,7 +1,6 @@
-#include "scenes/generators/other/soup.hpp"
-
 #include <array>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/core/random.hpp"
 #include "scenes/scene_builder.hpp"
 
@@ -43,14 +42,15 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo soup_scene() {
-  return {"soup",
-          "Small triangles at random in a cube; none shares a corner with another, and the more "
-          "there are the smaller they get",
-          {integer_parameter("seed", 1, 0, 0xFFFFFFFF, "seed of the random numbers"),
-           integer_parameter("triangles", 20000, 1, 20000000, "number of triangles")},
-          generate,
-          "triangles"};
+void register_soup(Catalogue& catalogue) {
+  catalogue.add(
+      {"soup",
+       "Small triangles at random in a cube; none shares a corner with another, and the more "
+       "there are the smaller they get",
+       {integer_parameter("seed", 1, 0, 0xFFFFFFFF, "seed of the random numbers"),
+        integer_parameter("triangles", 20000, 1, 20000000, "number of triangles")},
+       generate,
+       "triangles"});
 }
 
 }  // namespace beambench::scenes::generators

@@ -1,7 +1,6 @@
-#include "scenes/generators/other/tessellated_balls.hpp"
-
 #include <glm/ext/matrix_transform.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/generators/other/scattered_balls.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/parametric_surface.hpp"
@@ -29,15 +28,15 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo tessellated_balls_scene() {
-  return {"tessellated-balls",
-          "The balls of escena1 as closed meshes of triangles: 96,320 by default",
-          {integer_parameter("seed", 1999, 0, 0xFFFFFFFF, "seed of the random numbers"),
-           integer_parameter("slices", 16, 4, 256,
-                             "pieces around each ball; half as many from pole to pole"),
-           integer_parameter("spheres", 430, 1, 100000, "number of balls")},
-          generate,
-          "spheres"};
+void register_tessellated_balls(Catalogue& catalogue) {
+  catalogue.add({"tessellated-balls",
+                 "The balls of escena1 as closed meshes of triangles: 96,320 by default",
+                 {integer_parameter("seed", 1999, 0, 0xFFFFFFFF, "seed of the random numbers"),
+                  integer_parameter("slices", 16, 4, 256,
+                                    "pieces around each ball; half as many from pole to pole"),
+                  integer_parameter("spheres", 430, 1, 100000, "number of balls")},
+                 generate,
+                 "spheres"});
 }
 
 }  // namespace beambench::scenes::generators

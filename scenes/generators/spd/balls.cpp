@@ -1,7 +1,6 @@
-#include "scenes/generators/spd/balls.hpp"
-
 #include <array>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/generators/spd/sphereflake.hpp"
 #include "scenes/scene_builder.hpp"
 
@@ -37,12 +36,12 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo balls_scene() {
-  return {"balls",
-          "Sphereflake of (9^(n+1) - 1) / 8 spheres over one floor polygon (Haines's SPD)",
-          {integer_parameter("n", 4, 0, 8, "levels of smaller spheres around the first")},
-          generate,
-          "n"};
+void register_balls(Catalogue& catalogue) {
+  catalogue.add({"balls",
+                 "Sphereflake of (9^(n+1) - 1) / 8 spheres over one floor polygon (Haines's SPD)",
+                 {integer_parameter("n", 4, 0, 8, "levels of smaller spheres around the first")},
+                 generate,
+                 "n"});
 }
 
 }  // namespace beambench::scenes::generators

@@ -1,5 +1,3 @@
-#include "scenes/generators/spd/gears.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/core/portable_math.hpp"
 #include "scenes/generators/spd/spd_sky.hpp"
 #include "scenes/scene_builder.hpp"
@@ -120,12 +119,13 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo gears_scene() {
-  return {"gears",
-          "Meshing gears of 2 n^3 concave 144-gons and 144 n^3 quads over a square (Haines's SPD)",
-          {integer_parameter("n", 4, 1, 45, "gears along each axis")},
-          generate,
-          "n"};
+void register_gears(Catalogue& catalogue) {
+  catalogue.add(
+      {"gears",
+       "Meshing gears of 2 n^3 concave 144-gons and 144 n^3 quads over a square (Haines's SPD)",
+       {integer_parameter("n", 4, 1, 45, "gears along each axis")},
+       generate,
+       "n"});
 }
 
 }  // namespace beambench::scenes::generators

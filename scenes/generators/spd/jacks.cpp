@@ -1,9 +1,8 @@
-#include "scenes/generators/spd/jacks.hpp"
-
 #include <numbers>
 
 #include <glm/mat3x3.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/core/portable_math.hpp"
 #include "scenes/scene_builder.hpp"
 
@@ -71,12 +70,12 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo jacks_scene() {
-  return {"jacks",
-          "Recursive jacks of 6 (8^n - 1) / 7 spheres and half as many cylinders (SPD)",
-          {integer_parameter("n", 1, 1, 8, "generations, each of half the size")},
-          generate,
-          "n"};
+void register_jacks(Catalogue& catalogue) {
+  catalogue.add({"jacks",
+                 "Recursive jacks of 6 (8^n - 1) / 7 spheres and half as many cylinders (SPD)",
+                 {integer_parameter("n", 1, 1, 8, "generations, each of half the size")},
+                 generate,
+                 "n"});
 }
 
 }  // namespace beambench::scenes::generators

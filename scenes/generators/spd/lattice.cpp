@@ -1,8 +1,7 @@
-#include "scenes/generators/spd/lattice.hpp"
-
 #include <array>
 #include <cmath>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/generators/spd/spd_sky.hpp"
 #include "scenes/scene_builder.hpp"
 
@@ -69,12 +68,13 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo lattice_scene() {
-  return {"lattice",
-          "Cubic lattice of (n+1)^3 spheres and 3 n (n+1)^2 cylinders, seen from within (SPD)",
-          {integer_parameter("n", 12, 1, 150, "cells along each axis")},
-          generate,
-          "n"};
+void register_lattice(Catalogue& catalogue) {
+  catalogue.add(
+      {"lattice",
+       "Cubic lattice of (n+1)^3 spheres and 3 n (n+1)^2 cylinders, seen from within (SPD)",
+       {integer_parameter("n", 12, 1, 150, "cells along each axis")},
+       generate,
+       "n"});
 }
 
 }  // namespace beambench::scenes::generators

@@ -1,11 +1,10 @@
-#include "scenes/generators/spd/mount.hpp"
-
 #include <array>
 #include <cmath>
 #include <vector>
 
 #include <glm/vec2.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/core/portable_math.hpp"
 #include "scenes/generators/spd/spd_sky.hpp"
 #include "scenes/scene_builder.hpp"
@@ -158,12 +157,12 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo mount_scene() {
-  return {"mount",
-          "Fractal mountain of 2 * 4^n triangles and four glass spheres (Haines's SPD)",
-          {integer_parameter("n", 6, 1, 12, "each halves the cells of the grid")},
-          generate,
-          "n"};
+void register_mount(Catalogue& catalogue) {
+  catalogue.add({"mount",
+                 "Fractal mountain of 2 * 4^n triangles and four glass spheres (Haines's SPD)",
+                 {integer_parameter("n", 6, 1, 12, "each halves the cells of the grid")},
+                 generate,
+                 "n"});
 }
 
 }  // namespace beambench::scenes::generators

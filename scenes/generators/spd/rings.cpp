@@ -1,9 +1,8 @@
-#include "scenes/generators/spd/rings.hpp"
-
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/core/portable_math.hpp"
 #include "scenes/generators/spd/spd_sky.hpp"
 #include "scenes/scene_builder.hpp"
@@ -104,13 +103,14 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo rings_scene() {
-  return {"rings",
-          "Pyramid of pentagonal rings: 5 n (n+1) (2n+1) spheres and as many cylinders before a "
-          "wall (Haines's SPD)",
-          {integer_parameter("n", 7, 1, 90, "layers of the pyramid")},
-          generate,
-          "n"};
+void register_rings(Catalogue& catalogue) {
+  catalogue.add(
+      {"rings",
+       "Pyramid of pentagonal rings: 5 n (n+1) (2n+1) spheres and as many cylinders before a "
+       "wall (Haines's SPD)",
+       {integer_parameter("n", 7, 1, 90, "layers of the pyramid")},
+       generate,
+       "n"});
 }
 
 }  // namespace beambench::scenes::generators

@@ -2,6 +2,7 @@
 
 #include <numbers>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/core/portable_math.hpp"
 #include "scenes/generators/spd/spd_sky.hpp"
 #include "scenes/scene_builder.hpp"
@@ -39,12 +40,12 @@ void add_shell(SceneBuilder& builder, std::int64_t steps, std::int64_t left_out)
   }
 }
 
-SceneInfo shells_scene() {
-  return {"shells",
-          "Seashell of 180 * 2^n + 1 nearly concentric spheres (Haines's SPD)",
-          {integer_parameter("n", 5, 0, 16, "each doubles the spheres of the same shell")},
-          generate,
-          "n"};
+void register_shells(Catalogue& catalogue) {
+  catalogue.add({"shells",
+                 "Seashell of 180 * 2^n + 1 nearly concentric spheres (Haines's SPD)",
+                 {integer_parameter("n", 5, 0, 16, "each doubles the spheres of the same shell")},
+                 generate,
+                 "n"});
 }
 
 }  // namespace beambench::scenes::generators

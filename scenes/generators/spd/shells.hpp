@@ -2,13 +2,9 @@
 
 #include <cstdint>
 
-#include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::generators {
-
-/// `shells:n`: Pickover's seashell of nearly concentric spheres (SPD).
-SceneInfo shells_scene();
 
 /// The shell alone, in `steps` + 1 spheres less the first `left_out` at its tip.
 void add_shell(SceneBuilder& builder, std::int64_t steps, std::int64_t left_out = 0);

@@ -1,9 +1,8 @@
-#include "scenes/generators/spd/sombrero.hpp"
-
 #include <array>
 #include <cmath>
 #include <numbers>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/core/portable_math.hpp"
 #include "scenes/generators/spd/spd_sky.hpp"
 #include "scenes/scene_builder.hpp"
@@ -58,12 +57,12 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo sombrero_scene() {
-  return {"sombrero",
-          "Height field of 2 (32 * 2^(n-1) - 1)^2 triangles (SPD)",
-          {integer_parameter("n", 1, 1, 8, "each doubles the points along both sides")},
-          generate,
-          "n"};
+void register_sombrero(Catalogue& catalogue) {
+  catalogue.add({"sombrero",
+                 "Height field of 2 (32 * 2^(n-1) - 1)^2 triangles (SPD)",
+                 {integer_parameter("n", 1, 1, 8, "each doubles the points along both sides")},
+                 generate,
+                 "n"});
 }
 
 }  // namespace beambench::scenes::generators

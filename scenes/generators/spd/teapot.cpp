@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/generators/spd/spd_sky.hpp"
 #include "scenes/generators/thesis/teapot_patches.hpp"
 #include "scenes/scene_builder.hpp"
@@ -115,13 +116,14 @@ void add_teapot(SceneBuilder& builder, std::int64_t n) {
   }
 }
 
-SceneInfo teapot_scene() {
-  return {"teapot",
-          "Newell's teapot of 64 n^2 - 8 n smooth triangles on a board of n^2 squares (Haines's "
-          "SPD)",
-          {integer_parameter("n", 12, 2, 400, "quads along each side of a patch")},
-          generate,
-          "n"};
+void register_teapot(Catalogue& catalogue) {
+  catalogue.add(
+      {"teapot",
+       "Newell's teapot of 64 n^2 - 8 n smooth triangles on a board of n^2 squares (Haines's "
+       "SPD)",
+       {integer_parameter("n", 12, 2, 400, "quads along each side of a patch")},
+       generate,
+       "n"});
 }
 
 }  // namespace beambench::scenes::generators

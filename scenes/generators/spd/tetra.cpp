@@ -1,7 +1,6 @@
-#include "scenes/generators/spd/tetra.hpp"
-
 #include <array>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::generators {
@@ -52,19 +51,16 @@ Scene generate(const std::string& name, std::int64_t n) {
 
 }  // namespace
 
-SceneInfo tetra_scene() {
-  return {"tetra",
-          "Recursive tetrahedra of 4^n triangles (Haines's SPD)",
-          {integer_parameter("n", 6, 1, 12, "levels; each quadruples the triangles")},
-          [](const Parameters& p) { return generate(p.label(), p.integer("n")); },
-          "n"};
-}
-
-SceneInfo stetra_scene() {
-  return {"stetra",
-          "The thesis's Stetra: recursive tetrahedra of 256 triangles, tetra:n=4",
-          {},
-          [](const Parameters& p) { return generate(p.label(), 4); }};
+void register_tetra(Catalogue& catalogue) {
+  catalogue.add({"tetra",
+                 "Recursive tetrahedra of 4^n triangles (Haines's SPD)",
+                 {integer_parameter("n", 6, 1, 12, "levels; each quadruples the triangles")},
+                 [](const Parameters& p) { return generate(p.label(), p.integer("n")); },
+                 "n"});
+  catalogue.add({"stetra",
+                 "The thesis's Stetra: recursive tetrahedra of 256 triangles, tetra:n=4",
+                 {},
+                 [](const Parameters& p) { return generate(p.label(), 4); }});
 }
 
 }  // namespace beambench::scenes::generators

@@ -1,10 +1,9 @@
-#include "scenes/generators/spd/tree.hpp"
-
 #include <array>
 #include <numbers>
 
 #include <glm/mat3x3.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/core/portable_math.hpp"
 #include "scenes/generators/spd/spd_sky.hpp"
 #include "scenes/scene_builder.hpp"
@@ -76,12 +75,12 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo tree_scene() {
-  return {"tree",
-          "Tree of 2^(n+1) - 1 cones and as many spheres on a field (Haines's SPD)",
-          {integer_parameter("n", 11, 0, 22, "generations of branches out of the trunk")},
-          generate,
-          "n"};
+void register_tree(Catalogue& catalogue) {
+  catalogue.add({"tree",
+                 "Tree of 2^(n+1) - 1 cones and as many spheres on a field (Haines's SPD)",
+                 {integer_parameter("n", 11, 0, 22, "generations of branches out of the trunk")},
+                 generate,
+                 "n"});
 }
 
 }  // namespace beambench::scenes::generators

@@ -1,10 +1,9 @@
-#include "scenes/generators/thesis/ajedrez.hpp"
-
 #include <array>
 #include <string_view>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/generators/thesis/chess_pieces.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/rotation.hpp"
@@ -116,12 +115,12 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo ajedrez_scene() {
-  return {
-      "ajedrez",
-      "The thesis's Ajedrez: a chess set of 19,734 polygons on its board, in the Spanish opening",
-      {},
-      generate};
+void register_ajedrez(Catalogue& catalogue) {
+  catalogue.add(
+      {"ajedrez",
+       "The thesis's Ajedrez: a chess set of 19,734 polygons on its board, in the Spanish opening",
+       {},
+       generate});
 }
 
 }  // namespace beambench::scenes::generators

@@ -1,10 +1,9 @@
-#include "scenes/generators/thesis/bola_espacial.hpp"
-
 #include <array>
 #include <cstddef>
 
 #include <glm/vec3.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/core/portable_math.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/parametric_surface.hpp"
@@ -85,11 +84,11 @@ Scene generate(const Parameters& parameters) {
 // hit in the first. So the ball is a superellipsoid (Barr, "Superquadrics and angle-preserving
 // transformations", IEEE Computer Graphics and Applications 1(1), 1981), which fills its cube, seen
 // on a broad side.
-SceneInfo bola_espacial_scene() {
-  return {"bola-espacial",
-          "The thesis's Bola espacial: a ball of 1,536 panels that nearly fills its cube",
-          {},
-          generate};
+void register_bola_espacial(Catalogue& catalogue) {
+  catalogue.add({"bola-espacial",
+                 "The thesis's Bola espacial: a ball of 1,536 panels that nearly fills its cube",
+                 {},
+                 generate});
 }
 
 }  // namespace beambench::scenes::generators

@@ -1,5 +1,4 @@
-#include "scenes/generators/thesis/caracol.hpp"
-
+#include "scenes/catalogue.hpp"
 #include "scenes/generators/spd/shells.hpp"
 #include "scenes/scene_builder.hpp"
 
@@ -25,11 +24,11 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo caracol_scene() {
-  return {"caracol",
-          "The thesis's Caracol: a sea shell of 5,671 nearly concentric spheres",
-          {},
-          generate};
+void register_caracol(Catalogue& catalogue) {
+  catalogue.add({"caracol",
+                 "The thesis's Caracol: a sea shell of 5,671 nearly concentric spheres",
+                 {},
+                 generate});
 }
 
 }  // namespace beambench::scenes::generators

@@ -1,11 +1,10 @@
-#include "scenes/generators/thesis/casa_de_campo.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/core/random.hpp"
 #include "scenes/generators/thesis/country_house.hpp"
 #include "scenes/modelling/add_mesh.hpp"
@@ -148,11 +147,11 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo casa_de_campo_scene() {
-  return {"casa-de-campo",
-          "The thesis's Casa de Campo: a country house of 12,172 polygons in its garden",
-          {},
-          generate};
+void register_casa_de_campo(Catalogue& catalogue) {
+  catalogue.add({"casa-de-campo",
+                 "The thesis's Casa de Campo: a country house of 12,172 polygons in its garden",
+                 {},
+                 generate});
 }
 
 }  // namespace beambench::scenes::generators

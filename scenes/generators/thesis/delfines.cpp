@@ -1,9 +1,8 @@
-#include "scenes/generators/thesis/delfines.hpp"
-
 #include <array>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/generators/thesis/dolphin.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/rotation.hpp"
@@ -61,11 +60,11 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo delfines_scene() {
-  return {"delfines",
-          "The thesis's Delfines: three dolphins in three clearly separate places",
-          {},
-          generate};
+void register_delfines(Catalogue& catalogue) {
+  catalogue.add({"delfines",
+                 "The thesis's Delfines: three dolphins in three clearly separate places",
+                 {},
+                 generate});
 }
 
 }  // namespace beambench::scenes::generators

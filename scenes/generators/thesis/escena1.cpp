@@ -1,5 +1,4 @@
-#include "scenes/generators/thesis/escena1.hpp"
-
+#include "scenes/catalogue.hpp"
 #include "scenes/generators/other/scattered_balls.hpp"
 #include "scenes/scene_builder.hpp"
 
@@ -20,14 +19,15 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo escena1_scene() {
-  return {"escena1",
-          "The thesis's Escena 1: spheres of different sizes at random, nearly uniform over the "
-          "volume",
-          {integer_parameter("seed", 1999, 0, 0xFFFFFFFF, "seed of the random numbers"),
-           integer_parameter("spheres", 430, 1, 10000000, "number of spheres")},
-          generate,
-          "spheres"};
+void register_escena1(Catalogue& catalogue) {
+  catalogue.add(
+      {"escena1",
+       "The thesis's Escena 1: spheres of different sizes at random, nearly uniform over the "
+       "volume",
+       {integer_parameter("seed", 1999, 0, 0xFFFFFFFF, "seed of the random numbers"),
+        integer_parameter("spheres", 430, 1, 10000000, "number of spheres")},
+       generate,
+       "spheres"});
 }
 
 }  // namespace beambench::scenes::generators

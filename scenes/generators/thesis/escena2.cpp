@@ -1,7 +1,6 @@
-#include "scenes/generators/thesis/escena2.hpp"
-
 #include <array>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/generators/spd/sphereflake.hpp"
 #include "scenes/scene_builder.hpp"
 
@@ -33,13 +32,13 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo escena2_scene() {
-  return {
-      "escena2",
-      "The thesis's Escena 2: a large polygon at the back and a sphereflake of 91 spheres, tiny "
-      "in the middle of a huge volume",
-      {},
-      generate};
+void register_escena2(Catalogue& catalogue) {
+  catalogue.add(
+      {"escena2",
+       "The thesis's Escena 2: a large polygon at the back and a sphereflake of 91 spheres, tiny "
+       "in the middle of a huge volume",
+       {},
+       generate});
 }
 
 }  // namespace beambench::scenes::generators

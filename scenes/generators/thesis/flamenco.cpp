@@ -1,5 +1,4 @@
-#include "scenes/generators/thesis/flamenco.hpp"
-
+#include "scenes/catalogue.hpp"
 #include "scenes/generators/thesis/flamingo.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/parametric_surface.hpp"
@@ -67,11 +66,12 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo flamenco_scene() {
-  return {"flamenco",
-          "The thesis's Flamenco: a flamingo of 12,874 polygons on one leg, empty space around it",
-          {},
-          generate};
+void register_flamenco(Catalogue& catalogue) {
+  catalogue.add(
+      {"flamenco",
+       "The thesis's Flamenco: a flamingo of 12,874 polygons on one leg, empty space around it",
+       {},
+       generate});
 }
 
 }  // namespace beambench::scenes::generators

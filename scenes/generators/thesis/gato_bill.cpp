@@ -1,9 +1,8 @@
-#include "scenes/generators/thesis/gato_bill.hpp"
-
 #include <array>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/generators/thesis/cartoon_cat.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/letters.hpp"
@@ -51,12 +50,13 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo gato_bill_scene() {
-  return {"gato-bill",
-          "The thesis's Gato-Bill: a cartoon cat on one large floor polygon before its name in "
-          "letters",
-          {},
-          generate};
+void register_gato_bill(Catalogue& catalogue) {
+  catalogue.add(
+      {"gato-bill",
+       "The thesis's Gato-Bill: a cartoon cat on one large floor polygon before its name in "
+       "letters",
+       {},
+       generate});
 }
 
 }  // namespace beambench::scenes::generators

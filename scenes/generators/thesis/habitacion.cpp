@@ -1,11 +1,10 @@
-#include "scenes/generators/thesis/habitacion.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/generators/thesis/room/bookshelf.hpp"
 #include "scenes/generators/thesis/room/placed_piece.hpp"
 #include "scenes/generators/thesis/room/room_decoration.hpp"
@@ -163,11 +162,12 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo habitacion_scene() {
-  return {"habitacion",
-          "The thesis's Habitacion: a furnished closed room of 34,110 polygons, seen from inside",
-          {},
-          generate};
+void register_habitacion(Catalogue& catalogue) {
+  catalogue.add(
+      {"habitacion",
+       "The thesis's Habitacion: a furnished closed room of 34,110 polygons, seen from inside",
+       {},
+       generate});
 }
 
 }  // namespace beambench::scenes::generators

@@ -1,9 +1,8 @@
-#include "scenes/generators/thesis/maceta.hpp"
-
 #include <cmath>
 #include <numbers>
 #include <vector>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/core/random.hpp"
 #include "scenes/generators/thesis/plant.hpp"
 #include "scenes/modelling/add_mesh.hpp"
@@ -83,9 +82,9 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo maceta_scene() {
-  return {
-      "maceta", "The thesis's Maceta: a potted plant spread over the whole volume", {}, generate};
+void register_maceta(Catalogue& catalogue) {
+  catalogue.add(
+      {"maceta", "The thesis's Maceta: a potted plant spread over the whole volume", {}, generate});
 }
 
 }  // namespace beambench::scenes::generators

@@ -1,9 +1,8 @@
-#include "scenes/generators/thesis/misil.hpp"
-
 #include <vector>
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/extrusion.hpp"
 #include "scenes/modelling/lathe.hpp"
@@ -99,8 +98,8 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo misil_scene() {
-  return {"misil", "The thesis's Misil: a missile of 956 polygons", {}, generate};
+void register_misil(Catalogue& catalogue) {
+  catalogue.add({"misil", "The thesis's Misil: a missile of 956 polygons", {}, generate});
 }
 
 }  // namespace beambench::scenes::generators

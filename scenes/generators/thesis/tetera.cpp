@@ -1,5 +1,4 @@
-#include "scenes/generators/thesis/tetera.hpp"
-
+#include "scenes/catalogue.hpp"
 #include "scenes/generators/spd/teapot.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/box.hpp"
@@ -30,12 +29,12 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo tetera_scene() {
-  return {
-      "tetera",
-      "The thesis's Tetera: Newell's teapot of 992 triangles over a box of 12, much empty space",
-      {},
-      generate};
+void register_tetera(Catalogue& catalogue) {
+  catalogue.add(
+      {"tetera",
+       "The thesis's Tetera: Newell's teapot of 992 triangles over a box of 12, much empty space",
+       {},
+       generate});
 }
 
 }  // namespace beambench::scenes::generators

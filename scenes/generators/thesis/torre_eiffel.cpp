@@ -1,5 +1,4 @@
-#include "scenes/generators/thesis/torre_eiffel.hpp"
-
+#include "scenes/catalogue.hpp"
 #include "scenes/generators/thesis/iron_tower.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/subdivide.hpp"
@@ -34,12 +33,12 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo torre_eiffel_scene() {
-  return {
-      "torre-eiffel",
-      "The thesis's Torre Eiffel: a lattice tower of 16,648 polygons with empty space around it",
-      {},
-      generate};
+void register_torre_eiffel(Catalogue& catalogue) {
+  catalogue.add(
+      {"torre-eiffel",
+       "The thesis's Torre Eiffel: a lattice tower of 16,648 polygons with empty space around it",
+       {},
+       generate});
 }
 
 }  // namespace beambench::scenes::generators

@@ -1,9 +1,8 @@
-#include "scenes/generators/thesis/closed_room.hpp"
-
 #include <vector>
 
 #include <glm/ext/matrix_transform.hpp>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/core/portable_math.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/box.hpp"
@@ -111,13 +110,14 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo closed_room_scene() {
-  return {"closed-room",
-          "A closed hall of columns, tables and balls, seen from inside, of 516 d^2 - 116 d + 176 "
-          "triangles (32,272 by default)",
-          {integer_parameter("detail", 8, 1, 140, "d: how finely everything is divided")},
-          generate,
-          "detail"};
+void register_closed_room(Catalogue& catalogue) {
+  catalogue.add(
+      {"closed-room",
+       "A closed hall of columns, tables and balls, seen from inside, of 516 d^2 - 116 d + 176 "
+       "triangles (32,272 by default)",
+       {integer_parameter("detail", 8, 1, 140, "d: how finely everything is divided")},
+       generate,
+       "detail"});
 }
 
 }  // namespace beambench::scenes::generators

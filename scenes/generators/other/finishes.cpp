@@ -1,7 +1,6 @@
-#include "scenes/generators/thesis/finishes.hpp"
-
 #include <array>
 
+#include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::generators {
@@ -58,12 +57,13 @@ Scene generate(const Parameters& parameters) {
 
 }  // namespace
 
-SceneInfo finishes_scene() {
-  return {"finishes",
-          "A ball of each of the thesis's surfaces and textures: in front mirror, glass, shiny and "
-          "clouds, then three woods and granite, at the back four marbles",
-          {},
-          generate};
+void register_finishes(Catalogue& catalogue) {
+  catalogue.add(
+      {"finishes",
+       "A ball of each of the thesis's surfaces and textures: in front mirror, glass, shiny and "
+       "clouds, then three woods and granite, at the back four marbles",
+       {},
+       generate});
 }
 
 }  // namespace beambench::scenes::generators
