@@ -2,6 +2,10 @@
 
 #include <array>
 
+#include <glm/geometric.hpp>
+
+#include "scenes/modelling/sweep.hpp"
+
 namespace beambench::scenes::modelling {
 namespace {
 
@@ -69,6 +73,45 @@ PolygonMesh bevelled_box(const glm::dvec3& lower, const glm::dvec3& upper, doubl
     const bool odd = ((i ^ (i >> 1U) ^ (i >> 2U)) & 1U) != 0;
     mesh.polygons.push_back(odd ? Corners{3 * i, 3 * i + 1, 3 * i + 2}
                                 : Corners{3 * i, 3 * i + 2, 3 * i + 1});
+  }
+  return mesh;
+}
+
+PolygonMesh square_ring(double half, double hole, double bottom, double top) {
+  PolygonMesh mesh;
+  for (const double z : {bottom, top}) {
+    for (const double size : {half, hole}) {
+      mesh.vertices.insert(
+          mesh.vertices.end(),
+          {{-size, -size, z}, {size, -size, z}, {size, size, z}, {-size, size, z}});
+    }
+  }
+  for (std::uint32_t i = 0; i < 4; ++i) {  // outer corners i, inner ones 4 + i, the upper 8 more
+    const std::uint32_t next = (i + 1) % 4;
+    mesh.polygons.push_back({i, next, next + 8, i + 8});
+    mesh.polygons.push_back({i + 8, next + 8, next + 12, i + 12});
+    mesh.polygons.push_back({next + 4, i + 4, i + 12, next + 12});
+    mesh.polygons.push_back({next, i, i + 4, next + 4});
+  }
+  return mesh;
+}
+
+PolygonMesh bar(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& outward,
+                double thickness) {
+  const std::array<glm::dvec2, 4> square = {{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
+  const std::array<glm::dvec3, 2> path = {from, to};
+  const std::array<double, 2> scales = {thickness, thickness};
+  return sweep(square, path, scales, outward, Caps::kNone);
+}
+
+PolygonMesh braced_face(std::span<const glm::dvec3> left, std::span<const glm::dvec3> right,
+                        const glm::dvec3& outward, const Bracing& bracing) {
+  PolygonMesh mesh;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    append(mesh, bar(left[i], right[i], outward, bracing.crossbar));
+    if (i + 1 == left.size()) break;
+    append(mesh, bar(left[i], right[i + 1], outward, bracing.diagonal));
+    append(mesh, bar(right[i], left[i + 1], outward, 0.85 * bracing.diagonal));
   }
   return mesh;
 }

@@ -1,5 +1,7 @@
 #pragma once
-// Boxes.
+// Straight pieces: boxes, square rings, bars and bracing.
+
+#include <span>
 
 #include "scenes/modelling/polygon_mesh.hpp"
 
@@ -14,5 +16,24 @@ PolygonMesh box_without_bottom(const glm::dvec3& lower, const glm::dvec3& upper)
 /// The box with its edges cut off by `bevel` on both sides: 6 faces, 12 edges, 8 corner triangles.
 /// 0 < bevel < half of every extent.
 PolygonMesh bevelled_box(const glm::dvec3& lower, const glm::dvec3& upper, double bevel);
+
+/// The square plate |x|, |y| <= half between two heights, with the hole |x|, |y| < hole: 16 quads,
+/// four of them on each of outside, top, hole and bottom, in that order for every side.
+PolygonMesh square_ring(double half, double hole, double bottom, double top);
+
+/// A square bar of four sides between two places, two of its sides looking along `outward`. Its
+/// ends are open: they are inside what it is fixed to.
+PolygonMesh bar(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& outward,
+                double thickness);
+
+/// The bracing of a face between two posts, whose places are listed level by level from below: a
+/// crossbar at every level and two diagonals in every panel. Crossing bars differ in thickness, so
+/// that no two of them have a plane in common.
+struct Bracing {
+  double crossbar;
+  double diagonal;
+};
+PolygonMesh braced_face(std::span<const glm::dvec3> left, std::span<const glm::dvec3> right,
+                        const glm::dvec3& outward, const Bracing& bracing);
 
 }  // namespace beambench::scenes::modelling

@@ -5,7 +5,7 @@
 
 #include "scenes/core/portable_math.hpp"
 #include "scenes/modelling/lathe.hpp"
-#include "scenes/modelling/weld.hpp"
+#include "scenes/modelling/polygon_mesh.hpp"
 
 namespace beambench::scenes::modelling {
 

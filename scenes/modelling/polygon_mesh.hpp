@@ -1,22 +1,21 @@
 #pragma once
-// The modelling kit's value, and how the pieces of the kit fit together.
+// Polygon meshes, which the functions of this folder take and return.
 //
 // A generator models in double and hands the result to a `SceneBuilder`, which rounds once:
-//   polygon_mesh.hpp        the value; append, transformed, mirrored windings set right
-//   extrusion.hpp           a flat shape drawn out: plates, fins, letters' bodies
+//   polygon_mesh.hpp        the value; append, transform, weld
+//   box.hpp                 boxes, square rings, bars and bracing
+//   walls.hpp               walls with openings, moldings
+//   extrusion.hpp           a flat shape extruded along z: plates, fins
 //   letters.hpp             extruded capital letters
-//   box.hpp                 box, bevelled box
 //   lathe.hpp               a profile revolved about z
-//   sweep.hpp               an outline or a circle drawn along a path
+//   sweep.hpp               an outline or a circle swept along a path
 //   parametric_surface.hpp  a grid of quads over a function of two parameters; ellipsoid
-//   weld.hpp                coincident vertices made one
+//   implicit_surface.hpp    the zero set of a field
 //   subdivide.hpp           triangulated; subdivided_to: exactly n polygons
-//   rotation.hpp            for `transformed`, with the same bits everywhere
 //   add_mesh.hpp            into the scene, flat or smooth
-// Pieces take and return values, look outward (counter-clockwise seen from outside) and hold only
-// surfaces that can be seen: caps and bottoms are left out where the caller says so. A scene counts
-// its polygons once it is whole: model with a few polygons less than wanted, then
-// `subdivided_to(mesh, n)`.
+// Meshes look outward (counter-clockwise seen from outside) and hold only surfaces that can be
+// seen: caps and bottoms are left out where the caller says so. A scene counts its polygons at the
+// end: model with a few polygons fewer than wanted, then `subdivided_to(mesh, n)`.
 
 #include <cstddef>
 #include <cstdint>
@@ -49,5 +48,14 @@ PolygonMesh turned_inside_out(PolygonMesh mesh);
 
 /// Newell's normal of a polygon, its length being twice the polygon's area.
 glm::dvec3 area_normal(const PolygonMesh& mesh, const PolygonMesh::Corners& corners);
+
+/// Counter-clockwise about the x (0), y (1) or z (2) axis, seen from its positive end. Use this
+/// rather than glm::rotate, whose sine is the library's.
+glm::dmat4 rotation(int axis, double degrees);
+
+/// Vertices nearer to each other than 1e-9 of the mesh's largest coordinate become one (the first),
+/// so that edges are shared. Corners that coincide with the one before are dropped, and polygons
+/// left with fewer than three.
+PolygonMesh welded(const PolygonMesh& mesh);
 
 }  // namespace beambench::scenes::modelling

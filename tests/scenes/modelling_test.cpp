@@ -17,10 +17,9 @@
 #include "scenes/modelling/lathe.hpp"
 #include "scenes/modelling/letters.hpp"
 #include "scenes/modelling/parametric_surface.hpp"
-#include "scenes/modelling/rotation.hpp"
+#include "scenes/modelling/polygon_mesh.hpp"
 #include "scenes/modelling/subdivide.hpp"
 #include "scenes/modelling/sweep.hpp"
-#include "scenes/modelling/weld.hpp"
 
 namespace beambench::scenes {
 namespace {

@@ -8,8 +8,8 @@
 #include "scenes/modelling/box.hpp"
 #include "scenes/modelling/lathe.hpp"
 #include "scenes/modelling/parametric_surface.hpp"
+#include "scenes/modelling/polygon_mesh.hpp"
 #include "scenes/modelling/subdivide.hpp"
-#include "scenes/modelling/weld.hpp"
 
 namespace beambench::scenes::generators {
 namespace {

@@ -1,7 +1,7 @@
 #include <glm/ext/matrix_transform.hpp>
 
 #include "scenes/catalogue.hpp"
-#include "scenes/generators/other/scattered_balls.hpp"
+#include "scenes/generators/thesis/escena1.hpp"
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/parametric_surface.hpp"
 #include "scenes/modelling/subdivide.hpp"

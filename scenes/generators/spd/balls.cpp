@@ -1,11 +1,58 @@
+#include "scenes/generators/spd/balls.hpp"
+
 #include <array>
+#include <cmath>
+
+#include <glm/mat3x3.hpp>
 
 #include "scenes/catalogue.hpp"
-#include "scenes/generators/spd/sphereflake.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::generators {
 namespace {
+
+using Directions = std::array<glm::dvec3, 9>;
+
+/// Where the nine children stand in their parent's frame: six on the equator at azimuth
+/// 15 + 60 k degrees, three at an elevation whose tangent is sqrt 2, at azimuth 45 + 120 k degrees.
+/// By square roots alone, which are the same on every machine.
+Directions child_directions() {
+  const double cos15 = (std::sqrt(6.0) + std::sqrt(2.0)) / 4.0;
+  const double sin15 = (std::sqrt(6.0) - std::sqrt(2.0)) / 4.0;
+  const double half = std::sqrt(0.5);  // cos and sin of 45 degrees
+  const double up = std::sqrt(2.0 / 3.0);
+  const double out = std::sqrt(1.0 / 3.0);
+  return {{{cos15, sin15, 0.0},
+           {sin15, cos15, 0.0},
+           {-half, half, 0.0},
+           {-cos15, -sin15, 0.0},
+           {-sin15, -cos15, 0.0},
+           {half, -half, 0.0},
+           {out * half, out * half, up},
+           {-out * cos15, out * sin15, up},
+           {out * sin15, -out * cos15, up}}};
+}
+
+/// The smallest rotation that takes +z to the unit vector d.
+glm::dmat3 rotation_from_z(const glm::dvec3& d) {
+  if (d.z < -1.0 + 1e-9) return {1.0, 0.0, 0.0, 0.0, -1.0, 0.0, 0.0, 0.0, -1.0};
+  const double k = 1.0 / (1.0 + d.z);
+  return {{1.0 - d.x * d.x * k, -d.x * d.y * k, -d.x},
+          {-d.x * d.y * k, 1.0 - d.y * d.y * k, -d.y},
+          {d.x, d.y, d.z}};
+}
+
+/// One sphere and its descendants; `frame` turns the directions into the sphere's own frame.
+void add_spheres(SceneBuilder& builder, const Directions& directions, const glm::dvec3& center,
+                 double radius, const glm::dmat3& frame, int depth) {
+  builder.add_sphere(center, radius);
+  if (depth == 0) return;
+  for (const glm::dvec3& local : directions) {
+    const glm::dvec3 direction = frame * local;
+    add_spheres(builder, directions, center + direction * (radius * 4.0 / 3.0), radius / 3.0,
+                rotation_from_z(direction), depth - 1);
+  }
+}
 
 void add_floor(SceneBuilder& builder) {
   builder.set_surface({.color = {1.0F, 0.75F, 0.33F}, .diffuse = 0.8F});
@@ -35,6 +82,10 @@ Scene generate(const Parameters& parameters) {
 }
 
 }  // namespace
+
+void add_sphereflake(SceneBuilder& builder, const glm::dvec3& center, double radius, int depth) {
+  add_spheres(builder, child_directions(), center, radius, glm::dmat3(1.0), depth);
+}
 
 void register_balls(Catalogue& catalogue) {
   catalogue.add({"balls",

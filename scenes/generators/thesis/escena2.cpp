@@ -1,7 +1,7 @@
 #include <array>
 
 #include "scenes/catalogue.hpp"
-#include "scenes/generators/spd/sphereflake.hpp"
+#include "scenes/generators/spd/balls.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::generators {

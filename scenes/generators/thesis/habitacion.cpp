@@ -5,17 +5,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scenes/catalogue.hpp"
-#include "scenes/generators/thesis/room/bookshelf.hpp"
-#include "scenes/generators/thesis/room/placed_piece.hpp"
-#include "scenes/generators/thesis/room/room_decoration.hpp"
-#include "scenes/generators/thesis/room/room_lamps.hpp"
-#include "scenes/generators/thesis/room/room_shell.hpp"
-#include "scenes/generators/thesis/room/soft_furnishings.hpp"
-#include "scenes/generators/thesis/room/tableware.hpp"
-#include "scenes/generators/thesis/room/upholstery.hpp"
-#include "scenes/generators/thesis/room/wooden_furniture.hpp"
+#include "scenes/generators/thesis/room/room.hpp"
 #include "scenes/modelling/add_mesh.hpp"
-#include "scenes/modelling/rotation.hpp"
+#include "scenes/modelling/polygon_mesh.hpp"
 #include "scenes/modelling/subdivide.hpp"
 #include "scenes/scene_builder.hpp"
 

@@ -6,7 +6,7 @@
 #include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/extrusion.hpp"
 #include "scenes/modelling/lathe.hpp"
-#include "scenes/modelling/rotation.hpp"
+#include "scenes/modelling/polygon_mesh.hpp"
 #include "scenes/modelling/subdivide.hpp"
 
 namespace beambench::scenes::generators {

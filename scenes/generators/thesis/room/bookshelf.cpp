@@ -1,5 +1,3 @@
-#include "scenes/generators/thesis/room/bookshelf.hpp"
-
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -7,7 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "scenes/core/random.hpp"
-#include "scenes/generators/thesis/room/placed_piece.hpp"
+#include "scenes/generators/thesis/room/room.hpp"
 #include "scenes/modelling/box.hpp"
 
 namespace beambench::scenes::generators {

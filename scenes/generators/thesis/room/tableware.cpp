@@ -1,5 +1,3 @@
-#include "scenes/generators/thesis/room/tableware.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,12 +9,11 @@
 
 #include "scenes/core/portable_math.hpp"
 #include "scenes/generators/thesis/plant.hpp"
-#include "scenes/generators/thesis/room/placed_piece.hpp"
+#include "scenes/generators/thesis/room/room.hpp"
 #include "scenes/modelling/implicit_surface.hpp"
 #include "scenes/modelling/lathe.hpp"
 #include "scenes/modelling/parametric_surface.hpp"
-#include "scenes/modelling/profile.hpp"
-#include "scenes/modelling/rotation.hpp"
+#include "scenes/modelling/polygon_mesh.hpp"
 #include "scenes/modelling/sweep.hpp"
 
 namespace beambench::scenes::generators {

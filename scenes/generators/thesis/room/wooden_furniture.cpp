@@ -1,13 +1,10 @@
-#include "scenes/generators/thesis/room/wooden_furniture.hpp"
-
 #include <array>
 #include <vector>
 
-#include "scenes/generators/thesis/room/placed_piece.hpp"
+#include "scenes/generators/thesis/room/room.hpp"
 #include "scenes/modelling/box.hpp"
 #include "scenes/modelling/lathe.hpp"
 #include "scenes/modelling/parametric_surface.hpp"
-#include "scenes/modelling/profile.hpp"
 #include "scenes/modelling/sweep.hpp"
 
 namespace beambench::scenes::generators {
@@ -57,8 +54,7 @@ modelling::PolygonMesh seat_board() {
   return mesh;
 }
 
-}  // namespace
-
+/// A turned leg from the floor up, open at both ends.
 modelling::PolygonMesh turned_leg(double height, double radius, int sides) {
   const double r = radius;
   const double h = height;
@@ -73,6 +69,8 @@ modelling::PolygonMesh turned_leg(double height, double radius, int sides) {
       .line({0.86 * r, h});
   return modelling::lathe(profile.points(), sides);
 }
+
+}  // namespace
 
 void add_dining_table(SceneBuilder& builder, const glm::dmat4& place) {
   constexpr double kRadius = 0.56;

@@ -1,20 +1,22 @@
-#include "scenes/generators/thesis/room/room_shell.hpp"
+#include "scenes/generators/thesis/room/room.hpp"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scenes/core/portable_math.hpp"
 #include "scenes/core/random.hpp"
-#include "scenes/generators/thesis/room/placed_piece.hpp"
-#include "scenes/generators/thesis/room/window_view.hpp"
+#include "scenes/modelling/add_mesh.hpp"
 #include "scenes/modelling/box.hpp"
+#include "scenes/modelling/extrusion.hpp"
 #include "scenes/modelling/lathe.hpp"
-#include "scenes/modelling/molding.hpp"
-#include "scenes/modelling/profile.hpp"
+#include "scenes/modelling/polygon_mesh.hpp"
+#include "scenes/modelling/walls.hpp"
 
 namespace beambench::scenes::generators {
 namespace {
@@ -116,6 +118,55 @@ void add_skirting_and_cornice(SceneBuilder& builder) {
   room.flat(kWhite, modelling::molding(kRoom, cornice));
 }
 
+using Line = std::vector<glm::dvec2>;
+
+/// A line of hills from the left edge to the right one.
+Line hills(const glm::dvec2& size, double height, double swing, double phase) {
+  constexpr int kPieces = 24;
+  Line line;
+  for (int i = 0; i <= kPieces; ++i) {
+    const double x = static_cast<double>(i) / kPieces;
+    const double rise = portable_sin(5.3 * x + phase) + 0.4 * portable_sin(12.1 * x + 2.0 * phase);
+    line.emplace_back(size.x * x, size.y * (height + swing * rise));
+  }
+  return line;
+}
+
+Line level(const glm::dvec2& size, double height) {
+  return {{0.0, size.y * height}, {size.x, size.y * height}};
+}
+
+/// What lies between two lines.
+modelling::PolygonMesh between(const Line& low, const Line& high) {
+  Line outline = low;
+  outline.insert(outline.end(), high.rbegin(), high.rend());
+  modelling::PolygonMesh mesh;
+  const modelling::FlatShape shape = modelling::flat_polygon(outline);
+  for (const glm::dvec2& point : shape.points) mesh.vertices.emplace_back(point, 0.0);
+  mesh.polygons = shape.polygons;
+  return mesh;
+}
+
+/// Closes the rectangle from (0, 0) to `size` in the plane z = 0 of `place` with a landscape: sky,
+/// far hills and a meadow, side by side in that plane.
+void add_window_view(SceneBuilder& builder, const glm::dmat4& place, const glm::dvec2& size) {
+  const std::array<Line, 6> lines = {level(size, 0.0),
+                                     hills(size, 0.24, 0.05, 0.6),
+                                     hills(size, 0.42, 0.06, 2.4),
+                                     level(size, 0.62),
+                                     level(size, 0.80),
+                                     level(size, 1.0)};
+  constexpr std::array<glm::vec3, 5> kColors = {{{0.52F, 0.74F, 0.36F},
+                                                 {0.45F, 0.63F, 0.52F},
+                                                 {0.87F, 0.95F, 1.0F},
+                                                 {0.76F, 0.90F, 1.0F},
+                                                 {0.64F, 0.84F, 1.0F}}};
+  PlacedPiece view(builder, place);
+  for (std::size_t i = 0; i < kColors.size(); ++i) {
+    view.flat({.color = kColors[i], .diffuse = 1.0F}, between(lines[i], lines[i + 1]));
+  }
+}
+
 void add_window(SceneBuilder& builder) {
   const glm::dvec2 size = kWindow.upper - kWindow.lower;
   add_window_view(builder, moved(window_wall(), kWindow.lower, -kReveal), size);
@@ -172,6 +223,29 @@ void add_room(SceneBuilder& builder, std::span<const modelling::Rectangle> cover
   add_skirting_and_cornice(builder);
   add_window(builder);
   add_door(builder);
+}
+
+glm::dmat4 standing_at(const glm::dvec3& place, double degrees) {
+  return glm::translate(glm::dmat4(1.0), place) * modelling::rotation(2, degrees);
+}
+
+void PlacedPiece::flat(const Surface& surface, const modelling::PolygonMesh& mesh) {
+  builder_.set_surface(surface);
+  modelling::add_flat(builder_, modelling::transformed(mesh, place_));
+}
+
+void PlacedPiece::smooth(const Surface& surface, const modelling::PolygonMesh& mesh,
+                         double crease) {
+  builder_.set_surface(surface);
+  modelling::add_smooth(builder_, modelling::transformed(mesh, place_), {.crease = crease});
+}
+
+modelling::PolygonMesh above(modelling::PolygonMesh mesh, double z) {
+  std::erase_if(mesh.polygons, [&](const modelling::PolygonMesh::Corners& corners) {
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](std::uint32_t corner) { return mesh.vertices[corner].z < z; });
+  });
+  return mesh;
 }
 
 }  // namespace beambench::scenes::generators

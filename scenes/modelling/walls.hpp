@@ -1,6 +1,8 @@
 #pragma once
-// Walls with openings: of houses, of window frames, of doors with panels.
+// Walls with openings (of houses, window frames, paneled doors), and moldings: skirting boards,
+// cornices, picture frames.
 
+#include <array>
 #include <span>
 
 #include <glm/vec2.hpp>
@@ -23,5 +25,13 @@ PolygonMesh openings_filled(std::span<const Rectangle> openings, double depth);
 
 /// columns x rows equal openings in the rectangle, bars of the same width around all of them.
 std::vector<Rectangle> panes(const glm::dvec2& size, int columns, int rows, double bar);
+
+/// A profile of points (inset, z) carried round the rectangle from (0, 0) to `size`, with mitred
+/// corners: four quads from each point to the next, along y = 0, x = size.x, y = size.y and x = 0
+/// in that order. It looks up where the profile goes inward.
+PolygonMesh molding(const glm::dvec2& size, std::span<const glm::dvec2> profile);
+
+/// Without one of the rectangle's sides (0 ... 3, in the order above).
+PolygonMesh without_side(const PolygonMesh& molding, std::size_t side);
 
 }  // namespace beambench::scenes::modelling

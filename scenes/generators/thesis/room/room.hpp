@@ -1,0 +1,113 @@
+#pragma once
+// The furnished room of `habitacion`, piece by piece.
+
+#include <span>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+#include "scenes/modelling/implicit_surface.hpp"
+#include "scenes/modelling/polygon_mesh.hpp"
+#include "scenes/modelling/walls.hpp"
+#include "scenes/scene_builder.hpp"
+
+namespace beambench::scenes::generators {
+
+/// The room is [0, x] x [0, y] x [0, z].
+inline constexpr glm::dvec3 kRoom = {5.2, 5.8, 2.75};
+
+/// The window's opening in the wall y = kRoom.y, from (x, z) to (x, z).
+inline constexpr modelling::Rectangle kWindow = {{1.15, 1.02}, {2.65, 2.27}};
+
+/// Adds boards, walls, ceiling, skirting, cornice, window and door, all facing inward. No board is
+/// laid where one of `covered` (rectangles of the floor) would hide all of it.
+void add_room(SceneBuilder& builder, std::span<const modelling::Rectangle> covered);
+
+/// Standing upright at a place, turned counter-clockwise seen from above.
+glm::dmat4 standing_at(const glm::dvec3& place, double degrees = 0.0);
+
+/// Adds meshes of one piece, moved to where it stands.
+class PlacedPiece {
+ public:
+  PlacedPiece(SceneBuilder& builder, const glm::dmat4& place) : builder_(builder), place_(place) {}
+
+  void flat(const Surface& surface, const modelling::PolygonMesh& mesh);
+  void smooth(const Surface& surface, const modelling::PolygonMesh& mesh, double crease = 50.0);
+
+ private:
+  SceneBuilder& builder_;
+  glm::dmat4 place_;
+};
+
+/// Without the polygons that lie below a height: what something stands on hides them.
+modelling::PolygonMesh above(modelling::PolygonMesh mesh, double z);
+
+inline constexpr double kDiningTop = 0.75;  ///< height of the table's top
+inline constexpr double kCoffeeTop = 0.43;
+
+/// A round table of radius 0.56 on a turned column with four feet.
+void add_dining_table(SceneBuilder& builder, const glm::dmat4& place);
+/// A long low table, 1.16 x 0.62, on turned legs, with a shelf below.
+void add_coffee_table(SceneBuilder& builder, const glm::dmat4& place);
+/// A chair with a bowed back and spindles; who sits on it looks to -y.
+void add_chair(SceneBuilder& builder, const glm::dmat4& place);
+
+/// A seat with arms, a back and loose cushions, standing at the origin and facing -y: 0.92 deep
+/// (y from -0.48 to 0.44), 0.9 high.
+struct Settee {
+  double width;
+  int places;
+};
+double settee_field(const glm::dvec3& place, const Settee& settee);
+
+/// Its surface in triangles, without what looks down to the floor.
+modelling::PolygonMesh settee(const Settee& settee, double cell);
+/// Four turned feet.
+modelling::PolygonMesh settee_feet(const Settee& settee);
+
+/// A cushion of a half width and height that lies flat around the origin, pointed at its corners.
+modelling::PolygonMesh scatter_cushion(double half, double height, int steps);
+
+/// A woven rug over a rectangle of the floor, a quad a knot of its pattern, fringed left and right.
+void add_rug(SceneBuilder& builder, const modelling::Rectangle& place);
+
+/// Two curtains on a rod in the plane y = `y` before the window from `window.lower` to
+/// `window.upper` (x, z), gathered to its sides.
+void add_curtains(SceneBuilder& builder, const modelling::Rectangle& window, double y);
+
+inline constexpr glm::dvec3 kBookshelf = {1.24, 0.32, 2.12};  ///< width, depth, height
+
+/// Five shelves of books between x = 0 and its width, its back at y = 0 against a wall, facing -y.
+void add_bookshelf(SceneBuilder& builder, const glm::dmat4& place);
+
+/// A closed book that lies at the origin, its spine to -y, of `size` (along the spine, across,
+/// thick).
+void add_lying_book(SceneBuilder& builder, const glm::dmat4& place, const glm::dvec3& size,
+                    const glm::vec3& color);
+
+/// A round teapot, 0.17 high, its spout to +x.
+void add_china_teapot(SceneBuilder& builder, const glm::dmat4& place);
+/// A cup with tea on its saucer, its handle to +x.
+void add_cup(SceneBuilder& builder, const glm::dmat4& place);
+/// A bowl of radius 0.17 with apples, oranges and a banana.
+void add_fruit_bowl(SceneBuilder& builder, const glm::dmat4& place);
+/// A vase with daisies, some 0.5 high.
+void add_vase_of_flowers(SceneBuilder& builder, const glm::dmat4& place);
+
+/// Framed pictures hang in the plane z = 0 of `place`, their lower left outer corner at its origin.
+/// This one, 0.62 x 0.62, shows Sierpinski's triangle, as `stetra` does in space.
+void add_triangle_picture(SceneBuilder& builder, const glm::dmat4& place);
+/// 0.8 x 0.6: a sailing boat under the sun.
+void add_boat_picture(SceneBuilder& builder, const glm::dmat4& place);
+/// A clock of radius 0.17 around the origin of `place`, at ten past ten.
+void add_clock(SceneBuilder& builder, const glm::dmat4& place);
+/// A pot with arching leaves, about 1.1 high.
+void add_potted_plant(SceneBuilder& builder, const glm::dvec3& place);
+
+/// A lamp that hangs from the ceiling: `rim` is the middle of its shade's lower edge.
+void add_hanging_lamp(SceneBuilder& builder, const glm::dvec3& rim, double ceiling);
+
+/// A standing lamp with a pleated shade, 1.66 high.
+void add_floor_lamp(SceneBuilder& builder, const glm::dvec3& place);
+
+}  // namespace beambench::scenes::generators
