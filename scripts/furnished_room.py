@@ -2,7 +2,7 @@
 
 usage: python3 scripts/furnished_room.py FURNITURE_FOLDER OUTPUT.obj
 
-The room has a floor and two walls, so that it can be looked into. Metres, y up. The pieces have the
+The room has a floor and two walls, so that it can be looked into. Meters, y up. The pieces have the
 sizes that their catalogues give them. Needs nothing but Python.
 """
 
@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 _WIDTH, _DEPTH, _HEIGHT, _THICKNESS = 6.4, 5.0, 2.7, 0.1
-_ROOM_COLOURS = {"room-floor": (0.55, 0.40, 0.28), "room-wall": (0.86, 0.83, 0.76)}
+_ROOM_COLORS = {"room-floor": (0.55, 0.40, 0.28), "room-wall": (0.86, 0.83, 0.76)}
 
 
 class Problem(Exception):  # noqa: N818 (as in beambench_report)
@@ -60,7 +60,7 @@ class Mesh:
 
     vertices: list[tuple[float, float, float]]
     faces: list[tuple[str, list[int]]]
-    colours: dict[str, tuple[float, float, float]]
+    colors: dict[str, tuple[float, float, float]]
 
 
 class Catalogue:
@@ -95,7 +95,7 @@ class Catalogue:
         material = "room-wall"
         for words in self._lines(path):
             if words[0] == "mtllib":
-                mesh.colours |= self._colours(path.parent / words[1], model)
+                mesh.colors |= self._colors(path.parent / words[1], model)
             elif words[0] == "v":
                 mesh.vertices.append((float(words[1]), float(words[2]), float(words[3])))
             elif words[0] == "usemtl":
@@ -110,18 +110,18 @@ class Catalogue:
             if words and not words[0].startswith("#"):
                 yield words
 
-    def _colours(self, path: PurePosixPath, model: str) -> dict[str, tuple[float, float, float]]:
-        colours: dict[str, tuple[float, float, float]] = {}
+    def _colors(self, path: PurePosixPath, model: str) -> dict[str, tuple[float, float, float]]:
+        colors: dict[str, tuple[float, float, float]] = {}
         name = ""
         for words in self._lines(path):
             if words[0] == "newmtl":
                 name = f"{model}-{words[1]}"
-                colours[name] = (0.7, 0.7, 0.7)
+                colors[name] = (0.7, 0.7, 0.7)
             elif words[0] == "Kd":
-                colours[name] = (float(words[1]), float(words[2]), float(words[3]))
-            elif words[0] == "map_Kd" and sum(colours[name]) == 0:
-                colours[name] = (0.5, 0.5, 0.5)
-        return colours
+                colors[name] = (float(words[1]), float(words[2]), float(words[3]))
+            elif words[0] == "map_Kd" and sum(colors[name]) == 0:
+                colors[name] = (0.5, 0.5, 0.5)
+        return colors
 
 
 def _indices(corners: list[str], vertices: int) -> list[int]:
@@ -176,7 +176,7 @@ def _box(low: tuple[float, float, float], high: tuple[float, float, float], name
         for i in range(8)
     ]
     sides = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]]
-    return Mesh(corners, [(name, side) for side in sides], {name: _ROOM_COLOURS[name]})
+    return Mesh(corners, [(name, side) for side in sides], {name: _ROOM_COLORS[name]})
 
 
 def _shell() -> list[Mesh]:
@@ -196,18 +196,18 @@ def furnish(folder: Path) -> list[Mesh]:
         if place.catalogue not in catalogues:
             catalogues[place.catalogue] = Catalogue(folder / f"{place.catalogue}.sh3f")
         entry, mesh = catalogues[place.catalogue].piece(place.model)
-        meshes.append(Mesh(_placed(entry, mesh, place), mesh.faces, mesh.colours))
+        meshes.append(Mesh(_placed(entry, mesh, place), mesh.faces, mesh.colors))
     return meshes
 
 
 def write(meshes: list[Mesh], output: Path) -> None:
     """Writes OUTPUT.obj and OUTPUT.mtl; the OBJ last, whole or not at all."""
     library = output.with_suffix(".mtl")
-    colours = {name: colour for mesh in meshes for name, colour in mesh.colours.items()}
+    colors = {name: color for mesh in meshes for name, color in mesh.colors.items()}
     library.write_text(
         "".join(
-            f"newmtl {name}\nKd {' '.join(f'{part:g}' for part in colour)}\n"
-            for name, colour in colours.items()
+            f"newmtl {name}\nKd {' '.join(f'{part:g}' for part in color)}\n"
+            for name, color in colors.items()
         )
     )
     lines = [f"mtllib {library.name}"]

@@ -8,13 +8,13 @@ from pathlib import Path
 import pytest
 
 from browser import Browser, find_browser
-from made_up_run import made_up_rows, write_full_run, write_run
+from synthetic_run import synthetic_rows, write_full_run, write_run
 
 
 @pytest.fixture
 def run_folder(tmp_path: Path) -> Path:
     """A folder with the results of a run in which every verdict was right."""
-    return write_run(tmp_path, made_up_rows())
+    return write_run(tmp_path, synthetic_rows())
 
 
 @pytest.fixture(scope="session")

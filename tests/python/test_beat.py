@@ -12,12 +12,12 @@ from beambench_report.__main__ import main
 from beambench_report.base.files import Problem
 from beambench_report.base.ratio import Ratio
 from beambench_report.base.records import read_run
-from beambench_report.embree_comparison.pairings import Duel, duels
+from beambench_report.embree_comparison.pairings import Pairing, pairings
 from beambench_report.embree_comparison.plots import plots
 from beambench_report.embree_comparison.report import as_markdown, judgement
 from beambench_report.embree_comparison.targets import groups
-from made_up_run import write_run, write_trace_cell
 from program import output_of
+from synthetic_run import write_run, write_trace_cell
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 Row = dict[str, object]
@@ -64,12 +64,12 @@ def row(
     }
 
 
-def duels_of(folder: Path, *rows: Row) -> list[Duel]:
-    return duels([read_run(write_run(folder, list(rows)))])
+def duels_of(folder: Path, *rows: Row) -> list[Pairing]:
+    return pairings([read_run(write_run(folder, list(rows)))])
 
 
 def test_the_fastest_right_mode_counts(tmp_path: Path) -> None:
-    (duel,) = duels_of(
+    (pairing,) = duels_of(
         tmp_path,
         row("tile-beam", 2),
         row("embree", 90, mode="single", robust="false"),
@@ -78,13 +78,13 @@ def test_the_fastest_right_mode_counts(tmp_path: Path) -> None:
         row("embree", 17, mode="stream", robust="true"),
         row("sah-bvh", 1),
     )
-    assert duel.embree.contender == "stream, robust"
-    assert duel.ratio.value == pytest.approx(8.5)
-    assert not duel.ratio.paired
+    assert pairing.embree.contender == "stream, robust"
+    assert pairing.ratio.value == pytest.approx(8.5)
+    assert not pairing.ratio.paired
     # Both medians are 10% from their ends: ln 0.9 and ln 1.1 in quadrature.
-    assert duel.ratio.low == pytest.approx(8.5 * exp(-0.142073), rel=1e-5)
-    assert duel.ratio.high == pytest.approx(8.5 * exp(0.142073), rel=1e-5)
-    assert duel.second_ratio == Ratio(pytest.approx(8.5))
+    assert pairing.ratio.low == pytest.approx(8.5 * exp(-0.142073), rel=1e-5)
+    assert pairing.ratio.high == pytest.approx(8.5 * exp(0.142073), rel=1e-5)
+    assert pairing.second_ratio == Ratio(pytest.approx(8.5))
 
 
 def test_images_and_instruction_sets_are_kept_apart(tmp_path: Path) -> None:
@@ -97,18 +97,18 @@ def test_images_and_instruction_sets_are_kept_apart(tmp_path: Path) -> None:
         row("embree", 20, mode="single", isa="avx2"),
         row("tile-beam", 4, scene="shells:n=5"),
     )
-    assert [(duel.resolution, duel.isa) for duel in found] == [
+    assert [(pairing.resolution, pairing.isa) for pairing in found] == [
         ("320x200", "best"),
         ("1280x1024", "avx2"),
     ]
-    assert [duel.ratio.value for duel in found] == [4, 5]
+    assert [pairing.ratio.value for pairing in found] == [4, 5]
 
 
 def test_without_an_interval_nothing_is_decided(tmp_path: Path) -> None:
     times = {"trace_ms_ci_low": "", "trace_ms_ci_high": ""}
-    (duel,) = duels_of(tmp_path, row("tile-beam", 2) | times, row("embree", 12, mode="single"))
-    assert duel.ratio == Ratio(6)
-    assert judgement(duel.ratio, 3) == judgement(duel.ratio, 9) == "open"
+    (pairing,) = duels_of(tmp_path, row("tile-beam", 2) | times, row("embree", 12, mode="single"))
+    assert pairing.ratio == Ratio(6)
+    assert judgement(pairing.ratio, 3) == judgement(pairing.ratio, 9) == "open"
 
 
 def test_with_single_repetitions_the_ratio_is_paired_by_rounds(tmp_path: Path) -> None:
@@ -119,9 +119,9 @@ def test_with_single_repetitions_the_ratio_is_paired_by_rounds(tmp_path: Path) -
     write_trace_cell(tmp_path, tile, [2 * s for s in slow], warm=[1.0 * s for s in slow[:6]])
     times = [6 * f / 2 * 2 * s for f, s in zip(first, slow, strict=True)]
     write_trace_cell(tmp_path, embree, times, warm=[5.0 * s for s in slow[:6]])
-    (duel,) = duels_of(tmp_path, tile, embree)
-    assert duel.ratio == Ratio(6, 4.5, 6, paired=True)
-    assert duel.second_ratio == Ratio(5, 5, 5, paired=True)
+    (pairing,) = duels_of(tmp_path, tile, embree)
+    assert pairing.ratio == Ratio(6, 4.5, 6, paired=True)
+    assert pairing.second_ratio == Ratio(5, 5, 5, paired=True)
 
 
 def test_an_image_that_two_runs_measured_counts_once_by_the_newest(tmp_path: Path) -> None:
@@ -133,9 +133,9 @@ def test_an_image_that_two_runs_measured_counts_once_by_the_newest(tmp_path: Pat
             read_run(write_run(tmp_path / name, [each | {"run_id": name} for each in rows]))
         )
     for order in (runs, runs[::-1]):
-        (duel,) = duels(order)
-        assert (duel.run_id, duel.ratio.value) == ("20261122-2", 4)
-        assert "Of 1 aims for single scenes" in as_markdown([duel])
+        (pairing,) = pairings(order)
+        assert (pairing.run_id, pairing.ratio.value) == ("20261122-2", 4)
+        assert "Of 1 aims for single scenes" in as_markdown([pairing])
 
 
 def test_no_scene_is_in_two_groups() -> None:
@@ -151,7 +151,7 @@ def test_runs_of_two_machines_are_not_mixed(tmp_path: Path) -> None:
         rows = [row("tile-beam", 2) | scene, row("embree", 12, mode="single") | scene]
         runs.append(read_run(write_run(tmp_path / name, rows)))
     with pytest.raises(Problem, match=r"2 machines \(a, b\)"):
-        duels(runs)
+        pairings(runs)
 
 
 def test_an_aim_within_the_interval_is_open() -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from beambench_report.base.records import read_run
 from beambench_report.run.break_even import AT_ONCE, NEVER, break_even_rays, break_even_table
-from made_up_run import made_up_rows, write_run
+from synthetic_run import synthetic_rows, write_run
 
 
 @pytest.mark.parametrize(
@@ -39,7 +39,7 @@ def test_both_pay_the_same_at_the_break_even() -> None:
 
 def test_a_pair_is_compared_over_the_largest_image_that_both_traced(tmp_path: Path) -> None:
     rows = [
-        row for row in made_up_rows() if row["structure"] != "exhaustive" or row["width"] == 320
+        row for row in synthetic_rows() if row["structure"] != "exhaustive" or row["width"] == 320
     ]
     table = break_even_table(read_run(write_run(tmp_path, rows)))
     with_exhaustive = (table["contender"] == "exhaustive") | (table["baseline"] == "exhaustive")
@@ -51,7 +51,9 @@ def test_a_pair_is_compared_over_the_largest_image_that_both_traced(tmp_path: Pa
 
 def test_a_pair_without_a_common_image_has_no_row(tmp_path: Path) -> None:
     rows = [
-        row for row in made_up_rows() if (row["structure"] == "exhaustive") == (row["width"] == 320)
+        row
+        for row in synthetic_rows()
+        if (row["structure"] == "exhaustive") == (row["width"] == 320)
     ]
     table = break_even_table(read_run(write_run(tmp_path, rows)))
     assert not table.empty

@@ -146,15 +146,15 @@ def test_wrong_files_are_refused_with_their_line(tmp_path: Path) -> None:
 
 
 def test_the_parts_of_1999_come_to_what_the_thesis_prints() -> None:
-    constant, a_ray = thesis_seconds()
+    constant, per_ray = thesis_seconds()
     recorded = Recorded(build_seconds=0.002, walk_seconds=0.008, work_seconds=5.0, samples=10**6)
     for constant_is in ("as ours", ALL_WALKING, ALL_BUILDING):
         slow = slowness_of_1999(recorded, constant_is)
         whole = 0.002 * slow.build + 0.008 * slow.walk
         assert whole == pytest.approx(constant)
-        assert 5.0 * slow.work == pytest.approx(a_ray * 10**6)
+        assert 5.0 * slow.work == pytest.approx(per_ray * 10**6)
     assert 9 < constant < 10
-    assert 32e-6 < a_ray < 36e-6
+    assert 32e-6 < per_ray < 36e-6
 
 
 def test_the_plan_asks_nothing_twice() -> None:

@@ -31,7 +31,7 @@ from beambench_report.thesis.paper.evidence import (
     smallest,
 )
 from beambench_report.thesis.paper.measured import UNKNOWN_SPREAD, census_work, measured_evidence
-from made_up_run import made_up_rows, without_times, write_run
+from synthetic_run import synthetic_rows, without_times, write_run
 
 YES, NO, UNDECIDED, MISSING = Outcome
 
@@ -189,7 +189,7 @@ LAZY = "resolution=32x32x32,density=4,fill=lazy,mailboxes=false"
 def row_of(structure: str, parameters: str, **changes: object) -> dict[str, object]:
     """A row of escena1 as `beambench run` writes it."""
     row = {"scene": "escena1:seed=1999,spheres=430", "primitives": 430}
-    return made_up_rows()[0] | row | {"structure": structure, "parameters": parameters} | changes
+    return synthetic_rows()[0] | row | {"structure": structure, "parameters": parameters} | changes
 
 
 def test_seconds_are_those_of_build_and_trace_with_the_wider_interval(tmp_path: Path) -> None:
@@ -238,7 +238,7 @@ def test_rows_that_the_claims_do_not_speak_of_are_left_out(
     assert len(measured_evidence([tmp_path]).times) == 1
 
 
-def test_a_grid_is_known_by_its_cells_an_axis(tmp_path: Path) -> None:
+def test_a_grid_is_known_by_its_cells_per_axis(tmp_path: Path) -> None:
     write_run(
         tmp_path, [row_of("voxel-grid", LAZY), row_of("voxel-grid", "resolution=13,fill=lazy")]
     )
@@ -363,7 +363,7 @@ def test_every_claim_has_a_line_with_both_verdicts(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     write_run(tmp_path, [row_of("beam", BEAM), row_of("samet", "max_level=6,max_objects=0")])
-    assert main(["ledger", str(tmp_path)]) == 0
+    assert main(["claims", str(tmp_path)]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert len(lines) == 2 + len(ALL_CLAIMS)
     assert lines[2].startswith("| C01 | 5.3.1, table 5.2 |")
@@ -377,7 +377,7 @@ def test_the_ledger_is_written_with_its_cells(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     target = tmp_path / "ledger.md"
-    assert main(["ledger", "--cells", "-o", str(target)]) == 0
+    assert main(["claims", "--cells", "-o", str(target)]) == 0
     assert capsys.readouterr().out == f"{target}\n"
     text = target.read_text("utf-8")
     assert "| maceta 640x480, 0 to 10 objects | yes | 9.29 against 10.5 | missing |  |" in text
@@ -386,5 +386,5 @@ def test_the_ledger_is_written_with_its_cells(
 def test_a_folder_that_is_no_run_is_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert main(["ledger", str(tmp_path / "nowhere")]) == 2
+    assert main(["claims", str(tmp_path / "nowhere")]) == 2
     assert "there is no such file" in capsys.readouterr().err

@@ -13,7 +13,7 @@ from beambench_report.thesis.claims.register import SWEPT_CLAIMS, judge, judge_f
 from beambench_report.thesis.claims.text import FURTHER_CLAIMS
 from beambench_report.thesis.claims.verdict import Claim, Verdict
 from beambench_report.thesis.paper.evidence import HIERARCHY, NOTHING, PAPER_HIERARCHY, PICTURE
-from made_up_evidence import RAYS, SCENES, Row, holding, without
+from synthetic_evidence import RAYS, SCENES, Row, holding, without
 
 Only = Callable[[Row], bool]
 

@@ -1,11 +1,11 @@
-"""Labels of contenders, titles of views, names of files, colours of structures."""
+"""Labels of contenders, titles of views, names of files, colors of structures."""
 
 from __future__ import annotations
 
 import pandas as pd
 import pytest
 
-from beambench_report.base.figure import looks, structure_colour
+from beambench_report.base.figure import looks, structure_color
 from beambench_report.base.names import contender_labels, file_stems, view_titles
 
 
@@ -58,14 +58,14 @@ def test_file_stems_are_plain_and_never_collide() -> None:
     assert list(stems.values()) == ["tetra-n-6", "tetra-n-6-2", "ber-x-nff", "scene", "escena1"]
 
 
-def test_variants_share_the_colour_of_their_structure_and_differ_otherwise() -> None:
+def test_variants_share_the_color_of_their_structure_and_differ_otherwise() -> None:
     rows = contenders(("samet", "max_level=5"), ("samet", "max_level=6"), ("embree", ""))
     rows["contender"] = contender_labels(rows)
     found = looks(rows)
     five, six = found["samet max_level=5"], found["samet max_level=6"]
-    assert five.colour == six.colour == structure_colour("samet") != found["embree"].colour
+    assert five.color == six.color == structure_color("samet") != found["embree"].color
     assert (five.marker, five.dashes) != (six.marker, six.dashes)
 
 
-def test_an_unknown_structure_has_a_lasting_colour() -> None:
-    assert structure_colour("newcomer") == structure_colour("newcomer")
+def test_an_unknown_structure_has_a_lasting_color() -> None:
+    assert structure_color("newcomer") == structure_color("newcomer")

@@ -9,21 +9,21 @@ import numpy as np
 import pytest
 
 from beambench_report.base.files import Problem
+from beambench_report.nightly.alarms import doubt, judge, sentence
 from beambench_report.nightly.calibration import (
     Effort,
     Noise,
     calibrate,
     count_alarms,
-    made_up_nights,
     noise_of_samples,
     share_interval,
+    synthetic_nights,
 )
 from beambench_report.nightly.history import Alarm, History
 from beambench_report.nightly.home import Home
-from beambench_report.nightly.judge import doubt, judge, sentence
 from beambench_report.nightly.steps import Rule, find_steps
-from made_up_nights import Row, add_all, counting, nothing, slower, write_nights, wrong
-from made_up_run import made_up_rows, without_times, write_cell
+from synthetic_nights import Row, add_all, counting, nothing, slower, write_nights, wrong
+from synthetic_run import synthetic_rows, without_times, write_cell
 
 NIGHTS = 30
 
@@ -73,7 +73,7 @@ def test_a_wrong_hit_is_found_and_named(home: Home) -> None:
     assert {alarm.kind for alarm in told[1]} == {"verdict"}
     assert len(told[1]) == 6
     sentences = [sentence(alarm) for alarm in told[1]]
-    assert "samet max_level=6 in tetra:n=6 at 320x200: hits were not right (mismatch)" in sentences
+    assert "samet max_level=6 in tetra:n=6 at 320x200: wrong hits (mismatch)" in sentences
 
 
 @pytest.mark.parametrize(
@@ -130,7 +130,7 @@ def noise(nights: int = 200, scenes: int = 3, size: float = 0.01) -> Noise:
 
 
 def test_a_hundred_nights_of_noise_over_all_series_raise_at_most_one_alarm() -> None:
-    values = made_up_nights(noise(), 100, np.random.default_rng(5))
+    values = synthetic_nights(noise(), 100, np.random.default_rng(5))
     assert values.shape == (100, 105)
     assert len(count_alarms(values, Rule())) <= 1
 
@@ -207,7 +207,7 @@ def test_an_earlier_gain_does_not_hide_a_later_loss() -> None:
 
 def test_noise_can_be_drawn_from_raw_samples(tmp_path: Path) -> None:
     random = np.random.default_rng(13)
-    for row in made_up_rows():
+    for row in synthetic_rows():
         total = float(row["total_ms_median"])
         write_cell(
             tmp_path, row, {turn: total * float(random.lognormal(0, 0.01)) for turn in range(20)}

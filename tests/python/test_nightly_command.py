@@ -20,9 +20,9 @@ from beambench_report.nightly.compare import compare_turns, measure_in_turns
 from beambench_report.nightly.diff import diff
 from beambench_report.nightly.home import Home, only_one
 from beambench_report.nightly.run import _free_folder
-from made_up_nights import add_all, counting, nothing, slower, write_night, write_nights, wrong
-from made_up_run import without_times
 from program import BINARY
+from synthetic_nights import add_all, counting, nothing, slower, write_night, write_nights, wrong
+from synthetic_run import without_times
 
 TINY = {
     "name": "tiny",
@@ -149,7 +149,7 @@ def test_a_second_run_is_refused_while_one_goes_on(
 ) -> None:
     with only_one(Home(tmp_path).lock):
         assert night(tmp_path, sweep) == 2
-    assert "a nightly run is going on (process " in capsys.readouterr().err
+    assert "a nightly run is in progress (process " in capsys.readouterr().err
 
 
 def test_a_wrong_hit_ends_with_1_and_is_named(
@@ -161,7 +161,7 @@ def test_a_wrong_hit_ends_with_1_and_is_named(
     arguments = ["nightly", "add", last, "--home", home.folder, "--beambench", "/bin/false"]
     assert main([str(argument) for argument in arguments]) == 1
     told = capsys.readouterr()
-    assert "samet max_level=5 in escena1 at 320x200: hits were not right (mismatch)" in told.err
+    assert "samet max_level=5 in escena1 at 320x200: wrong hits (mismatch)" in told.err
     assert told.out == f"{home.page}\n"
 
 

@@ -16,8 +16,8 @@ from beambench_report.nightly.history import SCHEMA_VERSION, History
 from beambench_report.nightly.home import Home, abandon, only_one, prune
 from beambench_report.nightly.night import night_of
 from beambench_report.nightly.run import catch_up, rebuild_history
-from made_up_nights import add_all, counting, write_nights, wrong
-from made_up_run import made_up_rows, without_times, write_cell, write_run
+from synthetic_nights import add_all, counting, write_nights, wrong
+from synthetic_run import synthetic_rows, without_times, write_cell, write_run
 
 
 @pytest.fixture
@@ -117,12 +117,12 @@ def test_a_csv_that_cannot_be_read_is_named_and_the_old_history_stays(home: Home
 
 
 def test_rows_of_two_runs_are_no_night(home: Home, tmp_path: Path) -> None:
-    rows = made_up_rows()
+    rows = synthetic_rows()
     rows[-1]["run_id"] = "another"
     with pytest.raises(Problem, match="a night is one run"):
         night_of(read_run(write_run(tmp_path, rows)))
     with pytest.raises(Problem, match="row 3: repeats an earlier cell"):
-        night_of(read_run(write_run(tmp_path, [made_up_rows()[0]] * 2)))
+        night_of(read_run(write_run(tmp_path, [synthetic_rows()[0]] * 2)))
 
 
 def test_two_runs_at_once_are_kept_apart(home: Home) -> None:
@@ -149,7 +149,7 @@ def test_a_lock_dies_with_its_holder(home: Home) -> None:
 
 def test_old_raw_samples_are_pruned_but_not_what_was_wrong(home: Home) -> None:
     folders = write_nights(home, 4)
-    right, bad = made_up_rows()[0], without_times(made_up_rows()[1], "mismatch")
+    right, bad = synthetic_rows()[0], without_times(synthetic_rows()[1], "mismatch")
     for folder in folders:
         write_cell(folder, right)
         write_cell(folder, bad)

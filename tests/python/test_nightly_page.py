@@ -22,7 +22,7 @@ from beambench_report.nightly.page import (
     write_night_page,
 )
 from browser import Browser
-from made_up_nights import add_all, counting, nothing, write_nights, wrong
+from synthetic_nights import add_all, counting, nothing, write_nights, wrong
 
 TAB, DOWN = ("Tab", 9), ("ArrowDown", 40)
 DOT = base64.b64decode(
@@ -79,7 +79,7 @@ def test_it_says_first_what_is_wrong(page: Path) -> None:
     text = page.read_text()
     head = text[text.index('<header id="result">') : text.index("</header>")]
     assert "9 alarms" in head
-    assert "exhaustive in tetra:n=6 at 320x200: hits were not right (mismatch)" in head
+    assert "exhaustive in tetra:n=6 at 320x200: wrong hits (mismatch)" in head
     assert "samet max_level=5 in escena1 at 640x480: traversal steps a ray from 11.5 to" in head
     assert "Times are not judged yet: this machine has 3 nights" in head
     assert "6 cells counted other work" in text
@@ -103,7 +103,7 @@ def test_a_fine_night_says_so(tmp_path: Path) -> None:
     home = Home(tmp_path)
     add_all(home, write_nights(home, 1, nothing))
     text = page_of(home).read_text()
-    assert "Nothing regressed, and every hit was right" in text
+    assert "No regression, every hit verified" in text
     assert "This is the first night" in text
 
 

@@ -14,7 +14,7 @@ from beambench_report.__main__ import main
 from beambench_report.base.records import read_run
 from beambench_report.run.all_cells import pack
 from beambench_report.run.page import render
-from made_up_run import made_up_rows, without_times, write_manifest, write_run
+from synthetic_run import synthetic_rows, without_times, write_manifest, write_run
 
 VOID = {"meta", "link", "img", "input", "br", "wbr", "hr"}
 # These end where the next of their kind begins.
@@ -63,22 +63,22 @@ def page_of(folder: Path, *options: str) -> Reader:
 def test_a_right_run_says_so_first(run_folder: Path) -> None:
     write_manifest(run_folder)
     text = page_of(run_folder).text
-    assert "All 30 cells were right" in text
+    assert "All 30 cells were verified" in text
     assert "Sweep made-up" in text
     assert "measured for 4 min 10 s" in text
-    assert text.index("cells were right") < text.index("Comparison Total time")
+    assert text.index("cells were verified") < text.index("Comparison Total time")
 
 
 def test_a_wrong_cell_is_told_with_its_reason_and_the_way_to_replay_it(full_run: Path) -> None:
     text = page_of(full_run).text
-    assert "3 of 30 cells were not right" in text
+    assert "3 of 30 cells were wrong" in text
     assert (
         "mismatch samet max_level=6 in tetra:n=6 at 320x200, 640x480, 1280x1024: "
         "hits were wrong 3 of 64000 hits were wrong"
     ) in text
     assert "pixel (3, 4) sample 0: engine_error" in text
     replay = "beambench trace 'tetra:n=6' --accel samet:max_level=6 --pixel 3,4"
-    assert f"See this ray's way: {replay}" in text
+    assert f"See this ray's path: {replay}" in text
     assert f"replay {replay}" not in text
 
 
@@ -92,7 +92,12 @@ def test_everything_is_on_the_page_and_nothing_is_fetched(full_run: Path) -> Non
     assert {at[1:] for at in reader.addresses if at.startswith("#")} <= set(reader.ids)
     for part in ("result", "comparison", "view-escena1", "plots", "cells", "manifest"):
         assert part in reader.ids
-    for words in ("samet, traversal steps", "What could not be controlled", "16.0 GiB", "not told"):
+    for words in (
+        "samet, traversal steps",
+        "What could not be controlled",
+        "16.0 GiB",
+        "not reported",
+    ):
         assert words in reader.text
     page = (full_run / "report.html").read_text("utf-8")
     assert "default-src 'none'" in page
@@ -107,30 +112,30 @@ def test_what_is_not_there_is_left_out(run_folder: Path) -> None:
 
 
 def test_a_run_in_which_nothing_was_right_has_a_page(tmp_path: Path) -> None:
-    rows = [without_times(row, "error") for row in made_up_rows()]
+    rows = [without_times(row, "error") for row in synthetic_rows()]
     reader = page_of(write_run(tmp_path, rows))
-    assert "30 of 30 cells were not right" in reader.text
+    assert "30 of 30 cells were wrong" in reader.text
     assert "comparison" not in reader.ids
 
 
 def test_cells_without_rays_are_not_wrong(tmp_path: Path) -> None:
-    rows = made_up_rows()
+    rows = synthetic_rows()
     rows[:3] = [{**without_times(row, "no_rays"), "ray_kind": "shadow"} for row in rows[:3]]
     for row in rows[:3]:
         row["rays"] = 0
     text = page_of(write_run(tmp_path, rows)).text
-    assert "All 27 cells were right" in text
+    assert "All 27 cells were verified" in text
     assert "3 cells have no rays" in text
-    assert "were not right" not in text
+    assert "were wrong" not in text
 
 
 def test_a_run_without_any_rays_has_a_page(tmp_path: Path) -> None:
-    rows = [{**without_times(row, "no_rays"), "rays": 0} for row in made_up_rows()]
+    rows = [{**without_times(row, "no_rays"), "rays": 0} for row in synthetic_rows()]
     assert "No cell was measured" in page_of(write_run(tmp_path, rows)).text
 
 
 def test_one_cell_is_enough(tmp_path: Path) -> None:
-    assert "The only cell was right" in page_of(write_run(tmp_path, made_up_rows()[3:4])).text
+    assert "The only cell was verified" in page_of(write_run(tmp_path, synthetic_rows()[3:4])).text
 
 
 def test_a_run_that_was_cut_off_says_so(run_folder: Path) -> None:
@@ -140,7 +145,7 @@ def test_a_run_that_was_cut_off_says_so(run_folder: Path) -> None:
 
 def test_names_from_a_record_cannot_become_part_of_the_page(tmp_path: Path) -> None:
     evil = "</script><script>alert(1)</script>&<b>"
-    rows = [{**row, "scene": evil, "commit": evil, "rays_hash": evil} for row in made_up_rows()]
+    rows = [{**row, "scene": evil, "commit": evil, "rays_hash": evil} for row in synthetic_rows()]
     rows[0]["parameters"] = f"a={evil}"
     folder = write_run(tmp_path, rows)
     write_manifest(folder, sweep=evil, uncontrolled=[evil])
@@ -159,7 +164,7 @@ def test_the_reference_can_be_chosen(run_folder: Path, capsys: pytest.CaptureFix
 def test_a_structure_names_its_only_contender_as_the_reference(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    rows = made_up_rows()
+    rows = synthetic_rows()
     names = {row["structure"]: set() for row in rows}
     for row in rows:
         names[row["structure"]].add(row["parameters"])
@@ -204,7 +209,7 @@ def test_packed_rows_say_what_the_file_says(run_folder: Path) -> None:
 
 
 def test_200_000_rows_are_read_into_the_page_in_10_seconds(tmp_path: Path) -> None:
-    rows = made_up_rows()
+    rows = synthetic_rows()
     lines = write_run(tmp_path, rows).joinpath("results.csv").read_text().splitlines()
     copies = 200_000 // len(rows) + 1
     many = [lines[0], *(lines[1:] * copies)[:200_000]]
@@ -212,5 +217,5 @@ def test_200_000_rows_are_read_into_the_page_in_10_seconds(tmp_path: Path) -> No
     begin = time.process_time()  # what others do on this machine does not count
     page = render(read_run(tmp_path))
     assert time.process_time() - begin < 10
-    assert "200,000 cells were right" in page
+    assert "200,000 cells were verified" in page
     assert len(page) < 100e6

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from beambench_report.__main__ import main
-from made_up_run import made_up_rows, write_run
+from synthetic_run import synthetic_rows, write_run
 
 
 @pytest.fixture
@@ -40,7 +40,7 @@ def test_each_scene_is_rendered_and_has_a_heat_map(run_folder: Path, painter: Pa
 
 
 def test_a_structure_that_was_wrong_has_no_heat_map(tmp_path: Path, painter: Path) -> None:
-    rows = [{**row, "verdict": "mismatch"} for row in made_up_rows()]
+    rows = [{**row, "verdict": "mismatch"} for row in synthetic_rows()]
     folder = write_run(tmp_path, rows)
     assert main(["pictures", str(folder), "--beambench", str(painter)]) == 0
     assert len(list((folder / "pictures").iterdir())) == 2

@@ -15,7 +15,7 @@ from beambench_report.base.quantities import number
 from beambench_report.base.records import read_run
 from beambench_report.run.bars import Bar, draw_bars
 from beambench_report.run.plots import time_over_rays
-from made_up_run import made_up_rows, without_times, write_run
+from synthetic_run import synthetic_rows, without_times, write_run
 
 PLOTS = {
     "time-escena1",
@@ -64,7 +64,7 @@ def test_a_wrong_contender_has_no_line_and_is_named_in_the_caption(tmp_path: Pat
         without_times(row, "mismatch")
         if row["scene"] == "escena1" and row["parameters"] == "max_level=6,max_objects=0"
         else row
-        for row in made_up_rows()
+        for row in synthetic_rows()
     ]
     run = read_run(write_run(tmp_path, rows))
     assert untimed(run.view("escena1")) == ["samet max_level=6 in escena1: mismatch"]
@@ -78,13 +78,13 @@ def test_a_wrong_contender_has_no_line_and_is_named_in_the_caption(tmp_path: Pat
 
 
 def test_a_run_in_which_nothing_was_right_still_shows_its_counters(tmp_path: Path) -> None:
-    rows = [without_times(row, "error") for row in made_up_rows()]
+    rows = [without_times(row, "error") for row in synthetic_rows()]
     assert main(["plots", str(write_run(tmp_path, rows))]) == 0
     assert plotted(tmp_path) == {"memory", "counters-escena1", "counters-tetra-n-6"}
 
 
 def test_one_cell_is_enough(tmp_path: Path) -> None:
-    assert main(["plots", str(write_run(tmp_path, made_up_rows()[3:4]))]) == 0
+    assert main(["plots", str(write_run(tmp_path, synthetic_rows()[3:4]))]) == 0
     assert plotted(tmp_path) == {"time-escena1", "build-and-trace", "memory", "counters-escena1"}
 
 
@@ -117,6 +117,6 @@ def test_numbers_keep_three_significant_digits(value: float, text: str) -> None:
 def test_a_bar_beside_bars_of_no_length_is_on_the_axis() -> None:
     figure, panel = plt.subplots()
     bars = [Bar(name, [value], "") for name, value in (("a", 0.0), ("b", 0.0), ("c", 14.3))]
-    draw_bars(panel, bars, {name: Look("black", "o", "-") for name in "abc"}, "a ray")
+    draw_bars(panel, bars, {name: Look("black", "o", "-") for name in "abc"}, "per ray")
     assert panel.get_xlim()[1] > 14.3
     plt.close(figure)

@@ -20,7 +20,7 @@ from beambench_report.base.ratio import (
 )
 from beambench_report.base.records import read_run
 from beambench_report.run.page import choose_reference, compared, ratio_field
-from made_up_run import made_up_rows, without_times, write_cell, write_run
+from synthetic_run import synthetic_rows, without_times, write_cell, write_run
 
 
 @pytest.mark.parametrize(
@@ -89,13 +89,13 @@ def test_the_reference_is_whoever_was_right_in_the_most_views(tmp_path: Path) ->
         without_times(row, "mismatch")
         if row["structure"] == "embree" and row["scene"] == "escena1"
         else row
-        for row in made_up_rows()
+        for row in synthetic_rows()
     ]
     assert choose_reference(read_run(write_run(tmp_path, rows))) == "exhaustive"
 
 
 def test_without_a_right_contender_there_is_no_reference(tmp_path: Path) -> None:
-    rows = [without_times(row, "error") for row in made_up_rows()]
+    rows = [without_times(row, "error") for row in synthetic_rows()]
     run = read_run(write_run(tmp_path, rows))
     assert choose_reference(run) is None
     assert compared(run, "escena1", None, {})[0].ratios == {}
@@ -110,7 +110,7 @@ def test_a_wanted_reference_that_is_not_there_is_refused(run_folder: Path) -> No
 
 def test_rounds_are_paired(tmp_path: Path) -> None:
     """A moment in which all were ten times slower must not be seen in the ratio."""
-    rows = [row for row in made_up_rows() if row["structure"] in ("embree", "samet")]
+    rows = [row for row in synthetic_rows() if row["structure"] in ("embree", "samet")]
     folder = write_run(tmp_path, rows)
     slowness = {turn: 10.0 if turn in (1, 2, 5) else 1.0 for turn in range(8)}
     for row in rows:

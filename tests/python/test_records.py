@@ -8,7 +8,7 @@ import pytest
 
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
-from made_up_run import made_up_rows, without_times, write_run
+from synthetic_run import synthetic_rows, without_times, write_run
 
 
 def test_the_structure_null_is_a_name_and_not_a_missing_value(run_folder: Path) -> None:
@@ -21,7 +21,7 @@ def test_rows_judged_ok_or_baseline_are_timed(run_folder: Path) -> None:
 
 @pytest.mark.parametrize("verdict", ["mismatch", "grazes", "error", "no_rays", ""])
 def test_any_other_verdict_takes_a_row_out_of_the_times(tmp_path: Path, verdict: str) -> None:
-    rows = made_up_rows()
+    rows = synthetic_rows()
     rows[4] = {**rows[4], "verdict": verdict}  # times left in: the verdict alone must decide
     timed = read_run(write_run(tmp_path, rows)).rows["timed"]
     assert not timed[4]
@@ -29,7 +29,7 @@ def test_any_other_verdict_takes_a_row_out_of_the_times(tmp_path: Path, verdict:
 
 
 def test_empty_fields_are_not_measured(tmp_path: Path) -> None:
-    rows = made_up_rows()
+    rows = synthetic_rows()
     rows[4] = without_times(rows[4], "mismatch")
     run = read_run(write_run(tmp_path, rows))
     assert run.rows["total_ms_median"].isna().sum() == 1
@@ -38,7 +38,7 @@ def test_empty_fields_are_not_measured(tmp_path: Path) -> None:
 
 
 def test_a_column_of_the_family_s_own_is_a_counter(tmp_path: Path) -> None:
-    rows = [{**row, "neighbour_climbs_per_ray": 3.5} for row in made_up_rows()]
+    rows = [{**row, "neighbour_climbs_per_ray": 3.5} for row in synthetic_rows()]
     assert "neighbour_climbs_per_ray" in read_run(write_run(tmp_path, rows)).counters
 
 
@@ -50,7 +50,7 @@ def test_columns_of_older_records_are_read_under_their_new_names(tmp_path: Path)
 
 
 def test_counters_of_a_kind_of_rays_are_told_apart(tmp_path: Path) -> None:
-    rows = [{**row, "shadow_rays": 9, "shadow_box_tests_per_ray": 3.5} for row in made_up_rows()]
+    rows = [{**row, "shadow_rays": 9, "shadow_box_tests_per_ray": 3.5} for row in synthetic_rows()]
     run = read_run(write_run(tmp_path, rows))
     assert run.counters_by_kind == ["shadow_box_tests_per_ray"]
     assert "shadow_box_tests_per_ray" not in run.counters
@@ -64,20 +64,20 @@ def test_finest_gives_the_highest_number_of_rays(run_folder: Path) -> None:
 
 
 def test_columns_of_a_newer_beambench_are_kept_as_they_are(tmp_path: Path) -> None:
-    rows = [{**row, "new_figure": 3, "new_word": "x"} for row in made_up_rows()]
+    rows = [{**row, "new_figure": 3, "new_word": "x"} for row in synthetic_rows()]
     run = read_run(write_run(tmp_path, rows))
     assert set(run.rows["new_figure"]) == {3}
     assert set(run.rows["new_word"]) == {"x"}
 
 
 def test_missing_columns_are_named(tmp_path: Path) -> None:
-    folder = write_run(tmp_path, made_up_rows(), without=("verdict", "memory_bytes"))
+    folder = write_run(tmp_path, synthetic_rows(), without=("verdict", "memory_bytes"))
     with pytest.raises(Problem, match=r"results\.csv: the columns memory_bytes, verdict are miss"):
         read_run(folder)
 
 
 def test_a_field_that_is_no_number_is_named_with_its_row(tmp_path: Path) -> None:
-    rows = made_up_rows()
+    rows = synthetic_rows()
     rows[2] = {**rows[2], "build_ms_median": "fast"}
     with pytest.raises(Problem, match="row 4: build_ms_median is 'fast', not a number"):
         read_run(write_run(tmp_path, rows))
@@ -85,7 +85,7 @@ def test_a_field_that_is_no_number_is_named_with_its_row(tmp_path: Path) -> None
 
 @pytest.mark.parametrize("column", ["scene", "structure", "rays"])
 def test_a_row_without_identity_is_refused(tmp_path: Path, column: str) -> None:
-    rows = made_up_rows()
+    rows = synthetic_rows()
     rows[0] = {**rows[0], column: ""}
     with pytest.raises(Problem, match=f"row 2: {column} is empty"):
         read_run(write_run(tmp_path, rows))
@@ -93,7 +93,7 @@ def test_a_row_without_identity_is_refused(tmp_path: Path, column: str) -> None:
 
 @pytest.mark.parametrize("version", [0, 2, "", "one"])
 def test_another_version_of_the_schema_is_refused(tmp_path: Path, version: object) -> None:
-    rows = made_up_rows()
+    rows = synthetic_rows()
     rows[3] = {**rows[3], "schema_version": version}
     with pytest.raises(Problem, match=r"row 5: schema_version is '.*', and this reads version 1"):
         read_run(write_run(tmp_path, rows))
@@ -101,18 +101,18 @@ def test_another_version_of_the_schema_is_refused(tmp_path: Path, version: objec
 
 def test_a_table_without_a_version_is_refused(tmp_path: Path) -> None:
     with pytest.raises(Problem, match="there is no column schema_version"):
-        read_run(write_run(tmp_path, made_up_rows(), without=("schema_version",)))
+        read_run(write_run(tmp_path, synthetic_rows(), without=("schema_version",)))
 
 
 @pytest.mark.parametrize("text", ["true", "1e", "0x10"])
 def test_what_a_reader_could_take_for_a_number_is_refused(tmp_path: Path, text: str) -> None:
-    rows = [{**row, "memory_bytes": text} for row in made_up_rows()]
+    rows = [{**row, "memory_bytes": text} for row in synthetic_rows()]
     with pytest.raises(Problem, match=f"(?i)row 2: memory_bytes is '{text}', not a number"):
         read_run(write_run(tmp_path, rows))
 
 
 def test_hashes_of_digits_alone_stay_texts(tmp_path: Path) -> None:
-    rows = [{**row, "scene_hash": "0000000000000012"} for row in made_up_rows()]
+    rows = [{**row, "scene_hash": "0000000000000012"} for row in synthetic_rows()]
     run = read_run(write_run(tmp_path, rows))
     assert set(run.rows["scene_hash"]) == {"0000000000000012"}
 

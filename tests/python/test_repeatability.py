@@ -10,7 +10,7 @@ from beambench_report.__main__ import main
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
 from beambench_report.run.repeatability import repeatability
-from made_up_run import made_up_rows, without_times, write_run
+from synthetic_run import synthetic_rows, without_times, write_run
 
 
 def run_in(folder: Path, rows: list[dict[str, object]]) -> Path:
@@ -25,7 +25,7 @@ def slower(row: dict[str, object], factor: float) -> dict[str, object]:
 def test_medians_within_the_first_runs_intervals_are_counted(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    rows = made_up_rows()
+    rows = synthetic_rows()
     again = [slower(row, 1.02) for row in rows]  # the intervals reach from 0.98 to 1.03
     again[4] = slower(rows[4], 1.5)
     first, second = run_in(tmp_path / "a", rows), run_in(tmp_path / "b", again)
@@ -40,7 +40,7 @@ def test_medians_within_the_first_runs_intervals_are_counted(
 
 
 def test_cells_that_one_run_lacks_or_could_not_time_are_left_out(tmp_path: Path) -> None:
-    rows = made_up_rows()
+    rows = synthetic_rows()
     again = [without_times(rows[0], "mismatch"), *rows[2:]]
     found = repeatability(
         read_run(run_in(tmp_path / "a", rows)), read_run(run_in(tmp_path / "b", again))
@@ -50,7 +50,7 @@ def test_cells_that_one_run_lacks_or_could_not_time_are_left_out(tmp_path: Path)
 
 
 def test_runs_of_different_sweeps_are_refused(tmp_path: Path) -> None:
-    rows = made_up_rows()
+    rows = synthetic_rows()
     first = read_run(run_in(tmp_path / "a", rows[:3]))
     second = read_run(run_in(tmp_path / "b", rows[5:]))
     with pytest.raises(Problem, match="no cell in common"):
@@ -58,7 +58,7 @@ def test_runs_of_different_sweeps_are_refused(tmp_path: Path) -> None:
 
 
 def test_runs_of_two_machines_are_refused(tmp_path: Path) -> None:
-    rows = made_up_rows()
+    rows = synthetic_rows()
     first = read_run(run_in(tmp_path / "a", rows))
     second = read_run(run_in(tmp_path / "b", [row | {"machine_id": "b"} for row in rows]))
     with pytest.raises(Problem, match=r"machine 0123456789abcdef, .* of b: a run is repeated"):

@@ -12,10 +12,10 @@ from beambench_report.__main__ import main
 from beambench_report.base.cell_files import read_cell_files
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
-from beambench_report.embree_comparison.pairings import duels
+from beambench_report.embree_comparison.pairings import pairings
 from beambench_report.nightly.calibration import noise_of_samples
-from made_up_run import made_up_rows, write_run
 from program import BINARY, output_of
+from synthetic_run import synthetic_rows, write_run
 
 
 def published(run: Path, folder: Path) -> Path:
@@ -55,8 +55,8 @@ def test_what_is_read_of_the_file_is_what_the_cells_hold(real_run: Path, tmp_pat
 
 
 def test_a_published_run_has_paired_ratios(real_run: Path, tmp_path: Path) -> None:
-    [mine] = duels([read_run(real_run)])
-    [theirs] = duels([read_run(published(real_run, tmp_path / "published"))])
+    [mine] = pairings([read_run(real_run)])
+    [theirs] = pairings([read_run(published(real_run, tmp_path / "published"))])
     assert theirs.ratio.paired
     assert theirs.ratio.interval == pytest.approx(mine.ratio.interval, rel=1e-4)
     assert theirs.second_ratio.interval == pytest.approx(mine.second_ratio.interval, rel=1e-4)
@@ -70,7 +70,7 @@ def test_noise_can_be_drawn_from_a_published_run(real_run: Path, tmp_path: Path)
 
 
 def test_a_file_of_another_run_is_refused(tmp_path: Path) -> None:
-    run = write_run(tmp_path, made_up_rows())
+    run = write_run(tmp_path, synthetic_rows())
     (run / "repetitions.csv").write_text("line,round,build_ms,trace_ms\n2,0,1,123\n")
     with pytest.raises(Problem, match=r"does not belong to the results\.csv beside it"):
         read_cell_files(run)

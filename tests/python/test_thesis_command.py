@@ -11,8 +11,8 @@ import pytest
 from beambench_report.__main__ import main
 from beambench_report.thesis.report import plan
 from beambench_report.thesis.report.plan import make_plan, quick, read_sweep
-from made_up_thesis import write_runs
 from program import BINARY
+from synthetic_thesis import write_runs
 
 # In place of the program: notes how it was called, and leaves what a run leaves.
 STAND_IN = """#!/usr/bin/env bash
@@ -60,7 +60,7 @@ def test_a_dry_run_lists_sweeps_cells_and_time(capsys: pytest.CaptureFixture[str
         (["--table", "5.9"], "there is no table '5.9'; there are 5.2, 5.3"),
         (["--figure", "5.3"], "there is no figure '5.3'; there are 5.4, 5.5"),
         (["--resume", "no/such"], "give the folder that an earlier scripts/thesis wrote"),
-        (["--resume", "x", "--quick"], "--resume goes on with what was begun"),
+        (["--resume", "x", "--quick"], "--resume continues what was begun"),
         (["--report-only"], "--report-only needs the folder of a run"),
     ],
 )
@@ -150,7 +150,7 @@ def test_a_small_real_run_leaves_a_report(tmp_path: Path, monkeypatch: pytest.Mo
     run = tmp_path / "run"
     assert run_thesis("--table", "5.4", "-o", run, "--beambench", BINARY) == 0
     text = (run / "report.md").read_text()
-    assert "18 cells in 2 runs, all of them right." in text
+    assert "18 cells in 2 runs, all of them verified." in text
     assert "### Table 5.4" in text
     assert (run / "figures" / "figure-5.12.svg").exists()
     assert (run / "synthetic" / "results.csv").exists()

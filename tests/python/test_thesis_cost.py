@@ -20,8 +20,8 @@ from beambench_report.thesis.chapter5.cost import (
 from beambench_report.thesis.paper.cells import Cell, read_cells
 from beambench_report.thesis.paper.section import section_as_markdown
 from beambench_report.thesis.report.plan import PlannedCell
-from made_up_run import write_run
-from made_up_thesis import Row, row_of
+from synthetic_run import write_run
+from synthetic_thesis import Row, row_of
 
 SCENES = ("escena1", "escena2", "delfines", "maceta")
 LEVELS = (5, 6, 7)
@@ -34,7 +34,7 @@ def fitted(counts: np.ndarray, times: np.ndarray) -> np.ndarray:
     return solve(equations)[0]
 
 
-def made_up_cells(tmp_path: Path, spoil: float = 0.0) -> list[Cell]:
+def synthetic_cells(tmp_path: Path, spoil: float = 0.0) -> list[Cell]:
     """Samet and beams whose times are exactly the sums, or `spoil` of them off at random.
 
     Build 80 ns a node and 180 a reference; rays 5 + 9 a leaf + 13 a test; beams 250 and 350, 7 a
@@ -80,7 +80,7 @@ def made_up_cells(tmp_path: Path, spoil: float = 0.0) -> list[Cell]:
 
 def tasks(beams: float, ends: float, rays: float) -> Row:
     """Non-terminal beams cost 100 each, 8 an edge, 60 a clip, 30 a search; 200 a beam at a leaf,
-    40 a sample, 12 a test, 15 a ray that goes on, 9 a leaf on its way.
+    40 a sample, 12 a test, 15 a ray that goes on, 9 a leaf on its path.
     """
     edges, clips, searches, samples, tests, after, steps = RANDOM.uniform(1, 9, 7)
     passing = beams * (100 + 8 * edges + 60 * clips + 30 * searches)
@@ -138,21 +138,21 @@ def test_groups_drawn_again_are_as_if_their_cells_stood_there_as_often() -> None
 
 
 def test_all_five_sums_find_the_costs_that_the_times_were_made_of(tmp_path: Path) -> None:
-    cells = made_up_cells(tmp_path)
+    cells = synthetic_cells(tmp_path)
     wanted = ((100, 8, 60, 30), (200, 40, 12, 15, 9), (80, 180), (5, 9, 13), (250, 350, 7, 20))
     for formula, costs in zip((*thesis_formulas(), *sums_of_auto()), wanted, strict=True):
         found = fit(formula, formula.observe(cells))
         assert [cost.value for cost in found.coefficients] == pytest.approx(costs, rel=1e-4)
         assert found.r_squared == pytest.approx(1)
         assert max(found.errors) < 1e-4
-        assert max(found.errors_of_strangers) < 1e-4
+        assert max(found.cross_validation_errors) < 1e-4
         assert found.scenes == len(SCENES)
         assert len(found.observations) == (48 if formula.title.startswith("Building") else 24)
 
 
 def test_an_interval_holds_the_cost_and_is_the_same_again(tmp_path: Path) -> None:
     formula = sums_of_auto()[1]
-    observations = formula.observe(made_up_cells(tmp_path, spoil=0.2))
+    observations = formula.observe(synthetic_cells(tmp_path, spoil=0.2))
     found, again = fit(formula, observations), fit(formula, observations)
     assert found.coefficients == again.coefficients
     for cost, true in zip(found.coefficients[1:], (9, 13), strict=True):
@@ -164,10 +164,10 @@ def test_an_interval_holds_the_cost_and_is_the_same_again(tmp_path: Path) -> Non
 
 def test_few_scenes_give_no_interval_and_few_cells_no_fit(tmp_path: Path) -> None:
     formula = sums_of_auto()[1]
-    cells = [cell for cell in made_up_cells(tmp_path) if cell.scene in SCENES[:2]]
+    cells = [cell for cell in synthetic_cells(tmp_path) if cell.scene in SCENES[:2]]
     found = fit(formula, formula.observe(cells))
     assert all(math.isnan(cost.low) and math.isnan(cost.high) for cost in found.coefficients)
-    assert found.errors_of_strangers == ()
+    assert found.cross_validation_errors == ()
     assert fit(formula, formula.observe(cells)[:9]) is None
 
 
@@ -202,7 +202,7 @@ def test_beams_take_the_work_of_rays_from_another_resolution_of_the_octree(tmp_p
 
 
 def test_the_section_tells_costs_intervals_and_errors(tmp_path: Path) -> None:
-    section = cost_section(made_up_cells(tmp_path))
+    section = cost_section(synthetic_cells(tmp_path))
     text = section_as_markdown(section)
     assert "| Building the octree | a reference | – | 180 | 180 to 180 |" in text  # noqa: RUF001
     assert "| Non-terminal beams | an edge met with a plane | I_r-p | 8.00 | 8.00 to 8.00 |" in text

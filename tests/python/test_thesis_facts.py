@@ -20,8 +20,8 @@ from beambench_report.thesis.report.pictures import octree_figures
 from beambench_report.thesis.report.plan import make_plan
 from beambench_report.thesis.report.report import gather, sections_of
 from beambench_report.thesis.report.write import write_report
-from made_up_thesis import Row, write_runs
 from program import BINARY
+from synthetic_thesis import Row, write_runs
 
 # In place of the program: notes how it was called and prints what that command would.
 STAND_IN = """#!/usr/bin/env python3
@@ -180,7 +180,7 @@ def test_the_report_shows_facts_and_figures_of_pictures(stand_in: Path, tmp_path
     gather_facts(run, stand_in)
     report = gather(run, plan, Path("/no/such/program"))
     assert [picture.number for picture in report.pictures] == ["5.4", "5.5"]
-    (cache,) = (entry for entry in report.ledger if entry.claim.name == "C31")
+    (cache,) = (entry for entry in report.claims if entry.claim.name == "C31")
     assert cache.ours.verdict is Verdict.HOLDS
     assert len(cache.ours.checks) == len(primitives_by_scene())
     write_report(run, plan, Path("/no/such/program"))

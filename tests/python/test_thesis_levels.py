@@ -15,8 +15,8 @@ from beambench_report.thesis.paper.cells import Cell, read_cells
 from beambench_report.thesis.report.plan import LEVELS, PlannedCell, make_plan, quick, read_sweep
 from beambench_report.thesis.report.report import gather
 from beambench_report.thesis.report.write import write_report
-from made_up_run import without_times, write_manifest, write_run
-from made_up_thesis import Row, row_of, write_runs
+from synthetic_run import without_times, write_manifest, write_run
+from synthetic_thesis import Row, row_of, write_runs
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 SWEEP = REPOSITORY / "harness/bench/sweeps/levels.json"
@@ -31,7 +31,7 @@ def row(
     structure: str = "beam",
     cycles: float | None = None,
 ) -> Row:
-    """A cell at 320x200; 3 GHz if not told otherwise."""
+    """A cell at 320x200; 3 GHz if not given."""
     made = row_of(PlannedCell(scene, structure, (), "320x200", 1))
     parameters = str(made["parameters"]).replace("max_level=6", f"max_level={level}")
     return made | {
@@ -115,7 +115,7 @@ def test_a_choice_without_two_levels_beside_it_is_none(tmp_path: Path) -> None:
     assert level_choices(cells_of(tmp_path, ("levels", rows))) == []
 
 
-def made_up_levels(folder: Path) -> list[Cell]:
+def synthetic_levels(folder: Path) -> list[Cell]:
     """Ten scenes: losses of 0, 1, ... 8 and 30% for beams, 25% less for samet."""
     rows = []
     for number, scene in enumerate(list(primitives_by_scene())[:10]):
@@ -131,7 +131,7 @@ def made_up_levels(folder: Path) -> list[Cell]:
 
 
 def test_the_summary_counts_good_choices_and_lists_the_worst(tmp_path: Path) -> None:
-    choices = level_choices(made_up_levels(tmp_path))
+    choices = level_choices(synthetic_levels(tmp_path))
     beams = losses(choices, "beam")
     assert (len(beams.choices), beams.good, beams.share) == (10, 9, 0.9)
     assert beams.good_levels == (10, 10)
@@ -154,7 +154,7 @@ def test_the_axis_of_losses_has_ticks_where_it_is_logarithmic(tmp_path: Path) ->
 def test_the_command_prints_the_choices_or_writes_them(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    made_up_levels(tmp_path)
+    synthetic_levels(tmp_path)
     assert main(["levels", str(tmp_path / "levels")]) == 0
     printed = capsys.readouterr().out
     assert "19 of 20 choices (95%) lose less than 10%; the aim, nine of ten, is met." in printed

@@ -19,8 +19,8 @@ from beambench_report.thesis.report.report import gather
 from beambench_report.thesis.report.tables import fill
 from beambench_report.thesis.report.write import write_report
 from browser import Browser, find_browser
-from made_up_run import without_times
-from made_up_thesis import Row, write_runs
+from synthetic_run import without_times
+from synthetic_thesis import Row, write_runs
 
 PLAN = make_plan([], [], False)
 
@@ -117,7 +117,7 @@ def test_a_cell_that_was_wrong_has_no_time_but_its_verdict(tmp_path: Path) -> No
     assert (entry.missing, entry.shape) == ("no time: mismatch", None)
     assert written.wrong == 2
     text = (run / "report.html").read_text()
-    assert "2 of them not right, and without times" in text
+    assert "2 of them wrong, and without times" in text
     assert "no time: mismatch" in text
     assert "no time: mismatch" in (run / "report.md").read_text()
 
@@ -186,7 +186,7 @@ def test_the_page_holds_everything_and_every_number_leads_to_its_row(page: str) 
     for claim in (*range(1, 22), *range(25, 32)):
         assert f'id="claim-C{claim:02}"' in page
     planned = sum(len(sweep.cells()) for sweep in PLAN.sweeps)
-    assert f"{planned:,} cells in 14 runs, all of them right." in page
+    assert f"{planned:,} cells in 14 runs, all of them verified." in page
 
 
 def test_a_row_of_the_list_names_file_line_and_cell(everything: Path, page: str) -> None:

@@ -18,7 +18,7 @@ from beambench_report.thesis.chapter5.sampling import (
 from beambench_report.thesis.paper.section import section_as_markdown
 from beambench_report.thesis.report.plan import make_plan
 from beambench_report.thesis.report.write import write_report
-from made_up_thesis import write_runs
+from synthetic_thesis import write_runs
 
 Result = tuple[str, str, float, float, float]
 RESULTS: list[Result] = [

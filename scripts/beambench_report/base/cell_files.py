@@ -54,7 +54,7 @@ class CellFile:
 
 
 def identity(row: Mapping[str, object]) -> Identity:
-    """What tells a row from every other row of its run."""
+    """What identifies a row within its run."""
     return tuple(_plain(row[name]) for name in IDENTITY)
 
 

@@ -42,7 +42,7 @@ class Column:
 
     @property
     def is_of_a_kind(self) -> bool:
-        """Does it tell of one kind of the rays of a whole picture?"""
+        """Is it about one kind of the rays of a whole picture?"""
         return "<kind>" in self.name
 
     def is_that(self, name: str) -> bool:
@@ -89,7 +89,7 @@ class Dictionary:
 
 
 def _width(column: Column) -> int:
-    """How much a pattern covers: one that tells the kind of rays is narrower than any counter."""
+    """How much a pattern covers: one that names the kind of rays is narrower than any counter."""
     return 0 if not column.is_pattern else 1 if column.is_of_a_kind else 2
 
 
@@ -124,7 +124,7 @@ def as_markdown(known: Dictionary) -> str:
     """The dictionary as the text of results/README.md."""
     introduction = (
         f"Schema version {known.schema_version}. A row is a cell of a sweep: one structure with "
-        "one set of parameters, asked with one set of rays. The file is UTF-8 with one header row "
+        "one set of parameters, tracing one set of rays. The file is UTF-8 with one header row "
         "and quotes as in RFC 4180. An empty field was not measured; `null` is a structure's name."
     )
     lines = [

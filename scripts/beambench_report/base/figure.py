@@ -73,7 +73,7 @@ def caption(figure: Figure, rows: pd.DataFrame, explanation: str, *, times: bool
     """
     lines = [explanation, _source(rows)]
     if wrong := untimed(rows):
-        start = "Left out, not being judged right" if times else "Shown, though not judged right"
+        start = "Left out, not verified" if times else "Shown, though not verified"
         lines.append(f"{start}: {'; '.join(wrong)}.")
     wrapped = "\n".join(textwrap.fill(line, _CAPTION_COLUMNS) for line in lines)
     figure.supxlabel(wrapped, x=0.01, ha="left", fontsize=7.5, color="#333333")
@@ -110,7 +110,7 @@ def _source(rows: pd.DataFrame) -> str:
     )
 
 
-_COLOURS = {
+_COLORS = {
     "embree": "#000000",
     "exhaustive": "#777777",
     "null": "#b0b0b0",
@@ -130,15 +130,15 @@ _DASHES = ("-", "--", "-.", ":")
 class Look:
     """How one contender is drawn."""
 
-    colour: str
+    color: str
     marker: str
     dashes: str
 
 
-def structure_colour(structure: str) -> str:
-    """The colour of a structure; a newcomer gets one of the others', always the same."""
-    spare = list(_COLOURS.values())
-    return _COLOURS.get(structure, spare[crc32(structure.encode()) % len(spare)])
+def structure_color(structure: str) -> str:
+    """The color of a structure; a newcomer gets one of the others', always the same."""
+    spare = list(_COLORS.values())
+    return _COLORS.get(structure, spare[crc32(structure.encode()) % len(spare)])
 
 
 def looks(rows: pd.DataFrame) -> dict[str, Look]:
@@ -153,7 +153,7 @@ def looks(rows: pd.DataFrame) -> dict[str, Look]:
 def variant_look(structure: str, index: int) -> Look:
     """The look of one of several variants of a structure, counted from 0."""
     return Look(
-        structure_colour(structure),
+        structure_color(structure),
         _MARKERS[index % len(_MARKERS)],
         _DASHES[index % len(_DASHES)],
     )

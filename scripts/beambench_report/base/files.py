@@ -1,18 +1,21 @@
-"""What can go wrong, and writing files whole: beside their place first, then renamed.
+"""What can go wrong, running programs, and reading and writing files.
 
-Symbolic links stay links: what they lead to is replaced. Devices and pipes are written into.
+Files are written beside their place and renamed, so that none is ever half there. Symbolic links
+stay links: what they lead to is replaced. Devices and pipes are written into.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable
+import json
+import subprocess
+from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
+
+import pandas as pd
 
 ROOT = Path(__file__).resolve().parents[3]
 """The top of the repository."""
 
 
-class Problem(Exception):  # noqa: N818 (a wrong request is no programming error)
+class Problem(Exception):  # noqa: N818 (invalid arguments are no programming error)
     """One sentence for the user: what is wrong with which file, and what to do."""
 
 
@@ -34,3 +37,49 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
 def write_text(path: Path, text: str) -> Path:
     """Writes a text whole; returns `path`."""
     return write_whole(path, lambda pending: pending.write_text(text, "utf-8"))
+
+
+def read_table(
+    path: Path, columns: Collection[str], remedy: str, types: dict[str, type] | None = None
+) -> pd.DataFrame:
+    """Reads a CSV file. Raises Problem where it is missing, no CSV, or lacks a column."""
+    try:
+        rows = pd.read_csv(path, dtype=types)
+    except FileNotFoundError:
+        raise Problem(f"{path}: there is no such file; {remedy}") from None
+    except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
+        raise Problem(f"{path}: it is not a CSV file ({error})") from None
+    missing = [column for column in columns if column not in rows]
+    if missing:
+        raise Problem(f"{path}: it has no column '{missing[0]}'; {remedy}")
+    return rows
+
+
+def read_json(path: Path) -> object:
+    """What a JSON file holds; None where there is no file. Raises Problem where it is no JSON."""
+    try:
+        return json.loads(path.read_text("utf-8"))
+    except FileNotFoundError:
+        return None
+    except ValueError as error:
+        raise Problem(f"{path}: cannot be read as JSON: {error}") from None
+
+
+def output_of(
+    command: Sequence[str],
+    *,
+    remedy: str = "build it first",
+    success: Collection[int] = (0,),
+    env: dict[str, str] | None = None,
+) -> str:
+    """The standard output of a program. Raises Problem, with the last line that it printed as an
+    error, where it cannot be run or does not succeed.
+    """
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False, env=env)
+    except OSError as error:
+        raise Problem(f"{command[0]} cannot be run: {error.strerror}; {remedy}") from None
+    if done.returncode not in success:
+        lines = done.stderr.strip().splitlines()
+        raise Problem(lines[-1] if lines else f"{command[0]}: exit code {done.returncode}")
+    return done.stdout

@@ -112,7 +112,7 @@ def _label(name: str) -> str:
 
 def _text(name: str, value: object) -> str:
     if value is None:
-        return "not told"
+        return "not reported"
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, list):

@@ -17,7 +17,7 @@ def contender_labels(rows: pd.DataFrame) -> pd.Series:
     `samet` when the run has it once; `samet max_level=6` when it sweeps the level.
     """
     keys = list(zip(rows["structure"], rows["parameters"], strict=True))
-    items = {key: _parameter_items(key[1]) for key in dict.fromkeys(keys)}
+    items = {key: parameter_items(key[1]) for key in dict.fromkeys(keys)}
     varying = {
         structure: _varying_names(items[key] for key in items if key[0] == structure)
         for structure in dict.fromkeys(key[0] for key in items)
@@ -54,7 +54,8 @@ def file_stems(titles: Iterable[str]) -> dict[str, str]:
     return stems
 
 
-def _parameter_items(text: str) -> dict[str, str]:
+def parameter_items(text: str) -> dict[str, str]:
+    """The parameters of a row, `name=value` separated by commas."""
     return dict(item.split("=", 1) for item in text.split(",") if "=" in item)
 
 

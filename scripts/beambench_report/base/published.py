@@ -15,7 +15,7 @@ COARSEST, FINEST = RESOLUTIONS[0], RESOLUTIONS[-1]
 
 
 def rays(resolution: str) -> int:
-    """Rays of an image with one sample a pixel."""
+    """Rays of an image with one sample per pixel."""
     width, height = resolution.split("x")
     return int(width) * int(height)
 

@@ -1,8 +1,9 @@
-"""Figures as people read them."""
+"""Figures and tables as people read them."""
 
-from __future__ import annotations
-
+from collections.abc import Collection, Iterable, Sequence
 from math import floor, isfinite, log10
+
+DASH = "–"  # noqa: RUF001
 
 
 def number(value: float) -> str:
@@ -32,3 +33,16 @@ def duration_in_words(seconds: float) -> str:
     if whole < 3600:
         return f"{whole // 60} min {whole % 60} s"
     return f"{whole // 3600} h {whole % 3600 // 60} min"
+
+
+def markdown_row(texts: Iterable[str]) -> str:
+    """One line of a Markdown table."""
+    return f"| {' | '.join(texts)} |"
+
+
+def markdown_table(
+    heads: Sequence[str], rows: Iterable[Iterable[str]], right: Collection[int] = ()
+) -> list[str]:
+    """The lines of a Markdown table; the columns `right` are aligned to the right."""
+    marks = ("---:" if place in right else "---" for place in range(len(heads)))
+    return [markdown_row(heads), f"|{'|'.join(marks)}|", *map(markdown_row, rows)]

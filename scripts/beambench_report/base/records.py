@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -67,6 +68,11 @@ class Run:
         return rows[rows["rays"] == rows["rays"].max()]
 
 
+def size_of(row: Mapping[str, object]) -> str:
+    """The resolution of a row: `320x200`."""
+    return f"{row['width']:.0f}x{row['height']:.0f}"
+
+
 def _is_of_a_kind(name: str) -> bool:
     column = dictionary().find(name)
     return column is not None and column.is_of_a_kind
@@ -118,7 +124,7 @@ def _read_csv(path: Path) -> pd.DataFrame:
 
 
 def _require_version(rows: pd.DataFrame, path: Path) -> None:
-    """A reader that guesses what another version's columns mean would lie without a sound."""
+    """A reader that guesses what another version's columns mean would be silently wrong."""
     known = dictionary().schema_version
     if VERSION_COLUMN not in rows:
         raise Problem(

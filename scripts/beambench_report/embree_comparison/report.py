@@ -1,33 +1,34 @@
-"""The aims beside what was measured, as Markdown."""
-
-from __future__ import annotations
+"""The targets and what was measured, as Markdown with plots."""
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from pathlib import Path
 
-from beambench_report.base.quantities import number
+from beambench_report.base.figure import house_style, write_plot
+from beambench_report.base.files import Problem, write_text
+from beambench_report.base.quantities import markdown_table, number
 from beambench_report.base.ratio import Ratio, geometric_mean
-from beambench_report.embree_comparison.pairings import Duel
-from beambench_report.embree_comparison.targets import HELD_TO_LESS, Group, groups
+from beambench_report.base.records import read_run
+from beambench_report.embree_comparison.pairings import Pairing, pairings
+from beambench_report.embree_comparison.plots import plots
+from beambench_report.embree_comparison.targets import Group, groups, part_of_targets
 
-_WORDS = (
+_COMPARED = (
     "`tile-beam` is a frustum rasterizer: it draws the image of one eye, and is compared with "
     "Embree, a general ray tracer, on the one thing that both do. A ratio is the time in which "
-    "Embree's fastest mode traces an image over the time of `tile-beam`, both in one run, on one "
-    "thread, both writing t and id of every sample into the same kind of buffer, by the same rays. "
-    "Embree's fastest mode is that of the least median among those whose hits were judged right.",
-    "**Which trace.** The ratios in the tables, and the aims, are of the first trace after a "
+    "the fastest Embree mode with correct hits traces an image over the time of `tile-beam`, both "
+    "in one run, on one thread, both writing t and id of every sample into the same kind of "
+    "buffer, by the same rays. The fastest mode is the one of the smallest median."
+)
+_TRACES = (
+    "**Which trace.** The ratios in the tables, and the targets, are of the first trace after a "
     "build. Those of a second trace of the same structure are in the last table, and their "
     "geometric mean is below each of the others. Building is in neither; its times are in the last "
-    "table.",
-    "**Intervals.** In brackets: the 95% interval of the ratio. ",
-    "An aim is `met` or `missed` when the whole interval lies on one side of it, otherwise `open`; "
-    "without an interval, which takes six repetitions of both, it is `open`. A geometric mean has "
-    "an interval, and is judged, where each of its scenes has one.",
+    "table."
 )
 _PAIRED = (
-    "Both took turns, and the ratio is the median over rounds of the ratio of the two times in "
-    "one round (paired). "
+    "The contenders take turns, and the ratio is the median over rounds of the ratio of the two "
+    "times in one round (paired). "
 )
 _NOT_PAIRED = (
     "The single repetitions of these runs are not here, so the intervals are made of those of both "
@@ -35,167 +36,175 @@ _NOT_PAIRED = (
 )
 _SOME_PAIRED = (
     "Where a run has its single repetitions, the ratio is the median over rounds of the ratio of "
-    "the two times in one round; else it is of the medians, marked `not paired`. "
+    "the two times in one round; otherwise it is of the medians, marked `not paired`. "
+)
+_DECIDED = (
+    "A target is `met` or `missed` when the whole interval lies on one side of it, otherwise "
+    "`open`; without an interval, which takes six repetitions of both, it is `open`. A geometric "
+    "mean has an interval, and is compared with its target, where each of its scenes has one."
 )
 
 
-def as_markdown(found: Sequence[Duel], plots: Sequence[str] = ()) -> str:
+def comparison(runs: Sequence[Path], file: Path | None = None) -> list[Path] | str:
+    """The report on some runs: its text, or the files written, FILE.md and plots beside it.
+
+    Raises Problem where a run cannot be read, or none has both contenders.
+    """
+    found = pairings(read_run(run) for run in runs)
+    if not found:
+        names = ", ".join(str(run) for run in runs)
+        raise Problem(
+            f"{names}: no image has correct hits by both tile-beam and embree; measure "
+            "harness/bench/sweeps/beat-embree.json"
+        )
+    if file is None:
+        return as_markdown(found)
+    with house_style():
+        drawn = plots(found)
+        figures = [path for plot in drawn for path in write_plot(plot, file.parent)]
+    return [write_text(file, as_markdown(found, [f"{plot.stem}.png" for plot in drawn])), *figures]
+
+
+def as_markdown(found: Sequence[Pairing], plots: Sequence[str] = ()) -> str:
     """The report; `plots` are the files of its figures."""
+    paired = [one.ratio.paired for one in found]
+    how = _PAIRED if all(paired) else _SOME_PAIRED if any(paired) else _NOT_PAIRED
+    intervals = f"**Intervals.** In brackets: the 95% interval of the ratio. {how}{_DECIDED}"
     lines = ["# Tile beams against Embree: a frustum rasterizer beside a general ray tracer", ""]
-    paragraph, which, intervals, judging = _WORDS
-    for text in (paragraph, which, intervals + _how_paired(found) + judging):
+    for text in (_COMPARED, _TRACES, intervals, *(f"![{plot}]({plot})" for plot in plots)):
         lines += [text, ""]
-    for plot in plots:
-        lines += [f"![{plot}]({plot})", ""]
-    lines += [*(f"- {origin}" for origin in dict.fromkeys(duel.origin for duel in found)), ""]
-    single = [duel for duel in found if duel.samples == 1]
-    for isa in dict.fromkeys(duel.isa for duel in single):
-        lines += [*_of_isa(isa, [duel for duel in single if duel.isa == isa]), ""]
-    lines += [*_every(found), ""]
-    return "\n".join(lines)
+    lines += [*(f"- {origin}" for origin in dict.fromkeys(one.origin for one in found)), ""]
+    single = [one for one in found if one.samples == 1]
+    for isa in dict.fromkeys(one.isa for one in single):
+        lines += [*_of_isa(isa, [one for one in single if one.isa == isa]), ""]
+    return "\n".join([*lines, *_every(found), "", ""])
 
 
-def judgement(ratio: Ratio, aim: float) -> str:
-    """`met`, `missed`, or `open` where the interval holds the aim or there is none."""
+def outcome(ratio: Ratio, target: float) -> str:
+    """`met`, `missed`, or `open` where the interval holds the target or there is none."""
     if ratio.interval is None:
         return "open"
     low, high = ratio.interval
-    if low >= aim:
+    if low >= target:
         return "met"
-    return "open" if high >= aim else "missed"
+    return "open" if high >= target else "missed"
 
 
-def part_of_aims(isa: str) -> float:
-    """How much of the aims holds on an instruction set that both were held to."""
-    return 1.0 if isa == "best" else HELD_TO_LESS
-
-
-def _how_paired(found: Sequence[Duel]) -> str:
-    paired = [duel.ratio.paired for duel in found]
-    return _PAIRED if all(paired) else _SOME_PAIRED if any(paired) else _NOT_PAIRED
-
-
-def _of_isa(isa: str, found: Sequence[Duel]) -> Iterable[str]:
-    part = part_of_aims(isa)
-    held = "" if isa == "best" else f" (both held to {isa}: {part:g} of the aims)"
-    sets = dict.fromkeys(
-        f"{duel.tile.isa or '?'} against {duel.embree.isa or '?'}" for duel in found
-    )
-    yield f"## On {', '.join(sets)}{held}"
-    yield ""
-    yield _summary(found, part)
+def _of_isa(isa: str, found: Sequence[Pairing]) -> Iterable[str]:
+    part = part_of_targets(isa)
+    limited = "" if isa == "best" else f" (isa={isa}: {part:g} of the targets)"
+    sets = dict.fromkeys(_instruction_sets(one.tile.isa, one.embree.isa) for one in found)
+    yield from (f"## {', '.join(sets)}{limited}", "", _summary(found, part))
     for group in groups():
-        table = _group_table(group, found, part)
-        if table:
+        if table := _group_table(group, found, part):
             note = [group.note, ""] if group.note else []
             yield from ("", f"### {group.title}", "", *note, *table)
 
 
-def _summary(found: Sequence[Duel], part: float) -> str:
-    """Each image counts once: a scene is in one group, and `duels` has an image once."""
-    judged = Counter(
-        judgement(duel.ratio, part * group.aims[duel.resolution])
+def _instruction_sets(tile: str, embree: str) -> str:
+    """Highway calls AVX-512 AVX3, Embree AVX512."""
+    ours, theirs = (
+        "AVX-512" if name.startswith(("AVX3", "AVX512")) else name or "?" for name in (tile, embree)
+    )
+    return f"Both on {ours}" if ours == theirs else f"tile-beam on {ours}, Embree on {theirs}"
+
+
+def _summary(found: Sequence[Pairing], part: float) -> str:
+    counts = Counter(
+        outcome(one.ratio, part * group.targets[one.resolution])
         for group in groups()
-        for duel in found
-        if duel.scene in group.scenes and duel.resolution in group.aims
+        for one in found
+        if one.scene in group.scenes and one.resolution in group.targets
     )
     return (
-        f"Of {judged.total()} aims for single scenes, {judged['met']} are met, "
-        f"{judged['open']} open, {judged['missed']} missed, by first traces."
+        f"Of {counts.total()} targets for single scenes, {counts['met']} are met, "
+        f"{counts['open']} open, {counts['missed']} missed, by first traces."
     )
 
 
-def _group_table(group: Group, found: Sequence[Duel], part: float) -> list[str]:
-    at = {(duel.scene, duel.resolution): duel for duel in found if duel.scene in group.scenes}
-    columns = [size for size in group.aims if any(size == resolution for _, resolution in at)]
-    if not columns:
+def _group_table(group: Group, found: Sequence[Pairing], part: float) -> list[str]:
+    at = {(one.scene, one.resolution): one for one in found if one.scene in group.scenes}
+    sizes = [size for size in group.targets if any(size == there for _, there in at)]
+    if not sizes:
         return []
-    lines = [_row(["scene", *columns]), _row(["---", *("---:" for _ in columns)])]
-    for scene, title in group.scenes.items():
-        if any((scene, size) in at for size in columns):
-            texts = [_cell(at.get((scene, size)), part * group.aims[size]) for size in columns]
-            lines.append(_row([title, *texts]))
-    lines.append(_row(["*aim*", *(f"*at least {part * group.aims[s]:g}*" for s in columns)]))
-    if len(group.scenes) == 1:
-        return lines
-    aims = {size: part * aim for size, aim in group.mean_aims.items()}
-    means = [_mean(group, _ratios(at, size), aims.get(size)) for size in columns]
-    lines.append(_row(["**geometric mean, first traces**", *means]))
-    if aims:
-        lines.append(_row(["*aim of the mean*", *(f"*at least {aims[s]:g}*" for s in columns)]))
-    means = [_mean(group, _second_ratios(at, size), None) for size in columns]
-    lines.append(_row(["geometric mean, second traces", *means]))
-    return lines
+    lines = [
+        [title, *(_cell(at.get((scene, size)), part * group.targets[size]) for size in sizes)]
+        for scene, title in group.scenes.items()
+        if any((scene, size) in at for size in sizes)
+    ]
+    lines.append(["*target*", *(f"*at least {part * group.targets[size]:g}*" for size in sizes)])
+    if len(group.scenes) > 1:
+        targets = {size: part * target for size, target in group.mean_targets.items()}
+        first = {size: [one.ratio for key, one in at.items() if key[1] == size] for size in sizes}
+        means = (_mean(group, first[size], targets.get(size)) for size in sizes)
+        lines.append(["**geometric mean, first traces**", *means])
+        if targets:
+            lines.append(
+                ["*target of the mean*", *(f"*at least {targets[size]:g}*" for size in sizes)]
+            )
+        lines.append(["geometric mean, second traces", *_second_means(group, at, sizes)])
+    return markdown_table(["scene", *sizes], lines, range(1, len(sizes) + 1))
 
 
-def _ratios(at: Mapping[tuple[str, str], Duel], size: str) -> list[Ratio]:
-    return [duel.ratio for (_, resolution), duel in at.items() if resolution == size]
+def _second_means(
+    group: Group, at: Mapping[tuple[str, str], Pairing], sizes: Sequence[str]
+) -> Iterable[str]:
+    for size in sizes:
+        ratios = [one.second_ratio for (_, there), one in at.items() if there == size]
+        yield _mean(group, [ratio for ratio in ratios if ratio is not None], None)
 
 
-def _second_ratios(at: Mapping[tuple[str, str], Duel], size: str) -> list[Ratio]:
-    seconds = [duel.second_ratio for (_, resolution), duel in at.items() if resolution == size]
-    return [ratio for ratio in seconds if ratio is not None]
+def _cell(one: Pairing | None, target: float) -> str:
+    return "" if one is None else f"{_text(one.ratio, target)} {outcome(one.ratio, target)}"
 
 
-def _cell(duel: Duel | None, aim: float) -> str:
-    return "" if duel is None else f"{_text(duel.ratio, aim)} {judgement(duel.ratio, aim)}"
-
-
-def _mean(group: Group, ratios: Sequence[Ratio], aim: float | None) -> str:
-    """Of some scenes only, it is not judged."""
+def _mean(group: Group, ratios: Sequence[Ratio], target: float | None) -> str:
+    """A mean of some scenes only is not compared with the target."""
     if not ratios:
         return ""
     mean = geometric_mean(ratios)
     if len(ratios) < len(group.scenes):
         return f"{_text(mean)} of {len(ratios)} scenes"
-    return _text(mean) if aim is None else f"{_text(mean, aim)} {judgement(mean, aim)}"
+    return _text(mean) if target is None else f"{_text(mean, target)} {outcome(mean, target)}"
 
 
-def _every(found: Sequence[Duel]) -> Iterable[str]:
-    yield "## Every image"
-    yield ""
+def _every(found: Sequence[Pairing]) -> list[str]:
     heads = (
-        "scene, resolution, samples, primitives, held to, fastest mode, Embree ms, tile-beam ms, "
-        "ratio, ratio of second traces, Embree's build ms, tile-beam's build ms"
+        "scene, resolution, samples, primitives, limited to, fastest mode, Embree ms, "
+        "tile-beam ms, ratio, ratio of second traces, Embree's build ms, tile-beam's build ms"
     ).split(", ")
-    yield _row(heads)
-    yield _row(["---", "---", "---:", "---:", "---", "---", *(["---:"] * 6)])
-    for duel in found:
-        second = duel.second_ratio
-        yield _row(
-            [
-                f"`{duel.scene}`",
-                duel.resolution,
-                f"{duel.samples}",
-                f"{duel.primitives:,}",
-                duel.isa,
-                duel.embree.contender,
-                number(duel.embree.median),
-                number(duel.tile.median),
-                _text(duel.ratio),
-                "" if second is None else _text(second),
-                number(duel.embree.build),
-                number(duel.tile.build),
-            ]
+    rows = (
+        (
+            f"`{one.scene}`",
+            one.resolution,
+            f"{one.samples}",
+            f"{one.primitives:,}",
+            one.isa,
+            one.embree.contender,
+            number(one.embree.first.value),
+            number(one.tile.first.value),
+            _text(one.ratio),
+            "" if one.second_ratio is None else _text(one.second_ratio),
+            number(one.embree.build),
+            number(one.tile.build),
         )
+        for one in found
+    )
+    return ["## Every image", "", *markdown_table(heads, rows, (2, 3, *range(6, 12)))]
 
 
-def _text(ratio: Ratio, aim: float | None = None) -> str:
+def _text(ratio: Ratio, target: float | None = None) -> str:
     if ratio.interval is None:
-        return _beside(ratio.value, aim)
-    low, high = (_beside(end, aim) for end in ratio.interval)
-    return f"{_beside(ratio.value, aim)} ({low} to {high})"
+        return _beside(ratio.value, target)
+    low, high = (_beside(end, target) for end in ratio.interval)
+    return f"{_beside(ratio.value, target)} ({low} to {high})"
 
 
-def _beside(value: float, aim: float | None) -> str:
-    """Three digits, or as many as show on which side of the aim it is: 2.504 for 2.5, not 2.50."""
+def _beside(value: float, target: float | None) -> str:
+    """Three digits, or enough to show on which side of the target: 2.504 for 2.5, not 2.50."""
     text = number(value)
     digits = 3
-    while aim is not None and digits < 9 and float(text.replace(",", "")) == aim != value:
+    while target is not None and digits < 9 and float(text.replace(",", "")) == target != value:
         digits += 1
         text = f"{value:.{digits}g}"
     return text
-
-
-def _row(texts: Iterable[str]) -> str:
-    return f"| {' | '.join(texts)} |"

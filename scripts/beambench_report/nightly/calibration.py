@@ -31,7 +31,7 @@ _REPORT_SECONDS = 10.0
 
 @dataclass(frozen=True)
 class Noise:
-    """What nights without any change differ by: for each scene an array, a row a night."""
+    """What nights without any change differ by: for each scene an array, a row for each night."""
 
     scenes: tuple[np.ndarray, ...]
     nights: int
@@ -79,8 +79,8 @@ class Calibration:
 
     def as_json(self) -> str:
         """For a file."""
-        told = {**asdict(self), "smallest_slowdown_with_90_percent_power": self.smallest_found}
-        return json.dumps(told, indent=2) + "\n"
+        document = {**asdict(self), "smallest_slowdown_with_90_percent_power": self.smallest_found}
+        return json.dumps(document, indent=2) + "\n"
 
     def summary(self) -> str:
         """For people."""
@@ -98,10 +98,10 @@ class Calibration:
             for one in self.power
         ]
         smallest = self.smallest_found
-        told = f"{smallest:.1%}" if smallest is not None else "none of these"
+        named = f"{smallest:.1%}" if smallest is not None else "none of these"
         lines.append(
             "The smallest of these that is found with 90% power, by the low end of the interval: "
-            f"{told}."
+            f"{named}."
         )
         return "\n".join(lines)
 
@@ -116,7 +116,7 @@ class Effort:
     precision: float = 0.03
     """Enough trials when no 95% interval of a power is wider than this to either side."""
     trials: int = 1200
-    """At most so many: the precision needs 1,067 where the power is a half."""
+    """At most: the precision needs 1,067 where the power is a half."""
     seconds: float = 3600.0
     """Nor longer than this; the intervals are then what they are."""
 
@@ -138,7 +138,7 @@ def has_enough(noise: Noise) -> bool:
     return noise.nights >= _LEAST_NIGHTS and bool(noise.scenes)
 
 
-def made_up_nights(noise: Noise, nights: int, random: np.random.Generator) -> np.ndarray:
+def synthetic_nights(noise: Noise, nights: int, random: np.random.Generator) -> np.ndarray:
     """Nights of pure noise over as many scenes as a nightly sweep has."""
     columns = []
     for number in range(SCENES):
@@ -173,7 +173,7 @@ def calibrate(
     """Lets noise, and noise with a slow-down of one series, be judged; `report` gets progress."""
     rule = rule or Rule()
     random = np.random.default_rng(seed)
-    values = made_up_nights(noise, nights, random)
+    values = synthetic_nights(noise, nights, random)
     alarms = len(count_alarms(values, rule))
     # The exact interval of a Poisson count (Garwood 1936).
     low = float(stats.chi2.ppf(0.025, 2 * alarms) / 2) if alarms else 0.0
@@ -215,7 +215,7 @@ def _powers(
     begun, reported, trials = monotonic(), monotonic(), 0
     before = rule.window - _WAIT
     while trials < effort.trials and monotonic() - begun < effort.seconds:
-        values = made_up_nights(noise, rule.window, random)
+        values = synthetic_nights(noise, rule.window, random)
         series = int(random.integers(values.shape[1]))
         for slowdown, found in waits.items():
             if wait := _nights_until_found(values, series, before, slowdown, rule):

@@ -19,19 +19,20 @@ from beambench_report.nightly.history import History, rebuild
 from beambench_report.nightly.home import HOME, KEEP_SAMPLES, Home, adopt, only_one, prune
 from beambench_report.nightly.nights import read_nights
 from beambench_report.nightly.page import write_night_page
-from beambench_report.nightly.run import Wish, describe, rebuild_history, record, run_night
+from beambench_report.nightly.run import Request, describe, rebuild_history, record, run_night
 
 _SWEEP = ROOT / "harness/bench/sweeps/nightly.json"
 _PUBLISHED = ROOT / "results/published/nightly"
 
 
 def add_nightly_command(commands: argparse._SubParsersAction, built: Path) -> None:
-    """Adds the command and its parts; `built` is where the program is if not told otherwise."""
+    """Adds the command and its parts; `built` is where the program is if not given."""
     parser = commands.add_parser("nightly", help="nightly runs: measure, keep, judge, show")
+    parser.set_defaults(handler=nightly)
     parts = parser.add_subparsers(dest="part", required=True)
     run = parts.add_parser("run", help="measure a night, keep and judge it, write the page")
     run.add_argument("--sweep", type=Path, default=_SWEEP, metavar="FILE")
-    run.add_argument("--resume", action="store_true", help="go on with what was cut off")
+    run.add_argument("--resume", action="store_true", help="resume what was cut off")
     run.add_argument("--dry-run", action="store_true", help="say what would be done")
     add = parts.add_parser("add", help="keep, judge and show a run that was measured otherwise")
     add.add_argument("run", type=Path, metavar="RUN")
@@ -96,7 +97,7 @@ def _add_calibrate(parts: argparse._SubParsersAction) -> None:
 
 
 def nightly(options: argparse.Namespace) -> int:
-    """Runs one part; returns its exit code. Raises Problem where the request was wrong."""
+    """Runs one part; returns its exit code. Raises Problem for invalid arguments or input."""
     if options.part == "calibrate":
         return _calibrate(options)
     home = Home(options.home.resolve())
@@ -122,12 +123,14 @@ def nightly(options: argparse.Namespace) -> int:
 def _run(options: argparse.Namespace, home: Home, published: Path | None) -> int:
     if not options.sweep.is_file():
         raise Problem(f"{options.sweep}: is not a file that can be read")
-    wish = Wish(home, options.sweep, options.beambench, published, options.resume, options.keep)
+    request = Request(
+        home, options.sweep, options.beambench, published, options.resume, options.keep
+    )
     if options.dry_run:
-        print(describe(wish), end="")
+        print(describe(request), end="")
         return 0
     with only_one(home.lock) as lock:
-        return run_night(wish, lock)
+        return run_night(request, lock)
 
 
 def _published(options: argparse.Namespace) -> Path | None:

@@ -185,7 +185,7 @@ def _call(command: list[str], run: Callable = subprocess.run) -> None:
         raise Problem(f"{command[0]} cannot be run: {error.strerror}; build it first") from None
     if done.returncode not in (0, 1):
         lines = done.stderr.decode("utf-8", "replace").strip().splitlines()
-        raise Problem(f"{command[0]}: {lines[-1] if lines else 'failed without a word'}")
+        raise Problem(f"{command[0]}: {lines[-1] if lines else 'failed without a message'}")
 
 
 def _table(folders: list[Path]) -> tuple[pd.DataFrame, pd.DataFrame]:
@@ -250,5 +250,5 @@ def _differences(first: pd.DataFrame, second: pd.DataFrame, labels: dict) -> lis
             before = row[f"{name.removesuffix('_b')}_a"]
             if after > before * 1.001:
                 counter = name.removesuffix("_per_ray_b").replace("_", " ")
-                sentences.append(f"{title}: {counter} a ray from {before:.6g} to {after:.6g}")
+                sentences.append(f"{title}: {counter} per ray from {before:.6g} to {after:.6g}")
     return sentences

@@ -225,4 +225,4 @@ def _interval(ratio: Ratio) -> str:
 
 def _wrong(rows: pd.DataFrame, name: str) -> list[str]:
     wrong = int((~rows["timed"] & (rows["verdict"] != NO_RAYS)).sum())
-    return [f"In {name}, {wrong} cells have no times: their hits were not right."] if wrong else []
+    return [f"In {name}, {wrong} cells have no times: wrong hits."] if wrong else []

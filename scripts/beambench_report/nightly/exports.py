@@ -27,7 +27,7 @@ def write_exports(run: Run) -> list[Path]:
 
 
 def bigger_is_better(run: Run) -> str:
-    """Million rays a second, build included, as customBiggerIsBetter wants them."""
+    """Million rays per second, build included, as customBiggerIsBetter wants them."""
     entries = []
     for _, row in _timed(run).iterrows():
         total = row["total_ms_median"]

@@ -1,7 +1,7 @@
 """The history of nightly runs in one SQLite file, rebuilt from the CSVs of its runs at any time.
 
 nights      a row for each run; `folder` is where its results.csv lies, beside the history's file
-cells       what was measured: the columns that tell a row of results.csv from the others
+cells       what was measured: the columns that identify a row of results.csv
 inputs      hashes of scene and rays; nights with other hashes are not comparable
 work        counters per ray as JSON, sorted by name; they repeat from night to night, so kept once
 figures     a row for each cell of each night; NULL is not measured, or not verified
@@ -86,7 +86,7 @@ _REMEDY = "rebuild it from the runs: python -m beambench_report nightly rebuild"
 
 @dataclass(frozen=True)
 class Alarm:
-    """What a night raised its voice about."""
+    """What a night raised an alarm about."""
 
     night: int
     kind: str
@@ -96,7 +96,7 @@ class Alarm:
 
 
 Judge = Callable[["History", int], list[Alarm]]
-"""Says what the night of a number raises its voice about."""
+"""The alarms of the night of a number."""
 
 
 class History:
@@ -210,14 +210,14 @@ class History:
     def _insert_night(self, night: Night, folder: Path) -> int:
         place = folder.resolve()
         home = self.path.parent.resolve()
-        told = place.relative_to(home) if place.is_relative_to(home) else place
+        relative = place.relative_to(home) if place.is_relative_to(home) else place
         values = (
             night.run_id,
             night.time_utc,
             night.commit,
             int(night.dirty),
             night.machine_id,
-            str(told),
+            str(relative),
             night.csv_sha256,
             len(night.figures),
             night.wrong,

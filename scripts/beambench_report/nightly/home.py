@@ -22,7 +22,7 @@ from beambench_report.nightly.history import recorded_folders
 def only_one(path: Path) -> Iterator[int]:
     """Holds the lock file while the block runs; the system frees it, however the process ends.
 
-    Gives the file's descriptor: a child that inherits it holds the lock, too, and goes on doing so
+    Gives the file's descriptor: a child that inherits it holds the lock, too, and keeps doing so
     where its parent is killed. Raises Problem, and waits for nothing, where another process has it.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -33,7 +33,7 @@ def only_one(path: Path) -> Iterator[int]:
             file.seek(0)
             holder = file.read().strip() or "another process"
             raise Problem(
-                f"{path}: a nightly run is going on ({holder}); wait until it has ended"
+                f"{path}: a nightly run is in progress ({holder}); wait until it has ended"
             ) from None
         file.truncate(0)
         file.write(f"process {os.getpid()} since {datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}\n")
@@ -61,7 +61,7 @@ class Home:
 
     @property
     def lock(self) -> Path:
-        """What a run holds while it goes on."""
+        """Held while a run is in progress."""
         return self.folder / "nightly.lock"
 
     @property
@@ -118,7 +118,7 @@ def abandon(run: Path) -> Path:
 def prune(home: Home, keep: int = KEEP_SAMPLES) -> list[Path]:
     """Deletes raw samples of all but the newest runs, and runs that were abandoned before them.
 
-    The cells that were not right keep their files: they hold the examples.
+    The cells that were wrong keep their files: they hold the examples.
     """
     runs = home.finished()
     old, kept = (runs[:-keep], runs[-keep:]) if keep > 0 else (runs, [])

@@ -30,7 +30,7 @@ class Figure:
     key: Key
     inputs: str
     counters: str
-    """JSON of the counters a ray that were measured, sorted by name."""
+    """JSON of the counters per ray that were measured, sorted by name."""
     verdict: str
     reference: Key | None
     ratio: float | None
@@ -51,7 +51,7 @@ class Night:
 
     @property
     def wrong(self) -> int:
-        """Cells whose hits were not right."""
+        """Cells with wrong hits."""
         return sum(figure.verdict not in FAULTLESS_VERDICTS for figure in self.figures)
 
 
@@ -95,12 +95,12 @@ def night_of(run: Run) -> Night:
 
 
 def is_work(column: str) -> bool:
-    """Is it a count of work? Some structures add times a ray, which are no such thing."""
+    """Is it a count of work? Some structures add times per ray, which are no such thing."""
     return column.endswith(COUNTER_SUFFIX) and not column.endswith(f"_ns{COUNTER_SUFFIX}")
 
 
 def keys_of(rows: pd.DataFrame) -> list[Key]:
-    """What tells each row from the others of its run."""
+    """What identifies each row within its run."""
     columns = [
         rows[name].astype(int) if name in ("width", "height", "samples") else rows[name]
         for name in IDENTITY

@@ -1,4 +1,4 @@
-"""The nights of one machine as arrays: a row a night, a column a cell."""
+"""The nights of one machine as arrays: a row for each night, a column for each cell."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ class Nights:
 
 
 def series_title(contender: str, row: Mapping[str, object], named: Iterable[str]) -> str:
-    """A series as people read it: the contender, the scene, and what else tells it apart."""
+    """A series as people read it: the contender, the scene, and what else distinguishes it."""
     title = f"{contender} in {row['scene']}"
     return title + "".join(_TOLD_APART[name].format(row[name]) for name in named)
 

@@ -16,19 +16,19 @@ from plotly.offline import get_plotlyjs
 
 from beambench_report.base.cell_files import IDENTITY, CellFile, Identity, read_cell_files
 from beambench_report.base.columns import Column
-from beambench_report.base.figure import structure_colour
+from beambench_report.base.figure import structure_color
 from beambench_report.base.files import Problem, write_text
 from beambench_report.base.machine import Manifest, read_manifest
 from beambench_report.base.records import FAULTLESS_VERDICTS, Run, read_run
+from beambench_report.nightly.alarms import SHARE, doubt, sentence
 from beambench_report.nightly.history import Alarm, History
 from beambench_report.nightly.home import Home
-from beambench_report.nightly.judge import SHARE, doubt, sentence
 from beambench_report.nightly.night import Night, night_of
 from beambench_report.nightly.nights import Nights, read_nights
 from beambench_report.nightly.steps import Rule
 from beambench_report.run.all_cells import pack
 from beambench_report.run.html import data_uri, environment
-from beambench_report.run.outcome import judge_run
+from beambench_report.run.outcome import summarize_verdicts
 
 NOTEWORTHY = 0.02
 _MOST = 25
@@ -90,17 +90,17 @@ def compare_nights(name: str, tonight: Night, other: Night, rows: pd.DataFrame) 
                 Change(row["contender"], row["view"], size_of(row), then.ratio, now.ratio)
             )
     new = len(tonight.figures) - (len(other.figures) - len(known))
-    told = []
+    sentences = []
     if other.machine_id != tonight.machine_id:
-        told.append(
+        sentences.append(
             f"Of another machine: tonight {tonight.machine_id}, then {other.machine_id}. Ratios "
             "depend on the processor, so these changes are not the program's alone."
         )
-    told += verdicts[:_MOST]
-    told += _counted(more, "cells counted other work than then.", "cell counted other work.")
-    told += _counted(other_inputs, "cells asked other rays or scenes; they are not compared.")
-    told += _counted(new, "cells are new.", "cell is new.")
-    told += _counted(len(known), "cells are gone.", "cell is gone.")
+    sentences += verdicts[:_MOST]
+    sentences += _counted(more, "cells have other counters.", "cell has other counters.")
+    sentences += _counted(other_inputs, "cells have other rays or scenes; they are not compared.")
+    sentences += _counted(new, "cells are new.", "cell is new.")
+    sentences += _counted(len(known), "cells are gone.", "cell is gone.")
     changes.sort(key=lambda change: -abs(change.share))
     return Changes(
         name,
@@ -110,7 +110,7 @@ def compare_nights(name: str, tonight: Night, other: Night, rows: pd.DataFrame) 
         sum(change.share > NOTEWORTHY for change in changes),
         sum(change.share < -NOTEWORTHY for change in changes),
         len(changes),
-        told,
+        sentences,
     )
 
 
@@ -158,7 +158,7 @@ def chart_data(nights: Nights, rows: pd.DataFrame, alarms: Sequence[Alarm]) -> s
             cells.append(
                 {
                     "name": row["contender"],
-                    "colour": structure_colour(row["structure"]),
+                    "color": structure_color(row["structure"]),
                     "variant": variant,
                     "verdict": row["verdict"],
                     "build": _figure(row["build_ms_median"]),
@@ -169,7 +169,7 @@ def chart_data(nights: Nights, rows: pd.DataFrame, alarms: Sequence[Alarm]) -> s
             )
         views.setdefault(view, {})[f"{width:.0f}x{height:.0f}"] = cells
     number = {night: place for place, night in enumerate(nights.nights["number"])}
-    told = {
+    data = {
         "nights": [
             {"run": night["run_id"], "time": night["time_utc"], "commit": night["commit"][:12]}
             for night in nights.nights.to_dict("records")
@@ -179,7 +179,7 @@ def chart_data(nights: Nights, rows: pd.DataFrame, alarms: Sequence[Alarm]) -> s
         "step": _STEP,
         "missing": _MISSING,
     }
-    return json.dumps(told, separators=(",", ":")).replace("<", "\\u003c")
+    return json.dumps(data, separators=(",", ":")).replace("<", "\\u003c")
 
 
 def pareto_front(rows: pd.DataFrame) -> set:
@@ -300,7 +300,7 @@ def render(history: History, nights: Nights, run: Run, published: Run | None, ho
             judged=_judged(nights),
             rule=Rule(),
             counter_share=SHARE,
-            outcome=judge_run(run, _cell_files(run)),
+            outcome=summarize_verdicts(run, _cell_files(run)),
             changes=_changes(run, tonight, yesterday, published),
             mismatches=_mismatches(run.directory),
             nights=_listed(nights, alarms),
@@ -375,8 +375,8 @@ def _judged(nights: Nights) -> str:
     known = len(nights.nights)
     return (
         f"Times are not judged yet: this machine has {known} {'night' if known == 1 else 'nights'}"
-        f", and a step needs {Rule().side} on each side. Until then scripts/compare REV_A REV_B "
-        "tells."
+        f", and a step needs {Rule().side} on each side. Until then use "
+        "scripts/compare REV_A REV_B."
     )
 
 

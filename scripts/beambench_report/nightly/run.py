@@ -12,10 +12,10 @@ from pathlib import Path
 
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
+from beambench_report.nightly.alarms import doubt, find_alarms, sentence
 from beambench_report.nightly.exports import write_exports
 from beambench_report.nightly.history import Alarm, History, rebuild
 from beambench_report.nightly.home import Home, abandon, is_finished, prune
-from beambench_report.nightly.judge import doubt, judge, sentence
 from beambench_report.nightly.night import night_of
 from beambench_report.nightly.nights import read_nights
 from beambench_report.nightly.page import picture_mismatches, write_night_page
@@ -24,7 +24,7 @@ _INTERRUPTED = (130, 143, -2, -15)
 
 
 @dataclass(frozen=True)
-class Wish:
+class Request:
     """What is wanted of a night."""
 
     home: Home
@@ -35,20 +35,20 @@ class Wish:
     keep: int
 
 
-def run_night(wish: Wish, lock: int) -> int:
-    """Measures a night and tells of it; the exit code: 1 where something regressed or was wrong.
+def run_night(request: Request, lock: int) -> int:
+    """Measures and reports a night; the exit code: 1 where something regressed or was wrong.
 
     `lock` is the descriptor of the lock that keeps other runs away.
     """
-    catch_up(wish.home)
-    folder = _folder_for(wish)
-    code = _measure(wish, folder, lock)
+    catch_up(request.home)
+    folder = _folder_for(request)
+    code = _measure(request, folder, lock)
     if code in _INTERRUPTED:
-        _say("interrupted; go on with: scripts/nightly --resume (or it is abandoned next time)")
+        _say("interrupted; resume with: scripts/nightly --resume (or it is abandoned next time)")
         return 130
     if code not in (0, 1) or not is_finished(folder):
         raise Problem(f"{folder}: the sweep could not be run (see above); nothing was recorded")
-    return record(wish.home, folder, wish.beambench, wish.published, wish.keep)
+    return record(request.home, folder, request.beambench, request.published, request.keep)
 
 
 def record(home: Home, folder: Path, beambench: Path, published: Path | None, keep: int) -> int:
@@ -58,13 +58,13 @@ def record(home: Home, folder: Path, beambench: Path, published: Path | None, ke
     picture_mismatches(run, beambench)
     write_exports(run)
     with History(home.history) as history:
-        history.add(night, folder, judge)
+        history.add(night, folder, find_alarms)
         number = history.number_of(night.run_id)
         alarms = [alarm for alarm in history.alarms() if alarm.night == number]
         series = len(read_nights(history, number).pools)
         write_night_page(home, history, published)
     prune(home, keep)
-    tell(alarms, series)
+    report_alarms(alarms, series)
     print(home.page)
     return 1 if alarms else 0
 
@@ -81,15 +81,15 @@ def catch_up(home: Home) -> None:
             except Problem as problem:
                 _say(f"left out of the history: {problem}")
                 continue
-            history.add(night, folder, judge)
+            history.add(night, folder, find_alarms)
 
 
 def rebuild_history(home: Home) -> int:
     """Makes the history from the CSVs; returns how many nights it has."""
-    return rebuild(home.history, home.finished(), judge)
+    return rebuild(home.history, home.finished(), find_alarms)
 
 
-def tell(alarms: list[Alarm], series: int) -> None:
+def report_alarms(alarms: list[Alarm], series: int) -> None:
     """Says what is wrong, one line each; nothing where nothing is."""
     if doubtful := doubt(alarms, series):
         _say(doubtful)
@@ -97,18 +97,18 @@ def tell(alarms: list[Alarm], series: int) -> None:
         _say(f"REGRESSION {sentence(alarm)}" if alarm.kind != "verdict" else sentence(alarm))
 
 
-def describe(wish: Wish) -> str:
+def describe(request: Request) -> str:
     """What a night would do."""
-    budget = json.loads(wish.sweep.read_text("utf-8")).get("budget_seconds", 0)
-    runs = wish.home.finished()
+    budget = json.loads(request.sweep.read_text("utf-8")).get("budget_seconds", 0)
+    runs = request.home.finished()
     lines = [
-        f"sweep      {wish.sweep} ({budget / 60:.0f} min)",
-        f"           {read_description_of(wish.sweep)}",
-        f"history    {wish.home.history} ({len(runs)} nights)",
-        f"page       {wish.home.page}",
+        f"sweep      {request.sweep} ({budget / 60:.0f} min)",
+        f"           {read_description_of(request.sweep)}",
+        f"history    {request.home.history} ({len(runs)} nights)",
+        f"page       {request.home.page}",
     ]
-    for run in wish.home.unfinished():
-        what = "would be gone on with" if wish.resume else "would be abandoned"
+    for run in request.home.unfinished():
+        what = "would be resumed" if request.resume else "would be abandoned"
         lines.append(f"cut off    {run} ({what})")
     return "\n".join(lines) + "\n"
 
@@ -118,17 +118,17 @@ def read_description_of(sweep: Path) -> str:
     return str(json.loads(sweep.read_text("utf-8")).get("description", ""))
 
 
-def _folder_for(wish: Wish) -> Path:
-    """The run to go on with, or a new one; what was cut off otherwise is out of the way then."""
-    unfinished = wish.home.unfinished()
-    if wish.resume:
+def _folder_for(request: Request) -> Path:
+    """The run to resume, or a new one; what was cut off otherwise is out of the way then."""
+    unfinished = request.home.unfinished()
+    if request.resume:
         if not unfinished:
-            raise Problem(f"{wish.home.folder}: no run was cut off; leave out --resume")
+            raise Problem(f"{request.home.folder}: no run was cut off; leave out --resume")
         return unfinished[-1]
     for run in unfinished:
         _say(f"== {run.name} was cut off: abandoned")
         abandon(run)
-    return _free_folder(wish.home.folder, datetime.now(UTC))
+    return _free_folder(request.home.folder, datetime.now(UTC))
 
 
 def _free_folder(home: Path, time: datetime) -> Path:
@@ -137,10 +137,10 @@ def _free_folder(home: Path, time: datetime) -> Path:
     return _free_folder(home, time + timedelta(seconds=1)) if folder.exists() else folder
 
 
-def _measure(wish: Wish, folder: Path, lock: int) -> int:
-    resume = wish.resume and (folder / "manifest.json").exists()
-    arguments = ["--resume", folder] if resume else [wish.sweep, "-o", folder]
-    command = [str(part) for part in (wish.beambench, "run", *arguments)]
+def _measure(request: Request, folder: Path, lock: int) -> int:
+    resume = request.resume and (folder / "manifest.json").exists()
+    arguments = ["--resume", folder] if resume else [request.sweep, "-o", folder]
+    command = [str(part) for part in (request.beambench, "run", *arguments)]
     try:
         child = subprocess.Popen(command, stdout=subprocess.DEVNULL, pass_fds=(lock,))
     except OSError as error:

@@ -26,7 +26,7 @@ from beambench_report.nightly.nights import nan_median
 
 @dataclass(frozen=True)
 class Rule:
-    """When the voice is raised."""
+    """When an alarm is raised."""
 
     side: int = 12
     """Least number of nights on each side of a step."""
@@ -134,7 +134,7 @@ def _scale(deviations: np.ndarray) -> float:
 
 
 def _drag(deviations: np.ndarray) -> float:
-    """By what neighbouring nights that resemble each other widen the error of a mean."""
+    """By what neighboring nights that resemble each other widen the error of a mean."""
     variance = float(np.mean(deviations**2))
     if variance == 0:
         return 1.0
@@ -144,7 +144,7 @@ def _drag(deviations: np.ndarray) -> float:
 
 
 def _bootstrap(before: np.ndarray, after: np.ndarray) -> tuple[float, float]:
-    """95% interval of the difference of medians; blocks keep what neighbours have in common."""
+    """95% interval of the difference of medians; blocks keep what neighbors have in common."""
     random = np.random.default_rng(1999)
     shifts = np.median(_resample(after, random), axis=1)
     shifts -= np.median(_resample(before, random), axis=1)

@@ -27,7 +27,7 @@ class Bar:
     text: str
 
 
-# The first of several parts is light, so that the second stands out in the structure's colour.
+# The first of several parts is light, so that the second stands out in the structure's color.
 _PART_ALPHAS = {1: (1.0,), 2: (0.4, 1.0)}
 
 
@@ -38,8 +38,8 @@ def draw_bars(panel: Axes, bars: Sequence[Bar], looks: Mapping[str, Look], unit:
     for place, bar in enumerate(bars):
         start = 0.0
         for part, alpha in zip(bar.parts, _PART_ALPHAS[len(bar.parts)], strict=True):
-            colour = looks[bar.contender].colour
-            panel.barh(place, part, left=start, height=0.7, color=colour, alpha=alpha)
+            color = looks[bar.contender].color
+            panel.barh(place, part, left=start, height=0.7, color=color, alpha=alpha)
             start += part
         off = start > end
         panel.annotate(

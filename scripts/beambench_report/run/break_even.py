@@ -1,6 +1,6 @@
-"""The number of rays from which a structure that is dearer to build has paid for itself.
+"""The break-even ray count: from it on, the structure that takes longer to build is ahead in total.
 
-With build times b and trace times a ray t, structure A catches up with B after
+With build times b and trace times per ray t, structure A catches up with B after
 (b_A - b_B) / (t_B - t_A) rays.
 """
 
@@ -33,7 +33,7 @@ def break_even_rays(
     if saved <= 0 <= dearer:
         return None, NEVER
     rays = dearer / saved
-    # Cheaper to build but slower a ray: ahead until then, not from then on.
+    # Cheaper to build but slower per ray: ahead until then, not from then on.
     return rays, f"{'from' if saved > 0 else 'up to'} {_short(rays)}"
 
 
@@ -89,11 +89,11 @@ def break_even(run: Run) -> list[Plot]:
         stem="break-even",
         select=select,
         draw=draw,
-        explanation="A row tells from how many rays on a contender, build included, is ahead of "
+        explanation="From how many rays on the contender of a row, build included, is ahead of "
         "the one with the column's number: (difference of build times) / (difference of trace "
         "times per ray), by the medians of the largest image that both traced. 'up to': it is "
         "ahead until then. The same in digits, with the images: break-even.csv.",
-        summary="number of rays from which a dearer build pays",
+        summary="break-even ray count",
         times=True,
     )
 

@@ -12,7 +12,7 @@ from beambench_report.base.files import Problem
 
 _COLUMNS = ("generator", "parameter", "size", "primitives", "bytes", "seconds", "scene")
 # Of Okabe and Ito, as in style.py; there they stand for structures.
-_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 _MARKERS = "osD^vP*X<>"
 _GIB = 2.0**30
 
@@ -57,7 +57,7 @@ def growth_plot(tables: list[pd.DataFrame], stem: str) -> Plot:
     figure, (memory, seconds) = new_figure(PAGE_WIDTH * 0.95, rows=2)
     for index, rows in enumerate(tables):
         look = {
-            "color": _COLOURS[index % len(_COLOURS)],
+            "color": _COLORS[index % len(_COLORS)],
             "marker": _MARKERS[index % len(_MARKERS)],
             "markersize": 4,
             "linewidth": 1.2,

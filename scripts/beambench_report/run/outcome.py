@@ -14,16 +14,16 @@ from beambench_report.base.records import FAULTLESS_VERDICTS, NO_RAYS, Run
 _MOST_SHOWN = 40
 
 _MEANINGS = {
-    "mismatch": "hits were wrong",
+    "mismatch": "wrong hits",
     "grazes": "too many rays were disputed at the edges of primitives",
     "error": "could not be built",
-    "": "was not judged",
+    "": "was not verified",
 }
 
 
 @dataclass(frozen=True)
 class Fault:
-    """Cells of one contender in one view that were not right for one reason."""
+    """Cells of one contender in one view that were wrong for one reason."""
 
     contender: str
     view: str
@@ -36,7 +36,7 @@ class Fault:
 
 @dataclass(frozen=True)
 class Outcome:
-    """How the cells of a run were judged."""
+    """The verdicts of a run, summed up."""
 
     cells: int
     wrong: int
@@ -49,11 +49,11 @@ class Outcome:
 
     @property
     def right(self) -> int:
-        """How many cells were right."""
+        """How many cells were verified."""
         return self.cells - self.wrong - self.without_rays
 
 
-def judge_run(run: Run, files: Mapping[Identity, CellFile]) -> Outcome:
+def summarize_verdicts(run: Run, files: Mapping[Identity, CellFile]) -> Outcome:
     """Sums up the verdicts."""
     wrong = run.rows[~run.rows["verdict"].isin(FAULTLESS_VERDICTS)]
     shown = wrong.head(_MOST_SHOWN)
@@ -75,7 +75,7 @@ def _fault(row: pd.Series, file: CellFile | None) -> Fault:
         row["view"],
         (f"{row['width']:.0f}x{row['height']:.0f}",),
         row["verdict"] or "no verdict",
-        _MEANINGS.get(row["verdict"], "was not right"),
+        _MEANINGS.get(row["verdict"], "was wrong"),
         file.message if file else "",
         file.examples if file else (),
     )

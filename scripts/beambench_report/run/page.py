@@ -12,7 +12,7 @@ import pandas as pd
 
 from beambench_report.base.cell_files import CellFile, Identity, identity, read_cell_files
 from beambench_report.base.columns import COUNTER_SUFFIX, dictionary
-from beambench_report.base.figure import structure_colour
+from beambench_report.base.figure import structure_color
 from beambench_report.base.files import Problem, write_text
 from beambench_report.base.machine import Manifest, read_description, read_manifest
 from beambench_report.base.names import PLOT_INDEX, file_stems
@@ -21,7 +21,7 @@ from beambench_report.base.ratio import Ratio, median_of, paired_ratio, unpaired
 from beambench_report.base.records import Run, read_run
 from beambench_report.run.all_cells import pack
 from beambench_report.run.html import data_uri, environment
-from beambench_report.run.outcome import judge_run
+from beambench_report.run.outcome import summarize_verdicts
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Line:
     """A contender's line; the shares are those of its bar, 1 being the whole width."""
 
     contender: str
-    colour: str
+    color: str
     verdict: str
     fields: tuple[Field, ...]
     build_share: float = 0.0
@@ -184,7 +184,7 @@ def view_table(
         Heading("ratio", "to reference"),
         Heading("speed", "Mrays/s", "mrays_per_s"),
         Heading("memory", "", "memory_bytes"),
-        *(Heading(_counter_title(name), "a ray", name) for name in counters),
+        *(Heading(_counter_title(name), "per ray", name) for name in counters),
     )
     scale = _scale(ordered.loc[ordered["timed"], "total_ms_median"])
     lines = tuple(
@@ -216,7 +216,7 @@ def _line(row: pd.Series, counters: list[str], ratio: Ratio | None, scale: float
     build, trace = ((field.value or 0.0) / scale for field in times)
     return Line(
         contender=row["contender"],
-        colour=structure_colour(row["structure"]),
+        color=structure_color(row["structure"]),
         verdict=row["verdict"] or "no verdict",
         fields=(
             total,
@@ -250,7 +250,7 @@ def _scale(totals: pd.Series) -> float:
 
 @dataclass(frozen=True)
 class View:
-    """What is told of one view; the first table is that of the finest resolution."""
+    """What is shown of one view; the first table is that of the finest resolution."""
 
     title: str
     anchor: str
@@ -289,7 +289,7 @@ def make_views(
 
 def _caption(rows: pd.DataFrame) -> str:
     first = rows.iloc[0]
-    samples = f", {first['samples']:.0f} samples a pixel" if first["samples"] > 1 else ""
+    samples = f", {first['samples']:.0f} samples per pixel" if first["samples"] > 1 else ""
     return f"{first['width']:.0f}x{first['height']:.0f}{samples}, {first['rays']:,.0f} rays"
 
 
@@ -313,7 +313,7 @@ class Comparison:
     reference: str
     views: tuple[str, ...]
     lines: tuple[tuple[str, str, tuple[Mark, ...]], ...]
-    """Contender, its colour, its marks in the order of the views."""
+    """Contender, its color, its marks in the order of the views."""
 
 
 def compare(reference: str, finest: Mapping[str, Compared]) -> Comparison:
@@ -327,7 +327,7 @@ def compare(reference: str, finest: Mapping[str, Compared]) -> Comparison:
     lines = tuple(
         (
             contender,
-            structure_colour(structure),
+            structure_color(structure),
             tuple(
                 _mark(shown.ratios.get(contender), verdicts.get((contender, view)))
                 for view, shown in finest.items()
@@ -375,7 +375,7 @@ def render(run: Run, wanted_reference: str | None = None) -> str:
             manifest=manifest,
             description=read_description(run.directory),
             newest=run.rows.iloc[-1].to_dict(),
-            outcome=judge_run(run, files),
+            outcome=summarize_verdicts(run, files),
             tiles=_tiles(run, manifest),
             comparison=compare(reference, finest) if reference else None,
             views=make_views(resolutions, run.counters, pictures, plots),

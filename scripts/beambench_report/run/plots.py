@@ -65,7 +65,7 @@ def _draw_line(panel: Axes, contender: str, line: pd.DataFrame, look: Look) -> N
         median,
         yerr=[below, above],
         label=contender,
-        color=look.colour,
+        color=look.color,
         marker=look.marker,
         linestyle=look.dashes,
         markersize=4.5,
@@ -162,8 +162,8 @@ def counters(run: Run) -> list[Plot]:
     for title, stem in file_stems(run.views).items():
         finest = run.finest(title)
         for names, words, prefix in (
-            (run.counters, "work a ray", "counters"),
-            (run.counters_by_kind, "work a ray by kind of rays", "counters-by-kind"),
+            (run.counters, "work per ray", "counters"),
+            (run.counters_by_kind, "work per ray by kind of rays", "counters-by-kind"),
         ):
             shown = _worth_showing(finest, names)
             if not shown:
@@ -190,7 +190,7 @@ def _draw_counters(
         panel.set_axis_off()
     for panel, (name, rows) in zip(panels, shown.items(), strict=False):
         panel.set_title(name.removesuffix(COUNTER_SUFFIX).replace("_", " "))
-        draw_bars(panel, _counter_bars(rows, name), all_looks, "a ray")
+        draw_bars(panel, _counter_bars(rows, name), all_looks, "per ray")
     first = finest.iloc[0]
     size = f"{first['width']:.0f}x{first['height']:.0f}"
     figure.suptitle(f"{heading} at {size}", x=0.01, ha="left", weight="bold")
@@ -240,7 +240,7 @@ def _readme(run: Run, plots: list[Plot]) -> str:
         "| file | shows |",
         "|---|---|",
         *(f"| [{plot.stem}.png]({plot.stem}.png) | {plot.summary} |" for plot in plots),
-        "| [break-even.csv](break-even.csv) | break-even number of rays of every pair |",
+        "| [break-even.csv](break-even.csv) | break-even ray count of every pair |",
         "",
     ]
     return "\n".join(lines)

@@ -19,10 +19,10 @@
     });
   };
 
-  // Black and the other dark colours of the house are turned around on dark paper.
-  const shown = (colour) => {
-    if (!dark.matches) return colour;
-    const parts = [1, 3, 5].map((at) => parseInt(colour.slice(at, at + 2), 16));
+  // Black and the other dark colors of the house are turned around on dark paper.
+  const shown = (color) => {
+    if (!dark.matches) return color;
+    const parts = [1, 3, 5].map((at) => parseInt(color.slice(at, at + 2), 16));
     const light = 0.3 * parts[0] + 0.59 * parts[1] + 0.11 * parts[2];
     const lift = light < 110 ? 0.55 - light / 300 : 0;
     return `rgb(${parts.map((part) => Math.round(part + (255 - part) * lift)).join(",")})`;
@@ -61,7 +61,7 @@
         y: unpack(cell.ratios),
         text: words,
         hovertemplate: "%{y:.4g} × Embree<br>%{text}<extra>%{fullData.name}</extra>",
-        line: { color: shown(cell.colour), dash: dashes[cell.variant % dashes.length], width: 1.7 },
+        line: { color: shown(cell.color), dash: dashes[cell.variant % dashes.length], width: 1.7 },
       }));
     const marks = data.alarms.map((place) => ({
       type: "line",
@@ -90,10 +90,10 @@
       y: [cell.trace],
       hovertemplate: "build %{x:.4g} ms<br>trace %{y:.4g} ms<extra>%{fullData.name}</extra>",
       marker: {
-        color: shown(cell.colour),
+        color: shown(cell.color),
         size: 12,
         symbol: symbols[cell.variant % symbols.length] + (cell.front ? "" : "-open"),
-        line: { color: shown(cell.colour), width: 2 },
+        line: { color: shown(cell.color), width: 2 },
       },
     }));
     const front = right.filter((cell) => cell.front).sort((a, b) => a.build - b.build);
@@ -118,7 +118,7 @@
     series.setAttribute("aria-label", `Ratios to Embree, night by night, in ${view} at ${size}`);
     scatter.setAttribute("aria-label", `Build against trace time in ${view} at ${size}`);
     document.getElementById("front").textContent =
-      names.length === 0 ? "Nothing was right here." : `On the Pareto front: ${names.join(", ")}.`;
+      names.length === 0 ? "Nothing was verified here." : `On the Pareto front: ${names.join(", ")}.`;
   };
 
   const draw = () => {

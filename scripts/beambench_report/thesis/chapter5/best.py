@@ -1,7 +1,5 @@
 """Best against best: each contender with those of its parameters that suit the view best."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -47,7 +45,6 @@ class BestTable:
 def best_table(part: PrintedPart, cells: Cells) -> BestTable | None:
     """The resolutions at which some contender had a choice; None if none had."""
     structures = [*part.structures, *REFERENCES]
-    pools = [(label, name, only) for name in structures for label, only in _pools(name)]
     resolutions = [
         resolution
         for resolution in resolutions_of(cells.cells)
@@ -57,18 +54,30 @@ def best_table(part: PrintedPart, cells: Cells) -> BestTable | None:
     if not resolutions:
         return None
     lines = []
-    for label, name, only in pools:
-        choices = []
-        for resolution in resolutions:
-            found = [c for c in cells.of(part.scene, name, resolution) if _fits(c, only)]
-            choices.append(choose(found))
-        lines.append(BestLine(label, name, tuple(choices)))
+    for name in structures:
+        for label, only in _pools(name):
+            found = (
+                [cell for cell in cells.of(part.scene, name, at) if _fits(cell, only)]
+                for at in resolutions
+            )
+            lines.append(BestLine(label, name, tuple(map(choose, found))))
     lines = [line for line in lines if any(choice.cell for choice in line.choices)]
-    return BestTable(part, tuple(resolutions), tuple(_with_ratios(lines)))
+    bases = [choice.cell for choice in lines[0].choices] if lines else []
+    with_ratios = (
+        replace(
+            line,
+            choices=tuple(
+                replace(choice, ratio=_ratio(choice.cell, base))
+                for choice, base in zip(line.choices, bases, strict=True)
+            ),
+        )
+        for line in lines
+    )
+    return BestTable(part, tuple(resolutions), tuple(with_ratios))
 
 
 def choose(candidates: Sequence[Cell]) -> Choice:
-    """The quickest in all, building included, of those that were right.
+    """The fastest in total, building included, of those with correct hits.
 
     By clock cycles, where they were counted: candidates of two runs may have met two clock rates.
     """
@@ -77,27 +86,21 @@ def choose(candidates: Sequence[Cell]) -> Choice:
         return Choice(None, "", len(candidates))
     by_cycles = all(pd.notna(cell.megacycles) for cell in timed)
     best = min(timed, key=lambda cell: cell.megacycles if by_cycles else cell.time.value)
-    return Choice(best, _told(best, candidates), len(timed), _is_edge(best, timed))
-
-
-def _told(best: Cell, candidates: Sequence[Cell]) -> str:
-    """The parameters in which candidates differ, with the values of the best."""
-    differing = [
-        name
-        for name in best.parameters
+    differing = (
+        f"{name}={value}"
+        for name, value in best.parameters.items()
         if len({cell.parameters.get(name) for cell in candidates}) > 1
-    ]
-    return ", ".join(f"{name}={best.parameters[name]}" for name in differing)
+    )
+    return Choice(best, ", ".join(differing), len(timed), _is_edge(best, timed))
 
 
 def _is_edge(best: Cell, timed: Sequence[Cell]) -> bool:
     """Is it at an end of the levels or grids that were tried, of grids filled in the same way?"""
+    fill = best.parameters.get("fill")
+    alike = [cell.parameters for cell in timed if cell.parameters.get("fill") == fill]
     for name in ("max_level", "resolution"):
         value = best.parameters.get(name, "")
-        alike = [
-            cell for cell in timed if cell.parameters.get("fill") == best.parameters.get("fill")
-        ]
-        tried = {int(v) for c in alike if (v := c.parameters.get(name, "")).isdecimal()}
+        tried = {int(v) for given in alike if (v := given.get(name, "")).isdecimal()}
         if value.isdecimal() and len(tried) > 1 and int(value) in (min(tried), max(tried)):
             return True
     return False
@@ -113,7 +116,7 @@ def _pools(structure: str) -> list[tuple[str, dict[str, str]]]:
         return [(f"{title}, handover=0", {"handover": "0"}), (f"{title}, any handover", {})]
     if structure == "goldsmith-salmon":
         return [(f"{title}, insert=terminal", {"insert": "terminal"}), (f"{title}, any insert", {})]
-    return [(contender_title(structure), {})]
+    return [(title, {})]
 
 
 def _fits(cell: Cell, only: dict[str, str]) -> bool:
@@ -129,21 +132,6 @@ def _is_second_pass(part: PrintedPart, cells: Cells, resolution: str) -> bool:
         for cell in cells.of(part.scene, name, resolution)
         if cell.run.startswith("best-") or cell.setting is None
     )
-
-
-def _with_ratios(lines: Sequence[BestLine]) -> list[BestLine]:
-    bases = [choice.cell for choice in lines[0].choices] if lines else []
-    return [
-        BestLine(
-            line.label,
-            line.structure,
-            tuple(
-                replace(choice, ratio=_ratio(choice.cell, base))
-                for choice, base in zip(line.choices, bases, strict=True)
-            ),
-        )
-        for line in lines
-    ]
 
 
 def _ratio(cell: Cell | None, base: Cell | None) -> Measured | None:

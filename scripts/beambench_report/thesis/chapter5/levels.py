@@ -1,9 +1,7 @@
 """The level that max_level=auto chooses beside the best of the levels that were measured."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from pathlib import Path
 from statistics import median
@@ -14,23 +12,30 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from beambench_report.base.figure import Plot, house_style, new_figure, structure_colour, write_plot
+from beambench_report.base.figure import (
+    Plot,
+    house_style,
+    new_figure,
+    structure_color,
+    write_plot,
+)
 from beambench_report.base.files import Problem, write_text
+from beambench_report.base.quantities import DASH
 from beambench_report.thesis.paper.cells import Cell, read_cells
-from beambench_report.thesis.paper.printed import DASH, milliseconds, scene_title
+from beambench_report.thesis.paper.printed import milliseconds, scene_title
 from beambench_report.thesis.paper.section import (
-    Column,
     Field,
     Section,
     SectionFigure,
     SectionTable,
     by_file,
     section_as_markdown,
+    section_table,
 )
 
-AIM = 0.10
+TARGET = 0.10
 """A loss below it is a good choice; nine of ten should be."""
-SHARE_AIM = 0.9
+_TARGET_SHARE = 0.9
 _AUTO = "auto"
 _WORST = 5
 
@@ -50,7 +55,7 @@ class LevelChoice:
 
     @cached_property
     def best(self) -> int:
-        """The fixed level that was the quickest."""
+        """The fixed level that was the fastest."""
         return min(self.fixed, key=lambda level: self._time(self.fixed[level]))
 
     @property
@@ -95,24 +100,24 @@ class Losses:
 
     @property
     def good(self) -> int:
-        """How many lose less than the aim."""
-        return sum(choice.loss < AIM for choice in self.choices)
+        """How many lose less than the target."""
+        return sum(choice.loss < TARGET for choice in self.choices)
 
     @property
     def good_levels(self) -> tuple[int, int]:
-        """How many chosen levels lose less than the aim, of how many that were measured."""
+        """How many chosen levels lose less than the target, of how many that were measured."""
         known = [choice.loss_of_level for choice in self.choices]
         losses = [loss for loss in known if loss is not None]
-        return sum(loss < AIM for loss in losses), len(losses)
+        return sum(loss < TARGET for loss in losses), len(losses)
 
     @property
     def share(self) -> float:
-        """Of choices that lose less than the aim."""
+        """Of choices that lose less than the target."""
         return self.good / len(self.choices)
 
     @property
     def median(self) -> float:
-        """The middle loss."""
+        """The median loss."""
         return median(choice.loss for choice in self.choices)
 
     @property
@@ -122,19 +127,22 @@ class Losses:
 
 
 def level_choices(cells: Iterable[Cell]) -> list[LevelChoice]:
-    """Every cell of max_level=auto that has fixed levels beside it, in the order of the cells."""
+    """Every cell of max_level=auto that has fixed levels beside it, in the order of the cells.
+
+    Of a level that several runs measured, the cell of the choice's own run counts, or the first.
+    """
     timed = [cell for cell in cells if cell.time is not None and "max_level" in cell.parameters]
     fixed: dict[tuple[object, ...], list[Cell]] = {}
     for cell in timed:
         if cell.parameters["max_level"].isdecimal():
             fixed.setdefault(_key(cell), []).append(cell)
     found = []
-    for auto in timed:
-        if auto.parameters["max_level"] != _AUTO:
-            continue
-        levels = _by_level(fixed.get(_key(auto), ()), auto.run)
+    for auto in (cell for cell in timed if cell.parameters["max_level"] == _AUTO):
+        levels: dict[int, Cell] = {}
+        for cell in sorted(fixed.get(_key(auto), ()), key=lambda one: one.run != auto.run):
+            levels.setdefault(int(cell.parameters["max_level"]), cell)
         if len(levels) > 1:
-            found.append(LevelChoice(auto, levels))
+            found.append(LevelChoice(auto, dict(sorted(levels.items()))))
     return found
 
 
@@ -149,30 +157,30 @@ def _key(cell: Cell) -> tuple[object, ...]:
     return cell.scene, cell.structure, cell.resolution, cell.samples, tuple(others)
 
 
-def _by_level(cells: Iterable[Cell], run: str) -> dict[int, Cell]:
-    """One cell a level: that of the choice's own run, or else the first."""
-    found: dict[int, Cell] = {}
-    for cell in sorted(cells, key=lambda one: one.run != run):
-        found.setdefault(int(cell.parameters["max_level"]), cell)
-    return dict(sorted(found.items()))
-
+# The figure
 
 _ROW_HEIGHT = 0.24  # inches
 _MARKERS = ("o", "s", "D", "^", "v")
 _TICKS = (-50, -20, -10, -5, 0, 5, 10, 20, 50, 100, 200, 500, 1000, 2000, 5000, 10000)
+_HOLLOW = {"markersize": 5.5, "markerfacecolor": "none", "markeredgewidth": 0.7}
 
 
 def draw_losses(stem: str, choices: Sequence[LevelChoice]) -> Plot:
-    """Filled: with the choosing; hollow: what the chosen level loses by itself."""
+    """A row for each scene, a panel for each structure.
+
+    Filled: with the choosing; hollow: what the chosen level loses by itself.
+    """
     structures = list(dict.fromkeys(choice.auto.structure for choice in choices))
     scenes = list(dict.fromkeys(choice.auto.scene for choice in choices))
     sizes = list(dict.fromkeys(choice.auto.resolution for choice in choices))
+    known = [choice.loss for choice in choices]
+    known += [own for choice in choices if (own := choice.loss_of_level) is not None]
     figure, panels = new_figure(_ROW_HEIGHT * len(scenes) + 1.3, 1, len(structures))
     for panel, structure in zip(panels, structures, strict=True):
         shown = [choice for choice in choices if choice.auto.structure == structure]
-        _draw(panel, shown, scenes, sizes, structure_colour(structure))
+        _draw(panel, shown, scenes, sizes, structure_color(structure))
         panel.set_title(structure)
-        panel.set_xlim(_ends(choices))
+        panel.set_xlim(min(-13.0, 130 * min(known)), max(40.0, 130 * max(known)))
     for panel in panels[1:]:
         panel.tick_params(labelleft=False)
     _legend(figure, sizes)
@@ -184,36 +192,18 @@ def _draw(
     choices: Sequence[LevelChoice],
     scenes: Sequence[str],
     sizes: Sequence[str],
-    colour: str,
+    color: str,
 ) -> None:
-    panel.axvspan(100 * AIM, 1e6, color="#999999", alpha=0.18, linewidth=0)
+    panel.axvspan(100 * TARGET, 1e6, color="#999999", alpha=0.18, linewidth=0)
     panel.axvline(0, color="#333333", linewidth=0.8)
     for index, size in enumerate(sizes):
         marker = _MARKERS[index % len(_MARKERS)]
         shift = 0.26 * (index - (len(sizes) - 1) / 2)
         at = [choice for choice in choices if choice.auto.resolution == size]
         rows = [scenes.index(choice.auto.scene) + shift for choice in at]
-        levels = [
-            (100 * choice.loss_of_level, row)
-            for choice, row in zip(at, rows, strict=True)
-            if choice.loss_of_level is not None
-        ]
-        panel.plot(
-            [loss for loss, _ in levels],
-            [row for _, row in levels],
-            marker,
-            markersize=5.5,
-            markerfacecolor="none",
-            markeredgecolor="#333333",
-            markeredgewidth=0.7,
-        )
-        panel.plot(
-            [100 * choice.loss for choice in at],
-            rows,
-            marker,
-            markersize=3.5,
-            color=colour,
-        )
+        own = [float("nan") if (x := one.loss_of_level) is None else 100 * x for one in at]
+        panel.plot(own, rows, marker, markeredgecolor="#333333", **_HOLLOW)
+        panel.plot([100 * choice.loss for choice in at], rows, marker, markersize=3.5, color=color)
     panel.set_xscale("symlog", linthresh=10, linscale=1.2)
     panel.xaxis.set_major_locator(FixedLocator(_TICKS))
     panel.xaxis.set_minor_locator(NullLocator())
@@ -228,21 +218,13 @@ def _draw(
     panel.set_xlabel("loss against the best level")
 
 
-def _ends(choices: Sequence[LevelChoice]) -> tuple[float, float]:
-    """Of the axis of losses, the same in every panel."""
-    losses = [choice.loss for choice in choices]
-    losses += [own for choice in choices if (own := choice.loss_of_level) is not None]
-    return min(-13.0, 130 * min(losses)), max(40.0, 130 * max(losses))
-
-
 def _legend(figure: Figure, sizes: Sequence[str]) -> None:
-    grey = {"color": "#333333", "linestyle": "none"}
+    gray = {"color": "#333333", "linestyle": "none"}
     shapes = [
-        Line2D([], [], marker=_MARKERS[index % len(_MARKERS)], markersize=4, label=size, **grey)
+        Line2D([], [], marker=_MARKERS[index % len(_MARKERS)], markersize=4, label=size, **gray)
         for index, size in enumerate(sizes)
     ]
-    hollow = {"markerfacecolor": "none", "markersize": 5.5, "markeredgewidth": 0.7}
-    own = Line2D([], [], marker="o", label="the level by itself", **hollow, **grey)
+    own = Line2D([], [], marker="o", label="the level by itself", **_HOLLOW, **gray)
     figure.legend(
         handles=[*shapes, own],
         loc="outside lower center",
@@ -252,6 +234,8 @@ def _legend(figure: Figure, sizes: Sequence[str]) -> None:
     )
 
 
+# The section of the report, also as a file of its own
+
 STEM = "level-choice"
 _WORDS = (
     "With max_level=auto, samet and beam choose the octree's level from a few rays, the camera and "
@@ -259,11 +243,11 @@ _WORDS = (
     "best of the fixed levels that were measured for the same scene and resolution. The loss is "
     "its time, building and choosing included, over that of the best level, less 1; beside it is "
     "what the chosen level loses by itself, without the cost of choosing it. Times are compared in "
-    "clock cycles, where they were counted. A loss below zero is a cell quicker than every fixed "
+    "clock cycles, where they were counted. A loss below zero is a cell faster than every fixed "
     "level, by chance or by a level that was not measured."
 )
 _CAPTION = (
-    "Filled: with the choosing; hollow: the chosen level by itself, where it was measured. Grey: a "
+    "Filled: with the choosing; hollow: the chosen level by itself, where it was measured. Gray: a "
     "loss of more than a tenth. The axis is linear to 10% and logarithmic beyond."
 )
 
@@ -276,6 +260,8 @@ def levels_section(cells: Iterable[Cell]) -> Section | None:
     structures = list(dict.fromkeys(choice.auto.structure for choice in choices))
     parts = {name: losses(choices, name) for name in structures}
     every = losses(choices)
+    title = "What choosing the level loses against the best level"
+    met = "met" if every.share >= _TARGET_SHARE else "missed"
     return Section(
         "levels",
         "The level chosen automatically",
@@ -285,73 +271,83 @@ def levels_section(cells: Iterable[Cell]) -> Section | None:
             _table("The five that lose the most", every.worst),
             _table("Every choice", choices, is_long=True),
         ),
+        (SectionFigure(STEM, title, _CAPTION, partial(draw_losses, STEM, choices)),),
         (
-            SectionFigure(
-                STEM,
-                "What choosing the level loses against the best level",
-                _CAPTION,
-                partial(draw_losses, STEM, choices),
-            ),
+            f"{every.good} of {len(every.choices)} choices ({every.share:.0%}) lose less than "
+            f"{TARGET:.0%}; the target, nine of ten, is {met}. The median loss is "
+            f"{_percent(every.median)}.",
         ),
-        (_finding(every),),
     )
 
 
-def _finding(every: Losses) -> str:
-    met = "met" if every.share >= SHARE_AIM else "missed"
-    return (
-        f"{every.good} of {len(every.choices)} choices ({every.share:.0%}) lose less than "
-        f"{AIM:.0%}; the aim, nine of ten, is {met}. The middle loss is {_percent(every.median)}."
-    )
+def levels_of_runs(runs: Sequence[Path], file: Path | None = None) -> list[Path] | str:
+    """The section on some runs: its text, or the files written, FILE.md and the figure beside it.
+
+    Raises Problem where a run cannot be read, or none holds a choice.
+    """
+    cells: list[Cell] = []
+    for run in runs:
+        folder = run.resolve()
+        found = read_cells(folder.parent, [folder.name])
+        if found.unread:
+            raise Problem(found.unread[0])
+        if not found.runs:
+            raise Problem(f"{run}: holds no results.csv; give the folder that a run wrote")
+        cells += found.cells
+    section = levels_section(cells)
+    if section is None:
+        names = ", ".join(str(run) for run in runs)
+        raise Problem(
+            f"{names}: no cell of max_level=auto has two fixed levels beside it; measure "
+            "harness/bench/sweeps/levels.json"
+        )
+    if file is None:
+        return section_as_markdown(replace(section, figures=()), level=1, origin=by_file)
+    paths = [write_text(file, section_as_markdown(section, level=1, folder="", origin=by_file))]
+    with house_style():
+        for figure in section.figures:
+            paths += write_plot(figure.draw(), file.parent)
+    return paths
 
 
 def _summary(parts: dict[str, Losses]) -> SectionTable:
-    heads = ("choices", "loss below 10%", "level's own loss below 10%", "middle loss", "worst")
+    heads = ("choices", "loss below 10%", "level's own loss below 10%", "median loss", "worst")
     rows = []
     for name, part in parts.items():
         good, known = part.good_levels
-        texts = (
-            name,
-            f"{len(part.choices)}",
-            f"{part.good} ({part.share:.0%})",
-            f"{good} of {known}" + (f" ({good / known:.0%})" if known else ""),
-            _percent(part.median),
-            _percent(part.worst[0].loss),
+        rows.append(
+            (
+                name,
+                f"{len(part.choices)}",
+                f"{part.good} ({part.share:.0%})",
+                f"{good} of {known}" + (f" ({good / known:.0%})" if known else ""),
+                _percent(part.median),
+                _percent(part.worst[0].loss),
+            )
         )
-        rows.append(tuple(Field(text) for text in texts))
-    columns = (Column("structure", False), *(Column(head) for head in heads))
-    return SectionTable("How much choosing loses", columns, tuple(rows))
+    return section_table("How much choosing loses", ("structure",), heads, rows)
 
 
 def _table(title: str, choices: Sequence[LevelChoice], *, is_long: bool = False) -> SectionTable:
-    names = (Column("structure", False), Column("scene", False), Column("resolution", False))
-    heads = (
-        "chosen",
-        "best",
-        "measured",
-        "time of auto",
-        "of the best",
-        "loss",
-        "level's own loss",
-    )
-    columns = (*names, *(Column(head) for head in heads))
-    return SectionTable(title, columns, tuple(_row(choice) for choice in choices), is_long)
+    heads = "chosen, best, measured, time of auto, of the best, loss, level's own loss".split(", ")
+    rows = map(_row, choices)
+    return section_table(title, ("structure", "scene", "resolution"), heads, rows, is_long=is_long)
 
 
-def _row(choice: LevelChoice) -> tuple[Field, ...]:
+def _row(choice: LevelChoice) -> tuple[Field | str, ...]:
     auto, best = choice.auto, choice.fixed[choice.best]
     own = choice.loss_of_level
     return (
-        Field(auto.structure),
-        Field(scene_title(auto.scene)),
-        Field(auto.resolution),
-        Field(DASH if choice.level is None else str(choice.level)),
-        Field(f"{choice.best}{' (at the end)' if choice.is_best_at_end else ''}"),
-        Field(_levels(list(choice.fixed))),
+        auto.structure,
+        scene_title(auto.scene),
+        auto.resolution,
+        DASH if choice.level is None else str(choice.level),
+        f"{choice.best}{' (at the end)' if choice.is_best_at_end else ''}",
+        _levels(list(choice.fixed)),
         _time(auto),
         _time(best),
         Field(_percent(choice.loss), value=choice.loss),
-        Field(DASH) if own is None else Field(_percent(own), choice.chosen, own),
+        DASH if own is None else Field(_percent(own), choice.chosen, own),
     )
 
 
@@ -370,42 +366,3 @@ def _levels(levels: Sequence[int]) -> str:
 
 def _percent(loss: float) -> str:
     return f"{100 * loss:+.1f}%"
-
-
-def levels_of_runs(runs: Sequence[Path]) -> Section:
-    """The choices in these runs. Raises Problem where one cannot be read, or holds none."""
-    cells: list[Cell] = []
-    for run in runs:
-        folder = run.resolve()
-        found = read_cells(folder.parent, [folder.name])
-        if found.unread:
-            raise Problem(found.unread[0])
-        if not found.runs:
-            raise Problem(f"{run}: holds no results.csv; give the folder that a run wrote")
-        cells += found.cells
-    section = levels_section(cells)
-    if section is None:
-        names = ", ".join(str(run) for run in runs)
-        raise Problem(
-            f"{names}: no cell of max_level=auto has two fixed levels beside it; measure "
-            "harness/bench/sweeps/levels.json"
-        )
-    return section
-
-
-def levels_text(runs: Sequence[Path]) -> str:
-    """As Markdown, without its figure."""
-    section = levels_of_runs(runs)
-    plain = Section(**(vars(section) | {"figures": ()}))
-    return section_as_markdown(plain, level=1, origin=by_file)
-
-
-def write_levels(runs: Sequence[Path], file: Path) -> list[Path]:
-    """Writes FILE.md, and its figure beside it."""
-    section = levels_of_runs(runs)
-    text = section_as_markdown(section, level=1, folder="", origin=by_file)
-    paths = [write_text(file, text)]
-    with house_style():
-        for figure in section.figures:
-            paths += write_plot(figure.draw(), file.parent)
-    return paths

@@ -1,7 +1,5 @@
 """Object-space sampling, the thesis's future work: the output of `beambench sampling --json`."""
 
-from __future__ import annotations
-
 import json
 import math
 from collections.abc import Iterable, Sequence
@@ -12,43 +10,36 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
-from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from beambench_report.base.figure import Look, Plot, house_style, new_figure, write_plot
 from beambench_report.base.files import Problem, write_text
 from beambench_report.base.names import file_stems
-from beambench_report.base.quantities import number
-from beambench_report.thesis.paper.printed import DASH, milliseconds, scene_title
+from beambench_report.base.quantities import DASH, number
+from beambench_report.thesis.paper.printed import milliseconds, scene_title
 from beambench_report.thesis.paper.section import (
-    Column,
-    Field,
     Section,
     SectionFigure,
     SectionTable,
     section_as_markdown,
+    section_table,
 )
 
 UNIFORM = "uniform"
-_THESIS = (UNIFORM, "5")
+_OBJECT_SPACE = "object-space"
 
 
 @dataclass(frozen=True)
 class Way:
-    """One way of sampling the image."""
+    """One way of sampling the image: a method and its setting."""
 
     method: str
     setting: str
     rays: float
-    """A pixel."""
+    """Per pixel."""
     milliseconds: float
     error: float
-    """Root mean square, of 255, against 64 samples a pixel."""
-
-    @property
-    def is_thesis(self) -> bool:
-        """Is it five samples in every pixel whose beam does not leave?"""
-        return (self.method, self.setting) == _THESIS
+    """RMS error on a 0-255 scale, against 64 samples per pixel."""
 
 
 @dataclass(frozen=True)
@@ -63,20 +54,28 @@ class Comparison:
     ways: tuple[Way, ...]
 
     @property
+    def title(self) -> str:
+        """Scene and resolution, and the structure where it is not the beams' usual."""
+        plain = self.scene.split(":")[0]
+        name = scene_title(plain)
+        own = "" if self.structure == "beam" else f", {self.structure}"
+        return f"{self.scene if name == plain else name}, {self.resolution}{own}"
+
+    @property
     def methods(self) -> list[str]:
         """Each once, in the order of the file."""
         return list(dict.fromkeys(way.method for way in self.ways))
 
     @property
     def thesis(self) -> Way | None:
-        """The thesis's way, where it was tried."""
-        return next((way for way in self.ways if way.is_thesis), None)
+        """The thesis's way, where it was tried: five samples wherever a beam does not leave."""
+        own = (UNIFORM, "5")
+        return next((way for way in self.ways if (way.method, way.setting) == own), None)
 
     def of(self, method: str) -> list[Way]:
-        """The settings of a method, the quickest first."""
-        return sorted(
-            (way for way in self.ways if way.method == method), key=lambda way: way.milliseconds
-        )
+        """The settings of a method, the fastest first."""
+        ways = (way for way in self.ways if way.method == method)
+        return sorted(ways, key=lambda way: way.milliseconds)
 
     def time_at_error(self, method: str, error: float) -> float | None:
         """Milliseconds in which a method reaches an error, between two settings as they are
@@ -107,14 +106,8 @@ def read_comparison(path: Path) -> Comparison:
         ways = tuple(_way(entry) for entry in source["results"])
         if not ways:
             raise ValueError("no results")
-        return Comparison(
-            path,
-            str(source["scene"]),
-            str(source["structure"]),
-            str(source["resolution"]),
-            int(source["repetitions"]),
-            ways,
-        )
+        names = (str(source[name]) for name in ("scene", "structure", "resolution"))
+        return Comparison(path, *names, int(source["repetitions"]), ways)
     except FileNotFoundError:
         raise Problem(
             f"{path}: there is no such file; write it with `beambench sampling SCENE --json`"
@@ -125,14 +118,25 @@ def read_comparison(path: Path) -> Comparison:
         ) from None
 
 
+def read_comparisons(files: Iterable[Path]) -> tuple[list[Comparison], list[str]]:
+    """What can be shown, one file for each view, and a sentence for each file that cannot."""
+    found: dict[str, Comparison] = {}
+    unread = []
+    for path in files:
+        try:
+            comparison = read_comparison(path)
+        except Problem as problem:
+            unread.append(str(problem))
+            continue
+        first = found.setdefault(comparison.title, comparison)
+        if first is not comparison:
+            unread.append(f"{path} and {first.path} are both of {first.title}; give one of them")
+    return list(found.values()), unread
+
+
 def _way(entry: dict[str, Any]) -> Way:
-    way = Way(
-        str(entry["method"]),
-        str(entry["setting"]),
-        float(entry["rays_per_pixel"]),
-        float(entry["trace_ms"]),
-        float(entry["error"]),
-    )
+    texts = (str(entry[name]) for name in ("method", "setting"))
+    way = Way(*texts, *(float(entry[name]) for name in ("rays_per_pixel", "trace_ms", "error")))
     if not (way.milliseconds > 0 and math.isfinite(way.milliseconds) and way.error >= 0):
         raise ValueError(f"{way.method} {way.setting}: trace_ms and error must be positive")
     return way
@@ -149,9 +153,10 @@ def _between(points: Sequence[tuple[float, float]], at: float) -> float | None:
     return None
 
 
+# The figure
+
 _HEIGHT = 3.6  # inches
-_OBJECT_SPACE = "object-space"
-# All are the beams': object space, which only they can choose in, has their colour.
+# All are the beams': object space, which only they can choose in, has their color.
 _LOOKS = {
     UNIFORM: Look("#777777", "o", "--"),
     _OBJECT_SPACE: Look("#d55e00", "s", "-"),
@@ -160,8 +165,8 @@ _LOOKS = {
 _OTHER = Look("#0072b2", "^", ":")
 
 
-def draw_comparison(comparison: Comparison, stem: str, title: str) -> Plot:
-    """A line a method, a point a setting, both axes logarithmic."""
+def draw_comparison(comparison: Comparison, stem: str) -> Plot:
+    """A line for each method, a point for each setting, both axes logarithmic."""
     figure, (panel,) = new_figure(_HEIGHT)
     for method in comparison.methods:
         look = _LOOKS.get(method, _OTHER)
@@ -172,7 +177,7 @@ def draw_comparison(comparison: Comparison, stem: str, title: str) -> Plot:
             [way.error for way in ways],
             marker=look.marker,
             linestyle=look.dashes,
-            color=look.colour,
+            color=look.color,
             markersize=4.5,
             linewidth=1.3,
             label=method,
@@ -185,9 +190,12 @@ def draw_comparison(comparison: Comparison, stem: str, title: str) -> Plot:
                 ha="right" if is_left else "left",
                 textcoords="offset points",
                 fontsize=7,
-                color=look.colour,
+                color=look.color,
             )
-    _mark_thesis(panel, comparison)
+    if (thesis := comparison.thesis) and thesis.error > 0:
+        ring = {"markersize": 11, "markerfacecolor": "none", "markeredgecolor": "#333333"}
+        at = ([thesis.milliseconds], [thesis.error])
+        panel.plot(*at, "o", linestyle="none", label="the thesis's five samples", **ring)
     panel.set(xscale="log", yscale="log")
     for axis in (panel.xaxis, panel.yaxis):
         axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
@@ -195,41 +203,27 @@ def draw_comparison(comparison: Comparison, stem: str, title: str) -> Plot:
         axis.set_minor_formatter(NullFormatter())
     panel.margins(0.1)
     panel.set_xlabel("trace / ms")
-    panel.set_ylabel("error / RMS of 255")
-    panel.set_title(title)
+    panel.set_ylabel("RMS error, 0-255 scale")
+    panel.set_title(comparison.title)
     panel.grid(which="major", color="#dddddd", linewidth=0.6)
     panel.legend(frameon=False, fontsize=8)
-    return Plot(stem, figure, f"{title}: error over time of ways to sample")
+    return Plot(stem, figure, f"{comparison.title}: error over time of ways to sample")
 
 
-def _mark_thesis(panel: Axes, comparison: Comparison) -> None:
-    way = comparison.thesis
-    if way is None or way.error == 0:
-        return
-    panel.plot(
-        [way.milliseconds],
-        [way.error],
-        "o",
-        markersize=11,
-        markerfacecolor="none",
-        markeredgecolor="#333333",
-        linestyle="none",
-        label="the thesis's five samples",
-    )
-
+# The section of the report, also as files of its own
 
 _WORDS = (
     "The thesis takes five samples in every pixel of a beam that ends at an occupied leaf, and "
     "leaves it to future work to let the leaf choose how many. Here it does: 1, 5 or 25 by the "
     "primitives of the leaf over its width in pixels (object-space). Beside it stand the same "
-    "number in every such pixel (uniform) and more where a pixel differs from its neighbours "
-    "(image-space). An error is the root mean square difference, of 255, to the picture of 64 "
-    "samples a pixel in preview shading; a time is that of tracing and of choosing. Two numbers as "
-    "a setting are the values from which on a pixel gets 5 and 25 samples.",
+    "number in every such pixel (uniform) and more where a pixel differs from its neighbors "
+    "(image-space). An error is the RMS difference, on a 0-255 scale, to the picture of 64 samples "
+    "per pixel in preview shading; a time is that of tracing and of choosing. Two numbers as a "
+    "setting are the values from which on a pixel gets 5 and 25 samples.",
 )
 _CAPTION = (
     "Every point is a setting; the ends of each line are labeled, the table has all. Further left "
-    "is quicker, further down is better; ringed is what the thesis did."
+    "is faster, further down is better; ringed is what the thesis did."
 )
 
 
@@ -237,12 +231,13 @@ def sampling_section(comparisons: Sequence[Comparison]) -> Section | None:
     """Scene by scene; None where there is nothing."""
     if not comparisons:
         return None
-    stems = file_stems(f"sampling {_title(comparison)}" for comparison in comparisons)
-    figures = []
-    for comparison, stem in zip(comparisons, stems.values(), strict=True):
-        title = _title(comparison)
-        draw = partial(draw_comparison, comparison, stem, title)
-        figures.append(SectionFigure(stem, f"{title}: error over time", _CAPTION, draw))
+    stems = file_stems(f"sampling {comparison.title}" for comparison in comparisons).values()
+    figures = (
+        SectionFigure(
+            stem, f"{one.title}: error over time", _CAPTION, partial(draw_comparison, one, stem)
+        )
+        for one, stem in zip(comparisons, stems, strict=True)
+    )
     return Section(
         "sampling",
         "Samples chosen in object space",
@@ -253,36 +248,12 @@ def sampling_section(comparisons: Sequence[Comparison]) -> Section | None:
     )
 
 
-def read_comparisons(files: Iterable[Path]) -> list[Comparison]:
-    """One file a view. Raises Problem where a file cannot be read, or is of a view again."""
-    found, unread = readable_comparisons(files)
+def write_sampling(files: Iterable[Path], directory: Path) -> list[Path]:
+    """Writes DIRECTORY/sampling.md and a plot for each file. Raises Problem for an unreadable one."""
+    comparisons, unread = read_comparisons(files)
     if unread:
         raise Problem(unread[0])
-    return found
-
-
-def readable_comparisons(files: Iterable[Path]) -> tuple[list[Comparison], list[str]]:
-    """What can be shown, and a sentence for each file that cannot."""
-    found: dict[str, Comparison] = {}
-    unread = []
-    for path in files:
-        try:
-            comparison = read_comparison(path)
-        except Problem as problem:
-            unread.append(str(problem))
-            continue
-        title = _title(comparison)
-        if title in found:
-            first = found[title].path
-            unread.append(f"{path} and {first} are both of {title}; give one of them")
-            continue
-        found[title] = comparison
-    return list(found.values()), unread
-
-
-def write_sampling(files: Iterable[Path], directory: Path) -> list[Path]:
-    """Writes DIRECTORY/sampling.md and a plot a file. Raises Problem where one cannot be read."""
-    section = sampling_section(read_comparisons(files))
+    section = sampling_section(comparisons)
     if section is None:
         raise Problem("there is no file; write one with `beambench sampling SCENE --json`")
     directory.mkdir(parents=True, exist_ok=True)
@@ -294,70 +265,50 @@ def write_sampling(files: Iterable[Path], directory: Path) -> list[Path]:
     return paths
 
 
-def _title(comparison: Comparison) -> str:
-    plain = comparison.scene.split(":")[0]
-    name = scene_title(plain)
-    own = "" if comparison.structure == "beam" else f", {comparison.structure}"
-    return f"{comparison.scene if name == plain else name}, {comparison.resolution}{own}"
-
-
 def _against_thesis(comparisons: Sequence[Comparison]) -> SectionTable:
-    heads = ("time", "error", "same error in", "of its time", "error in its time")
-    columns = (Column("scene", False), Column("method", False), *(Column(head) for head in heads))
     rows = []
-    for comparison in comparisons:
-        thesis = comparison.thesis
+    for one in comparisons:
+        thesis = one.thesis
         if thesis is None:
             continue
         own = (_milliseconds(thesis.milliseconds), number(thesis.error), DASH, DASH, DASH)
-        rows.append((_title(comparison), "uniform, 5 samples (thesis)", *own))
-        for method in comparison.methods:
+        rows.append((one.title, "uniform, 5 samples (thesis)", *own))
+        for method in one.methods:
             if method == UNIFORM:
                 continue
-            reached = comparison.reached(method, thesis.error)
-            error = comparison.error_at_time(method, thesis.milliseconds)
-            texts = (
-                DASH if reached is None else f"{_at_most(reached)}{_milliseconds(reached[0])}",
-                DASH
-                if reached is None
-                else f"{_at_most(reached)}{reached[0] / thesis.milliseconds:.0%}",
-                DASH if error is None else number(error),
-            )
-            rows.append(("", method, DASH, DASH, *texts))
-    fields = tuple(tuple(Field(text) for text in row) for row in rows)
+            texts = (DASH, DASH)
+            if reached := one.reached(method, thesis.error):
+                time, is_same = reached
+                texts = (_milliseconds(time), f"{time / thesis.milliseconds:.0%}")
+                texts = texts if is_same else tuple(f"at most {text}" for text in texts)
+            error = one.error_at_time(method, thesis.milliseconds)
+            rows.append(("", method, DASH, DASH, *texts, DASH if error is None else number(error)))
     title = (
         f"Against the thesis's five samples ({DASH}: outside of the settings that were tried; at "
-        "most: the quickest setting has a smaller error)"
+        "most: the fastest setting has a smaller error)"
     )
-    return SectionTable(title, columns, fields)
+    heads = ("time", "error", "same error in", "of its time", "error in its time")
+    return section_table(title, ("scene", "method"), heads, rows)
 
 
 def _ways(comparison: Comparison) -> SectionTable:
-    heads = ("rays a pixel", "trace", "error")
-    columns = (Column("method", False), Column("setting", False), *(Column(h) for h in heads))
-    rows = tuple(
-        tuple(
-            Field(text)
-            for text in (
-                way.method,
-                way.setting.replace(" ", ", "),
-                f"{way.rays:.3f}",
-                _milliseconds(way.milliseconds),
-                f"{way.error:.3f}",
-            )
+    rows = (
+        (
+            way.method,
+            way.setting.replace(" ", ", "),
+            f"{way.rays:.3f}",
+            _milliseconds(way.milliseconds),
+            f"{way.error:.3f}",
         )
         for way in comparison.ways
     )
-    title = f"{_title(comparison)} ({comparison.path.name}, {comparison.repetitions} repetitions)"
-    return SectionTable(title, columns, rows, is_long=True)
-
-
-def _at_most(reached: tuple[float, bool]) -> str:
-    return "" if reached[1] else "at most "
+    title = f"{comparison.title} ({comparison.path.name}, {comparison.repetitions} repetitions)"
+    heads = ("rays per pixel", "trace", "error")
+    return section_table(title, ("method", "setting"), heads, rows, is_long=True)
 
 
 def _findings(comparisons: Sequence[Comparison]) -> Iterable[str]:
-    """Of each other method: in how many scenes it is quicker to the thesis's error, or a smaller
+    """Of each other method: in how many scenes it is faster to the thesis's error, or a smaller
     one.
     """
     compared = [comparison for comparison in comparisons if comparison.thesis]
@@ -374,13 +325,13 @@ def _findings(comparisons: Sequence[Comparison]) -> Iterable[str]:
         if not shares:
             yield f"{method}: every setting that was tried has a larger error than five samples."
             continue
-        quicker = sum(share < 1 for share in shares)
+        faster = sum(share < 1 for share in shares)
         beyond = len(tried) - len(shares)
         at_most = "" if all(reached is None or reached[1] for reached in found) else "at most "
         larger = f"; in {beyond} every setting has a larger error" if beyond else ""
         yield (
             f"{method} reaches the error of the thesis's five samples, or a smaller one, in less "
-            f"time in {quicker} of the {len(tried)} scenes that were tried, by the median of "
+            f"time in {faster} of the {len(tried)} scenes that were tried, by the median of "
             f"{len(shares)} in {at_most}{median(shares):.0%} of it{larger}."
         )
 

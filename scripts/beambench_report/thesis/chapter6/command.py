@@ -17,6 +17,7 @@ def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) ->
     cluster = commands.add_parser(
         "cluster", help="simulate the thesis's cluster (chapter 6) with the costs of real beams"
     )
+    cluster.set_defaults(handler=run_step)
     steps = cluster.add_subparsers(dest="step", required=True)
     first = steps.add_parser("record", help="what every beam of two scenes takes, in one process")
     second = steps.add_parser("simulate", help="the same beams on clusters of 2 to 1,024 processes")
@@ -54,7 +55,7 @@ def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) ->
     )
 
 
-def cluster(options: argparse.Namespace) -> list[Path]:
+def run_step(options: argparse.Namespace) -> list[Path]:
     """Runs one step; returns what was written."""
     if options.step != "write":
         options.program = options.program.absolute()  # `./bc` is not the `bc` of the system

@@ -58,8 +58,8 @@ MODERN = Network("switched 10 Gbit/s", "switched", 1.15e9, 1e-5)
 MESSAGES_OF_1999 = Messages(7e-5, 1.5e-8, 2e-5)
 MESSAGES_OF_TODAY = Messages(1e-6, 1e-10, 2e-7)
 
-# The thesis sends pixels, not samples: places and a colour, in 8 bytes or so; 5 samples make one.
-BYTES_A_SAMPLE_OF_1999 = 8 / 5
+# The thesis sends pixels, not samples: places and a color, in 8 bytes or so; 5 samples make one.
+BYTES_PER_SAMPLE_OF_1999 = 8 / 5
 
 
 # Table 5.5 was measured at 350 MHz, the cluster ran at 330.
@@ -90,7 +90,7 @@ NONE = Slowness(1, 1, 1)
 
 
 def thesis_seconds(scene: str = TRACED) -> tuple[float, float]:
-    """Seconds that do not grow with the rays, and seconds a ray, on the cluster's machines."""
+    """Seconds that do not grow with the rays, and seconds per ray, on the cluster's machines."""
     evidence = published_evidence()
     seconds = [evidence.time(scene, "beam", resolution) for resolution in RESOLUTIONS]
     slope, constant = np.polyfit(
@@ -106,8 +106,8 @@ CONSTANTS = AS_OURS, ALL_WALKING, ALL_BUILDING = ("as ours", "all walking", "all
 
 def slowness_of_1999(recorded: Recorded, constant_is: str = AS_OURS) -> Slowness:
     """From our own picture of the same scene; `constant_is`: how the constant is divided."""
-    constant, a_ray = thesis_seconds()
-    work = a_ray * recorded.samples / recorded.work_seconds
+    constant, per_ray = thesis_seconds()
+    work = per_ray * recorded.samples / recorded.work_seconds
     if constant_is == ALL_WALKING:
         return Slowness(0, constant / recorded.walk_seconds, work)
     if constant_is == ALL_BUILDING:

@@ -14,7 +14,7 @@ from beambench_report.thesis.chapter6.simulate import OLD, OPTIONS, STATIONS, TO
 from beambench_report.thesis.paper.evidence import published_evidence
 
 # Of Okabe and Ito, as in style.py; there they stand for structures.
-_COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 _MARKERS = "osD^vP*"
 _DASHES = ("-", "--", "-.", ":")
 IDEAL = {"color": "#777777", "linewidth": 0.8, "linestyle": (0, (1, 2)), "zorder": 1}
@@ -109,15 +109,15 @@ def _balance(thesis: pd.DataFrame, processes: pd.DataFrame) -> Plot | None:
         consumers = members[members["role"].eq("consumer")]
         beams, times = panels[column], panels[column + len(rows)]
         # Points and no bars: the differences are a small part of the whole.
-        beams.plot(consumers["process"], consumers["tasks"], "o", color=_COLOURS[0])
+        beams.plot(consumers["process"], consumers["tasks"], "o", color=_COLORS[0])
         times.plot(
-            consumers["process"], consumers["busy_seconds"], "o", color=_COLOURS[0], label="busy"
+            consumers["process"], consumers["busy_seconds"], "o", color=_COLORS[0], label="busy"
         )
         times.plot(
             consumers["process"],
             consumers["last_seconds"],
             "_",
-            color=_COLOURS[1],
+            color=_COLORS[1],
             markersize=9,
             label="end of the last beam",
         )
@@ -179,9 +179,9 @@ def _option_lines(rows: pd.DataFrame, usual: str) -> Sequence[tuple[tuple[str, s
 
 
 def line_look(index: int) -> dict[str, object]:
-    """Of the line of that number: told apart by colour, marker and dashes."""
+    """Of the line of that number: distinguished by color, marker and dashes."""
     return {
-        "color": _COLOURS[index % len(_COLOURS)],
+        "color": _COLORS[index % len(_COLORS)],
         "marker": _MARKERS[index % len(_MARKERS)],
         "linestyle": _DASHES[index % len(_DASHES)],
         "markersize": 3.5,

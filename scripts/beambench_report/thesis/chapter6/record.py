@@ -201,7 +201,7 @@ def measured_section(folder: Path) -> str | None:
     lines = [
         "## The same program on this machine\n",
         f"`mpirun -n N beambench-cluster SCENE`, {rows['width'][0]}x{rows['height'][0]}, "
-        f"{rows['samples'][0]} samples a pixel, results as hits; medians of {rows['repeats'][0]} "
+        f"{rows['samples'][0]} samples per pixel, results as hits; medians of {rows['repeats'][0]} "
         "runs (shortest to longest in brackets). All pictures of a scene have the same bits.\n",
         "| scene | processes | seconds | times as fast as one process alone | producer busy "
         "| messages out, back | MB out, back |",

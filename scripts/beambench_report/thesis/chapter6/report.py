@@ -48,7 +48,7 @@ def write_report(folder: Path) -> list[Path]:
             "## Figure 6.3: time, speed-up, efficiency\n",
             shown.get("figure-6.3", ""),
             _efficiencies(simulations),
-            "## Figure 6.4: how the work was shared out\n",
+            "## Figure 6.4: how the work was distributed\n",
             shown.get("figure-6.4", ""),
             "## More processes, and what each option changes\n",
             shown.get(f"many-processes-{OLD}", ""),
@@ -74,7 +74,7 @@ def write_report(folder: Path) -> list[Path]:
 
 
 def _of_recording(recorded: dict, slowness: Slowness) -> str:
-    constant, a_ray = thesis_seconds()
+    constant, per_ray = thesis_seconds()
     lines = [
         "| scene | work | build s | walk s | work s | samples |",
         "|---|---|---|---|---|---|",
@@ -85,7 +85,7 @@ def _of_recording(recorded: dict, slowness: Slowness) -> str:
         ),
         "",
         f"Seconds of one core of this machine. The thesis's gato-bill takes {constant:.2f} s at no "
-        f"rays and {1e6 * a_ray:.1f} us a ray on its cluster's machines. So there building and "
+        f"rays and {1e6 * per_ray:.1f} us per ray on its cluster's machines. So there building and "
         f"walking take {number(slowness.walk)} times as long as here, the work in leaves "
         f"{number(slowness.work)} times.\n",
     ]

@@ -49,7 +49,7 @@ _OF_PROCESSES = (
     "wait_seconds",
     "last_seconds",
 )
-# More processes than this in one simulation are told in sums alone.
+# More processes than this in one simulation are reported in sums alone.
 _MOST_PROCESSES = 32
 
 

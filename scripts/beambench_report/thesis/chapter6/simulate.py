@@ -16,7 +16,7 @@ from beambench_report.thesis.chapter6.machines import (
     ALL_BUILDING,
     ALL_WALKING,
     AS_OURS,
-    BYTES_A_SAMPLE_OF_1999,
+    BYTES_PER_SAMPLE_OF_1999,
     MESSAGES_OF_1999,
     MESSAGES_OF_TODAY,
     MODERN,
@@ -81,7 +81,7 @@ class Simulation:
             *("--consumers", str(self.consumers)),
             *self.network.arguments(),
             *self.messages.arguments(),
-            *(("--sample-bytes", str(BYTES_A_SAMPLE_OF_1999)) if pixels else ()),
+            *(("--sample-bytes", str(BYTES_PER_SAMPLE_OF_1999)) if pixels else ()),
             *OPTIONS.get(self.options, ()),
             *MACHINES[self.machines],
         ]
@@ -215,7 +215,7 @@ def simulate(folder: Path, program: Path, plan: Sequence[Simulation], jobs: int 
 
 
 def slowness_of(recorded: dict[tuple[str, str], Recorded], constant_is: str = AS_OURS) -> Slowness:
-    """By the scene of which the thesis tells its seconds."""
+    """By the scene of which the thesis states its seconds."""
     known = recorded.get((TRACED, BEAMS))
     if known is None:
         raise Problem(f"{TRACED} was not recorded, by which machines of 1999 are calibrated")

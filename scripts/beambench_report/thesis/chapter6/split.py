@@ -251,7 +251,7 @@ def split_section(rows: pd.DataFrame) -> str:
             _costs(rows),
             "Assumed: machines and messages of 1999, as above. Left out: to read the scene, the "
             "same for all and only from the whole can parts be cut; two buffers of the image's "
-            "hits, 16 bytes a sample, which each process has beside its part; caches: here all "
+            "hits, 16 bytes per sample, which each process has beside its part; caches: here all "
             "processes share one core's.\n",
         ]
     )

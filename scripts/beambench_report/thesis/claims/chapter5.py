@@ -3,7 +3,7 @@
 A rule gives one check for each cell of a table that it looks at; `verdict.py` makes one verdict of
 them. Thresholds stand in words beside each rule. Seconds contain the building of the structure, and
 all structures have the thesis's parameters: level 6, no objects in a leaf that is not as deep, 32
-voxels an axis, filled lazily, objects inserted into the hierarchy as given and as section 4.3
+voxels per axis, filled lazily, objects inserted into the hierarchy as given and as section 4.3
 describes, Kay and Kajiya's queue, no handover.
 """
 
@@ -30,7 +30,7 @@ from beambench_report.thesis.claims.comparisons import (
     line_of,
     most,
     ratio_of,
-    seconds_a_beam,
+    seconds_per_beam,
     slope,
 )
 from beambench_report.thesis.claims.verdict import Amendment, Check, Claims, aside, below, between
@@ -58,7 +58,9 @@ ALL_SCENES = tuple(
 
 
 @CLAIMS.claim(
-    "C01", "5.3.1, table 5.2", "At level 6, more objects a leaf make the beams slower from 640x480."
+    "C01",
+    "5.3.1, table 5.2",
+    "At level 6, more objects per leaf make the beams slower from 640x480.",
 )
 def more_objects_are_slower(e: Evidence) -> list[Check]:
     """At each resolution each step, 0 to 10 to 20 to 40 objects, takes longer."""
@@ -76,7 +78,7 @@ def more_objects_are_slower(e: Evidence) -> list[Check]:
 @CLAIMS.claim(
     "C02",
     "5.3.1, table 5.2",
-    "More objects a leaf leave fewer occupied leaves and far fewer pixels in exit beams.",
+    "More objects per leaf leave fewer occupied leaves and far fewer pixels in exit beams.",
 )
 def more_objects_leave_fewer_exits(e: Evidence) -> list[Check]:
     """Fewer of both at each step; far fewer pixels: a tenth or less with 40 objects as with 0."""
@@ -186,7 +188,7 @@ def crowded_scenes_grow_more(e: Evidence) -> list[Check]:
     return grows_more(e, _CROWDED, _SPACIOUS)
 
 
-@CLAIMS.claim("C08", "5.3.2, figure 5.11", "With 5 samples a pixel the gap of C07 widens.")
+@CLAIMS.claim("C08", "5.3.2, figure 5.11", "With 5 samples per pixel the gap of C07 widens.")
 def samples_widen_the_gap(e: Evidence) -> list[Check]:
     """The difference of two growths is larger with 5 samples (base: 320x200 with 5) than with 1."""
     return [
@@ -204,7 +206,7 @@ def samples_widen_the_gap(e: Evidence) -> list[Check]:
 
 @CLAIMS.claim("C09", "5.3.3", "Time spent on non-terminal beams does not depend on the resolution.")
 def nonterminal_time_is_constant(e: Evidence) -> list[Check]:
-    """Where rays grow twentyfold, the longest is less than one and a half times the shortest."""
+    """Where rays grow twentyfold, the maximum is less than one and a half times the minimum."""
     checks = []
     for scene, level in dict.fromkeys((scene, level) for scene, level, _ in e.beam_cells):
         seconds = {
@@ -217,7 +219,7 @@ def nonterminal_time_is_constant(e: Evidence) -> list[Check]:
             continue
         largest = max(known, key=lambda figure: figure.value)
         ratio = largest / smallest(known)
-        where = f"{scene} level {level}, longest over shortest of {len(known)} resolutions"
+        where = f"{scene} level {level}, max/min over {len(known)} resolutions"
         checks.append(between(where, ratio, 1 / 1.5, 1.5))
     return checks
 
@@ -315,8 +317,8 @@ def formulas_explain_the_time(e: Evidence) -> list[Check]:
         ),
         aside(
             between(
-                "maceta 320x200, seconds a non-terminal beam, level 7 over level 6 (one cost?)",
-                ratio_of(seconds_a_beam(e, 7), seconds_a_beam(e, 6)),
+                "maceta 320x200, seconds per non-terminal beam, level 7 over level 6 (one cost?)",
+                ratio_of(seconds_per_beam(e, 7), seconds_per_beam(e, 6)),
                 0.5,
                 2.0,
             )
@@ -478,7 +480,7 @@ def hierarchy_falls_behind(e: Evidence) -> list[Check]:
 @CLAIMS.claim(
     "C20",
     "5.4.2, figures 5.17, 5.18",
-    "The grid has a best resolution (13 cells an axis for flamenco, 15 for ajedrez); the beams "
+    "The grid has a best resolution (13 cells per axis for flamenco, 15 for ajedrez); the beams "
     "beat the grid at its best.",
 )
 def beams_win_against_the_best_grid(e: Evidence) -> list[Check]:
@@ -489,7 +491,7 @@ def beams_win_against_the_best_grid(e: Evidence) -> list[Check]:
         quickest = smallest(list(sweep.values())) if len(sweep) >= 5 else None
         checks += [
             *best_is_inside(scene, sweep),
-            between(f"{scene}, best cells an axis", best_place(sweep), best / 1.5, best * 1.5),
+            between(f"{scene}, best cells per axis", best_place(sweep), best / 1.5, best * 1.5),
             below(f"{scene}, beam before the best grid", e.time(scene, "beam"), quickest),
         ]
     printed = below(

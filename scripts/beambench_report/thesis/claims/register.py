@@ -9,12 +9,12 @@ from pathlib import Path
 import pandas as pd
 
 from beambench_report.base.files import Problem
-from beambench_report.base.quantities import number
+from beambench_report.base.quantities import markdown_table, number
 from beambench_report.thesis.chapter6.results import is_cluster_folder
 from beambench_report.thesis.claims.chapter5 import CLAIMS
 from beambench_report.thesis.claims.chapter6 import CLUSTER_CLAIMS, cluster_evidence
 from beambench_report.thesis.claims.text import FURTHER_CLAIMS
-from beambench_report.thesis.claims.verdict import Check, Claim, Outcome, Verdict, verdict_of
+from beambench_report.thesis.claims.verdict import Check, Claim, Outcome, Rule, Verdict, verdict_of
 from beambench_report.thesis.paper.evidence import NO_CLUSTER, Evidence, published_evidence
 from beambench_report.thesis.paper.measured import census_work, is_census_folder, measured_evidence
 
@@ -28,27 +28,19 @@ class Finding:
 
 
 @dataclass(frozen=True)
-class Entry:
+class JudgedClaim:
     """A claim, judged by the thesis's own figures and by ours."""
 
     claim: Claim
     thesis: Finding
     ours: Finding
-    formerly: Finding | None = None
+    formerly: Finding | None
     """Ours by the rule that the claim had before, where it was amended."""
 
 
-def judge(claim: Claim, evidence: Evidence) -> Finding:
-    """Applies the claim's rule."""
-    checks = claim.rule(evidence)
-    return Finding(verdict_of(checks), checks)
-
-
-def judge_formerly(claim: Claim, evidence: Evidence) -> Finding | None:
-    """Applies the rule that the claim had before; None where it was not amended."""
-    if claim.amendment is None:
-        return None
-    checks = claim.amendment.former(evidence)
+def judge(rule: Rule, evidence: Evidence) -> Finding:
+    """Applies a rule."""
+    checks = rule(evidence)
     return Finding(verdict_of(checks), checks)
 
 
@@ -58,7 +50,7 @@ SWEPT_CLAIMS = (*CLAIMS, *FURTHER_CLAIMS)
 ALL_CLAIMS = (*CLAIMS, *CLUSTER_CLAIMS, *FURTHER_CLAIMS)
 
 
-def ledger(runs: Sequence[Path], claims: Sequence[Claim] = ALL_CLAIMS) -> list[Entry]:
+def judge_claims(runs: Sequence[Path], claims: Sequence[Claim] = ALL_CLAIMS) -> list[JudgedClaim]:
     """What is said of the claims by runs of sweeps, a folder of censuses and a simulated cluster.
 
     Without them ours are not tested. Raises Problem where one cannot be read.
@@ -77,108 +69,104 @@ def ledger(runs: Sequence[Path], claims: Sequence[Claim] = ALL_CLAIMS) -> list[E
     )
     published = published_evidence()
     return [
-        Entry(
-            claim, judge(claim, published), judge(claim, measured), judge_formerly(claim, measured)
+        JudgedClaim(
+            claim,
+            judge(claim.rule, published),
+            judge(claim.rule, measured),
+            judge(claim.amendment.former, measured) if claim.amendment else None,
         )
         for claim in claims
     ]
 
 
-_MOST_NAMED = 4
+_MAX_NAMED = 4
 
 
-def as_markdown(entries: Sequence[Entry], *, cells: bool = False) -> str:
-    """A row a claim; with `cells`, also every cell that its verdicts rest on."""
-    lines = [
-        "| claim | where | what the thesis says | by its own figures | by ours | figures |",
-        "|---|---|---|---|---|---|",
-    ]
-    for entry in entries:
+def claims_as_markdown(claims: Sequence[JudgedClaim], *, cells: bool = False) -> str:
+    """A row for each claim; with `cells`, also every cell that its verdicts rest on."""
+    rows = []
+    for one in claims:
         parts = [
             f"{whose}: {found}"
-            for whose, finding in (("thesis", entry.thesis), ("ours", entry.ours))
+            for whose, finding in (("thesis", one.thesis), ("ours", one.ours))
             if (found := summary(finding))
         ]
-        parts += [sentence for sentence in (amendment(entry),) if sentence]
-        bound = " (it is these figures)" if entry.claim.is_figures else ""
-        former = f" (formerly: {entry.formerly.verdict.value})" if entry.formerly else ""
-        lines.append(
-            f"| {entry.claim.name} | {entry.claim.where} | {entry.claim.says} "
-            f"| {entry.thesis.verdict.value}{bound} | {entry.ours.verdict.value}{former} "
-            f"| {'; '.join(parts)} |"
-        )
-    if cells:
-        for entry in entries:
-            lines += ["", *_cells(entry)]
+        bound = " (it is these figures)" if one.claim.is_figures else ""
+        former = f" (formerly: {one.formerly.verdict.value})" if one.formerly else ""
+        verdicts = (f"{one.thesis.verdict.value}{bound}", f"{one.ours.verdict.value}{former}")
+        figures = "; ".join([*parts, *filter(None, [amendment(one)])])
+        rows.append((one.claim.name, one.claim.where, one.claim.says, *verdicts, figures))
+    heads = ("claim", "where", "what the thesis says", "by its own figures", "by ours", "figures")
+    lines = markdown_table(heads, rows)
+    for one in claims if cells else ():
+        lines += ["", *_cells(one)]
     return "\n".join(lines) + "\n"
 
 
 def summary(finding: Finding) -> str:
     """How many cells say yes, and those that do not, named; nothing if no cell was measured."""
-    counted = [check for check in finding.checks if not check.aside]
-    asides = [
-        check for check in finding.checks if check.aside and check.outcome is not Outcome.MISSING
-    ]
+    by_outcome = {
+        outcome: [one for one in finding.checks if not one.aside and one.outcome is outcome]
+        for outcome in Outcome
+    }
+    count = sum(map(len, by_outcome.values()))
     parts = []
-    if any(check.outcome is not Outcome.MISSING for check in counted):
-        yes = [check for check in counted if check.outcome is Outcome.YES]
-        parts.append(f"{len(yes)} of {len(counted)} cells{_range_of(yes)}")
-        for outcome in (Outcome.NO, Outcome.UNDECIDED, Outcome.MISSING):
-            parts += _named(outcome, [check for check in counted if check.outcome is outcome])
+    if len(by_outcome[Outcome.MISSING]) < count:
+        yes = by_outcome.pop(Outcome.YES)
+        parts.append(f"{len(yes)} of {count} cells{_range_of(yes)}")
+        parts += [_named(outcome, checks) for outcome, checks in by_outcome.items() if checks]
     parts += [
-        f"beside it: {check.cell}: {check.outcome.value} ({check.figures})" for check in asides
+        f"beside it: {check.cell}: {check.outcome.value} ({check.figures})"
+        for check in finding.checks
+        if check.aside and check.outcome is not Outcome.MISSING
     ]
     return "; ".join(parts)
 
 
-def amendment(entry: Entry) -> str:
+def amendment(one: JudgedClaim) -> str:
     """Why the claim has another rule than it had, and what the former one finds; else nothing."""
-    if entry.claim.amendment is None or entry.formerly is None:
+    if one.claim.amendment is None or one.formerly is None:
         return ""
-    found = summary(entry.formerly)
-    return f"rule amended: {entry.claim.amendment.why}" + (
-        f"; ours by the former rule: {found}" if found else ""
-    )
+    found = summary(one.formerly)
+    former = f"; ours by the former rule: {found}" if found else ""
+    return f"rule amended: {one.claim.amendment.why}{former}"
+
+
+def cells_of(one: JudgedClaim) -> list[tuple[str, Check, Check]]:
+    """Every cell that a claim's verdicts rest on: the thesis's check and ours."""
+    thesis, ours = ({c.cell: c for c in each.checks} for each in (one.thesis, one.ours))
+    nothing = Check("", Outcome.MISSING)
+    return [
+        (cell, thesis.get(cell, nothing), ours.get(cell, nothing))
+        for cell in dict.fromkeys([*thesis, *ours])
+    ]
 
 
 def _range_of(checks: Sequence[Check]) -> str:
     """The ratios of cells that compare two figures: 1.13 to 2.06 times."""
     ratios = [check.ratio for check in checks if check.ratio is not None]
     if not ratios:
-        return "".join(f", {check.cell}: {check.figures}" for check in checks[:_MOST_NAMED])
+        return "".join(f", {check.cell}: {check.figures}" for check in checks[:_MAX_NAMED])
     least, most = number(min(ratios)), number(max(ratios))
     return f" ({least} times)" if least == most else f" ({least} to {most} times)"
 
 
-def _named(outcome: Outcome, checks: Sequence[Check]) -> list[str]:
-    if not checks:
-        return []
+def _named(outcome: Outcome, checks: Sequence[Check]) -> str:
     named = [f"{check.cell}{f' ({check.figures})' * bool(check.figures)}" for check in checks]
-    rest = len(named) - _MOST_NAMED
+    rest = len(named) - _MAX_NAMED
     more = [f"{rest} more"] if rest > 0 else []
-    return [f"{outcome.value}: " + ", ".join(named[:_MOST_NAMED] + more)]
+    return f"{outcome.value}: " + ", ".join(named[:_MAX_NAMED] + more)
 
 
-def _cells(entry: Entry) -> list[str]:
-    lines = [
-        f"### {entry.claim.name}: {entry.claim.says}",
-        "",
-        "| cell | thesis | figures | ours | figures |",
-        "|---|---|---|---|---|",
-    ]
-    both = ({check.cell: check for check in each.checks} for each in (entry.thesis, entry.ours))
-    thesis, ours = both
-    nothing = Check("", Outcome.MISSING)
-    for cell in dict.fromkeys([*thesis, *ours]):
-        theirs, own = thesis.get(cell, nothing), ours.get(cell, nothing)
-        lines.append(
-            f"| {cell} | {theirs.outcome.value} | {theirs.figures} "
-            f"| {own.outcome.value} | {own.figures} |"
-        )
-    if entry.formerly is not None:
-        lines += ["", "By the former rule, ours:", "", "| cell | ours | figures |", "|---|---|---|"]
-        lines += [
-            f"| {check.cell} | {check.outcome.value} | {check.figures} |"
-            for check in entry.formerly.checks
-        ]
+def _cells(one: JudgedClaim) -> list[str]:
+    rows = (
+        (cell, thesis.outcome.value, thesis.figures, ours.outcome.value, ours.figures)
+        for cell, thesis, ours in cells_of(one)
+    )
+    lines = [f"### {one.claim.name}: {one.claim.says}", ""]
+    lines += markdown_table(("cell", "thesis", "figures", "ours", "figures"), rows)
+    if one.formerly is not None:
+        former = ((check.cell, check.outcome.value, check.figures) for check in one.formerly.checks)
+        lines += ["", "By the former rule, ours:", ""]
+        lines += markdown_table(("cell", "ours", "figures"), former)
     return lines

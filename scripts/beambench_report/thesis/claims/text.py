@@ -26,7 +26,7 @@ FURTHER_CLAIMS = Claims()
 
 def _left_over(e: Evidence, scene: str, resolution: str) -> Measured | None:
     """Of the samples that were tested in the occupied leaves where their beams end, the part that
-    hit nothing there and went on as rays.
+    hit nothing there and continued as rays.
     """
     return ratio_of(
         e.worked("rays_after_leaf", scene, resolution),
@@ -43,7 +43,7 @@ def rays_hit_where_their_beam_ends(e: Evidence) -> list[Check]:
     """Nearly all: nine of ten or more, at each resolution."""
     return [
         between(
-            f"bola-espacial {resolution}, part of the samples that goes on as rays",
+            f"bola-espacial {resolution}, part of the samples that continues as rays",
             _left_over(e, "bola-espacial", resolution),
             0,
             0.1,
@@ -61,7 +61,7 @@ def few_rays_are_left_over(e: Evidence) -> list[Check]:
     """Few: less than half of the samples, in each scene at 1280x1024."""
     return [
         between(
-            f"{scene} {FINEST}, part of the samples that goes on as rays",
+            f"{scene} {FINEST}, part of the samples that continues as rays",
             _left_over(e, scene, FINEST),
             0,
             0.5,

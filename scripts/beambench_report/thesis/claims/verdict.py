@@ -67,7 +67,7 @@ def between(cell: str, figure: Measured | None, low: float, high: float, unit: s
         outcome = Outcome.NO
     else:
         outcome = Outcome.UNDECIDED
-    return Check(cell, outcome, f"{number(figure.value)}{unit} for {number(low)} to {number(high)}")
+    return Check(cell, outcome, f"{number(figure.value)}{unit} (allowed {number(low)} to {number(high)})")
 
 
 def aside(check: Check) -> Check:
@@ -111,7 +111,7 @@ class Amendment:
 
 @dataclass(frozen=True)
 class Claim:
-    """One row of the ledger."""
+    """A row of the table of claims."""
 
     name: str
     where: str
@@ -123,7 +123,7 @@ class Claim:
 
 
 class Claims(list[Claim]):
-    """The claims in the order of the thesis; rules enrol themselves."""
+    """The claims in the order of the thesis; rules register themselves."""
 
     def claim(
         self,
@@ -136,8 +136,8 @@ class Claims(list[Claim]):
     ) -> Callable[[Rule], Rule]:
         """Decorates the rule of a claim."""
 
-        def enrol(rule: Rule) -> Rule:
+        def register(rule: Rule) -> Rule:
             self.append(Claim(name, where, says, rule, is_figures, amended))
             return rule
 
-        return enrol
+        return register

@@ -11,8 +11,9 @@ import pandas as pd
 
 from beambench_report.base.columns import COUNTER_SUFFIX
 from beambench_report.base.files import Problem
+from beambench_report.base.names import parameter_items
 from beambench_report.base.published import RESOLUTIONS, primitives_by_scene
-from beambench_report.base.records import read_run
+from beambench_report.base.records import read_run, size_of
 from beambench_report.thesis.paper.evidence import SETTING, Measured
 from beambench_report.thesis.paper.measured import seconds_of, setting_of
 
@@ -56,7 +57,7 @@ class Cell:
     depth: float
     hit_share: float
     counters: dict[str, float]
-    """Work a ray, by the counter's name."""
+    """Work per ray, by the counter's name."""
 
 
 @dataclass(frozen=True)
@@ -149,8 +150,7 @@ def resolutions_of(cells: Iterable[Cell]) -> list[str]:
 
 def _cell(number: int, run: str, line: int, row: dict) -> Cell:
     known = setting_of(row)
-    pairs = (item.split("=", 1) for item in str(row["parameters"]).split(",") if "=" in item)
-    resolution = f"{row['width']:.0f}x{row['height']:.0f}"
+    resolution = size_of(row)
     samples = int(row["samples"])
     view = f"{row['scene']}/{row['camera']}/{resolution}/{samples}/{row['ray_kind']}"
     structure = f"{row['structure']}:{row['parameters']}".rstrip(":")
@@ -162,7 +162,7 @@ def _cell(number: int, run: str, line: int, row: dict) -> Cell:
         f"{view}/{structure}",
         _plain_scene(str(row["scene"]), row["primitives"]),
         str(row["structure"]),
-        dict(pairs),
+        parameter_items(row["parameters"]),
         resolution,
         samples,
         int(row["rays"]),

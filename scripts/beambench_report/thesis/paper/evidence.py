@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
@@ -49,29 +49,23 @@ def share(part: Measured, rest: Measured) -> Measured:
 
 def smallest(figures: Sequence[Measured]) -> Measured:
     """The least of several: its true value is no larger than the least upper end."""
-    return Measured(
-        min(each.value for each in figures),
-        min(each.low for each in figures),
-        min(each.high for each in figures),
-    )
+    return _each(min, figures)
 
 
 def largest(figures: Sequence[Measured]) -> Measured:
     """The greatest of several: its true value is no less than the greatest lower end."""
-    return Measured(
-        max(each.value for each in figures),
-        max(each.low for each in figures),
-        max(each.high for each in figures),
-    )
+    return _each(max, figures)
 
 
 def total(figures: Sequence[Measured]) -> Measured:
     """The sum."""
-    return Measured(
-        sum(each.value for each in figures),
-        sum(each.low for each in figures),
-        sum(each.high for each in figures),
-    )
+    return _each(sum, figures)
+
+
+def _each(of: Callable[[list[float]], float], figures: Sequence[Measured]) -> Measured:
+    """A function of the values, of the lower and of the upper ends."""
+    ends = ("value", "low", "high")
+    return Measured(*(of([getattr(figure, end) for figure in figures]) for end in ends))
 
 
 FIGURES = ("scene", "network", "quantity", "value", "low", "high")
@@ -128,6 +122,8 @@ PAPER_HIERARCHY = "goldsmith-salmon, insert=everywhere"
 # Whole pictures, whose rays a census counts by kind.
 PICTURE = "picture"
 
+ON_OCTREES = ("beam", "samet", "samet-net")
+
 # The thesis's parameters wherever it does not vary them.
 LEVEL, OBJECTS, CELLS = 6, 0, 32
 
@@ -137,7 +133,7 @@ class Evidence:
     """What was measured, by the thesis or in a run.
 
     times: table, setting, seconds with the building of the structure, and their interval.
-    work: setting, the name of a quantity, its value and interval; a row a quantity.
+    work: setting, the name of a quantity, its value and interval; a row for each quantity.
     octrees: counts of occupied leaves and of pixels of exit beams at 1280x1024.
     cluster: chapter 6.
     """
@@ -158,18 +154,10 @@ class Evidence:
         cells: int = CELLS,
         samples: int = 1,
     ) -> Measured | None:
-        """Seconds of one cell, by the thesis's parameters if not told otherwise."""
-        octree, grid = contender in ("beam", "samet", "samet-net"), contender == "voxel-grid"
-        setting = (
-            scene,
-            contender,
-            level if octree else 0,
-            objects if octree else 0,
-            cells if grid else 0,
-            resolution,
-            samples,
-        )
-        return self._times.get(setting)
+        """Seconds of one cell, by the thesis's parameters if not given."""
+        level, objects = (level, objects) if contender in ON_OCTREES else (0, 0)
+        cells = cells if contender == "voxel-grid" else 0
+        return self._times.get((scene, contender, level, objects, cells, resolution, samples))
 
     def times_by(
         self, setting: str, scene: str, contender: str, resolution: str = FINEST
@@ -261,7 +249,6 @@ NOTHING = Evidence(
 )
 
 
-_OCTREE_STRUCTURES = ("beam", "samet", "samet-net")
 # What the thesis calls beams and non-terminal beams are those that its constructor made, and those
 # of them that were cut: a beam that lies wholly inside the next leaf is only placed there
 # (section 4.4.2, `PasaPor`; graphic 3.4).
@@ -311,7 +298,7 @@ def _work(text: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
 
 
 def _seconds_of_shares(work: pd.DataFrame, times: pd.DataFrame) -> pd.DataFrame:
-    """A share of a time that is printed is a time: what C09 needs, where the thesis tells it."""
+    """A share of a time that is printed is a time: what C09 needs, where the thesis states it."""
     setting = ["scene", "contender", "level", "objects", "resolution"]
     known = times.drop_duplicates(setting)[[*setting, "seconds"]]
     shares = work[work["quantity"].eq("share_nonterminal")].merge(known, on=setting)

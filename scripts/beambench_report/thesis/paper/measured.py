@@ -16,8 +16,9 @@ import pandas as pd
 
 from beambench_report.base.columns import COUNTER_SUFFIX
 from beambench_report.base.files import Problem
+from beambench_report.base.names import parameter_items
 from beambench_report.base.published import FINEST, primitives_by_scene
-from beambench_report.base.records import read_run
+from beambench_report.base.records import read_run, size_of
 from beambench_report.thesis.paper.evidence import (
     HIERARCHY,
     NOTHING,
@@ -92,14 +93,14 @@ def setting_of(row: dict[str, object]) -> dict[str, object] | None:
     scene = str(row["scene"]).split(":")[0]
     if contender not in _THESIS or row["primitives"] != primitives_by_scene().get(scene):
         return None
-    given = dict(item.split("=", 1) for item in str(row["parameters"]).split(",") if "=" in item)
+    given = parameter_items(row["parameters"])
     thesis = _THESIS[contender]
     if any(given.get(name, value) != value for name, value in thesis.items()):
         return None
     numbers = {
         "level": given.get("max_level", "0"),
         "objects": given.get("max_objects", "0"),
-        "cells": _cells_an_axis(given.get("resolution", "0")),
+        "cells": _cells_per_axis(given.get("resolution", "0")),
     }
     if not all(value.isdecimal() for value in numbers.values()):
         return None  # chosen automatically
@@ -109,12 +110,12 @@ def setting_of(row: dict[str, object]) -> dict[str, object] | None:
         "scene": scene,
         "contender": contender,
         **{name: int(value) for name, value in numbers.items()},
-        "resolution": f"{row['width']:.0f}x{row['height']:.0f}",
+        "resolution": size_of(row),
         "samples": int(float(str(row["samples"]))),
     }
 
 
-def _cells_an_axis(resolution: str) -> str:
+def _cells_per_axis(resolution: str) -> str:
     """`32` of `32` and of `32x32x32`; grids of other shapes are none of the thesis's."""
     sides = set(resolution.split("x"))
     return sides.pop() if len(sides) == 1 else resolution

@@ -1,24 +1,19 @@
 """The tables as the thesis prints them: parts, rows in their order, seconds."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.files import Problem
-from beambench_report.base.published import FOLDER, RESOLUTIONS
-from beambench_report.base.quantities import number
+from beambench_report.base.published import FOLDER, RESOLUTIONS, read_published
+from beambench_report.base.quantities import DASH, number
 from beambench_report.thesis.paper.cells import Cell, Setting, setting
-from beambench_report.thesis.paper.evidence import CELLS, Measured
+from beambench_report.thesis.paper.evidence import CELLS, ON_OCTREES, Measured
 
-_OCTREES = ("beam", "samet", "samet-net")
 REFERENCES = ("sah-bvh", "embree")
 """Contenders of today, which the thesis's tables do not have."""
-REFERENCES = ("sah-bvh", "embree")
-"""Contenders of today, which the thesis's tables do not have."""
+
 _NAMES = {
     "beam": "beams (Tr. Haces)",
     "samet": "Samet",
@@ -26,22 +21,18 @@ _NAMES = {
     "voxel-grid": "voxel grid (Matriz Voxel)",
     "goldsmith-salmon": "hierarchy (Bounding Box)",
 }
+# Other scenes are called by their names, capitalized.
 _SCENES = {
     "escena1": "Escena 1",
     "escena2": "Escena 2",
-    "maceta": "Maceta",
-    "delfines": "Delfines",
     "habitacion": "Habitación",
-    "misil": "Misil",
     "bola-espacial": "Bola espacial",
-    "tetera": "Tetera",
-    "stetra": "Stetra",
     "torre-eiffel": "Torre Eiffel",
-    "ajedrez": "Ajedrez",
-    "caracol": "Caracol",
     "casa-de-campo": "Casa de Campo",
-    "flamenco": "Flamenco",
     "gato-bill": "Gato-Bill",
+} | {
+    name: name.capitalize()
+    for name in "maceta delfines misil tetera stetra ajedrez caracol flamenco".split()
 }
 
 
@@ -101,11 +92,7 @@ def contender_title(structure: str) -> str:
 @cache
 def printed_parts(folder: Path = FOLDER) -> tuple[PrintedPart, ...]:
     """All parts of all tables, in the order of the thesis."""
-    path = folder / "times.csv"
-    try:
-        rows = pd.read_csv(path, dtype={"table": str})
-    except FileNotFoundError:
-        raise Problem(f"{path}: there is no such file; restore it with git") from None
+    rows = read_published("times.csv", folder)
     rows["resolution"] = rows["width"].astype(str) + "x" + rows["height"].astype(str)
     rows[["max_level", "max_objects"]] = rows[["max_level", "max_objects"]].fillna(0).astype(int)
     return tuple(
@@ -125,7 +112,7 @@ def _rows(table: str, rows: pd.DataFrame) -> tuple[PrintedRow, ...]:
         PrintedRow(
             _label(table, structure, level, objects),
             structure,
-            level if structure in _OCTREES else 0,
+            level if structure in ON_OCTREES else 0,
             objects,
             dict(zip(group["resolution"], group["seconds"], strict=True)),
         )
@@ -139,7 +126,7 @@ def _label(table: str, structure: str, level: int, objects: int) -> str:
     return f"level {level}" if table == "5.3" else contender_title(structure)
 
 
-DASH = "–"  # noqa: RUF001
+# Figures as the report shows them, in Markdown and on the page
 
 
 def milliseconds(seconds: float) -> str:

@@ -1,14 +1,10 @@
-"""A part of the report beyond the thesis's own tables and figures: words, tables, plots.
+"""A part of the report beyond the thesis's own tables and figures: words, tables, plots."""
 
-Those who measure something of their own fill a `Section`; the report shows it in both its forms.
-"""
-
-from __future__ import annotations
-
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from beambench_report.base.figure import Plot
+from beambench_report.base.quantities import markdown_table
 from beambench_report.thesis.paper.cells import Cell
 
 
@@ -32,13 +28,12 @@ class Column:
 
 @dataclass(frozen=True)
 class SectionTable:
-    """A table of fields."""
+    """A table of fields; a long one is looked up rather than read, and folded."""
 
     title: str
     columns: tuple[Column, ...]
     rows: tuple[tuple[Field, ...], ...]
     is_long: bool = False
-    """Is it looked up rather than read, so that it is better folded?"""
 
 
 @dataclass(frozen=True)
@@ -53,16 +48,28 @@ class SectionFigure:
 
 @dataclass(frozen=True)
 class Section:
-    """One part of the report."""
+    """One part of the report; `words` are paragraphs, `findings` sentences."""
 
     anchor: str
     title: str
     words: tuple[str, ...]
-    """Paragraphs."""
     tables: tuple[SectionTable, ...] = ()
     figures: tuple[SectionFigure, ...] = ()
     findings: tuple[str, ...] = field(default=())
-    """What came out, a sentence each."""
+
+
+def section_table(
+    title: str,
+    words: Sequence[str],
+    figures: Sequence[str],
+    rows: Iterable[Iterable[str | Field]],
+    *,
+    is_long: bool = False,
+) -> SectionTable:
+    """A table whose first columns, headed by `words`, hold words, and the others figures."""
+    columns = (*(Column(text, False) for text in words), *(Column(text) for text in figures))
+    fields = (tuple(Field(x) if isinstance(x, str) else x for x in row) for row in rows)
+    return SectionTable(title, columns, tuple(fields), is_long)
 
 
 Origin = Callable[[Cell], str]
@@ -91,26 +98,13 @@ def section_as_markdown(
         image = f"{folder}/{figure.stem}.png".removeprefix("/")
         lines += [f"![{figure.title}]({image})", "", f"{figure.title}. {figure.caption}", ""]
     for table in section.tables:
-        lines += [*_table(table, origin), ""]
-    return "\n".join(lines)
-
-
-def _table(table: SectionTable, origin: Origin) -> Iterable[str]:
-    if table.is_long:
-        yield f"<details><summary>{table.title}</summary>"
-    else:
-        yield f"**{table.title}**"
-    yield ""
-    yield _row(column.text for column in table.columns)
-    yield _row("---:" if column.is_figure else "---" for column in table.columns)
-    for row in table.rows:
-        yield _row(
-            f"{field.text}, {origin(field.cell)}" if field.cell else field.text for field in row
+        right = [place for place, column in enumerate(table.columns) if column.is_figure]
+        rows = (
+            [f"{one.text}, {origin(one.cell)}" if one.cell else one.text for one in row]
+            for row in table.rows
         )
-    if table.is_long:
-        yield ""
-        yield "</details>"
-
-
-def _row(texts: Iterable[str]) -> str:
-    return f"| {' | '.join(texts)} |"
+        title = f"<details><summary>{table.title}</summary>" if table.is_long else ""
+        lines += [title or f"**{table.title}**", ""]
+        lines += markdown_table([column.text for column in table.columns], rows, right)
+        lines += ["", "</details>", ""] if table.is_long else [""]
+    return "\n".join(lines)

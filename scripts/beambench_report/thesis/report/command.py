@@ -24,18 +24,19 @@ _EXAMPLES = """examples:
   scripts/thesis --figure 5.11 -o samples   what a figure needs, in a folder of your choice
   scripts/thesis --levels                   and how well max_level=auto chooses the level
   scripts/thesis --dry-run                  what would be run, and how long
-  scripts/thesis --resume samples           go on with a run that was cut off
+  scripts/thesis --resume samples           resume a run that was cut off
 """
 
 
 def add_thesis_command(commands: argparse._SubParsersAction, built: Path) -> None:
-    """Adds the command and its options; `built` is where the program is if not told otherwise."""
+    """Adds the command and its options; `built` is where the program is if not given."""
     parser = commands.add_parser(
         "thesis",
         help="measure the tables and figures of the thesis again, and report on them",
         epilog=_EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+    parser.set_defaults(handler=thesis)
     add = parser.add_argument
     add("--table", action="append", default=[], metavar="5.4", help="only what this table needs")
     add("--figure", action="append", default=[], metavar="5.8", help="only what this figure needs")
@@ -46,12 +47,12 @@ def add_thesis_command(commands: argparse._SubParsersAction, built: Path) -> Non
     add(
         "-o", "--output", type=Path, metavar="DIR", help="where to; else results/runs/<time>-thesis"
     )
-    add("--resume", type=Path, metavar="DIR", help="go on there; nothing finished is repeated")
+    add("--resume", type=Path, metavar="DIR", help="resume there; nothing finished is repeated")
     add("--beambench", type=Path, default=built, metavar="PROGRAM", help="the built beambench")
 
 
 def thesis(options: argparse.Namespace) -> int:
-    """Runs the command; returns its exit code. Raises Problem where the request was wrong."""
+    """Runs the command; returns its exit code. Raises Problem for invalid arguments or input."""
     plan, directory = _request(options)
     if options.dry_run:
         print(describe(plan, directory if options.resume else None), end="")
@@ -63,19 +64,19 @@ def thesis(options: argparse.Namespace) -> int:
     if not options.report_only:
         outcome = run_sweeps(plan, directory, options.beambench)
         if outcome.interrupted:
-            _say(f"interrupted; go on with: scripts/thesis --resume '{directory}'")
+            _say(f"interrupted; resume with: scripts/thesis --resume '{directory}'")
             return outcome.exit_code
         for name in outcome.not_made:
-            _say(f"the sweep '{name}' could not be run (see above); the report goes without it")
+            _say(f"the sweep '{name}' could not be run (see above); the report leaves it out")
         code = outcome.exit_code
         if plan.is_everything:
             for sentence in gather_facts(directory, options.beambench):
-                _say(f"{sentence}; the report goes without it")
+                _say(f"{sentence}; the report leaves it out")
     report = write_report(directory, plan, options.beambench)
     if report.wrong and not code:
         code = 1
     if report.wrong:
-        _say(f"{report.wrong} of {report.cells} cells have no times: their hits were not right")
+        _say(f"{report.wrong} of {report.cells} cells have no times: wrong hits")
     if report.notice:
         _say(report.notice)
     for path in report.paths:
@@ -92,12 +93,12 @@ def _request(options: argparse.Namespace) -> tuple[Plan, Path]:
         directory = options.output or ROOT / "results/runs" / f"{time}-thesis"
         if (directory / "thesis.json").exists() and not options.dry_run:
             raise Problem(
-                f"{directory}: holds a run already; go on with it by --resume, or choose another"
+                f"{directory}: holds a run already; resume it by --resume, or choose another"
             )
         return plan, directory
     if any((options.table, options.figure, options.quick, options.output)):
         raise Problem(
-            "--resume goes on with what was begun: give no other choice with it, but for --levels"
+            "--resume continues what was begun: give no other choice with it, but for --levels"
         )
     plan = read_plan(options.resume)
     return add_levels(plan) if options.levels else plan, options.resume

@@ -123,7 +123,7 @@ def _draw_side(axis: Axes, side: Side) -> None:
             [figure.value for figure in figures],
             yerr=[below, above] if any(below) or any(above) else None,
             label=line.label,
-            color=look.colour,
+            color=look.color,
             marker=look.marker,
             linestyle=look.dashes if line.is_joined else "none",
             markersize=4.5,

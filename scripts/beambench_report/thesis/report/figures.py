@@ -30,7 +30,7 @@ def measured(cells: Cells, keys: Iterable[Setting]) -> Line:
     return [(place(key), cell.time) for key, cell in found if cell and cell.time]
 
 
-def seconds_told(keys: Iterable[Setting]) -> Line:
+def seconds_printed(keys: Iterable[Setting]) -> Line:
     """The thesis's seconds, where some table has them."""
     line = []
     for scene, contender, level, objects, cells, resolution, samples in keys:
@@ -49,7 +49,7 @@ def seconds_told(keys: Iterable[Setting]) -> Line:
 
 
 def place(key: Setting) -> float:
-    """Ten thousands of rays of one sample a pixel, as the thesis counts them."""
+    """Ten thousands of rays of one sample per pixel, as the thesis counts them."""
     return rays(str(key[_RESOLUTION])) / 1e4
 
 
@@ -84,7 +84,7 @@ def figure_5_14(cells: Cells) -> FigureData:
         "All of it is ours, build included; the points of the thesis's figure are lost. It says "
         "that each contender's lowest point counts, and that the beams' is the lowest at high "
         "resolution. At level 6 and 1280x1024 the thesis has: "
-        f"{'; '.join(_told_at_six(scene) for scene in ('casa-de-campo', 'gato-bill'))}. The "
+        f"{'; '.join(_printed_at_six(scene) for scene in ('casa-de-campo', 'gato-bill'))}. The "
         "vertical axis is logarithmic; bars are intervals.",
         (4, 5, 6, 7, 8, 9),
         is_log=True,
@@ -93,7 +93,7 @@ def figure_5_14(cells: Cells) -> FigureData:
 
 
 def figure_5_17(cells: Cells) -> FigureData:
-    """Time of the lazy grid over its cells an axis."""
+    """Time of the lazy grid over its cells per axis."""
     at = _swept_at(cells)
     named = (("a", "ajedrez"), ("b", "flamenco"))
     sides = (
@@ -106,11 +106,11 @@ def figure_5_17(cells: Cells) -> FigureData:
     )
     return FigureData(
         "5.17",
-        "Time of the grid by its cells an axis",
-        (Panel("", "time (1: 32 cells an axis)", *sides),),
+        "Time of the grid by its cells per axis",
+        (Panel("", "time (1: 32 cells per axis)", *sides),),
         "voxels along each axis",
         f"{at}, filled lazily, build included; each line over its own time with 32 cells, ours "
-        f"being {ours}. Of the thesis's figure only this is known: with 32 cells an axis "
+        f"being {ours}. Of the thesis's figure only this is known: with 32 cells per axis "
         f"{_printed_grid('ajedrez', at):g} s (Ajedrez) and {_printed_grid('flamenco', at):g} s "
         "(Flamenco) by table 5.8, Flamenco's best with 13 cells, 93 s at a resolution that it does "
         "not state, Ajedrez's best with 15 (its seconds are lost). Both axes are logarithmic; bars "
@@ -139,17 +139,17 @@ def figure_5_18(cells: Cells) -> FigureData:
     panels = []
     for letter, scene in (("a", "ajedrez"), ("b", "flamenco")):
         beam = [setting(scene, "beam", at, level=6) for at in RESOLUTIONS]
-        told, own = seconds_told(beam), measured(cells, beam)
+        told, own = seconds_printed(beam), measured(cells, beam)
         first = cells.at(beam[0])
         base = first.time.value if first and first.time else None
         ours = []
         if base:
             ours = [Points(contender_title("beam"), "beam", 0, over(own, base))]
             ours += _grids_over_rays(cells, scene, base)
-        thesis_grid = over(seconds_told(_grid(scene, CELLS)), told[0][1].value)
+        thesis_grid = over(seconds_printed(_grid(scene, CELLS)), told[0][1].value)
         left = (
             Points(contender_title("beam"), "beam", 0, over(told, told[0][1].value)),
-            Points("grid, 32 cells an axis", "voxel-grid", 0, thesis_grid),
+            Points("grid, 32 cells per axis", "voxel-grid", 0, thesis_grid),
         )
         panels.append(
             Panel(
@@ -164,7 +164,7 @@ def figure_5_18(cells: Cells) -> FigureData:
         "Beams beside the grid at its best",
         tuple(panels),
         ACROSS,
-        "The thesis's best grids are 15 cells an axis for Ajedrez and 13 for Flamenco; its points "
+        "The thesis's best grids are 15 cells per axis for Ajedrez and 13 for Flamenco; its points "
         "for them are lost but for Flamenco's 93 s, so its column shows the 32 cells of table "
         "5.8. Build included; the vertical axis is logarithmic; bars are intervals.",
         TICKS,
@@ -177,7 +177,7 @@ def _grids_over_rays(cells: Cells, scene: str, base: float) -> list[Points]:
     named = ((CELLS, ""), (_BEST_GRIDS[scene], " (thesis's best)"))
     for variant, (count, words) in enumerate(named):
         points = measured(cells, _grid(scene, count))
-        label = "grid, the thesis's best (15, 13) cells" if words else "grid, 32 cells an axis"
+        label = "grid, the thesis's best (15, 13) cells" if words else "grid, 32 cells per axis"
         lines.append(Points(label, "voxel-grid", variant, over(points, base)))
     best = [min(found, key=_seconds) for at in RESOLUTIONS if (found := _lazy(cells, scene, at))]
     points = [(rays(cell.resolution) / 1e4, cell.time) for cell in best if cell.time]
@@ -239,7 +239,7 @@ def _printed_grid(scene: str, resolution: str) -> float:
     return printed.value if printed else 1.0
 
 
-def _told_at_six(scene: str) -> str:
+def _printed_at_six(scene: str) -> str:
     times = ((name, published_evidence().time(scene, name)) for name in _ON_OCTREES)
     told = ", ".join(f"{contender_title(name)} {time.value:g} s" for name, time in times if time)
     return f"{scene_title(scene)} {told}"
@@ -311,7 +311,7 @@ def _of_scenes(figure: str, title: str, scenes: tuple[str, ...]) -> Callable[[Ce
     """A figure of the beams' time (a) and of its increase over 320x200 (b), a line a scene."""
 
     def make(cells: Cells) -> FigureData:
-        thesis = {scene: _told_beams(scene) for scene in scenes}
+        thesis = {scene: _printed_beams(scene) for scene in scenes}
         ours = {scene: _measured_beams(cells, scene, 1) for scene in scenes}
         first = next((scene for scene in scenes if thesis[scene] and ours[scene]), scenes[0])
         panels = (
@@ -323,7 +323,7 @@ def _of_scenes(figure: str, title: str, scenes: tuple[str, ...]) -> Callable[[Ce
                 Side(_lines(_increases(ours)), "ours"),
             ),
         )
-        return FigureData(figure, title, panels, ACROSS, _told_of_scenes(thesis), TICKS)
+        return FigureData(figure, title, panels, ACROSS, _caption_of_scenes(thesis), TICKS)
 
     return make
 
@@ -347,15 +347,15 @@ def _samples(cells: Cells) -> FigureData:
     panel = Panel(
         "Increase",
         "increase over 320x200 (%)",
-        Side(_lines(_increases(one)), "ours, 1 sample a pixel", "not measured"),
-        Side(_lines(_increases(five)), "ours, 5 samples a pixel"),
+        Side(_lines(_increases(one)), "ours, 1 sample per pixel", "not measured"),
+        Side(_lines(_increases(five)), "ours, 5 samples per pixel"),
     )
     return FigureData(
         "5.11",
-        "Increase of the time with five samples a pixel",
+        "Increase of the time with five samples per pixel",
         (panel,),
         ACROSS,
-        "Four samples at a pixel's corners and one in its centre; none where a beam leaves the "
+        "Four samples at a pixel's corners and one in its center; none where a beam leaves the "
         "scene. The base of each line is its own time at 320x200 with as many samples. The "
         "thesis's points are lost; it says that the lines lie farther apart with five samples "
         "(right) than with one (left, figure 5.10 b). Bars are intervals.",
@@ -364,9 +364,9 @@ def _samples(cells: Cells) -> FigureData:
     )
 
 
-def _told_beams(scene: str) -> list[tuple[float, Measured]]:
+def _printed_beams(scene: str) -> list[tuple[float, Measured]]:
     """The beams' times at level 6 in the first table that has the scene."""
-    return seconds_told(setting(scene, "beam", at, level=6) for at in RESOLUTIONS)
+    return seconds_printed(setting(scene, "beam", at, level=6) for at in RESOLUTIONS)
 
 
 def _measured_beams(cells: Cells, scene: str, samples: int) -> list[tuple[float, Measured]]:
@@ -403,7 +403,7 @@ def _lines(lines: dict) -> tuple[Points, ...]:
     )
 
 
-def _told_of_scenes(thesis: dict) -> str:
+def _caption_of_scenes(thesis: dict) -> str:
     told = []
     for scene, points in thesis.items():
         if points:

@@ -93,7 +93,7 @@ FIGURES = (
     Figure("5.10", "Time of the beams in four real scenes", ("others-small", "quality")),
     Figure(
         "5.11",
-        "Increase of the time with five samples a pixel",
+        "Increase of the time with five samples per pixel",
         ("others-small", "quality", "samples"),
     ),
     Figure("5.12", "Time in the scenes of table 5.4", ("synthetic",)),
@@ -103,7 +103,7 @@ FIGURES = (
     ),
     Figure("5.15", "Time in the scenes of table 5.6", ("synthetic",)),
     Figure("5.16", "Time in the scenes of table 5.7", ("others-small",)),
-    Figure("5.17", "Time of the grid by its cells an axis", ("others-large", "best-others-large")),
+    Figure("5.17", "Time of the grid by its cells per axis", ("others-large", "best-others-large")),
     Figure(
         "5.18",
         "Beams beside the grid at its best",
@@ -137,7 +137,7 @@ LEVELS = "levels"
 
 _QUICK_RESOLUTIONS = ("320x200", "640x480")
 _QUICK_REPETITIONS = {"minimum": 1, "maximum": 3}
-_QUICK_SECONDS_A_CELL = 0.25
+_QUICK_SECONDS_PER_CELL = 0.25
 
 
 @dataclass(frozen=True)
@@ -227,7 +227,7 @@ def quick(sweep: Sweep) -> Sweep | None:
         "warm_up_seconds": 0.2,
     }
     smaller = replace(sweep, source=sweep.source | changes)
-    budget = max(1.0, _QUICK_SECONDS_A_CELL * len(smaller.cells()))
+    budget = max(1.0, _QUICK_SECONDS_PER_CELL * len(smaller.cells()))
     return replace(smaller, source=smaller.source | {"budget_seconds": round(budget, 1)})
 
 
@@ -291,7 +291,7 @@ def add_levels(plan: Plan, folder: Path | None = None) -> Plan:
 
 
 def keep_plan(plan: Plan, directory: Path) -> None:
-    """Writes DIRECTORY/thesis.json, from which a run that was cut off goes on."""
+    """Writes DIRECTORY/thesis.json, from which a run that was cut off is resumed."""
     document = {
         "tables": plan.tables,
         "figures": plan.figures,

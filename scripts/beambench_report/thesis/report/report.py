@@ -21,7 +21,7 @@ from beambench_report.thesis.chapter5.facts import (
 from beambench_report.thesis.chapter5.levels import levels_section
 from beambench_report.thesis.chapter5.sampling import readable_comparisons, sampling_section
 from beambench_report.thesis.claims.register import SWEPT_CLAIMS, ledger
-from beambench_report.thesis.claims.register import Entry as LedgerEntry
+from beambench_report.thesis.claims.register import Entry as JudgedClaim
 from beambench_report.thesis.claims.verdict import Verdict
 from beambench_report.thesis.paper.cells import Cell, Cells, read_cells
 from beambench_report.thesis.paper.measured import is_census_folder
@@ -78,7 +78,7 @@ class Part:
 
 @dataclass(frozen=True)
 class RunSummary:
-    """What is told of a run."""
+    """A run and its state."""
 
     name: str
     description: str
@@ -103,7 +103,7 @@ class Report:
     tables: tuple[tuple[Table, tuple[Part, ...]], ...]
     figures: tuple[FigureData, ...]
     pictures: tuple[PictureFigure, ...]
-    ledger: tuple[LedgerEntry, ...]
+    ledger: tuple[JudgedClaim, ...]
     sections: tuple[Section, ...]
     """What goes beyond the thesis's own tables and figures."""
     runs: tuple[RunSummary, ...]
@@ -115,10 +115,10 @@ class Report:
 
 
 def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report:
-    """Reads the runs; what was not measured is left out and told so."""
+    """Reads the runs; what was not measured is left out and reported."""
     sweeps = [*plan.sweeps, *extra_sweeps(directory, plan)]
     every = read_cells(directory, (sweep.name for sweep in sweeps))
-    # Tables, figures and ledger have one sweep for each of their cells, and none of them is LEVELS.
+    # Tables, figures and claims have one sweep for each of their cells, and none of them is LEVELS.
     cells = every.without(LEVELS)
     sections, unread = sections_of(directory, every)
     shown = [table for table in TABLES if table.number in plan.tables]
@@ -194,7 +194,7 @@ def headline(report: Report) -> str:
     cells, wrong = len(report.cells.cells), len(report.cells.wrong)
     if not cells:
         return "Nothing was measured yet."
-    right = "all of them right" if not wrong else f"{wrong} of them not right, and without times"
+    right = "all of them verified" if not wrong else f"{wrong} of them wrong, and without times"
     return f"{cells:,} cells in {len(report.cells.runs)} runs, {right}."
 
 
@@ -215,10 +215,10 @@ def notice(report: Report) -> str:
 
 def decided(report: Report) -> str:
     """Which claims have all their cells; the others need what was not measured."""
-    names = [e.claim.name for e in report.ledger if e.ours.verdict is not Verdict.NOT_TESTED]
+    names = [e.claim.name for e in report.claims if e.ours.verdict is not Verdict.NOT_TESTED]
     which = f": {', '.join(names)}" if names else ""
     return (
-        f"Its cells are enough for {len(names)} of {len(report.ledger)} claims{which}; the others "
+        f"Its cells are enough for {len(names)} of {len(report.claims)} claims{which}; the others "
         "need cells that were not measured."
     )
 
@@ -227,8 +227,8 @@ def verdict_counts(report: Report) -> str:
     """How many claims hold by the thesis's own figures and by ours."""
     told = []
     for whose, verdicts in (
-        ("By the thesis's own figures", [entry.thesis.verdict for entry in report.ledger]),
-        ("by ours", [entry.ours.verdict for entry in report.ledger]),
+        ("By the thesis's own figures", [entry.thesis.verdict for entry in report.claims]),
+        ("by ours", [entry.ours.verdict for entry in report.claims]),
     ):
         counts = Counter(verdicts)
         listed = ", ".join(f"{counts[v]} {_plural(v, counts[v])}" for v in Verdict if counts[v])

@@ -14,7 +14,7 @@ from beambench_report.base.quantities import duration_in_words
 from beambench_report.thesis.report.plan import Plan, Sweep
 
 _NOT_RIGHT = 1
-_INTERRUPTED = (130, 143, -2, -15)  # as shells tell SIGINT and SIGTERM, and as Python does
+_INTERRUPTED = (130, 143, -2, -15)  # as shells report SIGINT and SIGTERM, and as Python does
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Outcome:
     """How the runs ended."""
 
     not_right: tuple[str, ...]
-    """Sweeps in which some structure's hits were not right."""
+    """Sweeps in which some structure had wrong hits."""
     not_made: tuple[str, ...]
     """Sweeps that could not be run."""
     interrupted: bool = False

@@ -159,14 +159,14 @@ def _counts(
     return tuple(zip(printed, own, strict=True))
 
 
-_A_RAY = {
+_PER_RAY = {
     "traversal_steps": "traversal steps",
     "leaves": "leaves",
     "empty_leaves": "empty leaves",
     "box_tests": "box tests",
     "primitive_tests": "primitive tests",
 }
-_AN_IMAGE = {
+_PER_IMAGE = {
     "beams": "beams",
     "beams_nonterminal": "non-terminal beams",
     "beams_occupied": "beams at occupied leaves",
@@ -207,11 +207,11 @@ def work_of_lines(lines: Iterable[Line]) -> WorkTable:
 
 def _work(named: Sequence[tuple[str, Cell | None]]) -> WorkTable:
     cells = [(label, cell) for label, cell in named if cell is not None]
-    ray = [name for name in _A_RAY if any(cell.counters.get(name) for _, cell in cells)]
-    image = [name for name in _AN_IMAGE if any(cell.counters.get(name) for _, cell in cells)]
+    ray = [name for name in _PER_RAY if any(cell.counters.get(name) for _, cell in cells)]
+    image = [name for name in _PER_IMAGE if any(cell.counters.get(name) for _, cell in cells)]
     headings = [("total", ""), ("interval", ""), ("build", ""), ("memory", "")]
-    headings += [(_A_RAY[name], "a ray") for name in ray]
-    headings += [(_AN_IMAGE[name], "an image") for name in image]
+    headings += [(_PER_RAY[name], "per ray") for name in ray]
+    headings += [(_PER_IMAGE[name], "per image") for name in image]
     return WorkTable(
         tuple(headings),
         tuple(WorkRow(label, cell, _fields(cell, ray, image)) for label, cell in cells),

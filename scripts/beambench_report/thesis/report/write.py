@@ -9,14 +9,14 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from beambench_report.base.figure import house_style, structure_colour, write_plot
+from beambench_report.base.figure import house_style, structure_color, write_plot
 from beambench_report.base.files import write_text, write_whole
 from beambench_report.base.quantities import number
 from beambench_report.run.html import data_uri, environment
 from beambench_report.thesis.chapter5.best import BestTable, Choice
 from beambench_report.thesis.claims.register import Entry as JudgedClaim
 from beambench_report.thesis.claims.register import amendment, summary
-from beambench_report.thesis.claims.register import as_markdown as ledger_as_markdown
+from beambench_report.thesis.claims.register import as_markdown as claims_as_markdown
 from beambench_report.thesis.claims.verdict import Check, Outcome
 from beambench_report.thesis.paper.cells import Cells
 from beambench_report.thesis.paper.printed import (
@@ -45,7 +45,7 @@ from beambench_report.thesis.report.tables import Entry, Line, PartTable, WorkTa
 
 @dataclass(frozen=True)
 class Written:
-    """The files of a report, and how many of its cells were not right."""
+    """The files of a report, and how many of its cells were wrong."""
 
     paths: tuple[Path, ...]
     cells: int
@@ -99,8 +99,8 @@ def as_markdown(report: Report) -> str:
         f"{headline(report)} {notice(report)}".strip(),
     ]
     lines += [""]
-    lines += ["## The ledger: what the thesis claims", "", verdict_counts(report), ""]
-    lines += [ledger_as_markdown(report.ledger)]
+    lines += ["## The claims of the thesis", "", verdict_counts(report), ""]
+    lines += [claims_as_markdown(report.claims)]
     if report.tables:
         lines += ["## Tables", "", TABLE_WORDS, ""]
     for table, parts in report.tables:
@@ -119,8 +119,8 @@ def as_markdown(report: Report) -> str:
             lines += [f"![{picture.title}](figures/{picture.path.name})", ""]
         lines += [picture.caption, ""]
     lines += [section_as_markdown(section) for section in report.sections]
-    lines += ["## Runs", "", *_runs(report), "", "## Every cell of the ledger", ""]
-    lines += [ledger_as_markdown(report.ledger, cells=True).split("\n\n", 1)[-1]]
+    lines += ["## Runs", "", *_runs(report), "", "## Every cell of the claims", ""]
+    lines += [claims_as_markdown(report.claims, cells=True).split("\n\n", 1)[-1]]
     return "\n".join(lines)
 
 
@@ -211,7 +211,7 @@ def _choice(choice: Choice) -> tuple[str, str]:
 
 
 def _runs(report: Report) -> Iterable[str]:
-    yield _row(["run", "cells", "not right", "state", "verdicts", "what for"])
+    yield _row(["run", "cells", "wrong", "state", "verdicts", "what for"])
     yield _row(["---", "---:", "---:", "---", "---", "---"])
     for run in report.runs:
         yield _row(_run(run))
@@ -250,7 +250,7 @@ def as_page(report: Report) -> str:
         "number": number,
         "interval": interval,
         "origin": origin,
-        "colour": structure_colour,
+        "color": structure_color,
         "summary": summary,
         "amendment": amendment,
         "slug": _slug,
@@ -305,6 +305,6 @@ def _cells_of(entry: JudgedClaim) -> list[tuple[str, Check, Check]]:
 
 
 def _commits(report: Report) -> list[str]:
-    """The commits that were measured, as the manifests tell them."""
+    """The commits that were measured, as the manifests name them."""
     pairs = (pair for run in report.runs for facts in run.manifest.facts for pair in facts.pairs)
     return list(dict.fromkeys(value[:12] for name, value in pairs if name == "commit"))

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from beambench_report.base.published import primitives_by_scene, rays
 from beambench_report.thesis.report.plan import Plan, PlannedCell, Sweep, keep_plan
-from made_up_run import write_manifest, write_run
+from synthetic_run import write_manifest, write_run
 
 Row = dict[str, object]
 Change = Callable[[Row], Row]

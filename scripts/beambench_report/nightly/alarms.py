@@ -71,13 +71,13 @@ def _least_before(values: np.ndarray, share: float) -> np.ndarray:
 
 
 NIGHTS = 120
-"""How far back is looked: a counter's least value and a step are sought among so many nights."""
+"""How many nights back a counter's least value and a step are sought."""
 
 _ROOM = 3
 _MANY = 5
 
 
-def judge(history: History, night: int) -> list[Alarm]:
+def find_alarms(history: History, night: int) -> list[Alarm]:
     """The alarms of a night that is in the history, in the light of the nights before it."""
     nights = read_nights(history, night, NIGHTS)
     before = set(nights.nights["number"][:-1])
@@ -135,7 +135,7 @@ def _commit(nights: Nights, place: int) -> str:
 
 
 def series_key(pool: pd.Series) -> str:
-    """Tells a pool from every other one, in any night."""
+    """Identifies a pool in any night."""
     names = "scene camera structure parameters samples ray_kind".split()
     return " | ".join(str(pool[name]) for name in names)
 
@@ -172,15 +172,15 @@ def cell_title(cell: pd.Series) -> str:
 
 def sentence(alarm: Alarm) -> str:
     """An alarm in words."""
-    told = alarm.details
+    d = alarm.details
     if alarm.kind == "verdict":
-        return f"{told['title']}: hits were not right ({told['verdict']})"
+        return f"{d['title']}: wrong hits ({d['verdict']})"
     if alarm.kind == "counter":
-        before, after = told["before"], told["after"]
+        before, after = details["before"], details["after"]
         part = f" ({after / before - 1:+.2%})" if before > 0 else ""
-        return f"{told['title']}: {told['counter']} a ray from {before:.6g} to {after:.6g}{part}"
+        return f"{d['title']}: {d['counter']} per ray from {before:.6g} to {after:.6g}{part}"
     return (
-        f"{told['title']}: {told['shift']:+.1%} slower ({told['low']:+.1%} to {told['high']:+.1%}) "
-        f"since about {told['since_run']}, between the commits {told['last_good_commit'][:12]} and "
-        f"{told['since_commit'][:12]}"
+        f"{d['title']}: {d['shift']:+.1%} slower ({d['low']:+.1%} to {d['high']:+.1%}) "
+        f"since about {d['since_run']}, between the commits {d['last_good_commit'][:12]} and "
+        f"{d['since_commit'][:12]}"
     )

@@ -31,7 +31,7 @@ EXAMPLE = (
 )
 
 
-def made_up_rows() -> list[dict[str, object]]:
+def synthetic_rows() -> list[dict[str, object]]:
     """Two scenes, five contenders, three resolutions; times in proportion to the rays."""
     return [
         _row(scene, structure, parameters, width, height)
@@ -53,7 +53,7 @@ def write_run(folder: Path, rows: list[dict[str, object]], without: tuple[str, .
 
 
 def without_times(row: dict[str, object], verdict: str) -> dict[str, object]:
-    """The row as beambench writes it when the hits were not right."""
+    """The row as beambench writes it for wrong hits."""
     times = {name: "" for name in COLUMNS if dictionary().find(name).group in ("times", "hardware")}
     return {**row, **times, "verdict": verdict}
 
@@ -121,7 +121,7 @@ def write_full_run(folder: Path) -> Path:
         without_times(row, "mismatch")
         if row["parameters"] == "max_level=6,max_objects=0" and row["scene"] == "tetra:n=6"
         else row
-        for row in made_up_rows()
+        for row in synthetic_rows()
     ]
     write_run(folder, rows)
     for row in rows:

@@ -9,11 +9,11 @@ from pathlib import Path
 import numpy as np
 
 from beambench_report.base.records import read_run
+from beambench_report.nightly.alarms import judge
 from beambench_report.nightly.history import History
 from beambench_report.nightly.home import Home
-from beambench_report.nightly.judge import judge
 from beambench_report.nightly.night import night_of
-from made_up_run import made_up_rows, without_times, write_run
+from synthetic_run import synthetic_rows, without_times, write_run
 
 SCENES = ("escena1", "tetra:n=6")
 NOISE = 0.01
@@ -71,7 +71,7 @@ def write_night(home: Home, night: int, random: np.random.Generator, plant: Plan
     folder = home.folder / run_id
     folder.mkdir(parents=True)
     rows = []
-    for row in made_up_rows():
+    for row in synthetic_rows():
         labels = {
             "run_id": run_id,
             "time_utc": f"{run_id[:4]}-{run_id[4:6]}-{run_id[6:8]}T03:00:00Z",
