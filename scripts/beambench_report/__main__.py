@@ -82,10 +82,13 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _add(
-    commands: argparse._SubParsersAction, name: str, handler: Callable[[Options], Result], help: str
+    commands: argparse._SubParsersAction,
+    name: str,
+    handler: Callable[[Options], Result],
+    **words: str,
 ) -> Callable[..., argparse.Action]:
     """Adds a command; returns what adds its arguments."""
-    command = commands.add_parser(name, help=help)
+    command = commands.add_parser(name, **words)
     command.set_defaults(handler=handler)
     return command.add_argument
 

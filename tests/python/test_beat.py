@@ -1,4 +1,4 @@
-"""Tile beams against Embree: ratios, intervals and judgements worked out by hand."""
+"""Tile beams against Embree: ratios, intervals and outcomes worked out by hand."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from beambench_report.base.ratio import Ratio
 from beambench_report.base.records import read_run
 from beambench_report.embree_comparison.pairings import Pairing, pairings
 from beambench_report.embree_comparison.plots import plots
-from beambench_report.embree_comparison.report import as_markdown, judgement
+from beambench_report.embree_comparison.report import as_markdown, outcome
 from beambench_report.embree_comparison.targets import groups
 from program import output_of
 from synthetic_run import write_run, write_trace_cell
@@ -108,7 +108,7 @@ def test_without_an_interval_nothing_is_decided(tmp_path: Path) -> None:
     times = {"trace_ms_ci_low": "", "trace_ms_ci_high": ""}
     (pairing,) = duels_of(tmp_path, row("tile-beam", 2) | times, row("embree", 12, mode="single"))
     assert pairing.ratio == Ratio(6)
-    assert judgement(pairing.ratio, 3) == judgement(pairing.ratio, 9) == "open"
+    assert outcome(pairing.ratio, 3) == outcome(pairing.ratio, 9) == "open"
 
 
 def test_with_single_repetitions_the_ratio_is_paired_by_rounds(tmp_path: Path) -> None:
@@ -135,7 +135,7 @@ def test_an_image_that_two_runs_measured_counts_once_by_the_newest(tmp_path: Pat
     for order in (runs, runs[::-1]):
         (pairing,) = pairings(order)
         assert (pairing.run_id, pairing.ratio.value) == ("20261122-2", 4)
-        assert "Of 1 aims for single scenes" in as_markdown([pairing])
+        assert "Of 1 targets for single scenes" in as_markdown([pairing])
 
 
 def test_no_scene_is_in_two_groups() -> None:
@@ -156,7 +156,7 @@ def test_runs_of_two_machines_are_not_mixed(tmp_path: Path) -> None:
 
 def test_an_aim_within_the_interval_is_open() -> None:
     ratio = Ratio(6, 5, 7)
-    assert [judgement(ratio, aim) for aim in (5, 5.5, 6.5, 7.1)] == [
+    assert [outcome(ratio, aim) for aim in (5, 5.5, 6.5, 7.1)] == [
         "met",
         "open",
         "open",
@@ -181,8 +181,8 @@ def test_the_report_tells_what_is_met(tmp_path: Path) -> None:
     assert "| **geometric mean, first traces** | 8.00 (7.95 to 8.05) missed |" in text
     assert "| geometric mean, second traces | 8.00 |" in text
     assert "*at least 12*" in text
-    assert "AVX3 against AVX512" in text
-    assert "Of 6 aims for single scenes, 6 are met, 0 open, 0 missed, by first traces." in text
+    assert "## Both on AVX-512" in text
+    assert "Of 6 targets for single scenes, 6 are met, 0 open, 0 missed, by first traces." in text
     assert "(not paired)" in text
     assert "run 20261122-100000-beat-embree, commit 0123456789ab, machine feedfeed" in text
 
@@ -262,9 +262,9 @@ def test_the_command_writes_the_report_and_its_plots(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     run = write_run(tmp_path, all_triangles(1.5))
-    assert main(["beat", str(run)]) == 0
+    assert main(["embree-comparison", str(run)]) == 0
     assert capsys.readouterr().out.startswith("# Tile beams against Embree")
-    assert main(["beat", str(run), "-o", str(tmp_path / "beat.md")]) == 0
+    assert main(["embree-comparison", str(run), "-o", str(tmp_path / "beat.md")]) == 0
     assert "![beat-embree.png](beat-embree.png)" in (tmp_path / "beat.md").read_text()
     assert (tmp_path / "beat-embree.png").stat().st_size > 0
     assert (tmp_path / "beat-embree.svg").stat().st_size > 0
@@ -272,7 +272,7 @@ def test_the_command_writes_the_report_and_its_plots(
 
 def test_runs_without_both_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     run = write_run(tmp_path, [row("tile-beam", 2), row("sah-bvh", 3)])
-    assert main(["beat", str(run)]) == 2
+    assert main(["embree-comparison", str(run)]) == 2
     assert "beat-embree.json" in capsys.readouterr().err
 
 

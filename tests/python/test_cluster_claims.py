@@ -11,7 +11,7 @@ import pytest
 from beambench_report.base.files import Problem
 from beambench_report.thesis.chapter6.results import write_results
 from beambench_report.thesis.claims.chapter6 import CLUSTER_CLAIMS, cluster_evidence
-from beambench_report.thesis.claims.register import ALL_CLAIMS, judge, ledger
+from beambench_report.thesis.claims.register import ALL_CLAIMS, judge, judge_claims
 from beambench_report.thesis.claims.verdict import Outcome, Verdict
 from beambench_report.thesis.paper.evidence import FIGURES, NOTHING, ClusterEvidence, Evidence
 
@@ -111,7 +111,7 @@ def test_without_a_scene_nothing_is_tested(name: str) -> None:
 
 
 def test_the_thesis_tells_part_of_its_figures() -> None:
-    (entry,) = (entry for entry in ledger([]) if entry.claim.name == "C22")
+    (entry,) = (entry for entry in judge_claims([]) if entry.claim.name == "C22")
     told = [check for check in entry.thesis.checks if check.outcome is not Outcome.MISSING]
     assert entry.thesis.verdict is Verdict.NOT_TESTED  # its plots are lost
     assert {check.outcome for check in told} == {Outcome.YES}
@@ -180,6 +180,6 @@ def test_one_cluster_is_judged_at_a_time(tmp_path: Path) -> None:
         (tmp_path / name).mkdir()
         write_results(tmp_path / name, [answer(CAT, 1, 60.0, 0.1)])
     with pytest.raises(Problem, match="another simulated cluster"):
-        ledger([tmp_path / "a", tmp_path / "b"])
-    entries = {entry.claim.name: entry.ours.verdict for entry in ledger([tmp_path / "a"])}
+        judge_claims([tmp_path / "a", tmp_path / "b"])
+    entries = {entry.claim.name: entry.ours.verdict for entry in judge_claims([tmp_path / "a"])}
     assert entries["C22"] is Verdict.NOT_TESTED

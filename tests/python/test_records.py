@@ -43,7 +43,7 @@ def test_a_column_of_the_family_s_own_is_a_counter(tmp_path: Path) -> None:
 
 
 def test_columns_of_older_records_are_read_under_their_new_names(tmp_path: Path) -> None:
-    rows = [{**row, "neighbour_steps_per_ray": 3.5} for row in made_up_rows()]
+    rows = [{**row, "neighbour_steps_per_ray": 3.5} for row in synthetic_rows()]
     run = read_run(write_run(tmp_path, rows))
     assert run.rows["neighbor_steps_per_ray"].eq(3.5).all()
     assert "neighbour_steps_per_ray" not in run.rows

@@ -10,7 +10,7 @@ from PIL import Image
 
 from beambench_report.base.published import primitives_by_scene
 from beambench_report.thesis.chapter5.facts import TURN, facts, gather_facts, turn_camera
-from beambench_report.thesis.claims.register import SWEPT_CLAIMS, ledger
+from beambench_report.thesis.claims.register import SWEPT_CLAIMS, judge_claims
 from beambench_report.thesis.claims.verdict import Verdict
 from beambench_report.thesis.paper.cells import Cells
 from beambench_report.thesis.paper.measured import is_census_folder
@@ -139,7 +139,9 @@ def test_a_quick_run_says_which_claims_it_can_decide(stand_in: Path, tmp_path: P
     plan = make_plan([], [], True)
     run = write_runs(tmp_path / "run", plan, with_times_of_tasks)
     gather_facts(run, stand_in)
-    found = ledger([*(run / sweep.name for sweep in plan.sweeps), run / "census"], SWEPT_CLAIMS)
+    found = judge_claims(
+        [*(run / sweep.name for sweep in plan.sweeps), run / "census"], SWEPT_CLAIMS
+    )
     decided = [e.claim.name for e in found if e.ours.verdict is not Verdict.NOT_TESTED]
     assert f"the claims {', '.join(decided[:-1])} and {decided[-1]} alone" in _QUICK
     notice = write_report(run, plan).notice

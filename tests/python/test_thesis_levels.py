@@ -157,7 +157,7 @@ def test_the_command_prints_the_choices_or_writes_them(
     synthetic_levels(tmp_path)
     assert main(["levels", str(tmp_path / "levels")]) == 0
     printed = capsys.readouterr().out
-    assert "19 of 20 choices (95%) lose less than 10%; the aim, nine of ten, is met." in printed
+    assert "19 of 20 choices (95%) lose less than 10%; the target, nine of ten, is met." in printed
     assert "| beam | 10 | 9 (90%) | 10 of 10 (100%) | +4.5% | +30.0% |" in printed
     assert "| 130 ms, levels:58 | 100 ms, levels:56 | +30.0% | +4.0%, levels:57 |" in printed
     file = tmp_path / "levels.md"

@@ -14,6 +14,7 @@ from beambench_report.thesis.chapter5.sampling import (
     read_comparison,
     read_comparisons,
     sampling_section,
+    write_sampling,
 )
 from beambench_report.thesis.paper.section import section_as_markdown
 from beambench_report.thesis.report.plan import make_plan
@@ -70,7 +71,7 @@ def test_the_section_compares_with_five_samples_in_every_pixel(tmp_path: Path) -
         write_comparison(tmp_path / "b.json", "escena1:seed=1999,spheres=430", slower),
         write_comparison(tmp_path / "c.json", "tetra:n=6", RESULTS[2:]),
     ]
-    section = sampling_section(read_comparisons(files))
+    section = sampling_section(read_comparisons(files)[0])
     text = section_as_markdown(section)
     assert [figure.stem for figure in section.figures] == [
         "sampling-delfines-640x480",
@@ -104,7 +105,7 @@ def test_a_method_whose_settings_all_have_a_smaller_error_is_better_and_no_failu
     assert comparison.time_at_error("image-space", 4.0) is None  # they do not come to it
     assert comparison.reached("image-space", 4.0) == (100.0, False)
     assert read_comparison(files[1]).reached("image-space", 4.0) is None
-    section = sampling_section(read_comparisons(files))
+    section = sampling_section(read_comparisons(files)[0])
     assert section.findings == (
         "image-space reaches the error of the thesis's five samples, or a smaller one, in less "
         "time in 1 of the 2 scenes that were tried, by the median of 1 in at most 50% of it; in 1 "
@@ -177,7 +178,7 @@ def test_times_that_cannot_be_and_missing_and_doubled_files_are_refused(tmp_path
         read_comparison(tmp_path / "none.json")
     twice = [write_comparison(tmp_path / name) for name in ("b.json", "c.json")]
     with pytest.raises(Problem, match="are both of Delfines, 640x480"):
-        read_comparisons(twice)
+        write_sampling(twice, tmp_path)
 
 
 def test_the_report_has_the_section_where_there_are_comparisons(tmp_path: Path) -> None:

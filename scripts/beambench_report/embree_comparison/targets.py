@@ -36,7 +36,7 @@ def part_of_targets(isa: str) -> float:
 
 
 def groups() -> list[Group]:
-    """In the order of the report. `escena1`, one of the thesis's, has the targets of the spheres."""
+    """In the order of the report. `escena1`, of the thesis, has the targets of the spheres."""
     return [
         Group(
             "Scenes of triangles",

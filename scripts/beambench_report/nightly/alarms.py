@@ -176,7 +176,7 @@ def sentence(alarm: Alarm) -> str:
     if alarm.kind == "verdict":
         return f"{d['title']}: wrong hits ({d['verdict']})"
     if alarm.kind == "counter":
-        before, after = details["before"], details["after"]
+        before, after = d["before"], d["after"]
         part = f" ({after / before - 1:+.2%})" if before > 0 else ""
         return f"{d['title']}: {d['counter']} per ray from {before:.6g} to {after:.6g}{part}"
     return (

@@ -249,7 +249,7 @@ def sampling_section(comparisons: Sequence[Comparison]) -> Section | None:
 
 
 def write_sampling(files: Iterable[Path], directory: Path) -> list[Path]:
-    """Writes DIRECTORY/sampling.md and a plot for each file. Raises Problem for an unreadable one."""
+    """Writes DIRECTORY/sampling.md and a plot for each file. Raises Problem for a bad one."""
     comparisons, unread = read_comparisons(files)
     if unread:
         raise Problem(unread[0])

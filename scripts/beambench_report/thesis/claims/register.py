@@ -14,7 +14,7 @@ from beambench_report.thesis.chapter6.results import is_cluster_folder
 from beambench_report.thesis.claims.chapter5 import CLAIMS
 from beambench_report.thesis.claims.chapter6 import CLUSTER_CLAIMS, cluster_evidence
 from beambench_report.thesis.claims.text import FURTHER_CLAIMS
-from beambench_report.thesis.claims.verdict import Check, Claim, Outcome, Rule, Verdict, verdict_of
+from beambench_report.thesis.claims.verdict import Check, Claim, Outcome, Verdict, verdict_of
 from beambench_report.thesis.paper.evidence import NO_CLUSTER, Evidence, published_evidence
 from beambench_report.thesis.paper.measured import census_work, is_census_folder, measured_evidence
 
@@ -38,10 +38,15 @@ class JudgedClaim:
     """Ours by the rule that the claim had before, where it was amended."""
 
 
-def judge(rule: Rule, evidence: Evidence) -> Finding:
-    """Applies a rule."""
-    checks = rule(evidence)
+def judge(claim: Claim, evidence: Evidence) -> Finding:
+    """Applies the claim's rule."""
+    checks = claim.rule(evidence)
     return Finding(verdict_of(checks), checks)
+
+
+def judge_formerly(claim: Claim, evidence: Evidence) -> Finding | None:
+    """Applies the rule that the claim had before; None where it was not amended."""
+    return judge(replace(claim, rule=claim.amendment.former), evidence) if claim.amendment else None
 
 
 SWEPT_CLAIMS = (*CLAIMS, *FURTHER_CLAIMS)
@@ -70,10 +75,7 @@ def judge_claims(runs: Sequence[Path], claims: Sequence[Claim] = ALL_CLAIMS) -> 
     published = published_evidence()
     return [
         JudgedClaim(
-            claim,
-            judge(claim.rule, published),
-            judge(claim.rule, measured),
-            judge(claim.amendment.former, measured) if claim.amendment else None,
+            claim, judge(claim, published), judge(claim, measured), judge_formerly(claim, measured)
         )
         for claim in claims
     ]

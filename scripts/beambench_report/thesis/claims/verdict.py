@@ -67,7 +67,9 @@ def between(cell: str, figure: Measured | None, low: float, high: float, unit: s
         outcome = Outcome.NO
     else:
         outcome = Outcome.UNDECIDED
-    return Check(cell, outcome, f"{number(figure.value)}{unit} (allowed {number(low)} to {number(high)})")
+    return Check(
+        cell, outcome, f"{number(figure.value)}{unit} (allowed {number(low)} to {number(high)})"
+    )
 
 
 def aside(check: Check) -> Check:

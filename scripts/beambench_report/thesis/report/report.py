@@ -1,14 +1,12 @@
 """Gathers the report from the runs of a folder, and what it says in words."""
 
-from __future__ import annotations
-
-import json
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
+from beambench_report.base.files import Problem, read_json
 from beambench_report.base.machine import Manifest, read_manifest
 from beambench_report.thesis.chapter5.best import BestTable, best_table
 from beambench_report.thesis.chapter5.cost import cost_section
@@ -19,9 +17,8 @@ from beambench_report.thesis.chapter5.facts import (
     visits_section,
 )
 from beambench_report.thesis.chapter5.levels import levels_section
-from beambench_report.thesis.chapter5.sampling import readable_comparisons, sampling_section
-from beambench_report.thesis.claims.register import SWEPT_CLAIMS, ledger
-from beambench_report.thesis.claims.register import Entry as JudgedClaim
+from beambench_report.thesis.chapter5.sampling import read_comparisons, sampling_section
+from beambench_report.thesis.claims.register import SWEPT_CLAIMS, JudgedClaim, judge_claims
 from beambench_report.thesis.claims.verdict import Verdict
 from beambench_report.thesis.paper.cells import Cell, Cells, read_cells
 from beambench_report.thesis.paper.measured import is_census_folder
@@ -38,34 +35,9 @@ SAMPLING = "sampling"
 """The folder of what `beambench sampling SCENE --json` printed."""
 
 
-def extra_sweeps(directory: Path, plan: Plan) -> list[Sweep]:
-    """The sweep of levels, where it was run into DIRECTORY/levels without being planned."""
-    if any(sweep.name == LEVELS for sweep in plan.sweeps):
-        return []
-    try:
-        source = json.loads((directory / LEVELS / "config.json").read_text("utf-8"))
-    except (OSError, ValueError):
-        return []
-    return [Sweep(LEVELS, source)]
-
-
-def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]]:
-    """All that were measured, and a sentence for each file that could not be read."""
-    comparisons, unread = readable_comparisons(sorted((directory / SAMPLING).glob("*.json")))
-    sections = (
-        scenes_section(directory),
-        visits_section(directory),
-        camera_section(directory),
-        cost_section(cells.cells),
-        levels_section(cells.cells),
-        sampling_section(comparisons),
-    )
-    return [section for section in sections if section is not None], unread
-
-
 @dataclass(frozen=True)
 class Part:
-    """A part of a table: as in the thesis, what stands behind it, and best against best."""
+    """A part of a table: as in the thesis, memory and work of its cells, and best against best."""
 
     table: PartTable
     best: BestTable | None
@@ -103,55 +75,73 @@ class Report:
     tables: tuple[tuple[Table, tuple[Part, ...]], ...]
     figures: tuple[FigureData, ...]
     pictures: tuple[PictureFigure, ...]
-    ledger: tuple[JudgedClaim, ...]
+    claims: tuple[JudgedClaim, ...]
     sections: tuple[Section, ...]
     """What goes beyond the thesis's own tables and figures."""
     runs: tuple[RunSummary, ...]
 
-    @property
-    def is_complete(self) -> bool:
-        """Was all that was planned measured?"""
-        return all(run.state == "finished" for run in self.runs)
-
 
 def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report:
     """Reads the runs; what was not measured is left out and reported."""
-    sweeps = [*plan.sweeps, *extra_sweeps(directory, plan)]
+    sweeps = [*plan.sweeps, *_extra_sweeps(directory, plan)]
     every = read_cells(directory, (sweep.name for sweep in sweeps))
     # Tables, figures and claims have one sweep for each of their cells, and none of them is LEVELS.
     cells = every.without(LEVELS)
     sections, unread = sections_of(directory, every)
-    shown = [table for table in TABLES if table.number in plan.tables]
     pictures = ()
     if beambench is not None and cells.cells:
         pictures = tuple(octree_figures(plan.figures, directory, beambench))
+    censuses = [folder] if is_census_folder(folder := directory / CENSUS) else []
     return Report(
         directory,
         plan,
         replace(every, unread=(*every.unread, *unread)),
-        tuple((table, _parts(table, cells, directory, plan)) for table in shown),
+        tuple(
+            (table, _parts(table, cells, directory, plan))
+            for table in TABLES
+            if table.number in plan.tables
+        ),
         tuple(make_figures(plan.figures, cells)),
         pictures,
-        tuple(ledger([*cells.runs, *_censuses(directory)], SWEPT_CLAIMS)),
+        tuple(judge_claims([*cells.runs, *censuses], SWEPT_CLAIMS)),
         tuple(sections),
-        tuple(_summary(directory, sweeps, every)),
+        tuple(_summaries(directory, sweeps, every)),
     )
 
 
-def _censuses(directory: Path) -> list[Path]:
-    """The folder of censuses, where there is one."""
-    folder = directory / CENSUS
-    return [folder] if is_census_folder(folder) else []
+def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]]:
+    """Those that were measured, and a sentence for each file that could not be read."""
+    comparisons, unread = read_comparisons(sorted((directory / SAMPLING).glob("*.json")))
+    sections = (
+        scenes_section(directory),
+        visits_section(directory),
+        camera_section(directory),
+        cost_section(cells.cells),
+        levels_section(cells.cells),
+        sampling_section(comparisons),
+    )
+    return [section for section in sections if section is not None], unread
+
+
+def _extra_sweeps(directory: Path, plan: Plan) -> list[Sweep]:
+    """The sweep of levels, where it was run into DIRECTORY/levels without being planned."""
+    if any(sweep.name == LEVELS for sweep in plan.sweeps):
+        return []
+    try:
+        source = read_json(directory / LEVELS / "config.json")
+    except (OSError, Problem):
+        return []
+    return [Sweep(LEVELS, source)] if isinstance(source, dict) else []
 
 
 def _parts(table: Table, cells: Cells, directory: Path, plan: Plan) -> tuple[Part, ...]:
     sweeps = [sweep for sweep in plan.sweeps if sweep.name in table.first]
 
     def why(resolution: str) -> str:
-        asked = [sweep for sweep in sweeps if resolution in sweep.source["resolutions"]]
-        if not asked:
-            return "quick run" if plan.is_quick else "not asked for"
-        states = {state_of(directory / sweep.name) for sweep in asked}
+        wanted = [sweep for sweep in sweeps if resolution in sweep.source["resolutions"]]
+        if not wanted:
+            return "quick run" if plan.is_quick else "not selected"
+        states = {state_of(directory / sweep.name) for sweep in wanted}
         return {"waiting": "not run", "begun": "run cut off"}.get(states.pop(), "not measured")
 
     return tuple(
@@ -159,9 +149,9 @@ def _parts(table: Table, cells: Cells, directory: Path, plan: Plan) -> tuple[Par
     )
 
 
-def _summary(directory: Path, sweeps: Iterable[Sweep], cells: Cells) -> list[RunSummary]:
-    return [
-        RunSummary(
+def _summaries(directory: Path, sweeps: Iterable[Sweep], cells: Cells) -> Iterable[RunSummary]:
+    for sweep in sweeps:
+        yield RunSummary(
             sweep.name,
             sweep.description,
             state_of(directory / sweep.name),
@@ -169,71 +159,66 @@ def _summary(directory: Path, sweeps: Iterable[Sweep], cells: Cells) -> list[Run
             tuple(cell for cell in cells.cells if cell.run == sweep.name),
             read_manifest(directory / sweep.name) or Manifest(),
         )
-        for sweep in sweeps
-    ]
 
+
+# What the report says in words, the same in Markdown and on the page
 
 TABLE_WORDS = (
     "Beside the thesis's seconds (a Pentium of 350 MHz, 1999) stand our milliseconds; seconds of "
     "so different machines are not to be compared. What compares are the shapes, in brackets: each "
     "time over that of the same part's first row at 320x200, the thesis's and ours. Times contain "
     "the building of the structure, as the thesis's do; our part of it stands behind the total. "
-    "Parameters are the thesis's: octrees of level 6 unless the table says otherwise, 32 voxels an "
-    "axis filled lazily, objects inserted as given beside terminal nodes (insert=terminal), Kay "
-    "and Kajiya's queue, no handover. Rows marked (of today) or (Goldsmith and Salmon 1987) are "
-    "not the thesis's."
+    "Parameters are the thesis's: octrees of level 6 unless the table says otherwise, 32 voxels "
+    "per axis filled lazily, objects inserted as given beside terminal nodes (insert=terminal), "
+    "Kay and Kajiya's queue, no handover. Rows marked (of today) or (Goldsmith and Salmon 1987) "
+    "are not the thesis's."
 )
 BEST_WORDS = (
-    "Each contender with those of its parameters that made it quickest, building included, in "
+    "Each contender with those of its parameters that made it fastest, building included, in "
     "brackets its time over that of the first row and the interval of that ratio."
 )
 
 
 def headline(report: Report) -> str:
-    """How much was measured, and whether it was right."""
+    """How much was measured, and whether the hits were correct."""
     cells, wrong = len(report.cells.cells), len(report.cells.wrong)
     if not cells:
         return "Nothing was measured yet."
-    right = "all of them verified" if not wrong else f"{wrong} of them wrong, and without times"
+    right = f"{wrong} of them wrong, and without times" if wrong else "all of them verified"
     return f"{cells:,} cells in {len(report.cells.runs)} runs, {right}."
 
 
 def notice(report: Report) -> str:
     """What a reader must know before reading on; nothing where all was measured in full."""
     sentences = []
-    if not report.is_complete:
+    if any(run.state != "finished" for run in report.runs):
         sentences.append("Not everything that was planned is there (see Runs).")
     if report.plan.is_quick:
+        decided = [
+            one.claim.name for one in report.claims if one.ours.verdict is not Verdict.NOT_TESTED
+        ]
+        which = f": {', '.join(decided)}" if decided else ""
         sentences.append(
             "This was a quick run: low resolutions and few repetitions, for a look, not for "
-            f"verdicts. {decided(report)}"
+            f"verdicts. Its cells are enough for {len(decided)} of {len(report.claims)} claims"
+            f"{which}; the others need cells that were not measured."
         )
     elif not report.plan.is_everything:
-        sentences.append("Only some tables and figures were asked for.")
+        sentences.append("Only some tables and figures were selected.")
     return " ".join(sentences)
-
-
-def decided(report: Report) -> str:
-    """Which claims have all their cells; the others need what was not measured."""
-    names = [e.claim.name for e in report.claims if e.ours.verdict is not Verdict.NOT_TESTED]
-    which = f": {', '.join(names)}" if names else ""
-    return (
-        f"Its cells are enough for {len(names)} of {len(report.claims)} claims{which}; the others "
-        "need cells that were not measured."
-    )
 
 
 def verdict_counts(report: Report) -> str:
     """How many claims hold by the thesis's own figures and by ours."""
-    told = []
+    parts = []
     for whose, verdicts in (
-        ("By the thesis's own figures", [entry.thesis.verdict for entry in report.claims]),
-        ("by ours", [entry.ours.verdict for entry in report.claims]),
+        ("By the thesis's own figures", [one.thesis.verdict for one in report.claims]),
+        ("by ours", [one.ours.verdict for one in report.claims]),
     ):
         counts = Counter(verdicts)
         listed = ", ".join(f"{counts[v]} {_plural(v, counts[v])}" for v in Verdict if counts[v])
-        told.append(f"{whose}: {listed}")
-    return f"{'; '.join(told)}."
+        parts.append(f"{whose}: {listed}")
+    return f"{'; '.join(parts)}."
 
 
 def _plural(verdict: Verdict, count: int) -> str:

@@ -1,7 +1,5 @@
 """Writes the report as Markdown and as one HTML page."""
 
-from __future__ import annotations
-
 import csv
 from collections import Counter
 from collections.abc import Iterable
@@ -11,21 +9,17 @@ from pathlib import Path
 
 from beambench_report.base.figure import house_style, structure_color, write_plot
 from beambench_report.base.files import write_text, write_whole
-from beambench_report.base.quantities import number
+from beambench_report.base.quantities import DASH, markdown_table, number
 from beambench_report.run.html import data_uri, environment
 from beambench_report.thesis.chapter5.best import BestTable, Choice
-from beambench_report.thesis.claims.register import Entry as JudgedClaim
-from beambench_report.thesis.claims.register import amendment, summary
-from beambench_report.thesis.claims.register import as_markdown as claims_as_markdown
-from beambench_report.thesis.claims.verdict import Check, Outcome
-from beambench_report.thesis.paper.cells import Cells
-from beambench_report.thesis.paper.printed import (
-    DASH,
-    interval,
-    milliseconds,
-    origin,
-    thesis_seconds,
+from beambench_report.thesis.claims.register import (
+    amendment,
+    cells_of,
+    claims_as_markdown,
+    summary,
 )
+from beambench_report.thesis.paper.cells import Cells
+from beambench_report.thesis.paper.printed import interval, milliseconds, origin, thesis_seconds
 from beambench_report.thesis.paper.section import section_as_markdown
 from beambench_report.thesis.report.drawing import draw
 from beambench_report.thesis.report.plan import Plan
@@ -80,25 +74,16 @@ def _write_rows(cells: Cells, path: Path) -> Path:
             writer = csv.writer(file)
             writer.writerow(["row", "file", "line", "cell", "repetitions", "verdict"])
             for cell in cells.cells:
-                file_name = f"{cell.run}/results.csv"
-                writer.writerow(
-                    [cell.number, file_name, cell.line, cell.name, cell.repetitions, cell.verdict]
-                )
+                place = (cell.number, f"{cell.run}/results.csv", cell.line, cell.name)
+                writer.writerow([*place, cell.repetitions, cell.verdict])
 
     return write_whole(path, write)
 
 
-_STATES = {"finished": "", "begun": "cut off", "waiting": "not run"}
-
-
 def as_markdown(report: Report) -> str:
     """The whole report."""
-    lines = [
-        "# Chapter 5 of the thesis, measured again",
-        "",
-        f"{headline(report)} {notice(report)}".strip(),
-    ]
-    lines += [""]
+    lines = ["# Chapter 5 of the thesis, measured again", ""]
+    lines += [f"{headline(report)} {notice(report)}".strip(), ""]
     lines += ["## The claims of the thesis", "", verdict_counts(report), ""]
     lines += [claims_as_markdown(report.claims)]
     if report.tables:
@@ -109,15 +94,12 @@ def as_markdown(report: Report) -> str:
             lines += _part(part)
     if report.figures or report.pictures:
         lines += ["## Figures", ""]
-    for figure in report.figures:
-        image = f"figures/figure-{figure.number}.png"
-        lines += [f"### Figure {figure.number}: {figure.title}", "", f"![{figure.title}]({image})"]
-        lines += ["", figure.caption, ""]
-    for picture in report.pictures:
-        lines += [f"### Figure {picture.number}: {picture.title}", ""]
-        if picture.path:
-            lines += [f"![{picture.title}](figures/{picture.path.name})", ""]
-        lines += [picture.caption, ""]
+    drawn = [(one, f"figure-{one.number}.png") for one in report.figures]
+    drawn += [(one, one.path.name if one.path else "") for one in report.pictures]
+    for figure, name in drawn:
+        lines += [f"### Figure {figure.number}: {figure.title}", ""]
+        lines += [f"![{figure.title}](figures/{name})", ""] if name else []
+        lines += [figure.caption, ""]
     lines += [section_as_markdown(section) for section in report.sections]
     lines += ["## Runs", "", *_runs(report), "", "## Every cell of the claims", ""]
     lines += [claims_as_markdown(report.claims, cells=True).split("\n\n", 1)[-1]]
@@ -126,23 +108,14 @@ def as_markdown(report: Report) -> str:
 
 def _part(part: Part) -> Iterable[str]:
     table = part.table
-    yield f"#### {table.part.title}"
-    yield ""
     heads = [text for size in table.resolutions for text in (f"{size} thesis", "ours")]
-    if table.has_counts:
-        heads += ["occupied leaves", "pixels of exit beams"]
-    yield _row(["", *heads])
-    yield _row(["---"] + ["---:"] * len(heads))
-    for line in table.lines:
-        yield _row([line.label, *_entries(line, table)])
-    yield ""
+    heads += ["occupied leaves", "pixels of exit beams"] if table.has_counts else []
+    rows = ([line.label, *_entries(line, table)] for line in table.lines)
+    yield from (f"#### {table.part.title}", "")
+    yield from (*markdown_table(["", *heads], rows, range(1, len(heads) + 1)), "")
     if part.work.rows:
-        yield "<details><summary>Memory and work</summary>"
-        yield ""
-        yield from _work(part.work)
-        yield ""
-        yield "</details>"
-        yield ""
+        yield from ("<details><summary>Memory and work</summary>", "", *_work(part.work))
+        yield from ("", "</details>", "")
     if part.best:
         yield from _best(part.best)
 
@@ -151,17 +124,11 @@ def _entries(line: Line, table: PartTable) -> list[str]:
     texts = [text for entry in line.entries for text in (_thesis(entry), _ours(entry))]
     if table.has_counts:
         counts = line.counts or ((None, None),) * 2
-        texts += [" / ".join(_count(figure) for figure in pair) for pair in counts]
+        texts += [" / ".join(DASH if n is None else f"{n:,}" for n in pair) for pair in counts]
     return texts
 
 
-def _count(figure: int | None) -> str:
-    return DASH if figure is None else f"{figure:,}"
-
-
 def _thesis(entry: Entry) -> str:
-    if entry.thesis is None:
-        return DASH
     shape = f" ({number(entry.thesis_shape)})" if entry.thesis_shape else ""
     return thesis_seconds(entry.thesis) + shape
 
@@ -174,26 +141,28 @@ def _ours(entry: Entry) -> str:
     return f"{milliseconds(entry.ours.time.value)}{shape}{build}, #{entry.ours.number}"
 
 
-def _work(table: WorkTable) -> Iterable[str]:
+def _work(table: WorkTable) -> list[str]:
     heads = [f"{title} {unit}".strip() for title, unit in table.headings]
-    yield _row(["contender", "resolution", *heads, "verdict", "row"])
-    yield _row(["---", "---"] + ["---:"] * len(heads) + ["---", "---:"])
-    for row in table.rows:
-        texts = [field.text for field in row.fields]
-        cell = row.cell
-        yield _row([row.label, cell.resolution, *texts, cell.verdict, f"#{cell.number}"])
+    rows = (
+        (
+            *(row.label, row.cell.resolution),
+            *(field.text for field in row.fields),
+            *(row.cell.verdict, f"#{row.cell.number}"),
+        )
+        for row in table.rows
+    )
+    right = (*range(2, len(heads) + 2), len(heads) + 3)
+    return markdown_table(["contender", "resolution", *heads, "verdict", "row"], rows, right)
 
 
 def _best(best: BestTable) -> Iterable[str]:
-    yield f"Best against best, {best.part.title}. {BEST_WORDS}"
-    yield ""
-    heads = [text for size in best.resolutions for text in (size, "parameters")]
-    yield _row(["contender", *heads])
-    yield _row(["---"] + ["---:", "---"] * len(best.resolutions))
-    for line in best.lines:
-        texts = [text for choice in line.choices for text in _choice(choice)]
-        yield _row([line.label, *texts])
-    yield ""
+    heads = ["contender", *(text for size in best.resolutions for text in (size, "parameters"))]
+    rows = (
+        [line.label, *(text for choice in line.choices for text in _choice(choice))]
+        for line in best.lines
+    )
+    yield from (f"Best against best, {best.part.title}. {BEST_WORDS}", "")
+    yield from (*markdown_table(heads, rows, range(1, len(heads), 2)), "")
 
 
 def _choice(choice: Choice) -> tuple[str, str]:
@@ -203,21 +172,18 @@ def _choice(choice: Choice) -> tuple[str, str]:
     ratio = ""
     if choice.ratio:
         known = choice.ratio.low < choice.ratio.high
-        told = f"; {interval(choice.ratio, 1, '')}" if known else ""
-        ratio = f" ({number(choice.ratio.value)}{told})"
-    told = f"{choice.parameters} (best of {choice.tried})" if choice.parameters else ""
+        between = f"; {interval(choice.ratio, 1, '')}" if known else ""
+        ratio = f" ({number(choice.ratio.value)}{between})"
+    tried = f"{choice.parameters} (best of {choice.tried})" if choice.parameters else ""
     edge = ", at the end of what was tried" if choice.is_edge else ""
-    return f"{milliseconds(cell.time.value)}{ratio}, #{cell.number}", told + edge
+    return f"{milliseconds(cell.time.value)}{ratio}, #{cell.number}", tried + edge
 
 
 def _runs(report: Report) -> Iterable[str]:
-    yield _row(["run", "cells", "wrong", "state", "verdicts", "what for"])
-    yield _row(["---", "---:", "---:", "---", "---", "---"])
-    for run in report.runs:
-        yield _row(_run(run))
+    heads = ("run", "cells", "wrong", "state", "verdicts", "what for")
+    yield from markdown_table(heads, map(_run, report.runs), (1, 2))
     for sentence in report.cells.unread:
-        yield ""
-        yield sentence
+        yield from ("", sentence)
     yield ""
     yield "A number behind `#` is a row of `rows.csv`, which names the file, line and cell."
 
@@ -228,22 +194,15 @@ def _run(run: RunSummary) -> list[str]:
         run.name,
         f"{len(run.cells)} of {run.planned}",
         f"{run.wrong}",
-        _STATES[run.state] or "finished",
+        {"begun": "cut off", "waiting": "not run"}.get(run.state, run.state),
         ", ".join(f"{count} {verdict}" for verdict, count in verdicts.items()) or DASH,
         run.description,
     ]
 
 
-def _row(texts: Iterable[str]) -> str:
-    return f"| {' | '.join(texts)} |"
-
-
-_OWN = Path(__file__).with_name("templates")
-
-
 def as_page(report: Report) -> str:
     """The text of the page."""
-    made = environment(_OWN)
+    made = environment(Path(__file__).with_name("templates"))
     made.filters |= {
         "milliseconds": milliseconds,
         "thesis_seconds": thesis_seconds,
@@ -253,58 +212,34 @@ def as_page(report: Report) -> str:
         "color": structure_color,
         "summary": summary,
         "amendment": amendment,
-        "slug": _slug,
+        "slug": lambda text: text.replace(" ", "-"),
     }
     made.globals |= {
         "dash": DASH,
         "table_words": TABLE_WORDS,
         "best_words": BEST_WORDS,
         "ratio_interval": partial(interval, factor=1, unit=""),
-        "cells_of": _cells_of,
+        "cells_of": cells_of,
         "verdicts_of": lambda run: Counter(cell.verdict for cell in run.cells),
     }
+    folder = report.directory / "figures"
+    manifests = [run.manifest for run in report.runs]
+    facts = (pair for manifest in manifests for group in manifest.facts for pair in group.pairs)
     return made.get_template("thesis.html.j2").render(
         report=report,
         headline=headline(report),
         notice=notice(report),
         verdict_counts=verdict_counts(report),
         images={
-            data.number: data_uri(report.directory / "figures" / f"figure-{data.number}.svg")
-            for data in report.figures
+            data.number: data_uri(folder / f"figure-{data.number}.svg") for data in report.figures
         },
         plots={
-            figure.stem: data_uri(report.directory / "figures" / f"{figure.stem}.svg")
+            figure.stem: data_uri(folder / f"{figure.stem}.svg")
             for section in report.sections
             for figure in section.figures
         },
-        pictures=[
-            (data_uri(picture.path) if picture.path else "", picture) for picture in report.pictures
-        ],
-        machine=next((run.manifest.machine for run in report.runs if run.manifest.machine), ""),
-        uncontrolled=list(
-            dict.fromkeys(text for run in report.runs for text in run.manifest.uncontrolled)
-        ),
-        commits=_commits(report),
+        pictures=[(data_uri(one.path) if one.path else "", one) for one in report.pictures],
+        machine=next((manifest.machine for manifest in manifests if manifest.machine), ""),
+        uncontrolled=list(dict.fromkeys(text for one in manifests for text in one.uncontrolled)),
+        commits=list(dict.fromkeys(value[:12] for name, value in facts if name == "commit")),
     )
-
-
-def _slug(text: str) -> str:
-    """`holds-in-part` of `holds in part`."""
-    return text.replace(" ", "-")
-
-
-def _cells_of(entry: JudgedClaim) -> list[tuple[str, Check, Check]]:
-    """Every cell that a claim's verdicts rest on: the thesis's check and ours."""
-    thesis = {check.cell: check for check in entry.thesis.checks}
-    ours = {check.cell: check for check in entry.ours.checks}
-    nothing = Check("", Outcome.MISSING)
-    return [
-        (cell, thesis.get(cell, nothing), ours.get(cell, nothing))
-        for cell in dict.fromkeys([*thesis, *ours])
-    ]
-
-
-def _commits(report: Report) -> list[str]:
-    """The commits that were measured, as the manifests name them."""
-    pairs = (pair for run in report.runs for facts in run.manifest.facts for pair in facts.pairs)
-    return list(dict.fromkeys(value[:12] for name, value in pairs if name == "commit"))
