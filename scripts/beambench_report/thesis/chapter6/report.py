@@ -9,7 +9,7 @@ import pandas as pd
 
 from beambench_report.base.figure import house_style, write_plot
 from beambench_report.base.files import write_text
-from beambench_report.base.quantities import number
+from beambench_report.base.quantities import markdown_table, number
 from beambench_report.thesis.chapter6.machines import Slowness, thesis_seconds
 from beambench_report.thesis.chapter6.plots import cluster_plots
 from beambench_report.thesis.chapter6.record import measured_section, read_recorded
@@ -75,21 +75,24 @@ def write_report(folder: Path) -> list[Path]:
 
 def _of_recording(recorded: dict, slowness: Slowness) -> str:
     constant, per_ray = thesis_seconds()
-    lines = [
-        "| scene | work | build s | walk s | work s | samples |",
-        "|---|---|---|---|---|---|",
-        *(
-            f"| {scene} | {work} | {each.build_seconds:.4f} | {each.walk_seconds:.4f} "
-            f"| {each.work_seconds:.3f} | {each.samples:,} |"
-            for (scene, work), each in recorded.items()
-        ),
-        "",
+    rows = (
+        (
+            *(scene, work),
+            f"{each.build_seconds:.4f}",
+            f"{each.walk_seconds:.4f}",
+            f"{each.work_seconds:.3f}",
+            f"{each.samples:,}",
+        )
+        for (scene, work), each in recorded.items()
+    )
+    text = (
         f"Seconds of one core of this machine. The thesis's gato-bill takes {constant:.2f} s at no "
         f"rays and {1e6 * per_ray:.1f} us per ray on its cluster's machines. So there building and "
         f"walking take {number(slowness.walk)} times as long as here, the work in leaves "
-        f"{number(slowness.work)} times.\n",
-    ]
-    return "\n".join(lines)
+        f"{number(slowness.work)} times.\n"
+    )
+    heads = ("scene", "work", "build s", "walk s", "work s", "samples")
+    return "\n".join([*markdown_table(heads, rows), "", text])
 
 
 def _efficiencies(simulations: pd.DataFrame) -> str:
@@ -134,16 +137,13 @@ def _by_consumers(
     cell: Callable[[pd.Series], str],
 ) -> str:
     """A column for each number of consumers, a row for each scene and what stands in `by`."""
-    lines = [
-        f"{title}\n",
-        f"| scene | {by} | {' | '.join(f'{n} consumers' for n in counts)} |",
-        "|---|---|" + "---|" * len(counts),
-    ]
+    lines = []
     for (scene, which), group in rows.groupby(["scene", by], sort=False):
         runs = group.drop_duplicates("consumers").set_index("consumers")
-        cells = [cell(runs.loc[n]) if n in runs.index else "" for n in counts]
-        lines.append(f"| {scene} | {which} | {' | '.join(cells)} |")
-    return "\n".join([*lines, ""])
+        cells = (cell(runs.loc[n]) if n in runs.index else "" for n in counts)
+        lines.append((scene, which, *cells))
+    heads = ["scene", by, *(f"{n} consumers" for n in counts)]
+    return "\n".join([f"{title}\n", *markdown_table(heads, lines), ""])
 
 
 def _machines(simulations: pd.DataFrame) -> str:
@@ -169,13 +169,10 @@ def _assumptions(simulations: pd.DataFrame) -> str:
 
 def _seconds(rows: pd.DataFrame, by: str, quantity: str = "seconds") -> str:
     options = list(dict.fromkeys(rows["options"]))
-    lines = [
-        f"{quantity.capitalize()}:\n",
-        f"| scene | {by} | {' | '.join(options)} |",
-        "|---|---|" + "---|" * len(options),
-    ]
+    lines = []
     for (scene, place), group in rows.groupby(["scene", by], sort=False):
         found = group.drop_duplicates("options").set_index("options")[quantity]
-        cells = [number(found[each]) if each in found.index else "" for each in options]
-        lines.append(f"| {scene} | {place} | {' | '.join(cells)} |")
-    return "\n".join([*lines, ""])
+        cells = (number(found[each]) if each in found.index else "" for each in options)
+        lines.append((scene, place, *cells))
+    heads = ["scene", by, *options]
+    return "\n".join([f"{quantity.capitalize()}:\n", *markdown_table(heads, lines), ""])

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import json
-import subprocess
 import sys
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from beambench_report.base.files import Problem
+from beambench_report.base.files import Problem, output_of
 from beambench_report.thesis.chapter6.machines import (
     ALL_BUILDING,
     ALL_WALKING,
@@ -133,39 +132,28 @@ def _unlike(scene: str) -> list[Simulation]:
 
 def _assumptions(scene: str) -> list[Simulation]:
     """What messages were assumed to cost, halved and doubled; and larger results."""
-    usual = {
-        network: [
-            Simulation(OLD, scene, network, MESSAGES_OF_1999, consumers)
-            for consumers in (STATIONS // 2, STATIONS - 1)
-        ]
+    usual = [
+        _old(scene, network, consumers)
         for network in (SHARED, SWITCHED)
-    }
-    return [
+        for consumers in (STATIONS // 2, STATIONS - 1)
+    ]
+    costs = ((0.5, "messages at half the cost"), (2, "at twice the cost"))
+    changed: list[dict[str, object]] = [
+        *({"messages": MESSAGES_OF_1999.times(by), "options": label} for by, label in costs),
+        {"options": "8 bytes a sample", "own_messages": True},
         *(
-            replace(each, messages=MESSAGES_OF_1999.times(factor), options=label)
-            for network in usual
-            for factor, label in ((0.5, "messages at half the cost"), (2, "at twice the cost"))
-            for each in usual[network]
-        ),
-        *(
-            replace(each, options="8 bytes a sample", own_messages=True)
-            for network in usual
-            for each in usual[network]
-        ),
-        *(
-            replace(each, options=f"constant {constant}", constant_is=constant)
-            for network in usual
+            {"options": f"constant {constant}", "constant_is": constant}
             for constant in (ALL_WALKING, ALL_BUILDING)
-            for each in usual[network]
         ),
     ]
+    return [replace(each, **changes) for changes in changed for each in usual]
 
 
-class Memory:
-    """Answers of the simulator by its arguments, in a file that grows line by line."""
+class ResultCache:
+    """Results of the simulator by its arguments, in a file that grows line by line."""
 
     def __init__(self, path: Path) -> None:
-        """Recalls what the file has."""
+        """Reads what the file has."""
         self._path = path
         self._writing = threading.Lock()
         self._known: dict[tuple[str, ...], dict[str, object]] = {}
@@ -176,42 +164,41 @@ class Memory:
                 continue
             self._known[tuple(entry["arguments"])] = entry["answer"]
 
-    def answer(
-        self, arguments: list[str], ask: Callable[[], dict[str, object]]
-    ) -> dict[str, object]:
-        """What was answered before, or is now; from any thread."""
-        key = tuple(arguments)
-        if key not in self._known:
-            answer = ask()
+    def result(self, key: list[str], command: list[str]) -> dict[str, object]:
+        """The result under `key`, which the command computes if it is not known; from any thread.
+
+        Raises Problem where the simulator is not there, or fails.
+        """
+        if tuple(key) not in self._known:
+            name = Path(command[0]).name
+            printed = output_of(command, remedy=f"build {name} first (it needs libsimgrid-dev)")
+            result = json.loads(printed)
             with self._writing, self._path.open("a", encoding="utf-8") as file:
                 # A line of its own, whatever was cut off before.
-                file.write("\n" + json.dumps({"arguments": arguments, "answer": answer}))
-                self._known[key] = answer
-        return self._known[key]
+                file.write("\n" + json.dumps({"arguments": key, "answer": result}))
+                self._known[tuple(key)] = result
+        return self._known[tuple(key)]
 
 
 def simulate(folder: Path, program: Path, plan: Sequence[Simulation], jobs: int = 1) -> list[Path]:
     """Writes FOLDER/simulations.csv and processes.csv from what was recorded there.
 
     `jobs` simulations at a time. What was simulated before is not simulated again:
-    FOLDER/answers.jsonl remembers it.
+    FOLDER/answers.jsonl has its results.
     """
     recorded = read_recorded(folder)
-    memory = Memory(folder / "answers.jsonl")
-    answers = []
+    cache = ResultCache(folder / "answers.jsonl")
+    results = []
     with ThreadPoolExecutor(jobs) as pool:
-        asked = [
-            pool.submit(_answer, folder, program, simulation, recorded, memory)
-            for simulation in plan
-        ]
+        begun = [pool.submit(_simulate, folder, program, one, recorded, cache) for one in plan]
         try:
-            for number, each in enumerate(asked, 1):
+            for number, each in enumerate(begun, 1):
                 print(f"\r{number} of {len(plan)} simulations", end="", file=sys.stderr, flush=True)
-                answers.append(each.result())
+                results.append(each.result())
         finally:
             pool.shutdown(cancel_futures=True)  # where one failed, the others are not begun
     print(file=sys.stderr)
-    return write_results(folder, answers)
+    return write_results(folder, results)
 
 
 def slowness_of(recorded: dict[tuple[str, str], Recorded], constant_is: str = AS_OURS) -> Slowness:
@@ -222,12 +209,12 @@ def slowness_of(recorded: dict[tuple[str, str], Recorded], constant_is: str = AS
     return slowness_of_1999(known, constant_is)
 
 
-def _answer(
+def _simulate(
     folder: Path,
     program: Path,
     simulation: Simulation,
     recorded: dict[tuple[str, str], Recorded],
-    memory: Memory,
+    cache: ResultCache,
 ) -> dict[str, object]:
     slow = slowness_of(recorded, simulation.constant_is) if simulation.era == OLD else NONE
     build = recorded[simulation.scene, simulation.work].build_seconds * slow.build
@@ -238,17 +225,15 @@ def _answer(
         *simulation.arguments(),
     ]
     tasks = tasks_file(folder, simulation.scene, simulation.work)
-    answer = memory.answer(
-        [tasks.name, *arguments], lambda: run_simulator([str(program), str(tasks), *arguments])
-    )
-    # Whatever is handed out, what it is compared with is the sequential beam tracer.
+    result = cache.result([tasks.name, *arguments], [str(program), str(tasks), *arguments])
+    # Whatever is distributed, it is compared with the sequential beam tracer.
     beams = recorded[simulation.scene, BEAMS]
     sequential = (
         beams.build_seconds * slow.build
         + beams.walk_seconds * slow.walk
         + beams.work_seconds * slow.work
     )
-    return answer | {
+    return result | {
         "sequential_seconds": sequential,
         "era": simulation.era,
         "scene": simulation.scene,
@@ -257,17 +242,3 @@ def _answer(
         "machines": simulation.machines,
         "consumers": simulation.consumers,
     }
-
-
-def run_simulator(command: list[str]) -> dict:
-    """What it prints. Raises Problem where it is not there, or fails."""
-    try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-    except OSError as error:
-        raise Problem(
-            f"{command[0]}: {error.strerror}; build {Path(command[0]).name} first "
-            "(it needs libsimgrid-dev)"
-        ) from None
-    if done.returncode != 0:
-        raise Problem(f"{' '.join(command)}: {done.stderr.strip() or 'failed'}")
-    return json.loads(done.stdout)

@@ -15,7 +15,8 @@ from statistics import median
 import pandas as pd
 
 from beambench_report.base.figure import PAGE_WIDTH, Plot, new_figure
-from beambench_report.base.files import Problem, write_text
+from beambench_report.base.files import Problem, read_table
+from beambench_report.base.quantities import markdown_table
 from beambench_report.thesis.chapter6.machines import (
     MESSAGES_OF_1999,
     MESSAGES_OF_TODAY,
@@ -27,7 +28,8 @@ from beambench_report.thesis.chapter6.machines import (
 )
 from beambench_report.thesis.chapter6.plots import IDEAL, line_look, name_panel
 from beambench_report.thesis.chapter6.record import read_recorded
-from beambench_report.thesis.chapter6.simulate import OLD, TODAY, Memory, run_simulator, slowness_of
+from beambench_report.thesis.chapter6.results import write_rows
+from beambench_report.thesis.chapter6.simulate import OLD, TODAY, ResultCache, slowness_of
 
 SPLIT = "split.csv"
 CELLS_LEVEL = 4
@@ -88,21 +90,31 @@ def simulate_split(
 ) -> list[Path]:
     """Writes FOLDER/split.csv, with machines of 1999 by what was recorded there.
 
-    What was simulated before is not simulated again: FOLDER/split-answers.jsonl remembers it.
+    What was simulated before is not simulated again: FOLDER/split-answers.jsonl has its results.
     Raises Problem where parts give another picture than the whole.
     """
-    asker = _Asker(program, resolution, repeats, Memory(folder / "split-answers.jsonl"))
+    cache = ResultCache(folder / "split-answers.jsonl")
     slow_by_era = {OLD: slowness_of(read_recorded(folder)), TODAY: NONE}
     rows: list[SplitRow] = []
     for era, slow in slow_by_era.items():
         for divided in SCENES:
-            answers = [asker.median(era, divided, parts, slow) for parts in PARTS if parts <= most]
-            rows += [_row(era, divided, resolution, answer, answers[0]) for answer in answers]
+            results = []
+            for parts in (parts for parts in PARTS if parts <= most):
+                what = f"\r{era}: {divided.scene} in {parts} parts   "
+                print(what, end="", file=sys.stderr, flush=True)
+                arguments = _arguments(era, divided, parts, slow, resolution)
+                runs = [
+                    cache.result([str(repeat), *arguments], [str(program), *arguments])
+                    for repeat in range(repeats)
+                ]
+                # The run whose tracing took the median.
+                runs.sort(key=lambda run: run["traced_seconds"])
+                results.append(runs[len(runs) // 2])
+            rows += [_row(era, divided, resolution, result, results[0]) for result in results]
     print(file=sys.stderr)
     _require_one_picture(rows)
     table = pd.DataFrame(rows, columns=[each.name for each in fields(SplitRow)])
-    text = table.to_csv(index=False, float_format="%.6g", lineterminator="\n")
-    return [write_text(folder / SPLIT, text)]
+    return [write_rows(folder / SPLIT, table)]
 
 
 def read_split(folder: Path) -> pd.DataFrame | None:
@@ -110,61 +122,37 @@ def read_split(folder: Path) -> pd.DataFrame | None:
     path = folder / SPLIT
     if not path.is_file():
         return None
-    try:
-        rows = pd.read_csv(path, dtype={"era": str, "result_hash": str})
-    except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
-        raise Problem(f"{path}: it is not a CSV file ({error})") from None
-    for each in fields(SplitRow):
-        if each.name not in rows:
-            raise Problem(
-                f"{path}: it has no column '{each.name}'; write it with: "
-                "python -m beambench_report cluster split DIR"
-            )
-    return rows
+    remedy = "write it with: python -m beambench_report cluster split DIR"
+    types = {"era": str, "result_hash": str}
+    return read_table(path, [each.name for each in fields(SplitRow)], remedy, types)
 
 
-class _Asker:
-    """Asks the simulator several times."""
-
-    def __init__(self, program: Path, resolution: str, repeats: int, memory: Memory) -> None:
-        self._program = program
-        self._resolution = resolution
-        self._repeats = repeats
-        self._memory = memory
-
-    def median(self, era: str, divided: Divided, parts: int, slow: Slowness) -> dict:
-        """The run whose tracing took the median."""
-        print(f"\r{era}: {divided.scene} in {parts} parts   ", end="", file=sys.stderr, flush=True)
-        network, messages = _CLUSTERS[era]
-        arguments = [
-            divided.scene,
-            *("--accel", divided.structure),
-            *("--split", str(CELLS_LEVEL)),
-            *("--processes", str(parts)),
-            *("--resolution", self._resolution),
-            *("--build-scale", str(slow.build)),
-            *("--walk-scale", str(slow.walk)),
-            *("--work-scale", str(slow.work)),
-            *network.arguments(),
-            *messages.arguments(),
-        ]
-        runs = [
-            self._memory.answer(
-                [str(repeat), *arguments],
-                lambda: run_simulator([str(self._program), *arguments]),
-            )
-            for repeat in range(self._repeats)
-        ]
-        return sorted(runs, key=lambda run: run["traced_seconds"])[len(runs) // 2]
+def _arguments(
+    era: str, divided: Divided, parts: int, slow: Slowness, resolution: str
+) -> list[str]:
+    """The simulator's."""
+    network, messages = _CLUSTERS[era]
+    return [
+        divided.scene,
+        *("--accel", divided.structure),
+        *("--split", str(CELLS_LEVEL)),
+        *("--processes", str(parts)),
+        *("--resolution", resolution),
+        *("--build-scale", str(slow.build)),
+        *("--walk-scale", str(slow.walk)),
+        *("--work-scale", str(slow.work)),
+        *network.arguments(),
+        *messages.arguments(),
+    ]
 
 
-def _total(answer: dict, quantity: str) -> float:
-    return sum(process[quantity] for process in answer["processes"])
+def _total(result: dict, quantity: str) -> float:
+    return sum(process[quantity] for process in result["processes"])
 
 
-def _row(era: str, divided: Divided, resolution: str, answer: dict, alone: dict) -> SplitRow:
-    processes = answer["processes"]
-    speed_up = alone["traced_seconds"] / answer["traced_seconds"]
+def _row(era: str, divided: Divided, resolution: str, result: dict, alone: dict) -> SplitRow:
+    processes = result["processes"]
+    speed_up = alone["traced_seconds"] / result["traced_seconds"]
     busiest = max(process["busy"] for process in processes)
     return SplitRow(
         era=era,
@@ -172,22 +160,22 @@ def _row(era: str, divided: Divided, resolution: str, answer: dict, alone: dict)
         structure=divided.structure,
         resolution=resolution,
         processes=len(processes),
-        traced_seconds=answer["traced_seconds"],
+        traced_seconds=result["traced_seconds"],
         speed_up=speed_up,
         efficiency=speed_up / len(processes),
-        balance=_total(answer, "busy") / len(processes) / busiest,
+        balance=_total(result, "busy") / len(processes) / busiest,
         build_seconds=median(process["build_seconds"] for process in processes),
-        walk_cpu_seconds=_total(answer, "walk_seconds"),
-        test_cpu_seconds=_total(answer, "test_seconds"),
-        take_cpu_seconds=_total(answer, "take_seconds"),
-        messages=int(_total(answer, "messages_out")),
-        bytes=int(_total(answer, "bytes_out")),
-        beams_handed=int(_total(answer, "beams_out")),
-        rays_handed=int(_total(answer, "rays_out")),
-        primitives=answer["primitives"],
+        walk_cpu_seconds=_total(result, "walk_seconds"),
+        test_cpu_seconds=_total(result, "test_seconds"),
+        take_cpu_seconds=_total(result, "take_seconds"),
+        messages=int(_total(result, "messages_out")),
+        bytes=int(_total(result, "bytes_out")),
+        beams_handed=int(_total(result, "beams_out")),
+        rays_handed=int(_total(result, "rays_out")),
+        primitives=result["primitives"],
         largest_primitives=max(process["primitives"] for process in processes),
         largest_bytes=max(process["bytes"] for process in processes),
-        result_hash=answer["result_hash"],
+        result_hash=result["result_hash"],
     )
 
 
@@ -268,39 +256,43 @@ def _share_of_memory(group: pd.DataFrame) -> pd.Series:
 
 def _speed_ups(rows: pd.DataFrame) -> str:
     parts = sorted(set(rows["processes"]))
-    lines = [
-        "Seconds of one part, and speed-up (in brackets: efficiency):\n",
-        f"| machines | scene | 1 part | {' | '.join(f'{n} parts' for n in parts[1:])} |",
-        "|---|---|" + "---|" * len(parts),
-    ]
+    lines = []
     for (era, scene), group in rows.groupby(["era", "scene"], sort=False):
         first, *others = group.itertuples()
-        cells = [f"{each.speed_up:.1f} ({each.efficiency:.2f})" for each in others]
-        cells.insert(0, f"{first.traced_seconds:.3g} s")
-        lines.append(f"| {_machines(era)} | {scene} | {' | '.join(cells)} |")
-    return "\n".join([*lines, ""])
+        speed_ups = (f"{each.speed_up:.1f} ({each.efficiency:.2f})" for each in others)
+        lines.append((_machines(era), scene, f"{first.traced_seconds:.3g} s", *speed_ups))
+    heads = ["machines", "scene", "1 part", *(f"{n} parts" for n in parts[1:])]
+    title = "Seconds of one part, and speed-up (in brackets: efficiency):\n"
+    return "\n".join([title, *markdown_table(heads, lines), ""])
 
 
 def _costs(rows: pd.DataFrame) -> str:
     """Where the time goes, and what else it costs."""
     last = rows[rows["era"].eq(rows["era"].iloc[-1])]
-    lines = [
-        f"What it costs ({_machines(last['era'].iloc[0])}). Work: processor time of tracing, of "
-        "what one part takes. Balance: how busy a machine is on average, of what the busiest "
-        "is.\n",
-        "| scene | parts | work | balance | messages | MB | beams | rays | "
-        "primitives of the largest part | its memory |",
-        "|---|---|---|---|---|---|---|---|---|---|",
-    ]
+    lines = []
     for scene, group in last.groupby("scene", sort=False):
         work = group["walk_cpu_seconds"] + group["test_cpu_seconds"] + group["take_cpu_seconds"]
-        memory = _share_of_memory(group)
-        for i, each in enumerate(group.itertuples()):
+        shares = zip(work / work.iloc[0], _share_of_memory(group), strict=True)
+        for each, (work_share, memory_share) in zip(group.itertuples(), shares, strict=True):
             lines.append(
-                f"| {scene} | {each.processes} | {work.iloc[i] / work.iloc[0]:.2f} "
-                f"| {each.balance:.2f} | {each.messages:,} | {1e-6 * each.bytes:.1f} "
-                f"| {each.beams_handed:,} | {each.rays_handed:,} "
-                f"| {each.largest_primitives / each.primitives:.0%} "
-                f"| {1e-6 * each.largest_bytes:.2f} MB, {memory.iloc[i]:.0%} |"
+                (
+                    scene,
+                    f"{each.processes}",
+                    f"{work_share:.2f}",
+                    f"{each.balance:.2f}",
+                    f"{each.messages:,}",
+                    f"{1e-6 * each.bytes:.1f}",
+                    f"{each.beams_handed:,}",
+                    f"{each.rays_handed:,}",
+                    f"{each.largest_primitives / each.primitives:.0%}",
+                    f"{1e-6 * each.largest_bytes:.2f} MB, {memory_share:.0%}",
+                )
             )
-    return "\n".join([*lines, ""])
+    heads = "scene, parts, work, balance, messages, MB, beams, rays, "
+    heads += "primitives of the largest part, its memory"
+    title = (
+        f"What it costs ({_machines(last['era'].iloc[0])}). Work: processor time of tracing, of "
+        "what one part takes. Balance: how busy a machine is on average, of what the busiest "
+        "is.\n"
+    )
+    return "\n".join([title, *markdown_table(heads.split(", "), lines), ""])
