@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from beambench_report.base.records import read_run
-from beambench_report.nightly.alarms import judge
+from beambench_report.nightly.alarms import find_alarms
 from beambench_report.nightly.history import History
 from beambench_report.nightly.home import Home
 from beambench_report.nightly.night import night_of
@@ -90,7 +90,9 @@ def write_night(home: Home, night: int, random: np.random.Generator, plant: Plan
 def add_all(home: Home, folders: Iterable[Path]) -> list[list]:
     """Adds runs to the history, judging each; the alarms of each."""
     with History(home.history) as history:
-        numbers = [history.add(night_of(read_run(folder)), folder, judge) for folder in folders]
+        numbers = [
+            history.add(night_of(read_run(folder)), folder, find_alarms) for folder in folders
+        ]
         alarms = history.alarms()
     return [[alarm for alarm in alarms if alarm.night == number] for number in numbers]
 

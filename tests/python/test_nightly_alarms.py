@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from beambench_report.base.files import Problem
-from beambench_report.nightly.alarms import doubt, judge, sentence
+from beambench_report.nightly.alarms import doubt, find_alarms, sentence
 from beambench_report.nightly.calibration import (
     Effort,
     Noise,
@@ -223,7 +223,7 @@ def test_a_night_that_is_judged_again_raises_the_same(home: Home) -> None:
     told = add_all(home, folders)
     [number] = [place for place, night in enumerate(told, 1) if night]
     with History(home.history) as history:
-        assert judge(history, number) == told[number - 1]
+        assert find_alarms(history, number) == told[number - 1]
 
 
 def test_a_faster_reference_is_doubted() -> None:

@@ -250,8 +250,8 @@ def test_turns_tell_of_work_and_of_wrong_hits(tmp_path: Path) -> None:
     outcome = compare_turns(first, second)
     sentences = outcome.sentences
     assert f"WORSE: hits or work, in {len(sentences)} places" in outcome.verdict()
-    assert "exhaustive in escena1 at 320x200: hits are not right any more (mismatch)" in sentences
-    assert any("traversal steps a ray from 11.5 to 12.65" in one for one in sentences)
+    assert "exhaustive in escena1 at 320x200: the hits are now wrong (mismatch)" in sentences
+    assert any("traversal steps per ray from 11.5 to 12.65" in one for one in sentences)
 
 
 def test_diff_puts_two_files_beside_each_other(

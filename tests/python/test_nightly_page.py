@@ -80,9 +80,9 @@ def test_it_says_first_what_is_wrong(page: Path) -> None:
     head = text[text.index('<header id="result">') : text.index("</header>")]
     assert "9 alarms" in head
     assert "exhaustive in tetra:n=6 at 320x200: wrong hits (mismatch)" in head
-    assert "samet max_level=5 in escena1 at 640x480: traversal steps a ray from 11.5 to" in head
+    assert "samet max_level=5 in escena1 at 640x480: traversal steps per ray from 11.5 to" in head
     assert "Times are not judged yet: this machine has 3 nights" in head
-    assert "6 cells counted other work" in text
+    assert "6 cells have other counters" in text
 
 
 def test_a_night_of_another_machine_is_named_as_such(tmp_path: Path) -> None:

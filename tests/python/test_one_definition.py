@@ -14,7 +14,9 @@ from pathlib import Path
 REPOSITORY = Path(__file__).resolve().parents[2]
 FOLDERS = ("accel", "harness", "scenes", "tests")
 # Definitions of which the preprocessor takes one.
-ALTERNATIVES = {"beambench::accel::embree::Context": {"accel/embree/api3.hpp", "accel/embree/api4.hpp"}}
+ALTERNATIVES = {
+    "beambench::accel::embree::Context": {"accel/embree/api3.hpp", "accel/embree/api4.hpp"}
+}
 
 NOT_CODE = re.compile(
     r'//[^\n]*|/\*.*?\*/|R"(?P<mark>[^(\s]*)\(.*?\)(?P=mark)"|"(?:\\.|[^"\\\n])*"'

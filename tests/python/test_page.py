@@ -74,7 +74,7 @@ def test_a_wrong_cell_is_told_with_its_reason_and_the_way_to_replay_it(full_run:
     assert "3 of 30 cells were wrong" in text
     assert (
         "mismatch samet max_level=6 in tetra:n=6 at 320x200, 640x480, 1280x1024: "
-        "hits were wrong 3 of 64000 hits were wrong"
+        "wrong hits 3 of 64000 hits were wrong"
     ) in text
     assert "pixel (3, 4) sample 0: engine_error" in text
     replay = "beambench trace 'tetra:n=6' --accel samet:max_level=6 --pixel 3,4"

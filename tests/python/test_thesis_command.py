@@ -105,7 +105,7 @@ def test_an_interrupted_run_says_how_to_go_on(
 ) -> None:
     run = tmp_path / "interrupted"
     assert run_thesis("--table", "5.4", "-o", run, "--beambench", stand_in) == 130
-    assert f"go on with: scripts/thesis --resume '{run}'" in capsys.readouterr().err
+    assert f"resume with: scripts/thesis --resume '{run}'" in capsys.readouterr().err
     assert not (run / "report.html").exists()
 
 

@@ -243,7 +243,7 @@ def _differences(first: pd.DataFrame, second: pd.DataFrame, labels: dict) -> lis
         if row["verdict_b"] == NO_RAYS and row["verdict_a"] in TIMED_VERDICTS:
             sentences.append(f"{title}: there are no such rays any more")
         elif row["verdict_b"] not in TIMED_VERDICTS and row["verdict_a"] in TIMED_VERDICTS:
-            sentences.append(f"{title}: hits are not right any more ({row['verdict_b']})")
+            sentences.append(f"{title}: the hits are now wrong ({row['verdict_b']})")
         for name, after in row.items():
             if not name.endswith("_per_ray_b") or name.endswith("_ns_per_ray_b"):
                 continue

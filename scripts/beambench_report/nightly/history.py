@@ -95,7 +95,7 @@ class Alarm:
     details: dict
 
 
-Judge = Callable[["History", int], list[Alarm]]
+FindAlarms = Callable[["History", int], list[Alarm]]
 """The alarms of the night of a number."""
 
 
@@ -123,7 +123,7 @@ class History:
         """Closes the file."""
         self._base.close()
 
-    def add(self, night: Night, folder: Path, judge: Judge | None = None) -> int | None:
+    def add(self, night: Night, folder: Path, find_alarms: FindAlarms | None = None) -> int | None:
         """Adds a night with its alarms; returns its number, or None where it is there already."""
         if self.number_of(night.run_id) is not None:
             return None
@@ -147,7 +147,7 @@ class History:
                     for one in night.figures
                 ],
             )
-            alarms = judge(self, number) if judge else []
+            alarms = find_alarms(self, number) if find_alarms else []
             self._base.executemany(
                 "INSERT INTO alarms VALUES (?, ?, ?, ?)",
                 [(number, one.kind, one.series, json.dumps(one.details)) for one in alarms],
@@ -254,11 +254,11 @@ def recorded_folders(runs: Path) -> list[Path]:
 def rebuild(
     path: Path,
     folders: Iterable[Path],
-    judge: Judge | None = None,
+    find_alarms: FindAlarms | None = None,
 ) -> int:
     """Makes the history anew from the CSVs of runs; the old one stays until the new one is whole.
 
-    Each night is judged by `judge` once it is in, as it was when it was new. Returns their count.
+    `find_alarms` is applied to each night once it is in, as when it was new. Returns their count.
     """
     nights = [(night_of(read_run(folder)), folder) for folder in folders]
     nights.sort(key=lambda one: (one[0].time_utc, one[0].run_id))
@@ -267,7 +267,7 @@ def rebuild(
         pending.unlink(missing_ok=True)
         with History(pending) as history:
             for night, folder in nights:
-                if history.add(night, folder, judge) is None:
+                if history.add(night, folder, find_alarms) is None:
                     raise Problem(f"{folder}: the run {night.run_id} is in another folder, too")
         # What a killed process left to be rolled back belongs to the file that goes.
         for ending in ("-journal", "-wal", "-shm"):

@@ -140,7 +140,7 @@ def memory(run: Run) -> list[Plot]:
         stem="memory",
         select=lambda title: run.finest(title).dropna(subset=["memory_bytes"]),
         draw=lambda panel, rows: draw_bars(panel, _memory_bars(rows), all_looks, "memory in MiB"),
-        explanation="What the structure holds beside the scene, by its own account.",
+        explanation="What the structure holds beside the scene, as it reports it.",
         summary="memory of each structure",
         times=False,
     )
