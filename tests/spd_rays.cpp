@@ -42,7 +42,7 @@ SpdRays spd_rays(const scenes::Scene& scene) {
     for (int x = 0; x <= kPixels; ++x) {
       const accel::Ray eye = image.ray_at(x, y);
       rays.eye.push_back(eye);
-      const auto hit = finder.closest_hit(eye);
+      const auto hit = finder.closest_hit(eye, nullptr);
       if (!hit) continue;
       ++rays.eye_hits;
       add_shadow_rays(scene, eye, *hit, rays.shadow);

@@ -31,20 +31,19 @@ class BeamTracer : public octree::Samet {
   const scenes::Scene& scene() const { return *scene_; }
   const BeamOptions& options() const { return options_; }
 
-  void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
+  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const override {
+    if (counters != nullptr) {
+      CountingBeamWatch watch(*counters);
+      return trace_watched(rays, buffer, watch);
+    }
     NoBeamWatch watch;
-    trace_watched(rays, buffer, watch);
-  }
-  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const override {
-    CountingBeamWatch watch(counters);
     trace_watched(rays, buffer, watch);
   }
 
   /// The beams are shared among the threads: they have no sample in common, or one comes from the
   /// other.
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const override;
   void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                    WorkCounters& counters) const override;
+                    WorkCounters* counters) const override;
 
   /// Samples become rays at occupied leaves only, so that not all of an image's rays are made.
   Statistics statistics() const override {

@@ -4,7 +4,7 @@
 #include <array>
 #include <utility>
 
-#include "accel/core/step_recorder.hpp"
+#include "accel/core/trace_step.hpp"
 
 namespace beambench::accel::beam {
 namespace {

@@ -74,14 +74,11 @@ class BeamTracer::SharedRun {
   tbb::task_group tasks_;
 };
 
-void BeamTracer::trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const {
+void BeamTracer::trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
+                              WorkCounters* counters) const {
+  if (counters != nullptr) return SharedRun<CountingBeamWatch>(*this, rays, buffer)(*counters);
   NoCounting none;
   SharedRun<NoBeamWatch>(*this, rays, buffer)(none);
-}
-
-void BeamTracer::trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                              WorkCounters& counters) const {
-  SharedRun<CountingBeamWatch>(*this, rays, buffer)(counters);
 }
 
 }  // namespace beambench::accel::beam

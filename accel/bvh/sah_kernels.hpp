@@ -6,7 +6,7 @@
 
 #include "accel/bvh/wide_bvh.hpp"
 #include "accel/core/ray.hpp"
-#include "accel/core/step_recorder.hpp"
+#include "accel/core/trace_step.hpp"
 #include "accel/core/work_counters.hpp"
 
 namespace beambench::accel::bvh {

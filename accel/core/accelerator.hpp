@@ -10,18 +10,20 @@
 #include "accel/core/hit_buffer.hpp"
 #include "accel/core/overlap.hpp"
 #include "accel/core/primary_rays.hpp"
-#include "accel/core/ray.hpp"
+#include "accel/core/ray_batch.hpp"
 #include "accel/core/statistics.hpp"
 #include "accel/core/trace_step.hpp"
 #include "accel/core/work_counters.hpp"
 
 namespace beambench::accel {
 
-/// A structure built over a scene, ready to be asked. Queries are const and safe from several
-/// threads. The scene must outlive it. Rays must pass `require_valid`.
+/// A structure built over a scene. Queries are const and safe from several threads. The scene must
+/// outlive it. Rays must pass `require_valid`.
 ///
-/// Each query comes twice: as timed code, and counting the work it does. Structures get both, those
-/// of many rays and `explain` by deriving from `TraversalAccelerator` (traversal_accelerator.hpp).
+/// A query adds the work it does to `counters`. In timed code the pointer is null and nothing is
+/// counted: a structure has two instantiations of its traversal. By deriving from
+/// `TraversalAccelerator` (traversal_accelerator.hpp) it gets both, the queries of many rays, and
+/// `explain`.
 ///
 /// Plug-ins hide their symbols, but derive from the one class that is in the program.
 class [[gnu::visibility("default")]] Accelerator {
@@ -32,34 +34,27 @@ class [[gnu::visibility("default")]] Accelerator {
   virtual ~Accelerator() = default;
 
   /// The nearest hit in [t_min, t_max], ties to the lowest primitive id.
-  virtual std::optional<Hit> closest_hit(const Ray& ray) const = 0;
+  virtual std::optional<Hit> closest_hit(const Ray& ray, WorkCounters* counters) const = 0;
   /// Is there a hit in [t_min, t_max]?
-  virtual bool any_hit(const Ray& ray) const = 0;
+  virtual bool any_hit(const Ray& ray, WorkCounters* counters) const = 0;
   /// The closest hits of a whole image. `buffer` has the size of `rays`.
-  virtual void trace(const PrimaryRays& rays, HitBuffer& buffer) const = 0;
+  virtual void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const = 0;
   /// The closest hits of a list of rays. `buffer` has its size.
-  virtual void closest_hits(std::span<const Ray> rays, HitBuffer & buffer) const = 0;
-  /// For each ray of a list: is there a hit (1) or none (0)? `answers` has its size.
-  virtual void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers) const = 0;
-
-  virtual std::optional<Hit> closest_hit(const Ray& ray, WorkCounters& counters) const = 0;
-  virtual bool any_hit(const Ray& ray, WorkCounters& counters) const = 0;
-  virtual void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const = 0;
-  virtual void closest_hits(std::span<const Ray> rays, HitBuffer & buffer, WorkCounters & counters)
+  virtual void closest_hits(const RayBatch& batch, HitBuffer& buffer, WorkCounters* counters)
       const = 0;
-  virtual void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers,
-                        WorkCounters & counters) const = 0;
+  /// For each ray of a list: is there a hit (1) or none (0)? `hits` has its size.
+  virtual void any_hits(const RayBatch& batch, std::span<std::uint8_t> hits, WorkCounters* counters)
+      const = 0;
 
   /// `trace`, shared among the threads of the TBB arena that calls it (`trace_on` makes one): the
   /// same hits and counters for any number of them. Here row by row, each ray by `closest_hit`.
-  virtual void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const;
-  virtual void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters)
+  virtual void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters)
       const;
 
-  /// The way of `closest_hit`, step by step; empty where the structure cannot tell it.
+  /// The traversal path of `closest_hit`, step by step; empty where the structure records none.
   virtual std::vector<TraceStep> explain(const Ray&) const { return {}; }
 
-  /// The beams of an image in the order in which they are traced; empty where the structure knows
+  /// The beams of an image in the order in which they are traced; empty where the structure has
   /// none.
   virtual std::vector<BeamOutline> beam_outlines(const PrimaryRays&) const { return {}; }
   /// The cells that hold references, in scene units; empty where the structure has no cells.

@@ -1,5 +1,5 @@
 #pragma once
-// What a structure that traces in beams shows of them.
+// The beams of a structure that traces in beams, for pictures.
 
 #include <vector>
 
@@ -9,9 +9,9 @@ namespace beambench::accel {
 
 /// What a beam meets (thesis, section 3.2).
 enum class BeamKind {
-  kNonTerminal,  ///< an empty leaf: it goes on
+  kNonTerminal,  ///< an empty leaf: it continues
   kOccupied,     ///< a leaf with references: its samples become rays
-  kLeaving       ///< the end of the scene: its samples show the background
+  kLeaving       ///< the boundary of the scene: its samples are background
 };
 
 /// A beam's cross-section on the image.

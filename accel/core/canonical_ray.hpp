@@ -1,5 +1,5 @@
 #pragma once
-// A ray as the canonical ray-primitive tests see it.
+// A ray as the canonical ray-primitive tests use it.
 
 #include <array>
 #include <limits>

@@ -11,8 +11,8 @@
 
 namespace beambench::accel {
 
-/// A box cut into `cells` equal cells along each axis. Everything that needs a cell's boundary asks
-/// `plane`, so that neighbors read the same number.
+/// A box cut into `cells` equal cells along each axis. Everything that needs a cell's boundary
+/// calls `plane`, so that neighbors get the same number.
 struct CellGrid {
   glm::dvec3 lower{0.0};
   glm::dvec3 cell{1.0};  ///< size of a cell

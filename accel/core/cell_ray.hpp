@@ -1,5 +1,5 @@
 #pragma once
-// A ray's way through the planes of a grid of cells.
+// Where a ray crosses the planes of a grid of cells.
 
 #include <algorithm>
 #include <array>
@@ -11,9 +11,9 @@
 
 namespace beambench::accel {
 
-/// Answers all questions about a ray and the planes of a grid from one function, `plane_t`, so that
+/// Derives everything about a ray and the planes of a grid from one function, `plane_t`, so that
 /// a cell's exit and its neighbor's entry are the same number and no cell is skipped or visited
-/// twice. A ray parallel to an axis is on one side of that axis' planes for good.
+/// twice. A ray parallel to an axis always stays on one side of that axis' planes.
 class CellRay {
  public:
   CellRay(const CellGrid& grid, const Ray& ray) : grid_(&grid) {
@@ -26,7 +26,7 @@ class CellRay {
     }
   }
 
-  /// +1, -1 or 0: the direction in which the ray crosses planes of the axis.
+  /// +1, -1 or 0: the direction in which the ray crosses the planes of the axis.
   int step(int axis) const { return step_[static_cast<std::size_t>(axis)]; }
 
   /// Where the ray crosses a plane; monotonic in `index`. Not for axes with step 0.
@@ -66,7 +66,7 @@ class CellRay {
   std::int32_t cell_at(int axis, double t) const {
     const auto slot = static_cast<std::size_t>(axis);
     const std::int32_t last = grid_->cells[axis] - 1;
-    // A guess to round-off; `above` has the last word.
+    // A guess to round-off; `above` decides.
     const double guess =
         (origin_[slot] + t * direction_[slot] - grid_->lower[axis]) / grid_->cell[axis];
     auto index = static_cast<std::int32_t>(std::clamp(guess, 0.0, static_cast<double>(last)));

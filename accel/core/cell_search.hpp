@@ -9,7 +9,7 @@
 
 namespace beambench::accel {
 
-/// Tests every reference it meets, also when another cell on the way had it before.
+/// Tests every reference, also one that an earlier cell of the ray had.
 struct NoMailboxes {
   NoMailboxes() = default;
   explicit NoMailboxes(std::size_t /*primitives*/) {}
@@ -33,7 +33,7 @@ bool test_references(const scenes::Scene& scene, std::span<const scenes::Primiti
 
 /// The closest hit in the cells along a ray. `walk(visit)` calls `visit(references, exit_t)` for
 /// the cells in order, until that returns true. A cell's references are the primitives that reach
-/// into it, widened by `overlap_tolerance`. `mailboxes.is_first(id)` is asked once for every
+/// into it, widened by `overlap_tolerance`. `mailboxes.is_first(id)` is called once for every
 /// reference; it may be false only where the primitive was tested against this ray before.
 template <class Counting, class Mailboxes, class Walk>
 std::optional<Hit> closest_in_cells(const scenes::Scene& scene, const Ray& ray, Counting& counting,

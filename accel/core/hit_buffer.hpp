@@ -1,5 +1,5 @@
 #pragma once
-// The hits of an image or of a list of rays: what structures write and the differ judges.
+// The hits of an image or of a list of rays: written by structures, verified by the differ.
 
 #include <cstddef>
 #include <optional>
@@ -14,7 +14,14 @@ namespace beambench::accel {
 /// The hits of a list of rays are an image of one row.
 class HitBuffer {
  public:
-  HitBuffer(int width, int height, int samples);
+  HitBuffer(int width, int height, int samples)
+      : width_(width),
+        height_(height),
+        samples_(samples),
+        t_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
+               static_cast<std::size_t>(samples),
+           kInfinity),
+        primitive_(t_.size(), scenes::kNoPrimitive) {}
 
   int width() const { return width_; }
   int height() const { return height_; }

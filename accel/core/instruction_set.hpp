@@ -1,5 +1,5 @@
 #pragma once
-// Instruction sets that structures with SIMD of their own can be held to, so that they compare on
+// Instruction sets to which structures with SIMD of their own can be restricted, to compare them on
 // equal terms.
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace beambench::accel {
 
-/// `isa`: "best" (the default) leaves the choice to the machine, "avx512", "avx2" and "sse4" hold
-/// the structure to less than it may have.
+/// `isa`: "best" (the default) is the best that the machine has; "avx512", "avx2" and "sse4"
+/// restrict the structure.
 ParameterInfo isa_parameter();
 
 /// Highway's targets that a value of `isa_parameter` allows. Throws InputError when this machine

@@ -44,7 +44,7 @@ inline float intersect(const CanonicalRay& ray, const scenes::Scene& scene,
 
 /// The nearest hit so far: `ray.t_max` is its t, so that farther primitives are not accepted.
 struct ClosestHit {
-  explicit ClosestHit(const Ray& asked) : ray(asked) {}
+  explicit ClosestHit(const Ray& query) : ray(query) {}
 
   /// Tests one primitive and keeps its hit when it precedes the best. Returns the test's t or
   /// kMiss.

@@ -9,10 +9,10 @@
 
 namespace beambench::accel {
 
-/// For arrays of many megabytes that are visited here and there: with pages of 4 KiB, an address is
-/// hardly ever among those that the processor has translated lately, and the first touch of each
-/// page costs more than what is written there. Linux gives pages of 2 MiB to those who ask
-/// ("madvise"); where it does not, these are ordinary pages. Always begins with a cache line.
+/// For arrays of many megabytes with scattered accesses: with pages of 4 KiB most accesses miss the
+/// translation cache, and the first touch of a page costs more than what is written there. Linux
+/// gives pages of 2 MiB on request ("madvise"); where it does not, these are ordinary pages. Memory
+/// always begins with a cache line.
 template <class T>
 struct LargePages {
   using value_type = T;
@@ -27,7 +27,7 @@ struct LargePages {
     const std::size_t bytes = count * sizeof(T);
     void* const memory = ::operator new(bytes, alignment(bytes));
 #if defined(MADV_HUGEPAGE)
-    // A wish: that it is not granted changes no answer.
+    // A request: a refusal changes no result.
     if (bytes >= kPage) static_cast<void>(::madvise(memory, bytes, MADV_HUGEPAGE));
 #endif
     return static_cast<T*>(memory);

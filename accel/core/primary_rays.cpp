@@ -5,15 +5,14 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "accel/core/mirrored.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::accel {
 
 namespace {
 
-constexpr int kLargestSide = 16384;
-constexpr int kLargestGrid = 16;
+constexpr int kMaxSide = 16384;
+constexpr int kMaxGrid = 16;
 
 }  // namespace
 
@@ -21,7 +20,7 @@ std::vector<glm::dvec2> sample_offsets(int samples) {
   if (samples == 5) {
     return {{0.0, 0.0}, {1.0, 0.0}, {0.0, 1.0}, {1.0, 1.0}, {0.5, 0.5}};
   }
-  for (int n = 1; n <= kLargestGrid; ++n) {
+  for (int n = 1; n <= kMaxGrid; ++n) {
     if (n * n != samples) continue;
     std::vector<glm::dvec2> offsets;
     for (int j = 0; j < n; ++j) {
@@ -29,17 +28,18 @@ std::vector<glm::dvec2> sample_offsets(int samples) {
     }
     return offsets;
   }
-  throw InputError(fmt::format(
-      "{} samples a pixel have no pattern; expected 5 (corners and center) or n x n with n from 1 "
-      "to {}",
-      samples, kLargestGrid));
+  throw InputError(
+      fmt::format("{} samples per pixel have no pattern; expected 5 (corners and center) or n x n "
+                  "with n from 1 "
+                  "to {}",
+                  samples, kMaxGrid));
 }
 
 PrimaryRays::PrimaryRays(const scenes::Camera& camera, int width, int height, int samples)
     : width_(width), height_(height), offsets_(sample_offsets(samples)), eye_(camera.from) {
-  if (width < 1 || height < 1 || width > kLargestSide || height > kLargestSide) {
-    throw InputError(fmt::format("resolution is {}x{}; expected 1 to {} pixels a side", width,
-                                 height, kLargestSide));
+  if (width < 1 || height < 1 || width > kMaxSide || height > kMaxSide) {
+    throw InputError(fmt::format("resolution is {}x{}; expected 1 to {} pixels per side", width,
+                                 height, kMaxSide));
   }
   forward_ = glm::normalize(glm::dvec3(camera.at) - glm::dvec3(camera.from));
   const glm::dvec3 right = glm::normalize(glm::cross(forward_, glm::dvec3(camera.up)));
@@ -57,9 +57,9 @@ PrimaryRays::PrimaryRays(const scenes::Camera& camera, int width, int height, in
 PrimaryRays PrimaryRays::mirrored(const glm::dvec3& point, const glm::dvec3& normal) const {
   PrimaryRays rays = *this;
   rays.eye_ = glm::vec3(point + beambench::accel::mirrored(glm::dvec3(eye_) - point, normal));
-  for (glm::dvec3* way : {&rays.forward_, &rays.top_left_, &rays.right_, &rays.down_, &rays.across_,
-                          &rays.all_down_}) {
-    *way = beambench::accel::mirrored(*way, normal);
+  for (glm::dvec3* direction : {&rays.forward_, &rays.top_left_, &rays.right_, &rays.down_,
+                                &rays.across_, &rays.all_down_}) {
+    *direction = beambench::accel::mirrored(*direction, normal);
   }
   return rays;
 }

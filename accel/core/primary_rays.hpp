@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
@@ -11,6 +12,11 @@
 #include "scenes/camera.hpp"
 
 namespace beambench::accel {
+
+/// The direction in which a mirror of this unit normal reflects `incoming`; lengths are kept.
+inline glm::dvec3 mirrored(const glm::dvec3& incoming, const glm::dvec3& normal) {
+  return incoming - 2.0 * glm::dot(incoming, normal) * normal;
+}
 
 /// Where the samples of a pixel lie, as offsets in [0, 1]^2 from its top left corner: 1 is the
 /// center; 5 the four corners and the center (thesis, section 5.3.2; corners are not shared between
@@ -26,9 +32,9 @@ class PrimaryRays {
   PrimaryRays(const scenes::Camera& camera, int width, int height, int samples);
 
   /// The rays of the same samples behind a mirror, the plane through `point` with a unit `normal`:
-  /// those of a virtual eye, which is where the mirror shows the eye (Heckbert and Hanrahan, "Beam
-  /// tracing polygonal objects", SIGGRAPH 1984). A ray's t goes on counting where the real one's
-  /// stopped. The eye is rounded to float.
+  /// those of the virtual eye, the mirror image of the eye (Heckbert and Hanrahan, "Beam tracing
+  /// polygonal objects", SIGGRAPH 1984). A ray's t continues from where the real ray met the
+  /// mirror. The eye is rounded to float.
   PrimaryRays mirrored(const glm::dvec3& point, const glm::dvec3& normal) const;
 
   int width() const { return width_; }
@@ -41,6 +47,20 @@ class PrimaryRays {
   Ray ray(int x, int y, int sample) const {
     const glm::dvec2& offset = offsets_[static_cast<std::size_t>(sample)];
     return ray_at(x + offset.x, y + offset.y);
+  }
+  /// Calls `visit(index, ray)` for the samples of rows [begin, end), in the order of a HitBuffer of
+  /// this size.
+  template <class Visit>
+  void for_each(int begin, int end, Visit visit) const {
+    for (int y = begin; y < end; ++y) {
+      for (int x = 0; x < width_; ++x) {
+        for (int sample = 0; sample < samples(); ++sample) {
+          const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                             static_cast<std::size_t>(x);
+          visit(pixel * offsets_.size() + static_cast<std::size_t>(sample), ray(x, y, sample));
+        }
+      }
+    }
   }
   /// The ray through a point of the image plane in pixel units, (0, 0) being its top left corner.
   Ray ray_at(double px, double py) const {

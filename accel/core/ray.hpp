@@ -1,5 +1,5 @@
 #pragma once
-// Rays and hits: what every structure is asked and what it answers.
+// Rays and hits: the input and the result of a query.
 
 #include <cstdint>
 #include <limits>

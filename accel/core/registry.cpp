@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "accel/core/extend_registry.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/nearest_name.hpp"
 
@@ -29,7 +28,7 @@ std::unique_ptr<Accelerator> StructureChoice::build(const scenes::Scene& scene) 
 
 std::span<const CounterInfo> common_counters() {
   static const auto all = std::to_array<CounterInfo>({
-      {"traversal_steps", "cells or nodes entered on the way of a ray, leaves included"},
+      {"traversal_steps", "cells or nodes entered by a ray, leaves included"},
       {"leaves", "leaves entered, empty ones included"},
       {"empty_leaves", "leaves entered that hold no reference"},
       {"box_tests", "ray-box tests"},
@@ -58,7 +57,7 @@ StructureChoice Registry::choose(const Spec& spec) const {
     std::vector<std::string> names;
     for (const auto& info : structures_) names.push_back(info.name);
     throw InputError(
-        fmt::format("unknown structure '{}'; {}expected one of {}; one of a plug-in is known after "
+        fmt::format("unknown structure '{}'; {}expected one of {}; those of a plug-in need "
                     "--plugin FILE",
                     spec.name, did_you_mean(spec.name, names), fmt::join(names, ", ")));
   }
@@ -92,7 +91,7 @@ Registry& whole_registry() {
 
 const Registry& registry() { return whole_registry(); }
 
-void extend_registry(std::vector<StructureInfo> structures) {
+void register_plugin_structures(std::vector<StructureInfo> structures) {
   for (StructureInfo& info : structures) whole_registry().add(std::move(info));
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The registry: structure names with parameters to built structures.
 
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <memory>
@@ -10,7 +11,6 @@
 #include <vector>
 
 #include "accel/core/accelerator.hpp"
-#include "accel/core/workload.hpp"
 #include "scenes/core/parameters.hpp"
 #include "scenes/scene.hpp"
 
@@ -20,8 +20,22 @@ namespace beambench::accel {
 enum class Conformance {
   kBitExact,   ///< equal to `exhaustive` bit for bit, id and t
   kTolerance,  ///< arithmetic of its own: judged by the differ's classes
-  kBaseline    ///< answers nothing by design (`null`); its hits must all be misses
+  kBaseline    ///< returns misses by design (`null`), and nothing else
 };
+
+/// What a structure is built for, as far as it is known; structures choose `auto` parameters by it.
+/// It changes no hit.
+struct Workload {
+  scenes::Camera camera;  ///< of the primary rays, or of those that secondary rays start from
+  std::size_t rays;       ///< their approximate number
+  int threads = 1;        ///< for tracing an image; 0: one for each core
+};
+
+/// Where none is known: 640x480 rays from the scene's first camera.
+inline Workload usual_workload(const scenes::Scene& scene) {
+  constexpr std::size_t kUsual = 640UL * 480UL;
+  return {scene.cameras.front(), kUsual, 1};
+}
 
 /// One structure as the user sees it in `beambench list`.
 struct StructureInfo {
@@ -48,7 +62,7 @@ class StructureChoice {
   const Parameters& parameters() const { return parameters_; }
   /// `samet:max_level=6,max_objects=0,...` with every parameter.
   std::string label() const { return parameters_.label(); }
-  /// As short as it can be told: the name and the parameters that are not at their defaults.
+  /// The name and the parameters that are not at their defaults.
   std::string short_label() const { return parameters_.short_label(); }
 
   /// Builds the structure; also throws std::logic_error when it ignores a parameter it was given.
@@ -61,26 +75,26 @@ class StructureChoice {
   Parameters parameters_;
 };
 
-/// What a counter of the counting pass counts; printed by `beambench list --counters`.
+/// The meaning of a counter; printed by `beambench list --counters`.
 struct CounterInfo {
   std::string name;
   std::string meaning;  ///< one sentence
 };
 
-/// Those of every structure, in the order of `Counter`.
+/// The counters of every structure, in the order of `Counter`.
 std::span<const CounterInfo> common_counters();
 
 class Registry {
  public:
   void add(StructureInfo info);
-  /// What that structure counts beside `common_counters()`.
+  /// What that structure counts besides `common_counters()`.
   void describe_counters(const std::string& structure, std::vector<CounterInfo> counters);
   /// Empty for a structure without counters of its own.
   std::span<const CounterInfo> own_counters(const std::string& structure) const;
 
   /// In the order of registration.
   std::span<const StructureInfo> structures() const { return structures_; }
-  /// Throws InputError for an unknown name (with one that may be meant and all valid ones) or
+  /// Throws InputError for an unknown name (with the nearest valid name and all valid ones) or
   /// parameter.
   StructureChoice choose(const Spec& spec) const;
   /// A comma-separated list as typed after --accel; `all` is every structure with its defaults.
@@ -93,5 +107,9 @@ class Registry {
 
 /// All structures of this program: those that were built into it, then those of plug-ins.
 const Registry& registry();
+
+/// Adds the structures of a plug-in, which were validated (harness/plugin/validation.hpp), to
+/// `registry()`. To be called before the first choice is made: choices point into the registry.
+void register_plugin_structures(std::vector<StructureInfo> structures);
 
 }  // namespace beambench::accel

@@ -1,6 +1,11 @@
 #pragma once
 // How far a computed hit may lie from its primitive, and by how much overlaps are widened for it.
 
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
 #include "scenes/scene.hpp"
 
 namespace beambench::accel {
@@ -21,6 +26,13 @@ namespace beambench::accel {
 inline constexpr double kHitSlack = 0x1p-35;
 
 /// By how much box-primitive overlaps over this scene are widened on every side, in scene units.
-double overlap_tolerance(const scenes::Scene& scene);
+inline double overlap_tolerance(const scenes::Scene& scene) {
+  if (scene.bounds.empty()) return 0.0;
+  const glm::dvec3 lower(scene.bounds.lower);
+  const glm::dvec3 upper(scene.bounds.upper);
+  const glm::dvec3 largest = glm::max(glm::abs(lower), glm::abs(upper));
+  const double coordinate = std::max({largest.x, largest.y, largest.z});
+  return 0x1p-30 * glm::length(upper - lower) + 0x1p-48 * coordinate;
+}
 
 }  // namespace beambench::accel

@@ -1,41 +1,50 @@
 #include "accel/core/trace_on.hpp"
 
 #include <algorithm>
+#include <mutex>
 
+#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
+#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 namespace beambench::accel {
-namespace {
 
-/// `counters` is empty or a WorkCounters.
-template <class... Counters>
-void trace_with(int threads, const Accelerator& structure, const PrimaryRays& rays,
-                HitBuffer& buffer, Counters&... counters) {
+int thread_count(int requested) {
+  return requested == 0 ? tbb::info::default_concurrency() : requested;
+}
+
+void trace_on(int threads, const Accelerator& structure, const PrimaryRays& rays, HitBuffer& buffer,
+              WorkCounters* counters) {
   const int count = thread_count(threads);
-  if (count == 1) return structure.trace(rays, buffer, counters...);
+  if (count == 1) return structure.trace(rays, buffer, counters);
   const auto allowed =
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism,
                                   std::max(allowed, static_cast<std::size_t>(count)));
-  // A new arena takes over the floating-point mode of the thread that makes it.
+  // A new arena takes over the floating-point mode of the thread that creates it.
   tbb::task_arena arena(count);
-  arena.execute([&] { structure.trace_shared(rays, buffer, counters...); });
+  arena.execute([&] { structure.trace_shared(rays, buffer, counters); });
 }
 
-}  // namespace
-
-int thread_count(int asked) { return asked == 0 ? tbb::info::default_concurrency() : asked; }
-
-void trace_on(int threads, const Accelerator& structure, const PrimaryRays& rays,
-              HitBuffer& buffer) {
-  trace_with(threads, structure, rays, buffer);
+void share_rows(int rows, const std::function<void(int begin, int end)>& work) {
+  tbb::parallel_for(tbb::blocked_range(0, rows),
+                    [&](const auto& range) { work(range.begin(), range.end()); });
 }
 
-void trace_on(int threads, const Accelerator& structure, const PrimaryRays& rays, HitBuffer& buffer,
-              WorkCounters& counters) {
-  trace_with(threads, structure, rays, buffer, counters);
+void Accelerator::trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
+                               WorkCounters* counters) const {
+  std::mutex adding;
+  share_rows(rays.height(), [&](int begin, int end) {
+    WorkCounters own;
+    rays.for_each(begin, end, [&](std::size_t index, const Ray& ray) {
+      buffer.set(index, closest_hit(ray, counters == nullptr ? nullptr : &own));
+    });
+    if (counters == nullptr) return;
+    const std::lock_guard lock(adding);
+    counters->add(own);
+  });
 }
 
 }  // namespace beambench::accel

@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "accel/core/accelerator.hpp"
-#include "accel/core/share_rows.hpp"
-#include "accel/core/step_recorder.hpp"
+#include "accel/core/trace_on.hpp"
+#include "accel/core/trace_step.hpp"
 
 namespace beambench::accel {
 
 /// Implements `Accelerator` for a structure that writes each query once, as a template over the
-/// policy (`NoCounting`, `WorkCounters` or `StepRecorder`; see NoCounting for what it is told):
+/// policy (`NoCounting`, `WorkCounters` or `StepRecorder`; see NoCounting for what it is called
+/// with):
 ///
 ///     template <class Counting> std::optional<Hit> find_closest(const Ray&, Counting&) const;
 ///     template <class Counting> bool find_any(const Ray&, Counting&) const;
@@ -25,54 +26,45 @@ namespace beambench::accel {
 template <class Structure>
 class TraversalAccelerator : public Accelerator {
  public:
-  std::optional<Hit> closest_hit(const Ray& ray) const override {
-    NoCounting none;
-    return self().find_closest(ray, none);
+  std::optional<Hit> closest_hit(const Ray& ray, WorkCounters* counters) const override {
+    return with_counting(counters,
+                         [&](auto& counting) { return self().find_closest(ray, counting); });
   }
-  bool any_hit(const Ray& ray) const override {
-    NoCounting none;
-    return self().find_any(ray, none);
+  bool any_hit(const Ray& ray, WorkCounters* counters) const override {
+    return with_counting(counters, [&](auto& counting) { return self().find_any(ray, counting); });
   }
-  void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
-    NoCounting none;
-    trace_rows(rays, 0, rays.height(), buffer, none);
+  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const override {
+    with_counting(counters,
+                  [&](auto& counting) { trace_rows(rays, 0, rays.height(), buffer, counting); });
   }
-  void closest_hits(std::span<const Ray> rays, HitBuffer& buffer) const override {
-    NoCounting none;
-    find_each_closest(rays, buffer, none);
+  void closest_hits(const RayBatch& batch, HitBuffer& buffer,
+                    WorkCounters* counters) const override {
+    with_counting(counters, [&](auto& counting) {
+      for (std::size_t i = 0; i < batch.rays.size(); ++i) {
+        buffer.set(i, self().find_closest(batch.rays[i], counting));
+      }
+    });
   }
-  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers) const override {
-    NoCounting none;
-    find_each_any(rays, answers, none);
-  }
-
-  std::optional<Hit> closest_hit(const Ray& ray, WorkCounters& counters) const override {
-    return self().find_closest(ray, counters);
-  }
-  bool any_hit(const Ray& ray, WorkCounters& counters) const override {
-    return self().find_any(ray, counters);
-  }
-  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const override {
-    trace_rows(rays, 0, rays.height(), buffer, counters);
-  }
-  void closest_hits(std::span<const Ray> rays, HitBuffer& buffer,
-                    WorkCounters& counters) const override {
-    find_each_closest(rays, buffer, counters);
-  }
-  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers,
-                WorkCounters& counters) const override {
-    find_each_any(rays, answers, counters);
-  }
-
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const override {
-    NoCounting none;
-    trace_rows_shared(rays, buffer, none);
+  void any_hits(const RayBatch& batch, std::span<std::uint8_t> hits,
+                WorkCounters* counters) const override {
+    with_counting(counters, [&](auto& counting) {
+      for (std::size_t i = 0; i < batch.rays.size(); ++i) {
+        hits[i] = self().find_any(batch.rays[i], counting) ? 1 : 0;
+      }
+    });
   }
   void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                    WorkCounters& counters) const override {
-    trace_rows_shared(rays, buffer, counters);
+                    WorkCounters* counters) const override {
+    with_counting(counters, [&]<class Counting>(Counting& counting) {
+      std::mutex adding;
+      share_rows(rays.height(), [&](int begin, int end) {
+        Counting own;
+        trace_rows(rays, begin, end, buffer, own);
+        const std::lock_guard lock(adding);
+        counting.add(own);
+      });
+    });
   }
-
   std::vector<TraceStep> explain(const Ray& ray) const override {
     StepRecorder recorder;
     self().find_closest(ray, recorder);
@@ -83,41 +75,10 @@ class TraversalAccelerator : public Accelerator {
   const Structure& self() const { return static_cast<const Structure&>(*this); }
 
   template <class Counting>
-  void find_each_closest(std::span<const Ray> rays, HitBuffer& buffer, Counting& counting) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      buffer.set(i, self().find_closest(rays[i], counting));
-    }
-  }
-
-  template <class Counting>
-  void find_each_any(std::span<const Ray> rays, std::span<std::uint8_t> answers,
-                     Counting& counting) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      answers[i] = self().find_any(rays[i], counting) ? 1 : 0;
-    }
-  }
-
-  template <class Counting>
   void trace_rows(const PrimaryRays& rays, int begin, int end, HitBuffer& buffer,
                   Counting& counting) const {
-    for (int y = begin; y < end; ++y) {
-      for (int x = 0; x < rays.width(); ++x) {
-        for (int sample = 0; sample < rays.samples(); ++sample) {
-          buffer.set(buffer.index(x, y, sample),
-                     self().find_closest(rays.ray(x, y, sample), counting));
-        }
-      }
-    }
-  }
-
-  template <class Counting>
-  void trace_rows_shared(const PrimaryRays& rays, HitBuffer& buffer, Counting& counting) const {
-    std::mutex adding;
-    share_rows(rays.height(), [&](int begin, int end) {
-      Counting own;
-      trace_rows(rays, begin, end, buffer, own);
-      const std::lock_guard lock(adding);
-      counting.add(own);
+    rays.for_each(begin, end, [&](std::size_t index, const Ray& ray) {
+      buffer.set(index, self().find_closest(ray, counting));
     });
   }
 };

@@ -1,5 +1,5 @@
 #pragma once
-// Watching a traversal work: a compile-time policy, so that timed code has none of it.
+// What a traversal does, counted: a compile-time policy, so that timed code has none of it.
 
 #include <array>
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace beambench::accel {
 
 /// The counters that mean the same in every family of structures.
 enum class Counter : std::size_t {
-  kTraversalSteps,  ///< cells or nodes entered on the way of a ray, leaves included
+  kTraversalSteps,  ///< cells or nodes entered by a ray, leaves included
   kLeaves,          ///< leaves entered, empty ones included
   kEmptyLeaves,     ///< leaves entered that hold no reference
   kBoxTests,        ///< ray-box tests
@@ -26,11 +26,11 @@ enum class Counter : std::size_t {
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::kCount)>
     kCounterNames{"traversal_steps", "leaves", "empty_leaves", "box_tests", "primitive_tests"};
 
-/// The policy of timed code: nothing is counted, no step recorded. A traversal tells its policy
-/// - how much work it does (`add`),
-/// - each place it enters (`enter`): `make()` returns the `TraceStep`, and is called by the policy
-///   that wants it only (`StepRecorder`),
-/// - each ray-primitive test in that place, and its t or kMiss (`tested`).
+/// The policy of timed code: nothing is counted, no step recorded. A traversal calls its policy
+/// - for each piece of work it does (`add`),
+/// - for each place it enters (`enter`): `make()` returns the `TraceStep`; only the policy that
+///   needs it calls it (`StepRecorder`),
+/// - for each ray-primitive test in that place, with its t or kMiss (`tested`).
 struct NoCounting {
   static constexpr void add(Counter, std::uint64_t = 1) {}
   static constexpr void add(std::string_view, std::uint64_t = 1) {}
@@ -51,7 +51,6 @@ class WorkCounters {
     standard_[static_cast<std::size_t>(counter)] += amount;
   }
   void add(std::string_view name, std::uint64_t amount = 1);
-  /// What another has counted.
   void add(const WorkCounters& other);
 
   std::uint64_t get(Counter counter) const { return standard_[static_cast<std::size_t>(counter)]; }
@@ -62,5 +61,15 @@ class WorkCounters {
   std::array<std::uint64_t, static_cast<std::size_t>(Counter::kCount)> standard_{};
   std::map<std::string, std::uint64_t, std::less<>> own_;
 };
+
+/// Calls `query(counting)` with the policy for `counters`: itself, or NoCounting where it is null.
+template <class Query>
+decltype(auto) with_counting(WorkCounters* counters, const Query& query) {
+  if (counters != nullptr) [[unlikely]] {
+    return query(*counters);
+  }
+  NoCounting none;
+  return query(none);
+}
 
 }  // namespace beambench::accel

@@ -4,7 +4,7 @@
 
 #include "accel/core/instruction_set.hpp"
 #include "accel/core/registry.hpp"
-#include "accel/core/share_rows.hpp"
+#include "accel/core/trace_on.hpp"
 #include "accel/embree/isa.hpp"
 #include "accel/embree/native_scene.hpp"
 #include "accel/embree/trace.hpp"
@@ -17,7 +17,8 @@ using embree::NativeScene;
 using embree::TraceMode;
 
 /// Differs from the contract where Embree does: of hits at one place any may come back, not the one
-/// of lowest id, and without `robust` a triangle is hit at t > t_min only, not at t_min itself.
+/// of lowest id, and without `robust` a triangle is hit at t > t_min only, not at t_min itself. It
+/// counts no work: Embree reports none.
 class EmbreeContender : public Accelerator {
  public:
   EmbreeContender(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
@@ -28,54 +29,35 @@ class EmbreeContender : public Accelerator {
         coherent_(coherent),
         isa_(embree::isa_in_use(isa)) {}
 
-  std::optional<Hit> closest_hit(const Ray& ray) const override {
+  std::optional<Hit> closest_hit(const Ray& ray, WorkCounters*) const override {
     embree::Context context(coherent_);
     RTCRayHit query = embree::to_embree_query(ray);
     embree::intersect(scene_.get(), context, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return Hit{query.ray.tfar, scene_.owner(query.hit.geomID, query.hit.primID)};
   }
-  bool any_hit(const Ray& ray) const override {
+  bool any_hit(const Ray& ray, WorkCounters*) const override {
     embree::Context context(coherent_);
     RTCRay query = embree::to_embree(ray);
     return embree::occluded(scene_.get(), context, query);
   }
-  void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
+  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
     embree::Context context(coherent_);
     (tracers_.*mode_.trace)(scene_, context, rays, {0, rays.height()}, buffer);
   }
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const override {
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
     share_rows(embree::tile_rows(rays), [&](int begin, int end) {
       embree::Context context(coherent_);
       (tracers_.*mode_.trace)(scene_, context, rays, embree::band_of(rays, begin, end), buffer);
     });
   }
-  void closest_hits(std::span<const Ray> rays, HitBuffer& buffer) const override {
+  void closest_hits(const RayBatch& batch, HitBuffer& buffer, WorkCounters*) const override {
     embree::Context context(coherent_);
-    mode_.closest_hits(scene_, context, rays, buffer);
+    mode_.closest_hits(scene_, context, batch.rays, buffer);
   }
-  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers) const override {
+  void any_hits(const RayBatch& batch, std::span<std::uint8_t> hits, WorkCounters*) const override {
     embree::Context context(coherent_);
-    mode_.any_hits(scene_, context, rays, answers);
-  }
-
-  // Embree does not let its work be counted.
-  std::optional<Hit> closest_hit(const Ray& ray, WorkCounters&) const override {
-    return closest_hit(ray);
-  }
-  bool any_hit(const Ray& ray, WorkCounters&) const override { return any_hit(ray); }
-  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters&) const override {
-    trace(rays, buffer);
-  }
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters&) const override {
-    trace_shared(rays, buffer);
-  }
-  void closest_hits(std::span<const Ray> rays, HitBuffer& buffer, WorkCounters&) const override {
-    closest_hits(rays, buffer);
-  }
-  void any_hits(std::span<const Ray> rays, std::span<std::uint8_t> answers,
-                WorkCounters&) const override {
-    any_hits(rays, answers);
+    mode_.any_hits(scene_, context, batch.rays, hits);
   }
 
   Statistics statistics() const override {

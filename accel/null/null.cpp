@@ -2,7 +2,7 @@
 
 #include "accel/core/instruction_set.hpp"
 #include "accel/core/registry.hpp"
-#include "accel/core/share_rows.hpp"
+#include "accel/core/trace_on.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "accel/embree/image_tracers.hpp"
 
@@ -36,19 +36,13 @@ class SimdNull : public Null {
  public:
   explicit SimdNull(std::int64_t targets) : tracers_(&embree::image_tracers(targets)) {}
 
-  void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
+  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
     tracers_->untraced(owners_, rays, {0, rays.height()}, buffer);
   }
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const override {
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
     share_rows(embree::tile_rows(rays), [&](int begin, int end) {
       tracers_->untraced(owners_, rays, embree::band_of(rays, begin, end), buffer);
     });
-  }
-  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters&) const override {
-    trace(rays, buffer);
-  }
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters&) const override {
-    trace_shared(rays, buffer);
   }
 
   Statistics statistics() const override {

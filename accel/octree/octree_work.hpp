@@ -1,7 +1,7 @@
 #pragma once
 // The work that an octree makes, counted on a few rays.
 
-#include "accel/core/workload.hpp"
+#include "accel/core/registry.hpp"
 #include "accel/octree/octree.hpp"
 
 namespace beambench::accel::octree {

@@ -36,21 +36,16 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   const char* instruction_set() const;
   Statistics statistics() const override;
 
-  void trace(const PrimaryRays& rays, HitBuffer& buffer) const override {
-    NoCounting none;
-    trace_tiles(*kernels_, hierarchy_, *scene_, rays, parallel_, buffer, none);
-  }
-  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters& counters) const override {
-    trace_tiles(*kernels_, hierarchy_, *scene_, rays, parallel_, buffer, counters);
-  }
-
-  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer) const override {
-    NoCounting none;
-    trace_tiles(*kernels_, hierarchy_, *scene_, rays, true, buffer, none);
+  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const override {
+    with_counting(counters, [&](auto& counting) {
+      trace_tiles(*kernels_, hierarchy_, *scene_, rays, parallel_, buffer, counting);
+    });
   }
   void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                    WorkCounters& counters) const override {
-    trace_tiles(*kernels_, hierarchy_, *scene_, rays, true, buffer, counters);
+                    WorkCounters* counters) const override {
+    with_counting(counters, [&](auto& counting) {
+      trace_tiles(*kernels_, hierarchy_, *scene_, rays, true, buffer, counting);
+    });
   }
 
   template <class Counting>

@@ -6,7 +6,7 @@
 
 #include "accel/core/hit_buffer.hpp"
 #include "accel/core/primary_rays.hpp"
-#include "accel/core/step_recorder.hpp"
+#include "accel/core/trace_step.hpp"
 #include "accel/core/work_counters.hpp"
 #include "accel/tile_beam/sample_raster.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"

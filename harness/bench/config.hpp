@@ -11,7 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accel/core/registry.hpp"
-#include "harness/rays/ray_choice.hpp"
+#include "harness/rays/ray_kind.hpp"
 #include "harness/rays/resolution.hpp"
 
 namespace beambench::bench {

@@ -9,7 +9,7 @@
 #include "harness/bench/config.hpp"
 #include "harness/bench/record/cell_record.hpp"
 #include "harness/bench/record/manifest.hpp"
-#include "harness/rays/question.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::bench {

@@ -8,9 +8,8 @@
 
 #include "accel/core/hit_buffer.hpp"
 #include "harness/bench/measurement.hpp"
-#include "harness/rays/answers.hpp"
 #include "harness/rays/fingerprint.hpp"
-#include "harness/rays/share_warning.hpp"
+#include "harness/rays/trace_results.hpp"
 #include "harness/render/picture/image.hpp"
 #include "harness/render/verified_picture.hpp"
 #include "harness/render/whitted.hpp"
@@ -26,7 +25,7 @@ class RaysTask : public Task {
   RaysTask(const CellGroup& group, std::uint64_t scene_hash, int core);
 
   std::optional<std::string> warning() const override;
-  void poison() override { beambench::rays::poison(answers_); }
+  void poison() override { beambench::rays::poison(results_); }
   void ask(const accel::Accelerator& structure) override;
   CountedWork count(const accel::Accelerator& structure) override;
   std::uint64_t fingerprint() const override;
@@ -37,39 +36,39 @@ class RaysTask : public Task {
   QueryPath path_of(const accel::Accelerator& structure) const override;
   double measure_harness_ms(QueryPath path) override;
 
-  const rays::Question& question() const { return reference_.question(); }
+  const rays::TraceInput& input() const { return reference_.input(); }
 
   verify::ReferenceHits reference_;
-  rays::Answers answers_;
+  rays::TraceResults results_;
   int core_;
 };
 
 RaySetFacts facts_of(const verify::ReferenceHits& reference, std::uint64_t scene_hash) {
-  const rays::Question& question = reference.question();
-  const auto rays = static_cast<double>(question.size());
+  const rays::TraceInput& input = reference.input();
+  const auto rays = static_cast<double>(input.size());
   const double share = static_cast<double>(reference.hit_count()) / rays;
   RaySetFacts facts;
   facts.scene_hash = scene_hash;
-  facts.rays_hash = rays::fingerprint(question);
-  facts.seed = question.seed();
+  facts.rays_hash = rays::fingerprint(input);
+  facts.seed = input.seed();
   facts.primitives = reference.scene().primitives.size();
-  facts.rays = question.size();
-  facts.query = question.query();
-  (question.query() == rays::Query::kAnyHit ? facts.occluded_share : facts.hit_share) = share;
-  facts.coherence = rays::coherence(question);
+  facts.rays = input.size();
+  facts.query = input.query();
+  (input.query() == rays::Query::kAnyHit ? facts.occluded_share : facts.hit_share) = share;
+  facts.coherence = rays::coherence(input);
   return facts;
 }
 
 RaysTask::RaysTask(const CellGroup& group, std::uint64_t scene_hash, int core)
     : Task(group),
-      reference_(*group.scene, rays::make_question(*group.scene, group.image(), group.rays)),
-      answers_(rays::room_for(question())),
+      reference_(*group.scene, rays::make_trace_input(*group.scene, group.image(), group.rays)),
+      results_(rays::make_results(input())),
       core_(core) {
   facts_ = facts_of(reference_, scene_hash);
 }
 
 QueryPath RaysTask::path_of(const accel::Accelerator& structure) const {
-  if (question().image() == nullptr) return QueryPath::kList;
+  if (input().image() == nullptr) return QueryPath::kList;
   return image_path(structure.statistics().image_rays);
 }
 
@@ -80,27 +79,27 @@ double RaysTask::measure_harness_ms(QueryPath path) {
 }
 
 std::optional<std::string> RaysTask::warning() const {
-  return rays::share_warning(question(), reference_.hit_count());
+  return rays::share_warning(input(), reference_.hit_count());
 }
 
 void RaysTask::ask(const accel::Accelerator& structure) {
-  beambench::rays::ask(structure, question(), answers_, group_.threads);
+  beambench::rays::trace(structure, input(), results_, nullptr, group_.threads);
 }
 
 CountedWork RaysTask::count(const accel::Accelerator& structure) {
   accel::WorkCounters counters;
-  beambench::rays::ask(structure, question(), answers_, counters);
+  beambench::rays::trace(structure, input(), results_, &counters);
   return {counters.by_name(), {}};
 }
 
-std::uint64_t RaysTask::fingerprint() const { return beambench::rays::fingerprint(answers_); }
+std::uint64_t RaysTask::fingerprint() const { return beambench::rays::fingerprint(results_); }
 
 Judgment RaysTask::judge(const accel::Accelerator&, const accel::StructureChoice& choice) {
-  Judgment judgment{beambench::verify::judge(reference_, answers_, choice.info().conformance), {}};
+  Judgment judgment{beambench::verify::judge(reference_, results_, choice.info().conformance), {}};
   if (verify::is_right(judgment.report.verdict)) return judgment;
-  const verify::ReplayCommand replay(scene(), group_.image(), choice, question());
+  const verify::ReplayCommand replay(scene(), group_.image(), choice, input());
   for (const verify::Mismatch& example : judgment.report.examples) {
-    judgment.examples.push_back(verify::describe(scene(), question(), example, replay));
+    judgment.examples.push_back(verify::describe(scene(), input(), example, replay));
   }
   return judgment;
 }
@@ -218,14 +217,14 @@ void PictureTask::poison() {
 }
 
 void PictureTask::ask(const accel::Accelerator& structure) {
-  structure.trace(rays_, eye_);
+  structure.trace(rays_, eye_, nullptr);
   draw({&structure, &structure, &structure});
 }
 
 CountedWork PictureTask::count(const accel::Accelerator& structure) {
   accel::WorkCounters eye;
   render::ByFollowingRays<accel::WorkCounters> following;
-  structure.trace(rays_, eye_, eye);
+  structure.trace(rays_, eye_, &eye);
   const render::CountedQueries reflected(structure, following[0]);
   const render::CountedQueries refracted(structure, following[1]);
   const render::CountedQueries shadow(structure, following[2]);
@@ -254,7 +253,7 @@ Judgment PictureTask::judge(const accel::Accelerator& structure,
   poison();
   render::RecordedPicture picture = [&] {
     const MeasuringFloatMode mode;  // as it was timed
-    structure.trace(rays_, eye_);
+    structure.trace(rays_, eye_, nullptr);
     return render::record_picture(scene(), structure, rays_, eye_, options_,
                                   rays::HitCheck(scene(), choice));
   }();
@@ -266,7 +265,7 @@ Judgment PictureTask::judge(const accel::Accelerator& structure,
     if (verify::is_right(rays.report.verdict)) continue;
     for (const verify::Mismatch& example : rays.report.examples) {
       judgment.examples.push_back(
-          fmt::format("{} rays, {}", rays.kind, verify::describe(scene(), rays.question, example)));
+          fmt::format("{} rays, {}", rays.kind, verify::describe(scene(), rays.input, example)));
     }
   }
   return judgment;

@@ -16,8 +16,8 @@
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/picture_folder.hpp"
 #include "harness/cli/whitted_request.hpp"
-#include "harness/rays/answers.hpp"
 #include "harness/rays/hit_check.hpp"
+#include "harness/rays/trace_results.hpp"
 #include "harness/render/picture/image.hpp"
 #include "harness/render/picture/image_file.hpp"
 #include "harness/render/shading_order.hpp"
@@ -49,12 +49,12 @@ accel::HitBuffer eye_hits(const accel::Accelerator& structure, const render::Eye
                           const accel::PrimaryRays* image) {
   accel::HitBuffer hits(rays.width, rays.height, rays.samples);
   if (image != nullptr) {
-    structure.trace(*image, hits);
+    structure.trace(*image, hits, nullptr);
     return hits;
   }
   for (int y = 0; y < rays.height; ++y) {
     for (int x = 0; x < rays.width; ++x) {
-      hits.set(hits.index(x, y, 0), structure.closest_hit(rays.ray(x, y, 0)));
+      hits.set(hits.index(x, y, 0), structure.closest_hit(rays.ray(x, y, 0), nullptr));
     }
   }
   return hits;

@@ -52,7 +52,7 @@ render::CategoryMap map_of(const std::vector<verify::DiffClass>& pixels,
 }
 
 render::Image preview_of(const verify::ReferenceHits& reference) {
-  const accel::PrimaryRays& rays = *reference.question().image();
+  const accel::PrimaryRays& rays = *reference.input().image();
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
   for (std::size_t i = 0; i < hits.size(); ++i) {
     const std::optional<accel::embree::ExactHit>& hit = reference.hits()[i];
@@ -66,7 +66,7 @@ render::Image preview_of(const verify::ReferenceHits& reference) {
 void write_difference(const std::filesystem::path& file, const verify::ReferenceHits& reference,
                       std::span<const verify::DiffClass> classes, const ComparedNames& comparison) {
   const std::vector<verify::DiffClass> pixels =
-      gravest(classes, static_cast<std::size_t>(reference.question().image()->samples()));
+      gravest(classes, static_cast<std::size_t>(reference.input().image()->samples()));
   const render::Image ground = preview_of(reference);
   if (render::image_format(file) == render::ImageFormat::kPng) {
     render::write_image(file, render::draw_category_map(map_of(pixels, comparison), ground));
@@ -79,16 +79,16 @@ void write_difference(const std::filesystem::path& file, const verify::Reference
   render::write_image(file, ground, {&channel, 1});
 }
 
-verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::Question& question,
-                                     const rays::Answers& answers) {
-  std::vector<std::optional<accel::embree::ExactHit>> hits(question.size());
+verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::TraceInput& input,
+                                     const rays::TraceResults& results) {
+  std::vector<std::optional<accel::embree::ExactHit>> hits(input.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const verify::Mismatch asked = verify::ask_again(question, answers, i, std::nullopt);
+    const verify::Mismatch asked = verify::ask_again(input, results, i, std::nullopt);
     if (asked.engine && !verify::is_nonsense(scene, asked.ray, *asked.engine)) {
       hits[i] = accel::embree::ExactHit{asked.engine->t, asked.engine->primitive};
     }
   }
-  return {scene, question, std::move(hits)};
+  return {scene, input, std::move(hits)};
 }
 
 }  // namespace beambench::cli

@@ -18,7 +18,7 @@ struct ComparedNames {
 /// `kOracleName` as a reference stands for the oracle itself.
 inline constexpr const char* kOracleName = "oracle";
 
-/// Writes the classes of the rays of an image (the question's rays are primary) over a gray preview
+/// Writes the classes of the rays of an image (of primary rays) over a gray preview
 /// of what the reference sees; a pixel shows the gravest class of its samples. A .png gets a
 /// legend; an .exr the preview in colors and the classes as numbers (0 agree, 1 tie, 2 graze, 3
 /// the judged is wrong, 4 the reference is).
@@ -26,7 +26,7 @@ void write_difference(const std::filesystem::path& file, const verify::Reference
                       std::span<const verify::DiffClass> classes, const ComparedNames& comparison);
 
 /// A structure's hits as reference; answers that are none count as misses.
-verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::Question& question,
-                                     const rays::Answers& answers);
+verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::TraceInput& input,
+                                     const rays::TraceResults& results);
 
 }  // namespace beambench::cli

@@ -9,7 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "accel/core/registry.hpp"
-#include "harness/rays/question.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene.hpp"
 

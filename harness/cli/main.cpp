@@ -18,7 +18,6 @@
 #include "harness/cli/commands.hpp"
 #include "harness/plugin/guard.hpp"
 #include "harness/plugin/load_plugin.hpp"
-#include "harness/plugin/requested_plugins.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/nearest_name.hpp"

@@ -74,7 +74,7 @@ void trace_singly(const accel::beam::BeamTracer& tracer, const accel::beam::Mirr
                   const std::vector<rays::PixelSample>& samples, accel::HitBuffer& found) {
   for (const rays::PixelSample& at : samples) {
     found.set(found.index(at.x, at.y, at.sample),
-              tracer.closest_hit(accel::beam::ray_behind(view, at.x, at.y, at.sample)));
+              tracer.closest_hit(accel::beam::ray_behind(view, at.x, at.y, at.sample), nullptr));
   }
 }
 
@@ -163,7 +163,7 @@ bool show_mirrors(const Request& request) {
         choice.info().name));
   }
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-  tracer->trace(rays, hits);
+  tracer->trace(rays, hits, nullptr);
   rays::HitCheck(scene, choice).require(hits, rays);
   const std::vector<accel::beam::PlanarMirror> mirrors = accel::beam::planar_mirrors(scene);
   std::vector<Result> results;

@@ -23,7 +23,7 @@ bool shows(const accel::StructureInfo& structure, Overlay overlay) {
   const auto accelerator = accel::registry().choose({structure.name, {}}).build(scene);
   if (overlay == Overlay::kBeams) return !accelerator->beam_outlines(rays).empty();
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-  accelerator->trace(rays, hits);  // cells may be made where rays come by
+  accelerator->trace(rays, hits, nullptr);  // cells may be made where rays come by
   return !accelerator->occupied_cells().empty();
 }
 

@@ -238,7 +238,7 @@ std::string to_text(const scenes::Scene& scene, const RayWay& way) {
   const int samples = way.image.samples;
   std::string out =
       fmt::format("{} by {}, {} rays, {} pixels with {} {} each\n\n", scene.name, way.structure,
-                  way.question.label(), rays::to_string(way.image.resolution), samples,
+                  way.input.label(), rays::to_string(way.image.resolution), samples,
                   samples == 1 ? "sample" : "samples");
   out += beams_text(way);
   Account account(scene, way.judgment.ray);
@@ -254,7 +254,7 @@ std::string to_text(const scenes::Scene& scene, const RayWay& way) {
   if (way.steps.empty() && way.beams.empty()) {
     out += fmt::format("{} tells no steps: it entered nothing, or cannot tell\n", way.structure);
   }
-  return out + '\n' + verify::describe(scene, way.question, way.judgment) + alone_text(way) +
+  return out + '\n' + verify::describe(scene, way.input, way.judgment) + alone_text(way) +
          counters_text(way);
 }
 
@@ -266,10 +266,10 @@ nlohmann::ordered_json to_json(const scenes::Scene& scene, const RayWay& way) {
            {"width", way.image.resolution.width},
            {"height", way.image.resolution.height},
            {"samples", way.image.samples},
-           {"ray_kind", way.question.label()},
+           {"ray_kind", way.input.label()},
            {"query", rays::to_string(judgment.query)},
            {"index", judgment.index}};
-  if (const auto pixel = way.question.pixel(judgment.index)) {
+  if (const auto pixel = way.input.pixel(judgment.index)) {
     out["pixel"] = {pixel->x, pixel->y};
     out["sample"] = pixel->sample;
   }

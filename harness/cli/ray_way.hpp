@@ -18,14 +18,14 @@ namespace beambench::cli {
 struct RayWay {
   std::string structure;    ///< its short label
   rays::ImageOfRays image;  ///< that the rays are of, or come from
-  const rays::Question& question;
+  const rays::TraceInput& input;
   std::vector<accel::TraceStep> steps;  ///< empty where the structure cannot tell them
   std::map<std::string, std::uint64_t, std::less<>> counters;
   /// The ray, its answer among all rays (or, unless `asked_all`, alone), the oracle's, the
   /// class.
   verify::Mismatch judgment;
   std::optional<accel::Hit> alone;  ///< its closest hit, asked alone
-  bool asked_all = true;            ///< were all rays of the question asked?
+  bool asked_all = true;            ///< were all rays of the input traced?
   /// With beams: those that the sample belongs to. The steps are then of the sample with its beams.
   std::vector<accel::beam::BeamPassage> beams;
 };

@@ -11,8 +11,8 @@
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/rays/fingerprint.hpp"
-#include "harness/rays/ray_set_file.hpp"
-#include "harness/rays/share_warning.hpp"
+#include "harness/rays/ray_set.hpp"
+#include "harness/rays/trace_results.hpp"
 #include "harness/verify/differ.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/pending_file.hpp"
@@ -31,46 +31,45 @@ struct Request {
 };
 
 /// An image's rays are saved as a list, too.
-rays::RaySet as_list(const scenes::Scene& scene, const rays::Question& question) {
-  if (question.list() != nullptr) return *question.list();
-  rays::RaySet set{
-      question.label(), question.query(), question.seed(), scenes::scene_hash(scene), {}};
-  set.rays.reserve(question.size());
-  for (std::size_t i = 0; i < question.size(); ++i) set.rays.push_back(question.ray(i));
+rays::RaySet as_list(const scenes::Scene& scene, const rays::TraceInput& input) {
+  if (input.list() != nullptr) return *input.list();
+  rays::RaySet set{input.label(), input.query(), input.seed(), scenes::scene_hash(scene), {}};
+  set.rays.reserve(input.size());
+  for (std::size_t i = 0; i < input.size(); ++i) set.rays.push_back(input.ray(i));
   return set;
 }
 
 Json note_of(const scenes::Scene& scene, const rays::ImageOfRays& image,
-             const rays::Question& question) {
+             const rays::TraceInput& input) {
   return {{"scene", scene.name},
-          {"ray_kind", question.label()},
+          {"ray_kind", input.label()},
           {"camera", image.camera.name},
           {"resolution", rays::to_string(image.resolution)},
           {"samples", image.samples}};
 }
 
 void print_facts(const Request& request, const scenes::Scene& scene, const rays::ImageOfRays& image,
-                 const rays::Question& question) {
-  const std::uint64_t hits = verify::ReferenceHits(scene, question).hit_count();
-  const bool any = question.query() == rays::Query::kAnyHit;
+                 const rays::TraceInput& input) {
+  const std::uint64_t hits = verify::ReferenceHits(scene, input).hit_count();
+  const bool any = input.query() == rays::Query::kAnyHit;
   if (request.json) {
-    Json out = note_of(scene, image, question);
-    out["query"] = rays::to_string(question.query());
-    out["rays"] = question.size();
-    out["seed"] = question.seed();
-    out["hash"] = rays::hex_digits(rays::fingerprint(question));
+    Json out = note_of(scene, image, input);
+    out["query"] = rays::to_string(input.query());
+    out["rays"] = input.size();
+    out["seed"] = input.seed();
+    out["hash"] = rays::hex_digits(rays::fingerprint(input));
     out[any ? "occluded_share" : "hit_share"] =
-        static_cast<double>(hits) / static_cast<double>(question.size());
-    out["coherence"] = rays::coherence(question);
+        static_cast<double>(hits) / static_cast<double>(input.size());
+    out["coherence"] = rays::coherence(input);
     fmt::print("{}\n", out.dump(2));
   } else {
-    fmt::print("{} {} rays over {}, {}\n", question.size(), question.label(), scene.name,
+    fmt::print("{} {} rays over {}, {}\n", input.size(), input.label(), scene.name,
                rays::to_string(image.resolution));
-    fmt::print("  {}  {}\n", any ? "occluded " : "that hit ", format_share(hits, question.size()));
-    fmt::print("  coherence  {:.4f}\n", rays::coherence(question));
-    fmt::print("  hash       {}\n", rays::hex_digits(rays::fingerprint(question)));
+    fmt::print("  {}  {}\n", any ? "occluded " : "that hit ", format_share(hits, input.size()));
+    fmt::print("  coherence  {:.4f}\n", rays::coherence(input));
+    fmt::print("  hash       {}\n", rays::hex_digits(rays::fingerprint(input)));
   }
-  if (const auto warning = rays::share_warning(question, hits)) {
+  if (const auto warning = rays::share_warning(input, hits)) {
     fmt::print(stderr, "beambench: warning: {}\n", *warning);
   }
 }
@@ -86,10 +85,10 @@ void show_rays(const Request& request) {
   }
   const scenes::Scene scene = open_scene(request.scene);
   const rays::ImageOfRays image = choose_image(scene, request.image);
-  const rays::Question question = rays::make_question(scene, image, kind);
-  print_facts(request, scene, image, question);
+  const rays::TraceInput input = rays::make_trace_input(scene, image, kind);
+  print_facts(request, scene, image, input);
   if (request.file.empty()) return;
-  rays::write_ray_file(request.file, as_list(scene, question), note_of(scene, image, question));
+  rays::write_ray_file(request.file, as_list(scene, input), note_of(scene, image, input));
 }
 
 }  // namespace

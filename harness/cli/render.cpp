@@ -148,21 +148,21 @@ verify::ReferenceHits find_reference(const Request& request, const scenes::Scene
                                      const accel::PrimaryRays& rays) {
   if (request.difference == kOracleName) return {scene, rays};
   const accel::StructureChoice other = choose_one("--difference", request.difference);
-  rays::Answers answers = rays::room_for(rays);
-  rays::ask(*other.build(scene, rays::workload_of(choose_image(scene, request.image), rays)), rays,
-            answers);
-  rays::HitCheck(scene, other).require(std::get<accel::HitBuffer>(answers), rays);
-  return reference_from(scene, rays, answers);
+  rays::TraceResults results = rays::make_results(rays);
+  rays::trace(*other.build(scene, rays::workload_of(choose_image(scene, request.image), rays)),
+              rays, results);
+  rays::HitCheck(scene, other).require(std::get<accel::HitBuffer>(results), rays);
+  return reference_from(scene, rays, results);
 }
 
 /// Writes the picture of differences; returns how many there are.
 std::string compare(const Request& request, const accel::StructureChoice& choice,
                     const scenes::Scene& scene, const accel::PrimaryRays& rays,
-                    const rays::Answers& answers) {
+                    const rays::TraceResults& results) {
   const verify::ReferenceHits reference = find_reference(request, scene, rays);
   std::vector<verify::DiffClass> classes(rays.count());
   const verify::DiffReport report =
-      verify::judge(reference, answers, accel::Conformance::kTolerance, classes);
+      verify::judge(reference, results, accel::Conformance::kTolerance, classes);
   write_difference(request.file, reference, classes, {choice.short_label(), request.difference});
   return fmt::format(
       "{} of {} rays differ from {}: {} ties, {} grazes, {} wrong, {} wrong there",
@@ -205,8 +205,8 @@ void render(const Request& request) {
   progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
   const auto accelerator = choice.build(
       scene, rays::workload_of(choose_image(scene, request.image), rays, request.whitted.threads));
-  rays::Answers answers = rays::room_for(rays);
-  auto& hits = std::get<accel::HitBuffer>(answers);
+  rays::TraceResults results = rays::make_results(rays);
+  auto& hits = std::get<accel::HitBuffer>(results);
   const rays::HitCheck check(scene, choice);
   std::string found;
   if (!request.heatmap.empty()) {
@@ -215,13 +215,13 @@ void render(const Request& request) {
     write_heat_map(request, map, hits);
     found = share_of_hits(hits) + remark_on(map, choice);
   } else {
-    watched_ask(*accelerator, rays, answers, request.whitted.threads, progress);
+    watched_ask(*accelerator, rays, results, request.whitted.threads, progress);
     if (request.difference.empty()) {
       check.require(hits, rays);
       found = share_of_hits(hits) +
               write_shaded(request, choice, overlay, *accelerator, scene, rays, hits, progress);
     } else {
-      found = compare(request, choice, scene, rays, answers);
+      found = compare(request, choice, scene, rays, results);
     }
   }
   progress.say(fmt::format("{}: {} by {}, {}x{}, {}", request.file, scene.name,

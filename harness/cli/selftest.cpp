@@ -98,7 +98,7 @@ void print_verdicts(const std::vector<CheckedProperty>& checked,
       if (!property.outcome.passed()) ++failed;
     }
     if (made == 0) {
-      fmt::print("{}: answers nothing by design, so there is nothing to check\n", label);
+      fmt::print("{}: returns nothing by design, so there is nothing to check\n", label);
     } else if (failed == 0) {
       fmt::print("{}: ok, it keeps its contract in all {} checks{}\n", label, made, limits);
     } else {
@@ -160,7 +160,8 @@ void add_selftest_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--json", request->json, "Write the outcome to this file, too");
   command->footer(
-      "Answers are compared with those of exhaustive search, bit for bit; those of a structure "
+      "TraceResults are compared with those of exhaustive search, bit for bit; those of a "
+      "structure "
       "with\n"
       "arithmetic of its own are judged by the differ's classes. A structure without parameters\n"
       "after its name gets random ones in the random scenes; one that refuses a kind of "

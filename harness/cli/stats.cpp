@@ -16,9 +16,9 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
-#include "harness/rays/answers.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/level_visits.hpp"
+#include "harness/rays/trace_results.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::cli {
@@ -47,18 +47,18 @@ struct Finding {
 };
 
 Finding examine(const accel::StructureChoice& choice, const scenes::Scene& scene,
-                const rays::ImageOfRays& image, const rays::Question& question, bool levels) {
+                const rays::ImageOfRays& image, const rays::TraceInput& input, bool levels) {
   const auto begin = std::chrono::steady_clock::now();
-  const auto accelerator = choice.build(scene, rays::workload_of(image, question));
+  const auto accelerator = choice.build(scene, rays::workload_of(image, input));
   const std::chrono::duration<double, std::milli> building =
       std::chrono::steady_clock::now() - begin;
 
-  rays::Answers answers = rays::room_for(question);
+  rays::TraceResults results = rays::make_results(input);
   accel::WorkCounters counters;
-  rays::ask(*accelerator, question, answers, counters);
+  rays::trace(*accelerator, input, results, &counters);
   Finding finding{choice, accelerator->statistics(), building.count(), 0, counters.by_name(), {}};
-  for (std::size_t i = 0; i < question.size(); ++i) finding.hits += rays::is_hit_at(answers, i);
-  if (levels) finding.levels = rays::count_level_visits(*accelerator, question);
+  for (std::size_t i = 0; i < input.size(); ++i) finding.hits += rays::is_hit_at(results, i);
+  if (levels) finding.levels = rays::count_level_visits(*accelerator, input);
   return finding;
 }
 
@@ -147,13 +147,13 @@ std::string levels_text(const Finding& finding) {
 }
 
 void print_text(const scenes::Scene& scene, const rays::ImageOfRays& image,
-                const rays::Question& question, const std::vector<Finding>& findings) {
+                const rays::TraceInput& input, const std::vector<Finding>& findings) {
   fmt::print("{}: {} primitives, {} {} rays ({}), coherence {:.3f}\n\n", scene.name,
-             scene.primitives.size(), question.size(), question.label(),
-             rays::to_string(image.resolution), rays::coherence(question));
+             scene.primitives.size(), input.size(), input.label(),
+             rays::to_string(image.resolution), rays::coherence(input));
   StatisticsTable table(findings);
   add_sizes(table, findings);
-  add_work(table, findings, question.size());
+  add_work(table, findings, input.size());
   fmt::print("{}\n(1) of this one build, for information; 'beambench run' measures\n",
              table.text());
   for (const Finding& finding : findings) {
@@ -196,19 +196,19 @@ Json to_json(const Finding& finding, std::size_t rays) {
 }
 
 void print_json(const scenes::Scene& scene, const rays::ImageOfRays& image,
-                const rays::Question& question, const std::vector<Finding>& findings) {
+                const rays::TraceInput& input, const std::vector<Finding>& findings) {
   Json out{{"scene", scene.name},
            {"primitives", scene.primitives.size()},
            {"width", image.resolution.width},
            {"height", image.resolution.height},
-           {"ray_kind", question.label()},
-           {"query", rays::to_string(question.query())},
-           {"rays", question.size()},
-           {"rays_hash", rays::hex_digits(rays::fingerprint(question))},
-           {"coherence", rays::coherence(question)},
+           {"ray_kind", input.label()},
+           {"query", rays::to_string(input.query())},
+           {"rays", input.size()},
+           {"rays_hash", rays::hex_digits(rays::fingerprint(input))},
+           {"coherence", rays::coherence(input)},
            {"structures", Json::array()}};
   for (const Finding& finding : findings) {
-    out["structures"].push_back(to_json(finding, question.size()));
+    out["structures"].push_back(to_json(finding, input.size()));
   }
   fmt::print("{}\n", out.dump(2));
 }
@@ -222,7 +222,7 @@ int show_statistics(const Request& request) {
   const scenes::Scene scene = open_scene(request.scene);
   rays::require_ray_count(resolution, 1);
   const rays::ImageOfRays image{choose_camera(scene, request.view), resolution, 1};
-  const rays::Question question = rays::make_question(scene, image, kind);
+  const rays::TraceInput input = rays::make_trace_input(scene, image, kind);
   const Contenders contenders = choose_contenders(request.structures, scene);
 
   base::Progress progress(contenders.choices.size());
@@ -231,7 +231,7 @@ int show_statistics(const Request& request) {
   for (const accel::StructureChoice& choice : contenders.choices) {
     progress.start(choice.info().name);
     try {
-      findings.push_back(examine(choice, scene, image, question, request.levels));
+      findings.push_back(examine(choice, scene, image, input, request.levels));
       progress.finish(fmt::format("built in {:.3g} ms", findings.back().build_ms));
     } catch (const InputError& error) {
       if (contenders.choices.size() == 1) throw;
@@ -239,8 +239,8 @@ int show_statistics(const Request& request) {
     }
   }
   progress.clear();
-  request.json ? print_json(scene, image, question, findings)
-               : print_text(scene, image, question, findings);
+  request.json ? print_json(scene, image, input, findings)
+               : print_text(scene, image, input, findings);
   return findings.size() == contenders.choices.size() ? base::kSuccess : base::kInvalidInput;
 }
 

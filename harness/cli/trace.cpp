@@ -75,31 +75,31 @@ std::size_t index_in_image(const Request& request, const accel::PrimaryRays& ray
   return at * static_cast<std::size_t>(rays.samples()) + static_cast<std::size_t>(request.sample);
 }
 
-std::size_t index_in_list(const Request& request, const rays::Question& question) {
+std::size_t index_in_list(const Request& request, const rays::TraceInput& input) {
   if (!request.pixel.empty()) {
     throw InputError(fmt::format(
         "{} rays are numbered; give --ray N, as mismatches name them, in place of --pixel",
-        question.label()));
+        input.label()));
   }
-  if (!request.ray || *request.ray >= question.size()) {
+  if (!request.ray || *request.ray >= input.size()) {
     throw InputError(fmt::format("--ray must be a whole number from 0 to {}: there are {} {} rays",
-                                 question.size() - 1, question.size(), question.label()));
+                                 input.size() - 1, input.size(), input.label()));
   }
   return *request.ray;
 }
 
-std::size_t chosen_index(const Request& request, const rays::Question& question) {
-  const accel::PrimaryRays* image = question.image();
-  return image != nullptr ? index_in_image(request, *image) : index_in_list(request, question);
+std::size_t chosen_index(const Request& request, const rays::TraceInput& input) {
+  const accel::PrimaryRays* image = input.image();
+  return image != nullptr ? index_in_image(request, *image) : index_in_list(request, input);
 }
 
 /// Puts the answer to one ray in its place.
 void answer_alone(const accel::Accelerator& structure, const accel::Ray& ray, std::size_t index,
-                  rays::Answers& answers) {
-  if (auto* any = std::get_if<rays::AnyHits>(&answers)) {
-    (*any)[index] = structure.any_hit(ray) ? 1 : 0;
+                  rays::TraceResults& results) {
+  if (auto* any = std::get_if<rays::AnyHits>(&results)) {
+    (*any)[index] = structure.any_hit(ray, nullptr) ? 1 : 0;
   } else {
-    std::get<accel::HitBuffer>(answers).set(index, structure.closest_hit(ray));
+    std::get<accel::HitBuffer>(results).set(index, structure.closest_hit(ray, nullptr));
   }
 }
 
@@ -109,37 +109,37 @@ int trace(const Request& request) {
   const accel::StructureChoice choice = choose_one("--accel", request.structure);
   const scenes::Scene scene = open_scene(request.scene);
   const rays::ImageOfRays image = choose_image(scene, request.image);
-  const rays::Question question = rays::make_question(scene, image, kind);
-  const std::size_t index = chosen_index(request, question);
-  const accel::Ray ray = question.ray(index);
+  const rays::TraceInput input = rays::make_trace_input(scene, image, kind);
+  const std::size_t index = chosen_index(request, input);
+  const accel::Ray ray = input.ray(index);
 
-  const auto accelerator = choice.build(scene, rays::workload_of(image, question));
-  const accel::embree::EmbreeOracle oracle(scene, question.reach());
-  RayWay way{choice.short_label(), image, question, {}, {}, {}, {}, true, {}};
+  const auto accelerator = choice.build(scene, rays::workload_of(image, input));
+  const accel::embree::EmbreeOracle oracle(scene, input.reach());
+  RayWay way{choice.short_label(), image, input, {}, {}, {}, {}, true, {}};
   way.asked_all = !request.alone;
   accel::WorkCounters counters;
-  accelerator->closest_hit(ray, counters);
+  accelerator->closest_hit(ray, &counters);
   way.counters = counters.by_name();
   const auto* beams = dynamic_cast<const accel::beam::BeamTracer*>(accelerator.get());
-  if (beams != nullptr && question.image() != nullptr && !request.alone) {
-    const rays::PixelSample at = *question.pixel(index);
+  if (beams != nullptr && input.image() != nullptr && !request.alone) {
+    const rays::PixelSample at = *input.pixel(index);
     accel::beam::SampleWay with_beams =
-        accel::beam::way_of_sample(*beams, *question.image(), at.x, at.y, at.sample);
+        accel::beam::way_of_sample(*beams, *input.image(), at.x, at.y, at.sample);
     way.beams = std::move(with_beams.beams);
     way.steps = std::move(with_beams.steps);
   } else {
     way.steps = accelerator->explain(ray);
   }
-  way.alone = accelerator->closest_hit(ray);
-  rays::Answers answers = rays::room_for(question);
+  way.alone = accelerator->closest_hit(ray, nullptr);
+  rays::TraceResults results = rays::make_results(input);
   if (request.alone) {
-    answer_alone(*accelerator, ray, index, answers);
+    answer_alone(*accelerator, ray, index, results);
   } else {
     base::Progress progress(1);
     progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
-    watched_ask(*accelerator, question, answers, 1, progress);
+    watched_ask(*accelerator, input, results, 1, progress);
   }
-  way.judgment = verify::ask_again(question, answers, index, oracle.closest_hit(ray));
+  way.judgment = verify::ask_again(input, results, index, oracle.closest_hit(ray));
   verify::judge_ray(scene, choice.info().conformance, way.judgment);
 
   fmt::print("{}", request.json ? to_json(scene, way).dump(2) + '\n' : to_text(scene, way));

@@ -11,7 +11,7 @@
 #include "harness/cli/picture_folder.hpp"
 #include "harness/cli/watched_ask.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "harness/rays/share_warning.hpp"
+#include "harness/rays/trace_results.hpp"
 #include "harness/verify/describe.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/plugin_error.hpp"
@@ -22,13 +22,13 @@ namespace {
 /// The answers that further bit-exact structures must repeat.
 struct BitsReference {
   std::string label;
-  rays::Answers answers;
+  rays::TraceResults results;
 };
 
-std::string show(const rays::Answers& answers, std::size_t i) {
-  if (std::holds_alternative<rays::AnyHits>(answers))
-    return rays::is_hit_at(answers, i) ? "a hit" : "no hit";
-  const auto hit = std::get<accel::HitBuffer>(answers).get(i);
+std::string show(const rays::TraceResults& results, std::size_t i) {
+  if (std::holds_alternative<rays::AnyHits>(results))
+    return rays::is_hit_at(results, i) ? "a hit" : "no hit";
+  const auto hit = std::get<accel::HitBuffer>(results).get(i);
   return hit ? fmt::format("primitive {} at t = {}", hit->primitive, hit->t) : "a miss";
 }
 
@@ -38,24 +38,24 @@ bool same_bits(const std::optional<accel::Hit>& a, const std::optional<accel::Hi
                 std::bit_cast<std::uint32_t>(a->t) == std::bit_cast<std::uint32_t>(b->t));
 }
 
-bool same_bits(const rays::Answers& a, const rays::Answers& b, std::size_t i) {
+bool same_bits(const rays::TraceResults& a, const rays::TraceResults& b, std::size_t i) {
   if (std::holds_alternative<rays::AnyHits>(a))
     return rays::is_hit_at(a, i) == rays::is_hit_at(b, i);
   return same_bits(std::get<accel::HitBuffer>(a).get(i), std::get<accel::HitBuffer>(b).get(i));
 }
 
-void compare_bits(const rays::Question& question, const rays::Answers& answers,
+void compare_bits(const rays::TraceInput& input, const rays::TraceResults& results,
                   const BitsReference& reference, const verify::ReplayCommand& replay,
                   std::span<verify::DiffClass> classes, VerifiedCell& cell) {
   cell.bits_reference = reference.label;
-  for (std::size_t i = 0; i < question.size(); ++i) {
-    if (same_bits(answers, reference.answers, i)) continue;
+  for (std::size_t i = 0; i < input.size(); ++i) {
+    if (same_bits(results, reference.results, i)) continue;
     classes[i] = verify::DiffClass::kEngineError;
     if (cell.different_bits++ > 0) continue;
     cell.disputes.push_back(fmt::format(
         "{}: {} found {}, {} found {}; a bit-exact structure must find the same\n  replay {}\n",
-        rays::place_text(question, i), cell.label, show(answers, i), reference.label,
-        show(reference.answers, i), replay.of(i)));
+        rays::place_text(input, i), cell.label, show(results, i), reference.label,
+        show(reference.results, i), replay.of(i)));
   }
   if (cell.different_bits > 0) cell.verdict = verify::to_string(verify::Verdict::kMismatch);
 }
@@ -70,7 +70,7 @@ std::vector<std::string> describe_disputes(const VerifiedView& view,
     if (example.diff_class == verify::DiffClass::kGraze &&
         report.verdict != verify::Verdict::kGrazes)
       continue;
-    texts.push_back(verify::describe(view.scene, view.question, example, replay));
+    texts.push_back(verify::describe(view.scene, view.input, example, replay));
   }
   return texts;
 }
@@ -79,33 +79,30 @@ class SceneVerifier {
  public:
   SceneVerifier(const VerifiedView& view, const std::filesystem::path& pictures,
                 base::Progress& progress)
-      : view_(view),
-        reference_(view.scene, view.question),
-        pictures_(pictures),
-        progress_(progress) {
-    if (const auto warning = rays::share_warning(view.question, reference_.hit_count())) {
+      : view_(view), reference_(view.scene, view.input), pictures_(pictures), progress_(progress) {
+    if (const auto warning = rays::share_warning(view.input, reference_.hit_count())) {
       progress_.say(fmt::format("warning: {}: {}", view.scene.name, *warning));
     }
   }
 
   void judge_into(const accel::StructureChoice& choice, VerifiedCell& cell) {
     const auto accelerator =
-        choice.build(view_.scene, rays::workload_of(view_.image, view_.question, view_.threads));
-    rays::Answers answers = rays::room_for(view_.question);
-    watched_ask(*accelerator, view_.question, answers, view_.threads, progress_);
-    const verify::ReplayCommand replay(view_.scene, view_.image, choice, view_.question);
-    std::vector<verify::DiffClass> classes(view_.question.size());
-    cell.report = verify::judge(reference_, answers, choice.info().conformance, classes);
+        choice.build(view_.scene, rays::workload_of(view_.image, view_.input, view_.threads));
+    rays::TraceResults results = rays::make_results(view_.input);
+    watched_ask(*accelerator, view_.input, results, view_.threads, progress_);
+    const verify::ReplayCommand replay(view_.scene, view_.image, choice, view_.input);
+    std::vector<verify::DiffClass> classes(view_.input.size());
+    cell.report = verify::judge(reference_, results, choice.info().conformance, classes);
     cell.verdict = verify::to_string(cell.report->verdict);
     cell.disputes = describe_disputes(view_, *cell.report, replay);
     if (choice.info().conformance == accel::Conformance::kBitExact) {
       if (bits_) {
-        compare_bits(view_.question, answers, *bits_, replay, classes, cell);
+        compare_bits(view_.input, results, *bits_, replay, classes, cell);
       } else {
-        bits_ = BitsReference{cell.label, std::move(answers)};
+        bits_ = BitsReference{cell.label, std::move(results)};
       }
     }
-    if (!pictures_.empty() && !cell.passed() && view_.question.image() != nullptr) {
+    if (!pictures_.empty() && !cell.passed() && view_.input.image() != nullptr) {
       cell.picture = pictures_ / picture_name(fmt::format("{}-{}-{}", cell.scene,
                                                           view_.image.camera.name, cell.label));
       write_difference(cell.picture, reference_, classes, {cell.label, kOracleName});
@@ -170,7 +167,7 @@ std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
                                        const std::filesystem::path& pictures,
                                        base::Progress& progress) {
   SceneVerifier verifier(view, pictures, progress);
-  return verify_each(view.scene, view.question.label(), std::move(contenders), progress,
+  return verify_each(view.scene, view.input.label(), std::move(contenders), progress,
                      [&](const accel::StructureChoice& choice, VerifiedCell& cell) {
                        verifier.judge_into(choice, cell);
                      });

@@ -41,7 +41,7 @@ struct VerifiedCell {
 struct VerifiedView {
   const scenes::Scene& scene;
   rays::ImageOfRays image;
-  rays::Question question;
+  rays::TraceInput input;
   int threads = 1;  ///< that trace the image
 };
 

@@ -17,7 +17,7 @@
 #include "harness/cli/text.hpp"
 #include "harness/cli/verification.hpp"
 #include "harness/cli/verify_picture.hpp"
-#include "harness/rays/ray_choice.hpp"
+#include "harness/rays/ray_kind.hpp"
 #include "harness/rays/resolution.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
@@ -118,7 +118,8 @@ std::vector<VerifiedCell> verify_kind(const scenes::Scene& scene, const rays::Im
     return verify_picture(scene, image, kind, contenders.choices, progress);
   }
   try {
-    const VerifiedView view{scene, image, rays::make_question(scene, image, kind), request.threads};
+    const VerifiedView view{scene, image, rays::make_trace_input(scene, image, kind),
+                            request.threads};
     return verify_scene(view, contenders.choices, request.pictures, progress);
   } catch (const rays::NoRaysError& error) {  // the other kinds go on
     return cells_without_rays(scene, kind.label, contenders.choices, progress, error.what());

@@ -26,7 +26,7 @@ class PictureVerifier {
   void judge_into(const accel::StructureChoice& choice, VerifiedCell& cell) {
     const auto structure = choice.build(scene_, workload_);
     accel::HitBuffer hits(rays_.width(), rays_.height(), rays_.samples());
-    structure->trace(rays_, hits);
+    structure->trace(rays_, hits, nullptr);
     render::RecordedPicture picture = render::record_picture(
         scene_, *structure, rays_, std::move(hits), options_, rays::HitCheck(scene_, choice));
     if (choice.info().conformance == accel::Conformance::kBitExact)
@@ -58,7 +58,7 @@ class PictureVerifier {
     if (verify::is_right(rays.report.verdict)) return;
     for (const verify::Mismatch& example : rays.report.examples) {
       cell.disputes.push_back(
-          fmt::format("{} rays, {}", rays.kind, verify::describe(scene_, rays.question, example)));
+          fmt::format("{} rays, {}", rays.kind, verify::describe(scene_, rays.input, example)));
     }
   }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "harness/cli/verification.hpp"
-#include "harness/rays/ray_choice.hpp"
+#include "harness/rays/ray_kind.hpp"
 
 namespace beambench::cli {
 

@@ -47,7 +47,7 @@ render::HeatMap count_work(const accel::Accelerator& accelerator, const accel::P
       std::uint64_t sum = 0;
       for (int sample = 0; sample < rays.samples(); ++sample) {
         accel::WorkCounters counters;
-        const auto hit = accelerator.closest_hit(rays.ray(x, y, sample), counters);
+        const auto hit = accelerator.closest_hit(rays.ray(x, y, sample), &counters);
         hits.set(hits.index(x, y, sample), hit);
         sum += read(counters, counter, seen);
       }

@@ -74,7 +74,7 @@ void ImageWorker::trace(const BlockTask& block) {
     for (int x = block.left; x < block.left + block.width; ++x) {
       for (int sample = 0; sample < rays_->samples(); ++sample) {
         const std::size_t index = hits_.index(x, y, sample);
-        hits_.set(index, tracer_->closest_hit(rays_->ray(x, y, sample)));
+        hits_.set(index, tracer_->closest_hit(rays_->ray(x, y, sample), nullptr));
         decided_.painted(index);
       }
     }

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "harness/cluster/bytes.hpp"
-#include "harness/rays/question.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "harness/render/whitted_options.hpp"
 #include "scenes/scene.hpp"
 

@@ -39,7 +39,7 @@ class Sampler {
   Attempt uniform(int samples) const {
     const accel::PrimaryRays rays = primary(samples);
     accel::HitBuffer hits(rays.width(), rays.height(), samples);
-    const double ms = timed([&] { tracer_->trace(rays, hits); });
+    const double ms = timed([&] { tracer_->trace(rays, hits, nullptr); });
     rays::HitCheck(*scene_, "structure 'beam'").require(hits, rays);
     const double traced = static_cast<double>(rays.count()) - leaving(rays);
     return {ms, traced, render::shade(*scene_, rays, hits, render::Shading::kPreview)};
@@ -79,7 +79,7 @@ class Sampler {
   double leaving(const accel::PrimaryRays& rays) const {
     accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
     accel::WorkCounters counters;
-    tracer_->trace(rays, hits, counters);
+    tracer_->trace(rays, hits, &counters);
     return static_cast<double>(counters.by_name().at("samples_leaving"));
   }
 

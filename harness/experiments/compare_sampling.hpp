@@ -6,7 +6,7 @@
 
 #include "accel/beam/object_space_sampling.hpp"
 #include "harness/base/progress.hpp"
-#include "harness/rays/question.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::experiments {

@@ -71,7 +71,7 @@ accel::beam::SparseSamples trace_image_space(const accel::beam::BeamTracer& trac
   }
   const accel::PrimaryRays first(camera, rays.width(), rays.height(), 1);
   accel::HitBuffer hits(rays.width(), rays.height(), 1);
-  tracer.trace(first, hits);
+  tracer.trace(first, hits, nullptr);
   rays::HitCheck(scene, "structure 'beam'").require(hits, first);
 
   accel::beam::SparseSamples samples{accel::HitBuffer(rays.width(), rays.height(), rays.samples()),
@@ -89,7 +89,8 @@ accel::beam::SparseSamples trace_image_space(const accel::beam::BeamTracer& trac
     const std::size_t pixel = index / a_pixel;
     samples.hits.set(index, tracer.closest_hit(rays.ray(static_cast<int>(pixel % width),
                                                         static_cast<int>(pixel / width),
-                                                        static_cast<int>(index % a_pixel))));
+                                                        static_cast<int>(index % a_pixel)),
+                                               nullptr));
   }
   return samples;
 }

@@ -35,7 +35,7 @@ int new_memory(std::size_t size) {
   return descriptor;
 }
 
-/// Writes texts one behind the other and a zero, as far as there is room.
+/// Concatenates texts, truncated to `place`, and ends with a zero.
 void copy(std::span<char> place, std::initializer_list<std::string_view> pieces) {
   std::size_t room = place.size() - 1;
   char* end = place.data();

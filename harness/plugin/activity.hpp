@@ -1,5 +1,5 @@
 #pragma once
-// What a process is at, told where another process can read it after a crash.
+// What a process is doing, recorded where another process can read it after a crash.
 
 #include <map>
 #include <string>
@@ -11,31 +11,30 @@ namespace beambench::plugin {
 class Activity {
  public:
   enum class Line {
-    kForeign,    ///< what foreign code is asked to do: "loading ./libmine.so"; empty: nothing
-    kRunFolder,  ///< of the sweep that could go on
-    kCell        ///< the key of the cell that is measured
+    kForeign,    ///< what foreign code is doing: "loading ./libmine.so"; empty: nothing
+    kRunFolder,  ///< of the sweep that can be resumed
+    kCell        ///< the key of the cell being measured
   };
 
   Activity();
-  /// The one behind the descriptor of another process, which this one has inherited. Throws
-  /// std::system_error when it is none.
+  /// That of another process, whose descriptor this one has inherited. Throws std::system_error
+  /// when the descriptor is of something else.
   explicit Activity(int descriptor);
   ~Activity();
   Activity(const Activity&) = delete;
   Activity& operator=(const Activity&) = delete;
 
-  /// Two pieces of one text; what is too long is cut off.
+  /// Two pieces of one text, truncated where it is too long.
   void write(Line line, std::string_view text, std::string_view rest = "");
   void clear(Line line) { write(line, ""); }
   std::string read(Line line) const;
 
-  /// Notes that the work broke down over a cell: a key and a sentence. False where there is no room
-  /// for more.
+  /// Records that a cell crashed: its key and a sentence. False where there is no space left.
   bool add_broken_cell(std::string_view key, std::string_view how);
   /// By key.
   std::map<std::string, std::string> broken_cells() const;
 
-  /// To be inherited by a process that is to write here.
+  /// To be inherited by the process that writes here.
   int descriptor() const { return descriptor_; }
 
  private:

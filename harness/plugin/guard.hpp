@@ -1,5 +1,5 @@
 #pragma once
-// Foreign code may crash: then a process of its own is what it takes with it.
+// Foreign code runs in a process of its own, so that its crash ends that process only.
 
 #include <memory>
 
@@ -15,7 +15,7 @@ namespace beambench::plugin {
 /// Signals to end are passed on. For the start of a program.
 int run_guarded(char** arguments);
 
-/// Where a process that is guarded tells what it is at; nullptr in others.
+/// Where a guarded process records what it is doing; nullptr in others.
 std::unique_ptr<Activity> guarded_activity();
 
 }  // namespace beambench::plugin

@@ -5,16 +5,14 @@
 
 #include <fmt/format.h>
 
-#include "harness/plugin/foreign_call.hpp"
-
 namespace beambench::plugin {
 namespace {
 
-/// Passes every call on to the plug-in's structure.
+/// Forwards every call to the plug-in's structure.
 class GuardedStructure : public accel::Accelerator {
   template <class Query>
   decltype(auto) call(Query&& query) const {
-    return foreign_call(file_, when_asked_, std::forward<Query>(query));
+    return foreign_call(file_, when_queried_, std::forward<Query>(query));
   }
 
   void require_primitive(scenes::PrimitiveId id) const {
@@ -36,52 +34,32 @@ class GuardedStructure : public accel::Accelerator {
         primitives_(scene.primitives.size()),
         file_(std::move(file)),
         name_(std::move(name)),
-        when_asked_("when '" + name_ + "' was asked"),
+        when_queried_("when '" + name_ + "' was queried"),
         activity_(&activity) {}
   GuardedStructure(const GuardedStructure&) = delete;
   GuardedStructure& operator=(const GuardedStructure&) = delete;
 
-  std::optional<accel::Hit> closest_hit(const accel::Ray& ray) const override {
-    return sound(call([&] { return structure_->closest_hit(ray); }));
-  }
-  bool any_hit(const accel::Ray& ray) const override {
-    return call([&] { return structure_->any_hit(ray); });
-  }
-  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer) const override {
-    call([&] { structure_->trace(rays, buffer); });
-  }
-  void closest_hits(std::span<const accel::Ray> rays, accel::HitBuffer& buffer) const override {
-    call([&] { structure_->closest_hits(rays, buffer); });
-  }
-  void any_hits(std::span<const accel::Ray> rays, std::span<std::uint8_t> answers) const override {
-    call([&] { structure_->any_hits(rays, answers); });
-  }
-
   std::optional<accel::Hit> closest_hit(const accel::Ray& ray,
-                                        accel::WorkCounters& counters) const override {
+                                        accel::WorkCounters* counters) const override {
     return sound(call([&] { return structure_->closest_hit(ray, counters); }));
   }
-  bool any_hit(const accel::Ray& ray, accel::WorkCounters& counters) const override {
+  bool any_hit(const accel::Ray& ray, accel::WorkCounters* counters) const override {
     return call([&] { return structure_->any_hit(ray, counters); });
   }
   void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
-             accel::WorkCounters& counters) const override {
+             accel::WorkCounters* counters) const override {
     call([&] { structure_->trace(rays, buffer, counters); });
   }
-  void closest_hits(std::span<const accel::Ray> rays, accel::HitBuffer& buffer,
-                    accel::WorkCounters& counters) const override {
-    call([&] { structure_->closest_hits(rays, buffer, counters); });
+  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
+                    accel::WorkCounters* counters) const override {
+    call([&] { structure_->closest_hits(batch, buffer, counters); });
   }
-  void any_hits(std::span<const accel::Ray> rays, std::span<std::uint8_t> answers,
-                accel::WorkCounters& counters) const override {
-    call([&] { structure_->any_hits(rays, answers, counters); });
-  }
-
-  void trace_shared(const accel::PrimaryRays& rays, accel::HitBuffer& buffer) const override {
-    call([&] { structure_->trace_shared(rays, buffer); });
+  void any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
+                accel::WorkCounters* counters) const override {
+    call([&] { structure_->any_hits(batch, hits, counters); });
   }
   void trace_shared(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
-                    accel::WorkCounters& counters) const override {
+                    accel::WorkCounters* counters) const override {
     call([&] { structure_->trace_shared(rays, buffer, counters); });
   }
 
@@ -112,12 +90,12 @@ class GuardedStructure : public accel::Accelerator {
   std::size_t primitives_;
   std::string file_;
   std::string name_;
-  std::string when_asked_;
+  std::string when_queried_;
   Activity* activity_;
 };
 
-/// A plug-in's function that builds a structure, under watch. It is timed: texts are made before or
-/// when something has gone wrong.
+/// A plug-in's function that builds a structure, guarded. It is timed: texts are made beforehand or
+/// after an error.
 class GuardedBuild {
  public:
   GuardedBuild(const accel::StructureInfo& info, Activity& activity)
@@ -125,7 +103,7 @@ class GuardedBuild {
         file_(info.origin),
         name_(info.name),
         building_(fmt::format("{}: building '{}' over ", file_, name_)),
-        asking_(fmt::format("{}: asking '{}' over ", file_, name_)),
+        querying_(fmt::format("{}: querying '{}' over ", file_, name_)),
         when_built_(fmt::format("when '{}' was built", name_)),
         activity_(&activity) {}
 
@@ -142,7 +120,7 @@ class GuardedBuild {
       throw PluginError(fmt::format("the plug-in {} built no '{}': its function returned nullptr",
                                     file_, parameters.label()));
     }
-    activity_->write(Activity::Line::kForeign, asking_, scene.name);
+    activity_->write(Activity::Line::kForeign, querying_, scene.name);
     return std::make_unique<GuardedStructure>(std::move(structure), scene, file_, name_,
                                               *activity_);
   }
@@ -152,7 +130,7 @@ class GuardedBuild {
   std::string file_;
   std::string name_;
   std::string building_;
-  std::string asking_;
+  std::string querying_;
   std::string when_built_;
   Activity* activity_;
 };

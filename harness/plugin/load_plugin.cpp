@@ -1,11 +1,14 @@
 #include "harness/plugin/load_plugin.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <dlfcn.h>
@@ -13,11 +16,9 @@
 #include <fmt/ranges.h>
 #include <unistd.h>
 
-#include "accel/core/extend_registry.hpp"
-#include "harness/plugin/check_contents.hpp"
-#include "harness/plugin/check_scene.hpp"
-#include "harness/plugin/foreign_call.hpp"
+#include "accel/core/registry.hpp"
 #include "harness/plugin/guarded_structure.hpp"
+#include "harness/plugin/validation.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
@@ -28,7 +29,7 @@ namespace beambench::plugin {
 namespace {
 
 constexpr const char* kEntry = "beambench_plugin";
-/// A plug-in that has not ended its start by then never will.
+/// A plug-in that takes longer to load hangs.
 constexpr unsigned kSecondsToLoad = 10;
 
 std::vector<LoadedPlugin>& all_loaded() {
@@ -53,15 +54,15 @@ std::string call_with_plugins(std::string_view program) {
   throw InputError(fmt::format("the plug-in {} {}", file, why));
 }
 
-/// What the loader says names the file once more, and nobody needs it twice.
+/// The loader's message without the file's name, which ours has already.
 std::string loader_message(const std::string& path) {
-  const char* told = ::dlerror();
-  std::string_view message = told == nullptr ? "no reason was given" : told;
+  const char* error = ::dlerror();
+  std::string_view message = error == nullptr ? "no reason was given" : error;
   if (message.starts_with(path + ": ")) message.remove_prefix(path.size() + 2);
   return std::string(message);
 }
 
-/// Ends the process when loading hangs; whoever guards it sees by which signal.
+/// Ends the process by SIGALRM when loading hangs; the guard reports it.
 class LoadingTime {
  public:
   LoadingTime() { ::alarm(kSecondsToLoad); }
@@ -70,7 +71,7 @@ class LoadingTime {
   LoadingTime& operator=(const LoadingTime&) = delete;
 };
 
-/// Stays loaded until the program ends: what it brings is code.
+/// Stays loaded until the program ends: the registry points to its code.
 const Plugin& open(const std::string& file) {
   namespace fs = std::filesystem;
   std::error_code error;
@@ -95,15 +96,33 @@ const Plugin& open(const std::string& file) {
 constexpr std::string_view kBuildAgain =
     "build it again with the headers of this beambench, and options that change none of its types";
 
-/// Reads no further than what it knows to be there.
+/// What each version of the interface changed, from version 2 on.
+constexpr auto kInterfaceChanges = std::to_array<std::string_view>({
+    "statistics() reports how a structure gets the rays of an image",
+    "each query exists once, with a pointer to counters, and a list of rays is a RayBatch",
+});
+static_assert(kInterfaceChanges.size() == kPluginInterface - 1);
+
+void require_same_version(const std::string& file, std::uint32_t version) {
+  if (version == kPluginInterface) return;
+  std::string changes = "an older one";
+  if (version < kPluginInterface) {
+    changes = "and since then:";
+    for (std::uint32_t later = std::max(version, 1U) + 1; later <= kPluginInterface; ++later) {
+      changes += fmt::format(" {} (version {});", kInterfaceChanges[later - 2], later);
+    }
+    changes.pop_back();
+  }
+  refuse(file, fmt::format("was built for version {} of the interface, this program has {}, {}; {}",
+                           version, kPluginInterface, changes, kBuildAgain));
+}
+
+/// Reads `layout` and what follows only where the version says that they are there.
 void require_same_stamp(const std::string& file, const PluginStamp& stamp) {
   if (stamp.magic != kPluginStamp.magic) {
     refuse(file, fmt::format("is no plug-in of beambench: its '{}' is something else", kEntry));
   }
-  if (stamp.interface_version != kPluginStamp.interface_version) {
-    refuse(file, fmt::format("was built for version {} of the interface, this program has {}; {}",
-                             stamp.interface_version, kPluginStamp.interface_version, kBuildAgain));
-  }
+  require_same_version(file, stamp.interface_version);
   if (std::strcmp(stamp.library, kPluginStamp.library) != 0) {
     refuse(file, fmt::format("was built with {}, this program with {}; {}", stamp.library,
                              kPluginStamp.library, kBuildAgain));
@@ -213,7 +232,7 @@ void load_plugin(const std::string& file, Activity& activity) {
   adopt(contents.structures, file, activity);
   adopt(contents.scenes, file, activity);
   adopt(contents.readers, file, activity);
-  accel::extend_registry(std::move(contents.structures));
+  accel::register_plugin_structures(std::move(contents.structures));
   scenes::register_plugin_scenes(std::move(contents.scenes), std::move(contents.readers));
 }
 
@@ -224,5 +243,70 @@ std::string program_call() { return call_with_plugins("beambench"); }
 void set_program_name(std::string_view word) { program_name() = word; }
 
 std::string program_call_here() { return call_with_plugins(program_name()); }
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kOption = "--plugin";
+constexpr const char* kVariable = "BEAMBENCH_PLUGINS";
+
+void add_once(std::vector<std::string>& files, std::string file) {
+  if (std::ranges::find(files, file) == files.end()) files.push_back(std::move(file));
+}
+
+void add_folder(std::vector<std::string>& files, const fs::path& folder) {
+  std::vector<std::string> found;
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    if (entry.path().extension() == ".so") found.push_back(entry.path().string());
+  }
+  std::ranges::sort(found);
+  for (std::string& file : found) add_once(files, std::move(file));
+}
+
+void add_from_environment(std::vector<std::string>& files) {
+  const char* text = std::getenv(kVariable);
+  std::string_view rest = text == nullptr ? "" : text;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(':'), rest.size());
+    const std::string entry(rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    std::error_code error;
+    if (fs::is_directory(entry, error)) {
+      add_folder(files, entry);
+    } else if (!entry.empty()) {
+      add_once(files, entry);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> take_requested_plugins(std::vector<std::string>& arguments) {
+  std::vector<std::string> files;
+  add_from_environment(files);
+  std::vector<std::string> left;
+  for (std::size_t i = 0; i < arguments.size(); ++i) {
+    const std::string& argument = arguments[i];
+    if (argument == "--") {
+      left.insert(left.end(), arguments.begin() + static_cast<std::ptrdiff_t>(i), arguments.end());
+      break;
+    }
+    if (argument.starts_with("--plugin=")) {
+      add_once(files, argument.substr(std::string_view("--plugin=").size()));
+    } else if (argument == kOption) {
+      if (++i == arguments.size()) {
+        throw InputError(
+            "--plugin needs a file: the shared object that beambench_add_plugin built");
+      }
+      add_once(files, arguments[i]);
+    } else {
+      left.push_back(argument);
+    }
+  }
+  arguments = std::move(left);
+  return files;
+}
 
 }  // namespace beambench::plugin

@@ -1,5 +1,5 @@
 #pragma once
-// Plug-ins: loaded from their files, looked over, and taken into the program.
+// Plug-ins: requested on the command line, loaded from their files, validated, and registered.
 
 #include <cstdint>
 #include <span>
@@ -13,7 +13,7 @@ namespace beambench::plugin {
 
 /// A plug-in that was loaded.
 struct LoadedPlugin {
-  std::string file;  ///< as it was given
+  std::string file;  ///< as on the command line
   std::string description;
   std::uint64_t hash;  ///< fingerprint of the file
   std::string compiler;
@@ -25,11 +25,11 @@ struct LoadedPlugin {
 };
 
 /// Loads a plug-in (plugin.hpp) and adds what it brings to `registry()` and to the catalogue, each
-/// with `origin` set: for the time before a structure or a scene is chosen. Refuses it by an
+/// with `origin` set; to be called before a structure or a scene is chosen. Refuses it by an
 /// InputError that names the file: it cannot be loaded, is no plug-in, was built for another
-/// interface, with other types or another C++ library, throws, or brings nothing or what
-/// check_contents refuses. Then nothing of it is taken in. `activity` outlives the program's use of
-/// it.
+/// version of the interface (the message says what changed), with other types or another C++
+/// library, throws, or provides nothing or what check_contents refuses. Then nothing of it is
+/// registered. `activity` outlives the program's use of it.
 void load_plugin(const std::string& file, Activity& activity);
 
 /// In the order in which they were loaded.
@@ -45,5 +45,11 @@ void set_program_name(std::string_view word);
 /// The same for commands to be pasted at once into the shell that the program was called from:
 /// `build/release/bin/beambench --plugin ./libmine.so`.
 std::string program_call_here();
+
+/// Removes `--plugin FILE` and `--plugin=FILE` from a command line (the program's name first)
+/// before a `--`, and returns the files, each once. Those of the environment variable
+/// BEAMBENCH_PLUGINS come first: separated by colons, each a file, or a folder for all its `*.so`
+/// sorted by name. Throws InputError where the option has no file.
+std::vector<std::string> take_requested_plugins(std::vector<std::string>& arguments);
 
 }  // namespace beambench::plugin

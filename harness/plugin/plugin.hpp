@@ -8,15 +8,15 @@
 //         .description = "My structures",
 //         .fill = [](beambench::plugin::PluginContents& contents) {
 //           contents.structures.push_back({"mine", "what it is, in a sentence",
-//                                          beambench::Conformance::kBitExact, {},
+//                                          beambench::accel::Conformance::kBitExact, {},
 //                                          [](const beambench::scenes::Scene& scene, const auto&,
 //                                             const auto&) {
 //                                            return std::make_unique<Mine>(scene);
 //                                          }});
 //         }};
 //
-// `beambench_add_plugin(mine mine.cpp)` of the CMake package builds it. A whole one to start from
-// is tests/plugin/template.
+// `beambench_add_plugin(mine mine.cpp)` of the CMake package builds it. tests/plugin/template is a
+// complete one to start from.
 
 #include <vector>
 
@@ -35,24 +35,23 @@
 #include "scenes/scene_builder.hpp"
 
 #if defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__
-#error "a ray-primitive test answers NaN for a miss: leave out -ffast-math and -ffinite-math-only"
+#error "a ray-primitive test returns NaN for a miss: leave out -ffast-math and -ffinite-math-only"
 #endif
 
 namespace beambench::plugin {
 
-/// What a plug-in brings. Names must be free: letters, digits, '-' and '_', a letter first.
+/// What a plug-in provides. Names must not be in use: letters, digits, '-' and '_', a letter first.
 struct PluginContents {
   std::vector<accel::StructureInfo> structures;
   std::vector<scenes::SceneInfo> scenes;
   std::vector<scenes::SceneReader> readers;
 };
 
-/// A plug-in's way in.
+/// The entry point of a plug-in.
 struct Plugin {
   PluginStamp stamp = kPluginStamp;  ///< first, to be read before all else
   const char* description;           ///< one sentence; `beambench list` prints it
-  /// Called once, when the program has found that the stamp is its own. Whatever it throws refuses
-  /// the plug-in.
+  /// Called once, after the stamp was found to match. If it throws, the plug-in is refused.
   void (*fill)(PluginContents& contents);
 };
 

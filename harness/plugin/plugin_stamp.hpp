@@ -1,5 +1,5 @@
 #pragma once
-// What must be equal on both sides of a plug-in's door, looked at before anything is called.
+// What must be equal in a plug-in and in the program, compared before anything is called.
 
 #include <array>
 #include <cstddef>
@@ -13,16 +13,17 @@
 
 namespace beambench::plugin {
 
-/// Counted up when a header that is installed changes so that a plug-in made with the old one would
-/// err: a virtual function, a type, the meaning of a call.
-inline constexpr std::uint32_t kPluginInterface = 2;
+/// Incremented when an installed header changes so that a plug-in made with the old one would fail:
+/// a virtual function, a type, the meaning of a call. load_plugin.cpp lists what each version
+/// changed.
+inline constexpr std::uint32_t kPluginInterface = 3;
 
-/// Says which build made a plug-in. The first two members stand where they stand for ever.
+/// Identifies the build of a plug-in. The first two members never move.
 struct PluginStamp {
   std::uint64_t magic;
   std::uint32_t interface_version;
   bool optimized;
-  std::uint64_t layout;      ///< fingerprint of the types that cross the door
+  std::uint64_t layout;      ///< fingerprint of the types that both sides use
   const char* library;       ///< the C++ library and its binary interface
   const char* compiler;      ///< need not be the program's
   const char* instructions;  ///< what it was compiled to use
@@ -30,7 +31,7 @@ struct PluginStamp {
 
 namespace plugin_stamp {
 
-/// Sizes and alignments of all types that cross the door, folded by FNV-1a: they change with the
+/// Sizes and alignments of all types that both sides use, hashed by FNV-1a: they change with the
 /// project's headers, and with macros that change GLM or the C++ library.
 template <class... Types>
 constexpr std::uint64_t layout_of() {
@@ -42,14 +43,13 @@ constexpr std::uint64_t layout_of() {
 }
 
 inline constexpr std::uint64_t kMagic = 0x636E65626D616562U;  // "beambenc" in memory
-inline constexpr std::uint64_t kLayout =
-    plugin_stamp::layout_of<glm::vec3, glm::dvec3, scenes::Scene, scenes::Camera, scenes::Surface,
-                            scenes::Light, scenes::Primitive, scenes::Sphere, scenes::Cone,
-                            scenes::Polygon, scenes::Triangle, scenes::Bounds, accel::Ray,
-                            accel::Hit, accel::HitBuffer, accel::PrimaryRays, accel::WorkCounters,
-                            accel::Statistics, accel::TraceStep, accel::BeamOutline, accel::Box,
-                            accel::Accelerator, accel::Workload, Parameters, ParameterInfo,
-                            accel::StructureInfo, scenes::SceneInfo, scenes::SceneReader>();
+inline constexpr std::uint64_t kLayout = plugin_stamp::layout_of<
+    glm::vec3, glm::dvec3, scenes::Scene, scenes::Camera, scenes::Surface, scenes::Light,
+    scenes::Primitive, scenes::Sphere, scenes::Cone, scenes::Polygon, scenes::Triangle,
+    scenes::Bounds, accel::Ray, accel::Pencil, accel::RayBatch, accel::Hit, accel::HitBuffer,
+    accel::PrimaryRays, accel::WorkCounters, accel::Statistics, accel::TraceStep,
+    accel::BeamOutline, accel::Box, accel::Accelerator, accel::Workload, Parameters, ParameterInfo,
+    accel::StructureInfo, scenes::SceneInfo, scenes::SceneReader>();
 
 #if defined(_LIBCPP_VERSION)
 inline constexpr const char* kLibrary = "libc++";

@@ -37,15 +37,14 @@ std::uint64_t fingerprint(const accel::HitBuffer& buffer) {
                               distances);
 }
 
-std::uint64_t fingerprint(const Question& question) {
-  return question.list() != nullptr ? fingerprint(question.list()->rays)
-                                    : fingerprint(*question.image());
+std::uint64_t fingerprint(const TraceInput& input) {
+  return input.list() != nullptr ? fingerprint(input.list()->rays) : fingerprint(*input.image());
 }
 
-std::uint64_t fingerprint(const Answers& answers) {
-  if (const auto* any = std::get_if<AnyHits>(&answers))
+std::uint64_t fingerprint(const TraceResults& results) {
+  if (const auto* any = std::get_if<AnyHits>(&results))
     return XXH3_64bits(any->data(), any->size());
-  return fingerprint(std::get<accel::HitBuffer>(answers));
+  return fingerprint(std::get<accel::HitBuffer>(results));
 }
 
 std::string hex_digits(std::uint64_t value) { return fmt::format("{:016x}", value); }

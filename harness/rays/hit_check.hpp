@@ -1,5 +1,5 @@
 #pragma once
-// The hits that a structure returns are checked before anything is made of them.
+// The hits that a structure returns are checked before anything is computed from them.
 
 #include <cmath>
 #include <stdexcept>
@@ -21,7 +21,7 @@ class InvalidHit : public std::runtime_error {
 };
 
 /// Checks the hits of one structure over one scene: secondary rays, normals and colors may only be
-/// computed from those that pass. Whether a hit is the right one is for the differ to judge.
+/// computed from those that pass. Whether a hit is the right one is decided by the differ.
 class HitCheck {
  public:
   /// `structure` is the subject of the message: "structure 'samet:max_level=6'".

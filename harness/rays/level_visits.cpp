@@ -27,14 +27,14 @@ std::vector<int> levels_of(const accel::octree::Octree& octree) {
   return levels;
 }
 
-/// Counts each beam at the level of the leaf that it comes to.
+/// Counts each beam at the level of the leaf that it enters.
 class BeamsByLevel : public accel::beam::NoBeamWatch {
  public:
   BeamsByLevel(const std::vector<int>& levels, std::vector<LevelVisits>& visits)
       : levels_(&levels), visits_(&visits) {}
 
   void met(accel::BeamKind kind, const accel::beam::Beam& beam) {
-    if (kind == accel::BeamKind::kLeaving) return;  // it is in no leaf any more
+    if (kind == accel::BeamKind::kLeaving) return;  // it is in no leaf anymore
     ++(*visits_)[static_cast<std::size_t>((*levels_)[beam.node] - 1)].beams;
   }
 
@@ -46,7 +46,7 @@ class BeamsByLevel : public accel::beam::NoBeamWatch {
 }  // namespace
 
 std::vector<LevelVisits> count_level_visits(const accel::Accelerator& structure,
-                                            const Question& question) {
+                                            const TraceInput& input) {
   const accel::octree::Octree* octree = octree_of(structure);
   if (octree == nullptr) return {};
   const std::span<const accel::octree::OctreeNode> nodes = octree->nodes();
@@ -68,8 +68,8 @@ std::vector<LevelVisits> count_level_visits(const accel::Accelerator& structure,
 
   constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
   std::vector<std::size_t> last_ray(nodes.size(), kNone);
-  for (std::size_t ray = 0; ray < question.size(); ++ray) {
-    for (const accel::TraceStep& step : structure.explain(question.ray(ray))) {
+  for (std::size_t ray = 0; ray < input.size(); ++ray) {
+    for (const accel::TraceStep& step : structure.explain(input.ray(ray))) {
       ++at(step.index).leaf_visits;
       for (std::size_t node = step.index; last_ray[node] != ray; node = nodes[node].parent) {
         last_ray[node] = ray;
@@ -79,8 +79,8 @@ std::vector<LevelVisits> count_level_visits(const accel::Accelerator& structure,
   }
 
   const auto* beams = dynamic_cast<const accel::beam::BeamTracer*>(&structure);
-  if (beams != nullptr && question.image() != nullptr) {
-    const accel::PrimaryRays& image = *question.image();
+  if (beams != nullptr && input.image() != nullptr) {
+    const accel::PrimaryRays& image = *input.image();
     accel::HitBuffer buffer(image.width(), image.height(), image.samples());
     BeamsByLevel watch(levels, visits);
     beams->trace_watched(image, buffer, watch);

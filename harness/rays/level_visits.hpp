@@ -1,11 +1,11 @@
 #pragma once
-// How often rays and beams come to the nodes of an octree, by level.
+// How often rays and beams visit the nodes of an octree, by level.
 
 #include <cstdint>
 #include <vector>
 
 #include "accel/core/accelerator.hpp"
-#include "harness/rays/question.hpp"
+#include "harness/rays/trace_input.hpp"
 
 namespace beambench::rays {
 
@@ -19,13 +19,13 @@ struct LevelVisits {
   std::uint64_t occupied_leaves = 0;  ///< leaves with references
   std::uint64_t node_visits = 0;  ///< a ray and a node that it passes through, up to its first hit
   std::uint64_t leaf_visits = 0;  ///< those of leaves
-  std::uint64_t beams = 0;        ///< a beam and a leaf that it comes to; of an image, by `beam`
+  std::uint64_t beams = 0;        ///< a beam and a leaf that it enters; of an image, by `beam`
 };
 
 /// All levels, from the root to the deepest; empty for a structure that has no octree. The rays are
-/// traced by themselves, as Samet's, and then, in `beam`, as beams. Takes time and memory for each
-/// leaf on a ray's way.
+/// traced one by one, as Samet's, and then, in `beam`, as beams. Takes time and memory for each
+/// leaf on a ray's traversal path.
 std::vector<LevelVisits> count_level_visits(const accel::Accelerator& structure,
-                                            const Question& question);
+                                            const TraceInput& input);
 
 }  // namespace beambench::rays

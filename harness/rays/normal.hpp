@@ -1,6 +1,7 @@
 #pragma once
-// Which way a surface faces where a ray meets it.
+// The normal of a surface where a ray meets it, and where rays that start there begin.
 
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "accel/core/ray.hpp"
@@ -15,5 +16,18 @@ glm::dvec3 geometric_normal(const scenes::Scene& scene, const accel::Ray& ray,
 
 /// The same, but on a smooth polygon interpolated between the corners' normals: what shading uses.
 glm::dvec3 shading_normal(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& hit);
+
+/// How far from a surface rays begin: 64 x 2^-24 x (largest |coordinate| of the scene + |point|),
+/// four times the length within which the differ cannot distinguish points.
+inline double lift_at(const scenes::Scene& scene, const glm::dvec3& point) {
+  return 64.0 * 0x1p-24 * (scene.bounds.largest_coordinate() + glm::length(point));
+}
+
+/// A point a little beside a surface, on the side that `normal` (unit length) points to. Geometry
+/// alone then decides whether the surface itself is met again, and rays need no t_min.
+inline glm::dvec3 beside_surface(const scenes::Scene& scene, const glm::dvec3& point,
+                                 const glm::dvec3& normal) {
+  return point + normal * lift_at(scene, point);
+}
 
 }  // namespace beambench::rays

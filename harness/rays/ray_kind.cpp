@@ -1,7 +1,13 @@
 #include "harness/rays/ray_kind.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "scenes/core/error.hpp"
 
 namespace beambench::rays {
 namespace {
@@ -11,11 +17,11 @@ ParameterInfo seed_parameter() {
 }
 
 std::vector<ParameterInfo> whitted_parameters() {
-  return {integer_parameter("depth", 5, 1, 64, "rays behind one another, the eye's included"),
+  return {integer_parameter("depth", 5, 1, 64, "maximum ray depth, the primary ray included"),
           real_parameter("least_weight", 0.0, 0.0, 1.0,
-                         "rays that are a smaller part of their pixel are not traced"),
+                         "rays that contribute less to their pixel are not traced"),
           choice_parameter("shadows", "rays", {"rays", "cache", "light-buffer"},
-                           "how it is found out whether a light is seen")};
+                           "how the visibility of a light is determined")};
 }
 
 const std::vector<RayKindInfo>& all_kinds() {
@@ -46,10 +52,43 @@ const std::vector<RayKindInfo>& all_kinds() {
        Query::kClosestHit,
        {seed_parameter()}},
       {RayKind::kWhitted, "whitted",
-       "a whole picture: eye, shadow, reflected and refracted rays, which follow from the "
-       "structure's own hits; 'run' and 'verify' judge every one",
+       "a whole picture: camera, shadow, reflected and refracted rays, which follow from the "
+       "structure's own hits; 'run' and 'verify' verify every one",
        Query::kPicture, whitted_parameters()}};
   return kinds;
+}
+
+bool has_seed(const RayKindInfo& info) {
+  return std::ranges::find(info.parameters, "seed", &ParameterInfo::name) != info.parameters.end();
+}
+
+RayChoice choose(const Spec& spec) {
+  const auto kinds = ray_kinds();
+  const auto info = std::ranges::find(kinds, spec.name, &RayKindInfo::name);
+  if (info == kinds.end()) {
+    std::vector<std::string> names;
+    for (const RayKindInfo& known : kinds) names.push_back(known.name);
+    throw InputError(
+        fmt::format("unknown ray kind '{}'; choose from: {}, or a file of saved rays (*{})",
+                    spec.name, fmt::join(names, ", "), kRayFileEnding));
+  }
+  const Parameters parameters(info->name, info->parameters, spec.parameters);
+  RayChoice choice{info->kind, 0, {}, parameters.short_label()};
+  if (has_seed(*info)) choice.seed = static_cast<std::uint64_t>(parameters.integer("seed"));
+  return choice;
+}
+
+/// Does a list continue with another parameter, `name=value`, of the previous choice?
+bool is_parameter(std::string_view rest) {
+  const std::size_t end = rest.find_first_of(",:=");
+  return end != std::string_view::npos && rest[end] == '=';
+}
+
+RayChoice choose_file(std::string_view path) {
+  RayChoice choice;
+  choice.file = path;
+  choice.label = path;
+  return choice;
 }
 
 }  // namespace
@@ -64,5 +103,23 @@ std::span<const RayKindInfo> ray_kinds() { return all_kinds(); }
 const RayKindInfo& info_of(RayKind kind) { return all_kinds()[static_cast<std::size_t>(kind)]; }
 
 std::string_view to_string(RayKind kind) { return info_of(kind).name; }
+
+RayChoice parse_ray_choice(std::string_view text) {
+  return text.ends_with(kRayFileEnding) ? choose_file(text) : choose(parse_spec(text));
+}
+
+std::vector<RayChoice> parse_ray_choices(std::string_view list) {
+  std::vector<RayChoice> choices;
+  for (std::size_t start = 0; start <= list.size();) {
+    std::size_t comma = std::min(list.find(',', start), list.size());
+    while (comma < list.size() && is_parameter(list.substr(comma + 1))) {
+      comma = std::min(list.find(',', comma + 1), list.size());
+    }
+    RayChoice choice = parse_ray_choice(list.substr(start, comma - start));
+    if (std::ranges::find(choices, choice) == choices.end()) choices.push_back(std::move(choice));
+    start = comma + 1;
+  }
+  return choices;
+}
 
 }  // namespace beambench::rays

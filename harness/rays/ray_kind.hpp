@@ -1,6 +1,8 @@
 #pragma once
-// The kinds of rays that structures are asked with.
+// The kinds of rays that structures trace, and how a user names them.
 
+#include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,11 +21,11 @@ enum class RayKind {
   kWhitted      ///< all of a whole picture's, which follow from the structure's own hits
 };
 
-/// What is asked about a ray.
+/// What is to be found for a ray.
 enum class Query {
   kClosestHit,
   kAnyHit,  ///< is there a hit at all?
-  kPicture  ///< both, ray after ray as a whole picture needs them
+  kPicture  ///< both, one ray at a time, as a whole picture needs them
 };
 std::string_view to_string(Query query);  // "closest", "any", "picture"
 
@@ -41,5 +43,25 @@ std::span<const RayKindInfo> ray_kinds();
 
 const RayKindInfo& info_of(RayKind kind);
 std::string_view to_string(RayKind kind);
+
+/// The ending by which a file of rays is distinguished from the name of a kind.
+inline constexpr std::string_view kRayFileEnding = ".rays";
+
+/// Rays as a user names them: a kind with its parameters, or a file.
+struct RayChoice {
+  RayKind kind = RayKind::kPrimary;  ///< of a file: whatever was saved
+  std::uint64_t seed = 0;            ///< of a random kind; 0 for the others
+  std::filesystem::path file;        ///< empty: the rays are made
+  /// As records and commands name it: `shadow`, `diffuse`, `diffuse:seed=7`, or the file's path.
+  std::string label = "primary";
+
+  friend bool operator==(const RayChoice&, const RayChoice&) = default;
+};
+
+/// `primary`, `diffuse:seed=7`, `some/file.rays`. Throws InputError listing the valid names or
+/// parameters. A file is not opened yet.
+RayChoice parse_ray_choice(std::string_view text);
+/// A comma-separated list, each choice once. Throws as parse_ray_choice.
+std::vector<RayChoice> parse_ray_choices(std::string_view list);
 
 }  // namespace beambench::rays

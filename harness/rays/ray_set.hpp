@@ -1,18 +1,21 @@
 #pragma once
-// A list of rays that is made once and asked of everyone.
+// A list of rays that is made once and traced by every structure; in memory and in files.
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "accel/core/ray.hpp"
 #include "harness/rays/ray_kind.hpp"
 
 namespace beambench::rays {
 
-/// Rays, what is asked about them, and where they come from.
+/// Rays, what is to be found for them, and where they come from.
 struct RaySet {
   std::string label;  ///< as records and commands name it (`RayChoice::label`)
   Query query = Query::kClosestHit;
@@ -21,8 +24,27 @@ struct RaySet {
   std::vector<accel::Ray> rays;
 };
 
-/// How alike neighbors in a list are: the mean cosine of the angle between the directions of a ray
+/// The coherence of a list: the mean cosine of the angle between the directions of a ray
 /// and the next. 1: all parallel; 0: nothing in common. 1 for fewer than two rays.
 double coherence(std::span<const accel::Ray> rays);
+
+/// A ray file has three parts: the line `beambench-rays 1`; one line of JSON; then the rays, each
+/// as eight 32-bit IEEE floats in little-endian order: origin, t_min, direction, t_max. The JSON
+/// must have `query` ("closest" or "any") and `rays` (how many). `seed`, `scene_hash` (a file of
+/// another scene is refused) and `hash` (of the rays' bytes, XXH3; a damaged file is refused) may
+/// be missing; other members, such as those of `note`, are for people. In Python:
+///
+///     with open(path, "rb") as f:
+///         f.readline(); header = json.loads(f.readline())
+///         rays = numpy.fromfile(f, "<f4").reshape(-1, 8)
+///
+/// Throws InputError when the file cannot be written; then there is none.
+void write_ray_file(const std::filesystem::path& path, const RaySet& set,
+                    const nlohmann::ordered_json& note);
+
+/// Throws InputError naming the file and what is wrong with it: not a ray file, another version,
+/// too short or too long, damaged, or a ray (by its index) that `require_valid` refuses. The set's
+/// label is the path.
+RaySet read_ray_file(const std::filesystem::path& path);
 
 }  // namespace beambench::rays

@@ -11,7 +11,6 @@
 #include <glm/vec3.hpp>
 
 #include "accel/core/hit_buffer.hpp"
-#include "accel/core/mirrored.hpp"
 #include "accel/core/primary_rays.hpp"
 #include "accel/core/ray.hpp"
 #include "harness/render/picture/image.hpp"

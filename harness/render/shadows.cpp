@@ -9,7 +9,7 @@
 
 #include "accel/core/intersect.hpp"
 #include "accel/core/tolerance.hpp"
-#include "harness/rays/beside_surface.hpp"
+#include "harness/rays/normal.hpp"
 
 namespace beambench::render {
 namespace {
@@ -174,7 +174,7 @@ double Shadows::transmitted(const accel::Ray& to_light, std::size_t light, int d
       scenes::PrimitiveId unused = scenes::kNoPrimitive;
       if (all_opaque_) {
         ++census.shadow_queries;
-        part = structure_->any_hit(to_light) ? 0.0 : 1.0;
+        part = structure_->any_hit(to_light, nullptr) ? 0.0 : 1.0;
       } else {
         part = followed(to_light, unused, census);
       }
@@ -204,7 +204,7 @@ double Shadows::asked_by_cache(const accel::Ray& to_light, scenes::PrimitiveId& 
   }
   if (all_opaque_) {
     ++census.shadow_queries;
-    if (!structure_->any_hit(to_light)) return 1.0;
+    if (!structure_->any_hit(to_light, nullptr)) return 1.0;
   }
   return followed(to_light, last, census);  // any_hit does not tell which primitive it was
 }
@@ -230,7 +230,7 @@ double Shadows::followed(const accel::Ray& to_light, scenes::PrimitiveId& blocke
   double part = 1.0;
   while (ray.t_min <= ray.t_max) {
     ++census.shadow_queries;
-    const std::optional<accel::Hit> hit = structure_->closest_hit(ray);
+    const std::optional<accel::Hit> hit = structure_->closest_hit(ray, nullptr);
     if (!hit) return part;
     check_.require(ray, *hit);
     const float through = transmittance_of(*scene_, hit->primitive);

@@ -19,8 +19,9 @@ class PictureJudge {
       : scene_(scene), conformance_(conformance) {}
 
   void judge_eye(const verify::ReferenceHits& reference, accel::HitBuffer hits) {
-    judged_.push_back({"eye", reference.question(),
-                       verify::judge(reference, rays::Answers(std::move(hits)), conformance_)});
+    judged_.push_back(
+        {"eye", reference.input(),
+         verify::judge(reference, rays::TraceResults(std::move(hits)), conformance_)});
   }
 
   void judge_following(std::string_view kind, AskedRays asked) {
@@ -32,13 +33,12 @@ class PictureJudge {
 
  private:
   void judge_list(std::string_view kind, rays::Query query, std::vector<accel::Ray> rays,
-                  const rays::Answers& answers) {
+                  const rays::TraceResults& results) {
     if (rays.empty()) return;
     const verify::ReferenceHits reference(
         scene_,
-        rays::Question(rays::RaySet{std::string(kind), query, 0, std::nullopt, std::move(rays)}));
-    judged_.push_back(
-        {kind, reference.question(), verify::judge(reference, answers, conformance_)});
+        rays::TraceInput(rays::RaySet{std::string(kind), query, 0, std::nullopt, std::move(rays)}));
+    judged_.push_back({kind, reference.input(), verify::judge(reference, results, conformance_)});
   }
 
   const scenes::Scene& scene_;

@@ -27,11 +27,11 @@ class CountedQueries : public accel::TraversalAccelerator<CountedQueries> {
   accel::Statistics statistics() const override { return structure_.statistics(); }
   template <class Counting>
   std::optional<accel::Hit> find_closest(const accel::Ray& ray, Counting&) const {
-    return structure_.closest_hit(ray, counters_);
+    return structure_.closest_hit(ray, &counters_);
   }
   template <class Counting>
   bool find_any(const accel::Ray& ray, Counting&) const {
-    return structure_.any_hit(ray, counters_);
+    return structure_.any_hit(ray, &counters_);
   }
 
  private:
@@ -57,12 +57,12 @@ class RecordedQueries : public accel::TraversalAccelerator<RecordedQueries> {
   template <class Counting>
   std::optional<accel::Hit> find_closest(const accel::Ray& ray, Counting&) const {
     asked_.closest.push_back(ray);
-    return asked_.hits.emplace_back(structure_.closest_hit(ray));
+    return asked_.hits.emplace_back(structure_.closest_hit(ray, nullptr));
   }
   template <class Counting>
   bool find_any(const accel::Ray& ray, Counting&) const {
     asked_.any.push_back(ray);
-    return asked_.any_hits.emplace_back(structure_.any_hit(ray) ? 1 : 0) != 0;
+    return asked_.any_hits.emplace_back(structure_.any_hit(ray, nullptr) ? 1 : 0) != 0;
   }
 
  private:
@@ -137,7 +137,7 @@ RecordedPicture record_picture(const scenes::Scene& scene, const accel::Accelera
 /// The rays of one kind, and how they were answered.
 struct JudgedRays {
   std::string_view kind;  ///< "eye", or one of kFollowingRayNames
-  rays::Question question;
+  rays::TraceInput input;
   verify::DiffReport report;
 };
 

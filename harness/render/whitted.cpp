@@ -6,8 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "accel/core/mirrored.hpp"
-#include "harness/rays/beside_surface.hpp"
+#include "accel/core/primary_rays.hpp"
 #include "harness/rays/normal.hpp"
 #include "harness/render/picture/color.hpp"
 #include "harness/render/shading.hpp"
@@ -182,7 +181,7 @@ dvec3 Whitted::traced(const Kind& kind, const dvec3& origin, const dvec3& direct
   ray.origin = glm::vec3(origin);
   ray.direction = glm::vec3(direction);
   ++(progress.census.*kind.count);
-  const std::optional<accel::Hit> hit = (answerers_.*kind.answerer)->closest_hit(ray);
+  const std::optional<accel::Hit> hit = (answerers_.*kind.answerer)->closest_hit(ray, nullptr);
   if (hit) ++progress.census.secondary_hits;
   return color_along(ray, hit, path, progress);
 }

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "harness/rays/ray_choice.hpp"
+#include "harness/rays/ray_kind.hpp"
 
 namespace beambench::render {
 

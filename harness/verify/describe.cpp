@@ -59,9 +59,8 @@ std::string engine_text(const scenes::Scene& scene, const Mismatch& mismatch) {
 }  // namespace
 
 ReplayCommand::ReplayCommand(const scenes::Scene& scene, const rays::ImageOfRays& image,
-                             const accel::StructureChoice& structure,
-                             const rays::Question& question)
-    : question_(question),
+                             const accel::StructureChoice& structure, const rays::TraceInput& input)
+    : input_(input),
       subject_(fmt::format("{} trace {} --accel {}", plugin::program_call(),
                            shell_quoted(scene.name), shell_quoted(structure.short_label()))),
       image_(fmt::format("--resolution {}", rays::to_string(image.resolution))) {
@@ -70,17 +69,17 @@ ReplayCommand::ReplayCommand(const scenes::Scene& scene, const rays::ImageOfRays
 }
 
 std::string ReplayCommand::of(std::size_t index) const {
-  const auto pixel = question_.pixel(index);
+  const auto pixel = input_.pixel(index);
   if (!pixel) {
-    return fmt::format("{} --rays {} --ray {} {}", subject_, shell_quoted(question_.label()), index,
+    return fmt::format("{} --rays {} --ray {} {}", subject_, shell_quoted(input_.label()), index,
                        image_);
   }
   const std::string which =
-      question_.image()->samples() > 1 ? fmt::format(" --sample {}", pixel->sample) : "";
+      input_.image()->samples() > 1 ? fmt::format(" --sample {}", pixel->sample) : "";
   return fmt::format("{} --pixel {},{} {}{}", subject_, pixel->x, pixel->y, image_, which);
 }
 
-std::string describe(const scenes::Scene& scene, const rays::Question& question,
+std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch) {
   return fmt::format(
       "{}: {}{}{}\n"
@@ -88,7 +87,7 @@ std::string describe(const scenes::Scene& scene, const rays::Question& question,
       "  engine {}\n"
       "  oracle {}\n"
       "  exact  {}\n",
-      rays::place_text(question, mismatch.index),
+      rays::place_text(input, mismatch.index),
       kDiffClassNames[static_cast<std::size_t>(mismatch.diff_class)],
       mismatch.reason.empty() ? "" : ", ", mismatch.reason, text(mismatch.ray.origin),
       text(mismatch.ray.direction), mismatch.ray.t_min, mismatch.ray.t_max,
@@ -96,9 +95,9 @@ std::string describe(const scenes::Scene& scene, const rays::Question& question,
       mismatch.adjudicated ? text(scene, mismatch.exact) : "not asked");
 }
 
-std::string describe(const scenes::Scene& scene, const rays::Question& question,
+std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch, const ReplayCommand& replay) {
-  return fmt::format("{}  replay {}\n", describe(scene, question, mismatch),
+  return fmt::format("{}  replay {}\n", describe(scene, input, mismatch),
                      replay.of(mismatch.index));
 }
 

@@ -15,22 +15,22 @@ class ReplayCommand {
  public:
   /// `image` is what the rays come from, be they primary or not.
   ReplayCommand(const scenes::Scene& scene, const rays::ImageOfRays& image,
-                const accel::StructureChoice& structure, const rays::Question& question);
+                const accel::StructureChoice& structure, const rays::TraceInput& input);
 
   std::string of(std::size_t index) const;
 
  private:
-  rays::Question question_;
+  rays::TraceInput input_;
   std::string subject_;  ///< scene and structure
   std::string image_;    ///< resolution, samples, camera
 };
 
-/// One mismatch as text: its place in the question, ray, both answers, the exact one, and why it
+/// One mismatch as text: its place in the input, ray, both results, the exact one, and why it
 /// was classed so.
-std::string describe(const scenes::Scene& scene, const rays::Question& question,
+std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch);
 /// The same, and the command that shows this ray's way (`ReplayCommand`).
-std::string describe(const scenes::Scene& scene, const rays::Question& question,
+std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch, const ReplayCommand& replay);
 
 }  // namespace beambench::verify

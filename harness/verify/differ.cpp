@@ -24,20 +24,21 @@ double graze_budget(std::uint64_t rays) { return std::max(2.0, 1e-4 * static_cas
 /// The judging of one structure's answers.
 class Judge {
  public:
-  Judge(const ReferenceHits& reference, const rays::Answers& answers, std::span<DiffClass> classes)
+  Judge(const ReferenceHits& reference, const rays::TraceResults& results,
+        std::span<DiffClass> classes)
       : scene_(reference.scene()),
-        question_(reference.question()),
+        input_(reference.input()),
         hits_(reference.hits()),
-        answers_(answers),
+        results_(results),
         classes_(classes) {
-    report_.rays = question_.size();
+    report_.rays = input_.size();
     report_.hits = reference.hit_count();
     std::fill(classes_.begin(), classes_.end(), DiffClass::kAgree);
   }
 
   DiffReport against_oracle() {
     std::vector<std::size_t> disputed;
-    for (std::size_t i = 0; i < question_.size(); ++i) {
+    for (std::size_t i = 0; i < input_.size(); ++i) {
       if (agrees_at_once(i)) continue;
       Mismatch found = mismatch(i);
       if (settle_by_rules(scene_, tolerance_of(found), found)) {
@@ -52,7 +53,7 @@ class Judge {
   }
 
   DiffReport as_baseline() {
-    for (std::size_t i = 0; i < question_.size(); ++i) {
+    for (std::size_t i = 0; i < input_.size(); ++i) {
       if (is_silent(i)) continue;
       Mismatch found = mismatch(i);
       settle_as_baseline(found);
@@ -73,28 +74,28 @@ class Judge {
   }
 
   bool is_silent(std::size_t i) const {
-    if (const auto* any = std::get_if<rays::AnyHits>(&answers_)) return (*any)[i] == 0;
-    return is_miss(answer(std::get<accel::HitBuffer>(answers_), i));
+    if (const auto* any = std::get_if<rays::AnyHits>(&results_)) return (*any)[i] == 0;
+    return is_miss(answer(std::get<accel::HitBuffer>(results_), i));
   }
 
   /// Nearly every ray of a right structure ends here: the same primitive, and so near that the
   /// angle of incidence does not matter.
   bool agrees_at_once(std::size_t i) const {
-    if (const auto* any = std::get_if<rays::AnyHits>(&answers_)) {
+    if (const auto* any = std::get_if<rays::AnyHits>(&results_)) {
       return (*any)[i] == (hits_[i] ? 1 : 0);
     }
-    const accel::Hit hit = answer(std::get<accel::HitBuffer>(answers_), i);
+    const accel::Hit hit = answer(std::get<accel::HitBuffer>(results_), i);
     if (!hits_[i]) return is_miss(hit);
     if (hit.primitive != hits_[i]->primitive) return false;
     const double apart = std::abs(static_cast<double>(hit.t) - hits_[i]->t);
-    const accel::Ray ray = question_.ray(i);
+    const accel::Ray ray = input_.ray(i);
     const double near = tolerance(scene_, ray.origin);
     const glm::dvec3 direction(ray.direction);
     return hit.t >= ray.t_min && hit.t <= ray.t_max &&
            apart * apart * glm::dot(direction, direction) <= near * near;
   }
 
-  Mismatch mismatch(std::size_t i) const { return ask_again(question_, answers_, i, hits_[i]); }
+  Mismatch mismatch(std::size_t i) const { return ask_again(input_, results_, i, hits_[i]); }
 
   void agree_with_the_rest(std::size_t disputed) {
     std::uint64_t others = disputed;
@@ -154,33 +155,33 @@ class Judge {
   }
 
   const scenes::Scene& scene_;
-  const rays::Question& question_;
+  const rays::TraceInput& input_;
   std::span<const std::optional<accel::embree::ExactHit>> hits_;
-  const rays::Answers& answers_;
+  const rays::TraceResults& results_;
   std::span<DiffClass> classes_;
   DiffReport report_;
 };
 
-std::array<std::size_t, 3> shape_of(const rays::Answers& answers) {
-  if (const auto* any = std::get_if<rays::AnyHits>(&answers)) return {any->size(), 1, 0};
-  const auto& hits = std::get<accel::HitBuffer>(answers);
+std::array<std::size_t, 3> shape_of(const rays::TraceResults& results) {
+  if (const auto* any = std::get_if<rays::AnyHits>(&results)) return {any->size(), 1, 0};
+  const auto& hits = std::get<accel::HitBuffer>(results);
   return {static_cast<std::size_t>(hits.width()), static_cast<std::size_t>(hits.height()),
           static_cast<std::size_t>(hits.samples())};
 }
 
-std::array<std::size_t, 3> shape_of(const rays::Question& question) {
-  if (question.query() == rays::Query::kAnyHit) return {question.size(), 1, 0};
-  const accel::PrimaryRays* image = question.image();
-  if (image == nullptr) return {question.size(), 1, 1};
+std::array<std::size_t, 3> shape_of(const rays::TraceInput& input) {
+  if (input.query() == rays::Query::kAnyHit) return {input.size(), 1, 0};
+  const accel::PrimaryRays* image = input.image();
+  if (image == nullptr) return {input.size(), 1, 1};
   return {static_cast<std::size_t>(image->width()), static_cast<std::size_t>(image->height()),
           static_cast<std::size_t>(image->samples())};
 }
 
-void require_shape(const rays::Question& question, const rays::Answers& answers) {
-  const auto given = shape_of(answers);
-  const auto expected = shape_of(question);
+void require_shape(const rays::TraceInput& input, const rays::TraceResults& results) {
+  const auto given = shape_of(results);
+  const auto expected = shape_of(input);
   if (given == expected) return;
-  throw std::logic_error(fmt::format("answers of {}x{}x{} are judged by rays of {}x{}x{}", given[0],
+  throw std::logic_error(fmt::format("results of {}x{}x{} are judged by rays of {}x{}x{}", given[0],
                                      given[1], given[2], expected[0], expected[1], expected[2]));
 }
 
@@ -200,34 +201,34 @@ std::string_view to_string(Verdict verdict) {
   return "unknown";
 }
 
-DiffReport judge(const ReferenceHits& reference, const rays::Answers& answers,
+DiffReport judge(const ReferenceHits& reference, const rays::TraceResults& results,
                  accel::Conformance conformance, std::span<DiffClass> classes) {
-  require_shape(reference.question(), answers);
-  if (!classes.empty() && classes.size() != reference.question().size()) {
+  require_shape(reference.input(), results);
+  if (!classes.empty() && classes.size() != reference.input().size()) {
     throw std::logic_error("the classes need one place for each ray");
   }
-  Judge judging(reference, answers, classes);
+  Judge judging(reference, results, classes);
   return conformance == accel::Conformance::kBaseline ? judging.as_baseline()
                                                       : judging.against_oracle();
 }
 
-ReferenceHits::ReferenceHits(const scenes::Scene& scene, rays::Question question)
-    : scene_(&scene), question_(std::move(question)), hits_(question_.size()) {
-  const accel::embree::EmbreeOracle oracle(scene, question_.reach());
+ReferenceHits::ReferenceHits(const scenes::Scene& scene, rays::TraceInput input)
+    : scene_(&scene), input_(std::move(input)), hits_(input_.size()) {
+  const accel::embree::EmbreeOracle oracle(scene, input_.reach());
   tbb::parallel_for(tbb::blocked_range(std::size_t{0}, hits_.size(), 1024),
                     [&](const tbb::blocked_range<std::size_t>& range) {
                       for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                        hits_[i] = oracle.closest_hit(question_.ray(i));
+                        hits_[i] = oracle.closest_hit(input_.ray(i));
                       }
                     });
 }
 
-ReferenceHits::ReferenceHits(const scenes::Scene& scene, rays::Question question,
+ReferenceHits::ReferenceHits(const scenes::Scene& scene, rays::TraceInput input,
                              std::vector<std::optional<accel::embree::ExactHit>> hits)
-    : scene_(&scene), question_(std::move(question)), hits_(std::move(hits)) {
-  if (hits_.size() != question_.size()) {
+    : scene_(&scene), input_(std::move(input)), hits_(std::move(hits)) {
+  if (hits_.size() != input_.size()) {
     throw std::logic_error(
-        fmt::format("{} reference hits are given for {} rays", hits_.size(), question_.size()));
+        fmt::format("{} reference hits are given for {} rays", hits_.size(), input_.size()));
   }
 }
 

@@ -12,8 +12,8 @@
 
 #include "accel/core/registry.hpp"
 #include "accel/embree/oracle.hpp"
-#include "harness/rays/answers.hpp"
-#include "harness/rays/question.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "harness/rays/trace_results.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::verify {
@@ -80,24 +80,24 @@ struct DiffReport {
   }
 };
 
-/// The oracle's closest hit of each ray of a question, computed once (on all cores) and used for
+/// The oracle's closest hit of each ray of an input, computed once (on all cores) and used for
 /// every contender. The scene must outlive it.
 class ReferenceHits {
  public:
-  ReferenceHits(const scenes::Scene& scene, rays::Question question);
+  ReferenceHits(const scenes::Scene& scene, rays::TraceInput input);
   /// The same with hits from elsewhere.
-  ReferenceHits(const scenes::Scene& scene, rays::Question question,
+  ReferenceHits(const scenes::Scene& scene, rays::TraceInput input,
                 std::vector<std::optional<accel::embree::ExactHit>> hits);
 
   const scenes::Scene& scene() const { return *scene_; }
-  const rays::Question& question() const { return question_; }
+  const rays::TraceInput& input() const { return input_; }
   std::span<const std::optional<accel::embree::ExactHit>> hits() const { return hits_; }
   /// How many rays hit.
   std::uint64_t hit_count() const;
 
  private:
   const scenes::Scene* scene_;
-  rays::Question question_;
+  rays::TraceInput input_;
   std::vector<std::optional<accel::embree::ExactHit>> hits_;
 };
 
@@ -105,9 +105,9 @@ class ReferenceHits {
 /// hopeless (64 errors are proven, or the search has made 4e8 primitive tests); what is disputed
 /// beyond that counts as engine error, unproven. For Conformance::kBaseline the only question is
 /// whether all answers are misses; others are engine errors. `classes`, unless empty, gets that of
-/// each ray. Throws std::logic_error when the answers have not the shape that the question asks
+/// each ray. Throws std::logic_error when the results have not the shape that the input asks
 /// for.
-DiffReport judge(const ReferenceHits& reference, const rays::Answers& answers,
+DiffReport judge(const ReferenceHits& reference, const rays::TraceResults& results,
                  accel::Conformance conformance, std::span<DiffClass> classes = {});
 
 }  // namespace beambench::verify

@@ -173,17 +173,17 @@ bool is_nonsense(const scenes::Scene& scene, const accel::Ray& ray, const accel:
          answer.t < ray.t_min || answer.t > ray.t_max;
 }
 
-Mismatch ask_again(const rays::Question& question, const rays::Answers& answers, std::size_t index,
-                   const std::optional<accel::embree::ExactHit>& oracle) {
+Mismatch ask_again(const rays::TraceInput& input, const rays::TraceResults& results,
+                   std::size_t index, const std::optional<accel::embree::ExactHit>& oracle) {
   Mismatch found{};
   found.index = index;
-  found.ray = question.ray(index);
-  found.query = question.query();
+  found.ray = input.ray(index);
+  found.query = input.query();
   found.oracle = oracle;
-  if (const auto* any = std::get_if<rays::AnyHits>(&answers)) {
+  if (const auto* any = std::get_if<rays::AnyHits>(&results)) {
     found.engine_any_hit = (*any)[index];
   } else {
-    const auto& hits = std::get<accel::HitBuffer>(answers);
+    const auto& hits = std::get<accel::HitBuffer>(results);
     const accel::Hit answer{hits.t()[index], hits.primitive()[index]};
     if (answer != accel::Hit{accel::kInfinity, scenes::kNoPrimitive}) found.engine = answer;
   }
@@ -220,7 +220,7 @@ void adjudicate(const scenes::Scene& scene, double tolerance, Mismatch& found) {
 void settle_as_baseline(Mismatch& found) {
   const bool silent = !found.engine && found.engine_any_hit == 0;
   found.diff_class = silent ? DiffClass::kAgree : DiffClass::kEngineError;
-  if (!silent) found.reason = "this structure answers nothing by design, and here it did";
+  if (!silent) found.reason = "this structure returns nothing by design, and here it did";
 }
 
 void judge_ray(const scenes::Scene& scene, accel::Conformance conformance, Mismatch& found) {

@@ -29,10 +29,10 @@ bool grazes(const scenes::Scene& scene, const accel::Ray& ray, const accel::embr
 /// the ray's interval? `t` of a miss is infinity.
 bool is_nonsense(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& answer);
 
-/// The ray at an index of a question, the structure's answer, and the oracle's, not yet judged. An
+/// The ray at an index of an input, the structure's result, and the oracle's, not yet judged. An
 /// answer that is neither hit nor miss is kept as it stands.
-Mismatch ask_again(const rays::Question& question, const rays::Answers& answers, std::size_t index,
-                   const std::optional<accel::embree::ExactHit>& oracle);
+Mismatch ask_again(const rays::TraceInput& input, const rays::TraceResults& results,
+                   std::size_t index, const std::optional<accel::embree::ExactHit>& oracle);
 
 /// Sets class and reason by the first three rules, or where the answer is none at all; false where
 /// they leave a dispute. `tolerance` is K u.

@@ -66,7 +66,7 @@ void expect_painted_once(const scenes::Scene& scene, const beam::BeamOptions& op
         const int expected = meets_root(tracer, ray) ? 1 : 0;
         const bool paint_is_wrong = watch.times(index) != expected;
         const bool hit_is_wrong =
-            index % stride == 0 && buffer.get(index) != exhaustive.closest_hit(ray);
+            index % stride == 0 && buffer.get(index) != exhaustive.closest_hit(ray, nullptr);
         if (paint_is_wrong) ++wrong_paint;
         if (hit_is_wrong) ++wrong_hits;
         if ((paint_is_wrong || hit_is_wrong) && first.empty()) {
@@ -212,7 +212,7 @@ std::map<std::string, std::uint64_t, std::less<>> counters_of(const scenes::Scen
   const beam::BeamTracer tracer(scene, options);
   HitBuffer buffer(rays.width(), rays.height(), rays.samples());
   WorkCounters counters;
-  tracer.trace(rays, buffer, counters);
+  tracer.trace(rays, buffer, &counters);
   return counters.by_name();
 }
 
@@ -279,7 +279,7 @@ TEST(Beam, CountsTheSameOnSeveralThreads) {
   const beam::BeamTracer tracer(scene, options_with(6));
   HitBuffer buffer(rays.width(), rays.height(), rays.samples());
   WorkCounters counters;
-  tracer.trace_shared(rays, buffer, counters);
+  tracer.trace_shared(rays, buffer, &counters);
   const auto shared = counters.by_name();
   for (const char* counter : {"beams", "beams_made", "beams_divided", "beams_passed_whole"}) {
     EXPECT_EQ(shared.at(counter), alone.at(counter)) << counter;

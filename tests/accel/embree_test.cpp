@@ -143,12 +143,12 @@ TEST_P(EmbreeModes, WriteEverySampleOfAnImageOfAnySize) {
     const PrimaryRays rays(scene.cameras.front(), width, height, samples);
     HitBuffer buffer(width, height, samples);
     for (std::size_t i = 0; i < buffer.size(); ++i) buffer.set(i, Hit{-1.0F, 123'456});
-    structure->trace(rays, buffer);
+    structure->trace(rays, buffer, nullptr);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
         for (int sample = 0; sample < samples; ++sample) {
           const std::size_t index = buffer.index(x, y, sample);
-          const auto single = structure->closest_hit(rays.ray(x, y, sample));
+          const auto single = structure->closest_hit(rays.ray(x, y, sample), nullptr);
           const auto traced = buffer.get(index);
           ASSERT_EQ(traced.has_value(), single.has_value());
           if (!traced) {
@@ -202,13 +202,13 @@ TEST_P(EmbreeModes, TraceTheVeryRaysOfTheImageOnEveryInstructionSet) {
          {std::tuple(64, 48, 1), std::tuple(37, 19, 4), std::tuple(23, 30, 5)}) {
       const PrimaryRays rays(random_camera(random), width, height, samples);
       HitBuffer traced(width, height, samples);
-      structure->trace(rays, traced);
+      structure->trace(rays, traced, nullptr);
       HitBuffer expected(width, height, samples);
       for (int y = 0; y < height; ++y) {
         for (int x = 0; x < width; ++x) {
           for (int sample = 0; sample < samples; ++sample) {
             expected.set(expected.index(x, y, sample),
-                         structure->closest_hit(rays.ray(x, y, sample)));
+                         structure->closest_hit(rays.ray(x, y, sample), nullptr));
           }
         }
       }
@@ -222,9 +222,9 @@ TEST_P(EmbreeModes, MissEverythingInAnEmptyScene) {
   const auto structure = embree(mode(), scene);
   const PrimaryRays rays(scene.cameras.front(), 20, 20, 1);
   HitBuffer buffer(20, 20, 1);
-  structure->trace(rays, buffer);
+  structure->trace(rays, buffer, nullptr);
   EXPECT_EQ(buffer, HitBuffer(20, 20, 1));
-  EXPECT_FALSE(structure->any_hit(rays.ray(3, 3, 0)));
+  EXPECT_FALSE(structure->any_hit(rays.ray(3, 3, 0), nullptr));
 }
 
 TEST(Embree, AnswersAnyHitAsClosestHit) {
@@ -235,7 +235,10 @@ TEST(Embree, AnswersAnyHitAsClosestHit) {
     int differences = 0;
     for (int i = 0; i < 200; ++i) {
       const Ray shot = verify::random_ray(scene, random);
-      differences += structure->any_hit(shot) != structure->closest_hit(shot).has_value() ? 1 : 0;
+      differences +=
+          structure->any_hit(shot, nullptr) != structure->closest_hit(shot, nullptr).has_value()
+              ? 1
+              : 0;
     }
     EXPECT_LE(differences, 1) << scene.name;  // float kernels: a grazing ray may go either way
   }
@@ -281,12 +284,12 @@ TEST(Embree, IsHeldToAnInstructionSet) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const PrimaryRays rays(scene.cameras.front(), 40, 30, 1);
   HitBuffer best(40, 30, 1);
-  embree("mode=packet8", scene)->trace(rays, best);
+  embree("mode=packet8", scene)->trace(rays, best, nullptr);
   for (const auto& [isa, name] : {std::pair("avx2", "AVX2"), std::pair("sse4", "SSE4.2")}) {
     const auto structure = embree(std::string("mode=packet8,isa=") + isa, scene);
     EXPECT_EQ(structure->statistics().instruction_set, name);
     HitBuffer held(40, 30, 1);
-    structure->trace(rays, held);
+    structure->trace(rays, held, nullptr);
     for (std::size_t i = 0; i < held.size(); ++i) {
       ASSERT_NEAR(held.t()[i] == kInfinity ? 0.0F : held.t()[i],
                   best.t()[i] == kInfinity ? 0.0F : best.t()[i], 1e-5F);
@@ -301,10 +304,10 @@ TEST(Embree, OfEachInstructionSetEveryModeGivesTheHitsOfSingleRays) {
   const PrimaryRays rays(scene.cameras.front(), 45, 35, 5);  // tiles and blocks that are cut off
   for (const char* isa : {"best", "avx2", "sse4"}) {
     HitBuffer single(45, 35, 5);
-    embree(fmt::format("mode=single,isa={}", isa), scene)->trace(rays, single);
+    embree(fmt::format("mode=single,isa={}", isa), scene)->trace(rays, single, nullptr);
     for (const std::string& mode : testing::embree_modes()) {
       HitBuffer hits(45, 35, 5);
-      embree(fmt::format("mode={},isa={}", mode, isa), scene)->trace(rays, hits);
+      embree(fmt::format("mode={},isa={}", mode, isa), scene)->trace(rays, hits, nullptr);
       for (std::size_t i = 0; i < hits.size(); ++i) {
         ASSERT_EQ(hits.get(i).has_value(), single.get(i).has_value()) << mode << " " << isa;
         if (!hits.get(i)) continue;
@@ -334,8 +337,8 @@ TEST(Embree, TheNullOfItsOwnRaysAnswersEveryRayOfAnImage) {
     std::fill_n(alone.t(), alone.size(), 1.0F);
     std::fill_n(alone.primitive(), alone.size(), 0U);
     HitBuffer shared = alone;
-    null->trace(rays, alone);
-    null->trace_shared(rays, shared);
+    null->trace(rays, alone, nullptr);
+    null->trace_shared(rays, shared, nullptr);
     for (std::size_t i = 0; i < alone.size(); ++i) {
       ASSERT_FALSE(alone.get(i)) << i;
       ASSERT_EQ(alone.t()[i], kInfinity) << i;

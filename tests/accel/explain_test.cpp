@@ -112,7 +112,7 @@ TEST(Explain, TellsTheWorkThatIsCountedAndTheHitThatIsFound) {
         if (steps.empty()) continue;
         ++told;
         WorkCounters counters;
-        ASSERT_EQ(structure->closest_hit(ray, counters), nearest(steps)) << info.name;
+        ASSERT_EQ(structure->closest_hit(ray, &counters), nearest(steps)) << info.name;
         std::uint64_t tests = 0;
         for (const TraceStep& step : steps) tests += step.tests.size();
         ASSERT_EQ(tests, counters.get(Counter::kPrimitiveTests)) << info.name;

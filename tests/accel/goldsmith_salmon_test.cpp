@@ -202,8 +202,8 @@ TEST(GoldsmithSalmon, OrderMattersToTheTreeAndNotToTheHits) {
       costs.push_back(structure.hierarchy().cost);
       for (int i = 0; i < 300; ++i) {
         const Ray ray = testing::random_ray(scene, random);
-        EXPECT_EQ(structure.closest_hit(ray), exhaustive.closest_hit(ray));
-        EXPECT_EQ(structure.any_hit(ray), exhaustive.any_hit(ray));
+        EXPECT_EQ(structure.closest_hit(ray, nullptr), exhaustive.closest_hit(ray, nullptr));
+        EXPECT_EQ(structure.any_hit(ray, nullptr), exhaustive.any_hit(ray, nullptr));
       }
     }
     EXPECT_LT(costs[1], costs[0]) << "a mesh in its own order makes a worse tree than at random";
@@ -224,8 +224,8 @@ TEST(GoldsmithSalmon, BothInsertionsGiveTheHitsOfExhaustiveSearch) {
       Random random(seed);
       for (int i = 0; i < 100; ++i) {
         const Ray ray = testing::random_ray(scene, random);
-        ASSERT_EQ(structure.closest_hit(ray), exhaustive.closest_hit(ray));
-        ASSERT_EQ(structure.any_hit(ray), exhaustive.any_hit(ray));
+        ASSERT_EQ(structure.closest_hit(ray, nullptr), exhaustive.closest_hit(ray, nullptr));
+        ASSERT_EQ(structure.any_hit(ray, nullptr), exhaustive.any_hit(ray, nullptr));
       }
     }
   }
@@ -242,8 +242,8 @@ TEST(GoldsmithSalmon, TheQueueEntersNoMoreThanTheStack) {
     std::array<HitBuffer, 2> hits{HitBuffer(64, 64, 1), HitBuffer(64, 64, 1)};
     std::array<WorkCounters, 2> work;
     const PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
-    bvh::GoldsmithSalmon(scene, {}).trace(rays, hits[0], work[0]);
-    bvh::GoldsmithSalmon(scene, stack).trace(rays, hits[1], work[1]);
+    bvh::GoldsmithSalmon(scene, {}).trace(rays, hits[0], &work[0]);
+    bvh::GoldsmithSalmon(scene, stack).trace(rays, hits[1], &work[1]);
     EXPECT_EQ(hits[0], hits[1]);
     EXPECT_LE(work[0].get(Counter::kTraversalSteps), work[1].get(Counter::kTraversalSteps));
     EXPECT_LE(work[0].get(Counter::kBoxTests), work[1].get(Counter::kBoxTests));
@@ -297,8 +297,8 @@ TEST(GoldsmithSalmon, TakesADeepHierarchy) {
   Random random(3);
   for (int i = 0; i < 200; ++i) {
     const Ray ray = testing::random_ray(scene, random);
-    EXPECT_EQ(structure.closest_hit(ray), exhaustive.closest_hit(ray));
-    EXPECT_EQ(structure.any_hit(ray), exhaustive.any_hit(ray));
+    EXPECT_EQ(structure.closest_hit(ray, nullptr), exhaustive.closest_hit(ray, nullptr));
+    EXPECT_EQ(structure.any_hit(ray, nullptr), exhaustive.any_hit(ray, nullptr));
   }
 }
 

@@ -47,7 +47,7 @@ RaySet rays_of(const scenes::Scene& scene) {
     for (int x = 0; x <= 512; ++x) {
       const Ray eye = image.ray_at(x, y);
       set.eye.push_back(eye);
-      const auto hit = finder.closest_hit(eye);
+      const auto hit = finder.closest_hit(eye, nullptr);
       if (!hit) continue;
       ++set.hits;
       const glm::dvec3 direction(eye.direction);
@@ -71,8 +71,8 @@ struct Counts {
 
 Counts count_ours(const bvh::GoldsmithSalmon& structure, const RaySet& rays) {
   WorkCounters work;
-  for (const Ray& ray : rays.eye) structure.closest_hit(ray, work);
-  for (const Ray& ray : rays.shadow) structure.any_hit(ray, work);
+  for (const Ray& ray : rays.eye) structure.closest_hit(ray, &work);
+  for (const Ray& ray : rays.shadow) structure.any_hit(ray, &work);
   return {work.get(Counter::kBoxTests), work.get(Counter::kPrimitiveTests)};
 }
 

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "accel/core/mirrored.hpp"
+#include "accel/core/primary_rays.hpp"
 #include "accel/core/registry.hpp"
 #include "scenes/catalogue.hpp"
 #include "tests/random_scene.hpp"
@@ -30,7 +30,7 @@ void compare(const scenes::Scene& scene, const beam::BeamOptions& options, const
              Compared& compared) {
   const beam::BeamTracer tracer(scene, options);
   HitBuffer hits(rays.width(), rays.height(), rays.samples());
-  tracer.trace(rays, hits);
+  tracer.trace(rays, hits, nullptr);
   const auto exhaustive = registry().choose({"exhaustive", {}}).build(scene);
   for (const beam::PlanarMirror& mirror : beam::planar_mirrors(scene)) {
     const auto view = beam::view_in(mirror, scene, rays, hits);
@@ -48,7 +48,8 @@ void compare(const scenes::Scene& scene, const beam::BeamOptions& options, const
             ASSERT_FALSE(found.get(index)) << x << ", " << y;
             continue;
           }
-          const auto expected = exhaustive->closest_hit(beam::ray_behind(*view, x, y, sample));
+          const auto expected =
+              exhaustive->closest_hit(beam::ray_behind(*view, x, y, sample), nullptr);
           ASSERT_EQ(found.get(index), expected) << x << ", " << y;
           ++samples;
           compared.hits += expected ? 1 : 0;
@@ -101,7 +102,7 @@ TEST(MirrorBeams, RaysBehindAMirrorAreReflectedRays) {
   const scenes::Scene scene = scenes::load_scene("teapot:n=2");
   const PrimaryRays rays(scene.cameras.front(), 50, 50, 1);
   HitBuffer hits(50, 50, 1);
-  registry().choose({"samet", {}}).build(scene)->trace(rays, hits);
+  registry().choose({"samet", {}}).build(scene)->trace(rays, hits, nullptr);
   const auto mirrors = beam::planar_mirrors(scene);
   ASSERT_EQ(mirrors.size(), 1U);  // the checkerboard, all squares of it
   const auto view = beam::view_in(mirrors[0], scene, rays, hits);

@@ -94,7 +94,7 @@ TEST(OctreeNet, OneStepForEachNeighborWhereSametClimbs) {
     const auto count = [&](const Accelerator& structure) {
       HitBuffer buffer(64, 64, 1);
       WorkCounters counters;
-      structure.trace(rays, buffer, counters);
+      structure.trace(rays, buffer, &counters);
       return counters.by_name();
     };
     auto samet = count(octree::Samet(scene, {}));

@@ -30,7 +30,7 @@ TEST_P(PinnedWork, IsUnchanged) {
   const auto structure = registry().choose(parse_spec(row.structure)).build(scene);
   HitBuffer buffer(64, 64, 1);
   WorkCounters counters;
-  structure->trace(PrimaryRays(scene.cameras.front(), 64, 64, 1), buffer, counters);
+  structure->trace(PrimaryRays(scene.cameras.front(), 64, 64, 1), buffer, &counters);
   std::map<std::string, std::uint64_t> work;
   for (const auto& [name, count] : counters.by_name()) {
     if (count != 0) work[name] = count;

@@ -78,8 +78,8 @@ Totals count(const octree::Samet& samet, const testing::SpdRays& rays) {
       totals.climbs += climb_out(samet, ray);
     }
   };
-  for (const Ray& ray : rays.eye) end(ray, samet.closest_hit(ray, work).has_value());
-  for (const Ray& ray : rays.shadow) end(ray, samet.any_hit(ray, work));
+  for (const Ray& ray : rays.eye) end(ray, samet.closest_hit(ray, &work).has_value());
+  for (const Ray& ray : rays.shadow) end(ray, samet.any_hit(ray, &work));
   totals.tests = work.get(Counter::kPrimitiveTests);
   totals.steps = work.get(Counter::kTraversalSteps);
   totals.leaves = work.get(Counter::kLeaves);

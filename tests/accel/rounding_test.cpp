@@ -32,12 +32,12 @@ TEST(Rounding, ATraceShootsTheVeryRaysOfTheCamera) {
     if (choice.info().name == "tile-beam") continue;  // its images are made without rays
     const auto structure = choice.build(scene);
     HitBuffer image(rays.width(), rays.height(), rays.samples());
-    structure->trace(rays, image);
+    structure->trace(rays, image, nullptr);
     for (int y = 0; y < rays.height(); ++y) {
       for (int x = 0; x < rays.width(); ++x) {
         for (int sample = 0; sample < rays.samples(); ++sample) {
           ASSERT_EQ(image.get(image.index(x, y, sample)),
-                    structure->closest_hit(rays.ray(x, y, sample)))
+                    structure->closest_hit(rays.ray(x, y, sample), nullptr))
               << choice.label() << " at pixel " << x << ", " << y << " sample " << sample;
         }
       }

@@ -24,9 +24,9 @@ void expect_equal_to_exhaustive(const bvh::SahBvh& structure, const scenes::Scen
   Random random(seed);
   for (int i = 0; i < rays; ++i) {
     const Ray ray = testing::random_ray(scene, random);
-    const auto hit = exhaustive.closest_hit(ray);
-    ASSERT_EQ(structure.closest_hit(ray), hit) << "ray " << i;
-    ASSERT_EQ(structure.any_hit(ray), hit.has_value()) << "ray " << i;
+    const auto hit = exhaustive.closest_hit(ray, nullptr);
+    ASSERT_EQ(structure.closest_hit(ray, nullptr), hit) << "ray " << i;
+    ASSERT_EQ(structure.any_hit(ray, nullptr), hit.has_value()) << "ray " << i;
   }
 }
 
@@ -94,8 +94,8 @@ TEST(SahBvh, LosesNoSliverSeenFromAfar) {
                         glm::dvec3(scene.vertices[corner[1]]), random.unit());
     }
     ray.direction = glm::vec3(target - glm::dvec3(ray.origin));
-    const auto hit = exhaustive.closest_hit(ray);
-    ASSERT_EQ(structure.closest_hit(ray), hit) << i;
+    const auto hit = exhaustive.closest_hit(ray, nullptr);
+    ASSERT_EQ(structure.closest_hit(ray, nullptr), hit) << i;
     hits += hit ? 1 : 0;
   }
   EXPECT_GT(hits, 1000);
@@ -112,8 +112,8 @@ TEST(SahBvh, TakesDirectionsOfAnyLength) {
       ray.t_min = 0.0F;
       ray.t_max = kInfinity;
       ray.direction *= scale;
-      EXPECT_EQ(structure.closest_hit(ray), exhaustive.closest_hit(ray)) << scale;
-      EXPECT_EQ(structure.any_hit(ray), exhaustive.any_hit(ray)) << scale;
+      EXPECT_EQ(structure.closest_hit(ray, nullptr), exhaustive.closest_hit(ray, nullptr)) << scale;
+      EXPECT_EQ(structure.any_hit(ray, nullptr), exhaustive.any_hit(ray, nullptr)) << scale;
     }
   }
 }
@@ -224,7 +224,7 @@ TEST(SahBvh, TellsWhatItDid) {
   const bvh::SahBvh structure(scene, {});
   const Ray ray = PrimaryRays(scene.cameras.front(), 64, 64, 1).ray(31, 32, 0);
   WorkCounters work;
-  const auto hit = structure.closest_hit(ray, work);
+  const auto hit = structure.closest_hit(ray, &work);
   ASSERT_TRUE(hit);
   const std::vector<TraceStep> steps = structure.explain(ray);
   EXPECT_EQ(steps.size(), work.get(Counter::kTraversalSteps));
@@ -247,7 +247,7 @@ TEST(SahBvh, ConfirmsAboutOncePerHit) {
   const bvh::SahBvh structure(scene, {});
   WorkCounters work;
   HitBuffer hits(128, 128, 1);
-  structure.trace(PrimaryRays(scene.cameras.front(), 128, 128, 1), hits, work);
+  structure.trace(PrimaryRays(scene.cameras.front(), 128, 128, 1), hits, &work);
   std::uint64_t hit = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) hit += hits.get(i) ? 1 : 0;
   EXPECT_GE(work.by_name().at("confirmed_tests"), hit);

@@ -58,7 +58,7 @@ TEST_P(SampleWays, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
   const beam::BeamTracer tracer(scene, options);
   const PrimaryRays rays(scene.cameras.front(), 10, 8, GetParam().samples);
   HitBuffer hits(10, 8, GetParam().samples);
-  tracer.trace(rays, hits);
+  tracer.trace(rays, hits, nullptr);
   const bool shared = options.share_corners;
   std::map<Name, std::pair<std::uint64_t, std::uint64_t>> samples;  // expected, found
   for (int y = 0; y < 8; ++y) {

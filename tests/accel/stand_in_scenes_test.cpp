@@ -148,7 +148,7 @@ class Onlooker {
     ray.direction = glm::vec3(way);
     ray.t_min = static_cast<float>(1e-5 * size_ / glm::length(way));
     ray.t_max = static_cast<float>(end);
-    return structure_->any_hit(ray);
+    return structure_->any_hit(ray, nullptr);
   }
 
   const scenes::Scene& scene_;
@@ -203,9 +203,9 @@ TEST_P(StandIns, GiveASampleOfRaysTheHitsOfExhaustiveSearch) {
   for (int i = 0; i < 300; ++i) {
     const Ray ray =
         rays.ray(static_cast<int>(random.below(1280)), static_cast<int>(random.below(1024)), 0);
-    const auto expected = exhaustive->closest_hit(ray);
-    ASSERT_EQ(sah->closest_hit(ray), expected) << i;
-    ASSERT_EQ(samet->closest_hit(ray), expected) << i;
+    const auto expected = exhaustive->closest_hit(ray, nullptr);
+    ASSERT_EQ(sah->closest_hit(ray, nullptr), expected) << i;
+    ASSERT_EQ(samet->closest_hit(ray, nullptr), expected) << i;
     hits += expected ? 1 : 0;
   }
   EXPECT_GT(hits, 0);
@@ -220,7 +220,7 @@ TEST(Habitacion, IsClosed) {
     ray.origin = scene.cameras[0].from;
     ray.direction =
         glm::vec3(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
-    ASSERT_TRUE(structure->any_hit(ray)) << "ray " << i;
+    ASSERT_TRUE(structure->any_hit(ray, nullptr)) << "ray " << i;
   }
 }
 
@@ -236,7 +236,7 @@ TEST(BolaEspacial, LetsMostRaysHitWhereTheirBeamEnds) {
         registry().choose({"beam", {{"max_level", std::to_string(level)}}}).build(scene);
     HitBuffer buffer(1280, 1024, 1);
     WorkCounters work;
-    structure->trace(rays, buffer, work);
+    structure->trace(rays, buffer, &work);
     const auto counters = work.by_name();
     const auto count = [&](const char* name) { return static_cast<double>(counters.at(name)); };
     // Hardly a ray leaves the root without an occupied leaf on its way.

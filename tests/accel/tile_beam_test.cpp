@@ -71,7 +71,7 @@ bool is_close_call(const exhaustive::Exhaustive& exhaustive, const Ray& ray,
       Ray near = ray;
       const double away = reach * slack / (answer ? std::max(t, 1e-6F) : 1.0);
       near.direction = glm::vec3(d + (side * std::cos(angle) + other * std::sin(angle)) * away);
-      const auto hit = exhaustive.closest_hit(near);
+      const auto hit = exhaustive.closest_hit(near, nullptr);
       if (hit.has_value() != answer.has_value()) continue;
       if (!hit) return true;
       if (hit->primitive == answer->primitive) return true;
@@ -97,7 +97,7 @@ Comparison compare(const scenes::Scene& scene, const PrimaryRays& rays, const Hi
     for (int x = 0; x < rays.width(); ++x) {
       for (int sample = 0; sample < rays.samples(); ++sample) {
         const Ray ray = rays.ray(x, y, sample);
-        const auto expected = exhaustive.closest_hit(ray);
+        const auto expected = exhaustive.closest_hit(ray, nullptr);
         const auto actual = image.get(image.index(x, y, sample));
         if (expected) ++found.hits;
         if (expected == actual) continue;
@@ -123,7 +123,7 @@ Comparison compare(const scenes::Scene& scene, const PrimaryRays& rays, const Hi
 HitBuffer image_of(const tile_beam::TileBeam& structure, const PrimaryRays& rays) {
   HitBuffer image(rays.width(), rays.height(), rays.samples());
   std::fill_n(image.t(), image.size(), -1.0F);  // what is not written shows
-  structure.trace(rays, image);
+  structure.trace(rays, image, nullptr);
   return image;
 }
 
@@ -246,7 +246,7 @@ std::size_t wrong_at_eye(const scenes::Scene& scene, const PrimaryRays& rays,
   for (int y = 0; y < rays.height(); ++y) {
     for (int x = 0; x < rays.width(); ++x) {
       for (int sample = 0; sample < rays.samples(); ++sample) {
-        const auto expected = exhaustive.closest_hit(rays.ray(x, y, sample));
+        const auto expected = exhaustive.closest_hit(rays.ray(x, y, sample), nullptr);
         const auto actual = image.get(image.index(x, y, sample));
         const auto at_eye = [](const auto& hit) { return hit && !(hit->t > 1e-5F); };
         if (!at_eye(expected) && !at_eye(actual)) continue;
@@ -295,9 +295,9 @@ TEST(TileBeam, FindsHitsAtTheOriginOfSingleRays) {
         ray.t_min = 0.0F;
         for (const float t_max : {kInfinity, 1.0F, 0.0F}) {
           ray.t_max = t_max;
-          const auto hit = exhaustive.closest_hit(ray);
-          ASSERT_EQ(structure.closest_hit(ray), hit) << "eye " << touching.name;
-          ASSERT_EQ(structure.any_hit(ray), hit.has_value()) << "eye " << touching.name;
+          const auto hit = exhaustive.closest_hit(ray, nullptr);
+          ASSERT_EQ(structure.closest_hit(ray, nullptr), hit) << "eye " << touching.name;
+          ASSERT_EQ(structure.any_hit(ray, nullptr), hit.has_value()) << "eye " << touching.name;
         }
       }
     }
@@ -380,7 +380,7 @@ TEST(TileBeam, CrowdedTilesGoToRays) {
   const PrimaryRays rays(scene.cameras.front(), 7, 5, 1);
   HitBuffer image(7, 5, 1);
   WorkCounters counters;
-  structure.trace(rays, image, counters);
+  structure.trace(rays, image, &counters);
   EXPECT_GT(counters.by_name()["handed_over_rays"], 0U);
   EXPECT_EQ(compare(scene, rays, image).errors, 0U);
 }
@@ -391,7 +391,7 @@ TEST(TileBeam, CountingChangesNoHit) {
   const PrimaryRays rays(scene.cameras.front(), 200, 80, 1);
   HitBuffer counted(200, 80, 1);
   WorkCounters counters;
-  structure.trace(rays, counted, counters);
+  structure.trace(rays, counted, &counters);
   EXPECT_EQ(counted, image_of(structure, rays));
   EXPECT_EQ(counters.by_name()["beams"], 2U);
   EXPECT_GT(counters.get(Counter::kLeaves), 0U);
@@ -408,8 +408,8 @@ TEST(TileBeam, ThreadsChangeNoHitAndNoCount) {
       HitBuffer image(300, 170, samples);
       WorkCounters expected_counters;
       WorkCounters counters;
-      alone.trace(rays, expected, expected_counters);
-      together.trace(rays, image, counters);
+      alone.trace(rays, expected, &expected_counters);
+      together.trace(rays, image, &counters);
       EXPECT_EQ(image, expected) << name;
       EXPECT_EQ(counters.by_name(), expected_counters.by_name()) << name;
       EXPECT_EQ(image_of(together, rays), expected) << name;
@@ -467,7 +467,8 @@ TEST(TileBeam, EveryInstructionSetIsRight) {
       EXPECT_EQ(compare(scene, rays, image_of(structure, rays)).errors, 0U) << "seed " << seed;
       for (int i = 0; i < 100; ++i) {
         const Ray ray = verify::random_ray(scene, random);
-        ASSERT_EQ(structure.closest_hit(ray), exhaustive::Exhaustive(scene).closest_hit(ray));
+        ASSERT_EQ(structure.closest_hit(ray, nullptr),
+                  exhaustive::Exhaustive(scene).closest_hit(ray, nullptr));
       }
     }
   }
@@ -498,9 +499,10 @@ TEST(TileBeam, SingleRaysAreExact) {
     const exhaustive::Exhaustive exhaustive(scene);
     for (int i = 0; i < 200; ++i) {
       const Ray ray = verify::random_ray(scene, random);
-      const auto hit = exhaustive.closest_hit(ray);
-      ASSERT_EQ(structure.closest_hit(ray), hit) << "seed " << seed << " ray " << i;
-      ASSERT_EQ(structure.any_hit(ray), hit.has_value()) << "seed " << seed << " ray " << i;
+      const auto hit = exhaustive.closest_hit(ray, nullptr);
+      ASSERT_EQ(structure.closest_hit(ray, nullptr), hit) << "seed " << seed << " ray " << i;
+      ASSERT_EQ(structure.any_hit(ray, nullptr), hit.has_value())
+          << "seed " << seed << " ray " << i;
     }
   }
 }

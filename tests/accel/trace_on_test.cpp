@@ -41,13 +41,13 @@ void expect_same_on_threads(const StructureChoice& choice, const scenes::Scene& 
   const auto structure = choice.build(scene);
   HitBuffer expected(rays.width(), rays.height(), rays.samples());
   WorkCounters expected_counters;
-  structure->trace(rays, expected, expected_counters);
+  structure->trace(rays, expected, &expected_counters);
   for (const int threads : kThreads) {
     HitBuffer hits(rays.width(), rays.height(), rays.samples());
     HitBuffer counted(rays.width(), rays.height(), rays.samples());
     WorkCounters counters;
-    trace_on(threads, *structure, rays, hits);
-    trace_on(threads, *structure, rays, counted, counters);
+    trace_on(threads, *structure, rays, hits, nullptr);
+    trace_on(threads, *structure, rays, counted, &counters);
     EXPECT_EQ(hits, expected) << threads << " threads";
     EXPECT_EQ(counted, expected) << threads << " threads, counting";
     EXPECT_EQ(counts(counters), counts(expected_counters)) << threads << " threads";
@@ -139,7 +139,7 @@ TEST(TraceOn, TakesAsManyThreadsAsAskedFor) {
   HitBuffer buffer(1, 64, 1);
   for (const int threads : kThreads) {
     const Meeting meeting(static_cast<std::size_t>(threads));
-    trace_on(threads, meeting, rays, buffer);
+    trace_on(threads, meeting, rays, buffer, nullptr);
     EXPECT_EQ(meeting.threads(), static_cast<std::size_t>(threads));
   }
   EXPECT_EQ(thread_count(3), 3);
@@ -164,7 +164,7 @@ TEST(TraceOn, ThreadsComputeInTheCallersMode) {
   for (const unsigned mode : {0U, Meeting::kModeBits, 0U}) {
     const Meeting meeting(3);
     _mm_setcsr((before & ~Meeting::kModeBits) | mode);
-    trace_on(3, meeting, rays, buffer);
+    trace_on(3, meeting, rays, buffer, nullptr);
     _mm_setcsr(before);
     EXPECT_EQ(meeting.modes(), std::set<unsigned>{mode});
   }

@@ -107,7 +107,7 @@ TEST(VoxelGrid, LazyEvaluatesWhatRaysVisitAndNoMore) {
   const auto visited = static_cast<double>(lazy->explain(ray).size());
   EXPECT_EQ(more(lazy->statistics(), "evaluated_voxels"), visited);
   EXPECT_EQ(more(lazy->statistics(), "evaluated_share"), visited / 4096.0);
-  lazy->closest_hit(ray);
+  lazy->closest_hit(ray, nullptr);
   EXPECT_EQ(more(lazy->statistics(), "evaluated_voxels"), visited) << "once is enough";
 }
 
@@ -119,7 +119,7 @@ TEST(VoxelGrid, LazyAndEagerDoTheSameWork) {
     const auto count = [&](const char* spec) {
       HitBuffer buffer(64, 64, 1);
       WorkCounters counters;
-      build(spec, scene)->trace(rays, buffer, counters);
+      build(spec, scene)->trace(rays, buffer, &counters);
       return counters.by_name();
     };
     EXPECT_EQ(count("voxel-grid:fill=lazy"), count("voxel-grid:fill=eager"));
@@ -135,7 +135,7 @@ TEST(VoxelGrid, LazyLivesThroughManyThreadsAtOnce) {
     Random random(seed);
     for (int i = 0; i < 2000; ++i) {
       rays.push_back(testing::random_ray(scene, random));
-      expected.push_back(exhaustive.closest_hit(rays.back()));
+      expected.push_back(exhaustive.closest_hit(rays.back(), nullptr));
     }
     const grid::VoxelGrid<grid::LazyVoxels, grid::Mailboxes> grid(scene,
                                                                   with_resolution(12, 12, 12));
@@ -146,7 +146,7 @@ TEST(VoxelGrid, LazyLivesThroughManyThreadsAtOnce) {
       threads.reserve(found.size());
       for (auto& mine : found) {
         threads.emplace_back([&] {
-          for (const Ray& ray : rays) mine.push_back(grid.closest_hit(ray));
+          for (const Ray& ray : rays) mine.push_back(grid.closest_hit(ray, nullptr));
         });
       }
     }
@@ -165,8 +165,8 @@ TEST(VoxelGrid, MailboxesSaveTestsAndNoHit) {
   HitBuffer without(64, 64, 1);
   WorkCounters saved;
   WorkCounters all;
-  build("voxel-grid:resolution=20,mailboxes=true", scene)->trace(rays, with, saved);
-  build("voxel-grid:resolution=20", scene)->trace(rays, without, all);
+  build("voxel-grid:resolution=20,mailboxes=true", scene)->trace(rays, with, &saved);
+  build("voxel-grid:resolution=20", scene)->trace(rays, without, &all);
   EXPECT_EQ(with, without);
   EXPECT_EQ(saved.get(Counter::kTraversalSteps), all.get(Counter::kTraversalSteps));
   EXPECT_LT(saved.get(Counter::kPrimitiveTests), all.get(Counter::kPrimitiveTests));
@@ -247,7 +247,8 @@ TEST(VoxelGrid, LazyListsHaveTheSameCap) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   const auto lazy = build("voxel-grid:resolution=30,fill=lazy,max_references=10", scene);
   HitBuffer buffer(32, 32, 1);
-  EXPECT_THROW(lazy->trace(PrimaryRays(scene.cameras.front(), 32, 32, 1), buffer), InputError);
+  EXPECT_THROW(lazy->trace(PrimaryRays(scene.cameras.front(), 32, 32, 1), buffer, nullptr),
+               InputError);
 }
 
 TEST(VoxelGrid, TellsItsSizes) {

@@ -9,7 +9,7 @@
 #include <rapidcheck/gtest.h>
 
 #include "harness/base/progress.hpp"
-#include "harness/rays/ray_choice.hpp"
+#include "harness/rays/ray_kind.hpp"
 #include "harness/rays/resolution.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/pending_file.hpp"

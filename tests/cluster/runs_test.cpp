@@ -47,7 +47,7 @@ class Workplace {
 
   accel::HitBuffer sequential_hits() const {
     accel::HitBuffer hits(rays_.width(), rays_.height(), rays_.samples());
-    tracer_.trace(rays_, hits);
+    tracer_.trace(rays_, hits, nullptr);
     return hits;
   }
   render::Image sequential_picture() const {
@@ -247,7 +247,7 @@ TEST(Cluster, RunsFromACommandLineToItsEnd) {
   accel::HitBuffer expected(40, 30, 4);
   const scenes::Scene scene = scenes::load_scene("tetra:n=2");
   accel::beam::BeamTracer(scene, options_with(6))
-      .trace(accel::PrimaryRays(scene.cameras.front(), 40, 30, 4), expected);
+      .trace(accel::PrimaryRays(scene.cameras.front(), 40, 30, 4), expected, nullptr);
   ClusterRequest request;
   request.job.scene = "tetra:n=2";
   request.job.structure = "beam:max_level=6";

@@ -205,7 +205,7 @@ def test_the_self_test_ends_with_a_verdict(template: Path, faulty: Path, tmp_pat
     assert "faulty: failed " in wrong.stdout.splitlines()[-1]
     crashed = faulty_test("crash in trace")
     assert crashed.returncode == 1
-    assert "asking 'faulty' over random 1 crashed" in crashed.stderr.splitlines()[-1]
+    assert "querying 'faulty' over random 1 crashed" in crashed.stderr.splitlines()[-1]
     some = faulty_test("refuses spheres")
     assert some.returncode == 0, some.stdout
     assert some.stdout.splitlines()[-1].endswith(
@@ -292,17 +292,21 @@ def test_another_interface_is_refused_by_its_stamp(
     code = template.read_bytes()
     stamp = code.index(b"beambenc" + version.to_bytes(4, "little"))
 
-    def refusal_of(offset: int, words: list[str]) -> None:
+    def refusal_of(offset: int, value: int, words: list[str]) -> None:
         changed = bytearray(code)
-        changed[stamp + offset] ^= 2
+        changed[stamp + offset] = value
         file = tmp_path / "libchanged.so"
         file.write_bytes(changed)
         refused(call("--plugin", file, "list"), ["libchanged.so", *words])
 
-    refusal_of(0, ["no plug-in of beambench"])
-    refusal_of(8, [f"version {version ^ 2} of the interface", f"this program has {version}"])
-    refusal_of(8, ["build it again"])
-    refusal_of(16, ["other types", "build it again"])
+    refusal_of(0, 0, ["no plug-in of beambench"])
+    for other in (1, 2, version + 1):
+        refusal_of(8, other, [f"version {other} of the interface", f"this program has {version}"])
+        refusal_of(8, other, ["build it again"])
+    refusal_of(8, 2, ["since then: each query exists once", "RayBatch (version 3); build it again"])
+    refusal_of(8, 1, ["image (version 2); each query", "RayBatch (version 3); build it again"])
+    refusal_of(8, version + 1, [f"this program has {version}, an older one; build it again"])
+    refusal_of(16, code[stamp + 16] ^ 2, ["other types", "build it again"])
 
 
 # What is survived
@@ -315,8 +319,8 @@ def test_another_interface_is_refused_by_its_stamp(
         ("throw a number in build", ["threw when 'faulty' was built", "no std::exception"]),
         ("nothing built", ["built no 'faulty", "nullptr"]),
         ("parameter ignored", ["'faulty' was built", "leaf"]),
-        ("throw in trace", ["threw when 'faulty' was asked", "lost the way"]),
-        ("throw in statistics", ["threw when 'faulty' was asked", "never counted"]),
+        ("throw in trace", ["threw when 'faulty' was queried", "lost the way"]),
+        ("throw in statistics", ["threw when 'faulty' was queried", "never counted"]),
         ("crash in build", ["building 'faulty'", "crashed", "SIGSEGV"]),
         ("crash in trace", ["asking 'faulty'", "crashed", "SIGSEGV"]),
         ("abort in trace", ["asking 'faulty'", "crashed", "SIGABRT"]),
@@ -392,7 +396,7 @@ def test_other_commands_end_by_name_when_it_crashes(faulty: Path, command: list[
     assert done.returncode == 1, done.stderr
     message = done.stderr.splitlines()[-1]
     assert message.startswith(
-        f"beambench: the plug-in {faulty}: asking 'faulty' over row:n=3 crashed"
+        f"beambench: the plug-in {faulty}: querying 'faulty' over row:n=3 crashed"
     )
     assert "nothing of what it answered was kept" in message
 
@@ -400,9 +404,9 @@ def test_other_commands_end_by_name_when_it_crashes(faulty: Path, command: list[
 @pytest.mark.parametrize(
     ("fault", "words"),
     [
-        ("throw in trace", ["threw when 'faulty' was asked"]),
+        ("throw in trace", ["threw when 'faulty' was queried"]),
         ("crash in build", ["building 'faulty' over row", "crashed (SIGSEGV", "gdb"]),
-        ("crash in trace", ["asking 'faulty' over row", "crashed (SIGSEGV"]),
+        ("crash in trace", ["querying 'faulty' over row", "crashed (SIGSEGV"]),
         ("primitive out of range", ["structure 'faulty' returned an invalid hit", "4000000000"]),
         (
             "t is no number",

@@ -13,7 +13,7 @@
 
 #include "accel/exhaustive/exhaustive.hpp"
 #include "harness/rays/normal.hpp"
-#include "harness/rays/secondary_rays.hpp"
+#include "harness/rays/ray_generators.hpp"
 #include "harness/render/verified_picture.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/drawn.hpp"
@@ -91,7 +91,7 @@ std::vector<std::string> complaints(const scenes::Scene& scene, const accel::Hit
   const accel::PrimaryRays rays(camera, 16, 16, 1);
   const Planted structure(scene, fault, chosen);
   accel::HitBuffer hits(16, 16, 1);
-  structure.trace(rays, hits);
+  structure.trace(rays, hits, nullptr);
   const HitCheck check(scene, "structure 'planted:fault=1'");
   std::vector<std::string> messages;
   const auto note = [&](const auto& draw) {

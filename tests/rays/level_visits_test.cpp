@@ -20,9 +20,9 @@ Visited visited(const std::string& spec) {
   const scenes::Scene scene = scenes::load_scene("maceta");
   const accel::PrimaryRays rays(scene.cameras.front(), 64, 50, 1);
   const auto structure = accel::registry().choose(parse_spec(spec)).build(scene);
-  Visited found{count_level_visits(*structure, Question(rays)), structure->statistics(), {}};
+  Visited found{count_level_visits(*structure, TraceInput(rays)), structure->statistics(), {}};
   accel::HitBuffer hits(rays.width(), rays.height(), 1);
-  structure->trace(rays, hits, found.work);
+  structure->trace(rays, hits, &found.work);
   return found;
 }
 

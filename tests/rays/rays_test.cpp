@@ -8,13 +8,11 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
-#include "harness/rays/answers.hpp"
 #include "harness/rays/fingerprint.hpp"
-#include "harness/rays/question.hpp"
-#include "harness/rays/random_rays.hpp"
-#include "harness/rays/ray_set_file.hpp"
-#include "harness/rays/secondary_rays.hpp"
-#include "harness/rays/share_warning.hpp"
+#include "harness/rays/ray_generators.hpp"
+#include "harness/rays/ray_set.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "harness/rays/trace_results.hpp"
 #include "harness/verify/describe.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
@@ -28,9 +26,9 @@ namespace {
 
 using glm::dvec3;
 
-Question question_over(const scenes::Scene& scene, std::string_view rays,
-                       Resolution resolution = {64, 48}) {
-  return make_question(scene, {scene.cameras.front(), resolution, 1}, parse_ray_choice(rays));
+TraceInput question_over(const scenes::Scene& scene, std::string_view rays,
+                         Resolution resolution = {64, 48}) {
+  return make_trace_input(scene, {scene.cameras.front(), resolution, 1}, parse_ray_choice(rays));
 }
 
 /// One sphere, lit from two sides and seen from the front.
@@ -120,7 +118,7 @@ TEST(RandomRays, MeetAConvexBodyAsOftenAsItsSurfaceSays) {
   constexpr std::size_t kCount = 200'000;
   RaySet set{"random", Query::kClosestHit, 1, {}, random_rays(scene.bounds, kCount, 1)};
   ASSERT_EQ(set.rays.size(), kCount);
-  const verify::ReferenceHits reference(scene, Question(std::move(set)));
+  const verify::ReferenceHits reference(scene, TraceInput(std::move(set)));
   const double pad = 2.0 * 0x1p-10 * std::sqrt(3.0) * 4.0;  // the box is a little wider
   const double expected = 4.0 * std::numbers::pi * 4.0 / (6.0 * (4.0 + pad) * (4.0 + pad));
   const double share = static_cast<double>(reference.hit_count()) / kCount;
@@ -145,14 +143,14 @@ TEST(Coherence, IsTheMeanCosineOfNeighbors) {
   EXPECT_DOUBLE_EQ(coherence(std::vector{x, x, y, y}), 2.0 / 3.0);
   EXPECT_DOUBLE_EQ(coherence(std::vector{x}), 1.0);
   const scenes::Scene scene = lonely_sphere();
-  const Question image = question_over(scene, "primary", {5, 4});
+  const TraceInput image = question_over(scene, "primary", {5, 4});
   std::vector<accel::Ray> rays;
   for (std::size_t i = 0; i < image.size(); ++i) rays.push_back(image.ray(i));
   EXPECT_NEAR(coherence(image), coherence(rays), 1e-12);
 }
 
 TEST(ShareWarning, IsGivenBelowOneAndAboveNinetyNinePercent) {
-  const Question image(accel::PrimaryRays(lonely_sphere().cameras.front(), 100, 10, 1));
+  const TraceInput image(accel::PrimaryRays(lonely_sphere().cameras.front(), 100, 10, 1));
   EXPECT_TRUE(share_warning(image, 9));
   EXPECT_FALSE(share_warning(image, 10));
   EXPECT_FALSE(share_warning(image, 990));
@@ -179,13 +177,13 @@ TEST(EveryKindOfRays, FindsExhaustiveAndEmbreeRight) {
       const verify::ReferenceHits reference(scene, question_over(scene, kind));
       for (const std::string& structure : structures) {
         const accel::StructureChoice choice = accel::registry().choose(parse_spec(structure));
-        Answers answers = room_for(reference.question());
-        poison(answers);
-        ask(*choice.build(scene), reference.question(), answers);
+        TraceResults results = make_results(reference.input());
+        poison(results);
+        trace(*choice.build(scene), reference.input(), results);
         const verify::DiffReport report =
-            verify::judge(reference, answers, choice.info().conformance);
+            verify::judge(reference, results, choice.info().conformance);
         EXPECT_EQ(report.verdict, verify::Verdict::kOk) << name << " " << kind << " " << structure;
-        EXPECT_EQ(report.rays, reference.question().size());
+        EXPECT_EQ(report.rays, reference.input().size());
       }
     }
   }
@@ -195,13 +193,13 @@ TEST(EveryKindOfRays, FindsExhaustiveAndEmbreeRight) {
 class AnyHitAnswers : public ::testing::Test {
  protected:
   AnyHitAnswers() {
-    ask(*accel::registry().choose({"exhaustive", {}}).build(scene_), reference_.question(),
-        answers_);
+    trace(*accel::registry().choose({"exhaustive", {}}).build(scene_), reference_.input(),
+          results_);
   }
   verify::DiffReport judged() const {
-    return verify::judge(reference_, answers_, accel::Conformance::kBitExact);
+    return verify::judge(reference_, results_, accel::Conformance::kBitExact);
   }
-  std::uint8_t& answer(std::size_t i) { return std::get<AnyHits>(answers_)[i]; }
+  std::uint8_t& answer(std::size_t i) { return std::get<AnyHits>(results_)[i]; }
   std::size_t first_that_is(std::uint8_t value) {
     std::size_t i = 0;
     while (answer(i) != value) ++i;
@@ -210,7 +208,7 @@ class AnyHitAnswers : public ::testing::Test {
 
   scenes::Scene scene_ = scenes::load_scene("escena1:spheres=60");
   verify::ReferenceHits reference_{scene_, question_over(scene_, "shadow")};
-  Answers answers_ = room_for(reference_.question());
+  TraceResults results_ = make_results(reference_.input());
 };
 
 TEST_F(AnyHitAnswers, AreOkWhenTheyAreRight) {
@@ -228,7 +226,7 @@ TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsWrong) {
     ASSERT_EQ(report.examples.size(), 1U);
     EXPECT_EQ(report.examples[0].index, at);
     EXPECT_TRUE(scenes::says(
-        verify::describe(scene_, reference_.question(), report.examples[0]),
+        verify::describe(scene_, reference_.input(), report.examples[0]),
         {fmt::format("ray {}: engine_error", at), value == 1 ? "lost a hit" : "there is none"}));
     answer(at) = value;
   }
@@ -237,15 +235,15 @@ TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsWrong) {
 TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsNoAnswer) {
   answer(7) = 2;
   EXPECT_EQ(judged().count(verify::DiffClass::kEngineError), 1U);
-  poison(answers_);
-  EXPECT_EQ(judged().count(verify::DiffClass::kEngineError), reference_.question().size());
+  poison(results_);
+  EXPECT_EQ(judged().count(verify::DiffClass::kEngineError), reference_.input().size());
 }
 
 TEST_F(AnyHitAnswers, OfABaselineAreAllNo) {
-  EXPECT_EQ(verify::judge(reference_, answers_, accel::Conformance::kBaseline).verdict,
+  EXPECT_EQ(verify::judge(reference_, results_, accel::Conformance::kBaseline).verdict,
             verify::Verdict::kMismatch);
   EXPECT_EQ(
-      verify::judge(reference_, room_for(reference_.question()), accel::Conformance::kBaseline)
+      verify::judge(reference_, make_results(reference_.input()), accel::Conformance::kBaseline)
           .verdict,
       verify::Verdict::kBaseline);
 }
@@ -262,8 +260,8 @@ TEST(AnyHitOfAGrazingRay, MayBeEither) {
     ray.origin = {x, 0.0F, 4.0F};
     ray.direction = {0.0F, 0.0F, -1.0F};
     ray.t_max = t_max;
-    const verify::ReferenceHits reference(scene,
-                                          Question(RaySet{"a ray", Query::kAnyHit, 0, {}, {ray}}));
+    const verify::ReferenceHits reference(
+        scene, TraceInput(RaySet{"a ray", Query::kAnyHit, 0, {}, {ray}}));
     return verify::judge(reference, AnyHits{answer}, accel::Conformance::kTolerance).examples;
   };
   const auto class_of = [](const std::vector<verify::Mismatch>& examples) {
@@ -298,7 +296,7 @@ class RayFile : public ::testing::Test {
 };
 
 TEST_F(RayFile, HoldsTheSameRays) {
-  const Question read = question_over(scene_, path_.string());
+  const TraceInput read = question_over(scene_, path_.string());
   EXPECT_EQ(fingerprint(read), fingerprint(set_.rays));
   EXPECT_EQ(read.seed(), 9U);
   EXPECT_EQ(read.query(), Query::kClosestHit);

@@ -20,7 +20,7 @@ accel::HitBuffer hits_of(const accel::Accelerator& structure, const EyeRays& ray
   accel::HitBuffer hits(rays.width, rays.height, 1);
   for (int y = 0; y < rays.height; ++y) {
     for (int x = 0; x < rays.width; ++x) {
-      hits.set(hits.index(x, y, 0), structure.closest_hit(rays.ray(x, y, 0)));
+      hits.set(hits.index(x, y, 0), structure.closest_hit(rays.ray(x, y, 0), nullptr));
     }
   }
   return hits;
@@ -125,7 +125,7 @@ TEST(Whitted, GoldenPictures) {
     const auto structure = built(scene, "sah-bvh");
     const accel::PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
     accel::HitBuffer hits(64, 64, 1);
-    structure->trace(rays, hits);
+    structure->trace(rays, hits, nullptr);
     const OIIO::ImageBuf found =
         as_png(whitted_picture(Whitted(scene, *structure, {}), eye_rays(rays), hits).image);
     const std::string file =

@@ -285,7 +285,7 @@ TEST(LazyGrid, ShowsTheCellsThatRaysFilled) {
   const auto lazy = accel::registry().choose(parse_spec("voxel-grid:fill=lazy")).build(scene);
   EXPECT_FALSE(eager->occupied_cells().empty());
   EXPECT_TRUE(lazy->occupied_cells().empty());
-  lazy->trace(rays, hits);
+  lazy->trace(rays, hits, nullptr);
   EXPECT_FALSE(lazy->occupied_cells().empty());
   EXPECT_LE(lazy->occupied_cells().size(), eager->occupied_cells().size());
 }

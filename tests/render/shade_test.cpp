@@ -24,7 +24,7 @@ glm::dvec3 arbitrary_point(double size) {
 
 /// The hit of a ray from `origin` toward `target`, by exhaustive search.
 std::optional<accel::Hit> shoot(const scenes::Scene& scene, const accel::Ray& ray) {
-  return accel::registry().choose({"exhaustive", {}}).build(scene)->closest_hit(ray);
+  return accel::registry().choose({"exhaustive", {}}).build(scene)->closest_hit(ray, nullptr);
 }
 
 accel::Ray ray_toward(const glm::dvec3& origin, const glm::dvec3& target) {
@@ -143,7 +143,7 @@ scenes::Scene red_ball() {
 Image picture_of(const scenes::Scene& scene, Shading shading) {
   const accel::PrimaryRays rays(scene.cameras.front(), 33, 33, 1);
   accel::HitBuffer hits(33, 33, 1);
-  accel::registry().choose({"exhaustive", {}}).build(scene)->trace(rays, hits);
+  accel::registry().choose({"exhaustive", {}}).build(scene)->trace(rays, hits, nullptr);
   return shade(scene, rays, hits, shading);
 }
 

@@ -50,7 +50,7 @@ TEST(ShadingOrder, ChangesNeitherPictureNorRays) {
   const EyeRays rays = eye_rays(primary);
   const auto beam = built(scene, "beam:max_level=5");
   accel::HitBuffer hits(primary.width(), primary.height(), 1);
-  beam->trace(primary, hits);
+  beam->trace(primary, hits, nullptr);
   const Whitted tracer(scene, *beam, {.shadows = ShadowMethod::kCache});
   const WhittedPicture rows = whitted_picture(tracer, rays, hits);
   std::vector<std::uint64_t> cached;

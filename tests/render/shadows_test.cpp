@@ -65,7 +65,7 @@ TEST(LightBuffer, AnswersAsASearchOfAllPrimitives) {
       ray.t_max = 1.0F;
       if (ray.direction == glm::vec3(0.0F)) continue;
       std::uint64_t tests = 0;
-      const bool expected = structure->any_hit(ray);
+      const bool expected = structure->any_hit(ray, nullptr);
       hidden += expected ? 1 : 0;
       ASSERT_EQ(buffer.ask(ray, tests),
                 expected ? LightBuffer::Answer::kHidden : LightBuffer::Answer::kFree)

@@ -120,17 +120,18 @@ class WrongAlone : public accel::TraversalAccelerator<WrongAlone> {
   WrongAlone(const scenes::Scene& scene, In in) : right_(built(scene, "exhaustive")), in_(in) {}
 
   accel::Statistics statistics() const override { return {}; }
-  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer) const override {
-    right_->trace(rays, buffer);
+  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
+             accel::WorkCounters* counters) const override {
+    right_->trace(rays, buffer, &counters);
   }
   template <class Counting>
   std::optional<accel::Hit> find_closest(const accel::Ray& ray, Counting&) const {
-    const auto hit = right_->closest_hit(ray);
+    const auto hit = right_->closest_hit(ray, nullptr);
     return in_ == In::kClosest && hit && hit->primitive % 7 == 0 ? std::nullopt : hit;
   }
   template <class Counting>
   bool find_any(const accel::Ray& ray, Counting&) const {
-    return in_ == In::kAny ? false : right_->any_hit(ray);
+    return in_ == In::kAny ? false : right_->any_hit(ray, nullptr);
   }
 
  private:
@@ -156,7 +157,7 @@ TEST(WholePicture, AWrongRayThatFollowsIsFoundAndNamed) {
 TEST(WholePicture, IsNoListOfRays) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   const rays::ImageOfRays image{scene.cameras.front(), {8, 8}, 1};
-  EXPECT_THROW(rays::make_question(scene, image, rays::parse_ray_choice("whitted")), InputError);
+  EXPECT_THROW(rays::make_trace_input(scene, image, rays::parse_ray_choice("whitted")), InputError);
 }
 
 }  // namespace

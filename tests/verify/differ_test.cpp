@@ -27,14 +27,14 @@ using testing::random_scene;
 accel::HitBuffer traced(const std::string& structure, const scenes::Scene& scene,
                         const accel::PrimaryRays& rays) {
   accel::HitBuffer buffer(rays.width(), rays.height(), rays.samples());
-  accel::registry().choose(parse_spec(structure)).build(scene)->trace(rays, buffer);
+  accel::registry().choose(parse_spec(structure)).build(scene)->trace(rays, buffer, nullptr);
   return buffer;
 }
 
 std::string first_example(const ReferenceHits& reference, const DiffReport& report) {
   return report.examples.empty()
              ? ""
-             : describe(reference.scene(), reference.question(), report.examples.front());
+             : describe(reference.scene(), reference.input(), report.examples.front());
 }
 
 TEST(Oracle, GivesTheLongDoubleAnswer) {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "accel/core/registry.hpp"
-#include "harness/rays/question.hpp"
-#include "harness/rays/ray_choice.hpp"
+#include "harness/rays/ray_kind.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "harness/verify/describe.hpp"
 #include "harness/verify/exact_search.hpp"
 #include "scenes/scene_builder.hpp"
@@ -32,23 +32,23 @@ scenes::Scene ring(double base_height, double height) {
   return std::move(builder).build();
 }
 
-rays::Question rays_over(const scenes::Scene& scene, const std::string& kind, int size) {
-  return rays::make_question(scene, {scene.cameras.front(), {size, size}, 1},
-                             rays::parse_ray_choice(kind));
+rays::TraceInput rays_over(const scenes::Scene& scene, const std::string& kind, int size) {
+  return rays::make_trace_input(scene, {scene.cameras.front(), {size, size}, 1},
+                                rays::parse_ray_choice(kind));
 }
 
 accel::HitBuffer traced(const std::string& structure, const scenes::Scene& scene,
-                        const rays::Question& question) {
+                        const rays::TraceInput& input) {
   const auto built = accel::registry().choose(parse_spec(structure)).build(scene);
-  rays::Answers answers = rays::room_for(question);
-  rays::ask(*built, question, answers);
-  return std::get<accel::HitBuffer>(std::move(answers));
+  rays::TraceResults results = rays::make_results(input);
+  rays::trace(*built, input, results);
+  return std::get<accel::HitBuffer>(std::move(results));
 }
 
 std::string first_example(const ReferenceHits& reference, const DiffReport& report) {
   return report.examples.empty()
              ? ""
-             : describe(reference.scene(), reference.question(), report.examples.front());
+             : describe(reference.scene(), reference.input(), report.examples.front());
 }
 
 /// Where the ray meets the ring that the cone is, near enough; nothing beside it. `unsure` when it
@@ -79,12 +79,12 @@ class FlatCone : public ::testing::TestWithParam<double> {
 TEST_P(FlatCone, IsHitAsTheRingThatItIs) {
   const double tolerance = 1e-5 + 2.0 * height();
   for (const std::string kind : {"primary", "random"}) {
-    const rays::Question question = rays_over(scene_, kind, 64);
-    const ReferenceHits reference(scene_, question);
-    const accel::HitBuffer found = traced("exhaustive", scene_, question);
+    const rays::TraceInput input = rays_over(scene_, kind, 64);
+    const ReferenceHits reference(scene_, input);
+    const accel::HitBuffer found = traced("exhaustive", scene_, input);
     int hits = 0;
-    for (std::size_t i = 0; i < question.size(); ++i) {
-      const accel::Ray ray = question.ray(i);
+    for (std::size_t i = 0; i < input.size(); ++i) {
+      const accel::Ray ray = input.ray(i);
       const Expected expected = expected_hit(ray, height());
       if (expected.unsure) continue;
       const auto check = [&](const char* who, const std::optional<double>& t) {
@@ -106,11 +106,11 @@ TEST_P(FlatCone, IsHitAsTheRingThatItIs) {
 
 TEST_P(FlatCone, IsJudgedRight) {
   for (const std::string kind : {"primary", "random"}) {
-    const rays::Question question = rays_over(scene_, kind, 160);
-    const ReferenceHits reference(scene_, question);
+    const rays::TraceInput input = rays_over(scene_, kind, 160);
+    const ReferenceHits reference(scene_, input);
     for (const std::string structure : {"exhaustive", "samet", "voxel-grid", "sah-bvh", "embree"}) {
       const DiffReport report =
-          judge(reference, traced(structure, scene_, question),
+          judge(reference, traced(structure, scene_, input),
                 accel::registry().choose(parse_spec(structure)).info().conformance);
       EXPECT_EQ(report.verdict, Verdict::kOk) << structure << first_example(reference, report);
       EXPECT_EQ(report.count(DiffClass::kEmbreeError), 0U)
@@ -121,9 +121,9 @@ TEST_P(FlatCone, IsJudgedRight) {
 }
 
 TEST_P(FlatCone, HasNoRoomForErrors) {
-  const rays::Question question = rays_over(scene_, "primary", 40);
-  const ReferenceHits reference(scene_, question);
-  accel::HitBuffer buffer = traced("exhaustive", scene_, question);
+  const rays::TraceInput input = rays_over(scene_, "primary", 40);
+  const ReferenceHits reference(scene_, input);
+  accel::HitBuffer buffer = traced("exhaustive", scene_, input);
   const auto expect_error = [&](std::size_t i, const std::optional<accel::Hit>& planted) {
     const auto before = buffer.get(i);
     buffer.set(i, planted);
@@ -134,8 +134,8 @@ TEST_P(FlatCone, HasNoRoomForErrors) {
   };
   int on_ring = 0;
   int beside = 0;
-  for (std::size_t i = 0; i < question.size(); i += 13) {
-    const Expected expected = expected_hit(question.ray(i), height());
+  for (std::size_t i = 0; i < input.size(); i += 13) {
+    const Expected expected = expected_hit(input.ray(i), height());
     if (expected.unsure) continue;
     if (expected.t) {
       const auto t = static_cast<float>(*expected.t);
@@ -146,7 +146,7 @@ TEST_P(FlatCone, HasNoRoomForErrors) {
       ++on_ring;
     } else {
       // Where the ray crosses the ring's plane, inside the hole or beyond the rim.
-      const accel::Ray ray = question.ray(i);
+      const accel::Ray ray = input.ray(i);
       const double t = (0.5 * height() - ray.origin.y) / ray.direction.y;
       if (t > 0.0) expect_error(i, accel::Hit{static_cast<float>(t), 0});
       ++beside;
@@ -161,10 +161,10 @@ INSTANTIATE_TEST_SUITE_P(Heights, FlatCone,
 
 TEST(FlatCones, IsJudgedRightWhereRoundingOfTCrossesItsHeight) {
   const scenes::Scene scene = ring(0.5, 1e-6);
-  const rays::Question question = rays_over(scene, "random", 320);
-  const ReferenceHits reference(scene, question);
+  const rays::TraceInput input = rays_over(scene, "random", 320);
+  const ReferenceHits reference(scene, input);
   const DiffReport report =
-      judge(reference, traced("exhaustive", scene, question), accel::Conformance::kBitExact);
+      judge(reference, traced("exhaustive", scene, input), accel::Conformance::kBitExact);
   EXPECT_EQ(report.verdict, Verdict::kOk) << first_example(reference, report);
   EXPECT_EQ(report.count(DiffClass::kEmbreeError), 0U) << first_example(reference, report);
 }

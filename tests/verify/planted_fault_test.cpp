@@ -76,7 +76,7 @@ class PlantedFault : public ::testing::TestWithParam<Subject> {
 
   DiffReport judge_with(const Fault& fault) const {
     accel::HitBuffer buffer(kSide, kSide, 1);
-    FaultySamet(scene_, options_, fault).trace(rays_, buffer);
+    FaultySamet(scene_, options_, fault).trace(rays_, buffer, nullptr);
     return judge(reference_, buffer, accel::Conformance::kBitExact);
   }
 
@@ -87,7 +87,7 @@ class PlantedFault : public ::testing::TestWithParam<Subject> {
     Fault fault;
     for (int i = 0; i < kSide * kSide; ++i) {
       const accel::Ray ray = rays_.ray(i % kSide, i / kSide, 0);
-      const auto hit = sound.closest_hit(ray);
+      const auto hit = sound.closest_hit(ray, nullptr);
       if (!hit) continue;
       int leaves = 0;
       accel::NoCounting none;

@@ -55,8 +55,8 @@ TEST(ReplayCommand, NamesWhatIsNotTheDefault) {
   EXPECT_EQ(ReplayCommand(scene, typed, samet, one).of(0),
             "beambench trace tetra:n=1 --accel samet:max_level=3 --pixel 0,0 --resolution 32x20 "
             "--from 1,-2.5,0.1 --at 0,0,0 --up 0,1,0 --angle 30");
-  const rays::Question diffuse =
-      rays::make_question(scene, front, rays::parse_ray_choice("diffuse:seed=2"));
+  const rays::TraceInput diffuse =
+      rays::make_trace_input(scene, front, rays::parse_ray_choice("diffuse:seed=2"));
   EXPECT_EQ(ReplayCommand(scene, front, samet, diffuse).of(7),
             "beambench trace tetra:n=1 --accel samet:max_level=3 --rays diffuse:seed=2 --ray 7 "
             "--resolution 32x20");
@@ -102,7 +102,7 @@ TEST_F(PlantedMismatch, IsReplayedByThePastedCommand) {
   const ReferenceHits reference(scene_, rays);
   const accel::StructureChoice samet = accel::registry().choose(parse_spec("samet:max_level=3"));
   accel::HitBuffer buffer(33, 21, kSamples);
-  samet.build(scene_)->trace(rays, buffer);
+  samet.build(scene_)->trace(rays, buffer, nullptr);
   const std::size_t lost = buffer.index(16, 10, 3);
   ASSERT_TRUE(buffer.get(lost));
   buffer.set(lost, std::nullopt);
@@ -129,21 +129,20 @@ TEST_F(PlantedMismatch, OfASecondaryRayIsReplayedByThePastedCommand) {
   const rays::ImageOfRays image{scene_.cameras.front(), {33, 21}, 1};
   const accel::StructureChoice samet = accel::registry().choose(parse_spec("samet:max_level=3"));
   for (const char* kind : {"random:seed=4", "reflection"}) {
-    const ReferenceHits reference(scene_,
-                                  rays::make_question(scene_, image, rays::parse_ray_choice(kind)));
-    rays::Answers answers = rays::room_for(reference.question());
-    rays::ask(*samet.build(scene_), reference.question(), answers);
-    auto& hits = std::get<accel::HitBuffer>(answers);
+    const ReferenceHits reference(
+        scene_, rays::make_trace_input(scene_, image, rays::parse_ray_choice(kind)));
+    rays::TraceResults results = rays::make_results(reference.input());
+    rays::trace(*samet.build(scene_), reference.input(), results);
+    auto& hits = std::get<accel::HitBuffer>(results);
     std::size_t at = 0;
     while (!hits.get(at) && at + 1 < hits.size()) ++at;
     const auto found = hits.get(at);
     hits.set(at, found ? std::nullopt : std::optional(accel::Hit{1.0F, 0}));
-    const DiffReport report = judge(reference, answers, accel::Conformance::kBitExact);
+    const DiffReport report = judge(reference, results, accel::Conformance::kBitExact);
     ASSERT_EQ(report.examples.size(), 1U) << kind;
 
-    const ReplayCommand replay(scene_, image, samet, reference.question());
-    const std::string described =
-        describe(scene_, reference.question(), report.examples[0], replay);
+    const ReplayCommand replay(scene_, image, samet, reference.input());
+    const std::string described = describe(scene_, reference.input(), report.examples[0], replay);
     const std::string shown = paste(line_of(described, "  replay ").substr(9), 0);
     EXPECT_EQ(line_of(shown, "  ray "), line_of(described, "  ray "));
     EXPECT_EQ(line_of(shown, "  oracle "), line_of(described, "  oracle "));
@@ -155,7 +154,7 @@ TEST_F(PlantedMismatch, OneRayIsJudgedAsInItsImage) {
   const accel::PrimaryRays rays(scene_.cameras.front(), 16, 16, 1);
   const ReferenceHits reference(scene_, rays);
   accel::HitBuffer buffer(16, 16, 1);
-  accel::registry().choose(parse_spec("exhaustive")).build(scene_)->trace(rays, buffer);
+  accel::registry().choose(parse_spec("exhaustive")).build(scene_)->trace(rays, buffer, nullptr);
   for (std::size_t i = 0; i < buffer.size(); i += 3) {  // lost, moved, invented
     const auto hit = buffer.get(i);
     if (!hit) buffer.set(i, accel::Hit{4.0F, 1});

@@ -19,7 +19,7 @@
 #include <hwy/targets.h>
 
 #include "accel/core/registry.hpp"
-#include "harness/rays/answers.hpp"
+#include "harness/rays/trace_results.hpp"
 #include "harness/render/verified_picture.hpp"
 #include "harness/verify/describe.hpp"
 #include "harness/verify/selftest/subject.hpp"
@@ -73,10 +73,10 @@ std::vector<Contender> contenders_over(const scenes::Scene& scene, Random& rando
   return all;
 }
 
-std::string first_error(const scenes::Scene& scene, const rays::Question& question,
+std::string first_error(const scenes::Scene& scene, const rays::TraceInput& input,
                         const DiffReport& report) {
   for (const Mismatch& example : report.examples) {
-    if (example.diff_class == DiffClass::kEngineError) return describe(scene, question, example);
+    if (example.diff_class == DiffClass::kEngineError) return describe(scene, input, example);
   }
   return "";
 }
@@ -93,8 +93,8 @@ class Trial {
     const rays::ImageOfRays image{scene_.cameras.front(), resolution, samples};
     for (const char* kind : kKinds) {
       try {
-        references_.emplace_back(scene_,
-                                 rays::make_question(scene_, image, rays::parse_ray_choice(kind)));
+        references_.emplace_back(
+            scene_, rays::make_trace_input(scene_, image, rays::parse_ray_choice(kind)));
       } catch (const InputError&) {  // nothing is hit for rays to start from
       }
     }
@@ -110,28 +110,28 @@ class Trial {
 
  private:
   void judge_rays(const Contender& contender, const ReferenceHits& reference) {
-    const rays::Question& question = reference.question();
-    rays::Answers answers = rays::room_for(question);
-    rays::poison(answers);
-    rays::ask(*contender.structure, question, answers);
-    const DiffReport report = judge(reference, answers, contender.conformance);
+    const rays::TraceInput& input = reference.input();
+    rays::TraceResults results = rays::make_results(input);
+    rays::poison(results);
+    rays::trace(*contender.structure, input, results);
+    const DiffReport report = judge(reference, results, contender.conformance);
     judged_ += report.rays;
     EXPECT_EQ(report.count(DiffClass::kEngineError), 0U)
-        << contender.label << " over " << scene_.name << ", " << question.label() << " rays\n"
-        << first_error(scene_, question, report);
+        << contender.label << " over " << scene_.name << ", " << input.label() << " rays\n"
+        << first_error(scene_, input, report);
     if (contender.conformance == accel::Conformance::kBitExact) {
-      const auto [exact, first] = exact_.try_emplace(question.label(), answers);
-      EXPECT_TRUE(first || exact->second == answers)
-          << contender.label << " over " << scene_.name << ", " << question.label()
+      const auto [exact, first] = exact_.try_emplace(input.label(), results);
+      EXPECT_TRUE(first || exact->second == results)
+          << contender.label << " over " << scene_.name << ", " << input.label()
           << " rays: other bits than exhaustive";
     }
   }
 
   void judge_picture_of(const Contender& contender) {
     const ReferenceHits& eye = references_.front();
-    const accel::PrimaryRays& rays = *eye.question().image();
+    const accel::PrimaryRays& rays = *eye.input().image();
     accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-    contender.structure->trace(rays, hits);
+    contender.structure->trace(rays, hits, nullptr);
     std::vector<render::JudgedRays> judged;
     try {
       judged = render::judge_picture(eye,
@@ -145,14 +145,14 @@ class Trial {
       judged_ += of_kind.report.rays;
       EXPECT_EQ(of_kind.report.count(DiffClass::kEngineError), 0U)
           << contender.label << " over " << scene_.name << ", whitted " << of_kind.kind << " rays\n"
-          << first_error(scene_, of_kind.question, of_kind.report);
+          << first_error(scene_, of_kind.input, of_kind.report);
     }
   }
 
   scenes::Scene scene_;
   Random random_;
   std::vector<ReferenceHits> references_;
-  std::map<std::string, rays::Answers> exact_;  ///< of exhaustive, by kinds of rays
+  std::map<std::string, rays::TraceResults> exact_;  ///< of exhaustive, by kinds of rays
   std::size_t judged_ = 0;
 };
 
@@ -166,7 +166,7 @@ TEST(SceneFamilies, NoStructureErrs) {
     trial.judge_all();
     judged += trial.judged();
   }
-  fmt::print("{} scenes, {} answers\n", scenes, judged);
+  fmt::print("{} scenes, {} results\n", scenes, judged);
   EXPECT_GT(judged, scenes * 10'000);
 }
 
@@ -177,7 +177,7 @@ accel::HitBuffer image_on(std::int64_t target, const std::string& name, const sc
   const auto structure = accel::registry().choose({name, {}}).build(scene);
   accel::HitBuffer image(rays.width(), rays.height(), rays.samples());
   rays::poison(image);
-  structure->trace(rays, image);
+  structure->trace(rays, image, nullptr);
   return image;
 }
 
@@ -191,7 +191,7 @@ TEST(SceneFamilies, EveryInstructionSetReturnsTheSame) {
     const scenes::Scene scene = family_scene(seed);
     for (const auto& [width, samples] : {std::pair{9, 1}, {16, 1}, {33, 1}, {20, 4}, {7, 5}}) {
       const accel::PrimaryRays rays(scene.cameras.front(), width, 17, samples);
-      const rays::Question question(rays);
+      const rays::TraceInput input(rays);
       const double length = tolerance(scene, rays.eye());
       for (const char* name : {"tile-beam", "sah-bvh", "beam"}) {
         std::vector<accel::HitBuffer> images;
@@ -216,8 +216,8 @@ TEST(SceneFamilies, EveryInstructionSetReturnsTheSame) {
                 return hit ? std::optional(accel::embree::ExactHit{hit->t, hit->primitive})
                            : std::nullopt;
               };
-              ASSERT_TRUE(classify(scene, question.ray(i), one, as_exact(other), length))
-                  << rays::place_text(question, i) << ": primitive "
+              ASSERT_TRUE(classify(scene, input.ray(i), one, as_exact(other), length))
+                  << rays::place_text(input, i) << ": primitive "
                   << (one ? one->primitive : scenes::kNoPrimitive) << " at "
                   << (one ? one->t : accel::kInfinity) << " and primitive "
                   << (other ? other->primitive : scenes::kNoPrimitive) << " at "

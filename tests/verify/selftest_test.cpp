@@ -44,14 +44,14 @@ class Faulty : public accel::TraversalAccelerator<Faulty> {
   Faulty(const scenes::Scene& scene, Fault fault)
       : scene_(&scene), fault_(fault), number_(builds++) {}
 
-  using TraversalAccelerator::closest_hits;
-  using TraversalAccelerator::trace;
-  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer) const override {
-    TraversalAccelerator::trace(rays, buffer);
+  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
+             accel::WorkCounters* counters) const override {
+    TraversalAccelerator::trace(rays, buffer, counters);
     if (fault_ == Fault::kImageUpsideDown) std::reverse(buffer.t(), buffer.t() + buffer.size());
   }
-  void closest_hits(std::span<const accel::Ray> rays, accel::HitBuffer& buffer) const override {
-    TraversalAccelerator::closest_hits(rays, buffer);
+  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
+                    accel::WorkCounters* counters) const override {
+    TraversalAccelerator::closest_hits(batch, buffer, counters);
     if (fault_ == Fault::kOtherInLists) buffer.t()[buffer.size() - 1] = 1.0F;  // of a miss, too
   }
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/rays/answers.hpp"
+#include "harness/rays/trace_results.hpp"
 #include "harness/verify/selftest/checks.hpp"
 #include "harness/verify/selftest/hit_comparison.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
@@ -37,25 +37,24 @@ struct Ground {
   std::vector<accel::Ray> rays;
 };
 
-/// All that a structure can be asked.
-std::vector<rays::Question> questions(const Ground& ground) {
-  return {rays::Question(
+/// Each query of many rays.
+std::vector<rays::TraceInput> inputs(const Ground& ground) {
+  return {rays::TraceInput(
               rays::RaySet{"closest", rays::Query::kClosestHit, 0, std::nullopt, ground.rays}),
-          rays::Question(rays::RaySet{"any", rays::Query::kAnyHit, 0, std::nullopt, ground.rays}),
-          rays::Question(ground.image())};
+          rays::TraceInput(rays::RaySet{"any", rays::Query::kAnyHit, 0, std::nullopt, ground.rays}),
+          rays::TraceInput(ground.image())};
 }
 
-/// Nothing of an earlier answer can be taken for one of these.
-template <class... Counters>
-rays::Answers asked(const accel::Accelerator& structure, const rays::Question& question,
-                    Counters&... counters) {
-  rays::Answers answers = rays::room_for(question);
-  rays::poison(answers);
-  rays::ask(structure, question, answers, counters...);
-  return answers;
+/// No earlier result can be taken for one of these.
+rays::TraceResults traced(const accel::Accelerator& structure, const rays::TraceInput& input,
+                          accel::WorkCounters* counters = nullptr) {
+  rays::TraceResults results = rays::make_results(input);
+  rays::poison(results);
+  rays::trace(structure, input, results, counters);
+  return results;
 }
 
-std::string first_difference(const rays::Answers& a, const rays::Answers& b,
+std::string first_difference(const rays::TraceResults& a, const rays::TraceResults& b,
                              std::string_view what) {
   if (a == b) return "";
   return fmt::format("{} are not the same", what);
@@ -94,13 +93,13 @@ std::string impossible_count(const accel::Ray& ray, bool hit, const accel::WorkC
 CheckOutcome check_lists(const Subject& subject, const SelftestEffort& effort) {
   const Ground ground(subject, effort.seed);
   const auto structure = subject.build(ground.scene);
-  const std::vector<rays::Question> all = questions(ground);
-  const auto closest = std::get<accel::HitBuffer>(asked(*structure, all[0]));
-  const auto any = std::get<rays::AnyHits>(asked(*structure, all[1]));
+  const std::vector<rays::TraceInput> all = inputs(ground);
+  const auto closest = std::get<accel::HitBuffer>(traced(*structure, all[0]));
+  const auto any = std::get<rays::AnyHits>(traced(*structure, all[1]));
   for (std::size_t i = 0; i < ground.rays.size(); ++i) {
     const accel::Ray& ray = ground.rays[i];
     const accel::Hit written{closest.t()[i], closest.primitive()[i]};
-    const auto alone = structure->closest_hit(ray);
+    const auto alone = structure->closest_hit(ray, nullptr);
     if (written != alone.value_or(accel::Hit{accel::kInfinity, scenes::kNoPrimitive})) {
       return {
           ground.rays.size(),
@@ -108,9 +107,9 @@ CheckOutcome check_lists(const Subject& subject, const SelftestEffort& effort) {
                       "infinity and {})",
                       show(ray), show(alone), written.t, written.primitive, scenes::kNoPrimitive)};
     }
-    if (any[i] != (structure->any_hit(ray) ? 1 : 0)) {
+    if (any[i] != (structure->any_hit(ray, nullptr) ? 1 : 0)) {
       return {ground.rays.size(), fmt::format("any_hit of {} is {} alone, but {} in a list",
-                                              show(ray), structure->any_hit(ray), any[i])};
+                                              show(ray), structure->any_hit(ray, nullptr), any[i])};
     }
   }
   return {ground.rays.size(), ""};
@@ -121,16 +120,16 @@ CheckOutcome check_counting(const Subject& subject, const SelftestEffort& effort
   const auto structure = subject.build(ground.scene);
   CheckOutcome outcome;
   accel::WorkCounters counters;
-  for (const rays::Question& question : questions(ground)) {
-    outcome.rays += question.size();
+  for (const rays::TraceInput& input : inputs(ground)) {
+    outcome.rays += input.size();
     outcome.failure =
-        first_difference(asked(*structure, question), asked(*structure, question, counters),
-                         "answers with and without counting");
+        first_difference(traced(*structure, input), traced(*structure, input, &counters),
+                         "results with and without counting");
     if (!outcome.passed()) return outcome;
   }
   for (const accel::Ray& ray : ground.rays) {
-    if (structure->closest_hit(ray) != structure->closest_hit(ray, counters) ||
-        structure->any_hit(ray) != structure->any_hit(ray, counters)) {
+    if (structure->closest_hit(ray, nullptr) != structure->closest_hit(ray, &counters) ||
+        structure->any_hit(ray, nullptr) != structure->any_hit(ray, &counters)) {
       outcome.failure = show(ray) + " gets another answer when work is counted";
       return outcome;
     }
@@ -143,13 +142,13 @@ CheckOutcome check_two_builds(const Subject& subject, const SelftestEffort& effo
   const auto first = subject.build(ground.scene);
   const auto second = subject.build(ground.scene);
   CheckOutcome outcome;
-  for (const rays::Question& question : questions(ground)) {
-    outcome.rays += question.size();
+  for (const rays::TraceInput& input : inputs(ground)) {
+    outcome.rays += input.size();
     accel::WorkCounters counters_of_first;
     accel::WorkCounters counters_of_second;
     outcome.failure =
-        first_difference(asked(*first, question, counters_of_first),
-                         asked(*second, question, counters_of_second), "the answers of two builds");
+        first_difference(traced(*first, input, &counters_of_first),
+                         traced(*second, input, &counters_of_second), "the results of two builds");
     if (outcome.passed()) {
       outcome.failure = first_difference(counters_of_first.by_name(), counters_of_second.by_name());
     }
@@ -167,9 +166,9 @@ CheckOutcome check_two_builds(const Subject& subject, const SelftestEffort& effo
 CheckOutcome check_threads(const Subject& subject, const SelftestEffort& effort) {
   const Ground ground(subject, effort.seed);
   const auto structure = subject.build(ground.scene);
-  const std::vector<rays::Question> all = questions(ground);
-  const rays::Answers closest = asked(*structure, all[0]);
-  const rays::Answers any = asked(*structure, all[1]);
+  const std::vector<rays::TraceInput> all = inputs(ground);
+  const rays::TraceResults closest = traced(*structure, all[0]);
+  const rays::TraceResults any = traced(*structure, all[1]);
   std::array<std::string, 4> wrong;
   {
     std::vector<std::jthread> threads;
@@ -178,8 +177,8 @@ CheckOutcome check_threads(const Subject& subject, const SelftestEffort& effort)
       threads.emplace_back([&] {
         try {
           for (int again = 0; again < 3; ++again) {
-            if (asked(*structure, all[0]) != closest || asked(*structure, all[1]) != any) {
-              mine = "four threads at once get other answers than one alone";
+            if (traced(*structure, all[0]) != closest || traced(*structure, all[1]) != any) {
+              mine = "four threads at once get other results than one alone";
             }
           }
         } catch (const std::exception& error) {
@@ -203,7 +202,7 @@ CheckOutcome check_counters(const Subject& subject, const SelftestEffort& effort
   for (const accel::Ray& ray : ground.rays) {
     ++outcome.rays;
     accel::WorkCounters counters;
-    const auto hit = structure->closest_hit(ray, counters);
+    const auto hit = structure->closest_hit(ray, &counters);
     all.add(counters);
     if (outcome.passed()) outcome.failure = impossible_count(ray, hit.has_value(), counters);
   }
@@ -243,7 +242,7 @@ CheckOutcome check_explanation(const Subject& subject, const SelftestEffort& eff
         if (test.t == test.t && (!nearest || accel::precedes(hit, *nearest))) nearest = hit;
       }
     }
-    const auto found = structure->closest_hit(ray);
+    const auto found = structure->closest_hit(ray, nullptr);
     // A structure that tells no tests explains its way, not its hit.
     if (nearest && nearest != found) {
       outcome.failure = fmt::format("{} is explained to hit {}, but hits {}", show(ray),

@@ -9,17 +9,18 @@
 namespace beambench::verify {
 namespace {
 
-/// What the differ says of answers that were given to a question. Rays that are aimed at edges and
+/// What the differ reports of the results for an input. Rays that are aimed at edges and
 /// corners graze, and there may be as many of them as there are.
-std::string judged(const scenes::Scene& scene, const rays::Question& question,
-                   const rays::Answers& answers, accel::Conformance conformance, bool may_graze) {
-  const DiffReport report = judge(ReferenceHits(scene, question), answers, conformance);
+std::string judged(const scenes::Scene& scene, const rays::TraceInput& input,
+                   const rays::TraceResults& results, accel::Conformance conformance,
+                   bool may_graze) {
+  const DiffReport report = judge(ReferenceHits(scene, input), results, conformance);
   if (report.verdict == Verdict::kOk || report.verdict == Verdict::kBaseline) return "";
   if (report.verdict == Verdict::kGrazes && may_graze) return "";
   std::string text = fmt::format("the differ says '{}': {} of {} rays wrong, {} grazes",
                                  to_string(report.verdict), report.count(DiffClass::kEngineError),
                                  report.rays, report.count(DiffClass::kGraze));
-  if (!report.examples.empty()) text += "; " + describe(scene, question, report.examples.front());
+  if (!report.examples.empty()) text += "; " + describe(scene, input, report.examples.front());
   return text;
 }
 
@@ -38,12 +39,12 @@ std::string show(const accel::Ray& ray) {
 
 std::string HitComparison::same_bits(const accel::Accelerator& structure,
                                      const accel::Ray& ray) const {
-  const auto expected = exhaustive_.closest_hit(ray);
-  const auto found = structure.closest_hit(ray);
+  const auto expected = exhaustive_.closest_hit(ray, nullptr);
+  const auto found = structure.closest_hit(ray, nullptr);
   if (found != expected) {
     return fmt::format("{} hits {} first, not {}", show(ray), show(expected), show(found));
   }
-  const bool any = structure.any_hit(ray);
+  const bool any = structure.any_hit(ray, nullptr);
   if (any != expected.has_value()) {
     return fmt::format("{} {}, but any_hit says {}", show(ray),
                        expected ? "hits something" : "hits nothing", any);
@@ -56,7 +57,7 @@ std::string HitComparison::single_rays(const accel::Accelerator& structure,
   if (conformance_ != accel::Conformance::kBitExact) return by_the_differ(structure, rays);
   for (const accel::Ray& ray : rays) {
     if (std::string wrong = same_bits(structure, ray); !wrong.empty()) return wrong;
-    const auto hit = exhaustive_.closest_hit(ray);
+    const auto hit = exhaustive_.closest_hit(ray, nullptr);
     if (!hit) continue;
     accel::Ray ends_there = ray;
     ends_there.t_max = hit->t;
@@ -72,12 +73,12 @@ std::string HitComparison::single_rays(const accel::Accelerator& structure,
 std::string HitComparison::by_the_differ(const accel::Accelerator& structure,
                                          std::span<const accel::Ray> rays) const {
   for (const rays::Query query : {rays::Query::kClosestHit, rays::Query::kAnyHit}) {
-    const rays::Question question(
+    const rays::TraceInput input(
         rays::RaySet{"selftest", query, 0, std::nullopt, {rays.begin(), rays.end()}});
-    rays::Answers answers = rays::room_for(question);
-    rays::poison(answers);
-    rays::ask(structure, question, answers);
-    std::string wrong = judged(*scene_, question, answers, conformance_, /*may_graze=*/true);
+    rays::TraceResults results = rays::make_results(input);
+    rays::poison(results);
+    rays::trace(structure, input, results);
+    std::string wrong = judged(*scene_, input, results, conformance_, /*may_graze=*/true);
     if (!wrong.empty()) return wrong;
   }
   return "";
@@ -85,21 +86,21 @@ std::string HitComparison::by_the_differ(const accel::Accelerator& structure,
 
 std::string HitComparison::image(const accel::Accelerator& structure,
                                  const accel::PrimaryRays& rays, bool may_graze) const {
-  const rays::Question question(rays);
-  rays::Answers answers = rays::room_for(question);
-  rays::poison(answers);
-  rays::ask(structure, question, answers);
+  const rays::TraceInput input(rays);
+  rays::TraceResults results = rays::make_results(input);
+  rays::poison(results);
+  rays::trace(structure, input, results);
   if (conformance_ != accel::Conformance::kBitExact) {
-    return judged(*scene_, question, answers, conformance_, may_graze);
+    return judged(*scene_, input, results, conformance_, may_graze);
   }
-  const auto& found = std::get<accel::HitBuffer>(answers);
+  const auto& found = std::get<accel::HitBuffer>(results);
   accel::HitBuffer expected(rays.width(), rays.height(), rays.samples());
-  exhaustive_.trace(rays, expected);
+  exhaustive_.trace(rays, expected, nullptr);
   for (std::size_t i = 0; i < expected.size(); ++i) {
     if (found.t()[i] == expected.t()[i] && found.primitive()[i] == expected.primitive()[i])
       continue;
-    return fmt::format("{}: {} hits {} first, not {}", rays::place_text(question, i),
-                       show(question.ray(i)), show(expected.get(i)),
+    return fmt::format("{}: {} hits {} first, not {}", rays::place_text(input, i),
+                       show(input.ray(i)), show(expected.get(i)),
                        show(accel::Hit{found.t()[i], found.primitive()[i]}));
   }
   return "";
@@ -107,7 +108,7 @@ std::string HitComparison::image(const accel::Accelerator& structure,
 
 std::size_t HitComparison::count_hits(std::span<const accel::Ray> rays) const {
   std::size_t hits = 0;
-  for (const accel::Ray& ray : rays) hits += exhaustive_.any_hit(ray) ? 1 : 0;
+  for (const accel::Ray& ray : rays) hits += exhaustive_.any_hit(ray, nullptr) ? 1 : 0;
   return hits;
 }
 

@@ -11,7 +11,7 @@ const beambench::plugin::Plugin beambench_plugin{
     .fill = [](beambench::plugin::PluginContents& contents) {
       contents.structures.push_back(
           {"plugged-sah-bvh", "the built-in sah-bvh under another name",
-           beambench::Conformance::kBitExact, beambench::accel::bvh::SahBvh::parameters(),
+           beambench::accel::Conformance::kBitExact, beambench::accel::bvh::SahBvh::parameters(),
            [](const beambench::scenes::Scene& scene, const beambench::Parameters& parameters,
               const beambench::accel::Workload&) {
              return std::make_unique<beambench::accel::bvh::SahBvh>(

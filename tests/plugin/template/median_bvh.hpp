@@ -99,16 +99,16 @@ class MedianBvh : public beambench::accel::TraversalAccelerator<MedianBvh> {
     while (size > 0) {
       const std::uint32_t index = stack[--size];
       const Node& node = nodes_[index];
-      counting.add(beambench::Counter::kBoxTests);
+      counting.add(beambench::accel::Counter::kBoxTests);
       if (slabs.interval(node.box, ray.t_min, t_max).empty()) continue;
-      counting.add(beambench::Counter::kTraversalSteps);
+      counting.add(beambench::accel::Counter::kTraversalSteps);
       if (node.count == 0) {
         stack[size++] = node.first;
         stack[size++] = index + 1;
         continue;
       }
-      counting.add(beambench::Counter::kLeaves);
-      counting.add(beambench::Counter::kPrimitiveTests, node.count);
+      counting.add(beambench::accel::Counter::kLeaves);
+      counting.add(beambench::accel::Counter::kPrimitiveTests, node.count);
       for (std::uint32_t i = 0; i < node.count; ++i) {
         if (test(order_[node.first + i])) return true;
       }

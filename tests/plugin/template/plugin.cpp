@@ -32,7 +32,7 @@ const beambench::plugin::Plugin beambench_plugin{
       contents.structures.push_back(
           {"mine",
            "a binary hierarchy split at the median",
-           beambench::Conformance::kBitExact,
+           beambench::accel::Conformance::kBitExact,
            {beambench::integer_parameter("max_leaf", 4, 1, 64, "most primitives of a leaf")},
            build_median_bvh});
       contents.scenes.push_back(

@@ -1,5 +1,5 @@
 #pragma once
-// What structures are asked: the rays of an image or of a list.
+// The rays of an image or of a list, and the query that a structure is to answer for them.
 
 #include <cstdint>
 #include <memory>
@@ -8,8 +8,8 @@
 #include <variant>
 
 #include "accel/core/primary_rays.hpp"
-#include "accel/core/workload.hpp"
-#include "harness/rays/ray_choice.hpp"
+#include "accel/core/registry.hpp"
+#include "harness/rays/ray_kind.hpp"
 #include "harness/rays/ray_set.hpp"
 #include "harness/rays/resolution.hpp"
 #include "scenes/core/error.hpp"
@@ -24,12 +24,13 @@ struct PixelSample {
   friend bool operator==(const PixelSample&, const PixelSample&) = default;
 };
 
-/// Rays by their index, and what is asked about each. A small value: lists are shared.
-class Question {
+/// Rays by their index, and one query for all of them. A small value: lists are shared.
+class TraceInput {
  public:
   /// The closest hits of an image.
-  Question(accel::PrimaryRays rays);  // NOLINT(google-explicit-constructor): an image is a question
-  explicit Question(RaySet rays);
+  TraceInput(
+      accel::PrimaryRays rays);  // NOLINT(google-explicit-constructor): an image implies its query
+  explicit TraceInput(RaySet rays);
 
   std::size_t size() const;
   accel::Ray ray(std::size_t index) const;
@@ -54,22 +55,22 @@ class Question {
 };
 
 /// `pixel (3, 4) sample 0`, `ray 17`.
-std::string place_text(const Question& question, std::size_t index);
+std::string place_text(const TraceInput& input, std::size_t index);
 
 /// `coherence` of a list, or of an image's rays in their order.
-double coherence(const Question& question);
+double coherence(const TraceInput& input);
 
-/// The image that primary rays ask for and other rays start from.
+/// The image whose primary rays are traced, or that other rays start from.
 struct ImageOfRays {
   scenes::Camera camera;
   Resolution resolution;
   int samples;
 };
 
-/// What a structure is built for: the question, the camera behind it, and the threads that ask.
-accel::Workload workload_of(const ImageOfRays& image, const Question& question, int threads = 1);
+/// What a structure is built for: the rays, the camera behind them, and the threads that trace.
+accel::Workload workload_of(const ImageOfRays& image, const TraceInput& input, int threads = 1);
 
-/// There are no rays of a kind over a scene: nothing is wrong with the request's other kinds.
+/// There are no rays of a kind over a scene; the other kinds of a request are not affected.
 class NoRaysError : public InputError {
  public:
   using InputError::InputError;
@@ -78,7 +79,7 @@ class NoRaysError : public InputError {
 /// Makes the rays of a choice, or reads them. Throws NoRaysError where the scene has no lights for
 /// shadow rays, or no primary ray hits anything for rays to start from; InputError for whole
 /// pictures, and as `read_ray_file`; for a file also when it was made for another scene.
-Question make_question(const scenes::Scene& scene, const ImageOfRays& image,
-                       const RayChoice& choice);
+TraceInput make_trace_input(const scenes::Scene& scene, const ImageOfRays& image,
+                            const RayChoice& choice);
 
 }  // namespace beambench::rays

@@ -1,4 +1,4 @@
-#include "harness/rays/question.hpp"
+#include "harness/rays/trace_input.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -7,9 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "harness/rays/fingerprint.hpp"
-#include "harness/rays/random_rays.hpp"
-#include "harness/rays/ray_set_file.hpp"
-#include "harness/rays/secondary_rays.hpp"
+#include "harness/rays/ray_generators.hpp"
+#include "harness/rays/ray_set.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::rays {
@@ -69,23 +68,23 @@ RaySet read_for(const scenes::Scene& scene, const RayChoice& choice) {
 
 }  // namespace
 
-Question::Question(accel::PrimaryRays rays) : image_(std::move(rays)) {}
+TraceInput::TraceInput(accel::PrimaryRays rays) : image_(std::move(rays)) {}
 
-Question::Question(RaySet rays) : list_(std::make_shared<const RaySet>(std::move(rays))) {}
+TraceInput::TraceInput(RaySet rays) : list_(std::make_shared<const RaySet>(std::move(rays))) {}
 
-std::size_t Question::size() const { return list_ ? list_->rays.size() : image_->count(); }
+std::size_t TraceInput::size() const { return list_ ? list_->rays.size() : image_->count(); }
 
-accel::Ray Question::ray(std::size_t index) const {
+accel::Ray TraceInput::ray(std::size_t index) const {
   if (list_) return list_->rays[index];
   const PixelSample at = *pixel(index);
   return image_->ray(at.x, at.y, at.sample);
 }
 
-const std::string& Question::label() const {
+const std::string& TraceInput::label() const {
   return list_ ? list_->label : info_of(RayKind::kPrimary).name;
 }
 
-std::optional<PixelSample> Question::pixel(std::size_t index) const {
+std::optional<PixelSample> TraceInput::pixel(std::size_t index) const {
   if (!image_) return std::nullopt;
   const auto samples = static_cast<std::size_t>(image_->samples());
   const auto width = static_cast<std::size_t>(image_->width());
@@ -93,7 +92,7 @@ std::optional<PixelSample> Question::pixel(std::size_t index) const {
                      static_cast<int>(index / samples / width), static_cast<int>(index % samples)};
 }
 
-double Question::reach() const {
+double TraceInput::reach() const {
   if (image_) return glm::length(glm::dvec3(image_->eye()));
   double farthest = 0.0;
   for (const accel::Ray& ray : list_->rays) {
@@ -102,34 +101,34 @@ double Question::reach() const {
   return farthest;
 }
 
-std::string place_text(const Question& question, std::size_t index) {
-  const auto at = question.pixel(index);
+std::string place_text(const TraceInput& input, std::size_t index) {
+  const auto at = input.pixel(index);
   return at ? fmt::format("pixel ({}, {}) sample {}", at->x, at->y, at->sample)
             : fmt::format("ray {}", index);
 }
 
-double coherence(const Question& question) {
-  if (question.list() != nullptr) return coherence(question.list()->rays);
+double coherence(const TraceInput& input) {
+  if (input.list() != nullptr) return coherence(input.list()->rays);
   // Row by row, so that the rays of a large image are never all in memory.
-  const accel::PrimaryRays& image = *question.image();
-  const std::size_t row_length = question.size() / static_cast<std::size_t>(image.height());
+  const accel::PrimaryRays& image = *input.image();
+  const std::size_t row_length = input.size() / static_cast<std::size_t>(image.height());
   double sum = 0.0;
   std::vector<accel::Ray> row;
-  for (std::size_t first = 0; first < question.size(); first += row_length) {
+  for (std::size_t first = 0; first < input.size(); first += row_length) {
     if (!row.empty()) row.erase(row.begin(), row.end() - 1);  // the step from row to row
-    for (std::size_t i = 0; i < row_length; ++i) row.push_back(question.ray(first + i));
+    for (std::size_t i = 0; i < row_length; ++i) row.push_back(input.ray(first + i));
     sum += coherence(row) * static_cast<double>(row.size() - 1);
   }
-  return question.size() < 2 ? 1.0 : sum / static_cast<double>(question.size() - 1);
+  return input.size() < 2 ? 1.0 : sum / static_cast<double>(input.size() - 1);
 }
 
-accel::Workload workload_of(const ImageOfRays& image, const Question& question, int threads) {
-  return {image.camera, question.size(), threads};
+accel::Workload workload_of(const ImageOfRays& image, const TraceInput& input, int threads) {
+  return {image.camera, input.size(), threads};
 }
 
-Question make_question(const scenes::Scene& scene, const ImageOfRays& image,
-                       const RayChoice& choice) {
-  if (!choice.file.empty()) return Question(read_for(scene, choice));
+TraceInput make_trace_input(const scenes::Scene& scene, const ImageOfRays& image,
+                            const RayChoice& choice) {
+  if (!choice.file.empty()) return TraceInput(read_for(scene, choice));
   if (choice.kind == RayKind::kWhitted) {
     throw InputError(
         "the rays of a whole picture follow from a structure's own hits, so they are no list; "
@@ -139,7 +138,7 @@ Question make_question(const scenes::Scene& scene, const ImageOfRays& image,
   accel::PrimaryRays primary(image.camera, image.resolution.width, image.resolution.height,
                              image.samples);
   if (choice.kind == RayKind::kPrimary) return {std::move(primary)};
-  return Question(made_set(scene, primary, choice));
+  return TraceInput(made_set(scene, primary, choice));
 }
 
 }  // namespace beambench::rays

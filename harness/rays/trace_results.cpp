@@ -1,0 +1,66 @@
+#include "harness/rays/trace_results.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "accel/core/trace_on.hpp"
+
+namespace beambench::rays {
+namespace {
+
+constexpr std::uint8_t kPoison = 0xFF;
+
+}  // namespace
+
+TraceResults make_results(const TraceInput& input) {
+  if (input.query() == Query::kAnyHit) return AnyHits(input.size(), 0);
+  if (const accel::PrimaryRays* image = input.image()) {
+    return accel::HitBuffer(image->width(), image->height(), image->samples());
+  }
+  return accel::HitBuffer(static_cast<int>(input.size()), 1, 1);
+}
+
+void poison(TraceResults& results) {
+  if (auto* any = std::get_if<AnyHits>(&results)) {
+    std::ranges::fill(*any, kPoison);
+  } else {
+    poison(std::get<accel::HitBuffer>(results));
+  }
+}
+
+void poison(accel::HitBuffer& hits) {
+  std::fill_n(hits.t(), hits.size(), std::numeric_limits<float>::quiet_NaN());
+  std::fill_n(hits.primitive(), hits.size(), scenes::kNoPrimitive - 1);
+}
+
+bool is_hit_at(const TraceResults& results, std::size_t index) {
+  if (const auto* any = std::get_if<AnyHits>(&results)) return (*any)[index] != 0;
+  return std::get<accel::HitBuffer>(results).get(index).has_value();
+}
+
+void trace(const accel::Accelerator& structure, const TraceInput& input, TraceResults& results,
+           accel::WorkCounters* counters, int threads) {
+  if (auto* any = std::get_if<AnyHits>(&results)) {
+    structure.any_hits({input.list()->rays}, *any, counters);
+  } else if (input.image() != nullptr) {
+    accel::trace_on(threads, structure, *input.image(), std::get<accel::HitBuffer>(results),
+                    counters);
+  } else {
+    structure.closest_hits({input.list()->rays}, std::get<accel::HitBuffer>(results), counters);
+  }
+}
+
+std::optional<std::string> share_warning(const TraceInput& input, std::uint64_t hits) {
+  constexpr double kMinShare = 0.01;
+  const double share = static_cast<double>(hits) / static_cast<double>(input.size());
+  if (share >= kMinShare && share <= 1.0 - kMinShare) return std::nullopt;
+  return fmt::format("{} of the {} {} rays {} ({:.3g}%): {}", hits, input.size(), input.label(),
+                     input.query() == Query::kAnyHit ? "are occluded" : "hit something",
+                     100.0 * share,
+                     share < kMinShare ? "they compare how structures miss, and little else"
+                                       : "there is hardly a miss among them");
+}
+
+}  // namespace beambench::rays
