@@ -128,7 +128,8 @@ def test_nothing_is_complained_of_and_nothing_is_fetched(
     assert chromium.evaluate("document.querySelectorAll('.js-plotly-plot').length") == 2
     assert chromium.complaints == []
     assert [at for at in chromium.requests if not at.startswith(("data:", "blob:"))] == [
-        page.as_uri()
+        page.as_uri(),
+        (page.parent / "plotly.min.js").as_uri(),
     ]
     background = chromium.evaluate("getComputedStyle(document.body).backgroundColor")
     brightness = int(background.removeprefix("rgb(").split(",")[0])

@@ -1,4 +1,4 @@
-"""The page of the newest night: its alarms, changes, charts and cells."""
+"""The page of the newest night: alarms, changes, cells, and charts by the plotly.js beside it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from markupsafe import Markup
 from plotly.offline import get_plotlyjs
 
 from beambench_report.base.cell_files import IDENTITY, CellFile, Identity, read_cell_files
@@ -272,10 +271,16 @@ class Mismatch:
     """Address and caption."""
 
 
+_PLOTLY = "plotly.min.js"
+
+
 def write_night_page(home: Home, history: History, published: Path | None) -> Path:
     """Writes the page of the newest night into the folder of the history."""
     nights = read_nights(history)
     run = read_run(home.folder / nights.nights.iloc[-1]["folder"])
+    library = get_plotlyjs()
+    if not (path := home.page.with_name(_PLOTLY)).exists() or path.read_text("utf-8") != library:
+        write_text(path, library)
     return write_text(home.page, render(history, nights, run, _run_or_none(published), home))
 
 
@@ -306,7 +311,7 @@ def render(history: History, nights: Nights, run: Run, published: Run | None, ho
             nights=_listed(nights, alarms),
             charts=charts,
             cells=pack(_with_changes(run, tonight, yesterday, published), _OWN_COLUMNS),
-            plotly=Markup(get_plotlyjs().replace("</script", "<\\/script")),
+            plotly=_PLOTLY,
         )
     )
 
