@@ -80,7 +80,7 @@ def test_every_type_has_a_name_of_its_own() -> None:
 def test_the_scan_finds_the_types_of_the_program() -> None:
     sources = sources_of_the_program()
     assert "beambench::scenes::Scene" in defined_types(sources["scenes/scene.hpp"])
-    assert "beambench::Accelerator" in defined_types(sources["accel/core/accelerator.hpp"])
+    assert "beambench::accel::Accelerator" in defined_types(sources["accel/core/accelerator.hpp"])
     assert len({name for source in sources.values() for name in defined_types(source)}) > 300
 
 
