@@ -17,7 +17,7 @@ struct Camera {
   float angle = 45.0F;  ///< full vertical field of view in degrees, in (0, 180)
   float aspect = 1.0F;  ///< width of the frustum over its height, > 0
   float hither = 0.0F;  ///< NFF's near distance; kept for export, rays start at the eye
-  int width = 512;      ///< the resolution the scene asks for, in pixels
+  int width = 512;      ///< the resolution that the scene suggests, in pixels
   int height = 512;
 };
 

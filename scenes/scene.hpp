@@ -1,9 +1,10 @@
 #pragma once
-// The scene: what every structure is built over and every ray is shot at.
+// The scene: what structures are built over and rays are traced against.
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -47,11 +48,14 @@ struct Scene {
 /// representable). For a cone: the box of its two end discs.
 Bounds primitive_bounds(const Scene& scene, PrimitiveId id);
 
-/// What the scene's arrays hold, room for more primitives included.
+/// Bytes of the scene's arrays, their spare capacity included.
 std::size_t memory_bytes(const Scene& scene);
 
-/// A 64-bit fingerprint of all that rays can see: primitives, their coordinates and order
-/// (XXH3 over the bits; not surfaces, lights or cameras). Equal on every machine.
+/// A 64-bit hash of what rays can hit: primitives, their coordinates and order (XXH3 over the bits;
+/// not surfaces, lights or cameras). Equal on every machine.
 std::uint64_t scene_hash(const Scene& scene);
+
+/// The camera of that name. Throws InputError that lists the scene's cameras.
+const Camera& find_camera(const Scene& scene, std::string_view name);
 
 }  // namespace beambench::scenes

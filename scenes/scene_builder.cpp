@@ -11,8 +11,6 @@
 #include <glm/trigonometric.hpp>
 
 #include "scenes/core/error.hpp"
-#include "scenes/degenerate_primitive.hpp"
-#include "scenes/scene_extent.hpp"
 #include "scenes/triangulate.hpp"
 
 namespace beambench::scenes {
@@ -20,7 +18,7 @@ namespace {
 
 constexpr int kLargestResolution = 65535;
 
-/// Names what is being added in messages; put into words only when there is one.
+/// What is being added, for messages; formatted only when there is one.
 struct Subject {
   const char* words;  // "sphere (primitive {})"
   std::size_t number;
@@ -375,6 +373,16 @@ Scene SceneBuilder::build() && {
   if (!fault.empty()) throw InputError(fmt::format("scene '{}': {}", scene_.name, fault));
   if (scene_.cameras.empty()) scene_.cameras.push_back(fitted_camera(scene_.bounds));
   return std::move(scene_);
+}
+
+std::string extent_fault(const Bounds& bounds) {
+  if (bounds.empty()) return "";
+  const double diagonal = glm::length(glm::dvec3(bounds.upper) - glm::dvec3(bounds.lower));
+  if (diagonal >= kMinExtent) return "";
+  return fmt::format(
+      "the diagonal of its box is {:.3g}, but must be at least {:g}, or products of lengths leave "
+      "the range of single precision; scale it up, cameras and lights with it",
+      diagonal, kMinExtent);
 }
 
 }  // namespace beambench::scenes

@@ -28,7 +28,7 @@ enum class Finish : std::uint8_t {
 };
 
 /// NFF's `f`: color, diffuse and specular factors, Phong exponent, transmittance, index; and a
-/// finish. Who does not draw textures takes the numbers alone.
+/// finish. Code that draws no textures uses the numbers alone.
 struct Surface {
   glm::vec3 color{1.0F};
   float diffuse = 1.0F;
@@ -48,7 +48,7 @@ std::string_view finish_word(Finish finish);
 std::optional<Finish> find_finish(std::string_view word);
 
 /// The surface that a finish's word stands for. The thesis gives no numbers: a texture has its mean
-/// color, a mirror reflects nearly all, glass lets nearly all through. Plain is white and matte.
+/// color, a mirror reflects nearly all, glass transmits nearly all. Plain is white and matte.
 Surface finished_surface(Finish finish);
 
 }  // namespace beambench::scenes

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scenes/core/input_file.hpp"
+#include "scenes/core/files.hpp"
 #include "scenes/core/nearest_name.hpp"
 
 namespace beambench::bench {

@@ -9,7 +9,7 @@
 #include "accel/core/registry.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/find_camera.hpp"
+#include "scenes/scene.hpp"
 
 namespace beambench::bench {
 namespace {

@@ -10,7 +10,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/pending_file.hpp"
+#include "scenes/core/files.hpp"
 #include "scenes/formats/nff/nff_writer.hpp"
 
 namespace beambench::cli {

@@ -11,7 +11,7 @@
 
 #include "harness/rays/resolution.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/find_camera.hpp"
+#include "scenes/scene.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::cli {

@@ -21,7 +21,6 @@
 #include "harness/rays/hit_check.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/nearest_name.hpp"
-#include "scenes/core/plugin_error.hpp"
 
 namespace beambench::cli {
 namespace {

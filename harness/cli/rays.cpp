@@ -15,7 +15,7 @@
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/differ.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/pending_file.hpp"
+#include "scenes/core/files.hpp"
 
 namespace beambench::cli {
 namespace {

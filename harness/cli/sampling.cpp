@@ -17,7 +17,7 @@
 #include "harness/render/picture/heat_map.hpp"
 #include "harness/render/picture/image_file.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/pending_file.hpp"
+#include "scenes/core/files.hpp"
 
 namespace beambench::cli {
 namespace {

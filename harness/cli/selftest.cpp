@@ -18,7 +18,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/text.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/pending_file.hpp"
+#include "scenes/core/files.hpp"
 
 namespace beambench::cli {
 namespace {

@@ -14,7 +14,6 @@
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/describe.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/plugin_error.hpp"
 
 namespace beambench::cli {
 namespace {

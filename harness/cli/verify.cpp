@@ -21,7 +21,7 @@
 #include "harness/rays/resolution.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/pending_file.hpp"
+#include "scenes/core/files.hpp"
 
 namespace beambench::cli {
 namespace {

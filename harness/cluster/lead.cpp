@@ -16,7 +16,7 @@
 #include "harness/render/picture/image_file.hpp"
 #include "harness/render/shading.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/pending_file.hpp"
+#include "scenes/core/files.hpp"
 
 namespace beambench::cluster {
 namespace {

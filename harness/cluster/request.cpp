@@ -8,7 +8,7 @@
 #include "harness/cli/whitted_request.hpp"
 #include "harness/render/picture/image_file.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/pending_file.hpp"
+#include "scenes/core/files.hpp"
 
 namespace beambench::cluster {
 namespace {

@@ -13,7 +13,6 @@
 #include "accel/core/registry.hpp"
 #include "harness/plugin/activity.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/plugin_error.hpp"
 
 namespace beambench::plugin {
 

@@ -5,8 +5,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -22,7 +20,7 @@
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/plugin_error.hpp"
+#include "scenes/core/files.hpp"
 #include "scenes/core/shell_word.hpp"
 
 namespace beambench::plugin {
@@ -159,8 +157,7 @@ std::vector<std::string> names_of(const std::vector<Thing>& things, std::string 
 }
 
 std::uint64_t fingerprint_of_file(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return rays::fingerprint(std::string(std::istreambuf_iterator<char>(stream), {}));
+  return rays::fingerprint(read_input(file));
 }
 
 /// Calls `make`, which is the plug-in's, and looks its scene over.

@@ -12,9 +12,8 @@
 
 #include <fmt/format.h>
 
-#include "scenes/core/plugin_error.hpp"
+#include "scenes/core/error.hpp"
 #include "scenes/scene_builder.hpp"
-#include "scenes/scene_extent.hpp"
 
 namespace beambench::plugin {
 namespace {

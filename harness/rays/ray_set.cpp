@@ -13,8 +13,7 @@
 
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/input_file.hpp"
-#include "scenes/core/pending_file.hpp"
+#include "scenes/core/files.hpp"
 
 namespace beambench::rays {
 

@@ -1,14 +1,21 @@
 #pragma once
-// The one kind of error a user can cause.
+// The errors that users and plug-ins cause.
 
 #include <stdexcept>
 
 namespace beambench {
 
-/// The request was wrong: a bad file, name, parameter or configuration. The message is one sentence
-/// that names the place (file, line, primitive, parameter), what was expected and the remedy; the
-/// command line prints it and exits with 2.
+/// Invalid arguments or input: a file, name, parameter or configuration. The message is one
+/// sentence that names the place (file, line, primitive, parameter), what was expected and the
+/// remedy; the command line prints it and exits with 2.
 class InputError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A plug-in broke its contract: it threw, or returned nothing or an invalid value. The message is
+/// one sentence that names the plug-in and its part; the command line prints it and exits with 1.
+class PluginError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };

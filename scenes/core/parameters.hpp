@@ -25,7 +25,7 @@ Spec parse_spec(std::string_view text);
 /// follows it has no `=` before the next comma or colon. Throws as parse_spec.
 std::vector<Spec> parse_spec_list(std::string_view text);
 
-/// What a structure or a generator says of one of its parameters; printed by `beambench list`.
+/// The declaration of a parameter of a structure or a generator; printed by `beambench list`.
 struct ParameterInfo {
   enum class Type { kInteger, kIntegerOrAuto, kReal, kFlag, kChoice, kCells };
 
@@ -71,8 +71,8 @@ class Parameters {
   /// Nothing for `auto`.
   std::optional<std::array<std::int32_t, 3>> cells(std::string_view name) const;
 
-  /// Throws std::logic_error naming a parameter that was given and that nobody has read: its owner
-  /// declares it and then ignores it.
+  /// Throws std::logic_error naming a parameter that was given and never read: its owner declares
+  /// it and then ignores it.
   void require_given_were_read() const;
 
   /// All parameters with their values in declared order, `max_level=6,max_objects=0`; numbers in

@@ -40,7 +40,7 @@ PolygonMesh box_without_bottom(const glm::dvec3& lower, const glm::dvec3& upper)
   return mesh;
 }
 
-PolygonMesh bevelled_box(const glm::dvec3& lower, const glm::dvec3& upper, double bevel) {
+PolygonMesh beveled_box(const glm::dvec3& lower, const glm::dvec3& upper, double bevel) {
   // Each corner becomes three vertices, 3 * corner + axis: the one that lies on the face of `axis`.
   PolygonMesh mesh;
   const auto outer = corners_of(lower, upper);

@@ -10,18 +10,18 @@ namespace beambench::scenes::modelling {
 /// The six faces of the box between two corners, in the order -x, +x, -y, +y, -z, +z.
 PolygonMesh box(const glm::dvec3& lower, const glm::dvec3& upper);
 
-/// The box without the face that looks to -z: for what stands on something.
+/// The box without its lower face (-z): for what stands on something.
 PolygonMesh box_without_bottom(const glm::dvec3& lower, const glm::dvec3& upper);
 
 /// The box with its edges cut off by `bevel` on both sides: 6 faces, 12 edges, 8 corner triangles.
 /// 0 < bevel < half of every extent.
-PolygonMesh bevelled_box(const glm::dvec3& lower, const glm::dvec3& upper, double bevel);
+PolygonMesh beveled_box(const glm::dvec3& lower, const glm::dvec3& upper, double bevel);
 
 /// The square plate |x|, |y| <= half between two heights, with the hole |x|, |y| < hole: 16 quads,
 /// four of them on each of outside, top, hole and bottom, in that order for every side.
 PolygonMesh square_ring(double half, double hole, double bottom, double top);
 
-/// A square bar of four sides between two places, two of its sides looking along `outward`. Its
+/// A square bar of four sides between two places, two of its sides facing along `outward`. Its
 /// ends are open: they are inside what it is fixed to.
 PolygonMesh bar(const glm::dvec3& from, const glm::dvec3& to, const glm::dvec3& outward,
                 double thickness);

@@ -1,5 +1,5 @@
 #pragma once
-// A flat shape drawn out along z.
+// A flat shape extruded along z.
 
 #include <cstdint>
 #include <vector>

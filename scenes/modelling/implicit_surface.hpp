@@ -25,7 +25,7 @@ double limb_field(const glm::dvec3& place, const Limb& limb);
 double joined(double a, double b, double blend);
 
 /// The surface of the field inside a box, of quads whose corners lie on it, one a cube of side
-/// `cell` that it crosses (surface nets: Gibson 1998), looking to where the field is positive. The
+/// `cell` that it crosses (surface nets: Gibson 1998), facing where the field is positive. The
 /// body must end inside the box and be thicker than a cell.
 PolygonMesh implicit_surface(const Field& field, const glm::dvec3& lower, const glm::dvec3& upper,
                              double cell);

@@ -30,7 +30,7 @@ class Profile {
 };
 
 /// The profile's points (radius, height) revolved in `sides` steps, the first at `first_turn` of a
-/// full turn. Walked upward on the outside, the surface looks outward. Each piece of the profile
+/// full turn. Walked upward on the outside, the surface faces outward. Each piece of the profile
 /// gives a ring of flat quads, of triangles where one end has radius 0; a piece with both ends on
 /// the axis gives none. Ends with a radius stay open.
 PolygonMesh lathe(std::span<const glm::dvec2> profile, int sides, double first_turn = 0.0);

@@ -7,7 +7,7 @@
 
 namespace beambench::scenes::modelling {
 
-/// A point for (u, v) in [0, 1]^2; the surface looks to du x dv.
+/// A point for (u, v) in [0, 1]^2; the surface faces du x dv.
 using SurfaceFunction = std::function<glm::dvec3(double u, double v)>;
 
 /// A grid of u_steps x v_steps quads over the function; closed where it comes back to itself, with

@@ -13,7 +13,7 @@
 //   implicit_surface.hpp    the zero set of a field
 //   subdivide.hpp           triangulated; subdivided_to: exactly n polygons
 //   add_mesh.hpp            into the scene, flat or smooth
-// Meshes look outward (counter-clockwise seen from outside) and hold only surfaces that can be
+// Meshes face outward (counter-clockwise seen from outside) and hold only surfaces that can be
 // seen: caps and bottoms are left out where the caller says so. A scene counts its polygons at the
 // end: model with a few polygons fewer than wanted, then `subdivided_to(mesh, n)`.
 
@@ -40,10 +40,10 @@ struct PolygonMesh {
 /// Adds all of `more`; its vertices stay its own.
 void append(PolygonMesh& mesh, const PolygonMesh& more);
 
-/// The mesh moved by an affine transform; windings are turned round where it mirrors.
+/// The mesh moved by an affine transform; windings are reversed where it mirrors.
 PolygonMesh transformed(PolygonMesh mesh, const glm::dmat4& transform);
 
-/// The mesh seen from the other side: every winding turned round.
+/// The mesh seen from the other side: every winding reversed.
 PolygonMesh turned_inside_out(PolygonMesh mesh);
 
 /// Newell's normal of a polygon, its length being twice the polygon's area.

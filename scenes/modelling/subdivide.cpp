@@ -32,7 +32,7 @@ bool is_convex(const PolygonMesh& mesh, const Corners& corners) {
   return true;
 }
 
-/// The corners from position `from` to position `to`, both included, going round.
+/// The corners from position `from` to position `to`, both included, in cyclic order.
 Corners part(const Corners& corners, std::size_t from, std::size_t to) {
   Corners result = {corners[from]};
   for (std::size_t i = from; i != to;) {
@@ -214,16 +214,16 @@ PolygonMesh triangulated(const PolygonMesh& mesh) {
 
 PolygonMesh subdivided_to(PolygonMesh mesh, std::size_t count) {
   // A difference below zero arrives as a huge number.
-  constexpr std::size_t kMostPolygons = 100'000'000;
-  if (count > kMostPolygons) {
+  constexpr std::size_t kMaxPolygons = 100'000'000;
+  if (count > kMaxPolygons) {
     throw std::invalid_argument(
-        fmt::format("{} polygons are wanted, more than {}: were there too "
+        fmt::format("{} polygons are requested, more than {}: had the scene too "
                     "many before?",
-                    count, kMostPolygons));
+                    count, kMaxPolygons));
   }
   if (mesh.size() > count) {
     throw std::invalid_argument(
-        fmt::format("the mesh has {} polygons, more than the {} wanted", mesh.size(), count));
+        fmt::format("the mesh has {} polygons, more than the {} requested", mesh.size(), count));
   }
   return Subdivider(std::move(mesh), count).finish();
 }

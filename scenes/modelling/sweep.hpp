@@ -1,5 +1,5 @@
 #pragma once
-// An outline drawn along a path.
+// An outline swept along a path.
 
 #include <span>
 #include <vector>
@@ -16,7 +16,7 @@ enum class Caps : std::uint8_t { kNone, kStart, kEnd, kBoth };
 /// A regular polygon of radius 1, counter-clockwise.
 std::vector<glm::dvec2> circle(int sides);
 
-/// The outline (counter-clockwise, its x along `side` at the start) carried along the path without
+/// The outline (counter-clockwise, its x along `side` at the start) swept along the path without
 /// twist (rotation-minimizing frames by double reflection: Wang, Juettler, Zheng and Liu 2008) and
 /// scaled by `scales`, one a path point. Gives a ring of quads between two path points, triangles
 /// at a tip. `side` is made perpendicular to the path; it must not be parallel to its start.

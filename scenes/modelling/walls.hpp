@@ -15,7 +15,7 @@ struct Rectangle {
   glm::dvec2 lower, upper;
 };
 
-/// The rectangle from (0, 0) to `size` in the plane z = 0, looking to +z, without the openings, and
+/// The rectangle from (0, 0) to `size` in the plane z = 0, facing +z, without the openings, and
 /// the openings' sides down to z = -depth. The openings do not touch one another; one that reaches
 /// the wall's edge has no side there.
 PolygonMesh recessed(const glm::dvec2& size, std::span<const Rectangle> openings, double depth);
@@ -26,9 +26,9 @@ PolygonMesh openings_filled(std::span<const Rectangle> openings, double depth);
 /// columns x rows equal openings in the rectangle, bars of the same width around all of them.
 std::vector<Rectangle> panes(const glm::dvec2& size, int columns, int rows, double bar);
 
-/// A profile of points (inset, z) carried round the rectangle from (0, 0) to `size`, with mitred
+/// A profile of points (inset, z) swept around the rectangle from (0, 0) to `size`, with mitered
 /// corners: four quads from each point to the next, along y = 0, x = size.x, y = size.y and x = 0
-/// in that order. It looks up where the profile goes inward.
+/// in that order. It faces up where the profile goes inward.
 PolygonMesh molding(const glm::dvec2& size, std::span<const glm::dvec2> profile);
 
 /// Without one of the rectangle's sides (0 ... 3, in the order above).

@@ -1,4 +1,4 @@
-// Resolutions, kinds of rays, whole files and progress.
+// Resolutions, kinds of rays and progress.
 
 #include <algorithm>
 #include <cstdio>
@@ -12,13 +12,9 @@
 #include "harness/rays/ray_kind.hpp"
 #include "harness/rays/resolution.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/pending_file.hpp"
-#include "tests/temporary_folder.hpp"
 
 namespace beambench::bench {
 namespace {
-
-namespace fs = std::filesystem;
 
 RC_GTEST_PROP(Resolution, ReadsBackWhatItPrints, ()) {
   const rays::Resolution resolution{*rc::gen::inRange(1, rays::Resolution::kMaxSide + 1),
@@ -55,30 +51,6 @@ TEST(RayKinds, AreReadFromAListEachOnce) {
   for (const char* text : {"", "primary,", ",primary", "Primary", "shadows", "shadow:seed=1",
                            "diffuse:seed=x", "diffuse:seed=-1"}) {
     EXPECT_THROW(rays::parse_ray_choices(text), InputError) << text;
-  }
-}
-
-TEST(PendingFile, IsNotSeenBeforeItIsCommitted) {
-  const TemporaryFolder folder;
-  const fs::path target = folder.write("a.txt", "old");
-  {
-    const PendingFile pending(target);
-    EXPECT_EQ(pending.path().extension(), ".txt");
-    EXPECT_NE(pending.path(), target);
-    EXPECT_EQ(read_text(target), "old");
-  }
-  EXPECT_EQ(read_text(target), "old") << "without a commit nothing changes";
-  write_file(target, "new");
-  EXPECT_EQ(read_text(target), "new");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
-}
-
-TEST(PendingFile, RefusesPlacesWhereNoFileCanBe) {
-  const TemporaryFolder folder;
-  const fs::path file = folder.write("a.txt", "");
-  for (const fs::path& target :
-       {folder.path(), folder.path() / "missing" / "b.txt", file / "b.txt", fs::path("/proc/b")}) {
-    EXPECT_THROW(write_file(target, "text"), InputError) << target;
   }
 }
 

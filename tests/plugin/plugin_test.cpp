@@ -13,7 +13,7 @@
 #include "harness/plugin/activity.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "harness/plugin/validation.hpp"
-#include "scenes/core/plugin_error.hpp"
+#include "scenes/core/error.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/random_scene.hpp"
 

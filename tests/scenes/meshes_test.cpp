@@ -9,10 +9,10 @@
 #include "scenes/catalogue.hpp"
 #include "scenes/core/random.hpp"
 #include "scenes/formats/mesh/fitted_cameras.hpp"
+#include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_cache.hpp"
 #include "scenes/formats/mesh/mesh_cleaning.hpp"
-#include "scenes/formats/mesh/mesh_codec.hpp"
-#include "scenes/formats/mesh/mesh_format.hpp"
+#include "scenes/formats/mesh/mesh_file.hpp"
 #include "scenes/formats/mesh/mesh_import.hpp"
 #include "scenes/formats/mesh/mesh_registry.hpp"
 #include "scenes/scene_builder.hpp"
@@ -170,7 +170,7 @@ TEST_F(Meshes, AFileThatIsCutOffIsRefused) {
   const std::string text = tetrahedron_ply();
   const std::string binary = tetrahedron_binary_ply();
   EXPECT_TRUE(says(message("cut.ply", text.substr(0, text.size() - 9)),
-                   {"cut.ply", "tells of 4 of the element 'face'", "after 3", "cut off"}));
+                   {"cut.ply", "declares 4 of the element 'face'", "after 3", "cut off"}));
   EXPECT_TRUE(says(message("cut.ply", binary.substr(0, binary.size() - 1)), {"'face'", "after 3"}));
   EXPECT_TRUE(says(message("cut.ply", binary.substr(0, binary.size() - 4 * 13 - 1)),
                    {"'vertex'", "after 3"}));
@@ -364,7 +364,7 @@ TEST_F(Meshes, AMalformedEntryIsNamed) {
 
 // The pieces
 
-TEST(MeshFormat, IsToldByTheEnding) {
+TEST(MeshFormat, IsRecognizedByTheEnding) {
   EXPECT_EQ(mesh::mesh_ending("a/b.PLY"), "ply");
   EXPECT_EQ(mesh::mesh_ending("dragon.ply.gz"), "ply");
   EXPECT_EQ(mesh::mesh_ending("scene.nff"), "");

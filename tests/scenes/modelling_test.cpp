@@ -68,7 +68,7 @@ TEST(Box, IsClosedAndAsLargeAsItsCornersSay) {
 }
 
 TEST(BevelledBox, IsClosedAndLosesItsEdges) {
-  const modelling::PolygonMesh mesh = modelling::bevelled_box({0, 0, 0}, {2, 2, 2}, 0.1);
+  const modelling::PolygonMesh mesh = modelling::beveled_box({0, 0, 0}, {2, 2, 2}, 0.1);
   EXPECT_EQ(mesh.size(), 26U);
   EXPECT_TRUE(is_closed(mesh));
   // 12 prisms of half a square's area over the inner length, and at each corner a cube of the

@@ -8,8 +8,7 @@
 
 #include "harness/bench/record/csv.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/input_file.hpp"
-#include "scenes/core/pending_file.hpp"
+#include "scenes/core/files.hpp"
 #include "scenes/core/shell_word.hpp"
 
 namespace beambench::bench {

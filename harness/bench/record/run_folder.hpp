@@ -9,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "scenes/core/folder_lock.hpp"
+#include "scenes/core/files.hpp"
 
 namespace beambench::bench {
 

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include "scenes/core/error.hpp"
-#include "scenes/core/input_file.hpp"
+#include "scenes/core/files.hpp"
 
 namespace beambench::cluster {
 namespace {

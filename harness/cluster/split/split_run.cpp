@@ -14,7 +14,7 @@
 #include "harness/rays/hit_check.hpp"
 #include "harness/render/picture/image_file.hpp"
 #include "scenes/catalogue.hpp"
-#include "scenes/core/pending_file.hpp"
+#include "scenes/core/files.hpp"
 
 namespace beambench::cluster {
 namespace {

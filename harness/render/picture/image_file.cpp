@@ -13,7 +13,7 @@
 
 #include "harness/render/picture/color.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/pending_file.hpp"
+#include "scenes/core/files.hpp"
 
 namespace beambench::render {
 namespace {

@@ -2,11 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/config.h>
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -15,14 +21,81 @@
 #include <fmt/format.h>
 
 #include "scenes/core/error.hpp"
-#include "scenes/formats/mesh/assimp_files.hpp"
-#include "scenes/formats/mesh/mesh_bytes.hpp"
+#include "scenes/formats/mesh/mesh.hpp"
+#include "scenes/formats/mesh/mesh_cache.hpp"
 #include "scenes/formats/mesh/mesh_cleaning.hpp"
+#include "scenes/formats/mesh/mesh_file.hpp"
 #include "scenes/formats/mesh/mesh_import.hpp"
-#include "scenes/formats/mesh/ply_completeness.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {
+
+/// Serves the mesh file from memory and its companions from the disk, read-only, and notes which
+/// companions were opened. Outlives what Assimp reads with it.
+class AssimpFiles : public Assimp::IOSystem {
+ public:
+  /// The mesh is known as `name` and has these bytes, which must outlive this object.
+  AssimpFiles(std::string name, std::string_view bytes);
+
+  bool Exists(const char* name) const override;
+  char getOsSeparator() const override { return '/'; }
+  Assimp::IOStream* Open(const char* name, const char* mode) override;
+  void Close(Assimp::IOStream* stream) override;
+
+  /// The companions, relative to the mesh's folder.
+  std::vector<MeshCompanion> companions() const;
+
+ private:
+  std::string name_;
+  std::string_view bytes_;
+  std::map<std::string, std::string> companions_;  // their bytes, by the name Assimp used
+};
+
+/// The bytes of a companion; none when it cannot be read, which importers take as they like.
+std::string companion_bytes(const std::string& name) {
+  try {
+    return read_bytes(name);
+  } catch (const InputError&) {
+    return {};
+  }
+}
+
+AssimpFiles::AssimpFiles(std::string name, std::string_view bytes)
+    : name_(std::move(name)), bytes_(bytes) {}
+
+bool AssimpFiles::Exists(const char* name) const {
+  std::error_code ignored;
+  return name == name_ || std::filesystem::is_regular_file(name, ignored);
+}
+
+Assimp::IOStream* AssimpFiles::Open(const char* name, const char* mode) {
+  if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos) return nullptr;
+  std::string_view bytes = bytes_;
+  if (name != name_) {
+    const auto [companion, is_new] = companions_.try_emplace(name);
+    if (is_new) companion->second = companion_bytes(name);
+    bytes = companion->second;
+    if (bytes.empty()) return nullptr;
+  }
+  // Assimp hands it back to Close.
+  return std::make_unique<Assimp::MemoryIOStream>(
+             reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size())
+      .release();
+}
+
+void AssimpFiles::Close(Assimp::IOStream* stream) {
+  const std::unique_ptr<Assimp::IOStream> closed(stream);
+}
+
+std::vector<MeshCompanion> AssimpFiles::companions() const {
+  const std::filesystem::path folder = std::filesystem::path(name_).parent_path();
+  std::vector<MeshCompanion> list;
+  for (const auto& [name, bytes] : companions_) {
+    const std::string relative = std::filesystem::path(name).lexically_relative(folder).string();
+    list.push_back({relative, bytes.empty() ? 0 : content_hash(bytes)});
+  }
+  return list;
+}
 
 /// Counts up whenever this file, or what it calls, reads a mesh differently.
 constexpr std::uint32_t kOwnVersion = 1;
@@ -126,7 +199,7 @@ ImportedMesh import_mesh(std::string_view bytes, const std::string& ending,
 
   MeshCollector collector;
   std::size_t others = 0;
-  try {  // give what is wrong with a triangle the file's name
+  try {  // puts the file's name before an error of a triangle
     for (const aiMesh* mesh : std::span(scene.mMeshes, scene.mNumMeshes)) {
       const bool known = mesh->mMaterialIndex < scene.mNumMaterials;
       collector.set_surface(known ? surface_of(*scene.mMaterials[mesh->mMaterialIndex]) : clay());

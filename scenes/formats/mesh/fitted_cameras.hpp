@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "scenes/camera.hpp"
-#include "scenes/formats/mesh/orientation.hpp"
+#include "scenes/formats/mesh/mesh_file.hpp"
 
 namespace beambench::scenes::mesh {
 

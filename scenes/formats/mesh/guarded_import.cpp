@@ -1,4 +1,3 @@
-#include "scenes/formats/mesh/guarded_import.hpp"
 
 #include <array>
 #include <cerrno>
@@ -15,13 +14,13 @@
 #include <unistd.h>
 
 #include "scenes/core/error.hpp"
-#include "scenes/formats/mesh/mesh_codec.hpp"
+#include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_import.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {
 
-// The first byte of what the child tells.
+// The first byte of what the child sends.
 constexpr char kMesh = 'm';
 constexpr char kRefusal = 'r';
 
@@ -32,7 +31,7 @@ constexpr char kRefusal = 'r';
 
 rlim_t seconds_allowed(std::string_view bytes) { return 2 + bytes.size() / (1U << 20U); }
 
-/// The two ends of a pipe, closed at the end.
+/// The two ends of a pipe, closed at destruction.
 class Pipe {
  public:
   explicit Pipe(const std::filesystem::path& path) {
@@ -52,7 +51,7 @@ class Pipe {
   void write(std::string_view bytes) const {
     while (!bytes.empty()) {
       const ssize_t count = ::write(ends_[1], bytes.data(), bytes.size());
-      if (count < 0 && errno != EINTR) return;  // nobody listens any more
+      if (count < 0 && errno != EINTR) return;  // the reader is gone
       if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
     }
   }
@@ -73,8 +72,8 @@ class Pipe {
   std::array<int, 2> ends_{-1, -1};
 };
 
-/// What the child does: it tells the mesh, or why there is none, and ends.
-[[noreturn]] void import_and_tell(const Pipe& pipe, pid_t parent, std::string_view bytes,
+/// What the child does: it sends the mesh, or why there is none, and ends.
+[[noreturn]] void import_and_send(const Pipe& pipe, pid_t parent, std::string_view bytes,
                                   const std::string& ending, const std::filesystem::path& path) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // it has gone already
@@ -87,13 +86,13 @@ class Pipe {
   // is the parent's to write.
   ::dup2(nowhere, STDERR_FILENO);
   ::dup2(nowhere, STDOUT_FILENO);
-  std::string told;
+  std::string reply;
   try {
-    told = kMesh + encode(import_mesh(bytes, ending, path));
-  } catch (const std::exception& error) {  // an InputError, or the memory does not suffice
-    told = kRefusal + std::string(error.what());
+    reply = kMesh + encode(import_mesh(bytes, ending, path));
+  } catch (const std::exception& error) {  // an InputError, or out of memory
+    reply = kRefusal + std::string(error.what());
   }
-  pipe.write(told);
+  pipe.write(reply);
   ::_exit(0);
 }
 
@@ -117,13 +116,13 @@ class Child {
   int status_ = 0;
 };
 
-[[noreturn]] void refuse_silence(int status, std::string_view bytes,
-                                 const std::filesystem::path& path) {
+[[noreturn]] void refuse_no_reply(int status, std::string_view bytes,
+                                  const std::filesystem::path& path) {
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   const std::string end =
       signal == SIGXCPU || signal == SIGKILL
           ? fmt::format("needed more than {} s or all of the memory", seconds_allowed(bytes))
-          : std::string("broke down over it");
+          : std::string("crashed");
   throw InputError(
       fmt::format("{}: it cannot be read as a mesh (Assimp {}): most likely it is malformed or cut "
                   "off; export it again, or convert it to another format",
@@ -138,15 +137,15 @@ ImportedMesh guarded_import(std::string_view bytes, const std::string& ending,
   const pid_t parent = ::getpid();
   const pid_t id = ::fork();
   if (id < 0) refuse_by_errno(path, "starting a process");
-  if (id == 0) import_and_tell(pipe, parent, bytes, ending, path);
+  if (id == 0) import_and_send(pipe, parent, bytes, ending, path);
 
   Child child(id);
   pipe.close_writing_end();
-  const std::string told = pipe.read();
+  const std::string reply = pipe.read();
   const int status = child.wait();
-  if (told.empty() || !WIFEXITED(status)) refuse_silence(status, bytes, path);
-  const std::string_view rest = std::string_view(told).substr(1);
-  if (told.front() == kRefusal) throw InputError(std::string(rest));
+  if (reply.empty() || !WIFEXITED(status)) refuse_no_reply(status, bytes, path);
+  const std::string_view rest = std::string_view(reply).substr(1);
+  if (reply.front() == kRefusal) throw InputError(std::string(rest));
   return decode(rest);
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -34,11 +35,20 @@ struct MeshCompanion {
   std::uint64_t hash = 0;
 };
 
-/// A mesh made fit to be a scene, and what was noticed on the way (without the file's name).
+/// A mesh that a scene can hold, and what was left out of it (without the file's name).
 struct ImportedMesh {
   TriangleMesh mesh;
   std::vector<std::string> warnings;
   std::vector<MeshCompanion> companions;
 };
+
+// Imported meshes as bytes, for the cache and from one process to another.
+
+/// The same bytes only on machines of one kind: numbers are as in memory.
+std::string encode(const ImportedMesh& imported);
+
+/// Throws std::out_of_range when the bytes end too early. Bytes that `encode` did not make may give
+/// any mesh; a scene builder refuses an invalid one.
+ImportedMesh decode(std::string_view bytes);
 
 }  // namespace beambench::scenes::mesh

@@ -1,21 +1,30 @@
 #include "scenes/formats/mesh/mesh_cache.hpp"
 
 #define XXH_INLINE_ALL
+
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
-#include <fstream>
+#include <ostream>
 #include <stdexcept>
 
 #include <fmt/format.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include "scenes/core/error.hpp"
-#include "scenes/formats/mesh/mesh_bytes.hpp"
-#include "scenes/formats/mesh/mesh_codec.hpp"
+#include "scenes/core/files.hpp"
+#include "scenes/formats/mesh/mesh.hpp"
+#include "scenes/formats/mesh/mesh_file.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {
+
+/// An environment variable that names a place; one that is empty counts as not set.
+std::optional<std::filesystem::path> place(const char* variable) {
+  const char* value = std::getenv(variable);
+  if (value == nullptr || *value == '\0') return std::nullopt;
+  return value;
+}
 
 namespace fs = std::filesystem;
 
@@ -48,7 +57,7 @@ fs::path file_of(const fs::path& folder, const std::string& key) {
   return folder / (key + ".mesh");
 }
 
-/// The payload of a file, if it is the one that its header tells of.
+/// The payload of a file, checked against its header.
 std::string_view checked_payload(std::string_view bytes) {
   Header header{};
   if (bytes.size() < sizeof(header)) throw std::out_of_range("the file ends too early");
@@ -60,24 +69,14 @@ std::string_view checked_payload(std::string_view bytes) {
   return payload;
 }
 
-/// Writes header and payload into a new file beside the target and renames it.
-bool write_beside(const fs::path& target, std::string_view header, std::string_view payload) {
-  std::string beside = (target.parent_path() / ".mesh-XXXXXX").string();
-  const int made = ::mkstemp(beside.data());
-  if (made < 0) return false;
-  ::close(made);
-  std::ofstream file(beside, std::ios::binary);
-  file.write(header.data(), static_cast<std::streamsize>(header.size()));
-  file.write(payload.data(), static_cast<std::streamsize>(payload.size()));
-  file.close();
-  std::error_code error;
-  if (file) fs::rename(beside, target, error);
-  if (file && !error) return true;
-  fs::remove(beside, error);
-  return false;
-}
-
 }  // namespace
+
+std::optional<std::filesystem::path> cache_folder() {
+  if (const auto own = place("BEAMBENCH_CACHE")) return own;
+  if (const auto user = place("XDG_CACHE_HOME")) return *user / "beambench";
+  if (const auto home = place("HOME")) return *home / ".cache" / "beambench";
+  return std::nullopt;
+}
 
 std::uint64_t content_hash(std::string_view bytes) {
   return XXH3_64bits(bytes.data(), bytes.size());
@@ -111,7 +110,16 @@ bool cache_mesh(const fs::path& folder, const std::string& key, const ImportedMe
   Header header{{}, payload.size(), content_hash(payload)};
   std::copy(kMagic.begin(), kMagic.end(), header.magic);
   const std::string_view start(reinterpret_cast<const char*>(&header), sizeof(header));
-  return write_beside(file_of(folder, key), start, payload);
+  try {
+    write_file(file_of(folder, key), [&](std::ostream& file) {
+      for (const std::string_view bytes : {start, std::string_view(payload)}) {
+        file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+      }
+    });
+  } catch (const InputError&) {
+    return false;
+  }
+  return true;
 }
 
 }  // namespace beambench::scenes::mesh

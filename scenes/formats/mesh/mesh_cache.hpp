@@ -1,14 +1,19 @@
 #pragma once
-// Meshes that were read before, in a form that is read fast.
+// The cache folder, and in it the meshes that were imported before, in a form that is read fast.
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "scenes/formats/mesh/mesh.hpp"
 
 namespace beambench::scenes::mesh {
+
+/// $BEAMBENCH_CACHE, or `beambench` in $XDG_CACHE_HOME, or in ~/.cache; nothing where the
+/// environment names no such place. Need not exist. scripts/meshes finds it the same way.
+std::optional<std::filesystem::path> cache_folder();
 
 /// XXH3 of the bytes.
 std::uint64_t content_hash(std::string_view bytes);
@@ -17,7 +22,7 @@ std::uint64_t content_hash(std::string_view bytes);
 /// them, and the importer. As good as a file name.
 std::string mesh_key(std::string_view bytes, std::string_view ending, std::uint32_t importer);
 
-/// What came of looking a mesh up.
+/// The result of a lookup.
 struct CachedMesh {
   enum class State { kFound, kMissing, kDamaged };
 

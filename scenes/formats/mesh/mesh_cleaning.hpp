@@ -17,7 +17,7 @@ class MeshCollector {
   /// Triangles added from now on have this surface.
   void set_surface(const Surface& surface);
   /// Throws InputError naming the triangle when a coordinate is not a number from -1e9 to 1e9, or
-  /// when 32-bit indices do not suffice.
+  /// when there are too many for 32-bit indices.
   void add(const std::array<glm::vec3, 3>& corners);
 
   /// How many triangles were left out, and which was the first (counted from 0 as they were added).

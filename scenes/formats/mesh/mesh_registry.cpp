@@ -8,10 +8,10 @@
 #include <nlohmann/json.hpp>
 
 #include "scenes/core/error.hpp"
-#include "scenes/core/input_file.hpp"
+#include "scenes/core/files.hpp"
 #include "scenes/core/nearest_name.hpp"
-#include "scenes/formats/mesh/cache_folder.hpp"
-#include "scenes/formats/mesh/mesh_format.hpp"
+#include "scenes/formats/mesh/mesh_cache.hpp"
+#include "scenes/formats/mesh/mesh_file.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {

@@ -6,11 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/formats/mesh/orientation.hpp"
+#include "scenes/formats/mesh/mesh_file.hpp"
 
 namespace beambench::scenes::mesh {
 
-/// How the names of registered meshes begin where a scene is asked for.
+/// How the names of registered meshes begin where a scene is named.
 inline constexpr std::string_view kMeshPrefix = "mesh:";
 
 /// A mesh of the registry: the file NAME.json in the folder `registered` of `cache_folder()`,

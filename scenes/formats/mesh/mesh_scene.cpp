@@ -9,12 +9,9 @@
 
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/formats/mesh/cache_folder.hpp"
 #include "scenes/formats/mesh/fitted_cameras.hpp"
-#include "scenes/formats/mesh/guarded_import.hpp"
-#include "scenes/formats/mesh/mesh_bytes.hpp"
 #include "scenes/formats/mesh/mesh_cache.hpp"
-#include "scenes/formats/mesh/mesh_format.hpp"
+#include "scenes/formats/mesh/mesh_file.hpp"
 #include "scenes/formats/mesh/mesh_import.hpp"
 #include "scenes/formats/mesh/mesh_registry.hpp"
 #include "scenes/scene_builder.hpp"

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "scenes/formats/mesh/mesh.hpp"
-#include "scenes/formats/mesh/orientation.hpp"
+#include "scenes/formats/mesh/mesh_file.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::scenes::mesh {

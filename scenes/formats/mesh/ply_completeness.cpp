@@ -1,5 +1,3 @@
-#include "scenes/formats/mesh/ply_completeness.hpp"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -10,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "scenes/core/error.hpp"
+#include "scenes/formats/mesh/mesh_import.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {
@@ -176,8 +175,8 @@ void require_complete_ply(std::string_view bytes, const std::filesystem::path& p
                              : take_binary_row(bytes, element, header->format);
       if (there) continue;
       throw InputError(fmt::format(
-          "{}: its header tells of {} of the element '{}', but after {} the file ends: it is cut "
-          "off, or its header is wrong; get it again",
+          "{}: its header declares {} of the element '{}', but after {} the file ends: it is cut "
+          "off, or its header is invalid; get it again",
           path.string(), element.count, element.name, i));
     }
     if (element.properties.empty() && header->format != Header::Format::kText) return;

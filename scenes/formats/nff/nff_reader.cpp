@@ -3,22 +3,116 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <map>
 #include <new>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "scenes/camera.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/input_file.hpp"
-#include "scenes/degenerate_primitive.hpp"
-#include "scenes/formats/nff/nff_notes.hpp"
+#include "scenes/core/files.hpp"
 #include "scenes/formats/nff/nff_tokens.hpp"
-#include "scenes/formats/nff/nff_view.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::nff {
 namespace {
+
+/// Collects remarks on a file. A file that gives cause for one may do so at each of a million
+/// lines, so remarks with the same cause become one, with the first line and a count.
+class NffNotes {
+ public:
+  /// `message` is the remark on the first line that has this cause.
+  void add(const std::string& cause, const std::string& message);
+
+  /// The remarks in the order of their first lines.
+  std::vector<std::string> messages() const;
+
+ private:
+  struct Note {
+    std::string message;
+    std::size_t repetitions = 0;
+  };
+  std::vector<Note> notes_;
+  std::map<std::string, std::size_t> by_cause_;  // indices into notes_
+};
+
+void NffNotes::add(const std::string& cause, const std::string& message) {
+  const auto [place, is_new] = by_cause_.try_emplace(cause, notes_.size());
+  if (is_new) {
+    notes_.push_back({message});
+  } else {
+    ++notes_[place->second].repetitions;
+  }
+}
+
+std::vector<std::string> NffNotes::messages() const {
+  std::vector<std::string> messages;
+  for (const Note& note : notes_) {
+    messages.push_back(note.repetitions == 0
+                           ? note.message
+                           : fmt::format("{} (and {} more)", note.message, note.repetitions));
+  }
+  return messages;
+}
+
+struct ViewWord {
+  std::string_view word;
+  void (*read)(NffTokens& tokens, const NffToken& word, Camera& camera);
+};
+
+constexpr std::size_t kRequired = 5;  // the first ones
+constexpr std::array<ViewWord, 8> kWords = {{
+    {"from", [](NffTokens& tokens, const NffToken&,
+                Camera& camera) { camera.from = tokens.triple("the eye"); }},
+    {"at", [](NffTokens& tokens, const NffToken&,
+              Camera& camera) { camera.at = tokens.triple("the point looked at"); }},
+    {"up", [](NffTokens& tokens, const NffToken&,
+              Camera& camera) { camera.up = tokens.triple("the up vector"); }},
+    {"angle", [](NffTokens& tokens, const NffToken&,
+                 Camera& camera) { camera.angle = tokens.number("the angle"); }},
+    {"resolution",
+     [](NffTokens& tokens, const NffToken&, Camera& camera) {
+       camera.width = static_cast<int>(tokens.integer("the width in pixels"));
+       camera.height = static_cast<int>(tokens.integer("the height in pixels"));
+     }},
+    {"hither", [](NffTokens& tokens, const NffToken&,
+                  Camera& camera) { camera.hither = tokens.number("the hither distance"); }},
+    // Our own, written in comments (kOwnComment).
+    {"name", [](NffTokens& tokens, const NffToken& word,
+                Camera& camera) { camera.name = tokens.rest_of_line(word, "the camera's name"); }},
+    {"aspect", [](NffTokens& tokens, const NffToken&,
+                  Camera& camera) { camera.aspect = tokens.number("the aspect"); }},
+}};
+
+/// Takes the lines after `view`, the token `v`, as far as they belong to it. The camera's name is
+/// empty when the file has none. Throws InputError with file and line when something is missing.
+Camera read_nff_view(NffTokens& tokens, const NffToken& view) {
+  Camera camera;
+  camera.name.clear();
+  std::array<bool, kWords.size()> seen{};
+  while (true) {
+    const auto* const word = std::find_if(kWords.begin(), kWords.end(), [&](const ViewWord& w) {
+      return w.word == tokens.peek().text;
+    });
+    if (word == kWords.end()) break;
+    seen[static_cast<std::size_t>(word - kWords.begin())] = true;
+    word->read(tokens, tokens.take(), camera);
+  }
+  for (std::size_t i = 0; i < kRequired; ++i) {
+    if (!seen[i]) {
+      tokens.refuse(view.line,
+                    fmt::format("the view has no '{}'; v takes from, at, up, angle, hither and "
+                                "resolution, each on a line",
+                                kWords[i].word));
+    }
+  }
+  return camera;
+}
 
 /// Reads one file, command by command, into a builder.
 class NffReader {
@@ -281,7 +375,7 @@ void NffReader::read_corners(bool smooth) {
                    fmt::format("a polygon of {} vertices; it must have at least 3", count));
   }
   const auto size = static_cast<std::size_t>(count);
-  if (size > tokens_.most_numbers_left() / (smooth ? 6 : 3)) {
+  if (size > tokens_.max_numbers_left() / (smooth ? 6 : 3)) {
     tokens_.refuse(command_.line,
                    fmt::format("a polygon of {} vertices, more than the rest of the file can "
                                "hold; is the file cut off?",

@@ -24,7 +24,7 @@ modelling::PolygonMesh ball(double radius, int slices, int stacks) {
   return modelling::ellipsoid(glm::dvec3(radius), slices, stacks);
 }
 
-/// The room's six sides, looking inward, of 3 d x 2 d x d squares: closed, with shared edges.
+/// The room's six sides, facing inward, of 3 d x 2 d x d squares: closed, with shared edges.
 modelling::PolygonMesh shell(int detail) {
   modelling::PolygonMesh sides;
   for (int axis = 0; axis < 3; ++axis) {

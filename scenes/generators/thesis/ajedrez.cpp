@@ -72,7 +72,7 @@ modelling::PolygonMesh merlon(int first, int count, double inner, double outer, 
   return mesh;
 }
 
-/// The horse's head and neck, looking to +x.
+/// The horse's head and neck, facing +x.
 double horse(const glm::dvec3& place) {
   const glm::dvec3 p(place.x, 1.15 * std::abs(place.y), place.z);
   double d = modelling::limb_field(p, {{0.0, 0.0, 0.22}, 0.25, {-0.09, 0.0, 0.60}, 0.19});
@@ -97,7 +97,7 @@ double horse(const glm::dvec3& place) {
 }
 
 /// Staunton's pieces, standing at the origin of a board whose squares have side 1, without the
-/// undersides they stand on. The knight looks to +y.
+/// undersides they stand on. The knight faces +y.
 modelling::PolygonMesh chess_pawn() {
   modelling::Profile profile = foot(0.32);
   profile.curve({0.11, 0.58}, -0.07, 5);

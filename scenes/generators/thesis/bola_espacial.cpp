@@ -41,7 +41,7 @@ modelling::PolygonMesh side(int axis, double direction) {
       kPanels, kPanels);
 }
 
-/// The panels of the plates of one color: a checkrboard.
+/// The panels of the plates of one color: a checkerboard.
 modelling::PolygonMesh plates(const modelling::PolygonMesh& whole, std::size_t color) {
   modelling::PolygonMesh part{whole.vertices, {}};
   for (std::size_t i = 0; i < whole.polygons.size(); ++i) {

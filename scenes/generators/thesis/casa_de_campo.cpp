@@ -184,7 +184,7 @@ void add_door(SceneBuilder& builder, const glm::dmat4& place) {
   add(builder, kWood, modelling::recessed(kDoor, panels, 0.04), inside);
   add(builder, kWood, modelling::openings_filled(panels, 0.04), inside);
   const modelling::PolygonMesh knob =
-      modelling::bevelled_box({1.15, 1.0, 0.0}, {1.23, 1.08, 0.08}, 0.025);
+      modelling::beveled_box({1.15, 1.0, 0.0}, {1.23, 1.08, 0.08}, 0.025);
   add(builder, kFrame, knob, inside);
 }
 
@@ -219,7 +219,7 @@ modelling::PolygonMesh around_chimney(modelling::PolygonMesh roof) {
 }
 
 void add_roof(SceneBuilder& builder) {
-  // The eaves hang half a meter over the walls, the tiles lie a hand above the gables.
+  // The eaves overhang the walls by half a meter, the tiles lie a hand above the gables.
   const double rise = (kRidge - kWallTop) / 3.5;
   const double lift = 0.12;
   const glm::dvec3 ridge(0.0, 3.5, kRidge + lift);

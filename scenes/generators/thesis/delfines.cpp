@@ -23,8 +23,8 @@ struct DolphinPose {
 };
 
 /// A bottlenose dolphin, 1 long from beak (x = 0.5) to fluke (x = -0.5) before it bends, back to
-/// +z, of `triangles` triangles: body, dorsal fin, two flippers, two flukes. `belly` tells which of
-/// them are pale.
+/// +z, of `triangles` triangles: body, dorsal fin, two flippers, two flukes. `belly` marks those
+/// that are pale.
 struct Dolphin {
   modelling::PolygonMesh mesh;
   std::vector<bool> belly;

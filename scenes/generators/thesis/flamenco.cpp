@@ -138,7 +138,7 @@ double legs(const glm::dvec3& p) {
       0.02);
 }
 
-/// A flamingo, 1.75 high, that stands at the origin on its left leg and looks to +x.
+/// A flamingo, 1.75 high, that stands at the origin on its left leg and faces +x.
 double flamingo_field(const glm::dvec3& p) {
   double d = modelling::joined(trunk(p), neck_and_head(p), 0.08);
   d = modelling::joined(d, wings(p), 0.012);

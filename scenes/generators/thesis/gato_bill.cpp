@@ -129,7 +129,7 @@ double cat(const glm::dvec3& place) {
   return std::max(d, -place.z);  // it sits
 }
 
-constexpr double kSquint = 16.0;  // degrees that each eye looks to the nose
+constexpr double kSquint = 16.0;  // degrees that each eye turns toward the nose
 
 constexpr glm::dvec3 kNose = {0.0, -0.59, 1.37};
 constexpr glm::dvec3 kNoseSize = {0.085, 0.06, 0.058};
@@ -286,7 +286,7 @@ modelling::PolygonMesh name() {
   glm::dmat4 place = glm::translate(
       glm::dmat4(1.0), glm::dvec3(-0.5 * modelling::text_width("GATO BILL", kHeight), 1.6, 2.2));
   place[1] = glm::dvec4(0.0, 0.0, 1.0, 0.0);   // letters stand
-  place[2] = glm::dvec4(0.0, -1.0, 0.0, 0.0);  // and look to the reader
+  place[2] = glm::dvec4(0.0, -1.0, 0.0, 0.0);  // and face the reader
   return modelling::transformed(modelling::extruded_text("GATO BILL", kHeight, 0.3), place);
 }
 

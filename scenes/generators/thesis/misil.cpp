@@ -46,7 +46,7 @@ std::vector<Part> hull() {
             {0.0, 10.0}}}};
 }
 
-/// A fin in the plane y = 0, its root on the hull at x = 0.7 and sunk in by a hair.
+/// A fin in the plane y = 0, its root on the hull at x = 0.7 and sunk in slightly.
 modelling::PolygonMesh fin(const std::vector<glm::dvec2>& outline, double thickness) {
   modelling::PolygonMesh mesh = modelling::extruded(modelling::flat_polygon(outline), thickness);
   std::erase_if(mesh.polygons,

@@ -202,8 +202,8 @@ modelling::PolygonMesh tower_floors() {
       modelling::square_ring(38.0, 13.0, kFirstFloor - kFloorDepth, kFirstFloor);
   modelling::append(mesh,
                     modelling::square_ring(21.5, 5.0, kSecondFloor - kFloorDepth, kSecondFloor));
-  modelling::append(mesh, modelling::bevelled_box({-8.2, -8.2, kThirdFloor - kFloorDepth},
-                                                  {8.2, 8.2, kThirdFloor}, 0.8));
+  modelling::append(mesh, modelling::beveled_box({-8.2, -8.2, kThirdFloor - kFloorDepth},
+                                                 {8.2, 8.2, kThirdFloor}, 0.8));
   return mesh;
 }
 
@@ -230,7 +230,7 @@ modelling::PolygonMesh tower_foundations() {
   for (const double x : {36.6, 61.2}) {
     for (const double y : {36.6, 61.2}) {
       modelling::append(
-          block, modelling::bevelled_box({x - 4.0, y - 4.0, 0.0}, {x + 4.0, y + 4.0, 3.2}, 0.7));
+          block, modelling::beveled_box({x - 4.0, y - 4.0, 0.0}, {x + 4.0, y + 4.0, 3.2}, 0.7));
     }
   }
   return four_times(block);

@@ -36,7 +36,7 @@ constexpr std::array<glm::vec3, 10> kCovers = {{{0.62F, 0.13F, 0.12F},
                                                 {0.22F, 0.20F, 0.22F},
                                                 {0.66F, 0.66F, 0.62F}}};
 
-/// Where a book stands; its spine looks to -y.
+/// Where a book stands; its spine faces -y.
 struct Book {
   double x, width, height, depth;
   glm::vec3 color;

@@ -179,10 +179,10 @@ void add_window(SceneBuilder& builder) {
         .flat(kPaintedWood, modelling::recessed(half, openings, 0.04));
   }
   PlacedPiece front(builder, moved(window_wall(), kWindow.lower, 0.0));
-  front.flat(kBrass, modelling::bevelled_box({half.x - 0.012, 0.52, -0.115},
-                                             {half.x + 0.012, 0.66, -0.085}, 0.006));
-  front.flat(kPaintedWood, modelling::bevelled_box({-0.08, -0.045, -0.005},
-                                                   {size.x + 0.08, -0.003, 0.075}, 0.01));
+  front.flat(kBrass, modelling::beveled_box({half.x - 0.012, 0.52, -0.115},
+                                            {half.x + 0.012, 0.66, -0.085}, 0.006));
+  front.flat(kPaintedWood,
+             modelling::beveled_box({-0.08, -0.045, -0.005}, {size.x + 0.08, -0.003, 0.075}, 0.01));
 }
 
 void add_door(SceneBuilder& builder) {

@@ -49,7 +49,7 @@ inline constexpr double kCoffeeTop = 0.43;
 void add_dining_table(SceneBuilder& builder, const glm::dmat4& place);
 /// A long low table, 1.16 x 0.62, on turned legs, with a shelf below.
 void add_coffee_table(SceneBuilder& builder, const glm::dmat4& place);
-/// A chair with a bowed back and spindles; who sits on it looks to -y.
+/// A chair with a bowed back and spindles; who sits on it faces -y.
 void add_chair(SceneBuilder& builder, const glm::dmat4& place);
 
 /// A seat with arms, a back and loose cushions, standing at the origin and facing -y: 0.92 deep
@@ -60,7 +60,7 @@ struct Settee {
 };
 double settee_field(const glm::dvec3& place, const Settee& settee);
 
-/// Its surface in triangles, without what looks down to the floor.
+/// Its surface in triangles, without what faces the floor.
 modelling::PolygonMesh settee(const Settee& settee, double cell);
 /// Four turned feet.
 modelling::PolygonMesh settee_feet(const Settee& settee);

@@ -74,7 +74,7 @@ modelling::PolygonMesh banana() {
   return modelling::tube(path, radii, 10, modelling::Caps::kBoth);
 }
 
-/// A daisy looking to +z: petals around a dome.
+/// A daisy facing +z: petals around a dome.
 void add_daisy(SceneBuilder& builder, const glm::dmat4& place, const glm::vec3& color) {
   constexpr int kPetals = 10;
   modelling::PolygonMesh petals;

@@ -107,9 +107,9 @@ void add_dining_table(SceneBuilder& builder, const glm::dmat4& place) {
 
 void add_coffee_table(SceneBuilder& builder, const glm::dmat4& place) {
   PlacedPiece table(builder, place);
-  table.flat(kDarkOak, modelling::bevelled_box({-0.58, -0.31, kCoffeeTop - 0.035},
-                                               {0.58, 0.31, kCoffeeTop}, 0.008));
-  table.flat(kDarkOak, modelling::bevelled_box({-0.50, -0.24, 0.105}, {0.50, 0.24, 0.13}, 0.005));
+  table.flat(kDarkOak, modelling::beveled_box({-0.58, -0.31, kCoffeeTop - 0.035},
+                                              {0.58, 0.31, kCoffeeTop}, 0.008));
+  table.flat(kDarkOak, modelling::beveled_box({-0.50, -0.24, 0.105}, {0.50, 0.24, 0.13}, 0.005));
   modelling::PolygonMesh rails;
   for (const double y : {-0.262, 0.238}) {
     modelling::append(

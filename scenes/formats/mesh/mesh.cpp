@@ -1,4 +1,4 @@
-#include "scenes/formats/mesh/mesh_codec.hpp"
+#include "scenes/formats/mesh/mesh.hpp"
 
 #include <array>
 #include <cstring>

@@ -1,16 +1,47 @@
-#include "scenes/formats/mesh/mesh_bytes.hpp"
+#include "scenes/formats/mesh/mesh_file.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <limits>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <zlib.h>
 
 #include "scenes/core/error.hpp"
-#include "scenes/core/input_file.hpp"
+#include "scenes/core/files.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {
+
+constexpr std::string_view kGzip = ".gz";
+constexpr std::array<std::string_view, 14> kEndings{"3ds", "ac",  "ase",  "blend", "dae",
+                                                    "fbx", "glb", "gltf", "lwo",   "obj",
+                                                    "off", "ply", "stl",  "x3d"};
+constexpr std::array<std::string_view, 17> kForeign{"3dm", "abc",  "c4d",  "iges", "igs",  "jobj",
+                                                    "ma",  "max",  "mb",   "skp",  "step", "stp",
+                                                    "usd", "usda", "usdc", "usdz", "wrl"};
+
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return lower;
+}
+
+/// What follows the last dot, in lower case; `.gz` at the end does not count.
+std::string last_ending(std::string_view file_name) {
+  if (is_gzipped(file_name)) file_name.remove_suffix(kGzip.size());
+  const std::size_t dot = file_name.find_last_of("./");
+  if (dot == std::string_view::npos || file_name[dot] != '.') return {};
+  return lower_case(file_name.substr(dot + 1));
+}
+
+template <typename List>
+bool contains(const List& list, std::string_view word) {
+  return std::find(list.begin(), list.end(), word) != list.end();
+}
 
 [[noreturn]] void refuse(const std::filesystem::path& path, std::string_view why) {
   throw InputError(fmt::format("{}: {}", path.string(), why));
@@ -75,6 +106,23 @@ class Inflation {
 
 }  // namespace
 
+bool is_gzipped(std::string_view file_name) { return lower_case(file_name).ends_with(kGzip); }
+
+std::string mesh_ending(std::string_view file_name) {
+  const std::string ending = last_ending(file_name);
+  return contains(kEndings, ending) ? ending : std::string();
+}
+
+bool is_foreign_model(std::string_view path) {
+  return path.find('/') != std::string_view::npos && contains(kForeign, last_ending(path));
+}
+
+void refuse_foreign_model(std::string_view path) {
+  throw InputError(
+      fmt::format("'{}': .{} files cannot be read; convert it to one of: {} (or write it as NFF)",
+                  path, last_ending(path), fmt::join(kEndings, ", ")));
+}
+
 std::filesystem::path companion_folder(const std::filesystem::path& path) {
   std::error_code not_there;
   const std::filesystem::path real = std::filesystem::canonical(path, not_there);
@@ -111,6 +159,20 @@ std::string gunzip(std::string_view packed, const std::filesystem::path& path) {
   bytes.resize(used);
   if (bytes.empty()) refuse(path, "it unpacks to an empty file; export the mesh again");
   return bytes;
+}
+
+Orientation usual_orientation(std::string_view ending) {
+  if (ending == "stl") return {{0.0, 0.0, 1.0}, {0.0, -1.0, 0.0}};
+  return {};
+}
+
+std::optional<glm::dvec3> parse_axis(std::string_view text) {
+  const double sign = text.starts_with('-') ? -1.0 : 1.0;
+  if (sign < 0.0) text.remove_prefix(1);
+  if (text == "x") return glm::dvec3(sign, 0.0, 0.0);
+  if (text == "y") return glm::dvec3(0.0, sign, 0.0);
+  if (text == "z") return glm::dvec3(0.0, 0.0, sign);
+  return std::nullopt;
 }
 
 }  // namespace beambench::scenes::mesh

@@ -1,20 +1,26 @@
-#include "scenes/core/input_file.hpp"
+#include "scenes/core/files.hpp"
 
 #include <array>
+#include <filesystem>
+#include <ostream>
 #include <string>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
+#include <sys/stat.h>
 #include <termios.h>
 #include <unistd.h>
 
+#include "scenes/core/error.hpp"
 #include "scenes/formats/nff/nff_reader.hpp"
 #include "tests/scenes/thrown_message.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace beambench::scenes {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// A terminal of our own: what is written at its one end can be read at the other, and when the
 /// first end is closed, reading on is an input error (EIO), as of a disk that gives up.
@@ -93,9 +99,45 @@ TEST(Input, ThatIsNoneIsRefused) {
                    {"/dev/zero: cannot be read: it holds more than 1048576 bytes"}));
 }
 
+TEST(Input, IsNotWaitedForAtANamedPipe) {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_TRUE(says(thrown_message([&] { read_input(pipe); }),
+                   {"it is a pipe into which nothing is written"}));
+}
+
 TEST(Input, OfASceneIsRefusedInTheSameWords) {
   EXPECT_TRUE(says(thrown_message([] { nff::read_nff("/proc/self/mem"); }),
                    {"/proc/self/mem: cannot be read: Input/output error"}));
+}
+
+TEST(Output, IsNotSeenBeforeItIsWhole) {
+  const TemporaryFolder folder;
+  const fs::path target = folder.write("a.txt", "old");
+  const auto fail_half_way = [&](std::ostream& file) {
+    file << "new" << std::flush;
+    EXPECT_EQ(read_text(target), "old");
+    for (const auto& entry : fs::directory_iterator(folder.path())) {
+      EXPECT_EQ(entry.path().extension(), ".txt");
+      EXPECT_EQ(is_left_behind(entry.path()), entry.path() != target);
+    }
+    throw InputError("half way");
+  };
+  EXPECT_THROW(write_file(target, fail_half_way), InputError);
+  EXPECT_EQ(read_text(target), "old") << "what is not finished changes nothing";
+  write_file(target, "new");
+  EXPECT_EQ(read_text(target), "new");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+}
+
+TEST(Output, IsRefusedWhereNoFileCanBe) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("a.txt", "");
+  for (const fs::path& target :
+       {folder.path(), folder.path() / "missing" / "b.txt", file / "b.txt", fs::path("/proc/b")}) {
+    EXPECT_THROW(write_file(target, "text"), InputError) << target;
+  }
 }
 
 }  // namespace
