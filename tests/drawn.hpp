@@ -32,7 +32,7 @@ inline glm::dvec3 seen(const scenes::Scene& scene, const glm::dvec3& origin,
   accel::Ray ray;
   ray.origin = glm::vec3(origin);
   ray.direction = glm::vec3(direction);
-  return tracer.eye_color(ray, structure->closest_hit(ray, nullptr), progress);
+  return tracer.camera_ray_color(ray, structure->closest_hit(ray, nullptr), progress);
 }
 
 inline void expect_color(const glm::dvec3& color, const glm::dvec3& expected) {
@@ -81,7 +81,7 @@ inline render::WhittedPicture picture(const scenes::Scene& scene, const std::str
   accel::HitBuffer hits(40, 30, 1);
   structure->trace(rays, hits, nullptr);
   return render::whitted_picture(render::Whitted(scene, *structure, options),
-                                 render::eye_rays(rays), hits);
+                                 render::camera_rays(rays), hits);
 }
 
 inline void expect_same_bits(const render::Image& a, const render::Image& b) {

@@ -10,7 +10,7 @@ namespace beambench::accel::embree {
 namespace {
 
 /// Embree's float boxes must hold whatever the eye's distance; this many scene sizes away is as far
-/// as structures promise exactness (design.md, the numeric contract).
+/// as structures promise exactness.
 constexpr double kEyeDistance = 8.0;
 
 Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) {

@@ -20,7 +20,7 @@ namespace beambench::bench {
 struct SceneEntry {
   std::string spec;                  ///< a catalogue name with parameters, or a path
   std::vector<std::string> cameras;  ///< by name; empty: the scene's first
-  std::string place;                 ///< where it stands in the file, for messages
+  std::string place;                 ///< its place in the file, for messages
 };
 
 /// Cells to leave out: those to which everything that is given applies.
@@ -43,7 +43,7 @@ struct SweepConfig {
   double precision;  ///< wanted half-width of the interval of a repeat, relative to the median
   int minimum_repetitions;
   int maximum_repetitions;
-  double budget_seconds;  ///< for the whole run; the least repetitions are made all the same
+  double budget_seconds;  ///< for the whole run; the minimum of repetitions is made all the same
   std::chrono::duration<double> warm_up;  ///< of the machine, before anything is timed
   std::vector<Exclusion> exclude;
 

@@ -14,21 +14,18 @@
 namespace beambench::bench {
 namespace {
 
-constexpr const char* kError = "error";
-
 std::string mismatch_message(const verify::DiffReport& report) {
   if (report.verdict == verify::Verdict::kGrazes) {
     return fmt::format("{} of {} rays graze, more than the differ's budget",
                        report.count(verify::DiffClass::kGraze), report.rays);
   }
-  return fmt::format("{} of {} rays got a wrong hit", report.count(verify::DiffClass::kEngineError),
-                     report.rays);
+  return fmt::format("{} of {} rays got a wrong hit",
+                     report.count(verify::DiffClass::kStructureError), report.rays);
 }
 
-/// What an exception says to the user.
 std::string message_of(const std::exception& error) {
   if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
-    return "the memory does not suffice for this structure over this scene";
+    return "out of memory for this structure over this scene";
   }
   return error.what();
 }
@@ -58,7 +55,7 @@ void Contender::count() {
     record_.statistics = structure->statistics();
     record_.harness = task_->harness_share(*structure);
   } catch (const std::exception& error) {
-    fail(kError, message_of(error));
+    fail(verify::Verdict::kError, message_of(error));
   }
   // A structure that counts nothing at all cannot count; zeros would claim that it does no work.
   if (is_all_zero(record_.work.counters)) record_.work.counters.clear();
@@ -77,10 +74,17 @@ void Contender::repeat(const Instruments& instruments, int round, int position) 
     record_.repetitions.push_back(repetition);
     cycles_.push_back(repetition.total_mcycles());
     spent_ms_ += repetition.total_ms();
-    examine(*structure);
+    if (record_.repetitions.size() == 1) {
+      verify_first(*structure);
+    } else if (task_->fingerprint() != record_.hits_hash) {
+      fail(verify::Verdict::kMismatch,
+           fmt::format("repetition {} wrote other hits than the first: the structure's answers "
+                       "depend on more than scene and rays",
+                       record_.repetitions.size()));
+    }
     if (!failed_ && record_.repetitions.size() <= kWarmTraces) trace_warm(*structure);
   } catch (const std::exception& error) {
-    fail(kError, message_of(error));
+    fail(verify::Verdict::kError, message_of(error));
   }
 }
 
@@ -123,16 +127,6 @@ Repetition Contender::time_once(const Instruments& instruments,
   return repetition;
 }
 
-void Contender::examine(const accel::Accelerator& structure) {
-  const bool first = record_.repetitions.size() == 1;
-  if (first) return judge_first(structure);
-  if (task_->fingerprint() == record_.hits_hash) return;
-  fail(std::string(verify::to_string(verify::Verdict::kMismatch)),
-       fmt::format("repetition {} wrote other hits than the first: the structure's answers depend "
-                   "on more than scene and rays",
-                   record_.repetitions.size()));
-}
-
 void Contender::trace_warm(const accel::Accelerator& structure) {
   const MeasuringFloatMode mode;
   task_->poison();
@@ -140,31 +134,30 @@ void Contender::trace_warm(const accel::Accelerator& structure) {
   record_.repetitions.back().warm_trace_ms = again.wall_ms;
   spent_ms_ += again.wall_ms;
   if (task_->fingerprint() == record_.hits_hash) return;
-  fail(std::string(verify::to_string(verify::Verdict::kMismatch)),
+  fail(verify::Verdict::kMismatch,
        "a second trace of the same structure wrote other hits than its first");
 }
 
-void Contender::judge_first(const accel::Accelerator& structure) {
+void Contender::verify_first(const accel::Accelerator& structure) {
   record_.hits_hash = task_->fingerprint();
-  Judgment judgment = task_->judge(structure, cell_->structure);
-  record_.diff = std::move(judgment.report);
-  record_.verdict = verify::to_string(record_.diff->verdict);
+  Verification found = task_->verify_results(structure, cell_->structure);
+  record_.diff = std::move(found.report);
+  record_.verdict = record_.diff->verdict;
   if (!record_.keeps_times()) {
-    record_.examples = std::move(judgment.examples);
+    record_.examples = std::move(found.examples);
     return fail(record_.verdict, mismatch_message(*record_.diff));
   }
   if (task_->fingerprint() != record_.hits_hash) {
-    return fail(std::string(verify::to_string(verify::Verdict::kMismatch)),
-                "asked again to be judged, the structure gave other answers");
+    return fail(verify::Verdict::kMismatch,
+                "the structure gave other answers when it was traced again to be verified");
   }
   if (record_.hits_hash != counted_hits_) {
-    fail(std::string(verify::to_string(verify::Verdict::kMismatch)),
-         "the counting pass found other hits than the timed one");
+    fail(verify::Verdict::kMismatch, "the counting pass found other hits than the timed one");
   }
 }
 
-void Contender::fail(std::string verdict, std::string message) {
-  record_.verdict = std::move(verdict);
+void Contender::fail(verify::Verdict verdict, std::string message) {
+  record_.verdict = verdict;
   record_.message = std::move(message);
   failed_ = true;
 }

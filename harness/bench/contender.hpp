@@ -1,5 +1,5 @@
 #pragma once
-// One structure in the group of those that are asked with the same rays.
+// One structure in the group of those that trace the same rays.
 
 #include <cstdint>
 #include <memory>
@@ -24,10 +24,10 @@ struct Instruments {
   int threads;  ///< that trace an image
 };
 
-/// A cell while it is measured. Its first timed answers are judged by the differ, and those of
-/// every other pass, the counting one included, must equal them bit for bit: so the verdict speaks
-/// of all answers that a timed repetition wrote. Whatever a structure does wrong is noted here and
-/// ends its measurement; nothing is thrown.
+/// A cell while it is measured. The differ verifies its first timed answers, and those of every
+/// other pass, the counting one included, must equal them bit for bit: so the verdict holds for all
+/// answers that a timed repetition wrote. Whatever a structure does wrong is recorded and ends its
+/// measurement; nothing is thrown.
 class Contender {
  public:
   Contender(const PlannedCell& cell, Task& task);
@@ -54,10 +54,9 @@ class Contender {
   /// Leaves the structure that it built in `structure`.
   Repetition time_once(const Instruments& instruments,
                        std::unique_ptr<accel::Accelerator>& structure);
-  void examine(const accel::Accelerator& structure);
   void trace_warm(const accel::Accelerator& structure);
-  void judge_first(const accel::Accelerator& structure);
-  void fail(std::string verdict, std::string message);
+  void verify_first(const accel::Accelerator& structure);
+  void fail(verify::Verdict verdict, std::string message);
 
   const PlannedCell* cell_;
   Task* task_;

@@ -67,7 +67,7 @@ int parse_repetitions(std::string_view value) {
 
 using Json = nlohmann::ordered_json;
 
-/// Keeps the names of what ran; says nothing.
+/// Keeps the names of what ran; prints nothing.
 class NameCollector : public benchmark::BenchmarkReporter {
  public:
   NameCollector() { SetErrorStream(&messages_); }
@@ -91,7 +91,7 @@ struct RegisteredBenchmarks {
   ~RegisteredBenchmarks() { benchmark::ClearRegisteredBenchmarks(); }
 };
 
-/// To fail is what ends a benchmark at once that was asked for no certain number of iterations.
+/// A benchmark without a fixed number of iterations ends at once only by failing.
 void do_nothing(benchmark::State& state) { state.SkipWithError("not meant to be measured"); }
 
 benchmark::BenchmarkReporter::Run base_run(const Json& cell) {

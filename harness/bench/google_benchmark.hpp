@@ -16,7 +16,7 @@ class State;
 
 namespace beambench::bench {
 
-/// What the user's Google Benchmark flags ask for.
+/// The user's Google Benchmark flags.
 struct BenchmarkFlags {
   std::vector<std::string> passed_on;  ///< --benchmark_filter, --benchmark_context, --v
   std::optional<int> repetitions;      ///< --benchmark_repetitions

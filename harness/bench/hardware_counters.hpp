@@ -29,12 +29,12 @@ class HardwareCounters {
   /// Why an event is not counted, in a sentence; empty when all are.
   const std::string& problem() const { return problem_; }
 
-  /// Runs `work` and tells what was counted meanwhile.
+  /// Runs `work` and returns what was counted meanwhile.
   HardwareCounts count(const std::function<void()>& work) const;
 
  private:
-  /// As read from an event: its count, and for how long it was wanted and really ran (the system
-  /// lets events take turns when there are too few counters).
+  /// As read from an event: its count, and for how long it was enabled and running (the system lets
+  /// events take turns when there are too few counters).
   struct Reading {
     std::uint64_t value;
     std::uint64_t enabled_ns;

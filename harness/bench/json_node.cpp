@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Does a comma stand before what ends a list or an object there?
+/// Is a comma right before the end of a list or object there?
 bool comma_is_last(std::string_view text, std::size_t at) {
   if (at >= text.size() || (text[at] != ']' && text[at] != '}')) return false;
   const std::size_t before = text.substr(0, at).find_last_not_of(" \t\r\n");
@@ -36,10 +36,10 @@ std::string_view plain_message(std::string_view what) {
   const std::size_t line_start = before.rfind('\n');
   const std::size_t column = line_start == std::string_view::npos ? at + 1 : at - line_start;
   if (comma_is_last(text, at)) {
-    throw InputError(
-        fmt::format("{}:{}:{}: not JSON: a comma stands before this '{}', behind the last element; "
-                    "remove the comma",
-                    file, line, column, text[at]));
+    throw InputError(fmt::format(
+        "{}:{}:{}: not JSON: there is a comma before this '{}', behind the last element; "
+        "remove the comma",
+        file, line, column, text[at]));
   }
   throw InputError(
       fmt::format("{}:{}:{}: not JSON: {}", file, line, column, plain_message(error.what())));

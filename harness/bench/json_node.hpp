@@ -1,5 +1,5 @@
 #pragma once
-// Reading a JSON file that people write: every complaint names the place.
+// Reading a JSON file that people write: every message names the place.
 
 #include <cstdint>
 #include <filesystem>
@@ -21,7 +21,7 @@ namespace beambench::bench {
 /// column), or gives a key twice.
 nlohmann::json read_json_file(const std::filesystem::path& path);
 
-/// A value in a JSON document and where it stands. Whatever is not as expected throws InputError
+/// A value in a JSON document and its place. Whatever is not as expected throws InputError
 /// `file: /structures/1/parameters: expected ...`, with the value's JSON pointer (RFC 6901).
 class JsonNode {
  public:

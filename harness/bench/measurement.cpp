@@ -35,33 +35,29 @@ unsigned read_mode() { return 0; }
 void write_mode(unsigned) {}
 #endif
 
-constexpr int kSlices = 4;
 constexpr int kMultiplications = 8000;
-constexpr double kCyclesEach = 3.0;
 
 /// Each factor is the product before it: no two of them can run at once.
 std::uint64_t chain(std::uint64_t value) {
   for (int i = 0; i < kMultiplications; ++i) {
     value *= value;
-    asm volatile("" : "+r"(value));  // keeps the compiler from finding a shorter way
+    asm volatile("" : "+r"(value));  // keeps the compiler from shortening it
   }
   return value;
 }
 
-using Clock = std::chrono::steady_clock;
-
-constexpr std::size_t kLeastSlices = 40;
+constexpr std::size_t kMinSlices = 40;
 // A chain of multiplications and additions, each waiting for the one before: some 0.2 ms.
 constexpr int kStepsOfASlice = 50'000;
 
 double slice_ms() {
-  const auto begin = Clock::now();
+  const base::Stopwatch watch;
   volatile double result = 0.0;
   double value = 1.0;
   for (int i = 0; i < kStepsOfASlice; ++i) value = value * 1.0000001 + 1e-9;
   result = value;
   static_cast<void>(result);
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  return watch.milliseconds();
 }
 
 }  // namespace
@@ -87,15 +83,16 @@ PinnedThread::~PinnedThread() {
 }
 
 double clock_ghz() {
-  double fastest_ns = std::numeric_limits<double>::infinity();
+  constexpr int kSlices = 4;
+  constexpr double kCyclesEach = 3.0;
+  double fastest_ms = std::numeric_limits<double>::infinity();
   std::uint64_t value = 3;
   for (int slice = 0; slice < kSlices; ++slice) {
-    const auto begin = std::chrono::steady_clock::now();
+    const base::Stopwatch watch;
     value = chain(value | 1U);
-    const std::chrono::duration<double, std::nano> taken = std::chrono::steady_clock::now() - begin;
-    fastest_ns = std::min(fastest_ns, taken.count());
+    fastest_ms = std::min(fastest_ms, watch.milliseconds());
   }
-  return kCyclesEach * kMultiplications / fastest_ns;
+  return 1e-6 * kCyclesEach * kMultiplications / fastest_ms;
 }
 
 std::optional<std::uint64_t> heap_in_use() {
@@ -103,7 +100,7 @@ std::optional<std::uint64_t> heap_in_use() {
   const struct mallinfo2 info = ::mallinfo2();
   const std::uint64_t bytes =
       info.uordblks + info.hblkhd;  // in arenas, and mapped for large blocks
-  if (bytes > 0) return bytes;      // a replaced allocator (a sanitizer's) says 0
+  if (bytes > 0) return bytes;      // a replaced allocator (a sanitizer's) reports 0
 #endif
   return std::nullopt;
 }
@@ -115,14 +112,14 @@ std::optional<std::uint64_t> heap_growth(std::optional<std::uint64_t> before,
 }
 
 std::optional<double> warm_up(std::chrono::duration<double> duration) {
-  const auto begin = Clock::now();
+  const base::Stopwatch watch;
   std::vector<double> slices;
-  while (Clock::now() - begin < duration) slices.push_back(slice_ms());
+  while (watch.seconds() < duration.count()) slices.push_back(slice_ms());
   return noise(std::span(slices).subspan(slices.size() / 2));
 }
 
 std::optional<double> noise(std::span<const double> slices) {
-  if (slices.size() < kLeastSlices) return std::nullopt;
+  if (slices.size() < kMinSlices) return std::nullopt;
   std::vector<double> sorted(slices.begin(), slices.end());
   std::sort(sorted.begin(), sorted.end());
   const double high = sorted[sorted.size() - 1 - sorted.size() / 20];

@@ -1,6 +1,5 @@
 #pragma once
-// How timed code is run and measured: its conditions, equal for every contender, and its
-// instruments.
+// How timed code is run and measured: the same conditions and instruments for every contender.
 
 #include <chrono>
 #include <cstdint>
@@ -12,10 +11,12 @@
 
 #include <sched.h>
 
+#include "harness/base/stopwatch.hpp"
+
 namespace beambench::bench {
 
 /// Sets the processor's floating-point mode while it lives: round to nearest, no traps, denormals
-/// flushed to zero and read as zero (MXCSR's FTZ and DAZ), as Embree asks for. Everything is judged
+/// flushed to zero and read as zero (MXCSR's FTZ and DAZ), as Embree asks for. Hits are verified
 /// outside of it.
 class MeasuringFloatMode {
  public:
@@ -33,7 +34,7 @@ class MeasuringFloatMode {
   unsigned previous_;
 };
 
-/// The core that the calling thread is on, or -1 where the system does not tell.
+/// The core that the calling thread is on, or -1 where the system does not report it.
 int present_core();
 
 /// Pins the calling thread to a core while it lives, where the system allows that (and `core` is
@@ -57,31 +58,19 @@ struct PhaseTime {
   double cpu_ms;  ///< of this thread, or of all
 };
 
-/// The clock of the CPU time that work on so many threads takes: the calling thread's, or that of
-/// all threads of the process.
+/// The clock of the CPU time of work on so many threads.
 inline clockid_t cpu_clock(int threads) {
   return threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID;
 }
 
-inline std::chrono::nanoseconds cpu_time(clockid_t clock) {
-  timespec now{};
-  ::clock_gettime(clock, &now);
-  return std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec);
-}
-
-/// CPU time of the calling thread so far.
-inline std::chrono::nanoseconds thread_cpu_time() { return cpu_time(CLOCK_THREAD_CPUTIME_ID); }
-
 /// Times `work`. The wall clock is read innermost: reading the CPU clock is a system call.
 template <class Work>
 PhaseTime time_phase(Work&& work, clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
-  const auto cpu_begin = cpu_time(clock);
-  const auto begin = std::chrono::steady_clock::now();
+  const base::CpuStopwatch cpu(clock);
+  const base::Stopwatch wall;
   std::invoke(std::forward<Work>(work));
-  const auto end = std::chrono::steady_clock::now();
-  const auto cpu_end = cpu_time(clock);
-  using Milliseconds = std::chrono::duration<double, std::milli>;
-  return {Milliseconds(end - begin).count(), Milliseconds(cpu_end - cpu_begin).count()};
+  const double wall_ms = wall.milliseconds();
+  return {wall_ms, cpu.milliseconds()};
 }
 
 /// The rate of the core's clock in GHz: from the time of a chain of dependent integer
@@ -91,24 +80,25 @@ PhaseTime time_phase(Work&& work, clockid_t clock = CLOCK_THREAD_CPUTIME_ID) {
 double clock_ghz();
 
 /// Bytes in use in all of the heap, headers and rounding included, by glibc's mallinfo2; nothing
-/// where the allocator does not tell. Memory that a library maps past the allocator is not in it.
+/// where the allocator does not report it. Memory that a library maps past the allocator is left
+/// out.
 std::optional<std::uint64_t> heap_in_use();
 
-/// By how much it grew from one asking to the other; 0 when it shrank, nothing when one is missing.
+/// The growth between two readings; 0 when it shrank, nothing when one is missing.
 std::optional<std::uint64_t> heap_growth(std::optional<std::uint64_t> before,
                                          std::optional<std::uint64_t> after);
 
 /// Keeps the calling core busy, so that its clock and caches leave their idle state before the
 /// first repetition, and times slices of equal work meanwhile. Returns the noise of the second
-/// half; nothing when the time was too short to tell.
+/// half; nothing when the time was too short.
 std::optional<double> warm_up(std::chrono::duration<double> duration);
 
-/// How much longer than the median slice the slowest twentieth took, as a part of the median: work
-/// that never changes takes longer only because of others (interrupts, other tenants, the clock).
+/// How much longer than the median slice the slowest twentieth took, as a part of the median: equal
+/// work takes longer only because of others (interrupts, other tenants, the clock).
 /// Nothing for fewer than 40 slices.
 std::optional<double> noise(std::span<const double> slices);
 
-/// What a trace takes that costs a structure nothing: the median of several in milliseconds, after
+/// The time of a trace that costs a structure nothing: the median of several in milliseconds, after
 /// one that is not timed. `core` is to pin to; -1: any.
 double harness_ms(int core, const std::function<void()>& trace);
 

@@ -15,7 +15,9 @@ using Json = nlohmann::ordered_json;
 
 std::optional<Overhead> overhead_of(const Json& cell) {
   const Json& row = cell.at("row");
-  if (row.at("verdict") != "ok" || row.at("trace_ms_median").is_null()) return std::nullopt;
+  if (row.at("verdict") != verify::to_string(verify::Verdict::kOk) ||
+      row.at("trace_ms_median").is_null())
+    return std::nullopt;
   const Json& path = row.at("query_path");
   if (path.is_null() || path == to_string(QueryPath::kImageOwn) ||
       path == to_string(QueryPath::kPicture)) {
@@ -29,7 +31,6 @@ std::optional<Overhead> overhead_of(const Json& cell) {
                   harness_ms / trace_ms};
 }
 
-/// What is traced by a path, in words.
 std::string_view subject_of(const std::string& path) {
   if (path == to_string(QueryPath::kImageSingle)) return "images by single rays";
   if (path == to_string(QueryPath::kImageSimd)) return "images by SIMD rays";

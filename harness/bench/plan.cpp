@@ -14,31 +14,30 @@
 namespace beambench::bench {
 namespace {
 
-std::shared_ptr<const scenes::Scene> load(const SceneEntry& entry) {
+/// Runs `work`, putting the entry's place in front of an InputError that it throws.
+template <class Work>
+auto placed(const SceneEntry& entry, Work work) {
   try {
-    std::vector<std::string> warnings;
-    auto scene = std::make_shared<const scenes::Scene>(scenes::load_scene(entry.spec, &warnings));
-    for (const std::string& warning : warnings) fmt::print(stderr, "beambench: {}\n", warning);
-    return scene;
+    return work();
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", entry.place, error.what()));
   }
 }
 
-scenes::Camera camera_of(const scenes::Scene& scene, const std::string& name,
-                         const SceneEntry& entry) {
-  try {
-    return scenes::find_camera(scene, name);
-  } catch (const InputError& error) {
-    throw InputError(fmt::format("{}: {}", entry.place, error.what()));
-  }
+std::shared_ptr<const scenes::Scene> load(const SceneEntry& entry) {
+  std::vector<std::string> warnings;
+  auto scene = placed(entry, [&] {
+    return std::make_shared<const scenes::Scene>(scenes::load_scene(entry.spec, &warnings));
+  });
+  for (const std::string& warning : warnings) fmt::print(stderr, "beambench: {}\n", warning);
+  return scene;
 }
 
 std::vector<scenes::Camera> cameras_of(const scenes::Scene& scene, const SceneEntry& entry) {
   if (entry.cameras.empty()) return {scene.cameras.front()};
   std::vector<scenes::Camera> cameras;
   for (const std::string& name : entry.cameras) {
-    cameras.push_back(camera_of(scene, name, entry));
+    cameras.push_back(placed(entry, [&] { return scenes::find_camera(scene, name); }));
   }
   return cameras;
 }
@@ -59,76 +58,55 @@ bool applies(const Exclusion& rule, const CellGroup& group, const SceneEntry& en
   return !rule.rays_above || ray_count(group) > *rule.rays_above;
 }
 
-/// Makes the groups and cells of a plan, each cell once.
-class Planner {
- public:
-  explicit Planner(const SweepConfig& config) : config_(config) {}
-
-  Plan make() && {
-    for (const SceneEntry& entry : config_.scenes) add_scene(entry);
-    return std::move(plan_);
-  }
-
- private:
-  void add_scene(const SceneEntry& entry) {
-    const std::shared_ptr<const scenes::Scene> scene = load(entry);
-    for (const scenes::Camera& camera : cameras_of(*scene, entry)) {
-      for (const rays::Resolution& resolution : config_.resolutions) {
-        for (const int samples : config_.samples) {
-          for (const rays::RayChoice& rays : config_.rays) {
-            if (!rays.file.empty() && !is_first(*scene, camera, resolution, samples)) continue;
-            add_group({scene, camera, resolution, samples, rays, config_.threads, {}}, entry);
-          }
-        }
-      }
+/// Adds the group's cells, each once: `names` are of those that the plan has.
+void add_group(const SweepConfig& config, const SceneEntry& entry, CellGroup group, Plan& plan,
+               std::set<std::string>& names) {
+  for (const accel::StructureChoice& structure : config.structures) {
+    if (std::ranges::any_of(config.exclude, [&](const Exclusion& rule) {
+          return applies(rule, group, entry, structure);
+        })) {
+      continue;
+    }
+    CellId id{group.scene->name,     group.camera.name,
+              structure.info().name, structure.parameters().canonical(),
+              group.resolution,      group.samples,
+              group.rays.label};
+    if (names.insert(id.name()).second) {
+      group.cells.push_back({names.size() - 1, std::move(id), structure});
+    } else {
+      ++plan.merged;
     }
   }
-
-  /// The rays of a file are the same in every view: they are asked once.
-  bool is_first(const scenes::Scene& scene, const scenes::Camera& camera,
-                const rays::Resolution& resolution, int samples) const {
-    return camera.name == scene.cameras.front().name && resolution == config_.resolutions.front() &&
-           samples == config_.samples.front();
-  }
-
-  void add_group(CellGroup group, const SceneEntry& entry) {
-    for (const accel::StructureChoice& structure : config_.structures) {
-      const auto excluded = [&](const Exclusion& rule) {
-        return applies(rule, group, entry, structure);
-      };
-      if (std::any_of(config_.exclude.begin(), config_.exclude.end(), excluded)) continue;
-      CellId id{group.scene->name,     group.camera.name,
-                structure.info().name, structure.parameters().canonical(),
-                group.resolution,      group.samples,
-                group.rays.label};
-      if (names_.insert(id.name()).second) {
-        group.cells.push_back({names_.size() - 1, std::move(id), structure});
-      } else {
-        ++plan_.merged;
-      }
-    }
-    if (!group.cells.empty()) plan_.groups.push_back(std::move(group));
-  }
-
-  const SweepConfig& config_;
-  Plan plan_;
-  std::set<std::string> names_;
-};
-
-/// The entry of that name among structures or scenes; nullptr for a stranger, such as a file.
-template <class Infos>
-const auto* find_info(const Infos& infos, const std::string& name) {
-  const auto found =
-      std::ranges::find_if(infos, [&](const auto& info) { return info.name == name; });
-  return found == infos.end() ? nullptr : &*found;
+  if (!group.cells.empty()) plan.groups.push_back(std::move(group));
 }
 
-/// `label` is a name with all parameters.
+/// The groups of a scene in one of its views.
+std::vector<CellGroup> groups_of(const SweepConfig& config,
+                                 const std::shared_ptr<const scenes::Scene>& scene,
+                                 std::uint64_t hash, const scenes::Camera& camera) {
+  std::vector<CellGroup> groups;
+  for (const rays::Resolution& resolution : config.resolutions) {
+    for (const int samples : config.samples) {
+      const bool first = camera.name == scene->cameras.front().name &&
+                         resolution == config.resolutions.front() &&
+                         samples == config.samples.front();
+      for (const rays::RayChoice& rays : config.rays) {
+        // The rays of a file are the same in every view: they are traced once.
+        if (!rays.file.empty() && !first) continue;
+        groups.push_back({scene, hash, camera, resolution, samples, rays, config.threads, {}});
+      }
+    }
+  }
+  return groups;
+}
+
+/// `label`, a structure or scene with all parameters, without those at their defaults; whatever
+/// `infos` do not have, such as a file, as it is.
 template <class Infos>
 std::string shortened(const Infos& infos, const std::string& label) {
   const std::string name = label.substr(0, label.find(':'));
-  const auto* info = find_info(infos, name);
-  if (info == nullptr || name.size() == label.size()) return label;
+  const auto info = std::ranges::find_if(infos, [&](const auto& i) { return i.name == name; });
+  if (info == infos.end() || name.size() == label.size()) return label;
   return Parameters(name, info->parameters, parse_spec(label).parameters).short_label();
 }
 
@@ -146,7 +124,17 @@ std::size_t Plan::cell_count() const {
 }
 
 Plan make_plan(const SweepConfig& config) {
-  Plan plan = Planner(config).make();
+  Plan plan;
+  std::set<std::string> names;
+  for (const SceneEntry& entry : config.scenes) {
+    const std::shared_ptr<const scenes::Scene> scene = load(entry);
+    const std::uint64_t hash = scenes::scene_hash(*scene);
+    for (const scenes::Camera& camera : cameras_of(*scene, entry)) {
+      for (CellGroup& group : groups_of(config, scene, hash, camera)) {
+        add_group(config, entry, std::move(group), plan, names);
+      }
+    }
+  }
   if (plan.groups.empty()) {
     throw InputError("nothing is left to measure: 'exclude' leaves out every cell; relax it");
   }
@@ -158,7 +146,7 @@ std::vector<SceneFacts> scene_facts(const Plan& plan) {
   for (const CellGroup& group : plan.groups) {
     const scenes::Scene& scene = *group.scene;
     if (!facts.empty() && facts.back().name == scene.name) continue;  // groups go scene by scene
-    facts.push_back({scene.name, scenes::scene_hash(scene), scene.primitives.size()});
+    facts.push_back({scene.name, group.scene_hash, scene.primitives.size()});
   }
   return facts;
 }

@@ -21,9 +21,10 @@ struct PlannedCell {
   accel::StructureChoice structure;
 };
 
-/// The cells that are asked with the same rays over the same scene: contenders, measured in turns.
+/// The cells with the same rays over the same scene: contenders, measured in turns.
 struct CellGroup {
   std::shared_ptr<const scenes::Scene> scene;  ///< freed when the last of its groups is done
+  std::uint64_t scene_hash;
   scenes::Camera camera;
   rays::Resolution resolution;
   int samples;
@@ -38,13 +39,13 @@ struct CellGroup {
 
 struct Plan {
   std::vector<CellGroup> groups;
-  std::size_t merged = 0;  ///< cells that the configuration asked for more than once
+  std::size_t merged = 0;  ///< cells that the configuration names more than once
 
   std::size_t cell_count() const;
 };
 
 /// Loads every scene once and multiplies the configuration out: scene by scene, all structures of a
-/// group together. Cells asked for twice are made once. Throws InputError when a scene cannot be
+/// group together. Cells named twice are made once. Throws InputError when a scene cannot be
 /// loaded, has no camera of that name, or nothing is left to measure.
 Plan make_plan(const SweepConfig& config);
 
@@ -64,7 +65,7 @@ void filter_cells(Plan& plan, Keep keep) {
 /// which would fill lines: `escena1/default/320x200/1/primary/samet:max_level=6`.
 std::string shown_name(const CellId& id);
 
-/// A scene's name in the same way: `tetra:n=4`, or `tetra` for `tetra:n=6`. A path stays as it is.
+/// A scene's name likewise: `tetra:n=4`, or `tetra` for `tetra:n=6`. A path stays as it is.
 std::string shown_scene(const std::string& scene);
 
 }  // namespace beambench::bench

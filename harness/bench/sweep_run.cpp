@@ -6,23 +6,25 @@
 
 #include "harness/base/counted.hpp"
 #include "harness/base/progress.hpp"
+#include "harness/base/stopwatch.hpp"
+#include "harness/bench/contender.hpp"
 #include "harness/bench/measurement.hpp"
 #include "harness/bench/overhead.hpp"
 #include "harness/bench/plan.hpp"
 #include "harness/bench/record/manifest.hpp"
 #include "harness/bench/record/run_folder.hpp"
+#include "harness/bench/stopping.hpp"
 #include "harness/bench/task.hpp"
-#include "harness/bench/turns.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/core/random.hpp"
 
 namespace beambench::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using Json = nlohmann::ordered_json;
 
-/// Above this part of the fastest contender's time the harness's own is worth a sentence.
+/// The manifest mentions the harness's own time above this part of the fastest contender's.
 constexpr double kWantedOverhead = 0.02;
 
 /// The core to pin to, or -1 where pinning does not work.
@@ -43,12 +45,15 @@ std::string with_interval(const Row& row, const std::string& name) {
 /// `build 1.23 ms, trace 35.1 ms [34.9, 35.6], second trace 34.0 ms [33.8, 34.3], 37.0 Mrays/s, ok
 /// after 12 repetitions (precision)`.
 std::string result_line(const CellRecord& cell, const Row& row) {
-  if (!cell.keeps_times()) return fmt::format("{}: {}", cell.verdict, cell.message);
+  if (!cell.keeps_times()) {
+    return fmt::format("{}: {}", verify::to_string(cell.verdict), cell.message);
+  }
   return fmt::format("build {:.4g} ms, trace {}, second trace {}, {:.4g} Mrays/s, {} after {} ({})",
                      row.at("build_ms_median").get<double>(), with_interval(row, "trace"),
                      with_interval(row, "trace_warm"),
                      row.at("mrays_per_s").is_null() ? 0.0 : row.at("mrays_per_s").get<double>(),
-                     cell.verdict, base::counted(cell.repetitions.size(), "repetition"),
+                     verify::to_string(cell.verdict),
+                     base::counted(cell.repetitions.size(), "repetition"),
                      to_string(*cell.stop_reason));
 }
 
@@ -56,6 +61,13 @@ std::string result_line(const CellRecord& cell, const Row& row) {
 std::string shown(const CellGroup& group) {
   std::string name = group.name();
   return name.replace(0, group.scene->name.size(), shown_scene(group.scene->name));
+}
+
+/// Fisher and Yates's shuffle, with random numbers that are the same on every machine.
+void shuffle(std::vector<Contender>& contenders, Random& random) {
+  for (std::size_t left = contenders.size(); left > 1; --left) {
+    std::swap(contenders[left - 1], contenders[random.below(left)]);
+  }
 }
 
 class SweepRun {
@@ -70,7 +82,8 @@ class SweepRun {
         manifest_(
             begin_manifest(config.name, scene_facts(plan), core_, config.threads, config.warm_up)),
         folder_(open_folder()),
-        plan_(unfinished(std::move(plan))) {}
+        plan_(unfinished(std::move(plan))),
+        progress_(plan_.cell_count(), messages) {}
 
   SweepOutcome run() && {
     {
@@ -83,26 +96,20 @@ class SweepRun {
     manifest_.measurement.hardware_problem = counters_.problem();
     for (const std::string& line : preflight(manifest_)) fmt::print(messages_, "{}\n", line);
     folder_.write_json("manifest.json", to_json(manifest_));
-    if (options_.begun) options_.begun(folder_.path());
-    const auto begin = Clock::now();
+    options_.begun(folder_.path());
+    const base::Stopwatch watch;
+    record_crashed_cells();
     std::size_t cells_left = plan_.cell_count();
-    base::Progress progress(cells_left, messages_);
-    cells_left -= give_up_broken(progress);
     for (CellGroup& group : plan_.groups) {
-      const double left_ms = 1e3 * config_.budget_seconds - elapsed_ms(begin);
-      const double share_ms = std::max(left_ms, 0.0) / static_cast<double>(cells_left);
+      const double left_ms = std::max(1e3 * config_.budget_seconds - watch.milliseconds(), 0.0);
+      run_group(group, left_ms / static_cast<double>(cells_left));
       cells_left -= group.cells.size();
-      run_group(group, share_ms, progress);
       group.scene.reset();
     }
     return close();
   }
 
  private:
-  static double elapsed_ms(Clock::time_point begin) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-  }
-
   RunFolder open_folder() {
     if (options_.resume) return reopen_folder();
     RunFolder folder = RunFolder::create(
@@ -114,7 +121,7 @@ class SweepRun {
   RunFolder reopen_folder() {
     RunFolder folder = RunFolder::open(options_.folder.value());
     require_same_run(folder, config_.source, to_json(manifest_));
-    go_on(manifest_, folder.read_json("manifest.json"));
+    continue_with(manifest_, folder.read_json("manifest.json"));
     folder.write_results();
     return folder;
   }
@@ -124,102 +131,129 @@ class SweepRun {
     return plan;
   }
 
-  /// Records the cells that broke an earlier process down; how many there are.
-  std::size_t give_up_broken(base::Progress& progress) {
-    const auto& broken = options_.broken_cells;
-    std::size_t count = 0;
+  void record_crashed_cells() {
+    if (options_.activity == nullptr) return;
+    const auto crashed = options_.activity->broken_cells();
     for (const CellGroup& group : plan_.groups) {
       for (const PlannedCell& cell : group.cells) {
-        const auto found = broken.find(cell.id.key());
-        if (found == broken.end()) continue;
-        finish(unmeasured_cell(group, cell, "error", found->second), progress);
-        ++count;
+        const auto found = crashed.find(cell.id.key());
+        if (found != crashed.end()) {
+          finish_unmeasured(group, cell, verify::Verdict::kError, found->second);
+        }
       }
     }
-    filter_cells(plan_, [&](const CellId& id) { return !broken.contains(id.key()); });
-    return count;
+    filter_cells(plan_, [&](const CellId& id) { return !crashed.contains(id.key()); });
   }
 
-  void run_group(const CellGroup& group, double share_ms, base::Progress& progress) {
-    const auto begin = Clock::now();
-    progress.start(shown(group));
-    const auto give_up = [&](std::string_view verdict, const std::string& why) {
-      for (const PlannedCell& cell : group.cells) {
-        finish(unmeasured_cell(group, cell, verdict, why), progress);
-      }
+  void run_group(const CellGroup& group, double share_ms) {
+    const base::Stopwatch watch;
+    progress_.start(shown(group));
+    const auto fail = [&](verify::Verdict verdict, const std::string& why) {
+      for (const PlannedCell& cell : group.cells) finish_unmeasured(group, cell, verdict, why);
     };
     std::unique_ptr<Task> task;
     try {
-      task = make_task(group, hash_of(*group.scene), core_);
-    } catch (const rays::NoRaysError& error) {  // the other groups go on
-      return give_up(verify::kNoRays, error.what());
+      task = make_task(group, core_);
+    } catch (const rays::NoRaysError& error) {  // the other groups are measured all the same
+      return fail(verify::Verdict::kNoRays, error.what());
     } catch (const InputError& error) {
-      return give_up("error", error.what());
+      return fail(verify::Verdict::kError, error.what());
     }
     if (const auto warning = task->warning()) {
-      warn(fmt::format("{}: {}.", shown(group), *warning), progress);
+      std::string sentence = fmt::format("{}: {}.", shown(group), *warning);
+      progress_.say("warning: " + sentence);
+      manifest_.uncontrolled.push_back(std::move(sentence));
     }
-    measure(group, *task, begin, share_ms, progress);
+    std::vector<Contender> contenders;
+    for (const PlannedCell& cell : group.cells) {
+      set_activity(cell.id.key());
+      contenders.emplace_back(cell, *task).count();
+    }
+    // The time of the oracle and of the counting passes is the group's own.
+    const auto cells = static_cast<double>(group.cells.size());
+    measure(group, std::move(contenders), std::max(share_ms - watch.milliseconds() / cells, 0.0));
+    set_activity("");
   }
 
-  void warn(std::string sentence, base::Progress& progress) {
-    progress.say("warning: " + sentence);
-    manifest_.uncontrolled.push_back(std::move(sentence));
+  /// Runs rounds of one repetition for each contender until all are done, in an order shuffled anew
+  /// each round: what slows the machine down for a while slows them all.
+  void measure(const CellGroup& group, std::vector<Contender> contenders, double allowance_ms) {
+    const Instruments instruments{benchmark_, counters_, core_, config_.threads};
+    Random random(rays::fingerprint(group.name()));
+    finish_done(group, contenders, allowance_ms);
+    for (int round = 0; !contenders.empty(); ++round) {
+      shuffle(contenders, random);
+      for (std::size_t i = 0; i < contenders.size(); ++i) {
+        set_activity(contenders[i].id().key());
+        contenders[i].repeat(instruments, round, static_cast<int>(i));
+        progress_.advance(work_done(contenders, allowance_ms));
+      }
+      finish_done(group, contenders, allowance_ms);
+    }
   }
 
-  CellRecord unmeasured_cell(const CellGroup& group, const PlannedCell& cell,
-                             std::string_view verdict, std::string message) const {
+  /// Records and removes the contenders that have failed or need no further repetition.
+  void finish_done(const CellGroup& group, std::vector<Contender>& contenders,
+                   double allowance_ms) {
+    const StoppingRule rule{config_.precision, config_.minimum_repetitions,
+                            config_.maximum_repetitions};
+    std::vector<Contender> still;
+    for (Contender& contender : contenders) {
+      const std::optional<StopReason> reason =
+          contender.failed()
+              ? std::nullopt
+              : reason_to_stop(contender.cycles(), contender.spent_ms(), allowance_ms, rule);
+      if (!reason && !contender.failed()) {
+        still.push_back(std::move(contender));
+        continue;
+      }
+      finish(std::move(contender).finish(reason));
+      progress_.start(shown(group));
+    }
+    contenders = std::move(still);
+  }
+
+  /// How far the unfinished are, in whole contenders: by the larger of the time and the repetitions
+  /// that they have used up.
+  double work_done(const std::vector<Contender>& contenders, double allowance_ms) const {
+    double done = 0.0;
+    for (const Contender& contender : contenders) {
+      const double time = contender.spent_ms() / std::max(allowance_ms, 1.0);
+      const auto repetitions = static_cast<double>(contender.cycles().size());
+      done += std::clamp(std::max(std::min(time, repetitions / config_.minimum_repetitions),
+                                  repetitions / config_.maximum_repetitions),
+                         0.0, 1.0);
+    }
+    return done;
+  }
+
+  void set_activity(std::string_view cell) const {
+    if (options_.activity) options_.activity->write(plugin::Activity::Line::kCell, cell);
+  }
+
+  void finish_unmeasured(const CellGroup& group, const PlannedCell& cell, verify::Verdict verdict,
+                         const std::string& message) {
     CellRecord record{};
     record.index = cell.index;
     record.id = cell.id;
-    record.rays.scene_hash = hash_of(*group.scene);
+    record.rays.scene_hash = group.scene_hash;
     record.rays.primitives = group.scene->primitives.size();
     record.time_utc = utc_now();
     record.verdict = verdict;
-    record.message = std::move(message);
-    return record;
+    record.message = message;
+    finish(record);
   }
 
-  void measure(const CellGroup& group, Task& task, Clock::time_point begin, double share_ms,
-               base::Progress& progress) {
-    const auto label = [&] { progress.start(shown(group)); };
-    std::vector<Contender> contenders;
-    for (const PlannedCell& cell : group.cells) {
-      options_.at_work(cell.id.key());
-      contenders.emplace_back(cell, task).count();
-    }
-    // The oracle's and the counting passes' time is the group's own.
-    const auto cells = static_cast<double>(group.cells.size());
-    const double allowance_ms = std::max(share_ms - elapsed_ms(begin) / cells, 0.0);
-    const StoppingRule stopping{config_.precision, config_.minimum_repetitions,
-                                config_.maximum_repetitions};
-    const TurnRules rules{stopping, allowance_ms, rays::fingerprint(group.name())};
-    take_turns(std::move(contenders), {benchmark_, counters_, core_, config_.threads}, rules,
-               {[&](const Contender& contender) { options_.at_work(contender.id().key()); },
-                [&](const CellRecord& cell) {
-                  finish(cell, progress);
-                  label();
-                },
-                [&](double done) { progress.advance(done); }});
-    options_.at_work("");
-  }
-
-  void finish(const CellRecord& cell, base::Progress& progress) {
+  void finish(const CellRecord& cell) {
     const Json json = to_json(manifest_.run, cell);
     folder_.add_cell(json);
     if (!cell.keeps_times()) {
-      progress.say(fmt::format("{}: {}: {}", cell.verdict, shown_name(cell.id), cell.message));
-      for (const std::string& example : cell.examples) progress.say(example);
+      progress_.say(fmt::format("{}: {}: {}", verify::to_string(cell.verdict), shown_name(cell.id),
+                                cell.message));
+      for (const std::string& example : cell.examples) progress_.say(example);
     }
-    progress.start(shown_name(cell.id));
-    progress.finish(result_line(cell, json.at("row")));
-  }
-
-  std::uint64_t hash_of(const scenes::Scene& scene) const {
-    const auto found =
-        std::find_if(manifest_.scenes.begin(), manifest_.scenes.end(),
-                     [&](const SceneFacts& facts) { return facts.name == scene.name; });
-    return found->hash;
+    progress_.start(shown_name(cell.id));
+    progress_.finish(result_line(cell, json.at("row")));
   }
 
   SweepOutcome close() {
@@ -235,10 +269,12 @@ class SweepRun {
     folder_.write_json("manifest.json", to_json(manifest_));
     SweepOutcome outcome{folder_.results(), cells.size()};
     for (const Json& cell : cells) {
-      const auto verdict = cell.at("row").at("verdict").get<std::string>();
-      if (verdict == verify::kNoRays) {
+      const auto is = [&](verify::Verdict verdict) {
+        return cell.at("row").at("verdict") == verify::to_string(verdict);
+      };
+      if (is(verify::Verdict::kNoRays)) {
         ++outcome.without_rays;
-      } else if (verdict != "ok" && verdict != "baseline") {
+      } else if (!is(verify::Verdict::kOk) && !is(verify::Verdict::kBaseline)) {
         ++outcome.failed;
       }
     }
@@ -264,6 +300,7 @@ class SweepRun {
   Manifest manifest_;
   RunFolder folder_;
   Plan plan_;
+  base::Progress progress_;
 };
 
 }  // namespace

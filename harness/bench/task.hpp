@@ -1,5 +1,5 @@
 #pragma once
-// What the contenders of a group are asked, whatever it is.
+// What the contenders of a group trace, whatever it is.
 
 #include <cstdint>
 #include <map>
@@ -16,8 +16,8 @@
 
 namespace beambench::bench {
 
-/// What is found out about answers.
-struct Judgment {
+/// The outcome of a verification.
+struct Verification {
   verify::DiffReport report;
   std::vector<std::string> examples;  ///< disputed rays, described, where the verdict is bad
 };
@@ -35,10 +35,10 @@ class Task {
     return {group_.camera, static_cast<std::size_t>(facts_.rays), group_.threads};
   }
 
-  /// What should be known of the rays themselves; nothing where they are as one expects.
+  /// A clause on rays that are not as one expects.
   virtual std::optional<std::string> warning() const { return std::nullopt; }
 
-  /// Overwrites all answers with some that cannot be: the differ finds every one left unwritten.
+  /// Overwrites all answers with invalid ones: the differ finds every one left unwritten.
   virtual void poison() = 0;
   /// Asks a structure. What is timed.
   virtual void ask(const accel::Accelerator& structure) = 0;
@@ -46,12 +46,12 @@ class Task {
   virtual CountedWork count(const accel::Accelerator& structure) = 0;
   /// Of all answers, bit for bit.
   virtual std::uint64_t fingerprint() const = 0;
-  /// Judges the answers; may ask `structure`, which `choice` has built, again for them.
-  virtual Judgment judge(const accel::Accelerator& structure,
-                         const accel::StructureChoice& choice) = 0;
+  /// Verifies the answers; may have `structure`, which `choice` has built, trace again for it.
+  virtual Verification verify_results(const accel::Accelerator& structure,
+                                      const accel::StructureChoice& choice) = 0;
 
-  /// How `structure` is asked, and the harness's own share of a trace by that way, which is
-  /// measured when it is wanted first. Overwrites all answers.
+  /// The query path of `structure`, and the harness's own share of a trace by it, which is measured
+  /// when it is first wanted. Overwrites all answers.
   HarnessShare harness_share(const accel::Accelerator& structure);
 
  protected:
@@ -71,6 +71,6 @@ class Task {
 
 /// The task of a group. `core` is to measure the harness's own time on (-1: any). Throws as
 /// `make_question`.
-std::unique_ptr<Task> make_task(const CellGroup& group, std::uint64_t scene_hash, int core);
+std::unique_ptr<Task> make_task(const CellGroup& group, int core);
 
 }  // namespace beambench::bench

@@ -1,6 +1,5 @@
 // beambench census: how many rays of which kind the whole ray tracer takes.
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -11,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/base/counted.hpp"
+#include "harness/base/stopwatch.hpp"
 #include "harness/cli/census_result.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
@@ -38,14 +38,8 @@ struct Request {
   bool json = false;
 };
 
-using Clock = std::chrono::steady_clock;
-
-double milliseconds_since(Clock::time_point begin) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-}
-
 /// The eye's rays by the structure's own way for images, or one by one at the corners of pixels.
-accel::HitBuffer eye_hits(const accel::Accelerator& structure, const render::EyeRays& rays,
+accel::HitBuffer eye_hits(const accel::Accelerator& structure, const render::CameraRays& rays,
                           const accel::PrimaryRays* image) {
   accel::HitBuffer hits(rays.width, rays.height, rays.samples);
   if (image != nullptr) {
@@ -70,7 +64,7 @@ render::WhittedOptions options_of(const Request& request, const WhittedRequest& 
 
 /// The picture in the order that was asked for.
 render::WhittedPicture draw(const render::Whitted& tracer, const accel::Accelerator& structure,
-                            const accel::PrimaryRays& primary, const render::EyeRays& rays,
+                            const accel::PrimaryRays& primary, const render::CameraRays& rays,
                             const accel::HitBuffer& hits, const Request& request,
                             base::Progress& progress) {
   const render::ShadingOrder order = render::parse_shading_order(request.order);
@@ -85,16 +79,16 @@ render::WhittedPicture draw(const render::Whitted& tracer, const accel::Accelera
 
 /// The picture without `least_weight`, and how far the one with it is from it.
 FullPicture draw_full(const scenes::Scene& scene, const accel::Accelerator& structure,
-                      const rays::HitCheck& check, const render::EyeRays& rays,
+                      const rays::HitCheck& check, const render::CameraRays& rays,
                       const accel::HitBuffer& hits, const Request& request,
                       const render::Image& picture, base::Progress& progress) {
   WhittedRequest whitted = request.whitted;
   whitted.least_weight = 0.0;
   progress.start(fmt::format("{} without --least-weight", scene.name));
   const render::Whitted tracer(scene, structure, options_of(request, whitted), check);
-  const Clock::time_point begin = Clock::now();
+  const base::Stopwatch stopwatch;
   const render::WhittedPicture full = watched_picture(tracer, rays, hits, whitted, progress);
-  const double picture_ms = milliseconds_since(begin);
+  const double picture_ms = stopwatch.milliseconds();
   progress.finish(fmt::format("{} rays", full.census.all_rays()));
   return {full.census.all_rays(), picture_ms, render::root_mean_square_error(picture, full.image)};
 }
@@ -109,23 +103,24 @@ CensusResult take_census(const Request& request, const std::string& name,
   progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
 
   CensusResult result{scene.name, scene.lights.size(), {}, 0, 0, 0, 0, 0, {}};
-  const Clock::time_point all = Clock::now();
-  Clock::time_point begin = all;
+  const base::Stopwatch all;
+  base::Stopwatch stopwatch;
   const auto structure = choice.build(scene, rays::workload_of(image, primary));
-  result.build_ms = milliseconds_since(begin);
-  const render::EyeRays rays = spd ? render::corner_rays(image.camera) : render::eye_rays(primary);
-  begin = Clock::now();
+  result.build_ms = stopwatch.milliseconds();
+  const render::CameraRays rays =
+      spd ? render::corner_rays(image.camera) : render::camera_rays(primary);
+  stopwatch = {};
   const accel::HitBuffer hits = eye_hits(*structure, rays, spd ? nullptr : &primary);
-  result.eye_ms = milliseconds_since(begin);
+  result.eye_ms = stopwatch.milliseconds();
   const rays::HitCheck check(scene, choice);
   check.require(hits, rays.ray);
-  begin = Clock::now();
+  stopwatch = {};
   const render::Whitted tracer(scene, *structure, options_of(request, request.whitted), check);
-  result.preparation_ms = milliseconds_since(begin);
-  begin = Clock::now();
+  result.preparation_ms = stopwatch.milliseconds();
+  stopwatch = {};
   const render::WhittedPicture picture =
       draw(tracer, *structure, primary, rays, hits, request, progress);
-  result.picture_ms = milliseconds_since(begin);
+  result.picture_ms = stopwatch.milliseconds();
   result.census = picture.census;
   result.shadow_bytes = tracer.shadows().memory_bytes();
   if (!request.pictures.empty()) {
@@ -133,7 +128,7 @@ CensusResult take_census(const Request& request, const std::string& name,
                         picture.image);
   }
   progress.finish(fmt::format("{} rays in {}", picture.census.all_rays(),
-                              base::format_duration(1e-3 * milliseconds_since(all))));
+                              base::format_duration(all.seconds())));
   if (request.whitted.least_weight > 0.0) {
     result.full = draw_full(scene, *structure, check, rays, hits, request, picture.image, progress);
   }

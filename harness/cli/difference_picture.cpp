@@ -15,7 +15,8 @@ namespace {
 
 /// From the least grave to the gravest; the position is the category in the map, agreement aside.
 constexpr std::array kByGravity{verify::DiffClass::kTie, verify::DiffClass::kGraze,
-                                verify::DiffClass::kEmbreeError, verify::DiffClass::kEngineError};
+                                verify::DiffClass::kEmbreeError,
+                                verify::DiffClass::kStructureError};
 
 std::uint8_t category_of(verify::DiffClass diff_class) {
   const auto found = std::find(kByGravity.begin(), kByGravity.end(), diff_class);
@@ -83,9 +84,9 @@ verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::Tra
                                      const rays::TraceResults& results) {
   std::vector<std::optional<accel::embree::ExactHit>> hits(input.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const verify::Mismatch asked = verify::ask_again(input, results, i, std::nullopt);
-    if (asked.engine && !verify::is_nonsense(scene, asked.ray, *asked.engine)) {
-      hits[i] = accel::embree::ExactHit{asked.engine->t, asked.engine->primitive};
+    const verify::Mismatch asked = verify::candidate_mismatch(input, results, i, std::nullopt);
+    if (asked.answer && !verify::is_invalid(scene, asked.ray, *asked.answer)) {
+      hits[i] = accel::embree::ExactHit{asked.answer->t, asked.answer->primitive};
     }
   }
   return {scene, input, std::move(hits)};

@@ -11,7 +11,7 @@ namespace beambench::cli {
 
 /// Who was compared with whom.
 struct ComparedNames {
-  std::string judged;     ///< whose errors are `DiffClass::kEngineError`
+  std::string judged;     ///< whose errors are `DiffClass::kStructureError`
   std::string reference;  ///< whose errors are `DiffClass::kEmbreeError`
 };
 

@@ -1,7 +1,6 @@
 // beambench mirrors: what planar mirrors show, by beams and by individual reflected rays.
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +10,7 @@
 
 #include "accel/beam/mirror_beams.hpp"
 #include "harness/base/counted.hpp"
+#include "harness/base/stopwatch.hpp"
 #include "harness/bench/record/robust_statistics.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
@@ -43,11 +43,9 @@ template <class Work>
 double median_ms(int repetitions, Work work) {
   std::vector<double> times;
   for (int i = 0; i < repetitions; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
+    const base::Stopwatch stopwatch;
     work();
-    times.push_back(
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
-            .count());
+    times.push_back(stopwatch.milliseconds());
   }
   return bench::median(times);
 }

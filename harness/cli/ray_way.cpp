@@ -169,7 +169,7 @@ bool same(const std::optional<accel::Hit>& a, const std::optional<accel::Hit>& b
 
 std::string alone_text(const RayWay& way) {
   if (!way.asked_all || way.judgment.query == rays::Query::kAnyHit) return "";
-  if (same(way.alone, way.judgment.engine)) return "";
+  if (same(way.alone, way.judgment.answer)) return "";
   return fmt::format("  alone  {}: asked without the other rays\n",
                      way.alone
                          ? fmt::format("primitive {} at t = {}", way.alone->primitive, way.alone->t)
@@ -285,16 +285,16 @@ nlohmann::ordered_json to_json(const scenes::Scene& scene, const RayWay& way) {
   out["steps"] = Json::array();
   out["counters"] = way.counters;
   if (judgment.query == rays::Query::kAnyHit) {
-    out["any_hit"] = judgment.engine_any_hit;
+    out["any_hit"] = judgment.any_hit_answer;
   } else {
-    out["hit"] = hit_json(judgment.engine);
+    out["hit"] = hit_json(judgment.answer);
   }
   out["hit_alone"] = hit_json(way.alone);
   out["asked_all"] = way.asked_all;
   out["oracle"] = hit_json(judgment.oracle);
   Account account(scene, ray);
   for (const accel::TraceStep& step : way.steps) out["steps"].push_back(step_json(step, account));
-  if (judgment.adjudicated) out["exact"] = hit_json(judgment.exact);
+  if (judgment.searched) out["exact"] = hit_json(judgment.exact);
   out["class"] = verify::kDiffClassNames[static_cast<std::size_t>(judgment.diff_class)];
   out["reason"] = judgment.reason;
   return out;

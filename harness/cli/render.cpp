@@ -91,7 +91,7 @@ render::Image shaded(const Request& request, const accel::StructureChoice& choic
   const render::Whitted tracer(scene, accelerator, whitted_options(request.whitted),
                                rays::HitCheck(scene, choice));
   render::Image image =
-      watched_picture(tracer, render::eye_rays(rays), hits, request.whitted, progress).image;
+      watched_picture(tracer, render::camera_rays(rays), hits, request.whitted, progress).image;
   if (request.exposure != 0.0) render::expose(image, request.exposure);
   return image;
 }
@@ -162,13 +162,14 @@ std::string compare(const Request& request, const accel::StructureChoice& choice
   const verify::ReferenceHits reference = find_reference(request, scene, rays);
   std::vector<verify::DiffClass> classes(rays.count());
   const verify::DiffReport report =
-      verify::judge(reference, results, accel::Conformance::kTolerance, classes);
+      verify::verify_results(reference, results, accel::Conformance::kTolerance, classes);
   write_difference(request.file, reference, classes, {choice.short_label(), request.difference});
-  return fmt::format(
-      "{} of {} rays differ from {}: {} ties, {} grazes, {} wrong, {} wrong there",
-      report.rays - report.count(verify::DiffClass::kAgree), report.rays, request.difference,
-      report.count(verify::DiffClass::kTie), report.count(verify::DiffClass::kGraze),
-      report.count(verify::DiffClass::kEngineError), report.count(verify::DiffClass::kEmbreeError));
+  return fmt::format("{} of {} rays differ from {}: {} ties, {} grazes, {} wrong, {} wrong there",
+                     report.rays - report.count(verify::DiffClass::kAgree), report.rays,
+                     request.difference, report.count(verify::DiffClass::kTie),
+                     report.count(verify::DiffClass::kGraze),
+                     report.count(verify::DiffClass::kStructureError),
+                     report.count(verify::DiffClass::kEmbreeError));
 }
 
 /// Any structure draws the same plain picture; the others show what one of them does.

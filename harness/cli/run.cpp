@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "harness/base/counted.hpp"
+#include "harness/bench/record/run_folder.hpp"
 #include "harness/bench/sweep_run.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/interruption.hpp"
@@ -35,12 +36,12 @@ std::filesystem::path config_path(const RunRequest& request) {
   throw InputError(
       "no configuration given; name a sweep's JSON file, such as "
       "harness/bench/sweeps/default.json, or "
-      "go on with a run by --resume DIR");
+      "resume a run with --resume DIR");
 }
 
-bench::SweepOptions options_of(const RunRequest& request) {
+bench::SweepOptions options_of(const RunRequest& request, plugin::Activity& activity) {
   bench::SweepOptions options;
-  options.flags = bench::parse_benchmark_flags(request.benchmark_flags);
+  options.activity = &activity;
   options.resume = !request.resume.empty();
   if (options.resume) options.folder = request.resume;
   if (!request.output.empty()) options.folder = request.output;
@@ -79,7 +80,7 @@ int report(const bench::SweepOutcome& outcome) {
     fmt::print(stderr, "{} of {} have no times: their hits were not right\n", outcome.failed,
                base::counted(outcome.cells, "cell"));
   } else if (outcome.without_rays < outcome.cells) {
-    fmt::print(stderr, "{}, all judged right\n",
+    fmt::print(stderr, "{}, all verified\n",
                base::counted(outcome.cells - outcome.without_rays, "cell"));
   }
   if (outcome.without_rays > 0) {
@@ -96,28 +97,28 @@ std::string resume_command(const std::filesystem::path& folder) {
                      shell_quoted(folder.string()));
 }
 
-/// Runs the sweep so that, however it is cut off, its end says how to go on.
+/// Runs the sweep so that, however it is cut off, its last line states how to resume it.
 bench::SweepOutcome run_resumable(const bench::SweepConfig& config, bench::Plan plan,
                                   const bench::GoogleBenchmark& benchmark,
                                   bench::SweepOptions options, plugin::Activity& activity,
                                   Interruption& interruption) {
-  std::string go_on;
+  std::string resume;
   options.begun = [&](const std::filesystem::path& folder) {
-    go_on = resume_command(folder);
+    resume = resume_command(folder);
     activity.write(plugin::Activity::Line::kRunFolder, folder.string());
     interruption.set_last_line(
-        fmt::format("interrupted; every finished cell is kept, go on with: {}", go_on));
+        fmt::format("interrupted; every finished cell is kept, resume with: {}", resume));
   };
   try {
     return bench::run_sweep(config, std::move(plan), benchmark, options, stderr);
   } catch (const InputError& error) {
-    if (go_on.empty()) throw;
-    throw InputError(fmt::format("{}; then go on with: {}", error.what(), go_on));
+    if (resume.empty()) throw;
+    throw InputError(fmt::format("{}; then resume with: {}", error.what(), resume));
   }
 }
 
-/// Where a plug-in broke the process down over a cell, this one goes on behind it.
-void go_on_behind_broken_cells(RunRequest& request, const plugin::Activity& activity) {
+/// Where a plug-in crashed an earlier process over a cell, this one continues behind it.
+void continue_behind_crashed_cells(RunRequest& request, const plugin::Activity& activity) {
   if (activity.broken_cells().empty()) return;
   request.config.clear();
   request.output.clear();
@@ -126,30 +127,26 @@ void go_on_behind_broken_cells(RunRequest& request, const plugin::Activity& acti
 
 int run(RunRequest request, plugin::Activity& activity) {
   Interruption interruption("interrupted; nothing was measured yet");
-  go_on_behind_broken_cells(request, activity);
-  bench::SweepOptions options = options_of(request);
-  options.broken_cells = activity.broken_cells();
-  options.at_work = [&](std::string_view cell) {
-    activity.write(plugin::Activity::Line::kCell, cell);
-  };
-  for (const std::string& note : options.flags.notes) fmt::print(stderr, "{}\n", note);
+  continue_behind_crashed_cells(request, activity);
+  const bench::BenchmarkFlags flags = bench::parse_benchmark_flags(request.benchmark_flags);
+  for (const std::string& note : flags.notes) fmt::print(stderr, "{}\n", note);
   bench::SweepConfig config = bench::read_sweep(config_path(request), accel::registry());
-  if (options.flags.repetitions) override_repetitions(config, *options.flags.repetitions);
-  const bench::GoogleBenchmark benchmark(options.flags);
+  if (flags.repetitions) override_repetitions(config, *flags.repetitions);
+  const bench::GoogleBenchmark benchmark(flags);
   bench::Plan plan = selected_plan(config, benchmark);
-  if (request.dry_run || options.flags.list) {
+  if (request.dry_run || flags.list) {
     for (const std::string& name : cell_names(plan)) fmt::print("{}\n", name);
     return base::kSuccess;
   }
-  return report(run_resumable(config, std::move(plan), benchmark, std::move(options), activity,
-                              interruption));
+  return report(run_resumable(config, std::move(plan), benchmark, options_of(request, activity),
+                              activity, interruption));
 }
 
 }  // namespace
 
 void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity) {
-  CLI::App* command =
-      app.add_subcommand("run", "Measure a sweep: times of structures whose hits are judged right");
+  CLI::App* command = app.add_subcommand(
+      "run", "Measure a sweep: a time is reported only when the hits are correct");
   const auto request = std::make_shared<RunRequest>();
   command->add_option("CONFIG", request->config, "The sweep's JSON file");
   CLI::Option* output =
@@ -157,7 +154,7 @@ void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity) 
                           "Folder for the record (default: results/runs/<time>-<name>)");
   command
       ->add_option("--resume", request->resume,
-                   "Go on with the run in this folder; finished cells are not repeated")
+                   "Resume the run in this folder; finished cells are not repeated")
       ->excludes(output);
   command->add_flag("--dry-run", request->dry_run, "Print the names of the cells and stop");
   command->allow_extras();

@@ -1,7 +1,6 @@
 #include "harness/cli/scene_growth.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -14,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/base/progress.hpp"
+#include "harness/base/stopwatch.hpp"
 #include "harness/cli/text.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
@@ -75,10 +75,10 @@ Row measure(const Growing& growing, std::int64_t size) {
   auto given = growing.spec.parameters;
   given.emplace_back(growing.size.name, fmt::format("{}", size));
   const Parameters parameters(growing.info.name, growing.info.parameters, given);
-  const auto begin = std::chrono::steady_clock::now();
+  const base::Stopwatch stopwatch;
   const scenes::Scene scene = growing.info.generate(parameters);
-  const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-  return {scene.name, size, scene.primitives.size(), scenes::memory_bytes(scene), time.count()};
+  const double seconds = stopwatch.seconds();
+  return {scene.name, size, scene.primitives.size(), scenes::memory_bytes(scene), seconds};
 }
 
 /// The sizes of a scene of which nobody has said how fast it grows. Between two sizes, and a little

@@ -139,12 +139,12 @@ int trace(const Request& request) {
     progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
     watched_ask(*accelerator, input, results, 1, progress);
   }
-  way.judgment = verify::ask_again(input, results, index, oracle.closest_hit(ray));
-  verify::judge_ray(scene, choice.info().conformance, way.judgment);
+  way.judgment = verify::candidate_mismatch(input, results, index, oracle.closest_hit(ray));
+  verify::verify_ray(scene, choice.info().conformance, way.judgment);
 
   fmt::print("{}", request.json ? to_json(scene, way).dump(2) + '\n' : to_text(scene, way));
-  return way.judgment.diff_class == verify::DiffClass::kEngineError ? base::kMismatch
-                                                                    : base::kSuccess;
+  return way.judgment.diff_class == verify::DiffClass::kStructureError ? base::kMismatch
+                                                                       : base::kSuccess;
 }
 
 }  // namespace

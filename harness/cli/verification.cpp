@@ -10,6 +10,7 @@
 #include "harness/cli/difference_picture.hpp"
 #include "harness/cli/picture_folder.hpp"
 #include "harness/cli/watched_ask.hpp"
+#include "harness/plugin/load_plugin.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/describe.hpp"
@@ -49,14 +50,14 @@ void compare_bits(const rays::TraceInput& input, const rays::TraceResults& resul
   cell.bits_reference = reference.label;
   for (std::size_t i = 0; i < input.size(); ++i) {
     if (same_bits(results, reference.results, i)) continue;
-    classes[i] = verify::DiffClass::kEngineError;
+    classes[i] = verify::DiffClass::kStructureError;
     if (cell.different_bits++ > 0) continue;
     cell.disputes.push_back(fmt::format(
         "{}: {} found {}, {} found {}; a bit-exact structure must find the same\n  replay {}\n",
         rays::place_text(input, i), cell.label, show(results, i), reference.label,
         show(reference.results, i), replay.of(i)));
   }
-  if (cell.different_bits > 0) cell.verdict = verify::to_string(verify::Verdict::kMismatch);
+  if (cell.different_bits > 0) cell.verdict = verify::Verdict::kMismatch;
 }
 
 /// Ties are no dispute, and grazes only where there are too many of them.
@@ -89,10 +90,11 @@ class SceneVerifier {
         choice.build(view_.scene, rays::workload_of(view_.image, view_.input, view_.threads));
     rays::TraceResults results = rays::make_results(view_.input);
     watched_ask(*accelerator, view_.input, results, view_.threads, progress_);
-    const verify::ReplayCommand replay(view_.scene, view_.image, choice, view_.input);
+    const verify::ReplayCommand replay(plugin::program_call(), view_.scene, view_.image, choice,
+                                       view_.input);
     std::vector<verify::DiffClass> classes(view_.input.size());
-    cell.report = verify::judge(reference_, results, choice.info().conformance, classes);
-    cell.verdict = verify::to_string(cell.report->verdict);
+    cell.report = verify::verify_results(reference_, results, choice.info().conformance, classes);
+    cell.verdict = cell.report->verdict;
     cell.disputes = describe_disputes(view_, *cell.report, replay);
     if (choice.info().conformance == accel::Conformance::kBitExact) {
       if (bits_) {
@@ -117,7 +119,7 @@ class SceneVerifier {
 };
 
 void fail(VerifiedCell& cell, const std::exception& error) {
-  cell.verdict = "error";
+  cell.verdict = verify::Verdict::kError;
   cell.message = error.what();
 }
 
@@ -155,8 +157,9 @@ std::vector<VerifiedCell> verify_each(const scenes::Scene& scene, const std::str
     } catch (const rays::InvalidHit& error) {  // nothing can be traced on from there
       fail(cell, error);
     }
-    progress.finish(cell.message.empty() ? cell.verdict
-                                         : fmt::format("{}: {}", cell.verdict, cell.message));
+    const std::string_view verdict = verify::to_string(cell.verdict);
+    progress.finish(cell.message.empty() ? std::string(verdict)
+                                         : fmt::format("{}: {}", verdict, cell.message));
   }
   return cells;
 }
@@ -177,15 +180,16 @@ std::vector<VerifiedCell> cells_without_rays(const scenes::Scene& scene, const s
                                              base::Progress& progress, const std::string& why) {
   return verify_each(scene, rays, std::move(contenders), progress,
                      [&](const accel::StructureChoice&, VerifiedCell& cell) {
-                       cell.verdict = verify::kNoRays;
+                       cell.verdict = verify::Verdict::kNoRays;
                        cell.message = why;
                      });
 }
 
 nlohmann::ordered_json to_json(const VerifiedCell& cell) {
-  nlohmann::ordered_json out{{"scene", cell.scene},           {"ray_kind", cell.rays},
-                             {"primitives", cell.primitives}, {"structure", cell.structure},
-                             {"parameters", cell.parameters}, {"verdict", cell.verdict}};
+  nlohmann::ordered_json out{
+      {"scene", cell.scene},           {"ray_kind", cell.rays},
+      {"primitives", cell.primitives}, {"structure", cell.structure},
+      {"parameters", cell.parameters}, {"verdict", verify::to_string(cell.verdict)}};
   if (!cell.message.empty()) out["message"] = cell.message;
   if (cell.report) {
     out["rays"] = cell.report->rays;

@@ -28,13 +28,13 @@ struct VerifiedCell {
   std::vector<std::string> disputes;         ///< rays described, errors first
   std::string bits_reference;                ///< whose bits it was compared with; empty: nobody's
   std::uint64_t different_bits = 0;          ///< rays whose answer differs from the reference's
-  std::string verdict;            ///< a Verdict's name, "error": it could not be built, kNoRays
+  verify::Verdict verdict = verify::Verdict::kError;
   std::string message;            ///< why nothing was judged
   std::filesystem::path picture;  ///< of the differences; empty: none was made
 
-  bool has_rays() const { return verdict != verify::kNoRays; }
+  bool has_rays() const { return verdict != verify::Verdict::kNoRays; }
   /// Was nothing found to be wrong?
-  bool passed() const { return verdict == "ok" || verdict == "baseline" || !has_rays(); }
+  bool passed() const { return verify::is_right(verdict) || !has_rays(); }
 };
 
 /// What the contenders over a scene are asked. The scene outlives it.

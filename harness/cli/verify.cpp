@@ -47,7 +47,7 @@ std::string bits_text(const VerifiedCell& cell) {
 
 std::string table_text(const std::vector<VerifiedCell>& cells) {
   TextTable table({"scene", "ray kind", "structure", "rays", "hits", "agree", "tie", "graze",
-                   "engine error", "embree error", "bits", "verdict"},
+                   "structure error", "embree error", "bits", "verdict"},
                   3);
   for (const VerifiedCell& cell : cells) {
     std::vector<std::string> row{cell.scene, cell.rays, cell.label};
@@ -59,7 +59,7 @@ std::string table_text(const std::vector<VerifiedCell>& cells) {
       row.resize(row.size() + 2 + verify::kDiffClassNames.size(), "-");
     }
     row.push_back(bits_text(cell));
-    row.push_back(cell.verdict);
+    row.emplace_back(verify::to_string(cell.verdict));
     table.add(std::move(row));
   }
   return table.text();
@@ -201,7 +201,8 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       "same\n"
       "primitive at the same place; tie: another primitive at the same place; graze: the ray "
       "passes\n"
-      "a boundary within rounding; engine error, embree error: one of both is wrong, as a search "
+      "a boundary within rounding; structure error, embree error: one of both is wrong, as a "
+      "search "
       "of\n"
       "all primitives in long double finds. bits: do bit-exact structures repeat exhaustive, or\n"
       "the first of them? Exits with 1 unless every verdict is ok (baseline for 'null'; no_rays "

@@ -31,11 +31,12 @@ class PictureVerifier {
         scene_, *structure, rays_, std::move(hits), options_, rays::HitCheck(scene_, choice));
     if (choice.info().conformance == accel::Conformance::kBitExact)
       compare_bits(picture.image, cell);
-    const auto judged = render::judge_picture(eye_, std::move(picture), choice.info().conformance);
+    const auto judged =
+        render::verify_recorded_picture(eye_, std::move(picture), choice.info().conformance);
     cell.report = render::sum_of(judged);
     if (cell.different_bits > 0) cell.report->verdict = verify::Verdict::kMismatch;
-    cell.verdict = verify::to_string(cell.report->verdict);
-    for (const render::JudgedRays& rays : judged) describe_disputes(rays, cell);
+    cell.verdict = cell.report->verdict;
+    for (const render::VerifiedRays& rays : judged) describe_disputes(rays, cell);
   }
 
  private:
@@ -54,7 +55,7 @@ class PictureVerifier {
         cell.different_bits, image.pixels().size(), bits_->first));
   }
 
-  void describe_disputes(const render::JudgedRays& rays, VerifiedCell& cell) const {
+  void describe_disputes(const render::VerifiedRays& rays, VerifiedCell& cell) const {
     if (verify::is_right(rays.report.verdict)) return;
     for (const verify::Mismatch& example : rays.report.examples) {
       cell.disputes.push_back(

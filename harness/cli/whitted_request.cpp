@@ -36,9 +36,9 @@ render::WhittedOptions whitted_options(const WhittedRequest& request) {
   return {request.max_depth, request.least_weight, render::parse_shadow_method(request.shadows)};
 }
 
-render::WhittedPicture watched_picture(const render::Whitted& tracer, const render::EyeRays& rays,
-                                       const accel::HitBuffer& hits, const WhittedRequest& request,
-                                       base::Progress& progress) {
+render::WhittedPicture watched_picture(const render::Whitted& tracer,
+                                       const render::CameraRays& rays, const accel::HitBuffer& hits,
+                                       const WhittedRequest& request, base::Progress& progress) {
   std::optional<tbb::global_control> limit;
   if (request.threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism,

@@ -26,8 +26,8 @@ void add_whitted_options(CLI::App& command, WhittedRequest& request);
 render::WhittedOptions whitted_options(const WhittedRequest& request);
 
 /// `whitted_picture` on as many threads as asked for, with progress.
-render::WhittedPicture watched_picture(const render::Whitted& tracer, const render::EyeRays& rays,
-                                       const accel::HitBuffer& hits, const WhittedRequest& request,
-                                       base::Progress& progress);
+render::WhittedPicture watched_picture(const render::Whitted& tracer,
+                                       const render::CameraRays& rays, const accel::HitBuffer& hits,
+                                       const WhittedRequest& request, base::Progress& progress);
 
 }  // namespace beambench::cli

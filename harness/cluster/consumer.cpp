@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/cluster/cpu_timer.hpp"
+#include "harness/base/stopwatch.hpp"
 #include "harness/cluster/parcel.hpp"
 
 namespace beambench::cluster {
@@ -58,7 +58,7 @@ void Consumer::do_parcel(const Message& message) {
   last_sent_ = transport_->seconds();
   for (const ParcelItem& task : tasks.items()) {
     const double before = transport_->seconds();
-    const CpuTimer timer;
+    const base::CpuStopwatch timer;
     worker_->perform(task.bytes, results.begin_item(), pulse);
     const double seconds = timer.seconds();
     results.end_item(static_cast<float>(seconds));

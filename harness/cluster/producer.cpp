@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "harness/base/stopwatch.hpp"
 #include "harness/cluster/consumer.hpp"
-#include "harness/cluster/cpu_timer.hpp"
 
 namespace beambench::cluster {
 
@@ -88,7 +88,7 @@ bool Producer::make_parcel() {
   while (parcel.items() < options_.batch) {
     Bytes& bytes = parcel.begin_item();
     const std::size_t begin = bytes.size();
-    const CpuTimer timer;
+    const base::CpuStopwatch timer;
     const bool more = source_->next(bytes);
     const double seconds = timer.seconds();
     report_.walk_seconds += seconds;
@@ -147,7 +147,7 @@ void Producer::do_here(Number number) {
   for (const ParcelItem& item : reader.items()) {
     result.clear();
     const double before = transport_->seconds();
-    const CpuTimer timer;
+    const base::CpuStopwatch timer;
     own_->perform(item.bytes, result, [] {});
     const double seconds = timer.seconds();
     of(kProducer).busy_seconds += transport_->seconds() - before;
@@ -210,7 +210,7 @@ void Producer::take_results(const Message& message) {
 }
 
 void Producer::take_result(std::size_t task, ProcessId from, const ParcelItem& result) {
-  const CpuTimer timer;
+  const base::CpuStopwatch timer;
   const std::size_t samples = sink_->accept(result.bytes);
   TaskReport& row = report_.tasks.at(task);
   row.accept_seconds = timer.seconds();

@@ -50,7 +50,7 @@ class SampleColors {
     const accel::Ray ray =
         rays_->ray(static_cast<int>(pixel % width), static_cast<int>(pixel / width),
                    static_cast<int>(index % samples));
-    return tracer_->eye_color(ray, hits_->get(index), *progress_);
+    return tracer_->camera_ray_color(ray, hits_->get(index), *progress_);
   }
 
  private:

@@ -6,8 +6,8 @@
 #include <unistd.h>
 
 #include "accel/core/registry.hpp"
+#include "harness/base/stopwatch.hpp"
 #include "harness/cli/inputs.hpp"
-#include "harness/cluster/cpu_timer.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 
@@ -18,7 +18,7 @@ Studio::Studio(const Job& job, std::vector<std::string>* warnings)
   const rays::ImageOfRays image = job_image(job, scene_);
   rays_.emplace(image.camera, image.resolution.width, image.resolution.height, image.samples);
   const accel::StructureChoice choice = cli::choose_one("--accel", job.structure);
-  const CpuTimer timer;
+  const base::CpuStopwatch timer;
   structure_ = choice.build(scene_, rays::workload_of(image, *rays_));
   build_seconds_ = timer.seconds();
   tracer_ = dynamic_cast<const accel::beam::BeamTracer*>(structure_.get());

@@ -1,12 +1,12 @@
 #include "harness/experiments/compare_sampling.hpp"
 
 #include <array>
-#include <chrono>
 #include <functional>
 #include <optional>
 
 #include <fmt/format.h>
 
+#include "harness/base/stopwatch.hpp"
 #include "harness/bench/record/robust_statistics.hpp"
 #include "harness/experiments/image_space_sampling.hpp"
 #include "harness/experiments/sparse_image.hpp"
@@ -85,10 +85,9 @@ class Sampler {
 
   template <class Work>
   static double timed(Work work) {
-    const auto begin = std::chrono::steady_clock::now();
+    const base::Stopwatch stopwatch;
     work();
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
-        .count();
+    return stopwatch.milliseconds();
   }
 
   const accel::beam::BeamTracer* tracer_;

@@ -21,7 +21,7 @@ class PaintedPlaces : public accel::beam::NoBeamWatch {
   std::vector<std::size_t> take() && { return std::move(places_); }
 
  private:
-  /// A beam finds its samples lattice by lattice, and those that hit before those that go on.
+  /// A beam finds its samples lattice by lattice, and those that hit before the others.
   void end_beam() {
     std::sort(places_.begin() + static_cast<std::ptrdiff_t>(begin_), places_.end());
     begin_ = places_.size();

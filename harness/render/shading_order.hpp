@@ -22,7 +22,7 @@ ShadingOrder parse_shading_order(std::string_view name);
 /// The places in the hit buffer of all samples along the rows.
 std::vector<std::size_t> scan_order(const accel::PrimaryRays& rays);
 
-/// The same places as beams decide them: those of a beam stand together, along the rows; then those
+/// The same places as beams decide them: those of a beam are together, along the rows; then those
 /// that no beam at an occupied leaf had. Throws InputError for a structure that traces no beams.
 std::vector<std::size_t> beam_order(const accel::Accelerator& structure,
                                     const accel::PrimaryRays& rays);

@@ -23,7 +23,7 @@ struct LitBox {
 };
 
 /// Wide enough for all that rounding does: a hit may lie beside its primitive, and a shadow ray,
-/// whose numbers are floats, beside the straight way to the light.
+/// whose numbers are floats, beside the straight line to the light.
 LitBox lit_box(const scenes::Scene& scene, scenes::PrimitiveId id, const dvec3& light) {
   const double size = scene.bounds.largest_coordinate() + glm::length(light);
   const double slack = accel::overlap_tolerance(scene) + 0x1p-20 * size;
@@ -40,8 +40,8 @@ struct Range {
   double high;
 };
 
-/// The least size of a number of a range.
-double least_size(const Range& range) { return std::max({range.low, -range.high, 0.0}); }
+/// The smallest magnitude in a range.
+double min_magnitude(const Range& range) { return std::max({range.low, -range.high, 0.0}); }
 
 /// What a range of one coordinate, divided by depths, covers of a face, which is [-1, 1].
 Range projected(const Range& range, const Range& depth) {
@@ -72,7 +72,8 @@ void visit_cells(const LitBox& box, int cells, Visit visit) {
     const Range u_range{box.low[(axis + 1) % 3], box.high[(axis + 1) % 3]};
     const Range v_range{box.low[(axis + 2) % 3], box.high[(axis + 2) % 3]};
     // Only what is deeper than it is far aside is seen through this face.
-    const Range depth{std::max({along.low, least_size(u_range), least_size(v_range)}), along.high};
+    const Range depth{std::max({along.low, min_magnitude(u_range), min_magnitude(v_range)}),
+                      along.high};
     if (depth.low > depth.high) continue;
     const Range u = projected(u_range, depth);
     const Range v = projected(v_range, depth);
@@ -206,7 +207,7 @@ double Shadows::asked_by_cache(const accel::Ray& to_light, scenes::PrimitiveId& 
     ++census.shadow_queries;
     if (!structure_->any_hit(to_light, nullptr)) return 1.0;
   }
-  return followed(to_light, last, census);  // any_hit does not tell which primitive it was
+  return followed(to_light, last, census);  // any_hit does not return which primitive it was
 }
 
 double Shadows::asked_by_buffer(const accel::Ray& to_light, std::size_t light,
@@ -220,9 +221,9 @@ double Shadows::asked_by_buffer(const accel::Ray& to_light, std::size_t light,
   return answer == LightBuffer::Answer::kHidden ? 0.0 : 1.0;
 }
 
-/// Goes from surface to surface, each time on from a little behind it, as all rays begin a little
-/// beside surfaces; where it ends at an opaque one, that is the `blocker`. With an any-hit query
-/// beforehand, pictures of `gears`, `mount` and `finishes` took 1.01 to 1.25 times as long.
+/// Goes from surface to surface, each time from a little behind it, as all rays begin a little
+/// beside surfaces; an opaque one at its end is the `blocker`. With an any-hit query beforehand,
+/// pictures of `gears`, `mount` and `finishes` took 1.01 to 1.25 times as long.
 double Shadows::followed(const accel::Ray& to_light, scenes::PrimitiveId& blocker,
                          RayCensus& census) const {
   const glm::dvec3 direction(to_light.direction);

@@ -38,7 +38,7 @@ class LightBuffer {
 
  private:
   struct Entry {
-    double near;  ///< the least distance from the light
+    double near;  ///< the distance from the light
     scenes::PrimitiveId primitive;
   };
   std::size_t cell_of(const glm::dvec3& direction) const;
@@ -64,13 +64,13 @@ struct ShadowCache {
 /// of its own.
 class Shadows {
  public:
-  /// Makes light buffers where the options ask for them. Scene and structure must outlive this.
+  /// Builds light buffers where the options require them. Scene and structure must outlive this.
   Shadows(const scenes::Scene& scene, const accel::Accelerator& structure,
           const WhittedOptions& options, rays::HitCheck check);
 
   /// The part of a light that comes through: 0 behind an opaque primitive, the product of the
   /// transmittances of transparent surfaces before it, 1 where nothing is. `to_light` begins at a
-  /// point, `depth` rays from the eye (the eye's ray is 1), and has the light at t = 1. Throws
+  /// point, `depth` rays from the eye (the camera ray is 1), and has the light at t = 1. Throws
   /// InvalidHit.
   double transmitted(const accel::Ray& to_light, std::size_t light, int depth, ShadowCache& cache,
                      RayCensus& census) const;

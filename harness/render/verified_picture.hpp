@@ -1,5 +1,5 @@
 #pragma once
-// Whole pictures are right when every answer is that they rest on.
+// The verification of a whole picture: it is right when every answer is that it depends on.
 
 #include <array>
 #include <cstddef>
@@ -39,7 +39,7 @@ class CountedQueries : public accel::TraversalAccelerator<CountedQueries> {
   accel::WorkCounters& counters_;
 };
 
-/// Rays and what was answered, both kinds of queries in the order in which they were asked.
+/// Rays and their results, each kind of query in its order.
 struct AskedRays {
   std::vector<accel::Ray> closest;
   std::vector<std::optional<accel::Hit>> hits;  ///< of `closest`
@@ -47,7 +47,7 @@ struct AskedRays {
   std::vector<std::uint8_t> any_hits;  ///< of `any`
 };
 
-/// Writes down what the structure behind it is asked and answers.
+/// Records the queries and results of the structure behind it.
 class RecordedQueries : public accel::TraversalAccelerator<RecordedQueries> {
  public:
   RecordedQueries(const accel::Accelerator& structure, AskedRays& asked)
@@ -70,8 +70,8 @@ class RecordedQueries : public accel::TraversalAccelerator<RecordedQueries> {
   AskedRays& asked_;
 };
 
-/// Gives the answers that were written down, if the same is asked again: what is left of a time is
-/// all that is not the structure's.
+/// Returns recorded results to the same queries in the same order: what is left of a time is all
+/// that is not the structure's.
 class ReplayedAnswers : public accel::TraversalAccelerator<ReplayedAnswers> {
  public:
   explicit ReplayedAnswers(const AskedRays& asked) : asked_(asked) {}
@@ -113,40 +113,41 @@ class OracleQueries : public accel::TraversalAccelerator<OracleQueries> {
   const accel::embree::EmbreeOracle& oracle_;
 };
 
-/// The kinds of rays that follow the eye's.
-enum class FollowingRays : std::size_t { kReflected, kRefracted, kShadow, kCount };
-inline constexpr auto kFollowingRays = static_cast<std::size_t>(FollowingRays::kCount);
+/// The kinds of rays that follow camera rays.
+inline constexpr std::size_t kFollowingRays = 3;
 template <class Value>
 using ByFollowingRays = std::array<Value, kFollowingRays>;
 inline constexpr ByFollowingRays<std::string_view> kFollowingRayNames{"reflected", "refracted",
                                                                       "shadow"};
 
+/// A picture with all that a structure was asked for it.
 struct RecordedPicture {
-  accel::HitBuffer eye;  ///< what the eye's rays found
+  accel::HitBuffer primary;  ///< the hits of camera rays
   ByFollowingRays<AskedRays> asked;
   Image image;
   RayCensus census;
 };
 
-/// Draws the picture that `eye` begins, on this thread alone; some 50 bytes a ray. Throws
-/// InvalidHit.
+/// Draws the picture that the hits `primary` of `rays` begin, on this thread alone; some 50 bytes a
+/// ray. Throws InvalidHit.
 RecordedPicture record_picture(const scenes::Scene& scene, const accel::Accelerator& structure,
-                               const accel::PrimaryRays& rays, accel::HitBuffer eye,
+                               const accel::PrimaryRays& rays, accel::HitBuffer primary,
                                const WhittedOptions& options, rays::HitCheck check);
 
 /// The rays of one kind, and how they were answered.
-struct JudgedRays {
-  std::string_view kind;  ///< "eye", or one of kFollowingRayNames
+struct VerifiedRays {
+  std::string_view kind;  ///< "camera", or one of kFollowingRayNames
   rays::TraceInput input;
   verify::DiffReport report;
 };
 
-/// Judges every ray that the structure was asked for a picture, each kind (and query) as a list of
-/// its own; first the eye's, whose true hits are `eye`. Kinds that there are none of are left out.
-std::vector<JudgedRays> judge_picture(const verify::ReferenceHits& eye, RecordedPicture picture,
-                                      accel::Conformance conformance);
+/// Verifies every ray of a picture, each kind (and query) as a list of its own; first the camera
+/// rays, whose true hits are `primary`. Kinds without rays are left out.
+std::vector<VerifiedRays> verify_recorded_picture(const verify::ReferenceHits& primary,
+                                                  RecordedPicture picture,
+                                                  accel::Conformance conformance);
 
 /// All of them together: counts added up, the worst verdict, no examples.
-verify::DiffReport sum_of(const std::vector<JudgedRays>& judged);
+verify::DiffReport sum_of(const std::vector<VerifiedRays>& verified);
 
 }  // namespace beambench::render

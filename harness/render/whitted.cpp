@@ -47,7 +47,7 @@ std::optional<dvec3> refracted_inward(const dvec3& incoming, const dvec3& shadin
 
 }  // namespace
 
-/// Who answers a kind of rays, and where it is counted.
+/// The structure that traces a kind of rays, and where it is counted.
 struct Whitted::Kind {
   const accel::Accelerator* Answerers::*answerer;
   std::uint64_t RayCensus::*count;
@@ -85,8 +85,8 @@ Whitted::Progress Whitted::begin() const {
   return {ShadowCache(scene_->lights.size(), options_.max_depth), {}};
 }
 
-dvec3 Whitted::eye_color(const accel::Ray& ray, const std::optional<accel::Hit>& hit,
-                         Progress& progress) const {
+dvec3 Whitted::camera_ray_color(const accel::Ray& ray, const std::optional<accel::Hit>& hit,
+                                Progress& progress) const {
   ++progress.census.eye;
   if (hit) ++progress.census.eye_hits;
   return color_along(ray, hit, {}, progress);
@@ -162,8 +162,8 @@ dvec3 Whitted::reflected(const Place& at, const Path& path, double share,
                         mirrored_outward(at.incoming, at.shading, at.geometric), next, progress);
 }
 
-/// Whether a ray that meets glass goes into it: a sphere says so itself, of polygons and cones it
-/// follows from the surfaces that the ray has passed.
+/// Whether a ray that meets glass goes into it: of a sphere by the place of the point, of polygons
+/// and cones by the surfaces that the ray has passed.
 bool Whitted::enters(const Place& at, const Path& path) const {
   if (at.primitive->kind != scenes::PrimitiveKind::kSphere) return !path.inside;
   const dvec3 center(scene_->spheres[at.primitive->index].center);

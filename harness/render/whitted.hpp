@@ -17,7 +17,7 @@
 
 namespace beambench::render {
 
-/// Who answers which rays: one structure all of them, or others that watch what it is asked.
+/// The structure for each kind of rays: one for all, or others that watch its queries.
 struct Answerers {
   const accel::Accelerator* reflected;
   const accel::Accelerator* refracted;
@@ -31,7 +31,7 @@ struct Answerers {
 /// total reflection, where there is no such ray, for what the mirror ray sees.
 ///
 /// Colors of scenes are display values, as they were in 1987, and are decoded to linear light. A
-/// light without a color of its own (white) has 1 / sqrt(lights), as NFF says. All in double, in
+/// light without a color of its own (white) has 1 / sqrt(lights), as NFF has it. All in double, in
 /// one order: structures that return the same hits give the same bits.
 class Whitted {
  public:
@@ -52,10 +52,10 @@ class Whitted {
   };
   Progress begin() const;
 
-  /// Linear light along a ray of the eye that found `hit`. Throws InvalidHit for a hit that its ray
-  /// cannot have, this one or that of a ray that follows.
-  glm::dvec3 eye_color(const accel::Ray& ray, const std::optional<accel::Hit>& hit,
-                       Progress& progress) const;
+  /// Linear light along a camera ray that found `hit`. Throws InvalidHit where this hit or that of
+  /// a following ray is invalid.
+  glm::dvec3 camera_ray_color(const accel::Ray& ray, const std::optional<accel::Hit>& hit,
+                              Progress& progress) const;
 
   const Shadows& shadows() const { return shadows_; }
 

@@ -20,8 +20,8 @@ std::span<const std::string_view> shadow_method_names() { return kNames; }
 ShadowMethod parse_shadow_method(std::string_view name) {
   const auto found = std::find(kNames.begin(), kNames.end(), name);
   if (found == kNames.end()) {
-    throw InputError(fmt::format("unknown way of finding shadows '{}'; choose from: {}", name,
-                                 fmt::join(kNames, ", ")));
+    throw InputError(
+        fmt::format("unknown shadow method '{}'; choose from: {}", name, fmt::join(kNames, ", ")));
   }
   return static_cast<ShadowMethod>(found - kNames.begin());
 }

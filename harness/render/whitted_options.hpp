@@ -8,7 +8,7 @@
 
 namespace beambench::render {
 
-/// How it is found out whether a light is seen. All give the same picture, unless something opaque
+/// How the visibility of a light is decided. All give the same picture, unless something opaque
 /// lies no farther behind glass than rays begin beside surfaces (`lift_at`).
 enum class ShadowMethod {
   kRays,        ///< one any-hit query a light
@@ -22,7 +22,7 @@ std::span<const std::string_view> shadow_method_names();
 ShadowMethod parse_shadow_method(std::string_view name);
 
 struct WhittedOptions {
-  /// Rays behind one another, the eye's included: Haines's databases (SPD) say 5.
+  /// Maximum ray depth, the primary ray included: 5 in Haines's databases (SPD).
   int max_depth = 5;
   /// Adaptive depth control (Hall and Greenberg, "A testbed for realistic image synthesis", IEEE
   /// CG&A 3(8), 1983): a ray whose part in its pixel's color is less than this is not traced. 0
@@ -34,7 +34,7 @@ struct WhittedOptions {
   bool glass_always_mirrors = false;
 };
 
-/// Of a whole picture that is asked for as a kind of rays: `whitted:depth=3,shadows=cache`.
+/// Of a whole picture as a kind of rays: `whitted:depth=3,shadows=cache`.
 WhittedOptions whitted_options(const rays::RayChoice& choice);
 
 }  // namespace beambench::render

@@ -13,14 +13,15 @@ namespace {
 
 /// One row, left to right: the shadow cache begins anew, so that the census is the same however
 /// rows are shared among threads.
-RayCensus draw_row(const Whitted& tracer, const EyeRays& rays, const accel::HitBuffer& hits, int y,
-                   Image& image) {
+RayCensus draw_row(const Whitted& tracer, const CameraRays& rays, const accel::HitBuffer& hits,
+                   int y, Image& image) {
   Whitted::Progress progress = tracer.begin();
   const double share = 1.0 / rays.samples;
   for (int x = 0; x < rays.width; ++x) {
     glm::dvec3 sum(0.0);
     for (int sample = 0; sample < rays.samples; ++sample) {
-      sum += tracer.eye_color(rays.ray(x, y, sample), hits.get(hits.index(x, y, sample)), progress);
+      sum += tracer.camera_ray_color(rays.ray(x, y, sample), hits.get(hits.index(x, y, sample)),
+                                     progress);
     }
     image.at(x, y) = glm::vec3(share * sum);
   }
@@ -29,7 +30,7 @@ RayCensus draw_row(const Whitted& tracer, const EyeRays& rays, const accel::HitB
 
 }  // namespace
 
-WhittedPicture whitted_picture(const Whitted& tracer, const EyeRays& rays,
+WhittedPicture whitted_picture(const Whitted& tracer, const CameraRays& rays,
                                const accel::HitBuffer& hits, const PictureWatch& watch) {
   WhittedPicture picture{Image(rays.width, rays.height), {}};
   std::vector<RayCensus> rows(static_cast<std::size_t>(rays.height));
@@ -54,7 +55,7 @@ WhittedPicture whitted_picture(const Whitted& tracer, const EyeRays& rays,
 }
 
 WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const Whitted& tracer,
-                                     const EyeRays& rays, const accel::HitBuffer& hits,
+                                     const CameraRays& rays, const accel::HitBuffer& hits,
                                      const PictureWatch& watch) {
   constexpr std::size_t kBetweenLooks = 1 << 14;
   const auto samples = static_cast<std::size_t>(rays.samples);
@@ -67,7 +68,7 @@ WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const 
     const accel::Ray ray =
         rays.ray(static_cast<int>(pixel % width), static_cast<int>(pixel / width),
                  static_cast<int>(place % samples));
-    sums[pixel] += tracer.eye_color(ray, hits.get(place), progress);
+    sums[pixel] += tracer.camera_ray_color(ray, hits.get(place), progress);
     if (++done % kBetweenLooks == 0 && watch) {
       watch(static_cast<double>(done) / static_cast<double>(places.size()));
     }
@@ -81,7 +82,7 @@ WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const 
   return picture;
 }
 
-RayCensus draw_in_order(const Whitted& tracer, const EyeRays& rays, const accel::HitBuffer& hits,
+RayCensus draw_in_order(const Whitted& tracer, const CameraRays& rays, const accel::HitBuffer& hits,
                         Image& image) {
   RayCensus census;
   for (int y = 0; y < rays.height; ++y) census += draw_row(tracer, rays, hits, y, image);

@@ -15,7 +15,7 @@
 namespace beambench::render {
 
 /// width x height pixels of `samples` rays each; `ray(x, y, sample)`, (0, 0) being the top left.
-struct EyeRays {
+struct CameraRays {
   int width;
   int height;
   int samples;
@@ -23,14 +23,14 @@ struct EyeRays {
 };
 
 /// Those of an image. `rays` must outlive them.
-inline EyeRays eye_rays(const accel::PrimaryRays& rays) {
+inline CameraRays camera_rays(const accel::PrimaryRays& rays) {
   return {rays.width(), rays.height(), rays.samples(),
           [&rays](int x, int y, int sample) { return rays.ray(x, y, sample); }};
 }
 
 /// Those of Haines's Standard Procedural Databases: through the corners of 512 x 512 pixels, one
 /// sample for each of the 513 x 513 corners.
-inline EyeRays corner_rays(const scenes::Camera& camera) {
+inline CameraRays corner_rays(const scenes::Camera& camera) {
   constexpr int kPixels = 512;
   return {kPixels + 1, kPixels + 1, 1,
           [rays = accel::PrimaryRays(camera, kPixels, kPixels, 1)](int x, int y, int) {
@@ -43,24 +43,24 @@ struct WhittedPicture {
   RayCensus census;
 };
 
-/// Told from time to time, on the calling thread, how much is done (0 ... 1).
+/// Called from time to time, on the calling thread, with the part that is done (0 ... 1).
 using PictureWatch = std::function<void(double part)>;
 
 /// Each pixel is the mean of its samples. `hits` are the structure's answers to `rays`, found
-/// beforehand by whatever way it has for whole images (beams); what follows them goes ray by ray.
+/// beforehand by its query for whole images (beams); what follows them is traced ray by ray.
 /// Rows are shared among TBB's threads; picture and census do not depend on how many there are.
-WhittedPicture whitted_picture(const Whitted& tracer, const EyeRays& rays,
+WhittedPicture whitted_picture(const Whitted& tracer, const CameraRays& rays,
                                const accel::HitBuffer& hits, const PictureWatch& watch = {});
 
 /// The same picture (but for rounding, with several samples a pixel) with its samples shaded in the
 /// order of `places` in the hit buffer, each of which is there once: on this thread alone, with one
 /// shadow cache, which all that is counted of the cache depends on.
 WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const Whitted& tracer,
-                                     const EyeRays& rays, const accel::HitBuffer& hits,
+                                     const CameraRays& rays, const accel::HitBuffer& hits,
                                      const PictureWatch& watch = {});
 
 /// The same picture into `image`, which has its size, on this thread alone; returns its census.
-RayCensus draw_in_order(const Whitted& tracer, const EyeRays& rays, const accel::HitBuffer& hits,
+RayCensus draw_in_order(const Whitted& tracer, const CameraRays& rays, const accel::HitBuffer& hits,
                         Image& image);
 
 }  // namespace beambench::render

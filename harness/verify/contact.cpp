@@ -15,6 +15,29 @@ using glm::dvec3;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
+/// The line of a ray, in double and with a direction of unit length.
+struct RayLine {
+  explicit RayLine(const accel::Ray& ray)
+      : origin(ray.origin), direction(glm::normalize(dvec3(ray.direction))) {}
+
+  /// From the line to the point, perpendicular to the line.
+  dvec3 across(const dvec3& point) const {
+    const dvec3 offset = point - origin;
+    return offset - glm::dot(offset, direction) * direction;
+  }
+  double distance_to(const dvec3& point) const { return glm::length(across(point)); }
+  double distance_to_segment(const dvec3& from, const dvec3& to) const {
+    const dvec3 a = across(from);
+    const dvec3 edge = across(to) - a;
+    const double length_2 = glm::dot(edge, edge);
+    const double at = length_2 > 0.0 ? std::clamp(-glm::dot(a, edge) / length_2, 0.0, 1.0) : 0.0;
+    return glm::length(a + at * edge);
+  }
+
+  dvec3 origin;
+  dvec3 direction;
+};
+
 using Corners = std::array<dvec3, 3>;
 
 Corners corners_of(const scenes::Scene& scene, const scenes::Triangle& triangle) {
@@ -178,6 +201,31 @@ double rim_distance(const RayLine& line, const Profile& profile, double rim) {
   return nearest;
 }
 
+double cone_boundary_distance(const RayLine& line, const scenes::Cone& cone) {
+  const Profile profile(cone);
+  return std::min({silhouette_distance(line, profile), rim_distance(line, profile, 0.0),
+                   rim_distance(line, profile, profile.length)});
+}
+
+Contact cone_contact(const RayLine& line, const dvec3& point, const scenes::Cone& cone,
+                     double grazing) {
+  const Profile profile(cone);
+  const double place = profile.place(point);
+  const double within = std::clamp(place, 0.0, profile.length);
+  double offset = std::abs(profile.signed_distance(point));
+  if (place != within) {
+    offset = std::max(offset, line.distance_to(profile.rim_point(point, within)));
+  }
+  const dvec3 normal =
+      profile.outward(point) * profile.along_axis - profile.along_radius * profile.axis;
+  const double outward = glm::dot(normal, line.direction);
+  Contact found{offset, std::abs(outward), outward > 0.0};
+  if (cone.inside_only && !found.leaving && cone_boundary_distance(line, cone) > grazing) {
+    found.offset = kFar;
+  }
+  return found;
+}
+
 }  // namespace
 
 Contact contact(const scenes::Scene& scene, const accel::Ray& ray,
@@ -215,31 +263,6 @@ double boundary_distance(const scenes::Scene& scene, const accel::Ray& ray,
     nearest = std::min(nearest, edge_distance(line, corners_of(scene, triangle)));
   }
   return nearest;
-}
-
-double cone_boundary_distance(const RayLine& line, const scenes::Cone& cone) {
-  const Profile profile(cone);
-  return std::min({silhouette_distance(line, profile), rim_distance(line, profile, 0.0),
-                   rim_distance(line, profile, profile.length)});
-}
-
-Contact cone_contact(const RayLine& line, const dvec3& point, const scenes::Cone& cone,
-                     double grazing) {
-  const Profile profile(cone);
-  const double place = profile.place(point);
-  const double within = std::clamp(place, 0.0, profile.length);
-  double offset = std::abs(profile.signed_distance(point));
-  if (place != within) {
-    offset = std::max(offset, line.distance_to(profile.rim_point(point, within)));
-  }
-  const dvec3 normal =
-      profile.outward(point) * profile.along_axis - profile.along_radius * profile.axis;
-  const double outward = glm::dot(normal, line.direction);
-  Contact found{offset, std::abs(outward), outward > 0.0};
-  if (cone.inside_only && !found.leaving && cone_boundary_distance(line, cone) > grazing) {
-    found.offset = kFar;
-  }
-  return found;
 }
 
 }  // namespace beambench::verify

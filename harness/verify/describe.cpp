@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "harness/plugin/load_plugin.hpp"
 #include "harness/verify/differ.hpp"
 #include "scenes/core/shell_word.hpp"
 
@@ -37,7 +36,7 @@ std::string_view kind_of(const scenes::Scene& scene, scenes::PrimitiveId id) {
   return "unknown";
 }
 
-/// Floats and doubles are printed with as many digits as tell them apart from their neighbors.
+/// Floats and doubles are printed with enough digits to distinguish neighbors.
 template <class AnyHit>
 std::string text(const scenes::Scene& scene, const std::optional<AnyHit>& hit) {
   if (!hit) return "miss";
@@ -50,19 +49,20 @@ std::string text(const glm::vec3& vector) {
   return fmt::format("({}, {}, {})", vector.x, vector.y, vector.z);
 }
 
-std::string engine_text(const scenes::Scene& scene, const Mismatch& mismatch) {
-  if (mismatch.query == rays::Query::kClosestHit) return text(scene, mismatch.engine);
-  if (mismatch.engine_any_hit > 1) return "neither yes nor no";
-  return mismatch.engine_any_hit == 1 ? "some hit" : "no hit";
+std::string answer_text(const scenes::Scene& scene, const Mismatch& mismatch) {
+  if (mismatch.query == rays::Query::kClosestHit) return text(scene, mismatch.answer);
+  if (mismatch.any_hit_answer > 1) return "neither 0 nor 1";
+  return mismatch.any_hit_answer == 1 ? "some hit" : "no hit";
 }
 
 }  // namespace
 
-ReplayCommand::ReplayCommand(const scenes::Scene& scene, const rays::ImageOfRays& image,
+ReplayCommand::ReplayCommand(std::string_view program, const scenes::Scene& scene,
+                             const rays::ImageOfRays& image,
                              const accel::StructureChoice& structure, const rays::TraceInput& input)
     : input_(input),
-      subject_(fmt::format("{} trace {} --accel {}", plugin::program_call(),
-                           shell_quoted(scene.name), shell_quoted(structure.short_label()))),
+      subject_(fmt::format("{} trace {} --accel {}", program, shell_quoted(scene.name),
+                           shell_quoted(structure.short_label()))),
       image_(fmt::format("--resolution {}", rays::to_string(image.resolution))) {
   if (image.samples > 1) image_ += fmt::format(" --samples {}", image.samples);
   image_ += view_options(scene, image.camera);
@@ -83,21 +83,21 @@ std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch) {
   return fmt::format(
       "{}: {}{}{}\n"
-      "  ray    from {} along {}, t in [{}, {}]\n"
-      "  engine {}\n"
-      "  oracle {}\n"
-      "  exact  {}\n",
+      "  ray       from {} along {}, t in [{}, {}]\n"
+      "  structure {}\n"
+      "  oracle    {}\n"
+      "  exact     {}\n",
       rays::place_text(input, mismatch.index),
       kDiffClassNames[static_cast<std::size_t>(mismatch.diff_class)],
       mismatch.reason.empty() ? "" : ", ", mismatch.reason, text(mismatch.ray.origin),
       text(mismatch.ray.direction), mismatch.ray.t_min, mismatch.ray.t_max,
-      engine_text(scene, mismatch), text(scene, mismatch.oracle),
-      mismatch.adjudicated ? text(scene, mismatch.exact) : "not asked");
+      answer_text(scene, mismatch), text(scene, mismatch.oracle),
+      mismatch.searched ? text(scene, mismatch.exact) : "not searched");
 }
 
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch, const ReplayCommand& replay) {
-  return fmt::format("{}  replay {}\n", describe(scene, input, mismatch),
+  return fmt::format("{}  replay    {}\n", describe(scene, input, mismatch),
                      replay.of(mismatch.index));
 }
 

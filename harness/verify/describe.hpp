@@ -1,7 +1,8 @@
 #pragma once
-// One mismatch as text, and the command that shows the ray again.
+// One mismatch as text, and the command that traces the ray again.
 
 #include <string>
+#include <string_view>
 
 #include "accel/core/registry.hpp"
 #include "harness/verify/differ.hpp"
@@ -10,12 +11,14 @@ namespace beambench::verify {
 
 /// `beambench trace SCENE --accel A --pixel X,Y ...` for the rays of an image,
 /// `... --rays KIND --ray N ...` for those of a list, to be pasted into a shell. Scenes from files
-/// are named by their path as it was typed, and so are plug-ins.
+/// are named by their path as it was typed.
 class ReplayCommand {
  public:
-  /// `image` is what the rays come from, be they primary or not.
-  ReplayCommand(const scenes::Scene& scene, const rays::ImageOfRays& image,
-                const accel::StructureChoice& structure, const rays::TraceInput& input);
+  /// `program` is how the program is called, with its plug-ins (`plugin::program_call`); `image` is
+  /// what the rays come from, primary or not.
+  ReplayCommand(std::string_view program, const scenes::Scene& scene,
+                const rays::ImageOfRays& image, const accel::StructureChoice& structure,
+                const rays::TraceInput& input);
 
   std::string of(std::size_t index) const;
 
@@ -25,11 +28,11 @@ class ReplayCommand {
   std::string image_;    ///< resolution, samples, camera
 };
 
-/// One mismatch as text: its place in the input, ray, both results, the exact one, and why it
-/// was classed so.
+/// One mismatch as text: its place in the input, ray, both results, the exact one, and why it is
+/// of its class.
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch);
-/// The same, and the command that shows this ray's way (`ReplayCommand`).
+/// The same, and the command that shows the ray's traversal path.
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch, const ReplayCommand& replay);
 

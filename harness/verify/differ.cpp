@@ -21,11 +21,11 @@ constexpr std::size_t kBatch = 64;                    // rays searched at once, 
 
 double graze_budget(std::uint64_t rays) { return std::max(2.0, 1e-4 * static_cast<double>(rays)); }
 
-/// The judging of one structure's answers.
-class Judge {
+/// The verification of one structure's results.
+class Verifier {
  public:
-  Judge(const ReferenceHits& reference, const rays::TraceResults& results,
-        std::span<DiffClass> classes)
+  Verifier(const ReferenceHits& reference, const rays::TraceResults& results,
+           std::span<DiffClass> classes)
       : scene_(reference.scene()),
         input_(reference.input()),
         hits_(reference.hits()),
@@ -41,26 +41,26 @@ class Judge {
     for (std::size_t i = 0; i < input_.size(); ++i) {
       if (agrees_at_once(i)) continue;
       Mismatch found = mismatch(i);
-      if (settle_by_rules(scene_, tolerance_of(found), found)) {
+      if (classify_by_rules(scene_, tolerance_of(found), found)) {
         record(found);
       } else {
         disputed.push_back(i);
       }
     }
     agree_with_the_rest(disputed.size());
-    adjudicate(disputed);
-    return finish(judge_counts());
+    search(disputed);
+    return finish(verdict_of_counts());
   }
 
   DiffReport as_baseline() {
     for (std::size_t i = 0; i < input_.size(); ++i) {
-      if (is_silent(i)) continue;
+      if (is_miss_of(i)) continue;
       Mismatch found = mismatch(i);
-      settle_as_baseline(found);
+      classify_as_baseline(found);
       record(found);
     }
-    const bool silent = report_.count(DiffClass::kEngineError) == 0;
-    return finish(silent ? Verdict::kBaseline : Verdict::kMismatch);
+    const bool all_miss = report_.count(DiffClass::kStructureError) == 0;
+    return finish(all_miss ? Verdict::kBaseline : Verdict::kMismatch);
   }
 
  private:
@@ -73,12 +73,12 @@ class Judge {
     return hit == accel::Hit{accel::kInfinity, scenes::kNoPrimitive};
   }
 
-  bool is_silent(std::size_t i) const {
+  bool is_miss_of(std::size_t i) const {
     if (const auto* any = std::get_if<rays::AnyHits>(&results_)) return (*any)[i] == 0;
     return is_miss(answer(std::get<accel::HitBuffer>(results_), i));
   }
 
-  /// Nearly every ray of a right structure ends here: the same primitive, and so near that the
+  /// True for nearly every ray of a correct structure: the same primitive, and so near that the
   /// angle of incidence does not matter.
   bool agrees_at_once(std::size_t i) const {
     if (const auto* any = std::get_if<rays::AnyHits>(&results_)) {
@@ -95,7 +95,9 @@ class Judge {
            apart * apart * glm::dot(direction, direction) <= near * near;
   }
 
-  Mismatch mismatch(std::size_t i) const { return ask_again(input_, results_, i, hits_[i]); }
+  Mismatch mismatch(std::size_t i) const {
+    return candidate_mismatch(input_, results_, i, hits_[i]);
+  }
 
   void agree_with_the_rest(std::size_t disputed) {
     std::uint64_t others = disputed;
@@ -104,16 +106,16 @@ class Judge {
   }
 
   /// Rule 4, batch by batch, so that the outcome does not depend on the number of threads.
-  void adjudicate(const std::vector<std::size_t>& disputed) {
+  void search(const std::vector<std::size_t>& disputed) {
     std::uint64_t tests = 0;
     std::vector<Mismatch> batch;
     for (std::size_t first = 0; first < disputed.size(); first += kBatch) {
       const std::size_t last = std::min(first + kBatch, disputed.size());
       batch.clear();
       for (std::size_t i = first; i < last; ++i) batch.push_back(mismatch(disputed[i]));
-      if (report_.count(DiffClass::kEngineError) < kEnoughErrors && tests < kSearchBudget) {
+      if (report_.count(DiffClass::kStructureError) < kEnoughErrors && tests < kSearchBudget) {
         tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
-          beambench::verify::adjudicate(scene_, tolerance_of(batch[i]), batch[i]);
+          beambench::verify::classify_by_search(scene_, tolerance_of(batch[i]), batch[i]);
         });
         tests += batch.size() * (scene_.triangles.size() + scene_.primitives.size());
       } else {
@@ -124,7 +126,7 @@ class Judge {
   }
 
   static void presume_error(Mismatch& found) {
-    found.diff_class = DiffClass::kEngineError;
+    found.diff_class = DiffClass::kStructureError;
     found.reason = "disputed, and not searched since enough errors or tests were counted before";
   }
 
@@ -137,8 +139,8 @@ class Judge {
     if (!classes_.empty()) classes_[found.index] = found.diff_class;
   }
 
-  Verdict judge_counts() const {
-    if (report_.count(DiffClass::kEngineError) > 0) return Verdict::kMismatch;
+  Verdict verdict_of_counts() const {
+    if (report_.count(DiffClass::kStructureError) > 0) return Verdict::kMismatch;
     const auto grazes = static_cast<double>(report_.count(DiffClass::kGraze));
     return grazes > graze_budget(report_.rays) ? Verdict::kGrazes : Verdict::kOk;
   }
@@ -146,7 +148,7 @@ class Judge {
   DiffReport finish(Verdict verdict) {
     // Errors of the structure first, then the oracle's, grazes and ties; by pixel within a class.
     const auto rank = [](const Mismatch& m) {
-      return m.diff_class == DiffClass::kEngineError ? -10 : -static_cast<int>(m.diff_class);
+      return m.diff_class == DiffClass::kStructureError ? -10 : -static_cast<int>(m.diff_class);
     };
     std::stable_sort(report_.examples.begin(), report_.examples.end(),
                      [&](const Mismatch& a, const Mismatch& b) { return rank(a) < rank(b); });
@@ -181,35 +183,28 @@ void require_shape(const rays::TraceInput& input, const rays::TraceResults& resu
   const auto given = shape_of(results);
   const auto expected = shape_of(input);
   if (given == expected) return;
-  throw std::logic_error(fmt::format("results of {}x{}x{} are judged by rays of {}x{}x{}", given[0],
-                                     given[1], given[2], expected[0], expected[1], expected[2]));
+  throw std::logic_error(fmt::format("results of {}x{}x{} are verified by rays of {}x{}x{}",
+                                     given[0], given[1], given[2], expected[0], expected[1],
+                                     expected[2]));
 }
 
 }  // namespace
 
 std::string_view to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kOk:
-      return "ok";
-    case Verdict::kMismatch:
-      return "mismatch";
-    case Verdict::kGrazes:
-      return "grazes";
-    case Verdict::kBaseline:
-      return "baseline";
-  }
-  return "unknown";
+  static constexpr std::array<std::string_view, 6> kNames{"ok",       "mismatch", "grazes",
+                                                          "baseline", "error",    "no_rays"};
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
-DiffReport judge(const ReferenceHits& reference, const rays::TraceResults& results,
-                 accel::Conformance conformance, std::span<DiffClass> classes) {
+DiffReport verify_results(const ReferenceHits& reference, const rays::TraceResults& results,
+                          accel::Conformance conformance, std::span<DiffClass> classes) {
   require_shape(reference.input(), results);
   if (!classes.empty() && classes.size() != reference.input().size()) {
     throw std::logic_error("the classes need one place for each ray");
   }
-  Judge judging(reference, results, classes);
-  return conformance == accel::Conformance::kBaseline ? judging.as_baseline()
-                                                      : judging.against_oracle();
+  Verifier verifier(reference, results, classes);
+  return conformance == accel::Conformance::kBaseline ? verifier.as_baseline()
+                                                      : verifier.against_oracle();
 }
 
 ReferenceHits::ReferenceHits(const scenes::Scene& scene, rays::TraceInput input)

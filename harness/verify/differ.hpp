@@ -1,5 +1,5 @@
 #pragma once
-// The differ: judges a structure's hits against the oracle, ray by ray.
+// The differ: verifies a structure's hits against the oracle, ray by ray.
 
 #include <array>
 #include <cstddef>
@@ -19,34 +19,33 @@
 namespace beambench::verify {
 
 /// How one answer compares. u is 2^-24 x (largest |coordinate| + distance of the ray's origin), K
-/// is 16: right hits of Embree in float were found up to 3.6 u off. The first three need a
-/// sound answer: its point lies within K u of the primitive it names. An answer to an any-hit query
-/// names no place, so it never ties: it agrees, or it grazes where every hit that is in dispute
-/// does.
+/// is 16: correct hits of Embree in float were found up to 3.6 u off. The first three need a sound
+/// answer: its point lies within K u of the primitive it names. An answer to an any-hit query names
+/// no point, so it never ties: it agrees, or it grazes where every hit that is in dispute does.
 enum class DiffClass : std::size_t {
-  kAgree,        ///< same primitive, |dt| x |cos theta| <= K u (a sphere or cone: the point is
-                 ///< within K u of the surface, where the ray enters or leaves as the oracle's)
-  kTie,          ///< other primitive at the same place: |dt| x the smaller |cos theta| <= K u
-  kGraze,        ///< the disputed primitive's boundary is within K u of the ray, or the disputed
-                 ///< hit within K u of the ray's end
-  kEngineError,  ///< the structure is wrong, by long-double search over all primitives
-  kEmbreeError,  ///< the structure is right and the oracle wrong, by the same search
+  kAgree,           ///< same primitive, |dt| x |cos theta| <= K u (a sphere or cone: the point is
+                    ///< within K u of the surface, where the ray enters or leaves as the oracle's)
+  kTie,             ///< other primitive at the same point: |dt| x the smaller |cos theta| <= K u
+  kGraze,           ///< the disputed primitive's boundary is within K u of the ray, or the disputed
+                    ///< hit within K u of the ray's end
+  kStructureError,  ///< the structure is wrong, by long-double search over all primitives
+  kEmbreeError,     ///< the structure is right and the oracle wrong, by the same search
   kCount
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(DiffClass::kCount)>
-    kDiffClassNames{"agree", "tie", "graze", "engine_error", "embree_error"};
+    kDiffClassNames{"agree", "tie", "graze", "structure_error", "embree_error"};
 
-/// The sentence over all answers.
+/// The result of a verification, as records state it.
 enum class Verdict {
-  kOk,        ///< no engine error, grazes within the budget
-  kMismatch,  ///< at least one engine error
-  kGrazes,    ///< no engine error, but more grazes than max(2, 1e-4 x rays)
-  kBaseline   ///< a structure that answers nothing by design, and did
+  kOk,        ///< no structure error, grazes within the budget
+  kMismatch,  ///< at least one structure error
+  kGrazes,    ///< no structure error, but more grazes than max(2, 1e-4 x rays)
+  kBaseline,  ///< a structure that returns no hits by design, and did not
+  kError,     ///< the structure could not be built or failed: nothing was verified
+  kNoRays     ///< the scene has no rays of the kind: nothing was verified, and nothing is wrong
 };
-std::string_view to_string(Verdict verdict);  // "ok", "mismatch", "grazes", "baseline"
-/// What a record states in place of a verdict where the scene has no rays of the kind that was
-/// asked for: nothing was judged, and nothing is wrong.
-inline constexpr std::string_view kNoRays = "no_rays";
+/// "ok", "mismatch", "grazes", "baseline", "error", "no_rays".
+std::string_view to_string(Verdict verdict);
 inline bool is_right(Verdict verdict) {
   return verdict == Verdict::kOk || verdict == Verdict::kBaseline;
 }
@@ -57,13 +56,12 @@ struct Mismatch {
   accel::Ray ray;
   rays::Query query;
   DiffClass diff_class;
-  std::optional<accel::Hit> engine;  ///< of a closest-hit query
-  std::uint8_t engine_any_hit;       ///< of an any-hit query: 0, 1, or what the structure wrote
+  std::optional<accel::Hit> answer;  ///< the structure's, of a closest-hit query
+  std::uint8_t any_hit_answer;       ///< of an any-hit query: 0, 1, or what the structure wrote
   std::optional<accel::embree::ExactHit> oracle;  ///< the closest hit, whatever the query
-  /// The long-double answer; absent where the class was settled without it, or for an exact miss.
-  std::optional<accel::embree::ExactHit> exact;
-  bool adjudicated;         ///< was the long-double search asked?
-  std::string_view reason;  ///< why it was classed so: a clause for `describe`
+  std::optional<accel::embree::ExactHit> exact;   ///< the long-double hit, if it was searched
+  bool searched;            ///< did the rules leave it to the long-double search?
+  std::string_view reason;  ///< why it is of its class: a clause for `describe`
 };
 
 /// What was found in one buffer.
@@ -80,7 +78,7 @@ struct DiffReport {
   }
 };
 
-/// The oracle's closest hit of each ray of an input, computed once (on all cores) and used for
+/// The oracle's closest hit of each ray of a input, computed once (on all cores) and used for
 /// every contender. The scene must outlive it.
 class ReferenceHits {
  public:
@@ -101,13 +99,12 @@ class ReferenceHits {
   std::vector<std::optional<accel::embree::ExactHit>> hits_;
 };
 
-/// Judges a structure's answers. Disputed rays are searched in long double until their number is
-/// hopeless (64 errors are proven, or the search has made 4e8 primitive tests); what is disputed
-/// beyond that counts as engine error, unproven. For Conformance::kBaseline the only question is
-/// whether all answers are misses; others are engine errors. `classes`, unless empty, gets that of
-/// each ray. Throws std::logic_error when the results have not the shape that the input asks
-/// for.
-DiffReport judge(const ReferenceHits& reference, const rays::TraceResults& results,
-                 accel::Conformance conformance, std::span<DiffClass> classes = {});
+/// Verifies a structure's results. Disputed rays are searched in long double until 64 errors are
+/// proven or the search has made 4e8 primitive tests; what is disputed beyond that counts as
+/// structure error, unproven. For Conformance::kBaseline only misses are right; others are
+/// structure errors. `classes`, unless empty, gets that of each ray. Throws std::logic_error when
+/// the results are not of the shape of the input.
+DiffReport verify_results(const ReferenceHits& reference, const rays::TraceResults& results,
+                          accel::Conformance conformance, std::span<DiffClass> classes = {});
 
 }  // namespace beambench::verify

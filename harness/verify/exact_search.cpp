@@ -10,7 +10,7 @@ namespace {
 using Real = long double;
 using Vector = glm::vec<3, Real>;
 
-/// Tests one ray against primitives and tells `offer_(id, t)` where its line meets them, in
+/// Tests one ray against primitives and calls `offer_(id, t)` where its line meets them, in
 /// whatever interval: primitives in ascending order, t in any order, NaN where nothing is met.
 template <class Offer>
 class Search {
@@ -105,8 +105,8 @@ class Search {
     const Real discriminant = glm::dot(turned, turned) - twist * twist / length_2;
     if (discriminant < 0.0L) return;
     const Real root = std::sqrt(discriminant);
-    // A ray much steeper than the surface meets it at one height, near enough: where, its radius
-    // says best.
+    // A ray much steeper than the surface meets it at nearly one height, which its radius gives
+    // best.
     const bool steep = r1 * r1 > 2.0L * glm::dot(y1, y1);
     const auto consider = [&](Real t, Real signed_root) {
       const Real s = steep ? ((glm::dot(y1, turned) + r1 * signed_root) / a - cone.base_radius) / k

@@ -1,5 +1,5 @@
 #pragma once
-// The last instance: a search through all primitives in long double.
+// A search through all primitives in long double, which decides disputes.
 
 #include <optional>
 #include <vector>

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kUnits = 16.0;  // K: about four times the worst residual that was measured
 
-/// One ray and the length within which two places are one.
+/// One ray and the length within which two points are one.
 struct Measure {
   const scenes::Scene& scene;
   const accel::Ray& ray;
@@ -35,7 +35,7 @@ struct Measure {
   }
 };
 
-/// Rules 1 and 2: two hits that are one place.
+/// Rules 1 and 2: two hits at one point.
 std::optional<DiffClass> same_place(const Measure& measure, const accel::embree::ExactHit& answer,
                                     const accel::embree::ExactHit& reference) {
   const Contact claimed = measure.contact_of(answer);
@@ -54,9 +54,15 @@ std::optional<DiffClass> same_place(const Measure& measure, const accel::embree:
                                                      : std::nullopt;
 }
 
+/// Sets class and reason.
+void classify_as(DiffClass diff_class, std::string_view reason, Mismatch& found) {
+  found.diff_class = diff_class;
+  found.reason = reason;
+}
+
 std::string_view why_wrong(const scenes::Scene& scene, double tolerance, const Mismatch& found) {
-  if (!found.engine) return "the structure lost a hit";
-  const accel::embree::ExactHit claim{found.engine->t, found.engine->primitive};
+  if (!found.answer) return "the structure lost a hit";
+  const accel::embree::ExactHit claim{found.answer->t, found.answer->primitive};
   if (!(contact(scene, found.ray, claim, tolerance).offset <= tolerance)) {
     return "the ray does not meet the structure's primitive at its t";
   }
@@ -96,8 +102,8 @@ bool reaches(const scenes::Scene& scene, const accel::Ray& ray, scenes::Primitiv
   return enter <= leave;
 }
 
-/// Does the ray touch some primitive so lightly that it might as well not?
-bool touches_something(const scenes::Scene& scene, const accel::Ray& ray, double tolerance) {
+/// Does the ray graze some primitive, so that it might as well miss it?
+bool grazes_something(const scenes::Scene& scene, const accel::Ray& ray, double tolerance) {
   if (exact_closest_hit(scene, lengthened(ray, tolerance))) return true;
   for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     if (reaches(scene, ray, id, tolerance) && boundary_distance(scene, ray, id) <= tolerance) {
@@ -107,33 +113,32 @@ bool touches_something(const scenes::Scene& scene, const accel::Ray& ray, double
   return false;
 }
 
-void settle(Mismatch& found, DiffClass diff_class, std::string_view reason) {
-  found.diff_class = diff_class;
-  found.reason = reason;
-}
-
-void settle_no_hit(const scenes::Scene& scene, double tolerance, Mismatch& found) {
-  bool all_graze = true;
-  for (const accel::embree::ExactHit& hit : exact_hits(scene, found.ray)) {
-    all_graze = all_graze && grazes(scene, found.ray, hit, tolerance);
+/// A structure that reports no hit is right when there is none, and only grazes when every hit
+/// there is does. One that reports some hit is right when there is one, and grazes when the ray
+/// passes within `tolerance` (K u) of a primitive.
+void classify_any_hit_by_search(const scenes::Scene& scene, double tolerance, Mismatch& found) {
+  const bool answer = found.any_hit_answer == 1;
+  if (answer == found.exact.has_value()) {
+    return classify_as(DiffClass::kEmbreeError,
+                       answer ? "there is a hit, as the structure reports"
+                              : "there is no hit, as the structure reports",
+                       found);
   }
-  if (!found.exact) {
-    settle(found, DiffClass::kEmbreeError, "there is no hit, as the structure says");
-  } else if (all_graze) {
-    settle(found, DiffClass::kGraze, "all that is hit is only grazed, or touched at the ray's end");
-  } else {
-    settle(found, DiffClass::kEngineError, "the structure lost a hit");
+  if (answer) {
+    if (grazes_something(scene, found.ray, tolerance)) {
+      return classify_as(DiffClass::kGraze,
+                         "a primitive is just missed, or just beyond the ray's end", found);
+    }
+    return classify_as(DiffClass::kStructureError,
+                       "the structure reports a hit where there is none", found);
   }
-}
-
-void settle_some_hit(const scenes::Scene& scene, double tolerance, Mismatch& found) {
-  if (found.exact) {
-    settle(found, DiffClass::kEmbreeError, "there is a hit, as the structure says");
-  } else if (touches_something(scene, found.ray, tolerance)) {
-    settle(found, DiffClass::kGraze, "a primitive is just missed, or just beyond the ray's end");
-  } else {
-    settle(found, DiffClass::kEngineError, "the structure reports a hit where there is none");
+  const Measure measure{scene, found.ray, tolerance};
+  if (std::ranges::all_of(exact_hits(scene, found.ray),
+                          [&](const auto& hit) { return measure.grazes(hit); })) {
+    return classify_as(DiffClass::kGraze,
+                       "all that is hit is only grazed, or touched at the ray's end", found);
   }
+  classify_as(DiffClass::kStructureError, "the structure lost a hit", found);
 }
 
 }  // namespace
@@ -162,88 +167,79 @@ std::optional<DiffClass> classify(const scenes::Scene& scene, const accel::Ray& 
   return std::nullopt;
 }
 
-bool grazes(const scenes::Scene& scene, const accel::Ray& ray, const accel::embree::ExactHit& hit,
-            double tolerance) {
-  return Measure{scene, ray, tolerance}.grazes(hit);
-}
-
-bool is_nonsense(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& answer) {
+bool is_invalid(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& answer) {
   if (answer.primitive == scenes::kNoPrimitive) return answer.t != accel::kInfinity;
   return answer.primitive >= scene.primitives.size() || !std::isfinite(answer.t) ||
          answer.t < ray.t_min || answer.t > ray.t_max;
 }
 
-Mismatch ask_again(const rays::TraceInput& input, const rays::TraceResults& results,
-                   std::size_t index, const std::optional<accel::embree::ExactHit>& oracle) {
+Mismatch candidate_mismatch(const rays::TraceInput& input, const rays::TraceResults& results,
+                            std::size_t index,
+                            const std::optional<accel::embree::ExactHit>& oracle) {
   Mismatch found{};
   found.index = index;
   found.ray = input.ray(index);
   found.query = input.query();
   found.oracle = oracle;
   if (const auto* any = std::get_if<rays::AnyHits>(&results)) {
-    found.engine_any_hit = (*any)[index];
+    found.any_hit_answer = (*any)[index];
   } else {
     const auto& hits = std::get<accel::HitBuffer>(results);
     const accel::Hit answer{hits.t()[index], hits.primitive()[index]};
-    if (answer != accel::Hit{accel::kInfinity, scenes::kNoPrimitive}) found.engine = answer;
+    if (answer != accel::Hit{accel::kInfinity, scenes::kNoPrimitive}) found.answer = answer;
   }
   return found;
 }
 
-bool settle_by_rules(const scenes::Scene& scene, double tolerance, Mismatch& found) {
-  if (found.query == rays::Query::kAnyHit) return settle_any_hit_by_rules(found);
-  if (found.engine && is_nonsense(scene, found.ray, *found.engine)) {
-    found.diff_class = DiffClass::kEngineError;
-    found.reason = "no such answer exists: the primitive or t is out of range";
+bool classify_by_rules(const scenes::Scene& scene, double tolerance, Mismatch& found) {
+  if (found.query == rays::Query::kAnyHit) {
+    if (found.any_hit_answer > 1) {
+      classify_as(DiffClass::kStructureError, "invalid answer: it is neither 0 nor 1", found);
+      return true;
+    }
+    if ((found.any_hit_answer == 1) != found.oracle.has_value()) return false;
+    found.diff_class = DiffClass::kAgree;
     return true;
   }
-  const auto by_rules = classify(scene, found.ray, found.engine, found.oracle, tolerance);
+  if (found.answer && is_invalid(scene, found.ray, *found.answer)) {
+    classify_as(DiffClass::kStructureError, "invalid hit: the primitive or t is out of range",
+                found);
+    return true;
+  }
+  const auto by_rules = classify(scene, found.ray, found.answer, found.oracle, tolerance);
   if (!by_rules) return false;
   found.diff_class = *by_rules;
-  if (*by_rules == DiffClass::kTie) found.reason = "both primitives are hit at one place";
+  if (*by_rules == DiffClass::kTie) found.reason = "both primitives are hit at one point";
   if (*by_rules == DiffClass::kGraze) {
     found.reason = "the disputed primitive is only grazed, or touched at the ray's end";
   }
   return true;
 }
 
-void adjudicate(const scenes::Scene& scene, double tolerance, Mismatch& found) {
-  if (found.query == rays::Query::kAnyHit) return adjudicate_any_hit(scene, tolerance, found);
-  found.adjudicated = true;
+void classify_by_search(const scenes::Scene& scene, double tolerance, Mismatch& found) {
+  found.searched = true;
   found.exact = exact_closest_hit(scene, found.ray);
-  const bool right = classify(scene, found.ray, found.engine, found.exact, tolerance).has_value();
-  found.diff_class = right ? DiffClass::kEmbreeError : DiffClass::kEngineError;
-  found.reason = right ? "the structure gives the exact answer and the oracle does not"
-                       : why_wrong(scene, tolerance, found);
-}
-
-void settle_as_baseline(Mismatch& found) {
-  const bool silent = !found.engine && found.engine_any_hit == 0;
-  found.diff_class = silent ? DiffClass::kAgree : DiffClass::kEngineError;
-  if (!silent) found.reason = "this structure returns nothing by design, and here it did";
-}
-
-void judge_ray(const scenes::Scene& scene, accel::Conformance conformance, Mismatch& found) {
-  if (conformance == accel::Conformance::kBaseline) return settle_as_baseline(found);
-  const double length = tolerance(scene, found.ray.origin);
-  if (!settle_by_rules(scene, length, found)) adjudicate(scene, length, found);
-}
-
-bool settle_any_hit_by_rules(Mismatch& found) {
-  if (found.engine_any_hit > 1) {
-    settle(found, DiffClass::kEngineError, "no such answer exists: it is neither 0 nor 1");
-    return true;
+  if (found.query == rays::Query::kAnyHit) {
+    return classify_any_hit_by_search(scene, tolerance, found);
   }
-  if ((found.engine_any_hit == 1) != found.oracle.has_value()) return false;
-  found.diff_class = DiffClass::kAgree;
-  return true;
+  if (classify(scene, found.ray, found.answer, found.exact, tolerance)) {
+    return classify_as(DiffClass::kEmbreeError,
+                       "the structure returns the exact answer and the oracle does not", found);
+  }
+  classify_as(DiffClass::kStructureError, why_wrong(scene, tolerance, found), found);
 }
 
-void adjudicate_any_hit(const scenes::Scene& scene, double tolerance, Mismatch& found) {
-  found.adjudicated = true;
-  found.exact = exact_closest_hit(scene, found.ray);
-  found.engine_any_hit == 1 ? settle_some_hit(scene, tolerance, found)
-                            : settle_no_hit(scene, tolerance, found);
+void classify_as_baseline(Mismatch& found) {
+  found.diff_class = DiffClass::kAgree;
+  if (!found.answer && found.any_hit_answer == 0) return;
+  classify_as(DiffClass::kStructureError,
+              "this structure returns no hits by design, but here it did", found);
+}
+
+void verify_ray(const scenes::Scene& scene, accel::Conformance conformance, Mismatch& found) {
+  if (conformance == accel::Conformance::kBaseline) return classify_as_baseline(found);
+  const double length = tolerance(scene, found.ray.origin);
+  if (!classify_by_rules(scene, length, found)) classify_by_search(scene, length, found);
 }
 
 }  // namespace beambench::verify

@@ -12,7 +12,7 @@
 #include "harness/bench/google_benchmark.hpp"
 #include "harness/bench/measurement.hpp"
 #include "harness/bench/plan.hpp"
-#include "harness/bench/turns.hpp"
+#include "harness/bench/stopping.hpp"
 #include "tests/scenes/thrown_message.hpp"
 #include "tests/temporary_folder.hpp"
 

@@ -1,4 +1,4 @@
-// A run that is cut off, at whatever moment, keeps every finished cell and goes on.
+// A run that is cut off, at whatever moment, keeps every finished cell and is resumed.
 
 #include <algorithm>
 #include <chrono>
@@ -89,7 +89,7 @@ class Kill : public testing::Test {
     folder_.write("tiny.json", sweep.dump());
   }
 
-  /// Begins the run in `name`, or goes on with it.
+  /// Begins the run in `name`, or resumes it.
   Process start(const std::string& name) const {
     if (fs::exists(folder_.path() / name / "manifest.json")) {
       return {folder_.path(), {"--resume", name}};
@@ -224,7 +224,7 @@ TEST_P(Interrupted, EndsAtOnceAndSaysHowToGoOn) {
   ASSERT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 130);
   const std::string resume = std::string(BEAMBENCH_BINARY) + " run --resume 'my run'\n";
-  EXPECT_TRUE(err().ends_with("go on with: " + resume)) << err();
+  EXPECT_TRUE(err().ends_with("resume with: " + resume)) << err();
   EXPECT_EQ(cells("my run").size(), 1U);
 }
 

@@ -175,7 +175,7 @@ CellRecord some_cell() {
   cell.rays = {1, 2, 0, 16, 640};
   cell.rays.hit_share = 0.5;
   cell.rays.coherence = 0.9;
-  cell.verdict = "ok";
+  cell.verdict = verify::Verdict::kOk;
   cell.statistics.emplace();
   cell.statistics->nodes = 9;
   cell.harness = {QueryPath::kImageSingle, 2.5};
@@ -213,7 +213,7 @@ const char* const kContract =
     "memory_bytes,allocated_bytes,nodes,leaves,empty_leaves,references,depth,tree_cost,"
     "traversal_steps_per_ray,leaves_per_ray,empty_leaves_per_ray,box_tests_per_ray,"
     "primitive_tests_per_ray,"
-    "hits,agree,tie,graze,engine_error,embree_error,verdict\n";
+    "hits,agree,tie,graze,structure_error,embree_error,verdict\n";
 
 TEST(CellRow, HasTheColumnsOfTheContract) {
   CellRecord cell = some_cell();
@@ -297,7 +297,7 @@ TEST(CellRow, NamesTheGeometryOfALibrary) {
 
 TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
   CellRecord cell = some_cell();
-  cell.verdict = "mismatch";
+  cell.verdict = verify::Verdict::kMismatch;
   const Row row = to_row(kRun, cell);
   for (const auto& [column, value] : row.items()) {
     const bool is_time = column.find("_ms_") != std::string::npos || column == "harness_ms" ||

@@ -60,7 +60,7 @@ TEST_F(RunCommand, MeasuresAndSaysWhereTheRecordIs) {
   const Result result = run("tiny.json -o record");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, "record/results.csv\n");
-  EXPECT_TRUE(scenes::says(result.err, {"[1/2]", "[2/2]", "2 cells, all judged right"}));
+  EXPECT_TRUE(scenes::says(result.err, {"[1/2]", "[2/2]", "2 cells, all verified"}));
   EXPECT_EQ(run("--resume record").exit_code, 0);
   expect_refused("tiny.json -o record", {"already holds a run"});
 }

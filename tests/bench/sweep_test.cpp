@@ -103,7 +103,7 @@ class Sweep : public testing::Test {
     options.resume = resume;
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages(
         std::fopen((folder_.path() / "messages").c_str(), "w"), std::fclose);
-    return run_sweep(sweep, make_plan(sweep), GoogleBenchmark(options.flags), options,
+    return run_sweep(sweep, make_plan(sweep), GoogleBenchmark(BenchmarkFlags()), options,
                      messages.get());
   }
 
@@ -341,7 +341,7 @@ TEST_F(Sweep, DrawsWholePictures) {
   for (const auto& [structure, cell] : cells()) {
     const json& row = cell["row"];
     EXPECT_EQ(row["query"], "picture");
-    EXPECT_EQ(row["eye_rays"], 640);
+    EXPECT_EQ(row["camera_rays"], 640);
     EXPECT_EQ(row["hit_share"].is_null() || row["occluded_share"].is_null(), false);
     expect_times(cell, true);
     if (structure == "null") continue;
@@ -350,7 +350,7 @@ TEST_F(Sweep, DrawsWholePictures) {
     EXPECT_EQ(row["refracted_rays"], 0);
   }
   const json row = cells()["exhaustive"]["row"];
-  EXPECT_EQ(row["eye_primitive_tests_per_ray"], row["primitives"]);
+  EXPECT_EQ(row["camera_primitive_tests_per_ray"], row["primitives"]);
   EXPECT_EQ(row["reflected_primitive_tests_per_ray"], row["primitives"]);
   EXPECT_LT(row["shadow_primitive_tests_per_ray"], row["primitives"]);
   EXPECT_LT(row["harness_ms"], row["trace_ms_median"]) << "shading alone";
@@ -365,7 +365,7 @@ TEST_F(Sweep, AWrongAnyHitLosesItsTimes) {
   EXPECT_EQ(run(shadow).failed, 1U);
   const json faulty = cells()["faulty"];
   EXPECT_EQ(faulty["row"]["verdict"], "mismatch");
-  EXPECT_EQ(faulty["row"]["engine_error"], 1);
+  EXPECT_EQ(faulty["row"]["structure_error"], 1);
   expect_times(faulty, false);
   EXPECT_TRUE(
       scenes::says(faulty["examples"][0].get<std::string>(), {"ray 0", "--rays shadow --ray 0"}));

@@ -25,8 +25,8 @@ _SCENES = ("escena1", "tetra:n=6")
 
 # What a file of a cell tells of a ray whose hit was wrong.
 EXAMPLE = (
-    "pixel (3, 4) sample 0: engine_error, another primitive\n"
-    "  engine miss\n"
+    "pixel (3, 4) sample 0: structure_error, another primitive\n"
+    "  structure miss\n"
     "  replay beambench trace 'tetra:n=6' --accel samet:max_level=6 --pixel 3,4\n"
 )
 

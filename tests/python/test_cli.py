@@ -245,7 +245,7 @@ def test_a_sweep_s_lines_leave_out_what_is_at_its_default(tmp_path: Path) -> Non
     assert any("escena1/default/8x8/1/primary/sah-bvh: " in line for line in lines)
     assert all("ok after 1 repetition (" in line for line in lines), lines
     assert not any(word in line for line in lines for word in ("spheres=", "max_leaf="))
-    assert "4 cells, all judged right" in done.stderr
+    assert "4 cells, all verified" in done.stderr
 
 
 def test_the_hint_to_resume_can_be_pasted(tmp_path: Path) -> None:
@@ -276,7 +276,7 @@ def test_the_hint_to_resume_can_be_pasted(tmp_path: Path) -> None:
     run.send_signal(signal.SIGINT)
     _, messages = run.communicate(timeout=60)
     assert run.returncode == 130
-    hint = messages.splitlines()[-1].split("go on with: ")[1]
+    hint = messages.splitlines()[-1].split("resume with: ")[1]
     assert hint == "'bin dir/beambench' run --resume 'my run'"
     dry = subprocess.run(
         ["bash", "-c", f"{hint} --dry-run"],
@@ -655,7 +655,7 @@ def test_verify_judges_every_structure(tmp_path: Path) -> None:
             assert cell["verdict"] == "baseline"
             continue
         assert cell["verdict"] == "ok"
-        assert cell["engine_error"] == 0
+        assert cell["structure_error"] == 0
         assert cell["agree"] + cell["tie"] + cell["graze"] + cell["embree_error"] == cell["rays"]
         if cell["structure"] == "samet":
             assert cell["bits"] == {"compared_with": "exhaustive", "different": 0}
@@ -1026,8 +1026,8 @@ WRONG_REQUESTS = [
     (["run", "missing.json"], ["missing.json"]),
     (["run", "cut.json"], ["cut.json"]),
     (["run", "list.json"], ["list.json"]),
-    (["run", "comma.json"], ["comma.json:3:1", "a comma stands before this '}'", "remove"]),
-    (["run", "commas.json"], ["commas.json:1:22", "a comma stands before this ']'"]),
+    (["run", "comma.json"], ["comma.json:3:1", "there is a comma before this '}'", "remove"]),
+    (["run", "commas.json"], ["commas.json:1:22", "there is a comma before this ']'"]),
     (["run", "unknown.json", "-o", "out"], ["smet"]),
 ]
 

@@ -43,7 +43,7 @@ def test_no_structure_errs(place: str, tmp_path: Path) -> None:
     for cell in judged:
         if cell["verdict"] == "baseline":
             continue
-        assert cell["engine_error"] == 0, cell
+        assert cell["structure_error"] == 0, cell
         assert cell["verdict"] in ("ok", "grazes"), cell
 
 

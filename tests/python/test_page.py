@@ -76,7 +76,7 @@ def test_a_wrong_cell_is_told_with_its_reason_and_the_way_to_replay_it(full_run:
         "mismatch samet max_level=6 in tetra:n=6 at 320x200, 640x480, 1280x1024: "
         "wrong hits 3 of 64000 hits were wrong"
     ) in text
-    assert "pixel (3, 4) sample 0: engine_error" in text
+    assert "pixel (3, 4) sample 0: structure_error" in text
     replay = "beambench trace 'tetra:n=6' --accel samet:max_level=6 --pixel 3,4"
     assert f"See this ray's path: {replay}" in text
     assert f"replay {replay}" not in text

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from beambench_report.base.columns import RENAMED_COLUMNS
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
 from synthetic_run import synthetic_rows, without_times, write_run
@@ -42,11 +43,14 @@ def test_a_column_of_the_family_s_own_is_a_counter(tmp_path: Path) -> None:
     assert "neighbour_climbs_per_ray" in read_run(write_run(tmp_path, rows)).counters
 
 
-def test_columns_of_older_records_are_read_under_their_new_names(tmp_path: Path) -> None:
-    rows = [{**row, "neighbour_steps_per_ray": 3.5} for row in synthetic_rows()]
-    run = read_run(write_run(tmp_path, rows))
-    assert run.rows["neighbor_steps_per_ray"].eq(3.5).all()
-    assert "neighbour_steps_per_ray" not in run.rows
+@pytest.mark.parametrize(("then", "now"), RENAMED_COLUMNS.items())
+def test_columns_of_older_records_are_read_under_their_new_names(
+    tmp_path: Path, then: str, now: str
+) -> None:
+    rows = [{**row, then: 3.5} for row in synthetic_rows()]
+    run = read_run(write_run(tmp_path, rows, without=(now,)))
+    assert run.rows[now].eq(3.5).all()
+    assert then not in run.rows
 
 
 def test_counters_of_a_kind_of_rays_are_told_apart(tmp_path: Path) -> None:

@@ -103,7 +103,7 @@ std::vector<std::string> complaints(const scenes::Scene& scene, const accel::Hit
     }
   };
   note([&] {
-    render::whitted_picture(render::Whitted(scene, structure, {}, check), render::eye_rays(rays),
+    render::whitted_picture(render::Whitted(scene, structure, {}, check), render::camera_rays(rays),
                             hits);
   });
   note([&] { render::record_picture(scene, structure, rays, hits, {}, check); });
@@ -176,7 +176,7 @@ TEST(HitCheck, RaysFromTheSmallestThingsAreFinite) {
     const accel::exhaustive::Exhaustive structure(scene);
     const render::Whitted tracer(scene, structure, {});
     render::Whitted::Progress progress = tracer.begin();
-    EXPECT_TRUE(finite(tracer.eye_color(ray, hit, progress))) << id;
+    EXPECT_TRUE(finite(tracer.camera_ray_color(ray, hit, progress))) << id;
   }
 }
 

@@ -1,4 +1,4 @@
-// Rays beside the primary ones: made, judged, saved and loaded.
+// Rays beside the primary ones: made, verified, saved and loaded.
 
 #include <cmath>
 #include <fstream>
@@ -181,7 +181,7 @@ TEST(EveryKindOfRays, FindsExhaustiveAndEmbreeRight) {
         poison(results);
         trace(*choice.build(scene), reference.input(), results);
         const verify::DiffReport report =
-            verify::judge(reference, results, choice.info().conformance);
+            verify::verify_results(reference, results, choice.info().conformance);
         EXPECT_EQ(report.verdict, verify::Verdict::kOk) << name << " " << kind << " " << structure;
         EXPECT_EQ(report.rays, reference.input().size());
       }
@@ -196,8 +196,8 @@ class AnyHitAnswers : public ::testing::Test {
     trace(*accel::registry().choose({"exhaustive", {}}).build(scene_), reference_.input(),
           results_);
   }
-  verify::DiffReport judged() const {
-    return verify::judge(reference_, results_, accel::Conformance::kBitExact);
+  verify::DiffReport verified() const {
+    return verify::verify_results(reference_, results_, accel::Conformance::kBitExact);
   }
   std::uint8_t& answer(std::size_t i) { return std::get<AnyHits>(results_)[i]; }
   std::size_t first_that_is(std::uint8_t value) {
@@ -212,7 +212,7 @@ class AnyHitAnswers : public ::testing::Test {
 };
 
 TEST_F(AnyHitAnswers, AreOkWhenTheyAreRight) {
-  const verify::DiffReport report = judged();
+  const verify::DiffReport report = verified();
   EXPECT_EQ(report.verdict, verify::Verdict::kOk);
   EXPECT_EQ(report.count(verify::DiffClass::kAgree), report.rays);
 }
@@ -221,31 +221,31 @@ TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsWrong) {
   for (const std::uint8_t value : {std::uint8_t{0}, std::uint8_t{1}}) {
     const std::size_t at = first_that_is(value);
     answer(at) = 1 - value;
-    const verify::DiffReport report = judged();
+    const verify::DiffReport report = verified();
     EXPECT_EQ(report.verdict, verify::Verdict::kMismatch);
     ASSERT_EQ(report.examples.size(), 1U);
     EXPECT_EQ(report.examples[0].index, at);
     EXPECT_TRUE(scenes::says(
         verify::describe(scene_, reference_.input(), report.examples[0]),
-        {fmt::format("ray {}: engine_error", at), value == 1 ? "lost a hit" : "there is none"}));
+        {fmt::format("ray {}: structure_error", at), value == 1 ? "lost a hit" : "there is none"}));
     answer(at) = value;
   }
 }
 
 TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsNoAnswer) {
   answer(7) = 2;
-  EXPECT_EQ(judged().count(verify::DiffClass::kEngineError), 1U);
+  EXPECT_EQ(verified().count(verify::DiffClass::kStructureError), 1U);
   poison(results_);
-  EXPECT_EQ(judged().count(verify::DiffClass::kEngineError), reference_.input().size());
+  EXPECT_EQ(verified().count(verify::DiffClass::kStructureError), reference_.input().size());
 }
 
 TEST_F(AnyHitAnswers, OfABaselineAreAllNo) {
-  EXPECT_EQ(verify::judge(reference_, results_, accel::Conformance::kBaseline).verdict,
+  EXPECT_EQ(verify::verify_results(reference_, results_, accel::Conformance::kBaseline).verdict,
             verify::Verdict::kMismatch);
-  EXPECT_EQ(
-      verify::judge(reference_, make_results(reference_.input()), accel::Conformance::kBaseline)
-          .verdict,
-      verify::Verdict::kBaseline);
+  EXPECT_EQ(verify::verify_results(reference_, make_results(reference_.input()),
+                                   accel::Conformance::kBaseline)
+                .verdict,
+            verify::Verdict::kBaseline);
 }
 
 TEST(AnyHitOfAGrazingRay, MayBeEither) {
@@ -262,22 +262,23 @@ TEST(AnyHitOfAGrazingRay, MayBeEither) {
     ray.t_max = t_max;
     const verify::ReferenceHits reference(
         scene, TraceInput(RaySet{"a ray", Query::kAnyHit, 0, {}, {ray}}));
-    return verify::judge(reference, AnyHits{answer}, accel::Conformance::kTolerance).examples;
+    return verify::verify_results(reference, AnyHits{answer}, accel::Conformance::kTolerance)
+        .examples;
   };
   const auto class_of = [](const std::vector<verify::Mismatch>& examples) {
     return examples.empty() ? verify::DiffClass::kAgree : examples[0].diff_class;
   };
   // Along the near triangle's edge: either answer will do, unless the far one is in reach.
   for (const std::uint8_t answer : {std::uint8_t{0}, std::uint8_t{1}}) {
-    EXPECT_NE(class_of(verdict_on(0.0F, 6.0F, answer)), verify::DiffClass::kEngineError);
-    EXPECT_NE(class_of(verdict_on(-1e-7F, 6.0F, answer)), verify::DiffClass::kEngineError);
+    EXPECT_NE(class_of(verdict_on(0.0F, 6.0F, answer)), verify::DiffClass::kStructureError);
+    EXPECT_NE(class_of(verdict_on(-1e-7F, 6.0F, answer)), verify::DiffClass::kStructureError);
     EXPECT_NE(class_of(verdict_on(0.2F, 4.0F, answer)),
-              verify::DiffClass::kEngineError);  // ends on it
+              verify::DiffClass::kStructureError);  // ends on it
   }
-  EXPECT_EQ(class_of(verdict_on(0.0F, 20.0F, 0)), verify::DiffClass::kEngineError);
-  EXPECT_EQ(class_of(verdict_on(-0.01F, 6.0F, 1)), verify::DiffClass::kEngineError);
-  EXPECT_EQ(class_of(verdict_on(0.2F, 3.9F, 1)), verify::DiffClass::kEngineError);
-  EXPECT_EQ(class_of(verdict_on(0.2F, 4.1F, 0)), verify::DiffClass::kEngineError);
+  EXPECT_EQ(class_of(verdict_on(0.0F, 20.0F, 0)), verify::DiffClass::kStructureError);
+  EXPECT_EQ(class_of(verdict_on(-0.01F, 6.0F, 1)), verify::DiffClass::kStructureError);
+  EXPECT_EQ(class_of(verdict_on(0.2F, 3.9F, 1)), verify::DiffClass::kStructureError);
+  EXPECT_EQ(class_of(verdict_on(0.2F, 4.1F, 0)), verify::DiffClass::kStructureError);
 }
 
 class RayFile : public ::testing::Test {

@@ -129,7 +129,7 @@ TEST(OverlayBeams, DrawsEachKindInItsColorAndCounts) {
   };
   EXPECT_TRUE(near(legend[0].color, 5, 15)) << "an occupied beam over its parent";
   EXPECT_TRUE(near(legend[0].color, 30, 15)) << "an occupied beam over one that leaves";
-  EXPECT_TRUE(near(legend[1].color, 55, 15)) << "a beam that goes on over one that leaves";
+  EXPECT_TRUE(near(legend[1].color, 55, 15)) << "a beam that continues over one that leaves";
   EXPECT_TRUE(near(legend[2].color, 75, 40));
   EXPECT_TRUE(is_ground(image, 58, 30)) << "where no beam is";
   EXPECT_FALSE(is_ground(image, 15, 15)) << "ends are tinted";

@@ -47,7 +47,7 @@ TEST(ShadingOrder, KeepsTheSamplesOfABeamTogether) {
 TEST(ShadingOrder, ChangesNeitherPictureNorRays) {
   const scenes::Scene scene = scenes::load_scene("maceta");
   const accel::PrimaryRays primary(scene.cameras.front(), 80, 64, 1);
-  const EyeRays rays = eye_rays(primary);
+  const CameraRays rays = camera_rays(primary);
   const auto beam = built(scene, "beam:max_level=5");
   accel::HitBuffer hits(primary.width(), primary.height(), 1);
   beam->trace(primary, hits, nullptr);

@@ -1,4 +1,4 @@
-// Whole pictures as a task of sweeps: every ray that follows the eye's is counted and judged.
+// Whole pictures as a task of sweeps: every ray that follows a camera ray is counted and verified.
 
 #include <memory>
 #include <string>
@@ -20,6 +20,7 @@ namespace {
 bench::CellGroup group_of(scenes::Scene scene, const std::string& rays = "whitted") {
   const scenes::Camera camera = scene.cameras.front();
   return {std::make_shared<const scenes::Scene>(std::move(scene)),
+          7,  // for its hash
           camera,
           {40, 30},
           1,
@@ -32,14 +33,14 @@ accel::StructureChoice choice(const std::string& spec) {
   return accel::registry().choose(parse_spec(spec));
 }
 
-/// Asks a structure as a contender does; the judgment of what it answered.
-verify::DiffReport judged(bench::Task& task, const std::string& spec) {
+/// Traces a structure as a contender does; the verification of its answers.
+verify::DiffReport verified(bench::Task& task, const std::string& spec) {
   const auto structure = choice(spec).build(task.scene());
   task.poison();
   task.ask(*structure);
   const std::uint64_t timed = task.fingerprint();
-  verify::DiffReport report = task.judge(*structure, choice(spec)).report;
-  EXPECT_EQ(task.fingerprint(), timed) << "what is judged is what was timed";
+  verify::DiffReport report = task.verify_results(*structure, choice(spec)).report;
+  EXPECT_EQ(task.fingerprint(), timed) << "what is verified is what was timed";
   return report;
 }
 
@@ -52,25 +53,25 @@ std::uint64_t ray_count(const bench::CountedWork& work) {
 TEST(WholePicture, EveryStructureIsRightInEveryRay) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     const bench::CellGroup group = group_of(scene_of_all_surfaces(seed));
-    const auto task = bench::make_task(group, 0, -1);
+    const auto task = bench::make_task(group, -1);
     std::uint64_t expected = 0;
     for (const char* spec : {"exhaustive", "samet", "samet-net", "voxel-grid", "goldsmith-salmon",
                              "sah-bvh", "beam", "tile-beam", "embree"}) {
       SCOPED_TRACE(spec);
-      const verify::DiffReport report = judged(*task, spec);
+      const verify::DiffReport report = verified(*task, spec);
       EXPECT_EQ(report.verdict, verify::Verdict::kOk);
       EXPECT_GT(report.rays, 1U * 40 * 30);
       if (choice(spec).info().conformance != accel::Conformance::kBitExact) continue;
       if (expected == 0) expected = task->fingerprint();
       EXPECT_EQ(task->fingerprint(), expected);
     }
-    EXPECT_EQ(judged(*task, "null").verdict, verify::Verdict::kBaseline);
+    EXPECT_EQ(verified(*task, "null").verdict, verify::Verdict::kBaseline);
   }
 }
 
 TEST(WholePicture, CountsWorkByKindOfRays) {
   const bench::CellGroup group = group_of(scene_of_all_surfaces(2));  // with glass
-  const auto task = bench::make_task(group, 0, -1);
+  const auto task = bench::make_task(group, -1);
   const auto structure = choice("exhaustive").build(task->scene());
   task->ask(*structure);
   const std::uint64_t timed = task->fingerprint();
@@ -98,7 +99,7 @@ TEST(WholePicture, CountsWorkByKindOfRays) {
 
 TEST(WholePicture, ItsFactsAreThoseOfTheOraclesPicture) {
   const bench::CellGroup group = group_of(scenes::load_scene("balls:n=1"));
-  const auto task = bench::make_task(group, 7, -1);
+  const auto task = bench::make_task(group, -1);
   const bench::RaySetFacts& facts = task->facts();
   EXPECT_EQ(facts.scene_hash, 7U);
   EXPECT_EQ(facts.query, rays::Query::kPicture);
@@ -108,9 +109,9 @@ TEST(WholePicture, ItsFactsAreThoseOfTheOraclesPicture) {
   EXPECT_GT(facts.hit_share.value(), 0.2);
   EXPECT_LT(facts.occluded_share.value(), 0.9);
   EXPECT_FALSE(facts.coherence);
-  EXPECT_EQ(bench::make_task(group, 7, -1)->facts().rays_hash, facts.rays_hash);
+  EXPECT_EQ(bench::make_task(group, -1)->facts().rays_hash, facts.rays_hash);
   const bench::CellGroup shallow = group_of(scenes::load_scene("balls:n=1"), "whitted:depth=1");
-  EXPECT_NE(bench::make_task(shallow, 7, -1)->facts().rays_hash, facts.rays_hash);
+  EXPECT_NE(bench::make_task(shallow, -1)->facts().rays_hash, facts.rays_hash);
 }
 
 /// `exhaustive`, wrong only where it is asked for single rays, and there now and then.
@@ -141,16 +142,16 @@ class WrongAlone : public accel::TraversalAccelerator<WrongAlone> {
 
 TEST(WholePicture, AWrongRayThatFollowsIsFoundAndNamed) {
   const bench::CellGroup group = group_of(scene_of_all_surfaces(1));  // without glass
-  const auto task = bench::make_task(group, 0, -1);
+  const auto task = bench::make_task(group, -1);
   for (const auto& [in, name] : {std::pair{WrongAlone::In::kClosest, "reflected rays, ray "},
                                  std::pair{WrongAlone::In::kAny, "shadow rays, ray "}}) {
     const WrongAlone structure(task->scene(), in);
     task->ask(structure);
-    const bench::Judgment judgment = task->judge(structure, choice("exhaustive"));
-    EXPECT_EQ(judgment.report.verdict, verify::Verdict::kMismatch);
-    EXPECT_GT(judgment.report.count(verify::DiffClass::kEngineError), 0U);
-    ASSERT_FALSE(judgment.examples.empty());
-    for (const std::string& example : judgment.examples) EXPECT_TRUE(scenes::says(example, {name}));
+    const bench::Verification found = task->verify_results(structure, choice("exhaustive"));
+    EXPECT_EQ(found.report.verdict, verify::Verdict::kMismatch);
+    EXPECT_GT(found.report.count(verify::DiffClass::kStructureError), 0U);
+    ASSERT_FALSE(found.examples.empty());
+    for (const std::string& example : found.examples) EXPECT_TRUE(scenes::says(example, {name}));
   }
 }
 

@@ -66,20 +66,20 @@ TEST(Oracle, GivesTheLongDoubleAnswer) {
   EXPECT_LT(not_equal, rays / 10);
 }
 
-TEST(Judge, FindsNoErrorInExhaustiveSearchOnRandomScenes) {
+TEST(Differ, FindsNoErrorInExhaustiveSearchOnRandomScenes) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     const scenes::Scene scene = random_scene(seed, 40);
     const accel::PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
     const ReferenceHits reference(scene, rays);
     const DiffReport report =
-        judge(reference, traced("exhaustive", scene, rays), accel::Conformance::kBitExact);
+        verify_results(reference, traced("exhaustive", scene, rays), accel::Conformance::kBitExact);
     ASSERT_EQ(report.verdict, Verdict::kOk) << first_example(reference, report);
     ASSERT_EQ(report.count(DiffClass::kEmbreeError), 0U) << first_example(reference, report);
     ASSERT_EQ(report.rays, rays.count());
   }
 }
 
-TEST(Judge, AcceptsEveryModeOfEmbree) {
+TEST(Differ, AcceptsEveryModeOfEmbree) {
   std::vector<std::string> variants = {"mode=packet16,coherent=false", "quality=low",
                                        "quality=medium", "robust=false"};
   for (const std::string& mode : testing::embree_modes()) variants.push_back("mode=" + mode);
@@ -90,7 +90,7 @@ TEST(Judge, AcceptsEveryModeOfEmbree) {
     for (const std::string& variant : variants) {
       const std::string structure = "embree:" + variant;
       const DiffReport report =
-          judge(reference, traced(structure, scene, rays), accel::Conformance::kTolerance);
+          verify_results(reference, traced(structure, scene, rays), accel::Conformance::kTolerance);
       EXPECT_EQ(report.verdict, Verdict::kOk) << name << " " << structure << "\n"
                                               << first_example(reference, report);
       EXPECT_GT(report.hits, 0U);
@@ -98,7 +98,7 @@ TEST(Judge, AcceptsEveryModeOfEmbree) {
   }
 }
 
-TEST(Judge, AcceptsEmbreesOwnConesAndInsideSpheres) {
+TEST(Differ, AcceptsEmbreesOwnConesAndInsideSpheres) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const scenes::Scene scene =
         random_scene(4 * seed + 3, 40);  // neither snapped, repeated nor remote
@@ -107,7 +107,7 @@ TEST(Judge, AcceptsEmbreesOwnConesAndInsideSpheres) {
     for (const std::string& mode : testing::embree_modes()) {
       const std::string structure = "embree:mode=" + mode;
       const DiffReport report =
-          judge(reference, traced(structure, scene, rays), accel::Conformance::kTolerance);
+          verify_results(reference, traced(structure, scene, rays), accel::Conformance::kTolerance);
       ASSERT_EQ(report.verdict, Verdict::kOk) << structure << "\n"
                                               << first_example(reference, report);
     }
@@ -152,15 +152,17 @@ class FaultyBuffer : public ::testing::Test {
   std::size_t on_wall() const { return seeing(0.0, 1.5, -2.0); }
   std::size_t on_cone() const { return seeing(0.0, -1.5, 0.3); }
 
-  DiffReport judged() const { return judge(reference_, buffer_, accel::Conformance::kTolerance); }
-  void expect_engine_error() const {
-    const DiffReport report = judged();
+  DiffReport verified() const {
+    return verify_results(reference_, buffer_, accel::Conformance::kTolerance);
+  }
+  void expect_structure_error() const {
+    const DiffReport report = verified();
     EXPECT_EQ(report.verdict, Verdict::kMismatch);
-    EXPECT_EQ(report.count(DiffClass::kEngineError), 1U);
+    EXPECT_EQ(report.count(DiffClass::kStructureError), 1U);
     EXPECT_EQ(report.count(DiffClass::kAgree), report.rays - 1)
         << first_example(reference_, report);
     ASSERT_EQ(report.examples.size(), 1U);
-    EXPECT_EQ(report.examples.front().diff_class, DiffClass::kEngineError);
+    EXPECT_EQ(report.examples.front().diff_class, DiffClass::kStructureError);
   }
   void shift(std::size_t index, double tolerances) {
     accel::Hit hit = *buffer_.get(index);
@@ -175,7 +177,7 @@ class FaultyBuffer : public ::testing::Test {
 };
 
 TEST_F(FaultyBuffer, NoneIsFoundWhereNoneIs) {
-  const DiffReport report = judged();
+  const DiffReport report = verified();
   EXPECT_EQ(report.verdict, Verdict::kOk);
   EXPECT_EQ(report.count(DiffClass::kAgree), report.rays);
   EXPECT_TRUE(report.examples.empty());
@@ -190,7 +192,7 @@ TEST_F(FaultyBuffer, ShiftOfTByTenTolerances) {
     for (const double shifted : {10.0, -10.0}) {
       const accel::Hit before = *buffer_.get(index);
       shift(index, shifted);
-      expect_engine_error();
+      expect_structure_error();
       buffer_.set(index, before);
     }
   }
@@ -198,32 +200,32 @@ TEST_F(FaultyBuffer, ShiftOfTByTenTolerances) {
 
 TEST_F(FaultyBuffer, ShiftOfTBelowTheToleranceAgrees) {
   for (const std::size_t index : {on_sphere(), on_tile(), on_wall(), on_cone()}) shift(index, 0.4);
-  EXPECT_EQ(judged().count(DiffClass::kAgree), judged().rays);
-  EXPECT_EQ(judged().verdict, Verdict::kOk);
+  EXPECT_EQ(verified().count(DiffClass::kAgree), verified().rays);
+  EXPECT_EQ(verified().verdict, Verdict::kOk);
 }
 
 TEST_F(FaultyBuffer, HitReplacedByAMiss) {
   buffer_.set(on_tile(), std::nullopt);
-  expect_engine_error();
-  EXPECT_TRUE(judged().examples.front().adjudicated);
-  EXPECT_EQ(judged().examples.front().exact->primitive, kTile);
+  expect_structure_error();
+  EXPECT_TRUE(verified().examples.front().searched);
+  EXPECT_EQ(verified().examples.front().exact->primitive, kTile);
 }
 
 TEST_F(FaultyBuffer, FartherPrimitiveBehindTheRightOne) {
   const accel::Ray ray =
       rays_.ray(static_cast<int>(on_tile() % 65), static_cast<int>(on_tile() / 65), 0);
   buffer_.set(on_tile(), accel::Hit{(ray.origin.z + 2.0F) / -ray.direction.z, kWall});
-  expect_engine_error();
+  expect_structure_error();
 }
 
 TEST_F(FaultyBuffer, HitWhereThereIsNone) {
   buffer_.set(on_wall(), accel::Hit{4.0F, kTile});
-  expect_engine_error();
+  expect_structure_error();
 }
 
 TEST_F(FaultyBuffer, RightPlaceWithTheWrongPrimitive) {
   buffer_.set(on_tile(), accel::Hit{buffer_.get(on_tile())->t, kSphere});
-  expect_engine_error();
+  expect_structure_error();
 }
 
 TEST_F(FaultyBuffer, FarSideOfTheSphereAndTheCone) {
@@ -235,7 +237,7 @@ TEST_F(FaultyBuffer, FarSideOfTheSphereAndTheCone) {
     const auto far_side = exact_closest_hit(scene_, ray);
     ASSERT_EQ(far_side->primitive, id);
     buffer_.set(index, accel::Hit{static_cast<float>(far_side->t), id});
-    expect_engine_error();
+    expect_structure_error();
     buffer_.set(index, before);
   }
 }
@@ -254,11 +256,11 @@ TEST_F(FaultyBuffer, AnswersThatAreNone) {
   for (const accel::Hit& answer : none) {
     buffer_.t()[on_tile()] = answer.t;
     buffer_.primitive()[on_tile()] = answer.primitive;
-    expect_engine_error();
-    EXPECT_FALSE(describe(scene_, rays_, judged().examples.front()).empty());
+    expect_structure_error();
+    EXPECT_FALSE(describe(scene_, rays_, verified().examples.front()).empty());
   }
   buffer_.set(on_tile(), before);
-  EXPECT_EQ(judged().verdict, Verdict::kOk);
+  EXPECT_EQ(verified().verdict, Verdict::kOk);
 }
 
 TEST_F(FaultyBuffer, ErrorOfTheOracleIsNotTheStructures) {
@@ -267,45 +269,48 @@ TEST_F(FaultyBuffer, ErrorOfTheOracleIsNotTheStructures) {
   hits[on_tile()] = std::nullopt;
   hits[on_wall()] = accel::embree::ExactHit{4.0, kTile};
   const ReferenceHits wrong(scene_, rays_, hits);
-  const DiffReport report = judge(wrong, buffer_, accel::Conformance::kTolerance);
+  const DiffReport report = verify_results(wrong, buffer_, accel::Conformance::kTolerance);
   EXPECT_EQ(report.count(DiffClass::kEmbreeError), 2U);
   EXPECT_EQ(report.verdict, Verdict::kOk);
 }
 
 TEST_F(FaultyBuffer, DescriptionNamesPixelRayBothHitsAndTheExactAnswer) {
   buffer_.set(on_tile(), std::nullopt);
-  const DiffReport report = judged();
+  const DiffReport report = verified();
   const Mismatch& mismatch = report.examples.at(0);
   EXPECT_EQ(mismatch.index, on_tile());
   const std::string text = describe(scene_, rays_, mismatch);
   EXPECT_NE(text.find("pixel ("), std::string::npos) << text;
   EXPECT_NE(text.find("from (0, 0, 4) along ("), std::string::npos) << text;
-  EXPECT_NE(text.find("engine miss"), std::string::npos) << text;
-  EXPECT_NE(text.find("oracle primitive 1 (polygon) at t = 4"), std::string::npos) << text;
-  EXPECT_NE(text.find("exact  primitive 1 (polygon) at t = 4"), std::string::npos) << text;
+  EXPECT_NE(text.find("structure miss"), std::string::npos) << text;
+  EXPECT_NE(text.find("oracle    primitive 1 (polygon) at t = 4"), std::string::npos) << text;
+  EXPECT_NE(text.find("exact     primitive 1 (polygon) at t = 4"), std::string::npos) << text;
   EXPECT_NE(text.find("lost"), std::string::npos) << text;
 }
 
 TEST_F(FaultyBuffer, ManyAreAllCountedAndAFewShown) {
   for (std::size_t i = 0; i < buffer_.size(); ++i) buffer_.set(i, std::nullopt);
-  const DiffReport report = judged();
+  const DiffReport report = verified();
   EXPECT_EQ(report.verdict, Verdict::kMismatch);
-  EXPECT_EQ(report.count(DiffClass::kEngineError) + report.count(DiffClass::kGraze), report.hits);
+  EXPECT_EQ(report.count(DiffClass::kStructureError) + report.count(DiffClass::kGraze),
+            report.hits);
   EXPECT_LE(report.examples.size(), 2 * DiffReport::kMaxExamples);
-  EXPECT_EQ(report.examples.front().diff_class, DiffClass::kEngineError);
+  EXPECT_EQ(report.examples.front().diff_class, DiffClass::kStructureError);
 }
 
 TEST_F(FaultyBuffer, BufferOfAnotherSizeIsAMistakeOfTheCaller) {
-  EXPECT_THROW(judge(reference_, accel::HitBuffer(64, 65, 1), accel::Conformance::kTolerance),
-               std::logic_error);
+  EXPECT_THROW(
+      verify_results(reference_, accel::HitBuffer(64, 65, 1), accel::Conformance::kTolerance),
+      std::logic_error);
 }
 
 TEST_F(FaultyBuffer, BaselineMustBeSilent) {
-  EXPECT_EQ(judge(reference_, buffer_, accel::Conformance::kBaseline).verdict, Verdict::kMismatch);
+  EXPECT_EQ(verify_results(reference_, buffer_, accel::Conformance::kBaseline).verdict,
+            Verdict::kMismatch);
   const DiffReport silent =
-      judge(reference_, accel::HitBuffer(65, 65, 1), accel::Conformance::kBaseline);
+      verify_results(reference_, accel::HitBuffer(65, 65, 1), accel::Conformance::kBaseline);
   EXPECT_EQ(silent.verdict, Verdict::kBaseline);
-  EXPECT_EQ(silent.count(DiffClass::kEngineError), 0U);
+  EXPECT_EQ(silent.count(DiffClass::kStructureError), 0U);
 }
 
 /// Rays that pass a triangle's edge and a sphere's silhouette at a chosen distance, in units of K
@@ -370,10 +375,14 @@ TEST(GrazeBudget, IsTwoForASmallImage) {
   };
   change(15);
   change(16);
-  EXPECT_EQ(judge(reference, buffer, accel::Conformance::kTolerance).count(DiffClass::kGraze), 2U);
-  EXPECT_EQ(judge(reference, buffer, accel::Conformance::kTolerance).verdict, Verdict::kOk);
+  EXPECT_EQ(
+      verify_results(reference, buffer, accel::Conformance::kTolerance).count(DiffClass::kGraze),
+      2U);
+  EXPECT_EQ(verify_results(reference, buffer, accel::Conformance::kTolerance).verdict,
+            Verdict::kOk);
   change(17);
-  EXPECT_EQ(judge(reference, buffer, accel::Conformance::kTolerance).verdict, Verdict::kGrazes);
+  EXPECT_EQ(verify_results(reference, buffer, accel::Conformance::kTolerance).verdict,
+            Verdict::kGrazes);
 }
 
 }  // namespace

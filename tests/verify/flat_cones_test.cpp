@@ -1,4 +1,4 @@
-// Cones of hardly any height, down to rings: hits are right, and judged right.
+// Cones of hardly any height, down to rings: hits are right, and verified right.
 
 #include <cmath>
 #include <optional>
@@ -104,14 +104,14 @@ TEST_P(FlatCone, IsHitAsTheRingThatItIs) {
   }
 }
 
-TEST_P(FlatCone, IsJudgedRight) {
+TEST_P(FlatCone, IsVerified) {
   for (const std::string kind : {"primary", "random"}) {
     const rays::TraceInput input = rays_over(scene_, kind, 160);
     const ReferenceHits reference(scene_, input);
     for (const std::string structure : {"exhaustive", "samet", "voxel-grid", "sah-bvh", "embree"}) {
       const DiffReport report =
-          judge(reference, traced(structure, scene_, input),
-                accel::registry().choose(parse_spec(structure)).info().conformance);
+          verify_results(reference, traced(structure, scene_, input),
+                         accel::registry().choose(parse_spec(structure)).info().conformance);
       EXPECT_EQ(report.verdict, Verdict::kOk) << structure << first_example(reference, report);
       EXPECT_EQ(report.count(DiffClass::kEmbreeError), 0U)
           << structure << first_example(reference, report);
@@ -127,9 +127,9 @@ TEST_P(FlatCone, HasNoRoomForErrors) {
   const auto expect_error = [&](std::size_t i, const std::optional<accel::Hit>& planted) {
     const auto before = buffer.get(i);
     buffer.set(i, planted);
-    const DiffReport report = judge(reference, buffer, accel::Conformance::kTolerance);
+    const DiffReport report = verify_results(reference, buffer, accel::Conformance::kTolerance);
     EXPECT_EQ(report.verdict, Verdict::kMismatch) << "ray " << i;
-    EXPECT_EQ(report.count(DiffClass::kEngineError), 1U) << "ray " << i;
+    EXPECT_EQ(report.count(DiffClass::kStructureError), 1U) << "ray " << i;
     buffer.set(i, before);
   };
   int on_ring = 0;
@@ -159,12 +159,12 @@ TEST_P(FlatCone, HasNoRoomForErrors) {
 INSTANTIATE_TEST_SUITE_P(Heights, FlatCone,
                          ::testing::Values(1e-3, 1e-5, 1e-6, 1e-7, 1e-9, 1e-12, 1e-20, 1e-30));
 
-TEST(FlatCones, IsJudgedRightWhereRoundingOfTCrossesItsHeight) {
+TEST(FlatCones, IsVerifiedWhereRoundingOfTCrossesItsHeight) {
   const scenes::Scene scene = ring(0.5, 1e-6);
   const rays::TraceInput input = rays_over(scene, "random", 320);
   const ReferenceHits reference(scene, input);
   const DiffReport report =
-      judge(reference, traced("exhaustive", scene, input), accel::Conformance::kBitExact);
+      verify_results(reference, traced("exhaustive", scene, input), accel::Conformance::kBitExact);
   EXPECT_EQ(report.verdict, Verdict::kOk) << first_example(reference, report);
   EXPECT_EQ(report.count(DiffClass::kEmbreeError), 0U) << first_example(reference, report);
 }

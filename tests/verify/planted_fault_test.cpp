@@ -74,10 +74,10 @@ class PlantedFault : public ::testing::TestWithParam<Subject> {
     options_.max_level = GetParam().max_level;
   }
 
-  DiffReport judge_with(const Fault& fault) const {
+  DiffReport verify_with(const Fault& fault) const {
     accel::HitBuffer buffer(kSide, kSide, 1);
     FaultySamet(scene_, options_, fault).trace(rays_, buffer, nullptr);
-    return judge(reference_, buffer, accel::Conformance::kBitExact);
+    return verify_results(reference_, buffer, accel::Conformance::kBitExact);
   }
 
   /// The leaf in which some ray finds its hit, and the reference that is hit there.
@@ -115,18 +115,18 @@ class PlantedFault : public ::testing::TestWithParam<Subject> {
   ReferenceHits reference_;
 };
 
-TEST_P(PlantedFault, NoneIsOk) { EXPECT_EQ(judge_with({}).verdict, Verdict::kOk); }
+TEST_P(PlantedFault, NoneIsOk) { EXPECT_EQ(verify_with({}).verdict, Verdict::kOk); }
 
 TEST_P(PlantedFault, OneReferenceDroppedIsAMismatch) {
-  const DiffReport report = judge_with(where_a_hit_is_found(false));
+  const DiffReport report = verify_with(where_a_hit_is_found(false));
   EXPECT_EQ(report.verdict, Verdict::kMismatch);
-  EXPECT_GT(report.count(DiffClass::kEngineError), 0U);
+  EXPECT_GT(report.count(DiffClass::kStructureError), 0U);
 }
 
 TEST_P(PlantedFault, OneLeafSkippedIsAMismatch) {
-  const DiffReport report = judge_with(where_a_hit_is_found(true));
+  const DiffReport report = verify_with(where_a_hit_is_found(true));
   EXPECT_EQ(report.verdict, Verdict::kMismatch);
-  EXPECT_GT(report.count(DiffClass::kEngineError), 0U);
+  EXPECT_GT(report.count(DiffClass::kStructureError), 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, PlantedFault,

@@ -39,11 +39,11 @@ TEST(ReplayCommand, NamesWhatIsNotTheDefault) {
   const accel::StructureChoice samet = accel::registry().choose(parse_spec("samet:max_level=3"));
   const rays::ImageOfRays front{scene.cameras.front(), {32, 20}, 1};
   const accel::PrimaryRays one(front.camera, 32, 20, 1);
-  EXPECT_EQ(ReplayCommand(scene, front, samet, one).of(4 * 32 + 3),
+  EXPECT_EQ(ReplayCommand("beambench", scene, front, samet, one).of(4 * 32 + 3),
             "beambench trace tetra:n=1 --accel samet:max_level=3 --pixel 3,4 --resolution 32x20");
   const accel::PrimaryRays four(scene.cameras.back(), 32, 20, 4);
   const rays::ImageOfRays side{scene.cameras.back(), {32, 20}, 4};
-  EXPECT_EQ(ReplayCommand(scene, side, samet, four).of((4 * 32 + 3) * 4 + 2),
+  EXPECT_EQ(ReplayCommand("beambench", scene, side, samet, four).of((4 * 32 + 3) * 4 + 2),
             "beambench trace tetra:n=1 --accel samet:max_level=3 --pixel 3,4 --resolution 32x20 "
             "--samples 4 --camera 'from the side' --sample 2");
   rays::ImageOfRays typed = front;
@@ -52,12 +52,12 @@ TEST(ReplayCommand, NamesWhatIsNotTheDefault) {
   typed.camera.angle = 30.0F;
   typed.camera.at = {0.0F, 0.0F, 0.0F};
   typed.camera.up = {0.0F, 1.0F, 0.0F};
-  EXPECT_EQ(ReplayCommand(scene, typed, samet, one).of(0),
+  EXPECT_EQ(ReplayCommand("beambench", scene, typed, samet, one).of(0),
             "beambench trace tetra:n=1 --accel samet:max_level=3 --pixel 0,0 --resolution 32x20 "
             "--from 1,-2.5,0.1 --at 0,0,0 --up 0,1,0 --angle 30");
   const rays::TraceInput diffuse =
       rays::make_trace_input(scene, front, rays::parse_ray_choice("diffuse:seed=2"));
-  EXPECT_EQ(ReplayCommand(scene, front, samet, diffuse).of(7),
+  EXPECT_EQ(ReplayCommand("beambench", scene, front, samet, diffuse).of(7),
             "beambench trace tetra:n=1 --accel samet:max_level=3 --rays diffuse:seed=2 --ray 7 "
             "--resolution 32x20");
 }
@@ -108,14 +108,16 @@ TEST_F(PlantedMismatch, IsReplayedByThePastedCommand) {
   buffer.set(lost, std::nullopt);
 
   std::vector<DiffClass> classes(buffer.size());
-  const DiffReport report = judge(reference, buffer, accel::Conformance::kBitExact, classes);
+  const DiffReport report =
+      verify_results(reference, buffer, accel::Conformance::kBitExact, classes);
   ASSERT_EQ(report.verdict, Verdict::kMismatch);
   ASSERT_EQ(report.examples.size(), 1U);
-  EXPECT_EQ(classes[lost], DiffClass::kEngineError);
+  EXPECT_EQ(classes[lost], DiffClass::kStructureError);
   EXPECT_EQ(std::count(classes.begin(), classes.end(), DiffClass::kAgree),
             static_cast<std::ptrdiff_t>(classes.size()) - 1);
 
-  const ReplayCommand replay(scene_, {scene_.cameras.front(), {33, 21}, kSamples}, samet, rays);
+  const ReplayCommand replay("beambench", scene_, {scene_.cameras.front(), {33, 21}, kSamples},
+                             samet, rays);
   const std::string described = describe(scene_, rays, report.examples[0], replay);
   const std::string pasted = line_of(described, "  replay ").substr(9);
   const std::string shown = paste(pasted, 0);  // the program's own samet does not lose the hit
@@ -138,10 +140,10 @@ TEST_F(PlantedMismatch, OfASecondaryRayIsReplayedByThePastedCommand) {
     while (!hits.get(at) && at + 1 < hits.size()) ++at;
     const auto found = hits.get(at);
     hits.set(at, found ? std::nullopt : std::optional(accel::Hit{1.0F, 0}));
-    const DiffReport report = judge(reference, results, accel::Conformance::kBitExact);
+    const DiffReport report = verify_results(reference, results, accel::Conformance::kBitExact);
     ASSERT_EQ(report.examples.size(), 1U) << kind;
 
-    const ReplayCommand replay(scene_, image, samet, reference.input());
+    const ReplayCommand replay("beambench", scene_, image, samet, reference.input());
     const std::string described = describe(scene_, reference.input(), report.examples[0], replay);
     const std::string shown = paste(line_of(described, "  replay ").substr(9), 0);
     EXPECT_EQ(line_of(shown, "  ray "), line_of(described, "  ray "));
@@ -150,7 +152,7 @@ TEST_F(PlantedMismatch, OfASecondaryRayIsReplayedByThePastedCommand) {
   }
 }
 
-TEST_F(PlantedMismatch, OneRayIsJudgedAsInItsImage) {
+TEST_F(PlantedMismatch, OneRayIsClassifiedAsInItsImage) {
   const accel::PrimaryRays rays(scene_.cameras.front(), 16, 16, 1);
   const ReferenceHits reference(scene_, rays);
   accel::HitBuffer buffer(16, 16, 1);
@@ -163,10 +165,10 @@ TEST_F(PlantedMismatch, OneRayIsJudgedAsInItsImage) {
   for (const accel::Conformance conformance :
        {accel::Conformance::kBitExact, accel::Conformance::kBaseline}) {
     std::vector<DiffClass> classes(buffer.size());
-    judge(reference, buffer, conformance, classes);
+    verify_results(reference, buffer, conformance, classes);
     for (std::size_t i = 0; i < buffer.size(); ++i) {
-      Mismatch asked = ask_again(rays, buffer, i, reference.hits()[i]);
-      judge_ray(scene_, conformance, asked);
+      Mismatch asked = candidate_mismatch(rays, buffer, i, reference.hits()[i]);
+      verify_ray(scene_, conformance, asked);
       EXPECT_EQ(asked.diff_class, classes[i]) << i;
     }
   }

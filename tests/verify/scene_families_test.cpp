@@ -76,7 +76,7 @@ std::vector<Contender> contenders_over(const scenes::Scene& scene, Random& rando
 std::string first_error(const scenes::Scene& scene, const rays::TraceInput& input,
                         const DiffReport& report) {
   for (const Mismatch& example : report.examples) {
-    if (example.diff_class == DiffClass::kEngineError) return describe(scene, input, example);
+    if (example.diff_class == DiffClass::kStructureError) return describe(scene, input, example);
   }
   return "";
 }
@@ -100,23 +100,23 @@ class Trial {
     }
   }
 
-  void judge_all() {
+  void verify_all() {
     for (const Contender& contender : contenders_over(scene_, random_)) {
-      for (const ReferenceHits& reference : references_) judge_rays(contender, reference);
-      judge_picture_of(contender);
+      for (const ReferenceHits& reference : references_) verify_rays(contender, reference);
+      verify_picture_of(contender);
     }
   }
-  std::size_t judged() const { return judged_; }
+  std::size_t verified() const { return verified_; }
 
  private:
-  void judge_rays(const Contender& contender, const ReferenceHits& reference) {
+  void verify_rays(const Contender& contender, const ReferenceHits& reference) {
     const rays::TraceInput& input = reference.input();
     rays::TraceResults results = rays::make_results(input);
     rays::poison(results);
     rays::trace(*contender.structure, input, results);
-    const DiffReport report = judge(reference, results, contender.conformance);
-    judged_ += report.rays;
-    EXPECT_EQ(report.count(DiffClass::kEngineError), 0U)
+    const DiffReport report = verify_results(reference, results, contender.conformance);
+    verified_ += report.rays;
+    EXPECT_EQ(report.count(DiffClass::kStructureError), 0U)
         << contender.label << " over " << scene_.name << ", " << input.label() << " rays\n"
         << first_error(scene_, input, report);
     if (contender.conformance == accel::Conformance::kBitExact) {
@@ -127,23 +127,24 @@ class Trial {
     }
   }
 
-  void judge_picture_of(const Contender& contender) {
+  void verify_picture_of(const Contender& contender) {
     const ReferenceHits& eye = references_.front();
     const accel::PrimaryRays& rays = *eye.input().image();
     accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
     contender.structure->trace(rays, hits, nullptr);
-    std::vector<render::JudgedRays> judged;
+    std::vector<render::VerifiedRays> verified;
     try {
-      judged = render::judge_picture(eye,
-                                     render::record_picture(scene_, *contender.structure, rays,
-                                                            hits, {}, rays::HitCheck(scene_)),
-                                     contender.conformance);
+      verified =
+          render::verify_recorded_picture(eye,
+                                          render::record_picture(scene_, *contender.structure, rays,
+                                                                 hits, {}, rays::HitCheck(scene_)),
+                                          contender.conformance);
     } catch (const rays::InvalidHit& error) {
       ADD_FAILURE() << contender.label << " over " << scene_.name << ": " << error.what();
     }
-    for (const render::JudgedRays& of_kind : judged) {
-      judged_ += of_kind.report.rays;
-      EXPECT_EQ(of_kind.report.count(DiffClass::kEngineError), 0U)
+    for (const render::VerifiedRays& of_kind : verified) {
+      verified_ += of_kind.report.rays;
+      EXPECT_EQ(of_kind.report.count(DiffClass::kStructureError), 0U)
           << contender.label << " over " << scene_.name << ", whitted " << of_kind.kind << " rays\n"
           << first_error(scene_, of_kind.input, of_kind.report);
     }
@@ -153,21 +154,21 @@ class Trial {
   Random random_;
   std::vector<ReferenceHits> references_;
   std::map<std::string, rays::TraceResults> exact_;  ///< of exhaustive, by kinds of rays
-  std::size_t judged_ = 0;
+  std::size_t verified_ = 0;
 };
 
 TEST(SceneFamilies, NoStructureErrs) {
   const std::uint64_t scenes = number_from("BEAMBENCH_FAMILY_SCENES", 28);
   const std::uint64_t first = number_from("BEAMBENCH_FAMILY_SEED", 1);
-  std::size_t judged = 0;
+  std::size_t verified = 0;
   for (std::uint64_t seed = first; seed < first + scenes; ++seed) {
     SCOPED_TRACE(fmt::format("seed {}", seed));
     Trial trial(seed);
-    trial.judge_all();
-    judged += trial.judged();
+    trial.verify_all();
+    verified += trial.verified();
   }
-  fmt::print("{} scenes, {} results\n", scenes, judged);
-  EXPECT_GT(judged, scenes * 10'000);
+  fmt::print("{} scenes, {} results\n", scenes, verified);
+  EXPECT_GT(verified, scenes * 10'000);
 }
 
 /// The image of a structure compiled for one of Highway's targets.

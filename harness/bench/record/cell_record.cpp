@@ -19,6 +19,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::array<std::string_view, 3> kStopReasonNames{"precision", "budget", "repetitions"};
 
+template <class Value>
+Json or_null(const std::optional<Value>& value) {
+  return value ? Json(*value) : Json();
+}
+
 /// One figure of every repetition.
 template <class Figure>
 std::vector<double> collect(const CellRecord& cell, Figure figure) {
@@ -64,12 +69,9 @@ void add_identity(Row& row, const CellRecord& cell) {
   row["query"] = rays::to_string(cell.rays.query);
   row["query_path"] = cell.harness ? Json(to_string(cell.harness->path)) : Json();
   row["rays"] = cell.rays.rays;
-  const auto known = [](const std::optional<double>& figure) {
-    return figure ? Json(*figure) : Json();
-  };
-  row["hit_share"] = known(cell.rays.hit_share);
-  row["occluded_share"] = known(cell.rays.occluded_share);
-  row["coherence"] = known(cell.rays.coherence);
+  row["hit_share"] = or_null(cell.rays.hit_share);
+  row["occluded_share"] = or_null(cell.rays.occluded_share);
+  row["coherence"] = or_null(cell.rays.coherence);
 }
 
 /// The 95% interval of a median.
@@ -79,11 +81,16 @@ void add_interval(Row& row, const std::string& phase, const std::vector<double>&
   row[phase + "_ms_ci_high"] = interval ? Json(interval->high) : Json();
 }
 
+/// A statistic of samples; null where there are none.
+template <class Statistic>
+Json statistic(Statistic figure, const std::vector<double>& samples) {
+  return samples.empty() ? Json() : Json(figure(samples));
+}
+
 void add_wall_time(Row& row, const std::string& phase, const std::vector<double>& samples) {
-  const bool known = !samples.empty();
-  row[phase + "_ms_median"] = known ? Json(median(samples)) : Json();
-  row[phase + "_ms_min"] = known ? Json(minimum(samples)) : Json();
-  row[phase + "_ms_mad"] = known ? Json(median_absolute_deviation(samples)) : Json();
+  row[phase + "_ms_median"] = statistic(median, samples);
+  row[phase + "_ms_min"] = statistic(minimum, samples);
+  row[phase + "_ms_mad"] = statistic(median_absolute_deviation, samples);
 }
 
 std::vector<double> warm_traces(const CellRecord& cell) {
@@ -94,10 +101,10 @@ std::vector<double> warm_traces(const CellRecord& cell) {
   return warm;
 }
 
-/// Nothing where nothing is left: of `null`, and of a plug-in that does not say that it makes no
+/// Null where nothing is left: of `null`, and of a plug-in that does not state that it makes no
 /// rays one by one.
 Json net_of_harness(const CellRecord& cell) {
-  if (!cell.harness || cell.verdict == "baseline") return {};
+  if (!cell.harness || cell.verdict == verify::Verdict::kBaseline) return {};
   const double net = median(collect(cell, &Repetition::trace_ms)) - cell.harness->ms;
   return net > 0.0 ? Json(net) : Json();
 }
@@ -107,16 +114,14 @@ void add_times(Row& row, const CellRecord& cell) {
   const auto samples = [&](auto figure) {
     return known ? collect(cell, figure) : std::vector<double>();
   };
-  const auto median_of = [&](auto figure) {
-    return known ? Json(median(collect(cell, figure))) : Json();
-  };
+  const auto median_of = [&](auto figure) { return statistic(median, samples(figure)); };
   row["repetitions"] = cell.repetitions.size();
   row["stop_reason"] = cell.stop_reason ? Json(to_string(*cell.stop_reason)) : Json();
   add_wall_time(row, "build", samples(&Repetition::build_ms));
   add_wall_time(row, "trace", samples(&Repetition::trace_ms));
   add_interval(row, "trace", samples(&Repetition::trace_ms));
   const std::vector<double> warm = known ? warm_traces(cell) : std::vector<double>();
-  row["trace_warm_ms_median"] = warm.empty() ? Json() : Json(median(warm));
+  row["trace_warm_ms_median"] = statistic(median, warm);
   add_interval(row, "trace_warm", warm);
   row["harness_ms"] = known && cell.harness ? Json(cell.harness->ms) : Json();
   row["trace_net_ms_median"] = known ? net_of_harness(cell) : Json();
@@ -168,10 +173,10 @@ Json own_figure(const accel::Statistics& statistics, std::string_view name) {
   return found == statistics.more.end() ? Json() : Json(found->second);
 }
 
-/// A family without nodes (Embree does not tell, `exhaustive` has none) leaves their sizes empty.
+/// A family without nodes (Embree does not report any, `exhaustive` has none) leaves these null.
 void add_statistics(Row& row, const CellRecord& cell) {
   row["memory_bytes"] = cell.statistics ? Json(cell.statistics->bytes) : Json();
-  row["allocated_bytes"] = cell.allocated_bytes ? Json(*cell.allocated_bytes) : Json();
+  row["allocated_bytes"] = or_null(cell.allocated_bytes);
   const bool has_nodes = cell.statistics && cell.statistics->nodes > 0;
   const auto size = [&](std::uint64_t accel::Statistics::*member) {
     return has_nodes ? Json((*cell.statistics).*member) : Json();
@@ -198,7 +203,7 @@ void add_counters(Row& row, const CellRecord& cell) {
 }
 
 /// Of whole pictures: `shadow_rays`, and `shadow_box_tests_per_ray` of the shadow rays alone. A
-/// family's own counters are not told apart: most are of beams, which the eye's rays alone have.
+/// family's own counters are not split by kind: most are of beams, which only camera rays have.
 void add_kinds(Row& row, const CellRecord& cell) {
   for (const RaysOfKind& kind : cell.work.kinds) {
     row[kind.kind + "_rays"] = kind.rays;
@@ -212,12 +217,12 @@ void add_kinds(Row& row, const CellRecord& cell) {
   }
 }
 
-void add_judgment(Row& row, const CellRecord& cell) {
+void add_verification(Row& row, const CellRecord& cell) {
   row["hits"] = cell.diff ? Json(cell.diff->hits) : Json();
   for (std::size_t i = 0; i < verify::kDiffClassNames.size(); ++i) {
     row[std::string(verify::kDiffClassNames[i])] = cell.diff ? Json(cell.diff->counts[i]) : Json();
   }
-  row["verdict"] = cell.verdict;
+  row["verdict"] = verify::to_string(cell.verdict);
 }
 
 void add_counts(Json& json, std::string_view phase, const HardwareCounts& counts) {
@@ -262,7 +267,7 @@ Row to_row(const RunFacts& run, const CellRecord& cell) {
   add_statistics(row, cell);
   add_counters(row, cell);
   add_kinds(row, cell);
-  add_judgment(row, cell);
+  add_verification(row, cell);
   return row;
 }
 

@@ -33,7 +33,7 @@ constexpr std::string_view to_string(QueryPath path) {
   return kQueryPathNames[static_cast<std::size_t>(path)];
 }
 
-/// How a structure that gets the rays of images so is asked for one.
+/// The query path of an image for a structure that gets rays so.
 constexpr QueryPath image_path(accel::ImageRays rays) {
   switch (rays) {
     case accel::ImageRays::kSimd:
@@ -70,7 +70,7 @@ inline constexpr int kSchemaVersion = 1;
 /// without this allowance 81% and 88% of the medians were found again, not 95%.
 inline constexpr double kBetweenRuns = 0.015;
 
-/// What tells a cell from every other cell of a sweep.
+/// The identity of a cell within a sweep.
 struct CellId {
   std::string scene;
   std::string camera;
@@ -108,7 +108,7 @@ struct Repetition {
 
 /// Why no further repetition was made.
 enum class StopReason {
-  kPrecision,   ///< the median's interval is as narrow as was wanted
+  kPrecision,   ///< the median's interval is narrow enough
   kBudget,      ///< the time was up
   kRepetitions  ///< as many as were allowed
 };
@@ -134,7 +134,7 @@ struct RaySetFacts {
   std::uint64_t primitives = 0;
   std::uint64_t rays = 0;  ///< 0 where they could not be made
   rays::Query query = rays::Query::kClosestHit;
-  /// By the oracle: of the rays that ask for the closest hit, and of those that ask for any.
+  /// By the oracle: of the closest-hit queries, and of the any-hit queries.
   std::optional<double> hit_share{}, occluded_share{};
   std::optional<double> coherence{};  ///< between neighbors
 };
@@ -144,7 +144,7 @@ using NamedCounters = std::map<std::string, std::uint64_t, std::less<>>;
 
 /// Rays of one kind within a whole picture.
 struct RaysOfKind {
-  std::string kind;  ///< "eye", "reflected", "refracted", "shadow"
+  std::string kind;  ///< "camera", "reflected", "refracted", "shadow"
   std::uint64_t rays;
   NamedCounters counters;
 };
@@ -163,24 +163,22 @@ struct CellRecord {
   std::string time_utc;  ///< when it was finished
 
   CountedWork work;
-  /// Absent where the structure could not be built.
+  // Absent where the structure could not be built:
   std::optional<accel::Statistics> statistics;
-  /// By how much the heap grew when it was built (`heap_in_use`).
-  std::optional<std::uint64_t> allocated_bytes;
-  /// Absent where the structure could not be built.
+  std::optional<std::uint64_t> allocated_bytes;  ///< by which the heap grew (`heap_in_use`)
   std::optional<HarnessShare> harness;
   std::vector<Repetition> repetitions;
   std::optional<StopReason> stop_reason;
-  /// The judgment of the timed buffer, and its fingerprint. Absent where there is none.
+  /// The verification of the timed buffer, and its fingerprint.
   std::optional<verify::DiffReport> diff;
   std::optional<std::uint64_t> hits_hash;
 
-  std::string verdict;                ///< a Verdict's name, "error": it could not be built, kNoRays
+  verify::Verdict verdict = verify::Verdict::kError;
   std::string message;                ///< what is wrong, in one sentence; empty when nothing is
   std::vector<std::string> examples;  ///< disputed rays, described
 
-  /// Are its times worth showing? Only hits that are right (or absent by design) were earned.
-  bool keeps_times() const { return verdict == "ok" || verdict == "baseline"; }
+  /// A time is reported only when the hits are correct, or absent by design.
+  bool keeps_times() const { return verify::is_right(verdict); }
 };
 
 /// One row of results.csv. A cell that does not keep its times has null there.

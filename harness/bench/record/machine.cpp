@@ -32,7 +32,7 @@ std::string first_line(const fs::path& path) {
   return line;
 }
 
-/// The chosen one of a line like `always [madvise] never`.
+/// Of a line like `always [madvise] never`.
 std::string chosen(const std::string& line) {
   const std::size_t begin = line.find('[');
   const std::size_t end = line.find(']');
@@ -53,25 +53,17 @@ std::string widest_instructions() {
 #endif
 }
 
-bool under_hypervisor() {
+/// The first core's value of a word in /proc/cpuinfo; empty where there is none.
+std::string cpu_info(std::string_view word) {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);) {
-    if (line.starts_with("flags")) return line.find(" hypervisor") != std::string::npos;
-  }
-  return false;
-}
-
-std::string cpu_model() {
-  std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);) {
-    if (!line.starts_with("model name")) continue;
+    if (!line.starts_with(word)) continue;
     const std::size_t start = line.find_first_not_of(" \t:", line.find(':'));
     if (start != std::string::npos) return line.substr(start);
   }
-  return "unknown";
+  return "";
 }
 
-/// What stays the same until the system is installed anew.
 std::string installation() {
   for (const char* file : {"/etc/machine-id", "/var/lib/dbus/machine-id"}) {
     std::string id = first_line(file);
@@ -113,26 +105,25 @@ double load_average() {
   return ::getloadavg(load.data(), 1) == 1 ? load[0] : 0.0;
 }
 
-std::uint64_t executable_fingerprint() { return rays::fingerprint(whole_file("/proc/self/exe")); }
-
 }  // namespace
 
 Machine inspect_machine() {
   struct utsname system {};
   ::uname(&system);
+  const std::string model = cpu_info("model name");
   return {machine_id(processor_identity(whole_file("/proc/cpuinfo")), installation()),
-          cpu_model(),
+          model.empty() ? "unknown" : model,
           usable_cores(),
           memory_size(),
           fmt::format("{} {} {}", system.sysname, system.release, system.machine),
           widest_instructions(),
-          under_hypervisor(),
+          (' ' + cpu_info("flags")).find(" hypervisor") != std::string::npos,
           static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE)),
           chosen(first_line("/sys/kernel/mm/transparent_hugepage/enabled")),
           first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor"),
           turbo_state(),
           load_average(),
-          executable_fingerprint()};
+          rays::fingerprint(whole_file("/proc/self/exe"))};
 }
 
 std::string machine_id(std::string_view processor, std::string_view installation) {
@@ -156,13 +147,13 @@ std::string processor_identity(std::string_view cpuinfo) {
 std::vector<std::string> disturbances(const Machine& machine) {
   std::vector<std::string> found;
   if (machine.governor.empty()) {
-    found.emplace_back("The system does not tell its frequency governor.");
+    found.emplace_back("The system does not report its frequency governor.");
   } else if (machine.governor != "performance") {
     found.push_back(
         fmt::format("The frequency governor is '{}', not 'performance'.", machine.governor));
   }
   if (machine.turbo.empty()) {
-    found.emplace_back("The system does not tell whether its clock is boosted (turbo).");
+    found.emplace_back("The system does not report whether its clock is boosted (turbo).");
   } else if (machine.turbo == "on") {
     found.emplace_back("The clock may be boosted (turbo), so it depends on temperature and load.");
   }
@@ -171,8 +162,7 @@ std::vector<std::string> disturbances(const Machine& machine) {
         fmt::format("Other work was running: the load average was {:.2f}.", machine.load));
   }
   if (machine.virtual_machine) {
-    found.emplace_back(
-        "This is a virtual machine: others may use the same processor, and it does not say when.");
+    found.emplace_back("This is a virtual machine: others may use the same processor at any time.");
   }
   if (machine.huge_pages == "always") {
     found.emplace_back(

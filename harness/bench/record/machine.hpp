@@ -1,5 +1,5 @@
 #pragma once
-// The machine a run was made on, as far as it tells.
+// The machine that a run was made on, as far as it reports itself.
 
 #include <cstdint>
 #include <string>
@@ -15,12 +15,12 @@ struct Machine {
   std::uint64_t memory_bytes;
   std::string kernel;
   std::string instructions;  ///< the widest vector instructions it has, "AVX2"
-  bool virtual_machine;      ///< does it say that it runs under a hypervisor?
+  bool virtual_machine;      ///< does it report a hypervisor?
   std::uint64_t page_bytes;
   std::string huge_pages;         ///< "always", "madvise", "never", or empty: transparent ones
-  std::string governor;           ///< of the first core; empty where the system does not tell
-  std::string turbo;              ///< "on", "off", or empty where the system does not tell
-  double load;                    ///< one-minute load average at the time of asking
+  std::string governor;           ///< of the first core; empty: unknown
+  std::string turbo;              ///< "on", "off", or empty: unknown
+  double load;                    ///< one-minute load average when it was read
   std::uint64_t executable_hash;  ///< of this program's file
 };
 
@@ -36,7 +36,7 @@ std::string machine_id(std::string_view processor, std::string_view installation
 /// empty where the text has nothing of that.
 std::string processor_identity(std::string_view cpuinfo);
 
-/// What of it disturbs timings and cannot be controlled from here, a sentence each.
+/// What disturbs timings and cannot be controlled from here, a sentence each.
 std::vector<std::string> disturbances(const Machine& machine);
 
 /// Now in UTC, `2024-05-31T14:07:09Z`.

@@ -21,7 +21,8 @@ using Json = nlohmann::ordered_json;
 constexpr int kRecordVersion = 1;
 
 constexpr std::string_view kLibraryNote =
-    "google-benchmark.json says library_build_type 'debug' where the system's Google Benchmark was "
+    "google-benchmark.json reports library_build_type 'debug' where the system's Google Benchmark "
+    "was "
     "built without NDEBUG, as Debian's is; that slows its own loop, of which nothing is timed here "
     "(times are taken by beambench and handed over). beambench's own build type is in 'program'.";
 
@@ -62,7 +63,7 @@ Json measurement_json(const Manifest& manifest) {
   const MeasurementFacts& facts = manifest.measurement;
   return {{"threads", manifest.run.threads},
           {"isa", manifest.run.isa},
-          {"simd_target", manifest.measurement.simd_target},
+          {"simd_target", facts.simd_target},
           {"flush_to_zero", facts.flush_to_zero},
           {"denormals_are_zero", facts.flush_to_zero},
           {"pinned", facts.pinned_core >= 0},
@@ -103,8 +104,7 @@ Json scenes_json(const std::vector<SceneFacts>& scenes) {
   return list;
 }
 
-/// Above this the slowest twentieth of equal work says that others are at work.
-constexpr double kNoisy = 0.05;
+constexpr double kNoisy = 0.05;  // of the slowest twentieth of equal work: others are running
 
 std::string or_unknown(const std::string& text) { return text.empty() ? "unknown" : text; }
 
@@ -150,7 +150,7 @@ RunFacts facts_of(const BuildInfo& build, const std::string& run_id, const Machi
 
 }  // namespace
 
-void go_on(Manifest& now, const Json& before) {
+void continue_with(Manifest& now, const Json& before) {
   now.run.run_id = before.at("run_id").get<std::string>();
   now.begun_utc = before.at("time_utc").get<std::string>();
   now.earlier_parts = before.value("earlier_parts", Json::array());
@@ -160,7 +160,7 @@ void go_on(Manifest& now, const Json& before) {
   }
   now.earlier_parts.push_back(part);
   now.uncontrolled.push_back(
-      fmt::format("The run was cut off and went on at {}.", now.part_begun_utc));
+      fmt::format("The run was cut off and resumed at {}.", now.part_begun_utc));
 }
 
 Json to_json(const Manifest& manifest) {

@@ -36,20 +36,20 @@ struct Manifest {
   RunFacts run;
   std::string sweep;  ///< the configuration's name
   std::string begun_utc;
-  std::string part_begun_utc;  ///< later than `begun_utc` when the run was cut off and goes on
-  std::string finished_utc;    ///< empty while the run goes on, or when it was cut off
+  std::string part_begun_utc;  ///< later than `begun_utc` when the run was resumed
+  std::string finished_utc;    ///< empty unless the run has finished
   Machine machine;
   MeasurementFacts measurement;
   std::vector<plugin::LoadedPlugin> plugins;
   std::vector<SceneFacts> scenes;
   nlohmann::ordered_json overhead;        ///< of the harness, by `null`; null where it is not known
   std::vector<std::string> uncontrolled;  ///< sentences
-  /// The conditions of the parts that the run had before it was cut off and went on.
+  /// The conditions of the parts before the run was cut off and resumed.
   nlohmann::ordered_json earlier_parts = nlohmann::ordered_json::array();
 };
 
-/// Makes `now` the manifest of the run that was begun under `before` (its file) and goes on.
-void go_on(Manifest& now, const nlohmann::ordered_json& before);
+/// Makes `now` the manifest of the run that was begun under `before` (its file) and is resumed.
+void continue_with(Manifest& now, const nlohmann::ordered_json& before);
 
 nlohmann::ordered_json to_json(const Manifest& manifest);
 
@@ -61,8 +61,8 @@ std::optional<std::string> noise_warning(const std::optional<double>& noise);
 std::vector<std::string> preflight(const Manifest& manifest);
 
 /// The manifest of a new run of the sweep of that name, whose timed code is pinned to `core` (-1:
-/// to none) and runs on so many threads, after a warm-up: asks this program, the machine and Embree
-/// for the rest.
+/// to none) and runs on so many threads, after a warm-up. The rest is read from this program, the
+/// machine and Embree.
 Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes, int core,
                         int threads, std::chrono::duration<double> warm_up);
 

@@ -57,73 +57,19 @@ bool holds_run(const fs::path& path) {
          (fs::exists(cells) && !fs::is_empty(cells));
 }
 
-using Json = nlohmann::ordered_json;
-
-[[noreturn]] void refuse(const RunFolder& folder, const std::string& reason) {
-  throw InputError(fmt::format("cannot resume '{}': {}; begin a new run with -o",
-                               folder.path().string(), reason));
-}
-
-void require_same_config(const RunFolder& folder, const nlohmann::json& config) {
-  const nlohmann::json then = folder.read_json("config.json");
-  const nlohmann::json changes = nlohmann::json::diff(then, config);
-  if (changes.empty()) return;
-  refuse(folder, fmt::format("the configuration has changed at {}",
-                             changes.front().at("path").get<std::string>()));
-}
-
 /// A member of a manifest as text, whatever it is; empty where there is none.
 std::string member(const Json& manifest, const char* pointer) {
   const Json::json_pointer place(pointer);
   return manifest.contains(place) ? manifest.at(place).dump() : "";
 }
 
-void require_same_program(const RunFolder& folder, const Json& then, const Json& now) {
-  const auto differs = [&](const char* pointer) {
-    return member(then, pointer) != member(now, pointer);
-  };
-  if (differs("/program/commit")) {
-    refuse(folder, fmt::format("it was begun by beambench of commit {}, this one is of {}",
-                               member(then, "/program/commit"), member(now, "/program/commit")));
+/// The hashes of a manifest's plug-ins or scenes, by file or name.
+std::map<std::string, std::string> hashes(const Json& manifest, const char* list, const char* key) {
+  std::map<std::string, std::string> found;
+  for (const Json& each : manifest.value(list, Json::array())) {
+    found[each.at(key).get<std::string>()] = each.at("hash").get<std::string>();
   }
-  if (differs("/program/executable_hash")) {
-    refuse(folder,
-           "it was begun by another build of beambench, from changed sources or with other "
-           "options");
-  }
-  if (differs("/machine/id")) refuse(folder, "it was begun on another machine");
-}
-
-/// The plug-ins of a manifest: hash by file.
-std::map<std::string, std::string> plugins_of(const Json& manifest) {
-  std::map<std::string, std::string> plugins;
-  for (const Json& plugin : manifest.value("plugins", Json::array())) {
-    plugins[plugin.at("file").get<std::string>()] = plugin.at("hash").get<std::string>();
-  }
-  return plugins;
-}
-
-void require_same_plugins(const RunFolder& folder, const Json& then, const Json& now) {
-  const auto plugins = plugins_of(now);
-  for (const auto& [file, hash] : plugins_of(then)) {
-    const auto found = plugins.find(file);
-    if (found == plugins.end()) {
-      refuse(folder, fmt::format("it was begun with --plugin {}", shell_quoted(file)));
-    }
-    if (found->second != hash) {
-      refuse(folder, fmt::format("the plug-in {} has changed since", file));
-    }
-  }
-}
-
-void require_same_scenes(const RunFolder& folder, const Json& then, const Json& now) {
-  for (const Json& scene : now.at("scenes")) {
-    for (const Json& earlier : then.value("scenes", Json::array())) {
-      if (earlier.at("name") != scene.at("name")) continue;
-      if (earlier.at("hash") == scene.at("hash")) continue;
-      refuse(folder, fmt::format("the scene {} has changed since", scene.at("name").dump()));
-    }
-  }
+  return found;
 }
 
 }  // namespace
@@ -139,7 +85,7 @@ RunFolder RunFolder::create(const fs::path& path) {
   RunFolder folder(path);
   if (holds_run(path)) {
     throw InputError(
-        fmt::format("'{}' already holds a run; go on with it by --resume '{}', or "
+        fmt::format("'{}' already holds a run; resume it with --resume '{}', or "
                     "choose another folder with -o",
                     path.string(), path.string()));
   }
@@ -206,12 +152,46 @@ void RunFolder::write_results() const {
   write_text(kResults, csv_table(rows));
 }
 
-void require_same_run(const RunFolder& folder, const nlohmann::json& config, const Json& manifest) {
-  const Json then = folder.read_json("manifest.json");
-  require_same_config(folder, config);
-  require_same_program(folder, then, manifest);
-  require_same_plugins(folder, then, manifest);
-  require_same_scenes(folder, then, manifest);
+void require_same_run(const RunFolder& folder, const nlohmann::json& config, const Json& now) {
+  const auto refuse = [&](const std::string& reason) {
+    throw InputError(fmt::format("cannot resume '{}': {}; begin a new run with -o",
+                                 folder.path().string(), reason));
+  };
+  const nlohmann::json config_then = folder.read_json("config.json");
+  const nlohmann::json changes = nlohmann::json::diff(config_then, config);
+  if (!changes.empty()) {
+    refuse(fmt::format("the configuration has changed at {}",
+                       changes.front().at("path").get<std::string>()));
+  }
+  const Json then = folder.read_json(kManifest);
+  const auto differs = [&](const char* pointer) {
+    return member(then, pointer) != member(now, pointer);
+  };
+  if (differs("/program/commit")) {
+    refuse(fmt::format("it was begun by beambench of commit {}, this one is of {}",
+                       member(then, "/program/commit"), member(now, "/program/commit")));
+  }
+  if (differs("/program/executable_hash")) {
+    refuse(
+        "it was begun by another build of beambench, from changed sources or with other options");
+  }
+  if (differs("/machine/id")) refuse("it was begun on another machine");
+  const auto plugins = hashes(now, "plugins", "file");
+  for (const auto& [file, hash] : hashes(then, "plugins", "file")) {
+    const auto found = plugins.find(file);
+    if (found == plugins.end()) {
+      refuse(fmt::format("it was begun with --plugin {}", shell_quoted(file)));
+    } else if (found->second != hash) {
+      refuse(fmt::format("the plug-in {} has changed since", file));
+    }
+  }
+  const auto earlier = hashes(then, "scenes", "name");
+  for (const auto& [name, hash] : hashes(now, "scenes", "name")) {
+    const auto found = earlier.find(name);
+    if (found != earlier.end() && found->second != hash) {
+      refuse(fmt::format("the scene {} has changed since", Json(name).dump()));
+    }
+  }
 }
 
 }  // namespace beambench::bench

@@ -14,7 +14,7 @@
 namespace beambench::bench {
 
 /// Keeps what is finished, whatever happens next (Ctrl-C, a kill, a full disk, a power loss):
-/// `cells/<key>.json` is whole or not there, results.csv is made anew from the cells after each,
+/// `cells/<key>.json` is whole or absent, results.csv is written anew from the cells after each,
 /// and a folder with a manifest.json holds a run. One process at a time may have a folder. Methods
 /// throw InputError when the folder cannot be written.
 class RunFolder {
@@ -51,7 +51,7 @@ class RunFolder {
   std::map<std::size_t, nlohmann::ordered_json> cells_;  ///< by index in the plan
 };
 
-/// Throws InputError when a folder holds no run that could go on.
+/// Throws InputError when a folder holds no run that could be resumed.
 void require_run(const std::filesystem::path& folder);
 
 /// Throws InputError when the run in `folder` was made with another configuration, by another

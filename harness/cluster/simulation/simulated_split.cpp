@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "harness/cluster/cpu_timer.hpp"
+#include "harness/base/stopwatch.hpp"
 #include "harness/cluster/split/split_studio.hpp"
 #include "harness/rays/fingerprint.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 /// Does something, lets as much simulated time pass as it took, and adds it up.
 template <class Work>
 void do_for(const Spend& spend, double slowness, double& sum, Work work) {
-  const CpuTimer timer;
+  const base::CpuStopwatch timer;
   work();
   const double seconds = timer.seconds();
   sum += seconds;

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/cluster/cpu_timer.hpp"
+#include "harness/base/stopwatch.hpp"
 
 namespace beambench::cluster {
 namespace {
@@ -141,7 +141,7 @@ void SplitMember::wait_for_all() {
 void SplitMember::run() {
   while (!over_) {
     while (const auto message = transport_->poll()) handle(*message);
-    const CpuTimer timer;
+    const base::CpuStopwatch timer;
     const SplitWork work = worker_->work();
     if (work == SplitWork::kNone) {
       have_nothing_to_do();
@@ -188,7 +188,7 @@ void SplitMember::handle(const Message& message) {
 
 void SplitMember::take_crossings(const Message& message) {
   received_.add(message.bytes.size());
-  const CpuTimer timer;
+  const base::CpuStopwatch timer;
   ByteReader reader(message.bytes);
   while (!reader.at_end()) {
     std::visit([this](const auto& each) { worker_->take(each); },

@@ -18,33 +18,9 @@ constexpr float kDimmed = 0.35F;
 /// Relative luminance of linear sRGB (IEC 61966-2-1).
 float luminance(const glm::vec3& c) { return glm::dot(c, glm::vec3(0.2126F, 0.7152F, 0.0722F)); }
 
-/// Sizes of the legend in pixels: a title, and a line for each entry.
-struct LegendLayout {
-  LegendLayout(int picture_width, const std::string& title, const std::vector<std::string>& lines) {
-    std::size_t longest = title.size();
-    for (const std::string& line : lines) longest = std::max(longest, line.size() + kSwatch);
-    const int dots = static_cast<int>(longest) * kGlyphAdvance + 2 * kLegendMargin;
-    scale = std::clamp(picture_width / dots, 1, 2);
-    width = std::max(picture_width, dots * scale);
-    line_height = (kGlyphHeight + 5) * scale;
-    margin = kLegendMargin * scale;
-    height = 2 * margin + line_height * (1 + static_cast<int>(lines.size())) - 5 * scale;
-  }
-
-  static constexpr std::size_t kSwatch = 3;  // in glyphs
-
-  int scale, width, line_height, margin, height;
-};
-
 void fill(Image& image, int left, int top, int width, int height, const glm::vec3& color) {
   for (int y = top; y < top + height; ++y) {
     for (int x = left; x < left + width; ++x) image.at(x, y) = color;
-  }
-}
-
-void paste(Image& image, int left, const Image& picture) {
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) image.at(left + x, y) = picture.at(x, y);
   }
 }
 
@@ -72,13 +48,10 @@ void frame(Image& image, int x, int y, const glm::vec3& color) {
 }
 
 void draw_pixels(Image& image, const CategoryMap& map) {
-  std::size_t index = 0;
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
-      const std::uint8_t category = map.pixels[index++];
-      image.at(x, y) =
-          category == CategoryMap::kNone ? dimmed(image.at(x, y)) : map.categories[category].color;
-    }
+  for (std::size_t i = 0; i < map.pixels.size(); ++i) {
+    glm::vec3& pixel = image.pixels()[i];
+    const std::uint8_t category = map.pixels[i];
+    pixel = category == CategoryMap::kNone ? dimmed(pixel) : map.categories[category].color;
   }
 }
 
@@ -104,21 +77,25 @@ const glm::vec3 kVermillion = linear_from_srgb(glm::vec3(213, 94, 0) / 255.0F);
 
 Image with_legend(const Image& picture, const std::string& title,
                   std::span<const LegendEntry> entries) {
+  constexpr std::size_t kSwatch = 3;  // in characters
   std::vector<std::string> lines;
+  std::size_t longest = title.size();
   for (const LegendEntry& entry : entries) {
     lines.push_back(fmt::format("{}: {}", entry.name, entry.count));
+    longest = std::max(longest, lines.back().size() + kSwatch);
   }
-  const LegendLayout layout(picture.width(), title, lines);
-  Image image(layout.width, picture.height() + layout.height, kPaper);
-  paste(image, (layout.width - picture.width()) / 2, picture);
+  const LegendLayout layout(picture.width(), longest);
+  const int line_height = (kGlyphHeight + 5) * layout.scale;
+  Image image = above_legend(
+      picture, layout,
+      2 * layout.margin + line_height * (1 + static_cast<int>(lines.size())) - 5 * layout.scale);
 
   int y = picture.height() + layout.margin;
   draw_text(image, layout.margin, y, title, layout.scale, kInk);
   const int swatch = kGlyphHeight * layout.scale;
-  const int text =
-      layout.margin + static_cast<int>(LegendLayout::kSwatch) * kGlyphAdvance * layout.scale;
+  const int text = layout.margin + static_cast<int>(kSwatch) * kGlyphAdvance * layout.scale;
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    y += layout.line_height;
+    y += line_height;
     fill(image, layout.margin, y, swatch, swatch, entries[i].color);
     draw_text(image, text, y, lines[i], layout.scale, kInk);
   }
@@ -128,9 +105,7 @@ Image with_legend(const Image& picture, const std::string& title,
 glm::vec3 dimmed(const glm::vec3& color) { return glm::vec3(kDimmed * luminance(color)); }
 
 void dim(Image& image) {
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) image.at(x, y) = dimmed(image.at(x, y));
-  }
+  for (glm::vec3& pixel : image.pixels()) pixel = dimmed(pixel);
 }
 
 Image draw_category_map(const CategoryMap& map, const Image& ground) {

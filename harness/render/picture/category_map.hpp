@@ -13,7 +13,7 @@
 
 namespace beambench::render {
 
-/// Colors that people with any kind of color vision tell apart, and from gray: four of Okabe and
+/// Colors that people with any kind of color vision can distinguish: four of Okabe and
 /// Ito, "Color Universal Design", 2008. Linear light.
 namespace okabe_ito {
 extern const glm::vec3 kSkyBlue;
@@ -33,11 +33,11 @@ struct LegendEntry {
 Image with_legend(const Image& picture, const std::string& title,
                   std::span<const LegendEntry> entries);
 
-/// What a picture becomes where colors shall stand out from it: dimmed gray.
+/// Dimmed gray, for a picture that colors are to stand out from.
 glm::vec3 dimmed(const glm::vec3& color);
 void dim(Image& image);
 
-/// What a color says.
+/// The meaning of a color.
 struct Category {
   std::string name;
   glm::vec3 color;  ///< linear light
@@ -54,7 +54,7 @@ struct CategoryMap {
 
 /// The map over `ground`, an image of its size that is shown in dimmed gray, above a legend with
 /// the number of pixels of each category. Pixels of a category that has only a few are framed, or
-/// nobody would find them. The picture is widened where it is narrower than its legend.
+/// they would be overlooked. The picture is widened where it is narrower than its legend.
 Image draw_category_map(const CategoryMap& map, const Image& ground);
 
 }  // namespace beambench::render

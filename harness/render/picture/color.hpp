@@ -33,7 +33,7 @@ inline glm::vec3 linear_from_srgb(const glm::vec3& c) {
 /// image processing", 2020), with as much chroma as sRGB holds all along it.
 glm::vec3 heat_color(float x);
 
-/// Linear light that tells ids apart: neighboring ids get hues far from each other.
+/// Linear light that distinguishes ids: neighboring ids get hues far from each other.
 glm::vec3 id_color(std::uint32_t id);
 
 /// Linear light from lightness [0, 1], chroma and hue (radians) of Oklab; may leave [0, 1].

@@ -14,19 +14,16 @@ namespace {
 
 constexpr std::size_t kBrightestPerMille = 995;
 
-/// Sizes of a legend in pixels: text as large as the picture's width allows, for reading.
-struct LegendLayout {
-  LegendLayout(int picture_width, std::string_view heading)
-      : scale(std::clamp(picture_width / (text_width(heading, 1) + 2 * kLegendMargin), 1, 2)),
-        margin(kLegendMargin * scale),
-        width(std::max(picture_width, text_width(heading, scale) + 2 * margin)),
-        heading_y(margin),
-        bar_y(heading_y + (kGlyphHeight + 4) * scale),
+/// A heading, and a bar above its numbers.
+struct BarLayout : LegendLayout {
+  BarLayout(int picture_width, std::string_view heading)
+      : LegendLayout(picture_width, heading.size()),
+        bar_y(margin + (kGlyphHeight + 4) * scale),
         bar_height(8 * scale),
         numbers_y(bar_y + bar_height + 5 * scale),
         height(numbers_y + kGlyphHeight * scale + margin) {}
 
-  int scale, margin, width, heading_y, bar_y, bar_height, numbers_y, height;
+  int bar_y, bar_height, numbers_y, height;
   int bar_width() const { return width - 2 * margin; }
 };
 
@@ -40,7 +37,7 @@ double mean(const HeatMap& map) {
   return map.values.empty() ? 0.0 : sum / static_cast<double>(map.values.size());
 }
 
-void draw_bar(Image& image, int top, const LegendLayout& layout) {
+void draw_bar(Image& image, int top, const BarLayout& layout) {
   for (int x = 0; x < layout.bar_width(); ++x) {
     const float part = static_cast<float>(x) / static_cast<float>(layout.bar_width() - 1);
     for (int y = 0; y < layout.bar_height; ++y) {
@@ -50,7 +47,7 @@ void draw_bar(Image& image, int top, const LegendLayout& layout) {
 }
 
 /// Writes a number under its place on the bar; `part` of the bar is to its left.
-void draw_number(Image& image, int top, const LegendLayout& layout, double part,
+void draw_number(Image& image, int top, const BarLayout& layout, double part,
                  const std::string& number) {
   const int x = layout.margin + static_cast<int>(std::lround(part * (layout.bar_width() - 1)));
   for (int y = 0; y < 3 * layout.scale; ++y) {
@@ -61,7 +58,7 @@ void draw_number(Image& image, int top, const LegendLayout& layout, double part,
   draw_text(image, left, top + layout.numbers_y, number, layout.scale, kInk);
 }
 
-void draw_numbers(Image& image, int top, const LegendLayout& layout, const HeatMap& map) {
+void draw_numbers(Image& image, int top, const BarLayout& layout, const HeatMap& map) {
   const double end = brightest_value(map);
   const bool clipped = largest(map) > brightest_value(map);
   const std::string end_number = fmt::format("{:.6g}{}", end, clipped ? "+" : "");
@@ -90,10 +87,8 @@ float brightest_value(const HeatMap& map) {
 Image draw_heat_map(const HeatMap& map) {
   Image image(map.width, map.height);
   const float end = brightest_value(map);
-  std::size_t index = 0;
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) image.at(x, y) = heat_color(map.values[index++] / end);
-  }
+  std::ranges::transform(map.values, image.pixels().begin(),
+                         [end](float value) { return heat_color(value / end); });
   return image;
 }
 
@@ -101,15 +96,10 @@ Image draw_heat_map_with_legend(const HeatMap& map) {
   const double maximum = largest(map);
   const std::string heading =
       fmt::format("{}: mean {:.4g}, maximum {:.6g}", map.title, mean(map), maximum);
-  const LegendLayout layout(map.width, heading);
+  const BarLayout layout(map.width, heading);
 
-  const Image colors = draw_heat_map(map);
-  Image image(layout.width, map.height + layout.height, kPaper);
-  const int left = (layout.width - map.width) / 2;
-  for (int y = 0; y < map.height; ++y) {
-    for (int x = 0; x < map.width; ++x) image.at(left + x, y) = colors.at(x, y);
-  }
-  draw_text(image, layout.margin, map.height + layout.heading_y, heading, layout.scale, kInk);
+  Image image = above_legend(draw_heat_map(map), layout, layout.height);
+  draw_text(image, layout.margin, map.height + layout.margin, heading, layout.scale, kInk);
   if (maximum > 0.0) {
     draw_bar(image, map.height, layout);
     draw_numbers(image, map.height, layout, map);

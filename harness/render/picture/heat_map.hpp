@@ -1,5 +1,5 @@
 #pragma once
-// A picture of numbers: a color for each pixel's value, and a legend that says which.
+// A picture of numbers: a color for each pixel's value, and a legend.
 
 #include <span>
 #include <string>
@@ -19,14 +19,14 @@ struct HeatMap {
 };
 
 /// The value that gets the brightest color: the quantile of 99.5%, so that a few rays that had far
-/// more to do than all others do not leave these in the dark. At least the smallest value > 0.
+/// more work than all others do not darken these. At least the smallest value > 0.
 float brightest_value(const HeatMap& map);
 
 /// Colors from 0 to the brightest value, without a legend.
 Image draw_heat_map(const HeatMap& map);
 
 /// The same above a legend: title, mean and maximum, and a bar with numbers; a plus behind the last
-/// says that larger values share its color. The picture is widened where it is narrower than its
+/// means that larger values share its color. The picture is widened where it is narrower than its
 /// legend.
 Image draw_heat_map_with_legend(const HeatMap& map);
 

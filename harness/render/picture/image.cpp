@@ -21,9 +21,7 @@ float brightest(const glm::vec3& color) { return std::max({color.x, color.y, col
 
 void expose(Image& image, double stops) {
   const auto factor = static_cast<float>(std::exp2(stops));
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) image.at(x, y) *= factor;
-  }
+  for (glm::vec3& pixel : image.pixels()) pixel *= factor;
 }
 
 Overexposure overexposure(const Image& image) {
@@ -42,12 +40,10 @@ Overexposure overexposure(const Image& image) {
 
 double root_mean_square_error(const Image& picture, const Image& reference) {
   double sum = 0.0;
-  for (int y = 0; y < picture.height(); ++y) {
-    for (int x = 0; x < picture.width(); ++x) {
-      const glm::dvec3 difference = glm::dvec3(srgb_from_linear(picture.at(x, y))) -
-                                    glm::dvec3(srgb_from_linear(reference.at(x, y)));
-      sum += glm::dot(difference, difference);
-    }
+  for (std::size_t i = 0; i < picture.pixels().size(); ++i) {
+    const glm::dvec3 difference = glm::dvec3(srgb_from_linear(picture.pixels()[i])) -
+                                  glm::dvec3(srgb_from_linear(reference.pixels()[i]));
+    sum += glm::dot(difference, difference);
   }
   return 255.0 * std::sqrt(sum / (3.0 * picture.width() * picture.height()));
 }

@@ -21,6 +21,7 @@ class Image {
   int height() const { return height_; }
   glm::vec3& at(int x, int y) { return pixels_[index(x, y)]; }
   const glm::vec3& at(int x, int y) const { return pixels_[index(x, y)]; }
+  std::span<glm::vec3> pixels() { return pixels_; }
   std::span<const glm::vec3> pixels() const { return pixels_; }
 
  private:
@@ -44,8 +45,8 @@ struct Overexposure {
 /// The remedy is 0 where nothing has to be done.
 Overexposure overexposure(const Image& image);
 
-/// The root of the mean squared difference of two pictures of one size, over pixels and channels,
-/// in display values from 0 to 255 before they are rounded.
+/// The RMS error of a picture against another of its size, over pixels and channels, in display
+/// values on a 0-255 scale before they are rounded.
 double root_mean_square_error(const Image& picture, const Image& reference);
 
 }  // namespace beambench::render

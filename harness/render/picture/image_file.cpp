@@ -26,32 +26,25 @@ std::uint8_t to_byte(float encoded) {
 
 std::vector<std::uint8_t> png_pixels(const Image& image) {
   std::vector<std::uint8_t> bytes;
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
-      const glm::vec3 encoded = srgb_from_linear(image.at(x, y));
-      bytes.insert(bytes.end(), {to_byte(encoded.x), to_byte(encoded.y), to_byte(encoded.z)});
-    }
+  for (const glm::vec3& pixel : image.pixels()) {
+    const glm::vec3 encoded = srgb_from_linear(pixel);
+    bytes.insert(bytes.end(), {to_byte(encoded.x), to_byte(encoded.y), to_byte(encoded.z)});
   }
   return bytes;
 }
 
-/// A pixel's values stand together, each in its channel's own type.
+/// A pixel's values are together, each in its channel's own type.
 std::vector<std::uint8_t> exr_pixels(const Image& image, std::span<const DataChannel> data) {
   std::vector<std::uint8_t> bytes;
   const auto append = [&](const auto& value) {
     const auto raw = std::bit_cast<std::array<std::uint8_t, kValueBytes>>(value);
     bytes.insert(bytes.end(), raw.begin(), raw.end());
   };
-  std::size_t pixel = 0;
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x, ++pixel) {
-      const glm::vec3& color = image.at(x, y);
-      append(color.x);
-      append(color.y);
-      append(color.z);
-      for (const DataChannel& channel : data) {
-        std::visit([&](const auto& values) { append(values[pixel]); }, channel.values);
-      }
+  for (std::size_t pixel = 0; pixel < image.pixels().size(); ++pixel) {
+    const glm::vec3& color = image.pixels()[pixel];
+    for (int channel = 0; channel < 3; ++channel) append(color[channel]);
+    for (const DataChannel& channel : data) {
+      std::visit([&](const auto& values) { append(values[pixel]); }, channel.values);
     }
   }
   return bytes;
@@ -73,10 +66,9 @@ OIIO::ImageSpec exr_spec(const Image& image, std::span<const DataChannel> data) 
 }
 
 void require_complete(const Image& image, std::span<const DataChannel> data) {
-  const std::size_t pixels =
-      static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
   for (const DataChannel& channel : data) {
-    if (std::visit([](const auto& values) { return values.size(); }, channel.values) != pixels) {
+    if (std::visit([](const auto& values) { return values.size(); }, channel.values) !=
+        image.pixels().size()) {
       throw std::logic_error("channel '" + channel.name + "' has not one value for each pixel");
     }
   }

@@ -3,47 +3,247 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "harness/render/picture/projected_boxes.hpp"
 #include "harness/render/picture/raster.hpp"
 
 namespace beambench::render {
 namespace {
 
 constexpr double kThickness = 1.0;
-constexpr double kFarthest = 0.45;  // strength of lines at the farthest cells; 1 at the nearest
 
-/// How strong a line is, by its depth and its cell's size.
-class Strength {
+/// How near to the eye's plane an edge is followed, as a part of its farther end's depth. There
+/// every point appears at infinity.
+constexpr double kNearest = 1e-6;
+
+/// The perspective of an image.
+class Projection {
  public:
-  Strength(const NearestBoxes::Range& depths, double scale) : depths_(depths), scale_(scale) {}
+  explicit Projection(const accel::PrimaryRays& rays)
+      : eye_(rays.eye()),
+        forward_(rays.forward()),
+        top_left_(rays.top_left()),
+        right_(rays.right()),
+        down_(rays.down()) {}
 
-  float operator()(double cell_size, double depth) const {
-    const double range = depths_.farthest - depths_.nearest;
-    const double far = range > 0.0 ? std::clamp((depth - depths_.nearest) / range, 0.0, 1.0) : 0.0;
-    return static_cast<float>(1.0 - far * (1.0 - kFarthest)) *
-           line_strength(cell_size * scale_ / depth);
+  const glm::dvec3& eye() const { return eye_; }
+  /// Along the view direction: 0 in the eye's plane, negative behind it.
+  double depth(const glm::dvec3& point) const { return glm::dot(point - eye_, forward_); }
+  /// Where a point of depth > 0 appears, in pixels; (0, 0) is the image's top left corner.
+  glm::dvec2 place(const glm::dvec3& point) const {
+    const glm::dvec3 offset = (point - eye_) / depth(point) - top_left_;
+    return {glm::dot(offset, right_) / glm::dot(right_, right_),
+            glm::dot(offset, down_) / glm::dot(down_, down_)};
+  }
+  /// From the eye through a place to depth 1: `t` along it is depth.
+  glm::dvec3 direction(const glm::dvec2& place) const {
+    return top_left_ + right_ * place.x + down_ * place.y;
+  }
+  /// So many pixels wide is a unit length at depth 1.
+  double scale() const { return 1.0 / glm::length(right_); }
+
+ private:
+  glm::dvec3 eye_;
+  glm::dvec3 forward_;
+  glm::dvec3 top_left_;
+  glm::dvec3 right_;
+  glm::dvec3 down_;
+};
+
+/// An edge on the image: of what lies in front of the eye.
+struct SeenEdge {
+  PixelSegment line;
+  double from_depth;
+  double to_depth;
+
+  /// The depth of the point at `along` in [0, 1] of the line: its inverse is linear on the image.
+  double depth_at(double along) const {
+    return 1.0 / ((1.0 - along) / from_depth + along / to_depth);
+  }
+};
+
+struct BoxEdge {
+  glm::dvec3 from;
+  glm::dvec3 to;
+  bool turned_to_eye;  ///< belongs to a face that the eye is in front of
+};
+
+bool in_front(const accel::Box& box, const glm::dvec3& eye, int axis, bool upper) {
+  return upper ? eye[axis] > box.upper[axis] : eye[axis] < box.lower[axis];
+}
+
+bool holds(const accel::Box& box, const glm::dvec3& eye) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (eye[axis] < box.lower[axis] || eye[axis] > box.upper[axis]) return false;
+  }
+  return true;
+}
+
+/// All edges, along x, along y, along z. Around an eye within the box no face is turned away: it
+/// sees each from inside.
+std::array<BoxEdge, 12> box_edges(const accel::Box& box, const glm::dvec3& eye) {
+  const bool inside = holds(box, eye);
+  std::array<BoxEdge, 12> edges{};
+  std::size_t next = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int second = (axis + 1) % 3;
+    const int third = (axis + 2) % 3;
+    for (int corner = 0; corner < 4; ++corner) {
+      const bool second_upper = (corner & 1) != 0;
+      const bool third_upper = (corner & 2) != 0;
+      BoxEdge& edge = edges[next++];
+      edge.from[axis] = box.lower[axis];
+      edge.to[axis] = box.upper[axis];
+      edge.from[second] = edge.to[second] = (second_upper ? box.upper : box.lower)[second];
+      edge.from[third] = edge.to[third] = (third_upper ? box.upper : box.lower)[third];
+      edge.turned_to_eye = inside || in_front(box, eye, second, second_upper) ||
+                           in_front(box, eye, third, third_upper);
+    }
+  }
+  return edges;
+}
+
+/// An edge cut off at the eye's plane; nothing where all of it lies behind.
+std::optional<SeenEdge> project(const BoxEdge& edge, const Projection& projection) {
+  const double from_depth = projection.depth(edge.from);
+  const double to_depth = projection.depth(edge.to);
+  const double nearest = kNearest * std::max(from_depth, to_depth);
+  if (!(nearest > 0.0)) return std::nullopt;
+  const auto cut = [&](const glm::dvec3& point, double depth, const glm::dvec3& other,
+                       double other_depth) {
+    if (depth >= nearest) return point;
+    return other + (point - other) * ((other_depth - nearest) / (other_depth - depth));
+  };
+  const glm::dvec3 from = cut(edge.from, from_depth, edge.to, to_depth);
+  const glm::dvec3 to = cut(edge.to, to_depth, edge.from, from_depth);
+  return SeenEdge{{projection.place(from), projection.place(to)},
+                  std::max(from_depth, nearest),
+                  std::max(to_depth, nearest)};
+}
+
+constexpr double kInfiniteDepth = std::numeric_limits<double>::infinity();
+/// Points of a box's own surface come out this near to it, as a part of their depth.
+constexpr double kRounding = 1e-6;
+
+/// Where a ray enters a box; infinity where it misses it or starts within.
+double enter(const accel::Box& box, const glm::dvec3& eye, const glm::dvec3& direction) {
+  double first = 0.0;
+  double last = kInfiniteDepth;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = box.lower[axis] - eye[axis];
+    const double high = box.upper[axis] - eye[axis];
+    if (direction[axis] == 0.0) {
+      if (low > 0.0 || high < 0.0) return kInfiniteDepth;
+      continue;
+    }
+    const double a = low / direction[axis];
+    const double b = high / direction[axis];
+    first = std::max(first, std::min(a, b));
+    last = std::min(last, std::max(a, b));
+  }
+  return first <= last && first > 0.0 ? first : kInfiniteDepth;
+}
+
+/// The pixels that a box may appear in: around its edges, cut off at the eye's plane. Empty
+/// (last < first) where there are none.
+struct PixelRange {
+  glm::ivec2 first;
+  glm::ivec2 last;
+};
+PixelRange pixels_of(const accel::Box& box, const Projection& projection, int width, int height) {
+  glm::dvec2 low(kInfiniteDepth);
+  glm::dvec2 high(-kInfiniteDepth);
+  for (const BoxEdge& edge : box_edges(box, projection.eye())) {
+    const auto seen = project(edge, projection);
+    if (!seen) continue;
+    low = glm::min(low, glm::min(seen->line.from, seen->line.to));
+    high = glm::max(high, glm::max(seen->line.from, seen->line.to));
+  }
+  // Only pixels whose centers lie between: a box buffer needs no others.
+  const auto first = [](double x, int size) {
+    return static_cast<int>(std::clamp(std::ceil(x - 0.5), 0.0, static_cast<double>(size)));
+  };
+  const auto last = [](double x, int size) {
+    return static_cast<int>(std::clamp(std::floor(x - 0.5), -1.0, static_cast<double>(size - 1)));
+  };
+  return {{first(low.x, width), first(low.y, height)}, {last(high.x, width), last(high.y, height)}};
+}
+
+/// Decides what boxes hide: a box buffer (Catmull's z-buffer, 1974, that remembers the box, so that
+/// depths between the pixels' centers are known). Boxes around the eye hide nothing.
+class NearestBoxes {
+ public:
+  /// The boxes must outlive it.
+  NearestBoxes(const Projection& projection, int width, int height,
+               std::span<const accel::Box> boxes)
+      : projection_(projection),
+        width_(width),
+        height_(height),
+        boxes_(boxes),
+        nearest_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), kNone),
+        depths_(nearest_.size(), kInfiniteDepth) {
+    for (std::uint32_t box = 0; box < boxes.size(); ++box) add(box);
+  }
+
+  /// Is a point that appears at `place`, at this depth, behind a box? `x` and `y` are the pixel
+  /// that shall show it; the answer is exact if that pixel or the one around `place` shows the box.
+  bool hide(int x, int y, const glm::dvec2& place, double depth) const {
+    if (hidden_by(nearest_[index(x, y)], place, depth)) return true;
+    const glm::dvec2 around = glm::floor(place);
+    const bool on_image =
+        around.x >= 0.0 && around.y >= 0.0 && around.x < width_ && around.y < height_;
+    return on_image &&
+           hidden_by(nearest_[index(static_cast<int>(around.x), static_cast<int>(around.y))], place,
+                     depth);
+  }
+
+  /// The smallest and the largest depth of the pixels that see a box.
+  std::pair<double, double> range() const {
+    std::pair<double, double> range{kInfiniteDepth, 0.0};
+    for (const double depth : depths_) {
+      if (depth == kInfiniteDepth) continue;
+      range = {std::min(range.first, depth), std::max(range.second, depth)};
+    }
+    return range;
   }
 
  private:
-  NearestBoxes::Range depths_;
-  double scale_;
-};
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
-void add_edge(LineLayer& layer, const SeenEdge& edge, double cell_size, const NearestBoxes& nearest,
-              const Strength& strength) {
-  for_each_pixel(edge.line, kThickness, layer.width(), layer.height(),
-                 [&](int x, int y, float coverage, double along) {
-                   const double depth = edge.depth_at(along);
-                   const glm::dvec2 place =
-                       edge.line.from + (edge.line.to - edge.line.from) * along;
-                   if (nearest.hide(x, y, place, depth)) return;
-                   layer.add(x, y, coverage, strength(cell_size, depth));
-                 });
-}
+  void add(std::uint32_t box) {
+    const PixelRange range = pixels_of(boxes_[box], projection_, width_, height_);
+    for (int y = range.first.y; y <= range.last.y; ++y) {
+      for (int x = range.first.x; x <= range.last.x; ++x) {
+        const glm::dvec3 direction = projection_.direction(glm::dvec2(x, y) + 0.5);
+        const double depth = enter(boxes_[box], projection_.eye(), direction);
+        if (!(depth < depths_[index(x, y)])) continue;
+        depths_[index(x, y)] = depth;
+        nearest_[index(x, y)] = box;
+      }
+    }
+  }
+  bool hidden_by(std::uint32_t box, const glm::dvec2& place, double depth) const {
+    return box != kNone && enter(boxes_[box], projection_.eye(), projection_.direction(place)) <
+                               depth * (1.0 - kRounding);
+  }
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+           static_cast<std::size_t>(x);
+  }
+
+  Projection projection_;
+  int width_;
+  int height_;
+  std::span<const accel::Box> boxes_;
+  std::vector<std::uint32_t> nearest_;  ///< kNone where no box is seen
+  std::vector<double> depths_;
+};
 
 constexpr float kTint = 0.15F;
 
@@ -76,8 +276,8 @@ void add_outline(LineLayer& layer, const accel::BeamOutline& beam) {
   }
 }
 
-/// An end tints its area: the edges of beams that go on run along it, too, and hide its own. What
-/// no beam ends at stays gray; where two did, the tint would be twice as strong.
+/// An end tints its area: the edges of beams that continue run along it, too, and hide its own.
+/// What no beam ends at stays gray; where two did, the tint would be twice as strong.
 void tint(Image& image, const accel::BeamOutline& beam, const glm::vec3& color) {
   for_each_pixel_in(beam.corners, image.width(), image.height(),
                     [&](int x, int y) { image.at(x, y) = glm::mix(image.at(x, y), color, kTint); });
@@ -87,17 +287,30 @@ void tint(Image& image, const accel::BeamOutline& beam, const glm::vec3& color) 
 
 std::vector<LegendEntry> overlay_cells(Image& image, const accel::PrimaryRays& rays,
                                        std::span<const accel::Box> cells) {
+  constexpr double kFarthest = 0.45;  // strength of lines at the farthest cells; 1 at the nearest
   dim(image);
   const Projection projection(rays);
-  const NearestBoxes nearest(projection, image.width(), image.height(), cells);
-  const Strength strength(nearest.depths(), projection.scale());
+  const NearestBoxes boxes(projection, image.width(), image.height(), cells);
+  const auto [nearest, farthest] = boxes.range();
+  const auto strength = [&, near = nearest, range = farthest - nearest](double size, double depth) {
+    const double far = range > 0.0 ? std::clamp((depth - near) / range, 0.0, 1.0) : 0.0;
+    return static_cast<float>(1.0 - far * (1.0 - kFarthest)) *
+           line_strength(size * projection.scale() / depth);
+  };
   LineLayer layer(image.width(), image.height());
   for (const accel::Box& cell : cells) {
     const double size = glm::length(cell.upper - cell.lower) / std::sqrt(3.0);
     for (const BoxEdge& edge : box_edges(cell, projection.eye())) {
-      if (!edge.turned_to_eye) continue;
-      const auto seen = project(edge, projection);
-      if (seen) add_edge(layer, *seen, size, nearest, strength);
+      const auto seen = edge.turned_to_eye ? project(edge, projection) : std::nullopt;
+      if (!seen) continue;
+      for_each_pixel(seen->line, kThickness, image.width(), image.height(),
+                     [&](int x, int y, float coverage, double along) {
+                       const double depth = seen->depth_at(along);
+                       const glm::dvec2 place =
+                           seen->line.from + (seen->line.to - seen->line.from) * along;
+                       if (boxes.hide(x, y, place, depth)) return;
+                       layer.add(x, y, coverage, strength(size, depth));
+                     });
     }
   }
   layer.draw_on(image, Image(image), okabe_ito::kYellow);

@@ -20,8 +20,8 @@ std::vector<LegendEntry> overlay_cells(Image& image, const accel::PrimaryRays& r
                                        std::span<const accel::Box> cells);
 
 /// Dims the picture and draws the beams' outlines over it: those that leave the scene under those
-/// that go on under those that end at occupied leaves. Both ends tint their area, for where a line
-/// is a beam's end it is mostly that of others, too. Returns what the colors stand for.
+/// that continue under those that end at occupied leaves. Both ends tint their area, for where a
+/// line is a beam's end it is mostly that of others, too. Returns what the colors stand for.
 std::vector<LegendEntry> overlay_beams(Image& image, std::span<const accel::BeamOutline> beams);
 
 }  // namespace beambench::render

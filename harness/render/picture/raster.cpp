@@ -40,14 +40,12 @@ void LineLayer::add(const PixelSegment& line, double thickness, float strength) 
 }
 
 void LineLayer::draw_on(Image& image, const Image& ground, const glm::vec3& color) const {
-  std::size_t index = 0;
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) {
-      const Pixel& line = pixels_[index++];
-      const glm::vec3 cleared = glm::mix(image.at(x, y), ground.at(x, y), line.coverage);
-      // The line's own share of what it has cleared, so that full strength is mere covering.
-      image.at(x, y) = cleared + line.strength * (color - ground.at(x, y));
-    }
+  for (std::size_t i = 0; i < pixels_.size(); ++i) {
+    const Pixel& line = pixels_[i];
+    const glm::vec3& below = ground.pixels()[i];
+    const glm::vec3 cleared = glm::mix(image.pixels()[i], below, line.coverage);
+    // The line's own share of what it has cleared, so that full strength is mere covering.
+    image.pixels()[i] = cleared + line.strength * (color - below);
   }
 }
 

@@ -130,7 +130,7 @@ void for_each_pixel_in(std::span<const glm::dvec2> corners, int width, int heigh
     double left = kInfinite;
     double right = -kInfinite;
     for (std::size_t i = 0; i < corners.size(); ++i) {
-      // From its lower end, whoever asks: neighbors compute the same number.
+      // Always from its lower end: neighbors compute the same number.
       const auto& [upper, lower] =
           std::minmax(corners[i], corners[(i + 1) % corners.size()],
                       [](const glm::dvec2& a, const glm::dvec2& b) { return a.y < b.y; });

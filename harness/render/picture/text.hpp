@@ -1,6 +1,7 @@
 #pragma once
 // Small text in pictures: enough for a legend, without a font file.
 
+#include <cstddef>
 #include <string_view>
 
 #include <glm/vec3.hpp>
@@ -20,9 +21,19 @@ int text_width(std::string_view text, int scale);
 void draw_text(Image& image, int x, int y, std::string_view text, int scale,
                const glm::vec3& color);
 
-/// Linear light of a legend's ground and text.
-inline constexpr glm::vec3 kPaper(0.012F);
+/// Linear light of a legend's text.
 inline constexpr glm::vec3 kInk(0.82F);
-inline constexpr int kLegendMargin = 8;  ///< in dots of the text
+
+/// The sizes of a legend in pixels: text as large as the picture's width allows, up to two pixels a
+/// dot. The picture is widened where it is narrower than its legend.
+struct LegendLayout {
+  /// `characters`: of the longest line.
+  LegendLayout(int picture_width, std::size_t characters);
+
+  int scale, margin, width;
+};
+
+/// The picture in the middle above so many empty rows of a legend.
+Image above_legend(const Image& picture, const LegendLayout& layout, int height);
 
 }  // namespace beambench::render

@@ -1,13 +1,18 @@
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "accel/core/accelerator.hpp"
+#include "accel/core/registry.hpp"
+#include "accel/exhaustive/exhaustive.hpp"
+#include "harness/verify/describe.hpp"
 #include "harness/verify/selftest/checks.hpp"
-#include "harness/verify/selftest/hit_comparison.hpp"
 #include "harness/verify/selftest/scene_families.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
 #include "scenes/catalogue.hpp"
@@ -16,7 +21,114 @@
 namespace beambench::verify {
 namespace {
 
-constexpr std::uint64_t kMostPrimitives = 60;
+/// What the differ finds wrong with results to a input. Rays that are aimed at edges and corners
+/// graze, however many they are.
+std::string wrong_by_the_differ(const scenes::Scene& scene, const rays::TraceInput& input,
+                                const rays::TraceResults& results, accel::Conformance conformance,
+                                bool may_graze) {
+  const DiffReport report = verify_results(ReferenceHits(scene, input), results, conformance);
+  if (is_right(report.verdict) || (report.verdict == Verdict::kGrazes && may_graze)) return "";
+  std::string text = fmt::format(
+      "the differ's verdict is '{}': {} of {} rays wrong, {} grazes", to_string(report.verdict),
+      report.count(DiffClass::kStructureError), report.rays, report.count(DiffClass::kGraze));
+  if (!report.examples.empty()) text += "; " + describe(scene, input, report.examples.front());
+  return text;
+}
+
+/// The right results over a scene, by what the structure claims: every bit those of exhaustive
+/// search, or right by the differ's classes. Each method returns the first wrong answer in a
+/// sentence, empty when all are right. The scene outlives it.
+class HitComparison {
+ public:
+  HitComparison(const scenes::Scene& scene, accel::Conformance conformance)
+      : scene_(&scene), exhaustive_(scene), conformance_(conformance) {}
+
+  /// Closest and any hits of single rays. Where every bit must be equal, each ray is also traced
+  /// with its end, and with its beginning, exactly where it hits.
+  std::string single_rays(const accel::Accelerator& structure,
+                          std::span<const accel::Ray> rays) const {
+    if (conformance_ != accel::Conformance::kBitExact) return by_the_differ(structure, rays);
+    for (const accel::Ray& ray : rays) {
+      if (std::string wrong = same_bits(structure, ray); !wrong.empty()) return wrong;
+      const auto hit = exhaustive_.closest_hit(ray, nullptr);
+      if (!hit) continue;
+      accel::Ray ends_there = ray;
+      ends_there.t_max = hit->t;
+      accel::Ray begins_there = ray;
+      begins_there.t_min = hit->t;
+      for (const accel::Ray& cut : {ends_there, begins_there}) {
+        if (std::string wrong = same_bits(structure, cut); !wrong.empty()) return wrong;
+      }
+    }
+    return "";
+  }
+
+  /// The closest hits of an image, as a whole. `may_graze`: more grazes than the differ's budget
+  /// are right, as they are where the eye lies on a surface.
+  std::string image(const accel::Accelerator& structure, const accel::PrimaryRays& rays,
+                    bool may_graze) const {
+    const rays::TraceInput input(rays);
+    rays::TraceResults results = rays::make_results(input);
+    rays::poison(results);
+    rays::trace(structure, input, results);
+    if (conformance_ != accel::Conformance::kBitExact) {
+      return wrong_by_the_differ(*scene_, input, results, conformance_, may_graze);
+    }
+    const auto& found = std::get<accel::HitBuffer>(results);
+    accel::HitBuffer expected(rays.width(), rays.height(), rays.samples());
+    exhaustive_.trace(rays, expected, nullptr);
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      if (found.t()[i] == expected.t()[i] && found.primitive()[i] == expected.primitive()[i])
+        continue;
+      return fmt::format("{}: {} hits {} first, not {}", rays::place_text(input, i),
+                         show(input.ray(i)), show(expected.get(i)),
+                         show(accel::Hit{found.t()[i], found.primitive()[i]}));
+    }
+    return "";
+  }
+
+  std::size_t count_hits(std::span<const accel::Ray> rays) const {
+    std::size_t hits = 0;
+    for (const accel::Ray& ray : rays) hits += exhaustive_.any_hit(ray, nullptr) ? 1 : 0;
+    return hits;
+  }
+
+ private:
+  std::string same_bits(const accel::Accelerator& structure, const accel::Ray& ray) const {
+    const auto expected = exhaustive_.closest_hit(ray, nullptr);
+    const auto found = structure.closest_hit(ray, nullptr);
+    if (found != expected) {
+      return fmt::format("{} hits {} first, not {}", show(ray), show(expected), show(found));
+    }
+    const bool any = structure.any_hit(ray, nullptr);
+    if (any != expected.has_value()) {
+      return fmt::format("{} {}, but any_hit returns {}", show(ray),
+                         expected ? "hits something" : "hits nothing", any);
+    }
+    return "";
+  }
+
+  std::string by_the_differ(const accel::Accelerator& structure,
+                            std::span<const accel::Ray> rays) const {
+    for (const rays::Query query : {rays::Query::kClosestHit, rays::Query::kAnyHit}) {
+      const rays::TraceInput input(
+          rays::RaySet{"selftest", query, 0, std::nullopt, {rays.begin(), rays.end()}});
+      rays::TraceResults results = rays::make_results(input);
+      rays::poison(results);
+      rays::trace(structure, input, results);
+      std::string wrong =
+          wrong_by_the_differ(*scene_, input, results, conformance_, /*may_graze=*/true);
+      if (!wrong.empty()) return wrong;
+    }
+    return "";
+  }
+
+  const scenes::Scene* scene_;
+  accel::exhaustive::Exhaustive exhaustive_;
+  accel::Conformance conformance_;
+};
+
+constexpr std::uint64_t kMaxPrimitives = 60;
 constexpr int kRays = 300;
 
 std::vector<accel::Ray> random_rays(const scenes::Scene& scene, Random& random) {
@@ -29,24 +141,34 @@ std::vector<accel::Ray> random_rays(const scenes::Scene& scene, Random& random) 
 /// Does the ray lie in the plane of a polygon, as far as float knows? Where it meets that polygon
 /// is then decided by rounding alone.
 bool is_edge_on(const scenes::Scene& scene, const accel::Ray& ray) {
-  constexpr double kLeastSine = 1e-5;
+  constexpr double kMinSine = 1e-5;
   const glm::dvec3 direction(ray.direction);
   return std::ranges::any_of(scene.triangles, [&](const scenes::Triangle& triangle) {
     const glm::dvec3 first(scene.vertices[triangle.vertex[0]]);
     const glm::dvec3 normal = glm::cross(glm::dvec3(scene.vertices[triangle.vertex[1]]) - first,
                                          glm::dvec3(scene.vertices[triangle.vertex[2]]) - first);
     return std::abs(glm::dot(normal, direction)) <=
-           kLeastSine * glm::length(normal) * glm::length(direction);
+           kMinSine * glm::length(normal) * glm::length(direction);
   });
 }
 
-/// Adds what one scene had to tell to what was found before.
+/// Null where the structure refuses the scene, as it may do with what it cannot do.
+std::unique_ptr<accel::Accelerator> build(const accel::StructureChoice& choice,
+                                          const scenes::Scene& scene) {
+  try {
+    return choice.build(scene);
+  } catch (const InputError&) {
+    return nullptr;
+  }
+}
+
+/// Adds the outcome of one scene.
 void add(CheckOutcome& outcome, std::size_t rays, const std::string& where, std::string wrong) {
   outcome.rays += rays;
   if (!wrong.empty()) outcome.failure = fmt::format("{}: {}", where, wrong);
 }
 
-CheckOutcome ask_about(const Subject& subject, const SceneWithRays& made) {
+CheckOutcome check_rays(const Subject& subject, const SceneWithRays& made) {
   CheckOutcome outcome;
   const auto structure = subject.build(made.scene);
   add(outcome, made.rays.size(), made.scene.name,
@@ -56,6 +178,17 @@ CheckOutcome ask_about(const Subject& subject, const SceneWithRays& made) {
 
 }  // namespace
 
+std::string show(const std::optional<accel::Hit>& hit) {
+  return hit ? fmt::format("primitive {} at t {:a}", hit->primitive, hit->t) : "a miss";
+}
+
+std::string show(const accel::Ray& ray) {
+  return fmt::format(
+      "the ray from ({:a}, {:a}, {:a}) along ({:a}, {:a}, {:a}), t from {:a} to {:a}", ray.origin.x,
+      ray.origin.y, ray.origin.z, ray.direction.x, ray.direction.y, ray.direction.z, ray.t_min,
+      ray.t_max);
+}
+
 CheckOutcome check_random_scenes(const Subject& subject, const SelftestEffort& effort) {
   CheckOutcome outcome;
   std::uint64_t hits = 0;
@@ -64,13 +197,11 @@ CheckOutcome check_random_scenes(const Subject& subject, const SelftestEffort& e
     const std::uint64_t seed = effort.seed + i;
     Random random(seed);
     // Small scenes first: what fails is easy to look at.
-    const auto primitives = static_cast<int>(1 + i * kMostPrimitives / effort.scenes);
+    const auto primitives = static_cast<int>(1 + i * kMaxPrimitives / effort.scenes);
     const scenes::Scene scene = random_scene(seed, primitives, subject.kinds());
     const accel::StructureChoice choice = subject.vary(random);
-    std::unique_ptr<accel::Accelerator> structure;
-    try {
-      structure = choice.build(scene);
-    } catch (const InputError&) {  // it may refuse what it cannot do, but not everything
+    const auto structure = build(choice, scene);
+    if (structure == nullptr) {
       ++refused;
       continue;
     }
@@ -101,12 +232,8 @@ CheckOutcome check_scene_families(const Subject& subject, const SelftestEffort& 
     Random random(seed);
     const scenes::Scene scene = family_scene(seed, subject.kinds());
     const accel::StructureChoice choice = subject.vary(random);
-    std::unique_ptr<accel::Accelerator> structure;
-    try {
-      structure = choice.build(scene);
-    } catch (const InputError&) {  // random scenes ask how much it refuses
-      continue;
-    }
+    const auto structure = build(choice, scene);
+    if (structure == nullptr) continue;  // check_random_scenes counts these
     const HitComparison comparison(scene, subject.conformance());
     std::vector<accel::Ray> rays = random_rays(scene, random);
     // Embree returns hits that do not lie on the polygon; only exact arithmetic can do better.
@@ -153,7 +280,7 @@ CheckOutcome check_smallest_scenes(const Subject& subject, const SelftestEffort&
     Random random(effort.seed);
     std::vector<accel::Ray> rays{accel::Ray{}};
     if (!scene.primitives.empty()) rays = random_rays(scene, random);
-    const CheckOutcome found = ask_about(subject, {std::move(scene), std::move(rays)});
+    const CheckOutcome found = check_rays(subject, {std::move(scene), std::move(rays)});
     outcome.rays += found.rays;
     outcome.failure = found.failure;
     if (!outcome.passed()) break;
@@ -162,21 +289,21 @@ CheckOutcome check_smallest_scenes(const Subject& subject, const SelftestEffort&
 }
 
 CheckOutcome check_faces_edges_corners(const Subject& subject, const SelftestEffort&) {
-  CheckOutcome cubes = ask_about(subject, cubes_on_a_lattice());
+  CheckOutcome cubes = check_rays(subject, cubes_on_a_lattice());
   if (!cubes.passed()) return cubes;
-  CheckOutcome block = ask_about(subject, block_of_squares());
+  CheckOutcome block = check_rays(subject, block_of_squares());
   block.rays += cubes.rays;
   return block;
 }
 
 CheckOutcome check_heap(const Subject& subject, const SelftestEffort&) {
-  return ask_about(subject, heap(subject.kinds()));
+  return check_rays(subject, heap(subject.kinds()));
 }
 
 CheckOutcome check_degenerate_rays(const Subject& subject, const SelftestEffort& effort) {
   scenes::Scene scene = random_scene(effort.seed, 40, subject.kinds());
   std::vector<accel::Ray> rays = degenerate_rays(scene, effort.seed);
-  return ask_about(subject, {std::move(scene), std::move(rays)});
+  return check_rays(subject, {std::move(scene), std::move(rays)});
 }
 
 }  // namespace beambench::verify

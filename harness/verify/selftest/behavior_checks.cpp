@@ -10,7 +10,6 @@
 
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/selftest/checks.hpp"
-#include "harness/verify/selftest/hit_comparison.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
 
 namespace beambench::verify {
@@ -20,10 +19,10 @@ constexpr int kPrimitives = 40;
 
 using Counts = std::map<std::string, std::uint64_t, std::less<>>;
 
-/// A scene and rays for all these checks: no multiple of a packet's size, some of them short.
-struct Ground {
-  Ground(const Subject& subject, std::uint64_t seed)
-      : scene(random_scene(seed, kPrimitives, subject.kinds())) {
+/// A scene, the structure over it, and rays: no multiple of a packet's size, some of them short.
+struct Trial {
+  Trial(const Subject& subject, std::uint64_t seed)
+      : scene(random_scene(seed, kPrimitives, subject.kinds())), structure(subject.build(scene)) {
     Random random(seed);
     for (int i = 0; i < 503; ++i) {
       rays.push_back(random_ray(scene, random));
@@ -31,21 +30,20 @@ struct Ground {
     }
   }
 
-  accel::PrimaryRays image() const { return {scene.cameras.front(), 37, 23, 5}; }
+  /// Every kind of query.
+  std::vector<rays::TraceInput> inputs() const {
+    return {
+        rays::TraceInput(rays::RaySet{"closest", rays::Query::kClosestHit, 0, std::nullopt, rays}),
+        rays::TraceInput(rays::RaySet{"any", rays::Query::kAnyHit, 0, std::nullopt, rays}),
+        rays::TraceInput(accel::PrimaryRays(scene.cameras.front(), 37, 23, 5))};
+  }
 
   scenes::Scene scene;
+  std::unique_ptr<accel::Accelerator> structure;
   std::vector<accel::Ray> rays;
 };
 
-/// Each query of many rays.
-std::vector<rays::TraceInput> inputs(const Ground& ground) {
-  return {rays::TraceInput(
-              rays::RaySet{"closest", rays::Query::kClosestHit, 0, std::nullopt, ground.rays}),
-          rays::TraceInput(rays::RaySet{"any", rays::Query::kAnyHit, 0, std::nullopt, ground.rays}),
-          rays::TraceInput(ground.image())};
-}
-
-/// No earlier result can be taken for one of these.
+/// Answers that cannot be mistaken for earlier ones.
 rays::TraceResults traced(const accel::Accelerator& structure, const rays::TraceInput& input,
                           accel::WorkCounters* counters = nullptr) {
   rays::TraceResults results = rays::make_results(input);
@@ -60,7 +58,7 @@ std::string first_difference(const rays::TraceResults& a, const rays::TraceResul
   return fmt::format("{} are not the same", what);
 }
 
-/// Times, which some families count, too, are their own each time.
+/// Times, which some families count, too, differ each time.
 std::string first_difference(const Counts& a, const Counts& b) {
   for (const auto& [name, count] : a) {
     if (name.ends_with("_ns")) continue;
@@ -73,8 +71,8 @@ std::string first_difference(const Counts& a, const Counts& b) {
   return a.size() == b.size() ? "" : "two builds count other things";
 }
 
-/// What is wrong with the counters of one ray; empty: nothing.
-std::string impossible_count(const accel::Ray& ray, bool hit, const accel::WorkCounters& counters) {
+/// What is inconsistent in the counters of one ray; empty: nothing.
+std::string inconsistency(const accel::Ray& ray, bool hit, const accel::WorkCounters& counters) {
   const auto count = [&](accel::Counter counter) { return counters.get(counter); };
   if (hit && count(accel::Counter::kPrimitiveTests) == 0) {
     return show(ray) + " found a hit without a primitive test counted";
@@ -91,45 +89,45 @@ std::string impossible_count(const accel::Ray& ray, bool hit, const accel::WorkC
 }  // namespace
 
 CheckOutcome check_lists(const Subject& subject, const SelftestEffort& effort) {
-  const Ground ground(subject, effort.seed);
-  const auto structure = subject.build(ground.scene);
-  const std::vector<rays::TraceInput> all = inputs(ground);
-  const auto closest = std::get<accel::HitBuffer>(traced(*structure, all[0]));
-  const auto any = std::get<rays::AnyHits>(traced(*structure, all[1]));
-  for (std::size_t i = 0; i < ground.rays.size(); ++i) {
-    const accel::Ray& ray = ground.rays[i];
+  const Trial trial(subject, effort.seed);
+  const std::vector<rays::TraceInput> all = trial.inputs();
+  const auto closest = std::get<accel::HitBuffer>(traced(*trial.structure, all[0]));
+  const auto any = std::get<rays::AnyHits>(traced(*trial.structure, all[1]));
+  for (std::size_t i = 0; i < trial.rays.size(); ++i) {
+    const accel::Ray& ray = trial.rays[i];
     const accel::Hit written{closest.t()[i], closest.primitive()[i]};
-    const auto alone = structure->closest_hit(ray, nullptr);
+    const auto alone = trial.structure->closest_hit(ray, nullptr);
     if (written != alone.value_or(accel::Hit{accel::kInfinity, scenes::kNoPrimitive})) {
       return {
-          ground.rays.size(),
+          trial.rays.size(),
           fmt::format("{} gets {} alone, but t {:a} and primitive {} in a list (a miss is "
                       "infinity and {})",
                       show(ray), show(alone), written.t, written.primitive, scenes::kNoPrimitive)};
     }
-    if (any[i] != (structure->any_hit(ray, nullptr) ? 1 : 0)) {
-      return {ground.rays.size(), fmt::format("any_hit of {} is {} alone, but {} in a list",
-                                              show(ray), structure->any_hit(ray, nullptr), any[i])};
+    if (any[i] != (trial.structure->any_hit(ray, nullptr) ? 1 : 0)) {
+      return {trial.rays.size(),
+              fmt::format("any_hit of {} is {} alone, but {} in a list", show(ray),
+                          trial.structure->any_hit(ray, nullptr), any[i])};
     }
   }
-  return {ground.rays.size(), ""};
+  return {trial.rays.size(), ""};
 }
 
 CheckOutcome check_counting(const Subject& subject, const SelftestEffort& effort) {
-  const Ground ground(subject, effort.seed);
-  const auto structure = subject.build(ground.scene);
+  const Trial trial(subject, effort.seed);
   CheckOutcome outcome;
   accel::WorkCounters counters;
-  for (const rays::TraceInput& input : inputs(ground)) {
+  for (const rays::TraceInput& input : trial.inputs()) {
     outcome.rays += input.size();
-    outcome.failure =
-        first_difference(traced(*structure, input), traced(*structure, input, &counters),
-                         "results with and without counting");
+    outcome.failure = first_difference(traced(*trial.structure, input),
+                                       traced(*trial.structure, input, &counters),
+                                       "results with and without counting");
     if (!outcome.passed()) return outcome;
   }
-  for (const accel::Ray& ray : ground.rays) {
-    if (structure->closest_hit(ray, nullptr) != structure->closest_hit(ray, &counters) ||
-        structure->any_hit(ray, nullptr) != structure->any_hit(ray, &counters)) {
+  for (const accel::Ray& ray : trial.rays) {
+    if (trial.structure->closest_hit(ray, nullptr) !=
+            trial.structure->closest_hit(ray, &counters) ||
+        trial.structure->any_hit(ray, nullptr) != trial.structure->any_hit(ray, &counters)) {
       outcome.failure = show(ray) + " gets another answer when work is counted";
       return outcome;
     }
@@ -138,23 +136,22 @@ CheckOutcome check_counting(const Subject& subject, const SelftestEffort& effort
 }
 
 CheckOutcome check_two_builds(const Subject& subject, const SelftestEffort& effort) {
-  const Ground ground(subject, effort.seed);
-  const auto first = subject.build(ground.scene);
-  const auto second = subject.build(ground.scene);
+  const Trial trial(subject, effort.seed);
+  const auto second = subject.build(trial.scene);
   CheckOutcome outcome;
-  for (const rays::TraceInput& input : inputs(ground)) {
+  for (const rays::TraceInput& input : trial.inputs()) {
     outcome.rays += input.size();
     accel::WorkCounters counters_of_first;
     accel::WorkCounters counters_of_second;
     outcome.failure =
-        first_difference(traced(*first, input, &counters_of_first),
+        first_difference(traced(*trial.structure, input, &counters_of_first),
                          traced(*second, input, &counters_of_second), "the results of two builds");
     if (outcome.passed()) {
       outcome.failure = first_difference(counters_of_first.by_name(), counters_of_second.by_name());
     }
     if (!outcome.passed()) return outcome;
   }
-  const accel::Statistics a = first->statistics();
+  const accel::Statistics a = trial.structure->statistics();
   const accel::Statistics b = second->statistics();
   if (a.nodes != b.nodes || a.leaves != b.leaves || a.references != b.references ||
       a.depth != b.depth) {
@@ -164,11 +161,10 @@ CheckOutcome check_two_builds(const Subject& subject, const SelftestEffort& effo
 }
 
 CheckOutcome check_threads(const Subject& subject, const SelftestEffort& effort) {
-  const Ground ground(subject, effort.seed);
-  const auto structure = subject.build(ground.scene);
-  const std::vector<rays::TraceInput> all = inputs(ground);
-  const rays::TraceResults closest = traced(*structure, all[0]);
-  const rays::TraceResults any = traced(*structure, all[1]);
+  const Trial trial(subject, effort.seed);
+  const std::vector<rays::TraceInput> all = trial.inputs();
+  const rays::TraceResults closest = traced(*trial.structure, all[0]);
+  const rays::TraceResults any = traced(*trial.structure, all[1]);
   std::array<std::string, 4> wrong;
   {
     std::vector<std::jthread> threads;
@@ -177,7 +173,8 @@ CheckOutcome check_threads(const Subject& subject, const SelftestEffort& effort)
       threads.emplace_back([&] {
         try {
           for (int again = 0; again < 3; ++again) {
-            if (traced(*structure, all[0]) != closest || traced(*structure, all[1]) != any) {
+            if (traced(*trial.structure, all[0]) != closest ||
+                traced(*trial.structure, all[1]) != any) {
               mine = "four threads at once get other results than one alone";
             }
           }
@@ -187,7 +184,7 @@ CheckOutcome check_threads(const Subject& subject, const SelftestEffort& effort)
       });
     }
   }
-  CheckOutcome outcome{wrong.size() * 3 * 2 * ground.rays.size(), ""};
+  CheckOutcome outcome{wrong.size() * 3 * 2 * trial.rays.size(), ""};
   for (const std::string& one : wrong) {
     if (!one.empty()) outcome.failure = one;
   }
@@ -195,16 +192,15 @@ CheckOutcome check_threads(const Subject& subject, const SelftestEffort& effort)
 }
 
 CheckOutcome check_counters(const Subject& subject, const SelftestEffort& effort) {
-  const Ground ground(subject, effort.seed);
-  const auto structure = subject.build(ground.scene);
+  const Trial trial(subject, effort.seed);
   CheckOutcome outcome;
   accel::WorkCounters all;
-  for (const accel::Ray& ray : ground.rays) {
+  for (const accel::Ray& ray : trial.rays) {
     ++outcome.rays;
     accel::WorkCounters counters;
-    const auto hit = structure->closest_hit(ray, &counters);
+    const auto hit = trial.structure->closest_hit(ray, &counters);
     all.add(counters);
-    if (outcome.passed()) outcome.failure = impossible_count(ray, hit.has_value(), counters);
+    if (outcome.passed()) outcome.failure = inconsistency(ray, hit.has_value(), counters);
   }
   // A structure need not count; then records leave its counters empty.
   const bool counts =
@@ -213,26 +209,25 @@ CheckOutcome check_counters(const Subject& subject, const SelftestEffort& effort
 }
 
 CheckOutcome check_statistics(const Subject& subject, const SelftestEffort& effort) {
-  const Ground ground(subject, effort.seed);
-  const accel::Statistics told = subject.build(ground.scene)->statistics();
+  const Trial trial(subject, effort.seed);
+  const accel::Statistics sizes = trial.structure->statistics();
   const auto wrong = [](std::string what) { return CheckOutcome{0, std::move(what)}; };
-  if (told.leaves > told.nodes)
+  if (sizes.leaves > sizes.nodes)
     return wrong("there are more leaves than nodes, which include them");
-  if (told.empty_leaves > told.leaves) return wrong("there are more empty leaves than leaves");
-  if (told.depth > told.nodes) return wrong("it is deeper than it has nodes");
-  if (told.nodes > 0 && told.bytes == 0) return wrong("there are nodes, but they take no memory");
-  for (const auto& [name, value] : told.more) {
+  if (sizes.empty_leaves > sizes.leaves) return wrong("there are more empty leaves than leaves");
+  if (sizes.depth > sizes.nodes) return wrong("it is deeper than it has nodes");
+  if (sizes.nodes > 0 && sizes.bytes == 0) return wrong("there are nodes, but they take no memory");
+  for (const auto& [name, value] : sizes.more) {
     if (!std::isfinite(value)) return wrong(fmt::format("'{}' is no number", name));
   }
   return {};
 }
 
 CheckOutcome check_explanation(const Subject& subject, const SelftestEffort& effort) {
-  const Ground ground(subject, effort.seed);
-  const auto structure = subject.build(ground.scene);
+  const Trial trial(subject, effort.seed);
   CheckOutcome outcome;
-  for (const accel::Ray& ray : ground.rays) {
-    const std::vector<accel::TraceStep> steps = structure->explain(ray);
+  for (const accel::Ray& ray : trial.rays) {
+    const std::vector<accel::TraceStep> steps = trial.structure->explain(ray);
     if (steps.empty()) continue;
     ++outcome.rays;
     std::optional<accel::Hit> nearest;
@@ -242,8 +237,8 @@ CheckOutcome check_explanation(const Subject& subject, const SelftestEffort& eff
         if (test.t == test.t && (!nearest || accel::precedes(hit, *nearest))) nearest = hit;
       }
     }
-    const auto found = structure->closest_hit(ray, nullptr);
-    // A structure that tells no tests explains its way, not its hit.
+    const auto found = trial.structure->closest_hit(ray, nullptr);
+    // A structure that reports no tests explains its traversal, not its hit.
     if (nearest && nearest != found) {
       outcome.failure = fmt::format("{} is explained to hit {}, but hits {}", show(ray),
                                     show(nearest), show(found));

@@ -1,9 +1,16 @@
 #pragma once
 // The checks of the self-test.
 
+#include <optional>
+#include <string>
+
 #include "harness/verify/selftest/selftest.hpp"
 
 namespace beambench::verify {
+
+/// With all its bits, so that it can be traced again.
+std::string show(const accel::Ray& ray);
+std::string show(const std::optional<accel::Hit>& hit);
 
 CheckOutcome check_random_scenes(const Subject& subject, const SelftestEffort& effort);
 CheckOutcome check_scene_families(const Subject& subject, const SelftestEffort& effort);

@@ -30,9 +30,9 @@ std::span<const Check> selftest_checks() {
       {"two builds", "the same scene gives the same structure, work and answers", false, false,
        check_two_builds},
       {"threads", "four threads at once get what one gets", false, false, check_threads},
-      {"counters", "the counters of each ray can be", false, false, check_counters},
-      {"statistics", "the sizes that it tells can be", false, false, check_statistics},
-      {"explanation", "the way that it explains ends at the hit that it finds", false, false,
+      {"counters", "the counters of each ray are consistent", false, false, check_counters},
+      {"statistics", "the sizes that it reports are consistent", false, false, check_statistics},
+      {"explanation", "the traversal that it explains ends at the hit that it finds", false, false,
        check_explanation},
   }};
   return kChecks;

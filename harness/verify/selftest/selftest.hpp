@@ -1,5 +1,5 @@
 #pragma once
-// What must be true of every structure, asked of one.
+// What must be true of every structure, checked for one.
 
 #include <cstdint>
 #include <span>
@@ -17,8 +17,8 @@ struct SelftestEffort {
 };
 
 struct CheckOutcome {
-  std::uint64_t rays = 0;  ///< asked
-  std::string failure;     ///< the first thing that is wrong, in a sentence; empty: nothing
+  std::uint64_t rays = 0;  ///< traced
+  std::string failure;     ///< the first fault, in a sentence; empty: none
 
   bool passed() const { return failure.empty(); }
 };
@@ -27,15 +27,15 @@ struct CheckOutcome {
 struct Check {
   std::string_view name;
   std::string_view claim;  ///< what must be true
-  bool bit_exact_only;     ///< asked of nobody who claims less
-  bool of_polygons;        ///< asked of nobody who refuses them
+  bool bit_exact_only;     ///< not for structures with arithmetic of their own
+  bool of_polygons;        ///< not for structures that refuse them
   CheckOutcome (*run)(const Subject& subject, const SelftestEffort& effort);
 };
 
 /// All of them, the quick and general ones first.
 std::span<const Check> selftest_checks();
 
-/// Is it asked of that structure? Nothing is of one that answers nothing.
+/// Does the check apply to that structure? None does to one that returns no hits by design.
 bool applies(const Check& check, const Subject& subject);
 
 /// Runs a check. What the structure throws is a failure, too.

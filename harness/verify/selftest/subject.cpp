@@ -14,7 +14,7 @@
 namespace beambench::verify {
 namespace {
 
-/// Whatever else goes wrong is for the checks to tell.
+/// Other faults are for the checks to report.
 bool refuses(const accel::StructureChoice& choice, const scenes::Scene& scene) {
   try {
     choice.build(scene);
@@ -108,9 +108,8 @@ Parameters random_parameters(const accel::StructureInfo& info, Random& random) {
 }
 
 accel::StructureChoice Subject::vary(Random& random) const {
-  const bool asked_for_some = choice_.short_label() != info().name;
-  return asked_for_some ? choice_
-                        : accel::StructureChoice(info(), random_parameters(info(), random));
+  if (choice_.short_label() != info().name) return choice_;
+  return {info(), random_parameters(info(), random)};
 }
 
 }  // namespace beambench::verify

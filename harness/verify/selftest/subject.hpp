@@ -36,8 +36,7 @@ PrimitiveKinds kinds_taken(const accel::StructureChoice& choice);
 /// special cases; defaults for reals and for large caps.
 Parameters random_parameters(const accel::StructureInfo& info, Random& random);
 
-/// A structure with the parameters that were asked for. Where none were, some scenes get random
-/// ones.
+/// A structure with the given parameters. Where none are given, some scenes get random ones.
 class Subject {
  public:
   /// Builds it over three tiny scenes, to see which primitives it takes.
@@ -47,7 +46,7 @@ class Subject {
   const accel::StructureInfo& info() const { return choice_.info(); }
   accel::Conformance conformance() const { return info().conformance; }
   const accel::StructureChoice& choice() const { return choice_; }
-  /// What the scenes that it is asked over are made of.
+  /// What the scenes of the checks are made of.
   PrimitiveKinds kinds() const { return kinds_; }
   /// With parameters of its own for each call, if it may.
   accel::StructureChoice vary(Random& random) const;

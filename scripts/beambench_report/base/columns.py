@@ -15,8 +15,14 @@ COUNTER_SUFFIX = "_per_ray"
 RENAMED_COLUMNS = {  # name in older records: name today
     "neighbour_searches_per_ray": "neighbor_searches_per_ray",
     "neighbour_steps_per_ray": "neighbor_steps_per_ray",
+    "engine_error": "structure_error",
+    "eye_rays": "camera_rays",
+    **{
+        f"eye_{counter}_per_ray": f"camera_{counter}_per_ray"
+        for counter in "traversal_steps leaves empty_leaves box_tests primitive_tests".split()
+    },
 }
-_KINDS = "(eye|reflected|refracted|shadow)"  # of the rays of a whole picture
+_KINDS = "(camera|reflected|refracted|shadow)"  # of the rays of a whole picture
 
 
 @dataclass(frozen=True)
