@@ -59,7 +59,7 @@ class SceneBuilder {
   std::size_t primitive_count() const { return scene_.primitives.size(); }
   const Repairs& repairs() const { return repairs_; }
 
-  /// The finished scene. Throws when its box is smaller than `kLeastExtent`. Without a camera, one
+  /// The finished scene. Throws when its box is smaller than `kMinExtent`. Without a camera, one
   /// is fitted to the bounds: from (1, 0.8, 1.3), up +z as in most NFF files, angle 45, the whole
   /// scene in view as far as the eye can be moved back within the limit of coordinates.
   Scene build() &&;

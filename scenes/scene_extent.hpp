@@ -12,7 +12,7 @@ namespace beambench::scenes {
 /// spheres and cones, scaled down): everything is right at diagonals of 3e-12; Embree loses
 /// triangles from 3e-13 on down, and cones, spheres, tile beams and the boxes of sah-bvh fail
 /// between 1e-18 and 1e-21. The limit leaves a factor of a thousand.
-inline constexpr double kLeastExtent = 1e-9;
+inline constexpr double kMinExtent = 1e-9;
 
 /// What is wrong with the size of a scene with these bounds, as a clause that says what to do;
 /// empty when nothing is. A scene without primitives has no size that could be wrong.

@@ -8,7 +8,6 @@
 #include <glm/vec3.hpp>
 
 #include "accel/beam/crossing.hpp"
-#include "accel/beam/fixed_vector.hpp"
 #include "accel/beam/image_polygon.hpp"
 #include "accel/core/beam_outline.hpp"
 

@@ -112,13 +112,12 @@ class BeamPainter {
   void follow(const octree::OctreeCursor& place, const CellRay& way, LeafBatch::Sample& sample) {
     ClosestHit closest = sample.closest;  // nobody else's: it can stay in registers
     double t = octree::leaf_exit(way, place).t;
-    octree::walk_leaves_behind(place, octree(), tracer_->neighbors(), sample.ray, way, counting_,
-                               [&](const octree::OctreeNode& leaf, double exit_t) {
-                                 if (watch_->leaves_part(leaf, t)) return true;
-                                 t = exit_t;
-                                 return test_references(*scene_, octree().references(leaf), exit_t,
-                                                        counting_, closest);
-                               });
+    octree::LeafWalk{octree(), tracer_->neighbors(), sample.ray, way}.behind(
+        place, counting_, [&](const octree::OctreeNode& leaf, double exit_t) {
+          if (watch_->leaves_part(leaf, t)) return true;
+          t = exit_t;
+          return test_references(*scene_, octree().references(leaf), exit_t, counting_, closest);
+        });
     sample.closest = closest;
   }
 

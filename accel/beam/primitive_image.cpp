@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 
 #include "accel/beam/crossing.hpp"
-#include "accel/beam/probe_kernels.hpp"
 
 namespace beambench::accel::beam {
 namespace {

@@ -90,4 +90,15 @@ class PrimitiveImages {
   std::vector<SphereImage> spheres_;
 };
 
+/// The probes for one instruction set. They may only reject: what they let pass is confirmed by the
+/// canonical test.
+struct ProbeKernels {
+  /// May the samples hit one of a polygon's triangles?
+  SampleMask (*triangles)(std::span<const TriangleImage>, const SampleBatch&);
+  SampleMask (*sphere)(const SphereImage&, const SampleBatch&);
+};
+
+/// Those for the best instruction set of this machine that Highway supports.
+const ProbeKernels& best_probe_kernels();
+
 }  // namespace beambench::accel::beam

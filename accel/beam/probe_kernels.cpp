@@ -1,4 +1,6 @@
-#include "accel/beam/probe_kernels.hpp"
+// Probes of primitive_image.hpp, compiled for several instruction sets.
+
+#include "accel/beam/primitive_image.hpp"
 
 #include <array>
 

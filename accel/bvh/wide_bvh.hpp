@@ -17,7 +17,7 @@ inline constexpr std::size_t kBvhLanes = 8;
 /// Where a child is found: a node, or a leaf, which is a run of blocks.
 class ChildReference {
  public:
-  static constexpr std::uint32_t kMostBlocks = 15;           ///< in a leaf
+  static constexpr std::uint32_t kMaxBlocks = 15;           ///< in a leaf
   static constexpr std::uint32_t kBlockIndices = 1U << 27U;  ///< one more than the largest
 
   ChildReference() = default;
@@ -30,7 +30,7 @@ class ChildReference {
   bool is_leaf() const { return (bits_ & kLeaf) != 0; }
   std::uint32_t node_index() const { return bits_; }
   std::uint32_t first_block() const { return bits_ & (kBlockIndices - 1); }
-  std::uint32_t block_count() const { return bits_ >> 27U & kMostBlocks; }
+  std::uint32_t block_count() const { return bits_ >> 27U & kMaxBlocks; }
   std::uint32_t bits() const { return bits_; }
 
  private:

@@ -38,7 +38,7 @@ glm::ivec3 cubic_cells(const glm::dvec3& size, double wanted) {
         settled = false;
       } else {
         cells[axis] = static_cast<std::int32_t>(
-            std::clamp(std::round(size[axis] / edge), 1.0, double{kMostCellsAnAxis}));
+            std::clamp(std::round(size[axis] / edge), 1.0, double{kMaxCellsPerAxis}));
       }
     }
     if (settled) break;
@@ -78,7 +78,7 @@ glm::ivec3 automatic_cells(const scenes::Scene& scene, const glm::dvec3& size,
 std::vector<ParameterInfo> VoxelGridOptions::parameters() {
   const VoxelGridOptions defaults;
   return {
-      cells_parameter("resolution", "auto", kMostCellsAnAxis,
+      cells_parameter("resolution", "auto", kMaxCellsPerAxis,
                       "voxels along the axes of the scene's box: one number for all three, three "
                       "numbers, or auto: cubic voxels by density, fewer where the lists would hold "
                       "more than max_references"),
@@ -128,6 +128,15 @@ CellGrid make_voxel_grid(const scenes::Scene& scene, const VoxelGridOptions& opt
   const double tolerance = overlap_tolerance(scene);
   const glm::dvec3 margin = glm::max(size * 1e-6, glm::dvec3(2.0 * tolerance));
   return make_cell_grid(scene.bounds, size, margin, cells);
+}
+
+void fail_too_many_references(const scenes::Scene& scene, const CellGrid& grid,
+                              std::uint64_t max_references) {
+  throw InputError(fmt::format(
+      "the grid of {}x{}x{} voxels over '{}' ({} primitives) holds more than {} references; lower "
+      "resolution (or density), or raise max_references (4 bytes each)",
+      grid.cells.x, grid.cells.y, grid.cells.z, scene.name, scene.primitives.size(),
+      max_references));
 }
 
 }  // namespace beambench::accel::grid

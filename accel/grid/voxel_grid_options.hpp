@@ -29,4 +29,8 @@ struct VoxelGridOptions {
 /// The grid over the scene's own box. Throws InputError naming `max_voxels` when it has more.
 CellGrid make_voxel_grid(const scenes::Scene& scene, const VoxelGridOptions& options);
 
+/// Throws the InputError of a grid whose voxels refer to more than `max_references` primitives.
+[[noreturn]] void fail_too_many_references(const scenes::Scene& scene, const CellGrid& grid,
+                                           std::uint64_t max_references);
+
 }  // namespace beambench::accel::grid

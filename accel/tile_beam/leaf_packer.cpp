@@ -21,12 +21,12 @@ bool same_bits(const glm::vec3& point, const Meshlet& meshlet, std::size_t verte
   return true;
 }
 
-/// The number of a corner in a meshlet, added when it is new; kMostVertices when there is no room.
+/// The number of a corner in a meshlet, added when it is new; kMaxVertices when there is no room.
 std::size_t vertex_of(Meshlet& meshlet, const glm::vec3& point) {
   for (std::size_t i = meshlet.vertex_count; i-- > 0;) {
     if (same_bits(point, meshlet, i)) return i;
   }
-  if (meshlet.vertex_count == Meshlet::kMostVertices) return Meshlet::kMostVertices;
+  if (meshlet.vertex_count == Meshlet::kMaxVertices) return Meshlet::kMaxVertices;
   for (int axis = 0; axis < 3; ++axis) {
     meshlet.vertices[static_cast<std::size_t>(axis)][meshlet.vertex_count] = point[axis];
   }
@@ -35,11 +35,11 @@ std::size_t vertex_of(Meshlet& meshlet, const glm::vec3& point) {
 
 /// Adds a triangle with its corners; false, and nothing added, when there is no room for it.
 bool append(Meshlet& meshlet, const scenes::Scene& scene, const scenes::Triangle& triangle) {
-  if (meshlet.triangle_count == Meshlet::kMostTriangles) return false;
+  if (meshlet.triangle_count == Meshlet::kMaxTriangles) return false;
   const std::uint32_t vertices_before = meshlet.vertex_count;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t vertex = vertex_of(meshlet, scene.vertices[triangle.vertex[i]]);
-    if (vertex == Meshlet::kMostVertices) {
+    if (vertex == Meshlet::kMaxVertices) {
       meshlet.vertex_count = vertices_before;
       return false;
     }

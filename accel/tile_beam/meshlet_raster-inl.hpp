@@ -83,7 +83,7 @@ HWY_INLINE Mask hidden(const TriangleImages& images, Mask which, const TileImage
 /// Draws triangles that float is good enough for, each in the way that suits its size.
 HWY_INLINE void draw_triangles(const TriangleImages& images, const scenes::PrimitiveId* primitives,
                                TileImage& image) {
-  const Mask small = hn::And(images.drawn, hn::Le(images.samples(), all(kMostLaneSamples)));
+  const Mask small = hn::And(images.drawn, hn::Le(images.samples(), all(kMaxLaneSamples)));
   if (!hn::AllFalse(Tag(), small)) {
     Fragments fragments;
     collect_fragments(images, small, fragments);
@@ -96,7 +96,7 @@ HWY_INLINE void draw_triangles(const TriangleImages& images, const scenes::Primi
 
   const StoredImages stored(images);
   const BlockBoxes boxes(images);
-  const Mask few = hn::And(rest, hn::Le(boxes.count(), all(static_cast<float>(kMostListedBlocks))));
+  const Mask few = hn::And(rest, hn::Le(boxes.count(), all(static_cast<float>(kMaxListedBlocks))));
   const Mask listed = hn::AndNot(images.acute, few);
   if (!hn::AllFalse(Tag(), listed)) {
     BlockList list;
@@ -109,10 +109,10 @@ HWY_INLINE void draw_triangles(const TriangleImages& images, const scenes::Primi
 /// Draws a meshlet. What lies behind `farthest` (1/t) is not drawn.
 inline void draw_meshlet(const Meshlet& meshlet, const TileRays& rays, float farthest,
                          TileImage& image) {
-  SeenVertices seen;
-  see_vertices(meshlet, rays.view, seen);
+  ProjectedVertices projected;
+  project_vertices(meshlet, rays.view, projected);
   for (std::size_t first = 0; first < meshlet.triangle_count; first += kLanes) {
-    const TriangleImages images = see_triangles(meshlet, seen, first, rays.view, farthest);
+    const TriangleImages images = project_triangles(meshlet, projected, first, rays.view, farthest);
     draw_exactly(meshlet, first, images.needs_exact, rays, image);
     draw_triangles(images, meshlet.primitives.data() + first, image);
   }

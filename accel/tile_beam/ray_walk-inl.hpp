@@ -88,9 +88,9 @@ class MeshletProbe {
  private:
   const Meshlet* meshlet_;
   const bvh::ProbeRay* ray_;
-  alignas(64) std::array<float, Meshlet::kMostVertices> x_;
-  alignas(64) std::array<float, Meshlet::kMostVertices> y_;
-  alignas(64) std::array<float, Meshlet::kMostVertices> t_;
+  alignas(64) std::array<float, Meshlet::kMaxVertices> x_;
+  alignas(64) std::array<float, Meshlet::kMaxVertices> y_;
+  alignas(64) std::array<float, Meshlet::kMaxVertices> t_;
 };
 
 /// What waits to be looked at: the bits of where the ray enters it, which order as the floats do,
@@ -116,7 +116,7 @@ class WaitingChildren {
   }
 
  private:
-  std::array<std::uint64_t, kMostTileDepth*(kTileLanes - 1) + 1> entries_;  // as deep as it gets
+  std::array<std::uint64_t, kMaxTileDepth*(kTileLanes - 1) + 1> entries_;  // as deep as it gets
   std::size_t size_ = 0;
   std::size_t sorted_from_ = 0;
 };

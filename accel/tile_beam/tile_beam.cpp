@@ -1,10 +1,109 @@
 #include "accel/tile_beam/tile_beam.hpp"
 
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include <hwy/cache_control.h>
 #include <hwy/targets.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include "accel/core/registry.hpp"
 
 namespace beambench::accel::tile_beam {
+
+namespace {
+
+/// A raster, cut into tiles.
+struct TiledRaster {
+  SampleRaster raster;
+  RasterView view;
+
+  TiledRaster(const SampleRaster& from, const PrimaryRays& rays, const scenes::Bounds& scene)
+      : raster(from), view(from, rays, scene) {}
+
+  int columns() const { return (raster.width + kTileWidth - 1) / kTileWidth; }
+  int rows() const { return (raster.height + kTileHeight - 1) / kTileHeight; }
+  /// For column < columns(), row < rows().
+  TileView tile(int column, int row) const {
+    const int left = column * kTileWidth;
+    const int top = row * kTileHeight;
+    return {view, left, top, std::min(kTileWidth, raster.width - left),
+            std::min(kTileHeight, raster.height - top)};
+  }
+};
+
+/// The rasters of an image under one numbering of tiles: those at the same place, which write to
+/// the same part of the buffer, have the same number.
+class TiledImage {
+ public:
+  TiledImage(const PrimaryRays& rays, const scenes::Bounds& scene) {
+    for (const SampleRaster& raster : sample_rasters(rays)) {
+      rasters_.emplace_back(raster, rays, scene);
+      columns_ = std::max(columns_, rasters_.back().columns());
+      rows_ = std::max(rows_, rasters_.back().rows());
+    }
+  }
+
+  int tiles() const { return columns_ * rows_; }
+  /// Calls `draw(raster, view)` for the tiles of a number.
+  template <class Draw>
+  void for_each_of(int number, Draw draw) const {
+    const int column = number % columns_;
+    const int row = number / columns_;
+    for (const TiledRaster& tiled : rasters_) {
+      if (column < tiled.columns() && row < tiled.rows()) {
+        draw(tiled.raster, tiled.tile(column, row));
+      }
+    }
+  }
+
+ private:
+  std::vector<TiledRaster> rasters_;
+  int columns_ = 0;
+  int rows_ = 0;
+};
+
+/// What a thread needs of its own.
+template <class Counting>
+struct Workplace {
+  std::unique_ptr<TileImage> image = std::make_unique_for_overwrite<TileImage>();
+  Counting counting;
+};
+
+}  // namespace
+
+template <class Counting>
+void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
+                 const scenes::Scene& scene, const PrimaryRays& rays, bool parallel,
+                 HitBuffer& buffer, Counting& counting) {
+  tbb::enumerable_thread_specific<Workplace<Counting>> workplaces;
+  const TiledImage tiled(rays, hierarchy.bounds);
+  const auto draw = [&](int begin, int end) {
+    Workplace<Counting>& own = workplaces.local();
+    for (int number = begin; number < end; ++number) {
+      tiled.for_each_of(number, [&](const SampleRaster& raster, const TileView& view) {
+        kernels.drawing<Counting>().draw({hierarchy, scene, rays, raster}, view, *own.image, buffer,
+                                         own.counting);
+      });
+    }
+    hwy::FlushStream();
+  };
+  if (parallel) {
+    tbb::parallel_for(tbb::blocked_range(0, tiled.tiles()),
+                      [&](const auto& range) { draw(range.begin(), range.end()); });
+  } else {
+    draw(0, tiled.tiles());
+  }
+  for (const Workplace<Counting>& workplace : workplaces) counting.add(workplace.counting);
+}
+
+template void trace_tiles(const TileKernels&, const TileHierarchy&, const scenes::Scene&,
+                          const PrimaryRays&, bool, HitBuffer&, NoCounting&);
+template void trace_tiles(const TileKernels&, const TileHierarchy&, const scenes::Scene&,
+                          const PrimaryRays&, bool, HitBuffer&, WorkCounters&);
 
 std::vector<ParameterInfo> TileBeam::parameters() {
   const TileHierarchyOptions defaults;

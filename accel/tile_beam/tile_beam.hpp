@@ -2,15 +2,23 @@
 // Primary rays in beams the size of screen tiles, through a hierarchy over meshlets.
 
 #include "accel/bvh/probe_ray.hpp"
+#include "accel/core/hit_buffer.hpp"
 #include "accel/core/instruction_set.hpp"
+#include "accel/core/primary_rays.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 #include "accel/tile_beam/tile_kernels.hpp"
-#include "accel/tile_beam/tile_trace.hpp"
 #include "scenes/core/parameters.hpp"
 
 namespace beambench::accel::tile_beam {
+
+/// Finds the closest hits of `rays`. `parallel`: tiles are shared among all cores; hits and counts
+/// are the same. `Counting` is NoCounting or WorkCounters.
+template <class Counting>
+void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
+                 const scenes::Scene& scene, const PrimaryRays& rays, bool parallel,
+                 HitBuffer& buffer, Counting& counting);
 
 /// The thesis's two ideas, many primary rays moved through the scene as one beam and no rays where
 /// nothing is, with today's means: a tile of the screen goes through a hierarchy of boxes front to

@@ -62,12 +62,12 @@ struct alignas(64) TileNode {
 
 /// A few neighboring triangles over the corners that they share: each corner is seen once.
 struct alignas(64) Meshlet {
-  static constexpr std::size_t kMostVertices = 32;
-  static constexpr std::size_t kMostTriangles = 32;
+  static constexpr std::size_t kMaxVertices = 32;
+  static constexpr std::size_t kMaxTriangles = 32;
 
-  std::array<std::array<float, kMostVertices>, 3> vertices;         ///< x, y, z
-  std::array<std::array<std::uint8_t, kMostTriangles>, 3> corners;  ///< of triangles, into vertices
-  std::array<scenes::PrimitiveId, kMostTriangles>
+  std::array<std::array<float, kMaxVertices>, 3> vertices;         ///< x, y, z
+  std::array<std::array<std::uint8_t, kMaxTriangles>, 3> corners;  ///< of triangles, into vertices
+  std::array<scenes::PrimitiveId, kMaxTriangles>
       primitives;  ///< the polygons that the triangles belong to
   std::uint32_t vertex_count;
   std::uint32_t triangle_count;
@@ -118,7 +118,7 @@ struct TileHierarchy : TileBlocks {
 
 /// No more nodes than this lie on any way down: the binary hierarchy's, and one for a leaf that
 /// needs several blocks.
-inline constexpr std::size_t kMostTileDepth = 97;
+inline constexpr std::size_t kMaxTileDepth = 97;
 
 struct TileHierarchyOptions {
   std::uint32_t max_leaf = 32;  ///< most primitives of a leaf

@@ -184,7 +184,7 @@ class TileWalk {
   unsigned open_square_ = 0;  ///< where background was seen last
   int drawn_ = 0;             ///< samples that leaves covered since it was found
   std::size_t size_ = 0;
-  std::array<Entry, kMostTileDepth*(kTileLanes - 1) + 1> stack_;
+  std::array<Entry, kMaxTileDepth*(kTileLanes - 1) + 1> stack_;
 };
 
 }  // namespace beambench::accel::tile_beam::HWY_NAMESPACE

@@ -50,7 +50,7 @@ std::uint64_t chain(std::uint64_t value) {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kLeastSlices = 40;
+constexpr std::size_t kMinSlices = 40;
 // A chain of multiplications and additions, each waiting for the one before: some 0.2 ms.
 constexpr int kStepsOfASlice = 50'000;
 
@@ -122,7 +122,7 @@ std::optional<double> warm_up(std::chrono::duration<double> duration) {
 }
 
 std::optional<double> noise(std::span<const double> slices) {
-  if (slices.size() < kLeastSlices) return std::nullopt;
+  if (slices.size() < kMinSlices) return std::nullopt;
   std::vector<double> sorted(slices.begin(), slices.end());
   std::sort(sorted.begin(), sorted.end());
   const double high = sorted[sorted.size() - 1 - sorted.size() / 20];

@@ -41,7 +41,7 @@ struct Range {
 };
 
 /// The least size of a number of a range.
-double least_size(const Range& range) { return std::max({range.low, -range.high, 0.0}); }
+double min_size(const Range& range) { return std::max({range.low, -range.high, 0.0}); }
 
 /// What a range of one coordinate, divided by depths, covers of a face, which is [-1, 1].
 Range projected(const Range& range, const Range& depth) {
@@ -72,7 +72,7 @@ void visit_cells(const LitBox& box, int cells, Visit visit) {
     const Range u_range{box.low[(axis + 1) % 3], box.high[(axis + 1) % 3]};
     const Range v_range{box.low[(axis + 2) % 3], box.high[(axis + 2) % 3]};
     // Only what is deeper than it is far aside is seen through this face.
-    const Range depth{std::max({along.low, least_size(u_range), least_size(v_range)}), along.high};
+    const Range depth{std::max({along.low, min_size(u_range), min_size(v_range)}), along.high};
     if (depth.low > depth.high) continue;
     const Range u = projected(u_range, depth);
     const Range v = projected(v_range, depth);

@@ -31,8 +31,8 @@ constexpr std::size_t kLargestRead = std::size_t{1} << 30U;  // one call reads n
          path_is_wrong ? "check the path and its permissions" : "try a copy on another disk");
 }
 
-[[noreturn]] void refuse_size(const std::string& name, std::uint64_t most_bytes) {
-  refuse(name, fmt::format("it holds more than {} bytes", most_bytes), "divide it or reduce it");
+[[noreturn]] void refuse_size(const std::string& name, std::uint64_t max_bytes) {
+  refuse(name, fmt::format("it holds more than {} bytes", max_bytes), "divide it or reduce it");
 }
 
 /// A descriptor, closed at the end.
@@ -64,9 +64,9 @@ std::uint64_t known_length(int descriptor, const std::string& name) {
       std::max<off_t>(status.st_size - std::max<off_t>(position, 0), 0));
 }
 
-std::string read_whole(int descriptor, const std::string& name, std::uint64_t most_bytes) {
+std::string read_whole(int descriptor, const std::string& name, std::uint64_t max_bytes) {
   const std::uint64_t length = known_length(descriptor, name);
-  if (length > most_bytes) refuse_size(name, most_bytes);
+  if (length > max_bytes) refuse_size(name, max_bytes);
   // One byte more than is known of: the end is seen without growing.
   std::string bytes(length > 0 ? length + 1 : kFirstBlock, '\0');
   std::size_t used = 0;
@@ -78,7 +78,7 @@ std::string read_whole(int descriptor, const std::string& name, std::uint64_t mo
     if (count < 0) refuse_by_error(name, errno);
     if (count == 0) break;
     used += static_cast<std::size_t>(count);
-    if (used > most_bytes) refuse_size(name, most_bytes);
+    if (used > max_bytes) refuse_size(name, max_bytes);
   }
   if (used < length) {
     refuse(name, fmt::format("it ended after {} of its {} bytes", used, length),
@@ -90,18 +90,18 @@ std::string read_whole(int descriptor, const std::string& name, std::uint64_t mo
 
 }  // namespace
 
-std::string read_input(int descriptor, const std::string& name, std::uint64_t most_bytes) {
+std::string read_input(int descriptor, const std::string& name, std::uint64_t max_bytes) {
   try {
-    return read_whole(descriptor, name, most_bytes);
+    return read_whole(descriptor, name, max_bytes);
   } catch (const std::bad_alloc&) {
   } catch (const std::length_error&) {  // more than a string can hold
   }
   refuse(name, "out of memory", "close other programs, or divide the file");
 }
 
-std::string read_input(const std::filesystem::path& path, std::uint64_t most_bytes) {
+std::string read_input(const std::filesystem::path& path, std::uint64_t max_bytes) {
   const OpenFile file(path);
-  return read_input(file.descriptor(), path.string(), most_bytes);
+  return read_input(file.descriptor(), path.string(), max_bytes);
 }
 
 }  // namespace beambench

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostLinks = 40;  // the kernel's own limit
+constexpr int kMaxLinks = 40;  // the kernel's own limit
 
 [[noreturn]] void fail(const fs::path& path, int error) {
   throw fs::filesystem_error("cannot be written", path, {error, std::generic_category()});
@@ -35,7 +35,7 @@ int open_descriptor_of(const struct stat& status) {
 fs::path end_of_dangling(const fs::path& path) {
   fs::path end = path;
   for (int links = 0; fs::is_symlink(fs::symlink_status(end)); ++links) {
-    if (links == kMostLinks) fail(path, ELOOP);
+    if (links == kMaxLinks) fail(path, ELOOP);
     end = end.parent_path() / fs::read_symlink(end);  // an absolute one replaces the folder
   }
   return end;

@@ -214,12 +214,12 @@ PolygonMesh triangulated(const PolygonMesh& mesh) {
 
 PolygonMesh subdivided_to(PolygonMesh mesh, std::size_t count) {
   // A difference below zero arrives as a huge number.
-  constexpr std::size_t kMostPolygons = 100'000'000;
-  if (count > kMostPolygons) {
+  constexpr std::size_t kMaxPolygons = 100'000'000;
+  if (count > kMaxPolygons) {
     throw std::invalid_argument(
         fmt::format("{} polygons are wanted, more than {}: were there too "
                     "many before?",
-                    count, kMostPolygons));
+                    count, kMaxPolygons));
   }
   if (mesh.size() > count) {
     throw std::invalid_argument(

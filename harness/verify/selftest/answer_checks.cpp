@@ -16,7 +16,7 @@
 namespace beambench::verify {
 namespace {
 
-constexpr std::uint64_t kMostPrimitives = 60;
+constexpr std::uint64_t kMaxPrimitives = 60;
 constexpr int kRays = 300;
 
 std::vector<accel::Ray> random_rays(const scenes::Scene& scene, Random& random) {
@@ -29,14 +29,14 @@ std::vector<accel::Ray> random_rays(const scenes::Scene& scene, Random& random) 
 /// Does the ray lie in the plane of a polygon, as far as float knows? Where it meets that polygon
 /// is then decided by rounding alone.
 bool is_edge_on(const scenes::Scene& scene, const accel::Ray& ray) {
-  constexpr double kLeastSine = 1e-5;
+  constexpr double kMinSine = 1e-5;
   const glm::dvec3 direction(ray.direction);
   return std::ranges::any_of(scene.triangles, [&](const scenes::Triangle& triangle) {
     const glm::dvec3 first(scene.vertices[triangle.vertex[0]]);
     const glm::dvec3 normal = glm::cross(glm::dvec3(scene.vertices[triangle.vertex[1]]) - first,
                                          glm::dvec3(scene.vertices[triangle.vertex[2]]) - first);
     return std::abs(glm::dot(normal, direction)) <=
-           kLeastSine * glm::length(normal) * glm::length(direction);
+           kMinSine * glm::length(normal) * glm::length(direction);
   });
 }
 
@@ -64,7 +64,7 @@ CheckOutcome check_random_scenes(const Subject& subject, const SelftestEffort& e
     const std::uint64_t seed = effort.seed + i;
     Random random(seed);
     // Small scenes first: what fails is easy to look at.
-    const auto primitives = static_cast<int>(1 + i * kMostPrimitives / effort.scenes);
+    const auto primitives = static_cast<int>(1 + i * kMaxPrimitives / effort.scenes);
     const scenes::Scene scene = random_scene(seed, primitives, subject.kinds());
     const accel::StructureChoice choice = subject.vary(random);
     std::unique_ptr<accel::Accelerator> structure;

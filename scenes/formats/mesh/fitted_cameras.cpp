@@ -19,7 +19,7 @@ namespace {
 constexpr double kMargin = 1.08;
 /// An eye that is nearer to what it looks at, in parts of the coordinates' size, might be at the
 /// same place in float.
-constexpr double kLeastDistance = 1e-5;
+constexpr double kMinDistance = 1e-5;
 
 /// A direction by its parts to the right, to the top and to the front of the mesh.
 struct View {
@@ -88,7 +88,7 @@ std::vector<Camera> fitted_cameras(std::span<const glm::vec3> points,
   if (bounds.empty()) return {};
   const glm::dvec3 center = 0.5 * (glm::dvec3(bounds.lower) + glm::dvec3(bounds.upper));
   const double least = 0.5 * glm::length(glm::dvec3(bounds.extent())) +
-                       kLeastDistance * static_cast<double>(bounds.largest_coordinate());
+                       kMinDistance * static_cast<double>(bounds.largest_coordinate());
   std::vector<Camera> cameras;
   for (const View& view : kViews) {
     Camera camera;

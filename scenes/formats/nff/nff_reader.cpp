@@ -281,7 +281,7 @@ void NffReader::read_corners(bool smooth) {
                    fmt::format("a polygon of {} vertices; it must have at least 3", count));
   }
   const auto size = static_cast<std::size_t>(count);
-  if (size > tokens_.most_numbers_left() / (smooth ? 6 : 3)) {
+  if (size > tokens_.max_numbers_left() / (smooth ? 6 : 3)) {
     tokens_.refuse(command_.line,
                    fmt::format("a polygon of {} vertices, more than the rest of the file can "
                                "hold; is the file cut off?",

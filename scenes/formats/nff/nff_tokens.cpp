@@ -87,7 +87,7 @@ bool NffTokens::at_number() const {
   return !rest.empty() && (is_digit(rest[0]) || rest[0] == '.' || rest == "nan" || rest == "inf");
 }
 
-std::size_t NffTokens::most_numbers_left() const {
+std::size_t NffTokens::max_numbers_left() const {
   const auto bytes = static_cast<std::size_t>(end_ - position_) + token_.text.size();
   return (bytes + 1) / 2;  // a digit and a blank each
 }

@@ -33,7 +33,7 @@ class NffTokens {
   /// Whether the next token is, or tries to be, a number: `nan` and `1.2.3` count.
   bool at_number() const;
   /// How many numbers the rest of the text can hold at most.
-  std::size_t most_numbers_left() const;
+  std::size_t max_numbers_left() const;
 
   NffToken take();
   /// Takes a number, rounded once (by way of double, 7.038531e-26 would become another float);

@@ -1,4 +1,4 @@
-#include "accel/beam/sample_way.hpp"
+#include "accel/beam/sample_path.hpp"
 
 #include <algorithm>
 #include <array>
@@ -70,7 +70,7 @@ class SampleWatch : public NoBeamWatch {
   }
   void handed_over(RayReason reason) { reason_ = reason; }
 
-  SampleWay take() && {
+  SamplePath take() && {
     return {std::move(passages_), std::move(*recorder_).take_steps(), reason_, {}};
   }
 
@@ -140,7 +140,7 @@ class SampleWatch : public NoBeamWatch {
 
 }  // namespace
 
-SampleWay way_of_sample(const BeamTracer& tracer, const PrimaryRays& rays, int x, int y,
+SamplePath path_of_sample(const BeamTracer& tracer, const PrimaryRays& rays, int x, int y,
                         int sample) {
   const glm::dvec2 in_pixel = rays.offsets()[static_cast<std::size_t>(sample)];
   const SampleLattice only{in_pixel + glm::dvec2(x, y), 1, 1, {{0, 0, 0}}};
@@ -148,7 +148,7 @@ SampleWay way_of_sample(const BeamTracer& tracer, const PrimaryRays& rays, int x
   SampleWatch watch(tracer, rays, only, recorder);
   HitBuffer buffer(1, 1, 1);
   tracer.trace_watched(rays, buffer, watch);
-  SampleWay way = std::move(watch).take();
+  SamplePath way = std::move(watch).take();
   way.hit = buffer.get(0);
   return way;
 }

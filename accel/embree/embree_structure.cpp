@@ -7,7 +7,7 @@
 #include "accel/core/trace_on.hpp"
 #include "accel/embree/isa.hpp"
 #include "accel/embree/native_scene.hpp"
-#include "accel/embree/trace.hpp"
+#include "accel/embree/trace_modes.hpp"
 
 namespace beambench::accel::embree {
 namespace {
@@ -19,9 +19,9 @@ using embree::TraceMode;
 /// Differs from the contract where Embree does: of hits at one place any may come back, not the one
 /// of lowest id, and without `robust` a triangle is hit at t > t_min only, not at t_min itself. It
 /// counts no work: Embree reports none.
-class EmbreeContender : public Accelerator {
+class EmbreeStructure : public Accelerator {
  public:
-  EmbreeContender(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
+  EmbreeStructure(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
                   const TraceMode& mode, bool coherent, const std::string& isa, int threads)
       : scene_(scene, quality, robust, isa, threads),
         tracers_(embree::image_tracers(targets_of(isa))),
@@ -120,7 +120,7 @@ void register_embree(Registry& registry) {
        [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
          const std::string& isa = parameters.choice("isa");
          embree::require_isa(isa);
-         return std::make_unique<EmbreeContender>(
+         return std::make_unique<EmbreeStructure>(
              scene, parse_quality(parameters.choice("quality")), parameters.flag("robust"),
              find_mode(parameters.choice("mode")), parameters.flag("coherent"), isa,
              workload.threads);

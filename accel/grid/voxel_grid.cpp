@@ -1,8 +1,8 @@
+#include "accel/grid/voxel_grid.hpp"
+
 #include "accel/core/registry.hpp"
 #include "accel/grid/eager_voxels.hpp"
 #include "accel/grid/lazy_voxels.hpp"
-#include "accel/grid/mailboxes.hpp"
-#include "accel/grid/voxel_grid.hpp"
 
 namespace beambench::accel::grid {
 

@@ -36,7 +36,7 @@ struct BeamPassage {
 };
 
 /// What became of a sample.
-struct SampleWay {
+struct SamplePath {
   std::vector<BeamPassage> beams;   ///< from the first to the one it ends in; none: past the root
   std::vector<TraceStep> steps;     ///< leaves whose references were tested for it, with each test
   std::optional<RayReason> reason;  ///< why it became a ray of its own; nothing where it did not
@@ -45,7 +45,7 @@ struct SampleWay {
 
 /// Follows one sample as `BeamTracer::trace` does: the same beams, the same tests. Beams that the
 /// sample does not belong to are divided as well, but none of their samples is traced.
-SampleWay way_of_sample(const BeamTracer& tracer, const PrimaryRays& rays, int x, int y,
+SamplePath path_of_sample(const BeamTracer& tracer, const PrimaryRays& rays, int x, int y,
                         int sample);
 
 }  // namespace beambench::accel::beam
