@@ -8,10 +8,9 @@
 
 #include <glm/vec2.hpp>
 
-
 namespace beambench::accel::beam {
 
-/// At most `Capacity` values. The caller asks `full()` before it pushes.
+/// At most `Capacity` values. The caller checks `full()` before it pushes.
 template <class T, std::size_t Capacity>
 class FixedVector {
  public:
@@ -83,8 +82,8 @@ inline LineRange range_over(const ImagePolygon& polygon, const ImageLine& line) 
 }
 
 /// The part of a polygon where the line is at most `slack` (Sutherland and Hodgman, "Reentrant
-/// polygon clipping", CACM 17(1), 1974; one line a call). When there is no room for another corner
-/// the polygon is returned whole: it then covers more than it has to.
+/// polygon clipping", CACM 17(1), 1974; one line per call). When there is no space for another
+/// corner the polygon is returned whole: it then covers more than necessary.
 inline ImagePolygon clip(const ImagePolygon& polygon, const ImageLine& line, double slack) {
   ImagePolygon part;
   glm::dvec2 last = polygon[polygon.size() - 1];

@@ -1,5 +1,5 @@
 #pragma once
-// Primitives as the eye sees them: what a sample must fulfil to hit one.
+// The images of primitives, as seen from the eye: conditions that a sample must meet to hit one.
 
 #include <array>
 #include <cstddef>
@@ -90,8 +90,8 @@ class PrimitiveImages {
   std::vector<SphereImage> spheres_;
 };
 
-/// The probes for one instruction set. They may only reject: what they let pass is confirmed by the
-/// canonical test.
+/// Tests of many samples against one primitive's image, for one instruction set. They may only
+/// reject: what passes is confirmed by the canonical test.
 struct ProbeKernels {
   /// May the samples hit one of a polygon's triangles?
   SampleMask (*triangles)(std::span<const TriangleImage>, const SampleBatch&);

@@ -96,7 +96,7 @@ class Bins {
 
 /// Below it nodes are split in the middle: 2^32 items then need 32 more levels.
 constexpr std::uint32_t kDeepestSahSplit = kMaxBvhDepth - 34;
-/// Where tasks would cost more than they bring.
+/// Below this, tasks cost more than they save.
 constexpr std::size_t kParallelItems = 4096;
 
 /// Items in a bin below `bin` go left.
@@ -132,7 +132,8 @@ class Builder {
 
  private:
   /// A node to be made of the items [begin, end). Nodes below it are taken from `free` on, where
-  /// there is room for as many as can be: which task builds a node has no say in its number.
+  /// there is space for the maximum: the number of a node does not depend on the task that builds
+  /// it.
   struct Pending {
     std::size_t node;
     std::size_t free;
@@ -181,7 +182,7 @@ class Builder {
   }
 
   /// Sums up items, beginning with what `nothing()` returns, in parallel when asked: minima, maxima
-  /// and counts are the same in any order.
+  /// and counts do not depend on the order.
   template <class Nothing>
   std::invoke_result_t<Nothing> sum_up(std::size_t begin, std::size_t end,
                                        const Nothing& nothing) const {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-
 namespace beambench::accel::embree {
 namespace {
 
@@ -76,7 +75,7 @@ void any_hits_by_packets(const NativeScene& scene, Context& context, std::span<c
   typename Packet<N>::Rays query{};
   for (std::size_t first = 0; first < rays.size(); first += N) {
     const std::size_t count = fill_lanes<N>(rays, first, query, valid);
-    look_for_any_hit(valid.data(), scene.get(), context, query);
+    intersect_any(valid.data(), scene.get(), context, query);
     for (std::size_t i = 0; i < count; ++i) {
       answers[first + i] = query.tfar[i] == -kInfinity ? 1 : 0;
     }
@@ -89,7 +88,7 @@ constexpr TraceMode kModes[] = {
     {"packet8", &ImageTracers::packet8, closest_hits_by_packets<8>, any_hits_by_packets<8>},
     {"packet16", &ImageTracers::packet16, closest_hits_by_packets<16>, any_hits_by_packets<16>},
 #if BEAMBENCH_EMBREE_MAJOR == 3
-    // Of a list there is no tile to make a stream of.
+    // A list has no tile to make a stream of.
     {"stream", &ImageTracers::stream, closest_hits_by_packets<16>, any_hits_by_packets<16>},
 #endif
 };

@@ -18,20 +18,20 @@ namespace beambench::accel::grid {
 /// for ray tracing CSG modelled scenes", 1987; Amanatides and Woo, 1987): each primitive remembers
 /// the last ray it was tested against.
 ///
-/// The boxes are a scratch of the thread's, because queries are const and come from several threads
-/// at once. Every ray of a thread has a number of its own, whichever structure it is asked of, so
-/// what other structures left in the boxes does no harm.
+/// The boxes belong to the thread, because queries are const and come from several threads at once.
+/// Every ray of a thread has a number of its own, whatever the structure, so the entries of other
+/// structures do no harm.
 class Mailboxes {
  public:
   explicit Mailboxes(std::size_t primitives) : scratch_(of_this_thread()) {
     if (scratch_.last_ray.size() < primitives) scratch_.last_ray.resize(primitives, 0);
-    if (++scratch_.ray == 0) {  // all numbers are used up: begin again
+    if (++scratch_.ray == 0) {  // all numbers are used up: start again
       std::fill(scratch_.last_ray.begin(), scratch_.last_ray.end(), 0);
       scratch_.ray = 1;
     }
   }
 
-  /// Was the primitive not asked for before with this ray?
+  /// Is it the first call for the primitive with this ray?
   bool is_first(scenes::PrimitiveId id) {
     std::uint32_t& last = scratch_.last_ray[id];
     if (last == scratch_.ray) return false;
@@ -99,8 +99,7 @@ class VoxelGrid : public TraversalAccelerator<VoxelGrid<Voxels, Boxes>> {
     Boxes boxes(scene_->primitives.size());
     bool found = false;
     walk_voxels(grid_, ray, counting, [&](std::size_t voxel, double exit_t) {
-      found =
-          any_reference_hit(*scene_, references(voxel, counting), canonical, counting, boxes);
+      found = any_reference_hit(*scene_, references(voxel, counting), canonical, counting, boxes);
       return found || canonical.t_max < static_cast<float>(exit_t);
     });
     return found;

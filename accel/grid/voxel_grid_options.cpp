@@ -13,8 +13,8 @@ namespace beambench::accel::grid {
 
 namespace {
 
-/// The numbers of cubic voxels an axis that come to `wanted` in all, over a box of `size`. An axis
-/// too short for one such voxel has one, and the others share what is wanted.
+/// The numbers of cubic voxels per axis, about `wanted` in all, over a box of `size`. An axis
+/// too short for one such voxel has one, and the others have more.
 glm::ivec3 cubic_cells(const glm::dvec3& size, double wanted) {
   glm::ivec3 cells(1);
   std::array<bool, 3> is_short{};
@@ -46,7 +46,7 @@ glm::ivec3 cubic_cells(const glm::dvec3& size, double wanted) {
   return cells;
 }
 
-/// An estimate from above of the references in a grid of `cells`: a surface reaches into the voxels
+/// An upper estimate of the references in a grid of `cells`: a surface reaches into the voxels
 /// of its bounds, or, where those are many, into about twice as many as its bounds' sides show.
 double estimated_references(const scenes::Scene& scene, const glm::dvec3& size,
                             const glm::ivec3& cells) {
@@ -88,7 +88,7 @@ std::vector<ParameterInfo> VoxelGridOptions::parameters() {
                        "when a voxel's list is made: by the first ray that visits it, testing "
                        "every primitive (thesis), or all before the first ray"),
       flag_parameter("mailboxes", defaults.mailboxes,
-                     "test no primitive twice against a ray; 4 bytes a primitive and thread"),
+                     "test no primitive twice against a ray; 4 bytes per primitive and thread"),
       integer_parameter("max_voxels", defaults.max_voxels, 1, 2'000'000'000,
                         "refuse a grid of more voxels (4 bytes each, 8 where fill is lazy)"),
       integer_parameter("max_references", static_cast<std::int64_t>(defaults.max_references), 1,

@@ -15,7 +15,7 @@ namespace beambench::accel::grid {
 struct VoxelGridOptions {
   enum class Fill { kLazy, kEager };
 
-  std::optional<std::array<std::int32_t, 3>> resolution;  ///< voxels an axis; nothing: by density
+  std::optional<std::array<std::int32_t, 3>> resolution;  ///< voxels per axis; nothing: by density
   double density = 4.0;                                   ///< voxels for each primitive
   Fill fill = Fill::kEager;
   bool mailboxes = false;

@@ -12,7 +12,7 @@
 
 namespace beambench::accel::grid {
 
-/// The most cells along an axis. The bound below rests on it.
+/// The maximum number of cells along an axis. The bound below depends on it.
 inline constexpr std::int32_t kMaxCellsPerAxis = 4096;
 
 inline std::size_t voxel_count(const CellGrid& grid) {

@@ -20,7 +20,7 @@ struct Trial {
   OctreeWork work;
 };
 
-/// The work of the level before the first, at which nothing was counted: what is usual.
+/// The typical work of the level before the first, at which nothing was counted.
 OctreeWork usual_work_before(const OctreeWork& first) {
   OctreeWork before = first;
   before.nodes /= 8.0;
@@ -65,11 +65,11 @@ class LevelSearch {
   }
 
   bool promises(const OctreeWork& next, const Trial& best) const {
-    constexpr double kRoom = 0.5;          // the extrapolated number may be wrong
+    constexpr double kMargin = 0.5;        // the extrapolated number may be wrong
     constexpr double kWorthTrying = 0.95;  // trying costs something
     return options_.max_level < kLastLevel &&
            best.octree.deepest_level() == options_.max_level &&  // or nothing is left to split
-           next.references < kRoom * static_cast<double>(options_.max_references) &&
+           next.references < kMargin * static_cast<double>(options_.max_references) &&
            cost(next) < kWorthTrying * cost(best.work);
   }
 
@@ -99,20 +99,19 @@ Octree choose_octree(const scenes::Scene& scene, const OctreeOptions& options,
 
 namespace {
 
-/// What a number grows or shrinks by from level to level, if it goes on as it went; `least` and
-/// `most` where it can have been no more than chance, `least` where there was nothing.
-double growth(double before, double now, double least, double most) {
-  return before > 0.0 ? std::clamp(now / before, least, most) : least;
+/// The factor by which a number grew from one level to the next, clamped to [lowest, highest];
+/// `lowest` where there was nothing before.
+double growth(double before, double now, double lowest, double highest) {
+  return before > 0.0 ? std::clamp(now / before, lowest, highest) : lowest;
 }
 
-/// The grid of rays over the image, and a stride that comes to all of them, scattered from the
-/// first on.
+/// The grid of rays over the image, and a stride that reaches all of them in a scattered order.
 constexpr int kColumns = 32;
 constexpr int kRows = 16;
 constexpr int kStride = 197;
 
-/// Whether rays of a coarse octree, which are long ones, have told enough for how many there are
-/// to trace: less than a hundredth of their work.
+/// Have enough rays been counted? Counting is to take less than a hundredth of the work of all
+/// rays, and rays through a coarse octree are long.
 bool enough(int rays, const WorkCounters& counters, const Workload& workload) {
   constexpr int kMinRays = 32;
   return rays >= kMinRays &&
@@ -155,8 +154,9 @@ OctreeWork extrapolate(const OctreeWork& before, const OctreeWork& now) {
   next.steps += std::max(0.0, now.steps - before.steps);
   // A cell of half the size holds half the tests at best, of surfaces larger than it.
   next.tests *= growth(before.tests, now.tests, 0.25, 1.0);
-  // Edges of twice as many cells cross in four times as many places at least, and in eight times
-  // as many where all cells are divided; a level deeper they mostly grow by less than they did.
+  // With twice the cells along an axis, the edges of cells cross on the image at least four times
+  // as often, and eight times where all cells are divided; at the next level growth is mostly
+  // smaller.
   next.nonterminal *= 0.65 * growth(before.nonterminal, now.nonterminal, 7.0, 10.0);
   next.occupied *= 0.7 * growth(before.occupied, now.occupied, 4.5, 6.0);
   return next;

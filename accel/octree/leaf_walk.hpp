@@ -13,12 +13,12 @@
 
 namespace beambench::accel::octree {
 
-/// What structures over an octree count beside the rest: nodes passed from a leaf to its neighbor
-/// of equal or larger size. The way down to a smaller leaf, the same for all, is not in it.
+/// A counter of structures over an octree: nodes passed from a leaf to its neighbor of equal or
+/// larger size. The descent to a smaller leaf, the same for all, is not counted.
 inline constexpr std::string_view kNeighborSteps = "neighbor_steps";
 inline constexpr std::string_view kNeighborStepsMeaning =
-    "nodes of the octree passed from a leaf to its neighbor of equal or larger size; the way down "
-    "to a smaller leaf is not in it";
+    "nodes of the octree passed from a leaf to its neighbor of equal or larger size; the descent "
+    "to a smaller leaf is not counted";
 
 /// Where a ray leaves a leaf: at t, over the face, edge or vertex that `step` (-1, 0 or 1 for each
 /// axis) points at.
@@ -37,14 +37,14 @@ struct LeafExit {
   return exit;
 }
 
-/// The leaves that a ray passes through, in order (Samet, "Implementing ray tracing with octrees and
-/// neighbor finding", Computers & Graphics 13(4), 1989; thesis, sections 2.2.2 and 5.4.1): the exit
-/// point of a leaf is computed, and the leaf behind it is found. A ray that leaves through an edge or
-/// a vertex goes to the edge or vertex neighbor.
+/// The leaves that a ray passes through, in order (Samet, "Implementing ray tracing with octrees
+/// and neighbor finding", Computers & Graphics 13(4), 1989; thesis, sections 2.2.2 and 5.4.1): the
+/// exit point of a leaf is computed, and the leaf behind it is found. A ray that leaves through an
+/// edge or a vertex goes to the edge or vertex neighbor.
 ///
 /// `neighbors.move(cursor, step)` moves the cursor from a leaf to the node of equal or larger size
-/// behind the face, edge or vertex that `step` (-1, 0 or 1 for each axis) points at, and returns the
-/// number of nodes passed, the last one included; 0 where the root ends.
+/// behind the face, edge or vertex that `step` (-1, 0 or 1 for each axis) points at, and returns
+/// the number of nodes passed, the last one included; 0 where the root ends.
 template <class Neighbors>
 struct LeafWalk {
   const Octree& octree;

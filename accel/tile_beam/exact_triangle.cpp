@@ -32,8 +32,8 @@ struct Range {
   }
 };
 
-/// Of the part of a triangle that lies before the eye. `axis` of the corners is place x depth. An
-/// edge that goes behind the eye leaves the screen at one of its ends.
+/// Of the part of a triangle that lies in front of the eye. `axis` of the corners is place x depth.
+/// An edge that goes behind the eye leaves the screen at one of its ends.
 Range range_of(const std::array<glm::dvec3, 3>& projected, int axis) {
   Range range;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -41,8 +41,10 @@ Range range_of(const std::array<glm::dvec3, 3>& projected, int axis) {
     range.include(projected[i][axis] / projected[i].z);
     for (const std::size_t other : {(i + 1) % 3, (i + 2) % 3}) {
       if (projected[other].z > 0.0) continue;
-      const double way = projected[other][axis] * projected[i].z - projected[i][axis] * projected[other].z;
-      if (way != 0.0) range.include(std::copysign(std::numeric_limits<double>::infinity(), way));
+      const double direction =
+          projected[other][axis] * projected[i].z - projected[i][axis] * projected[other].z;
+      if (direction != 0.0)
+        range.include(std::copysign(std::numeric_limits<double>::infinity(), direction));
     }
   }
   return range;
@@ -50,7 +52,8 @@ Range range_of(const std::array<glm::dvec3, 3>& projected, int axis) {
 
 /// The samples that the triangle may hold. Acute corners end here, for edges moved outward meet
 /// only far beyond them.
-std::optional<SampleRectangle> box_of(const TileView& view, const std::array<glm::dvec3, 3>& projected) {
+std::optional<SampleRectangle> box_of(const TileView& view,
+                                      const std::array<glm::dvec3, 3>& projected) {
   const auto clipped = [&](int axis, double per_angle, int samples) {
     const double slack = 1.25 * kEdgeWidening * per_angle;
     const Range range = range_of(projected, axis);
@@ -64,7 +67,7 @@ std::optional<SampleRectangle> box_of(const TileView& view, const std::array<glm
   return SampleRectangle{small(x.low), small(x.high), small(y.low), small(y.high)};
 }
 
-/// How the eye lies to a triangle, to within what the canonical test may err by.
+/// The position of the eye relative to a triangle, to within the error of the canonical test.
 enum class Eye { kOff, kInPlane, kOnTriangle };
 
 Eye place_of_eye(const std::array<glm::dvec3, 3>& from_eye) {
@@ -97,7 +100,7 @@ std::optional<ExactTriangle> exact_triangle(const TileView& view,
   for (std::size_t i = 0; i < 3; ++i) {
     from_eye[i] = glm::dvec3(corners[i]) - glm::dvec3(view.eye);
     projected[i] = {glm::dot(view.exact_x, from_eye[i]), glm::dot(view.exact_y, from_eye[i]),
-               glm::dot(view.exact_depth, from_eye[i])};
+                    glm::dot(view.exact_depth, from_eye[i])};
   }
   switch (place_of_eye(from_eye)) {
     case Eye::kOnTriangle:
@@ -126,7 +129,8 @@ std::optional<ExactTriangle> exact_triangle(const TileView& view,
     if (largest(edge, view) < 0.0) return std::nullopt;
     triangle.edges[i] = rounded(edge);
   }
-  const glm::dvec3 plane = glm::cross(projected[1] - projected[0], projected[2] - projected[0]) / volume;
+  const glm::dvec3 plane =
+      glm::cross(projected[1] - projected[0], projected[2] - projected[0]) / volume;
   if (largest(plane, view) <= 0.0) return std::nullopt;
   if (!(glm::length(plane) < kNearestOfAll)) return left_to_rays(*box);
   triangle.plane = rounded(plane);

@@ -35,8 +35,8 @@ struct TiledRaster {
   }
 };
 
-/// The rasters of an image under one numbering of tiles: those at the same place, which write to
-/// the same part of the buffer, have the same number.
+/// The rasters of an image with a common numbering of tiles: tiles at the same place, which write
+/// to the same part of the buffer, have the same number.
 class TiledImage {
  public:
   TiledImage(const PrimaryRays& rays, const scenes::Bounds& scene) {
@@ -66,23 +66,22 @@ class TiledImage {
   int rows_ = 0;
 };
 
-/// What a thread needs of its own.
+/// The state of one thread.
 template <class Counting>
-struct Workplace {
+struct ThreadState {
   std::unique_ptr<TileImage> image = std::make_unique_for_overwrite<TileImage>();
   Counting counting;
 };
 
-}  // namespace
-
+/// `parallel`: tiles are shared among all cores; hits and counts are the same.
 template <class Counting>
 void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
                  const scenes::Scene& scene, const PrimaryRays& rays, bool parallel,
                  HitBuffer& buffer, Counting& counting) {
-  tbb::enumerable_thread_specific<Workplace<Counting>> workplaces;
+  tbb::enumerable_thread_specific<ThreadState<Counting>> states;
   const TiledImage tiled(rays, hierarchy.bounds);
   const auto draw = [&](int begin, int end) {
-    Workplace<Counting>& own = workplaces.local();
+    ThreadState<Counting>& own = states.local();
     for (int number = begin; number < end; ++number) {
       tiled.for_each_of(number, [&](const SampleRaster& raster, const TileView& view) {
         kernels.drawing<Counting>().draw({hierarchy, scene, rays, raster}, view, *own.image, buffer,
@@ -97,13 +96,23 @@ void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
   } else {
     draw(0, tiled.tiles());
   }
-  for (const Workplace<Counting>& workplace : workplaces) counting.add(workplace.counting);
+  for (const ThreadState<Counting>& state : states) counting.add(state.counting);
 }
 
-template void trace_tiles(const TileKernels&, const TileHierarchy&, const scenes::Scene&,
-                          const PrimaryRays&, bool, HitBuffer&, NoCounting&);
-template void trace_tiles(const TileKernels&, const TileHierarchy&, const scenes::Scene&,
-                          const PrimaryRays&, bool, HitBuffer&, WorkCounters&);
+}  // namespace
+
+void TileBeam::trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const {
+  with_counting(counters, [&](auto& counting) {
+    trace_tiles(*kernels_, hierarchy_, *scene_, rays, parallel_, buffer, counting);
+  });
+}
+
+void TileBeam::trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
+                            WorkCounters* counters) const {
+  with_counting(counters, [&](auto& counting) {
+    trace_tiles(*kernels_, hierarchy_, *scene_, rays, true, buffer, counting);
+  });
+}
 
 std::vector<ParameterInfo> TileBeam::parameters() {
   const TileHierarchyOptions defaults;
@@ -142,7 +151,7 @@ Statistics TileBeam::statistics() const {
 void register_tile_beam(Registry& registry) {
   registry.add({"tile-beam",
                 "beams the size of screen tiles through a wide hierarchy over meshlets, hits "
-                "resolved by SIMD: the thesis's idea with today's means",
+                "resolved by SIMD: the thesis's idea with today's methods",
                 Conformance::kTolerance, TileBeam::parameters(),
                 [](const scenes::Scene& scene, const Parameters& parameters, const Workload&) {
                   return std::make_unique<TileBeam>(scene, TileBeam::options_from(parameters),

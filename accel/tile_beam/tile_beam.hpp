@@ -13,19 +13,11 @@
 
 namespace beambench::accel::tile_beam {
 
-/// Finds the closest hits of `rays`. `parallel`: tiles are shared among all cores; hits and counts
-/// are the same. `Counting` is NoCounting or WorkCounters.
-template <class Counting>
-void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
-                 const scenes::Scene& scene, const PrimaryRays& rays, bool parallel,
-                 HitBuffer& buffer, Counting& counting);
-
-/// The thesis's two ideas, many primary rays moved through the scene as one beam and no rays where
-/// nothing is, with today's means: a tile of the screen goes through a hierarchy of boxes front to
-/// back, leaving out what its frustum, its samples or what it has already seen exclude
-/// (hierarchical depth: Greene, Kass and Miller 1993), and draws what leaves hold. Images are
-/// computed in float, to within a few roundings of the distances; single rays are answered as the
-/// classic structures answer them, bit for bit.
+/// The thesis's two ideas, many primary rays traced through the scene as one beam and no rays where
+/// nothing is, with today's methods: a tile of the screen goes through a hierarchy of boxes front
+/// to back, skipping what its frustum, its samples or nearer hits exclude (hierarchical Z: Greene,
+/// Kass and Miller 1993), and draws what leaves hold. Images are computed in float, to within a few
+/// roundings of the distances; single rays return the hits of the classic structures, bit for bit.
 class TileBeam : public TraversalAccelerator<TileBeam> {
  public:
   static std::vector<ParameterInfo> parameters();
@@ -44,17 +36,9 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   const char* instruction_set() const;
   Statistics statistics() const override;
 
-  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const override {
-    with_counting(counters, [&](auto& counting) {
-      trace_tiles(*kernels_, hierarchy_, *scene_, rays, parallel_, buffer, counting);
-    });
-  }
+  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const override;
   void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                    WorkCounters* counters) const override {
-    with_counting(counters, [&](auto& counting) {
-      trace_tiles(*kernels_, hierarchy_, *scene_, rays, true, buffer, counting);
-    });
-  }
+                    WorkCounters* counters) const override;
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {

@@ -1,5 +1,5 @@
 #pragma once
-// The hierarchy that tile beams walk: sixteen children a node, leaves that hold one kind each.
+// The hierarchy that tile beams traverse: sixteen children per node, leaves of one kind each.
 
 #include <array>
 #include <cstddef>
@@ -60,7 +60,7 @@ struct alignas(64) TileNode {
   std::uint32_t count;
 };
 
-/// A few neighboring triangles over the corners that they share: each corner is seen once.
+/// A few neighboring triangles and the corners that they share: each corner is projected once.
 struct alignas(64) Meshlet {
   static constexpr std::size_t kMaxVertices = 32;
   static constexpr std::size_t kMaxTriangles = 32;
@@ -108,7 +108,7 @@ struct TileHierarchy : TileBlocks {
   LargePageVector<TileNode> nodes;
   TileChild root{};
   scenes::Bounds bounds;    ///< of everything, widened
-  std::uint32_t depth = 0;  ///< nodes on the longest way down, leaf included
+  std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, leaf included
   std::uint64_t references = 0;
   double cost = 0.0;  ///< of the binary hierarchy it was made from: see sah_cost
 
@@ -116,8 +116,8 @@ struct TileHierarchy : TileBlocks {
   std::size_t leaves() const { return count(); }
 };
 
-/// No more nodes than this lie on any way down: the binary hierarchy's, and one for a leaf that
-/// needs several blocks.
+/// The maximum number of nodes from the root to a leaf: the binary hierarchy's, and one for a leaf
+/// that needs several blocks.
 inline constexpr std::size_t kMaxTileDepth = 97;
 
 struct TileHierarchyOptions {

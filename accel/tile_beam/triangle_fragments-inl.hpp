@@ -16,7 +16,7 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 /// Triangles with no more samples than this in their box are drawn by lanes.
 inline constexpr float kMaxLaneSamples = 9.0F;
 
-/// Hits found by lanes, before they are compared with the tile's.
+/// Hits found by lanes, before the depth test.
 struct Fragments {
   static constexpr std::size_t kMaxCount = 16 * 9 + 16;  // room for a whole register at the end
 
@@ -62,7 +62,7 @@ HWY_INLINE void resolve_fragments(const Fragments& fragments, const scenes::Prim
     const auto where = static_cast<unsigned>(fragments.where[f]);
     const std::size_t at = TileImage::place(static_cast<int>(where >> 4U & (kTileWidth - 1U)),
                                             static_cast<int>(where >> (4 + TileImage::kWidthBits)));
-    // Without a branch, which the machine could not guess.
+    // Without a branch, which could not be predicted.
     const bool nearer = fragments.inverse_t[f] > image.inverse_t[at];
     image.inverse_t[at] = nearer ? fragments.inverse_t[f] : image.inverse_t[at];
     image.primitive[at] = nearer ? primitives[where & 15U] : image.primitive[at];

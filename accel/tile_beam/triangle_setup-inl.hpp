@@ -22,7 +22,8 @@ struct ProjectedVertices {
   alignas(64) std::array<float, Meshlet::kMaxVertices> inverse_t;
 };
 
-HWY_INLINE void project_vertices(const Meshlet& meshlet, const TileView& view, ProjectedVertices& projected) {
+HWY_INLINE void project_vertices(const Meshlet& meshlet, const TileView& view,
+                                 ProjectedVertices& projected) {
   const Points eye = all_of(view.eye);
   const Points to_x = all_of(view.x);
   const Points to_y = all_of(view.y);
@@ -37,7 +38,7 @@ HWY_INLINE void project_vertices(const Meshlet& meshlet, const TileView& view, P
     const Floats x = hn::Mul(dot(to_x, p), inverse_t);
     const Floats y = hn::Mul(dot(to_y, p), inverse_t);
     const Mask in_guard_band = hn::And(hn::Gt(depth, all(view.slack_depth)),
-                              hn::Le(hn::Max(hn::Abs(x), hn::Abs(y)), guard));
+                                       hn::Le(hn::Max(hn::Abs(x), hn::Abs(y)), guard));
     store(x, &projected.x[i]);
     store(y, &projected.y[i]);
     store(hn::IfThenElse(in_guard_band, inverse_t, all(-1.0F)), &projected.inverse_t[i]);
@@ -66,7 +67,7 @@ struct TriangleImages {
   Floats right;
   Floats top;
   Floats bottom;
-  Mask drawn;        ///< may hit samples, and float is good enough
+  Mask drawn;        ///< may hit samples, and float is accurate enough
   Mask acute;        ///< has a corner so acute that rounding may draw it far beyond its box
   Mask needs_exact;  ///< may hit samples, but float is too coarse: see exact_triangle.hpp
 
@@ -92,8 +93,9 @@ HWY_INLINE Lines edge_between(Floats x0, Floats y0, Floats x1, Floats y1, Floats
 
 /// Of the triangles of a meshlet from `first` on. Those that hold no sample, or that lie behind
 /// `farthest` (1/t) everywhere, are in neither mask.
-HWY_INLINE TriangleImages project_triangles(const Meshlet& meshlet, const ProjectedVertices& projected,
-                                        std::size_t first, const TileView& view, float farthest) {
+HWY_INLINE TriangleImages project_triangles(const Meshlet& meshlet,
+                                            const ProjectedVertices& projected, std::size_t first,
+                                            const TileView& view, float farthest) {
   const hn::Rebind<std::uint8_t, Tag> bytes;
   const auto corner = [&](std::size_t which) {
     return hn::PromoteTo(IntTag(), hn::LoadU(bytes, meshlet.corners[which].data() + first));
