@@ -1,5 +1,5 @@
 #pragma once
-// A beam: a bundle of primary rays on their common way through the octree.
+// A beam: a bundle of primary rays that pass through the same leaves of the octree.
 
 #include <cstddef>
 #include <cstdint>
@@ -8,7 +8,6 @@
 #include <glm/vec3.hpp>
 
 #include "accel/beam/crossing.hpp"
-#include "accel/beam/fixed_vector.hpp"
 #include "accel/beam/image_polygon.hpp"
 #include "accel/core/beam_outline.hpp"
 
@@ -21,19 +20,19 @@ struct BeamCut {
   ImageLine line;
 };
 
-/// A piece narrower than this (in the units of `ImageLine`) is none: the rays in it go where its
-/// neighbors go. They stray by 10 scene diagonals x 2^-39 at most from where they should be, far
-/// less than references are widened by (`tolerance.hpp`), so no hit is lost; rays that run exactly
-/// in a cell's face do not tear beams into slivers.
+/// A part narrower than this (in the units of `ImageLine`) is not made: its rays stay with the
+/// neighboring part. They deviate by at most 10 scene diagonals x 2^-39, far less than references
+/// are widened by (`tolerance.hpp`), so no hit is lost, and rays that run exactly in a cell's face
+/// do not divide beams into slivers.
 inline constexpr double kSliver = 0x1p-39;
 
 /// The pyramid from the eye through a convex polygon (thesis, section 3.2), where it enters a leaf.
 ///
 /// Which samples belong to the beam is decided by the cuts alone, by one comparison of numbers
-/// that every beam computes alike for a ray (`crosses_before`). `outline` covers them all. Cuts
-/// that do not come near the outline are true of all its samples and are dropped, so that there are
-/// about as many as the outline has edges, and as in the thesis a beam costs the same at every
-/// resolution.
+/// that every beam computes in the same way for a ray (`crosses_before`). `outline` covers them
+/// all. Cuts that do not come near the outline hold for all its samples and are dropped, so that
+/// there are about as many as the outline has edges, and as in the thesis a beam costs the same at
+/// every resolution.
 struct Beam {
   std::uint32_t node;  ///< the leaf, its index in the octree
   std::int32_t size;   ///< finest cells along the leaf's edges
@@ -41,7 +40,8 @@ struct Beam {
   ImagePolygon outline;
   FixedVector<BeamCut, 56> cuts;
 
-  /// More cuts than one more division has room for: 5 for the exit, 2 a level for the neighbors.
+  /// Too many cuts for one more division: it adds up to 5 for the exit and 2 per level for the
+  /// neighbors.
   bool crowded() const { return cuts.size() > 20; }
 };
 

@@ -11,14 +11,14 @@ namespace {
 
 constexpr int kWindows = 8;  // in a row and in a column
 
-/// How wide and high windows are, of what they stand for: they are to show four beams for a
-/// thousand rays, so that counting takes about a hundredth of tracing.
+/// The side of a window over that of its part of the image: chosen for four beams per thousand
+/// rays, so that counting takes about a hundredth of tracing.
 double window_size(double rays, double beams) {
   return std::clamp(std::sqrt(0.004 * rays / std::max(1.0, beams)), 1.0 / 32.0, 1.0 / 4.0);
 }
 
-/// A window somewhere in its part of the image: not in the middle, where it would see the middle
-/// planes of a scene that the camera looks along.
+/// A window somewhere in its part of the image: not in the middle, which may show the middle planes
+/// of a scene edge-on.
 ImagePolygon window(int column, int row, double size) {
   // Kronecker's sequence of the plastic number: even in both directions.
   const double number = row * kWindows + column + 1.0;
@@ -36,9 +36,9 @@ ImagePolygon window(int column, int row, double size) {
 }
 
 /// Whether the window's left or lower edge cuts a beam. Such a beam is not counted where all others
-/// that reach into the window are: then each beam, whatever its size, is as likely to be counted as
-/// the window's share of the image says (Gundersen's unbiased counting frame: "Notes on the
-/// estimation of the numerical density of arbitrary profiles: the edge effect", Journal of
+/// that reach into the window are: then each beam, whatever its size, is counted with the
+/// probability of the window's share of the image (Gundersen's unbiased counting frame: "Notes on
+/// the estimation of the numerical density of arbitrary profiles: the edge effect", Journal of
 /// Microscopy 111(2), 1977).
 bool forbidden(const ImagePolygon& outline, const ImagePolygon& window) {
   constexpr double kNear = 1e-9;
@@ -88,7 +88,7 @@ void count_beams(const octree::Octree& octree, const Workload& workload,
 double beam_trace_cost(const octree::OctreeWork& work, double handover) {
   double beams = 205.0 * work.nonterminal + 600.0 * work.occupied;
   if (handover > 0.0) {
-    // A level of leaves before the eye has no more beams of `handover` samples than this.
+    // A level of leaves in front of the eye has no more beams of `handover` samples than this.
     const double large = work.steps * work.rays / handover;
     beams *= std::min(1.0, large / std::max(1.0, work.nonterminal));
   }

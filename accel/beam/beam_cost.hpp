@@ -6,8 +6,8 @@
 namespace beambench::accel::beam {
 
 /// Estimates how many beams of a camera meet an empty leaf and how many end at an occupied one.
-/// Follows those that windows spread over the image show, small ones where many beams are
-/// `expected` for few rays; it is right on average. No sample is traced.
+/// Traces beams through windows spread over the image, small ones where many beams are `expected`
+/// for few rays; the estimate is unbiased. No sample is traced.
 void count_beams(const octree::Octree& octree, const Workload& workload,
                  const octree::OctreeWork& expected, octree::OctreeWork& work);
 

@@ -1,5 +1,5 @@
 #pragma once
-// What the beam tracer can be told.
+// Options of the beam tracer.
 
 #include <cstdint>
 #include <vector>

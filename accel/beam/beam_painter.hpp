@@ -1,5 +1,5 @@
 #pragma once
-// From beams to hits: what becomes of a beam's samples.
+// From beams to hits: tracing the samples of a beam.
 
 #include <algorithm>
 #include <cstddef>
@@ -16,8 +16,8 @@
 
 namespace beambench::accel::beam {
 
-/// For each sample of a buffer whether it needs no more, where that is to be known: if some are not
-/// wanted, or beams go on behind occupied leaves. Empty elsewhere.
+/// For each sample of a buffer 1 if it needs no tracing, where that matters: when some samples are
+/// not wanted, or beams continue behind occupied leaves. Empty otherwise.
 template <class Sight>
 std::vector<std::uint8_t> finished_samples(const BeamOptions& options, const Sight& sight,
                                            const HitBuffer& buffer) {
@@ -26,10 +26,10 @@ std::vector<std::uint8_t> finished_samples(const BeamOptions& options, const Sig
   return finished;
 }
 
-/// Finds the samples of beams and traces them (thesis, section 3.6), for one image. It knows
-/// nothing of the other beams, so that it can be done by others than the one who divides them:
-/// several painters, in threads or processes, can fill one image. They can share its buffer: beams
-/// have no sample in common, or one comes from the other.
+/// Finds the samples of beams and traces them (thesis, section 3.6), for one image. It does
+/// not depend on other beams, so several painters, in threads or processes, can fill one image.
+/// They can share its buffer: two beams have no sample in common, unless one descends from the
+/// other.
 template <class Watch, class Sight>
 class BeamPainter {
  public:
@@ -74,7 +74,7 @@ class BeamPainter {
     });
   }
 
-  /// A beam at an occupied leaf. Returns whether some of its samples go on with it.
+  /// A beam at an occupied leaf. Returns whether some of its samples continue with it.
   bool test_leaf(const Beam& beam) {
     const octree::OctreeCursor place = cursor_at(beam);
     bool unfinished = false;
@@ -91,8 +91,8 @@ class BeamPainter {
  private:
   const octree::Octree& octree() const { return tracer_->octree(); }
 
-  /// What becomes of a sample that was tested in an occupied leaf. Returns false when it goes on
-  /// with its beam.
+  /// After a sample was tested in an occupied leaf: finishes it, or returns false where it
+  /// continues with its beam.
   bool settle(const octree::OctreeCursor& place, LeafBatch::Sample& sample) {
     const CellRay way(octree().grid(), sample.ray);
     if (!(sample.closest.ray.t_max < static_cast<float>(octree::leaf_exit(way, place).t))) {
@@ -108,17 +108,16 @@ class BeamPainter {
     return true;
   }
 
-  /// A ray goes on alone behind a leaf (thesis, section 3.6.2).
+  /// Traces a ray behind a leaf on its own (thesis, section 3.6.2).
   void follow(const octree::OctreeCursor& place, const CellRay& way, LeafBatch::Sample& sample) {
-    ClosestHit closest = sample.closest;  // nobody else's: it can stay in registers
+    ClosestHit closest = sample.closest;  // a copy can stay in registers
     double t = octree::leaf_exit(way, place).t;
-    octree::walk_leaves_behind(place, octree(), tracer_->neighbors(), sample.ray, way, counting_,
-                               [&](const octree::OctreeNode& leaf, double exit_t) {
-                                 if (watch_->leaves_part(leaf, t)) return true;
-                                 t = exit_t;
-                                 return test_references(*scene_, octree().references(leaf), exit_t,
-                                                        counting_, closest);
-                               });
+    octree::LeafWalk{octree(), tracer_->neighbors(), sample.ray, way}.behind(
+        place, counting_, [&](const octree::OctreeNode& leaf, double exit_t) {
+          if (watch_->leaves_part(leaf, t)) return true;
+          t = exit_t;
+          return test_references(*scene_, octree().references(leaf), exit_t, counting_, closest);
+        });
     sample.closest = closest;
   }
 
@@ -130,8 +129,8 @@ class BeamPainter {
     });
   }
 
-  /// Fills the batch with the beam's samples that are not finished and calls `visit()`, until all
-  /// were in it.
+  /// Fills the batch with the beam's unfinished samples and calls `visit()`, as often as needed for
+  /// all of them.
   template <class Visit>
   void for_each_batch(const Beam& beam, Visit visit) {
     batch_.clear();
@@ -151,7 +150,8 @@ class BeamPainter {
     if (!batch_.samples().empty()) visit();
   }
 
-  /// Recalls what a sample hit in leaves that its beam passed. Returns false when it is finished.
+  /// Restores the hit that a sample found in leaves its beam passed. Returns false when it is
+  /// finished.
   bool resume(LeafBatch::Sample& sample) const {
     bool open = false;
     for_each_index(sample, [&](std::size_t index) {

@@ -13,7 +13,7 @@ void push_at(const octree::OctreeCursor& leaf, Beam beam, BeamQueue& queue) {
   queue.waiting.push(leaf.node().count == 0 ? BeamKind::kNonTerminal : BeamKind::kOccupied, beam);
 }
 
-/// Counts what became of a beam that went on in so many parts.
+/// Counts a beam that continued in that many parts.
 void count_parts(std::uint64_t parts, BeamQueue& queue) {
   if (parts == 1) {
     ++queue.passed_whole;
@@ -23,7 +23,7 @@ void count_parts(std::uint64_t parts, BeamQueue& queue) {
   }
 }
 
-/// A beam on its way into what lies behind a face that all its rays cross.
+/// Divides a beam among the leaves behind a face that all its rays cross.
 class Entry {
  public:
   Entry(const EyeView& view, const Crossing& face, BeamQueue& queue)
@@ -60,7 +60,7 @@ class Entry {
     const Crossing middle = view_->crossing_of(axis, index);
     const ImageLine line = view_->line_before(middle, face_);
     const LineRange range = range_over(beam.outline, line);
-    // Who crosses the middle plane first is on its far side when crossing the face.
+    // Rays that cross the middle plane first are on its far side when they cross the face.
     const bool far_is_above = middle.side > 0;
     if (range.high <= kSliver) {
       visit(beam, far_is_above);
@@ -87,7 +87,7 @@ class Entry {
   BeamQueue* queue_;
 };
 
-/// A cut between what crosses `inner` first and what crosses `outer` first.
+/// A cut between the rays that cross `inner` first and those that cross `outer` first.
 BeamCut cut_between(const EyeView& view, const Crossing& inner, const Crossing& outer) {
   return {inner, outer, view.line_before(inner, outer)};
 }
@@ -124,7 +124,7 @@ class Exits {
       for (const int side : {-1, 1}) {
         const Crossing face{beam.corner[axis] + (side > 0 ? beam.size : 0),
                             static_cast<std::int16_t>(axis), static_cast<std::int16_t>(side)};
-        // Rays cannot leave through a face that the eye is beyond.
+        // No ray leaves through a face that the eye is beyond.
         if (view.distance(face) >= 0.0) add(view, beam, face);
       }
     }
@@ -133,7 +133,7 @@ class Exits {
   std::size_t count() const { return faces_.size(); }
   const Crossing& face(std::size_t i) const { return faces_[i]; }
 
-  /// What bounds the part of the beam that leaves by face i.
+  /// The cuts around the part of the beam that leaves by face i.
   FixedVector<BeamCut, 5> cuts(std::size_t i) const {
     FixedVector<BeamCut, 5> cuts;
     for (std::size_t j = 0; j < faces_.size(); ++j) {
@@ -144,9 +144,9 @@ class Exits {
   }
 
  private:
-  /// Adds a face unless it gets no more than a sliver of the beam beside one of the others, and
-  /// takes those away that get no more beside it. One of two that are compared always stays, so
-  /// those that are left at the end divide all samples among them.
+  /// Adds a face unless one of the others leaves it no more than a sliver of the beam, and removes
+  /// those to which it leaves no more. One of two that are compared always stays, so the remaining
+  /// faces divide all samples among them.
   void add(const EyeView& view, const Beam& beam, const Crossing& face) {
     std::array<ImageLine, 6> lines{};
     for (std::size_t i = 0; i < faces_.size();) {

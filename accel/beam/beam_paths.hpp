@@ -1,30 +1,111 @@
 #pragma once
-// The ways of beams through the octree: where they begin, and how they go on behind an empty leaf.
+// Beams through the octree: where they begin, how they continue behind an empty leaf, and those
+// that wait.
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "accel/beam/beam.hpp"
-#include "accel/beam/beam_stack.hpp"
 #include "accel/octree/octree.hpp"
 #include "accel/octree/octree_cursor.hpp"
 
 namespace beambench::accel::beam {
 
-/// Where an octree is only a part of one: takes beams that come to leaves of others.
+/// A beam and what it enters.
+struct BeamStep {
+  BeamKind kind;
+  Beam beam;
+};
+
+/// The last beam pushed is the next to be traced. Corners and cuts of all beams are stored in one
+/// array each, so that a beam takes no more memory than it needs, without an allocation of its own.
+class BeamStack {
+ public:
+  bool empty() const { return entries_.empty(); }
+  std::size_t size() const { return entries_.size(); }
+
+  void push(BeamKind kind, const Beam& beam) {
+    entries_.push_back({kind, beam.node, beam.size, beam.corner,
+                        static_cast<std::uint16_t>(beam.outline.size()),
+                        static_cast<std::uint16_t>(beam.cuts.size())});
+    corners_.insert(corners_.end(), beam.outline.begin(), beam.outline.end());
+    cuts_.insert(cuts_.end(), beam.cuts.begin(), beam.cuts.end());
+  }
+
+  /// Removes the last beam. Not when empty.
+  void pop(BeamStep& step) {
+    const Entry entry = entries_.back();
+    entries_.pop_back();
+    step.kind = entry.kind;
+    step.beam.node = entry.node;
+    step.beam.size = entry.size;
+    step.beam.corner = entry.corner;
+    take(corners_, entry.corners, step.beam.outline);
+    take(cuts_, entry.cuts, step.beam.cuts);
+  }
+
+  /// Removes the half that was pushed first: the beams next to the eye, with the most work behind
+  /// them.
+  BeamStack take_older_half() {
+    const auto half = static_cast<std::ptrdiff_t>(entries_.size() / 2);
+    std::ptrdiff_t corners = 0;
+    std::ptrdiff_t cuts = 0;
+    for (auto entry = entries_.begin(); entry != entries_.begin() + half; ++entry) {
+      corners += entry->corners;
+      cuts += entry->cuts;
+    }
+    BeamStack older;
+    move_first(entries_, half, older.entries_);
+    move_first(corners_, corners, older.corners_);
+    move_first(cuts_, cuts, older.cuts_);
+    return older;
+  }
+
+ private:
+  struct Entry {
+    BeamKind kind;
+    std::uint32_t node;
+    std::int32_t size;
+    glm::ivec3 corner;
+    std::uint16_t corners;
+    std::uint16_t cuts;
+  };
+
+  template <class T, std::size_t Capacity>
+  static void take(std::vector<T>& from, std::size_t count, FixedVector<T, Capacity>& to) {
+    to.resize(count);
+    std::copy(from.end() - static_cast<std::ptrdiff_t>(count), from.end(), to.begin());
+    from.resize(from.size() - count);
+  }
+
+  template <class T>
+  static void move_first(std::vector<T>& from, std::ptrdiff_t count, std::vector<T>& to) {
+    to.assign(from.begin(), from.begin() + count);
+    from.erase(from.begin(), from.begin() + count);
+  }
+
+  std::vector<Entry> entries_;
+  std::vector<glm::dvec2> corners_;
+  std::vector<BeamCut> cuts_;
+};
+
+/// Where the octree is a part of a larger one: takes the beams that enter leaves of other parts.
 class BeamBorder {
  public:
   BeamBorder() = default;
   BeamBorder(const BeamBorder&) = delete;
   BeamBorder& operator=(const BeamBorder&) = delete;
   virtual ~BeamBorder() = default;
-  /// A beam enters a leaf by a face. Returns whether it is taken, and waits no more here.
+  /// A beam enters a leaf by a face. Returns whether it is taken, so that it does not wait here.
   virtual bool takes(std::uint32_t leaf, const Crossing& face, const Beam& beam) = 0;
 };
 
-/// Beams that wait to be traced, and what finding them took.
+/// Beams that wait to be traced, and the work of finding them.
 ///
 /// The thesis counts a beam when one is created: at the beginning, and for each part of a beam that
-/// is cut. A beam that goes on whole is the same beam in another leaf (section 4.4.2: `PasaPor`
+/// is cut. A beam that continues whole is the same beam in another leaf (section 4.4.2: `PasaPor`
 /// against the constructor; graphic 3.4: "the standard beam is not modified").
 struct BeamQueue {
   BeamStack waiting;
@@ -32,14 +113,14 @@ struct BeamQueue {
   std::uint64_t neighbor_searches = 0;
   std::uint64_t appended = 0;      ///< to `waiting`, or taken at the border
   std::uint64_t made = 0;          ///< those at the beginning, and the parts of divided beams
-  std::uint64_t divided = 0;       ///< beams that went on in several parts
-  std::uint64_t passed_whole = 0;  ///< beams that went on undivided: into one leaf, or out
+  std::uint64_t divided = 0;       ///< beams that continued in several parts
+  std::uint64_t passed_whole = 0;  ///< beams that continued undivided: into one leaf, or out
   BeamBorder* border = nullptr;    ///< where there is one
 };
 
 /// Appends the beams at which tracing begins (thesis, section 3.4), through a convex `part` of the
-/// image: the whole of it is `view.screen()`. From outside: for each face of the root that the eye
-/// sees, the part clipped to it, divided among the leaves behind it. From inside: the part itself
+/// image: all of it is `view.screen()`. From outside: for each face of the root that the eye sees,
+/// the part clipped to it, divided among the leaves behind it. From inside: the part itself
 /// in the eye's leaf. Samples of no beam miss the root.
 void begin_beams(const octree::Octree& octree, const EyeView& view, const ImagePolygon& part,
                  BeamQueue& queue);

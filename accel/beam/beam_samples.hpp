@@ -22,10 +22,10 @@ class SampleScan {
         row_slack_(2.0 * view.rounding() / glm::length(rays.down()) + 1e-6) {}
 
   /// Calls `visit(y, first_x, last_x)` for runs of samples, such that each sample of the beam is in
-  /// one run, and no other sample is. As scanline filling (thesis, section 3.6.1), with the beam's
+  /// one run, and no other sample is. Scanline filling (thesis, section 3.6.1), with the beam's
   /// cuts for edges. A sample whose direction, rounded to float, may lie on either side of a cut is
   /// decided by `crosses_before`, as it is in every other beam: the thesis lets some pixels be
-  /// treated twice, here each sample belongs to one beam.
+  /// treated twice; here each sample belongs to one beam.
   template <class Visit>
   void for_each_run(const Beam& beam, const SampleLattice& lattice, Visit visit) const {
     double top = beam.outline[0].y;
@@ -41,7 +41,7 @@ class SampleScan {
     for (int y = first_y; y <= last_y; ++y) {
       const Row row = edges.row(y, lattice.width);
       if (row.first > row.last) continue;
-      // From the ends inward to where no cut comes near.
+      // From the ends inward, up to where no cut is near.
       int first = row.first;
       int last = row.last;
       const int sure_first = std::max(first, row.sure_first);
@@ -67,7 +67,7 @@ class SampleScan {
   }
 
  private:
-  /// Samples of a row: those that may belong to the beam, and those that surely do.
+  /// Samples of a row: those that may belong to the beam, and those that certainly do.
   struct Row {
     int first;
     int last;
@@ -144,7 +144,7 @@ class SampleScan {
 
   const EyeView* view_;
   const PrimaryRays* rays_;
-  /// In rows: enough for the rounding of directions, for no row is chosen by it alone.
+  /// In rows: enough for the rounding of directions. A row too many is harmless.
   double row_slack_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// What beams are to see: a whole image, or what a mirror shows.
+// What beams are traced for: a whole image, or what a mirror shows.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,10 +15,10 @@
 
 namespace beambench::accel::beam {
 
-/// The policy of an image: all of it, from the eye on.
+/// The policy of an image: all of it, starting at the eye.
 struct WholeImage {
   ImagePolygon part(const EyeView& view) const { return view.screen(); }
-  /// Whether a leaf is to be passed, whatever is in it.
+  /// Is a leaf to be passed, whatever is in it?
   static constexpr bool passes(const CellGrid&, const Beam&) { return false; }
   /// Where a ray begins.
   static constexpr void begin(Ray&) {}
@@ -26,8 +26,8 @@ struct WholeImage {
   std::vector<std::uint8_t> finished(const HitBuffer&) const { return {}; }
 };
 
-/// The policy of a mirror, for the rays of its virtual eye: the samples that see the mirror, from
-/// the mirror on.
+/// The policy of a mirror, for the rays of its virtual eye: the samples that see the mirror,
+/// starting at the mirror.
 class BehindMirror {
  public:
   /// `point` and unit `normal` of the mirror's plane, the normal on the side of the real eye; rays
@@ -43,7 +43,7 @@ class BehindMirror {
 
   const ImagePolygon& part(const EyeView&) const { return part_; }
 
-  /// Leaves on the virtual eye's side of the mirror are not there.
+  /// Leaves on the virtual eye's side of the mirror are passed.
   bool passes(const CellGrid& grid, const Beam& beam) const {
     double highest = -glm::dot(point_, normal_);
     for (int axis = 0; axis < 3; ++axis) {
@@ -55,8 +55,8 @@ class BehindMirror {
 
   void begin(Ray& ray) const {
     const double speed = glm::dot(normal_, glm::dvec3(ray.direction));
-    const double way = glm::dot(normal_, point_ - glm::dvec3(ray.origin)) + lift_;
-    if (speed > 0.0 && way > 0.0) ray.t_min = static_cast<float>(way / speed);
+    const double distance = glm::dot(normal_, point_ - glm::dvec3(ray.origin)) + lift_;
+    if (speed > 0.0 && distance > 0.0) ray.t_min = static_cast<float>(distance / speed);
   }
 
   std::vector<std::uint8_t> finished(const HitBuffer&) const { return unwanted_; }

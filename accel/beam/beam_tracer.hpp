@@ -16,10 +16,10 @@
 namespace beambench::accel::beam {
 
 /// Beams of primary rays through an octree (González López, thesis 1999, chapters 3 and 4): in
-/// empty leaves the beams go on, divided by the faces and the leaves behind them; at an occupied
+/// empty leaves the beams continue, divided by the faces and the leaves behind them; at an occupied
 /// leaf the samples of a beam become rays; what leaves the root is background without a ray. Rays
-/// that are not of an image, and those that pass an occupied leaf, go one by one with Samet's
-/// traversal over the same octree.
+/// that are not of an image, and those that pass an occupied leaf, are traced one by one by Samet's
+/// traversal of the same octree.
 class BeamTracer : public octree::Samet {
  public:
   BeamTracer(const scenes::Scene& scene, const BeamOptions& options)
@@ -40,8 +40,8 @@ class BeamTracer : public octree::Samet {
     trace_watched(rays, buffer, watch);
   }
 
-  /// The beams are shared among the threads: they have no sample in common, or one comes from the
-  /// other.
+  /// The beams are shared among the threads: two have no sample in common, unless one descends from
+  /// the other.
   void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
                     WorkCounters* counters) const override;
 
@@ -59,7 +59,7 @@ class BeamTracer : public octree::Samet {
     return std::move(watch).take();
   }
 
-  /// `trace`, told to a policy (see NoBeamWatch).
+  /// `trace`, reported to a policy (see NoBeamWatch).
   template <class Watch>
   void trace_watched(const PrimaryRays& rays, HitBuffer& buffer, Watch& watch) const;
 
@@ -77,7 +77,7 @@ class BeamTracer : public octree::Samet {
   BeamOptions options_;
 };
 
-/// One image being traced, or what one of several threads does of it.
+/// One image being traced, or one thread's share of it.
 template <class Watch, class Sight>
 class BeamTracer::Run {
  public:
@@ -99,7 +99,7 @@ class BeamTracer::Run {
     end();
   }
 
-  /// Makes all samples background and lets the first beams wait.
+  /// Makes all samples background and queues the first beams.
   void begin() {
     std::fill_n(buffer_->t(), buffer_->size(), kInfinity);
     std::fill_n(buffer_->primitive(), buffer_->size(), scenes::kNoPrimitive);
@@ -108,7 +108,7 @@ class BeamTracer::Run {
 
   BeamStack& waiting() { return queue_.waiting; }
 
-  /// Traces beams until none waits. Before each, `share(waiting)` may take others away.
+  /// Traces beams until none waits. Before each, `share(waiting)` may remove some.
   template <class Share>
   void work(Share share) {
     BeamStep step;
@@ -122,11 +122,11 @@ class BeamTracer::Run {
           break;
         case BeamKind::kOccupied:
           if (sight_->passes(octree().grid(), step.beam) || painter_.test_leaf(step.beam)) {
-            go_on(step.beam);
+            continue_with(step.beam);
           }
           break;
         case BeamKind::kNonTerminal:
-          go_on(step.beam);
+          continue_with(step.beam);
           break;
       }
     }
@@ -141,7 +141,7 @@ class BeamTracer::Run {
  private:
   const octree::Octree& octree() const { return tracer_->octree(); }
 
-  void go_on(const Beam& beam) {
+  void continue_with(const Beam& beam) {
     if (beam.crowded()) {
       painter_.hand_over(beam, RayReason::kCrowded);
     } else if (tracer_->options_.handover > 0 &&

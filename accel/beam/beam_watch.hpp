@@ -1,5 +1,5 @@
 #pragma once
-// Watching a beam tracer work: a compile-time policy beside that of the rays.
+// What a beam tracer does, reported to a compile-time policy beside that of the rays.
 
 #include <array>
 #include <chrono>
@@ -21,22 +21,22 @@ namespace beambench::accel::beam {
 enum class RayReason {
   kOccupied,  ///< it found nothing nearer than the exit of the occupied leaf its beam ended at
   kHandover,  ///< its beam had fewer samples than `handover`
-  kCrowded    ///< its beam had too many cuts to be divided (never seen)
+  kCrowded    ///< its beam had too many cuts to be divided (never observed)
 };
 
-/// The policy of timed code. A tracer tells its policy
-/// - each beam and what it meets, before it is seen to (`met`),
+/// The policy of timed code. A tracer reports to its policy
+/// - each beam and what it enters, before it is processed (`met`),
 /// - each sample when its beam has decided it or made it a ray (`painted`: its places in the hit
-///   buffer; samples of leaving beams only if `kPaintsLeaving`, for the buffer holds the background
-///   already),
+///   buffer; samples of leaving beams only if `kPaintsLeaving`, since the buffer holds the
+///   background already),
 /// - how many samples left the root (`left`) or were tested in a leaf (`tested`) with a beam, and
-///   each that goes on as a ray (`handed_over`),
-/// - that no beam is being seen to until the next is met (`resting`),
-/// - each leaf that a ray of its own enters, at t: is it another process's (`leaves_part`)? There
-///   the ray ends, and `painted` follows with the best it found,
-/// - at the end, what dividing beams took (`divided`), and that it is the end (`finished`),
-/// and takes from it the policy of individual rays (`rays`) and which of the image's samples the
-/// beam that was met last shall have (`chosen`).
+///   each that continues as a ray (`handed_over`),
+/// - that no beam is being processed until the next is met (`resting`),
+/// - each leaf that a single ray enters, at t: does it belong to another process (`leaves_part`)?
+///   There the ray ends, and `painted` follows with the best hit so far,
+/// - at the end, the work of dividing beams (`divided`), and that it is the end (`finished`),
+/// and gets from it the policy of individual rays (`rays`) and the samples of the image that the
+/// last beam met is to have (`chosen`).
 struct NoBeamWatch {
   static constexpr bool kPaintsLeaving = false;
   static std::span<const SampleLattice> chosen(std::span<const SampleLattice> all) { return all; }
@@ -84,7 +84,7 @@ class CountingBeamWatch {
     edges_ += beam.outline.size();
   }
   static constexpr void painted(std::size_t) {}
-  /// A leaving beam had so many samples.
+  /// The number of samples of a leaving beam.
   void left(std::uint64_t samples) { left_ += samples; }
   void tested(std::uint64_t samples) { tested_ += samples; }
   static constexpr bool leaves_part(const octree::OctreeNode&, double) { return false; }
@@ -100,7 +100,7 @@ class CountingBeamWatch {
     divided_ += queue.divided;
     passed_whole_ += queue.passed_whole;
   }
-  /// The image is done: the sums go to the counters.
+  /// The image is done: the sums are added to the counters.
   void finished();
   WorkCounters& rays() const { return *counters_; }
 

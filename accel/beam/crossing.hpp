@@ -1,6 +1,5 @@
 #pragma once
-// Which plane of the cell grid a ray from the eye crosses first: the one question by which beams
-// are divided.
+// Which plane of the cell grid a ray from the eye crosses first: beams are divided by this alone.
 
 #include <array>
 #include <cstdint>
@@ -21,9 +20,9 @@ struct Crossing {
   std::int16_t side;
 };
 
-/// The same question, asked of one ray. A crossing that the ray does not make comes last. At the
-/// same t the lower axis is first, so that the crossings of a ray have one order and every division
-/// of beams by them is a partition, however close to an edge or a vertex a ray passes.
+/// Does the ray make crossing `a` before `b`? A crossing that the ray does not make comes last. At
+/// the same t the lower axis is first, so that the crossings of a ray have one order and every
+/// division of beams by them is a partition, however close to an edge or a vertex a ray passes.
 inline bool crosses_before(const CellRay& way, const Crossing& a, const Crossing& b) {
   const auto t = [&](const Crossing& crossing) {
     return way.step(crossing.axis) == crossing.side ? way.plane_t(crossing.axis, crossing.index)
@@ -38,7 +37,7 @@ inline bool crosses_before(const CellRay& way, const Crossing& a, const Crossing
 /// How far rounding a ray's direction to float may move it, in units of view depth 1.
 double direction_rounding(const PrimaryRays& rays);
 
-/// What an eye sees of the planes of a grid.
+/// The planes of a grid as seen from an eye.
 class EyeView {
  public:
   EyeView(const CellGrid& grid, const PrimaryRays& rays);
@@ -51,7 +50,7 @@ class EyeView {
   /// The whole image as a polygon, wider on all sides by what rounding may do to a border sample.
   ImagePolygon screen() const;
 
-  /// How far the plane lies before the eye in the direction of `side`; negative behind it.
+  /// How far the plane lies in front of the eye in the direction of `side`; negative behind it.
   double distance(const Crossing& crossing) const {
     return crossing.side * (grid_->plane(crossing.axis, crossing.index) - eye(crossing.axis));
   }

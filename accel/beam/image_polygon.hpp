@@ -2,14 +2,52 @@
 // A beam's cross-section: a convex polygon on the image plane, cut by lines.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
 #include <glm/vec2.hpp>
 
-#include "accel/beam/fixed_vector.hpp"
-
 namespace beambench::accel::beam {
+
+/// At most `Capacity` values. The caller checks `full()` before it pushes.
+template <class T, std::size_t Capacity>
+class FixedVector {
+ public:
+  FixedVector() = default;
+  ~FixedVector() = default;
+  FixedVector(const FixedVector& other) { *this = other; }
+  FixedVector(FixedVector&& other) noexcept { *this = other; }
+  FixedVector& operator=(FixedVector&& other) noexcept {
+    *this = other;
+    return *this;
+  }
+  FixedVector& operator=(const FixedVector& other) {
+    size_ = other.size_;
+    std::copy_n(other.values_.begin(), size_, values_.begin());
+    return *this;
+  }
+
+  void push_back(const T& value) { values_[size_++] = value; }
+  void clear() { size_ = 0; }
+  void resize(std::size_t size) { size_ = size; }
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  static constexpr std::size_t capacity() { return Capacity; }
+  bool full() const { return size_ == Capacity; }
+
+  T& operator[](std::size_t i) { return values_[i]; }
+  const T& operator[](std::size_t i) const { return values_[i]; }
+  T* begin() { return values_.data(); }
+  T* end() { return values_.data() + size_; }
+  const T* begin() const { return values_.data(); }
+  const T* end() const { return values_.data() + size_; }
+
+ private:
+  std::size_t size_ = 0;
+  std::array<T, Capacity> values_;
+};
 
 /// A line of the image plane, negative on its inner side. The image is [0, 1] x [0, 1], (0, 0) its
 /// top left corner; values are distances of a plane through the eye from points at view depth 1,
@@ -44,8 +82,8 @@ inline LineRange range_over(const ImagePolygon& polygon, const ImageLine& line) 
 }
 
 /// The part of a polygon where the line is at most `slack` (Sutherland and Hodgman, "Reentrant
-/// polygon clipping", CACM 17(1), 1974; one line a call). When there is no room for another corner
-/// the polygon is returned whole: it then covers more than it has to.
+/// polygon clipping", CACM 17(1), 1974; one line per call). When there is no space for another
+/// corner the polygon is returned whole: it then covers more than necessary.
 inline ImagePolygon clip(const ImagePolygon& polygon, const ImageLine& line, double slack) {
   ImagePolygon part;
   glm::dvec2 last = polygon[polygon.size() - 1];

@@ -52,7 +52,7 @@ bool lies_in(const scenes::Scene& scene, const scenes::Polygon& polygon, const P
 /// A cell of the space of planes: normal and distance, rounded.
 using PlaneCell = std::array<std::int64_t, 4>;
 
-/// Only planes of one cell are compared, so that a million small mirrors are no matter. Two halves
+/// Only planes in one cell are compared, so that a million small mirrors are affordable. Two halves
 /// of a plane that fall into neighboring cells are two mirrors, which show the same.
 PlaneCell cell_of(const scenes::Scene& scene, const PlanarMirror& mirror) {
   constexpr double kNormals = 0x1p8;
@@ -148,7 +148,7 @@ std::optional<MirrorView> view_in(const PlanarMirror& mirror, const scenes::Scen
   const dvec3 eye(rays.eye());
   const double side = glm::dot(eye - mirror.point, mirror.normal) > 0.0 ? 1.0 : -1.0;
   const PrimaryRays behind = rays.mirrored(mirror.point, mirror.normal);
-  // As far as rays begin from other surfaces (harness/rays/beside_surface.hpp).
+  // As far as rays begin from other surfaces (harness/rays/normal.hpp).
   const double lift =
       64.0 * 0x1p-24 * (scene.bounds.largest_coordinate() + glm::length(dvec3(behind.eye())));
   ImagePolygon part = cover(ends_of_rows(hits, unwanted));

@@ -29,7 +29,7 @@ struct MirrorView {
 };
 
 /// From the hits of an image: the virtual eye of a mirror, and a convex cover of the samples that
-/// see it. Nothing where none does.
+/// see it. Nothing where none do.
 std::optional<MirrorView> view_in(const PlanarMirror& mirror, const scenes::Scene& scene,
                                   const PrimaryRays& rays, const HitBuffer& hits);
 

@@ -10,7 +10,7 @@ namespace beambench::accel::beam {
 namespace {
 
 constexpr std::array<int, 1> kOne{12};
-/// No two in one row or column: an edge along the rows or columns is seen five times, not thrice.
+/// No two in one row or column: an edge along the rows or columns meets five samples, not three.
 constexpr std::array<int, 5> kFive{1, 9, 12, 15, 23};
 constexpr std::array<int, 25> kAll = [] {
   std::array<int, 25> all{};
@@ -82,7 +82,7 @@ std::size_t SparseSamples::taken() const {
 SparseSamples trace_object_space(const BeamTracer& tracer, const PrimaryRays& rays,
                                  const SamplingDensity& density) {
   if (rays.samples() != kSampleNumbers.back()) {
-    throw std::invalid_argument("object-space sampling chooses among 25 samples a pixel");
+    throw std::invalid_argument("object-space sampling chooses among 25 samples per pixel");
   }
   SparseSamples samples{HitBuffer(rays.width(), rays.height(), rays.samples()), {}};
   samples.number.resize(samples.hits.size(), 0);

@@ -13,18 +13,18 @@
 namespace beambench::accel::beam {
 
 /// The thesis (section 5.3.2) gives pixels of leaving beams no sample and all others the same
-/// number, and says that the leaf at which a beam ends knows enough to choose the number better.
-/// Here it does. A leaf with `n` references that is `w` pixels wide (its depth and its distance)
-/// shows, as far as it knows, n edges of length w in w x w pixels: n / w edges a pixel. From `few`
-/// on, and from `many` on, its pixels get more samples.
+/// number, and proposes that the leaf at which a beam ends choose the number. Here it does. A leaf
+/// with `n` references that is `w` pixels wide (its depth and its distance) shows an estimated n
+/// edges of length w in w x w pixels: n / w edges per pixel. From `few` on, and from `many` on, its
+/// pixels get more samples.
 struct SamplingDensity {
-  double few = 0.15;   ///< edges a pixel from which on a pixel gets 5 samples instead of 1
-  double many = 0.60;  ///< edges a pixel from which on it gets 25
+  double few = 0.15;   ///< edges per pixel from which on a pixel gets 5 samples instead of 1
+  double many = 0.60;  ///< edges per pixel from which on it gets 25
 };
 
 /// An image whose pixels have 1, 5 or 25 samples of the same regular grid of 5 x 5.
 struct SparseSamples {
-  /// 25 samples a pixel; those that were not taken are misses.
+  /// 25 samples per pixel; those that were not taken are misses.
   HitBuffer hits;
   /// For each place in `hits`: 0 where no sample was taken, else the number of samples, 1, 5 or 25,
   /// that a pixel gets in the leaf which took it. A sample stands for 1/number of its pixel; what
@@ -48,7 +48,7 @@ constexpr std::size_t sample_choice(double value, double few, double many) {
 std::span<const int> chosen_samples(int number);
 
 /// Traces an image by beams; each leaf chooses the number of its samples. `rays` must have 25
-/// samples a pixel (std::invalid_argument).
+/// samples per pixel (std::invalid_argument).
 SparseSamples trace_object_space(const BeamTracer& tracer, const PrimaryRays& rays,
                                  const SamplingDensity& density);
 

@@ -7,18 +7,17 @@
 #include <glm/geometric.hpp>
 
 #include "accel/beam/crossing.hpp"
-#include "accel/beam/probe_kernels.hpp"
 
 namespace beambench::accel::beam {
 namespace {
 
-/// What the sum of three products loses in float, relative to the sum of their sizes: coefficients
+/// The error of a sum of three products in float, relative to the sum of their sizes: coefficients
 /// and places rounded once each, three more roundings.
 constexpr double kFloatLoss = 0x1p-21;
 
 constexpr std::uint32_t kNotMade = std::numeric_limits<std::uint32_t>::max();
 
-/// An image that no sample fails.
+/// An image that every sample passes.
 constexpr TriangleImage kAnywhere{{{{0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 1.0F}}},
                                   {0.0F, 0.0F, std::numeric_limits<float>::infinity()}};
 constexpr SphereImage kAnywhereRound{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 1.0F};
@@ -71,7 +70,7 @@ TriangleImage PrimitiveImages::image_of_triangle(
   }
   const double volume = glm::dot(corners[0], glm::cross(corners[1], corners[2]));
   const double reach = glm::length(corners[0]) * glm::length(corners[1]) * glm::length(corners[2]);
-  // The eye is in the triangle's plane, or so near to it that the signs are not sure.
+  // The eye is in the triangle's plane, or so near to it that the signs are uncertain.
   if (!(std::abs(volume) > 1e-9 * reach)) return kAnywhere;
 
   // A plane through the eye, or 1/t of a plane, as a line on the image.
@@ -108,8 +107,8 @@ SphereImage PrimitiveImages::image_of_sphere(const scenes::Sphere& sphere) const
   const glm::dvec3 middle = center / depth;  // view depth 1, as all directions
   const glm::dvec2 place(glm::dot(middle - top_left_, right_) / glm::dot(right_, right_),
                          glm::dot(middle - top_left_, down_) / glm::dot(down_, down_));
-  // A sample's place relative to the center's is rounded in float, its direction as well: see the
-  // sphere by so much larger.
+  // A sample's place relative to the center's is rounded in float, its direction as well: enlarge
+  // the sphere by both.
   const double slip = rounding_ + 0x1p-22 * ((std::abs(place.x) + size_.x) * glm::length(right_) +
                                              (std::abs(place.y) + size_.y) * glm::length(down_));
   const double shift = 4.0 * slip * distance;

@@ -1,5 +1,5 @@
 #pragma once
-// Primitives as the eye sees them: what a sample must fulfil to hit one.
+// The images of primitives, as seen from the eye: conditions that a sample must meet to hit one.
 
 #include <array>
 #include <cstddef>
@@ -89,5 +89,16 @@ class PrimitiveImages {
   std::vector<TriangleImage> triangles_;
   std::vector<SphereImage> spheres_;
 };
+
+/// Tests of many samples against one primitive's image, for one instruction set. They may only
+/// reject: what passes is confirmed by the canonical test.
+struct ProbeKernels {
+  /// May the samples hit one of a polygon's triangles?
+  SampleMask (*triangles)(std::span<const TriangleImage>, const SampleBatch&);
+  SampleMask (*sphere)(const SphereImage&, const SampleBatch&);
+};
+
+/// Those for the best instruction set of this machine that Highway supports.
+const ProbeKernels& best_probe_kernels();
 
 }  // namespace beambench::accel::beam

@@ -1,6 +1,8 @@
-#include "accel/beam/probe_kernels.hpp"
+// The probes of primitive_image.hpp, compiled for several instruction sets.
 
 #include <array>
+
+#include "accel/beam/primitive_image.hpp"
 
 // Highway includes this file once more for each instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -16,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using Tag = hn::CappedTag<float, 16>;
 using Floats = hn::Vec<Tag>;
 
-/// Joins what `test(x, y, inverse_t)` says of each register of samples.
+/// Joins the masks that `test(x, y, inverse_t)` returns for each register of samples.
 template <class Test>
 SampleMask for_each_register(const SampleBatch& batch, Test test) {
   const Tag tag;

@@ -11,8 +11,8 @@
 
 namespace beambench::accel::beam {
 
-/// Each thread traces beams from a stack of its own, and hands half of it over as a task whenever
-/// many wait.
+/// Each thread traces beams from a stack of its own, and turns half of it into a task whenever many
+/// wait.
 template <class Watch>
 class BeamTracer::SharedRun {
  public:
@@ -36,10 +36,10 @@ class BeamTracer::SharedRun {
   }
 
  private:
-  /// So many that handing half of them over is worth a task.
+  /// From this number on half of the waiting beams are worth a task.
   static constexpr std::size_t kMany = 16;
 
-  /// What a thread needs of its own.
+  /// The state of one thread.
   struct Worker {
     Worker(const BeamTracer& tracer, const PrimaryRays& rays, const WholeImage& sight,
            HitBuffer& buffer, std::span<std::uint8_t> finished)

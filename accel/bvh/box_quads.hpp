@@ -1,5 +1,5 @@
 #pragma once
-// Boxes as the builder sums them up: four floats at once, which every 64-bit processor can.
+// Boxes for the builder: four floats at once, which every 64-bit processor supports.
 
 #include <bit>
 #include <cstdint>
@@ -50,7 +50,7 @@ class BuildItem {
   std::uint32_t index() const { return std::bit_cast<std::uint32_t>(box_.upper[3]); }
   /// Twice the center, which spares a multiplication.
   Quad center() const {
-    // Arithmetic with the bits of an index would be slow: they are no ordinary number.
+    // The bits of an index are a denormal number, with which arithmetic would be slow.
     constexpr IntQuad kCoordinates{-1, -1, -1, 0};
     return box_.lower + std::bit_cast<Quad>(std::bit_cast<IntQuad>(box_.upper) & kCoordinates);
   }

@@ -16,8 +16,8 @@ void register_bvh(Registry& registry) {
                       scene, GoldsmithSalmonOptions::from(parameters));
                 }});
   registry.add({"sah-bvh",
-                "today's baseline: a binned SAH hierarchy (Wald 2007), eight children a node, SIMD "
-                "by single rays",
+                "today's baseline: a binned SAH hierarchy (Wald 2007), eight children per node, "
+                "single rays by SIMD",
                 Conformance::kBitExact, SahBvh::parameters(),
                 [](const scenes::Scene& scene, const Parameters& parameters, const Workload&) {
                   return std::make_unique<SahBvh>(scene, SahBvh::options_from(parameters));

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <type_traits>
@@ -11,16 +13,90 @@
 #include <tbb/parallel_invoke.h>
 #include <tbb/parallel_reduce.h>
 
-#include "accel/bvh/binning.hpp"
+#include "accel/bvh/box_quads.hpp"
 #include "accel/bvh/padded_bounds.hpp"
 #include "accel/core/large_pages.hpp"
 
 namespace beambench::accel::bvh {
 namespace {
 
+/// Maps centers to bins, on all axes.
+class Binning {
+ public:
+  static constexpr std::size_t kMaxBins = 32;
+
+  Binning(const QuadBox& centers, std::size_t items) : lower_(centers.lower), scale_{} {
+    // A few items need fewer bins: their sums would cost more than the items.
+    count_ = std::min(kMaxBins, 8 + items / 16);
+    last_ = quad_of(static_cast<float>(count_ - 1));
+    const glm::vec3 extent = centers.bounds().extent();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (!(extent[axis] > 0.0F)) continue;
+      const float scale = static_cast<float>(count_) / extent[axis];
+      // An extent so small that its inverse overflows cannot be divided.
+      if (scale < std::numeric_limits<float>::max()) scale_[axis] = scale;
+    }
+  }
+
+  std::size_t count() const { return count_; }
+  bool divides(std::size_t axis) const { return scale_[axis] > 0.0F; }
+  /// The bins of a center, an axis a lane.
+  IntQuad bins(Quad center) const {
+    return __builtin_convertvector(smaller((center - lower_) * scale_, last_), IntQuad);
+  }
+
+ private:
+  std::size_t count_;
+  Quad lower_;
+  Quad scale_;
+  Quad last_;
+};
+
+struct Bin {
+  QuadBox box;
+  std::uint32_t count;
+
+  void include(const Bin& other) {
+    box.include(other.box);
+    count += other.count;
+  }
+};
+
+/// The sums of items by bins: as many as the binning has, on each axis.
+class Bins {
+ public:
+  explicit Bins(const Binning& binning) : binning_(&binning) {
+    for (auto& bins : axes_) {
+      std::fill_n(bins.begin(), binning.count(), Bin{QuadBox::empty(), 0});
+    }
+  }
+
+  void include(const BuildItem& item) {
+    const IntQuad bins = binning_->bins(item.center());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      Bin& bin = axes_[axis][static_cast<std::size_t>(bins[axis])];
+      bin.box.include(item.box());
+      ++bin.count;
+    }
+  }
+  void include(const Bins& other) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      for (std::size_t i = 0; i < binning_->count(); ++i) {
+        axes_[axis][i].include(other.axes_[axis][i]);
+      }
+    }
+  }
+
+  const Bin& at(std::size_t axis, std::size_t bin) const { return axes_[axis][bin]; }
+
+ private:
+  const Binning* binning_;
+  std::array<std::array<Bin, Binning::kMaxBins>, 3> axes_;
+};
+
 /// Below it nodes are split in the middle: 2^32 items then need 32 more levels.
 constexpr std::uint32_t kDeepestSahSplit = kMaxBvhDepth - 34;
-/// Where tasks would cost more than they bring.
+/// Below this, tasks cost more than they save.
 constexpr std::size_t kParallelItems = 4096;
 
 /// Items in a bin below `bin` go left.
@@ -56,7 +132,8 @@ class Builder {
 
  private:
   /// A node to be made of the items [begin, end). Nodes below it are taken from `free` on, where
-  /// there is room for as many as can be: which task builds a node has no say in its number.
+  /// there is space for the maximum: the number of a node does not depend on the task that builds
+  /// it.
   struct Pending {
     std::size_t node;
     std::size_t free;
@@ -105,7 +182,7 @@ class Builder {
   }
 
   /// Sums up items, beginning with what `nothing()` returns, in parallel when asked: minima, maxima
-  /// and counts are the same in any order.
+  /// and counts do not depend on the order.
   template <class Nothing>
   std::invoke_result_t<Nothing> sum_up(std::size_t begin, std::size_t end,
                                        const Nothing& nothing) const {
@@ -187,8 +264,8 @@ class Builder {
     const auto cost_of = [&](const Bin& part) {
       return static_cast<float>(half_area(part.box.bounds())) * leaf_cost(part.count, options_);
     };
-    std::array<float, Binning::kMost> right_cost{};  // of the bins from i on
-    std::array<std::uint32_t, Binning::kMost> right_count{};
+    std::array<float, Binning::kMaxBins> right_cost{};  // of the bins from i on
+    std::array<std::uint32_t, Binning::kMaxBins> right_count{};
     Bin right{QuadBox::empty(), 0};
     for (std::size_t i = count - 1; i > 0; --i) {
       right.include(bins.at(axis, i));

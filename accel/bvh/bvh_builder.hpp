@@ -30,19 +30,19 @@ struct BvhNode {
 struct BinaryBvh {
   std::vector<BvhNode> nodes;        ///< the root first, children after their parent; may be empty
   std::vector<std::uint32_t> items;  ///< indices of the boxes, leaf by leaf, each once
-  std::uint32_t depth = 0;           ///< nodes on the longest way down, leaf included
+  std::uint32_t depth = 0;           ///< nodes on the longest path to a leaf, leaf included
 };
 
-/// No more nodes than this lie on any way down, whatever the boxes are.
+/// The maximum number of nodes from the root to a leaf, whatever the boxes are.
 inline constexpr std::uint32_t kMaxBvhDepth = 96;
 
 /// Top-down splits at the best of up to 32 bins along each of the three axes (Wald, "On fast
-/// construction of SAH-based bounding volume hierarchies", 2007). Boxes whose centers cannot be
-/// told apart, and those below a depth that only contrived input reaches, are split in the middle.
+/// construction of SAH-based bounding volume hierarchies", 2007). Boxes whose centers
+/// coincide, and those below a depth that only contrived input reaches, are split in the middle.
 BinaryBvh build_bvh(std::span<const scenes::Bounds> boxes, const BvhOptions& options);
 
 /// The expected number of node visits and block tests of a ray that meets the root, weighted as the
-/// options say: what the builder tries to make small.
+/// options say: what the builder minimizes.
 double sah_cost(const BinaryBvh& bvh, const BvhOptions& options);
 
 /// The nodes that become the children of `node` in a hierarchy of `width` children a node: its own

@@ -41,17 +41,18 @@ InsertionHierarchy build(const scenes::Scene& scene, const GoldsmithSalmonOption
 }  // namespace
 
 std::vector<ParameterInfo> GoldsmithSalmonOptions::parameters() {
-  return {choice_parameter("order", "given", {"given", "shuffled", "sorted"},
-                           "insertion order: the scene's, at random, or by center along the "
-                           "scene's longest axis"),
-          integer_parameter("seed", 1, 0, 1'000'000'000, "seed of order=shuffled"),
-          choice_parameter("queue", "heap", {"heap", "stack"},
-                           "what waits for the closest hit: Kay and Kajiya's priority queue by "
-                           "distance, or a stack with each volume's children in order"),
-          choice_parameter("insert", "everywhere", {"everywhere", "terminal"},
-                           "where on its way down an object may be placed: wherever it costs least "
-                           "(Goldsmith and Salmon 1987), or only beside the terminal node at the "
-                           "end (thesis, section 4.3)")};
+  return {
+      choice_parameter("order", "given", {"given", "shuffled", "sorted"},
+                       "insertion order: the scene's, at random, or by center along the "
+                       "scene's longest axis"),
+      integer_parameter("seed", 1, 0, 1'000'000'000, "seed of order=shuffled"),
+      choice_parameter("queue", "heap", {"heap", "stack"},
+                       "what waits for the closest hit: Kay and Kajiya's priority queue by "
+                       "distance, or a stack with each volume's children in order"),
+      choice_parameter("insert", "everywhere", {"everywhere", "terminal"},
+                       "where on its path down an object may be placed: wherever it costs least "
+                       "(Goldsmith and Salmon 1987), or only beside the terminal node at the "
+                       "end (thesis, section 4.3)")};
 }
 
 GoldsmithSalmonOptions GoldsmithSalmonOptions::from(const Parameters& parameters) {

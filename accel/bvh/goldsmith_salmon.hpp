@@ -15,7 +15,7 @@
 
 namespace beambench::accel::bvh {
 
-/// How the hierarchy is built and walked.
+/// How the hierarchy is built and traversed.
 struct GoldsmithSalmonOptions {
   enum class Order { kGiven, kShuffled, kSorted };
   enum class Queue { kHeap, kStack };
@@ -39,8 +39,8 @@ struct Farther {
   bool operator()(const MetEntry& a, const MetEntry& b) const { return a.enter > b.enter; }
 };
 
-/// What a ray has still to look at, the nearest entry first whatever it is below: the priority
-/// queue of Kay and Kajiya (1986; thesis, graphic 4.1).
+/// The entries that a ray has still to visit, the nearest first wherever it is: the priority queue
+/// of Kay and Kajiya (1986; thesis, graphic 4.1).
 class NearestFirstQueue {
  public:
   explicit NearestFirstQueue(std::pmr::memory_resource* memory) : entries_(memory) {
@@ -114,8 +114,8 @@ class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon> {
                : closest_through<OrderedStack>(ray, counting);
   }
 
-  /// Preorder with a jump over what is missed: the recursion of the thesis's graphic 4.2 without
-  /// its stack.
+  /// Preorder, skipping what is missed: the recursion of the thesis's graphic 4.2 without its
+  /// stack.
   template <class Counting>
   bool find_any(const Ray& ray, Counting& counting) const {
     const CanonicalRay canonical(ray);

@@ -26,7 +26,7 @@ struct Volume {
   std::uint32_t next = kNone;
   /// Those with less than half the volume's area when they came, and the others. Together with an
   /// object, a child of at least half the area costs more than the object as one more child does:
-  /// thousands of large objects in one place are passed over without being looked at.
+  /// thousands of large objects in one place are skipped.
   std::array<ObjectList, 2> objects{};
 };
 
@@ -39,7 +39,7 @@ struct Choice {
   std::uint32_t volume = 0;  ///< that gets the child, or beside or in which the new volume stands
   std::uint32_t list = 0;    ///< of kBesideObject: the partner's list,
   std::uint32_t before = kNone;  ///< and the object before it in that list
-  std::size_t depth = 0;         ///< volumes on the way that grow
+  std::size_t depth = 0;         ///< volumes on the path that grow
 };
 
 class Inserter {
@@ -135,7 +135,7 @@ class Inserter {
     }
   }
 
-  /// The place beside the terminal node to which the way of least growth leads.
+  /// The place beside the terminal node to which the path of least growth leads.
   Choice find_terminal() {
     path_.clear();
     std::uint32_t index = 0;
@@ -152,7 +152,7 @@ class Inserter {
         area = below;
         continue;
       }
-      // The growth of the volumes on the way is the same for both.
+      // The growth of the volumes on the path is the same for both.
       if (terminal.cost < area) return terminal;
       return {.cost = area, .kind = Choice::Kind::kChild, .volume = index, .depth = path_.size()};
     }

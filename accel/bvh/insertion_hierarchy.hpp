@@ -20,12 +20,12 @@ struct HierarchyEntry {
   bool is_volume() const { return primitive == scenes::kNoPrimitive; }
 };
 
-/// A hierarchy in preorder: an entry's children begin right behind it, the next sibling of a child
-/// stands at its `end`. The root is a volume and stands first; nothing stands in an empty one.
+/// A hierarchy in preorder: the children of an entry follow it, and the next sibling of a child is
+/// at its `end`. The root is a volume and the first entry; an empty hierarchy has none.
 struct InsertionHierarchy {
   std::vector<HierarchyEntry> entries;
   std::uint64_t volumes = 0;
-  std::uint64_t depth = 0;          ///< volumes on the longest way down
+  std::uint64_t depth = 0;          ///< volumes on the longest path down
   std::uint64_t widest = 0;         ///< most children of a volume
   double cost = 0.0;                ///< see hierarchy_cost
   std::uint64_t boxes_weighed = 0;  ///< unions of boxes whose area the build computed
@@ -35,9 +35,9 @@ struct InsertionHierarchy {
 /// k the number of direct children, A the surface area (Goldsmith and Salmon 1987; thesis, 4.3).
 double hierarchy_cost(std::span<const HierarchyEntry> entries);
 
-/// Where an object may be placed on its way down, which goes always into what would grow least.
+/// Where an object may be placed on its path down, which always enters the child that grows least.
 enum class Insertion {
-  /// Wherever on the way it raises the cost least (Goldsmith and Salmon, "Automatic Creation of
+  /// Wherever on the path it raises the cost least (Goldsmith and Salmon, "Automatic Creation of
   /// Object Hierarchies for Ray Tracing", 1987). k and A being a volume's children and area, A' its
   /// area with the object, three choices are weighed at every volume:
   /// - the object becomes one more child of the volume: (k + 1) A' - k A;
@@ -45,7 +45,7 @@ enum class Insertion {
   ///   place: k (A' - A) for the volume and 2 A'' for the new one;
   /// - the object goes further down: k (A' - A), and what it costs there.
   kEverywhere,
-  /// Only at the end of the way, as the thesis describes it (section 4.3). A terminal node is an
+  /// Only at the end of the path, as the thesis describes it (section 4.3). A terminal node is an
   /// object with its box: there the object becomes one more child of the terminal node's volume, or
   /// both become the children of a new volume, whichever of the first two choices costs less.
   kTerminal

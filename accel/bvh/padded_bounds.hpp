@@ -1,5 +1,5 @@
 #pragma once
-// The boxes that a hierarchy is made of.
+// Boxes of primitives, widened so that no hit is lost.
 
 #include <bit>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace beambench::accel::bvh {
 
-/// The next float above a finite number, as std::nextafter gives it in ten times the time.
+/// The next float above a finite number; std::nextafter takes ten times as long.
 inline float next_above(float value) {
   const auto bits = std::bit_cast<std::uint32_t>(value);
   if (value == 0.0F) return std::numeric_limits<float>::denorm_min();
@@ -43,8 +43,8 @@ inline std::vector<scenes::Bounds> padded_primitive_bounds(const scenes::Scene& 
   return boxes;
 }
 
-/// Half the surface area of a box: what the chance is proportional to that a ray which meets a box
-/// around it meets it too. 0 for an empty box.
+/// Half the surface area of a box: the probability that a ray which meets an enclosing box also
+/// meets this one is proportional to it. 0 for an empty box.
 inline double half_area(const scenes::Bounds& bounds) {
   const glm::dvec3 size(bounds.extent());
   return size.x * (size.y + size.z) + size.y * size.z;

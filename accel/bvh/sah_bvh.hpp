@@ -10,10 +10,10 @@
 
 namespace beambench::accel::bvh {
 
-/// A binned SAH hierarchy (Wald 2007) of eight children a node, walked by SIMD in single precision
-/// (Wald, Benthin and Boulos, "Getting rid of packets", 2008). The float tests only reject;
-/// what they let pass is confirmed by the canonical test, so that the hits are those of every other
-/// classic structure, whatever the instruction set.
+/// A binned SAH hierarchy (Wald 2007) of eight children per node, traversed by SIMD in single
+/// precision (Wald, Benthin and Boulos, "Getting rid of packets", 2008). The float tests only
+/// reject; what passes is confirmed by the canonical test, so that the hits are those of every
+/// other classic structure, whatever the instruction set.
 class SahBvh : public TraversalAccelerator<SahBvh> {
  public:
   static std::vector<ParameterInfo> parameters();

@@ -163,7 +163,7 @@ inline float confirm(const CanonicalRay& ray, const scenes::Scene& scene,
   return intersect(ray, scene, block.primitives[lane]);
 }
 
-/// What is still to be looked at: the float bits of where the ray enters it, which order as the
+/// The entries still to be visited: the float bits of where the ray enters them, which order as the
 /// floats do, above the reference. The nearest is on top.
 class WaitingStack {
  public:
@@ -188,7 +188,7 @@ class WaitingStack {
   }
 
  private:
-  std::array<std::uint64_t, kMaxBvhDepth*(kBvhLanes - 1) + 1> entries_;  // as deep as it gets
+  std::array<std::uint64_t, kMaxBvhDepth*(kBvhLanes - 1) + 1> entries_;  // the maximum depth
   std::size_t size_ = 0;
 };
 
@@ -214,7 +214,7 @@ inline scenes::Bounds bounds_of(const PrimitiveBlock& block, const scenes::Scene
   return bounds;
 }
 
-/// A step for people to read.
+/// A step of the traversal path.
 inline TraceStep describe(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,
                           ChildReference at) {
   TraceStep step{.place = at.is_leaf() ? "leaf" : "node"};
@@ -247,7 +247,7 @@ void count_step(Counting& counting, const WideBvh& bvh, const scenes::Scene& sce
   }
 }
 
-/// What the probe left out was tested, and missed.
+/// Records what the probe rejected as tested and missed.
 template <class Counting>
 void count_probes(Counting& counting, const PrimitiveBlock& block, LaneBits passed) {
   counting.add(Counter::kPrimitiveTests, block.count);
@@ -257,10 +257,10 @@ void count_probes(Counting& counting, const PrimitiveBlock& block, LaneBits pass
   }
 }
 
-/// Walks the hierarchy, nearest child first. Everything is inlined: left to itself GCC calls the
-/// lambdas for each node, with the ray in memory, which cost a tenth of the time. `visit(t,
-/// primitive)` is told what each canonical test found, and returns true to end the walk; `t_max()`
-/// is how far hits are still of interest.
+/// Traverses the hierarchy, nearest child first. Everything is inlined: otherwise GCC calls the
+/// lambdas for each node, with the ray in memory, which costs a tenth of the time. `visit(t,
+/// primitive)` gets the result of each canonical test and returns true to end the traversal; hits
+/// beyond `t_max()` do not matter.
 template <class Counting, class FarEnd, class Visit>
 HWY_FLATTEN void walk(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,
                       const CanonicalRay& canonical, Counting& counting, FarEnd t_max,

@@ -1,5 +1,5 @@
 #pragma once
-// The hierarchy that SIMD walks: eight children a node, primitives in blocks of eight.
+// The hierarchy that SIMD traverses: eight children per node, primitives in blocks of eight.
 
 #include <array>
 #include <cstddef>
@@ -17,7 +17,7 @@ inline constexpr std::size_t kBvhLanes = 8;
 /// Where a child is found: a node, or a leaf, which is a run of blocks.
 class ChildReference {
  public:
-  static constexpr std::uint32_t kMostBlocks = 15;           ///< in a leaf
+  static constexpr std::uint32_t kMaxBlocks = 15;            ///< in a leaf
   static constexpr std::uint32_t kBlockIndices = 1U << 27U;  ///< one more than the largest
 
   ChildReference() = default;
@@ -30,7 +30,7 @@ class ChildReference {
   bool is_leaf() const { return (bits_ & kLeaf) != 0; }
   std::uint32_t node_index() const { return bits_; }
   std::uint32_t first_block() const { return bits_ & (kBlockIndices - 1); }
-  std::uint32_t block_count() const { return bits_ >> 27U & kMostBlocks; }
+  std::uint32_t block_count() const { return bits_ >> 27U & kMaxBlocks; }
   std::uint32_t bits() const { return bits_; }
 
  private:
@@ -64,14 +64,14 @@ struct alignas(64) PrimitiveBlock {
   }
 };
 
-/// A hierarchy over a scene's triangles, spheres and cones. A polygon's triangles are apart: the
-/// nearest of them is the polygon's hit. Boxes are widened by `overlap_tolerance`.
+/// A hierarchy over a scene's triangles, spheres and cones. A polygon's triangles are separate:
+/// the nearest of them is the polygon's hit. Boxes are widened by `overlap_tolerance`.
 struct WideBvh {
   std::vector<WideNode> nodes;
   std::vector<PrimitiveBlock> blocks;
   ChildReference root;
   scenes::Bounds scene_bounds;
-  std::uint32_t depth = 0;  ///< nodes on the longest way down, leaf included
+  std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, leaf included
   std::uint64_t leaves = 0;
   std::uint64_t references = 0;  ///< triangles, spheres and cones
   double cost = 0.0;             ///< of the binary hierarchy it was made from: see sah_cost

@@ -16,9 +16,11 @@ struct NoMailboxes {
   static constexpr bool is_first(scenes::PrimitiveId) { return true; }
 };
 
-/// Tests the references of a cell for hits nearer than the closest so far. Is the closest hit
-/// before the ray leaves the cell? Strictly: a hit at the exit's own rounded t may lie behind it
-/// and have a lower id.
+/// Tests the references of a cell, the primitives that reach into it, widened by
+/// `overlap_tolerance`, for hits nearer than the closest so far. Is the closest hit before the ray
+/// leaves the cell? Strictly: a hit at the exit's own rounded t may lie behind it and have a lower
+/// id. `mailboxes.is_first(id)` is called once for every reference; it may be false only where the
+/// primitive was tested against this ray before.
 template <class Counting, class Mailboxes = const NoMailboxes&>
 bool test_references(const scenes::Scene& scene, std::span<const scenes::PrimitiveId> references,
                      double exit_t, Counting& counting, ClosestHit& closest,
@@ -31,36 +33,17 @@ bool test_references(const scenes::Scene& scene, std::span<const scenes::Primiti
   return closest.ray.t_max < static_cast<float>(exit_t);
 }
 
-/// The closest hit in the cells along a ray. `walk(visit)` calls `visit(references, exit_t)` for
-/// the cells in order, until that returns true. A cell's references are the primitives that reach
-/// into it, widened by `overlap_tolerance`. `mailboxes.is_first(id)` is called once for every
-/// reference; it may be false only where the primitive was tested against this ray before.
-template <class Counting, class Mailboxes, class Walk>
-std::optional<Hit> closest_in_cells(const scenes::Scene& scene, const Ray& ray, Counting& counting,
-                                    Mailboxes&& mailboxes, const Walk& walk) {
-  ClosestHit closest(ray);
-  walk([&](std::span<const scenes::PrimitiveId> references, double exit_t) {
-    return test_references(scene, references, exit_t, counting, closest, mailboxes);
-  });
-  return closest.result();
-}
-
-/// Is there a hit in the cells along a ray? Parameters as of `closest_in_cells`.
-template <class Counting, class Mailboxes, class Walk>
-bool any_in_cells(const scenes::Scene& scene, const Ray& ray, Counting& counting,
-                  Mailboxes&& mailboxes, const Walk& walk) {
-  const CanonicalRay canonical(ray);
-  bool found = false;
-  walk([&](std::span<const scenes::PrimitiveId> references, double exit_t) {
-    for (const scenes::PrimitiveId id : references) {
-      if (!mailboxes.is_first(id)) continue;
-      counting.add(Counter::kPrimitiveTests);
-      found = is_hit(intersect(canonical, scene, id));
-      if (found) return true;
-    }
-    return canonical.t_max < static_cast<float>(exit_t);
-  });
-  return found;
+/// Does the ray hit one of the references of a cell? `canonical` is the ray.
+template <class Counting, class Mailboxes = const NoMailboxes&>
+bool any_reference_hit(const scenes::Scene& scene, std::span<const scenes::PrimitiveId> references,
+                       const CanonicalRay& canonical, Counting& counting,
+                       Mailboxes&& mailboxes = {}) {
+  for (const scenes::PrimitiveId id : references) {
+    if (!mailboxes.is_first(id)) continue;
+    counting.add(Counter::kPrimitiveTests);
+    if (is_hit(intersect(canonical, scene, id))) return true;
+  }
+  return false;
 }
 
 }  // namespace beambench::accel

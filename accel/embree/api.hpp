@@ -1,6 +1,6 @@
 #pragma once
-// The Embree API as this folder uses it, be it Embree 3 or 4 (BEAMBENCH_EMBREE_MAJOR, by CMake);
-// nothing outside this folder includes it.
+// The Embree API as this folder uses it, for Embree 3 and 4 (BEAMBENCH_EMBREE_MAJOR, set by CMake).
+// Nothing outside this folder includes it.
 
 #include <limits>
 
@@ -14,7 +14,7 @@
 namespace beambench::accel::embree {
 
 /// Fills a ray for Embree. Debian's Embree asserts that tnear >= 0 and that nothing is NaN, which
-/// `require_valid` has seen to.
+/// `require_valid` ensures.
 inline RTCRay to_embree(const Ray& ray) {
   RTCRay out{};
   out.org_x = ray.origin.x;
@@ -29,7 +29,7 @@ inline RTCRay to_embree(const Ray& ray) {
   return out;
 }
 
-/// A ray with its hit still open.
+/// A ray without a hit yet.
 inline RTCRayHit to_embree_query(const Ray& ray) {
   RTCRayHit out{};
   out.ray = to_embree(ray);
@@ -39,7 +39,7 @@ inline RTCRayHit to_embree_query(const Ray& ray) {
 
 /// Embree marks an occluded ray by tfar = -infinity.
 inline bool occluded(RTCScene scene, Context& context, RTCRay& ray) {
-  look_for_any_hit(scene, context, ray);
+  intersect_any(scene, context, ray);
   return ray.tfar == -kInfinity;
 }
 

@@ -7,7 +7,7 @@ namespace beambench::accel::embree {
 
 using RawContext = RTCIntersectContext;
 
-/// What Embree hands on to user geometry; derive from it to carry the state of a query.
+/// What Embree passes to user geometry; derive from it to carry the state of a query.
 struct Context : RawContext {
   explicit Context(bool coherent) {
     rtcInitIntersectContext(this);
@@ -27,20 +27,20 @@ inline void intersect(const int* valid, RTCScene scene, Context& context, RTCRay
 inline void intersect(const int* valid, RTCScene scene, Context& context, RTCRayHit16& query) {
   rtcIntersect16(valid, scene, &context, &query);
 }
-inline void look_for_any_hit(RTCScene scene, Context& context, RTCRay& ray) {
+inline void intersect_any(RTCScene scene, Context& context, RTCRay& ray) {
   rtcOccluded1(scene, &context, &ray);
 }
-inline void look_for_any_hit(const int* valid, RTCScene scene, Context& context, RTCRay4& rays) {
+inline void intersect_any(const int* valid, RTCScene scene, Context& context, RTCRay4& rays) {
   rtcOccluded4(valid, scene, &context, &rays);
 }
-inline void look_for_any_hit(const int* valid, RTCScene scene, Context& context, RTCRay8& rays) {
+inline void intersect_any(const int* valid, RTCScene scene, Context& context, RTCRay8& rays) {
   rtcOccluded8(valid, scene, &context, &rays);
 }
-inline void look_for_any_hit(const int* valid, RTCScene scene, Context& context, RTCRay16& rays) {
+inline void intersect_any(const int* valid, RTCScene scene, Context& context, RTCRay16& rays) {
   rtcOccluded16(valid, scene, &context, &rays);
 }
 
-/// A stream of packets (RTCRayHit4, 8 or 16) in one go; rays with tfar < tnear are left out.
+/// A stream of packets (RTCRayHit4, 8 or 16) in one call; rays with tfar < tnear are left out.
 template <class Packet>
 void intersect_stream(RTCScene scene, Context& context, Packet* packets, unsigned count) {
   constexpr unsigned kLanes = sizeof(packets->ray.tfar) / sizeof(float);

@@ -7,7 +7,7 @@ namespace beambench::accel::embree {
 
 using RawContext = RTCRayQueryContext;
 
-/// What Embree hands on to user geometry; derive from it to carry the state of a query. It also
+/// What Embree passes to user geometry; derive from it to carry the state of a query. It also
 /// keeps the arguments of a query, made once and not for every ray.
 struct Context : RawContext {
   explicit Context(bool coherent) {
@@ -38,16 +38,16 @@ inline void intersect(const int* valid, RTCScene scene, Context& context, RTCRay
 inline void intersect(const int* valid, RTCScene scene, Context& context, RTCRayHit16& query) {
   rtcIntersect16(valid, scene, &query, &context.closest);
 }
-inline void look_for_any_hit(RTCScene scene, Context& context, RTCRay& ray) {
+inline void intersect_any(RTCScene scene, Context& context, RTCRay& ray) {
   rtcOccluded1(scene, &ray, &context.any);
 }
-inline void look_for_any_hit(const int* valid, RTCScene scene, Context& context, RTCRay4& rays) {
+inline void intersect_any(const int* valid, RTCScene scene, Context& context, RTCRay4& rays) {
   rtcOccluded4(valid, scene, &rays, &context.any);
 }
-inline void look_for_any_hit(const int* valid, RTCScene scene, Context& context, RTCRay8& rays) {
+inline void intersect_any(const int* valid, RTCScene scene, Context& context, RTCRay8& rays) {
   rtcOccluded8(valid, scene, &rays, &context.any);
 }
-inline void look_for_any_hit(const int* valid, RTCScene scene, Context& context, RTCRay16& rays) {
+inline void intersect_any(const int* valid, RTCScene scene, Context& context, RTCRay16& rays) {
   rtcOccluded16(valid, scene, &rays, &context.any);
 }
 

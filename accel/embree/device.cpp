@@ -24,7 +24,7 @@ Device::~Device() { rtcReleaseDevice(device_); }
 void Device::on_error(void* self, RTCError code, const char* text) {
   auto& device = *static_cast<Device*>(self);
   const std::lock_guard lock(device.mutex_);
-  if (!device.complaint_) device.complaint_ = Complaint{code, text == nullptr ? "" : text};
+  if (!device.failure_) device.failure_ = Failure{code, text == nullptr ? "" : text};
 }
 
 bool Device::on_memory(void* self, ssize_t bytes, bool /*post*/) {
@@ -33,18 +33,18 @@ bool Device::on_memory(void* self, ssize_t bytes, bool /*post*/) {
 }
 
 void Device::check(const std::string& doing) {
-  std::optional<Complaint> complaint;
+  std::optional<Failure> failure;
   {
     const std::lock_guard lock(mutex_);
-    complaint.swap(complaint_);
+    failure.swap(failure_);
   }
-  if (!complaint) return;
-  if (complaint->code == RTC_ERROR_OUT_OF_MEMORY) {
+  if (!failure) return;
+  if (failure->code == RTC_ERROR_OUT_OF_MEMORY) {
     throw InputError(
         fmt::format("Embree ran out of memory while {}; choose a smaller scene", doing));
   }
   throw std::runtime_error(fmt::format("Embree failed while {}: {} (error {})", doing,
-                                       complaint->text, static_cast<int>(complaint->code)));
+                                       failure->text, static_cast<int>(failure->code)));
 }
 
 std::uint64_t Device::bytes() const {

@@ -12,9 +12,9 @@
 
 namespace beambench::accel::embree {
 
-/// An Embree device that remembers what Embree complains of and how much memory it holds. Embree
-/// calls back from inside C functions and from its own threads, where an exception has no way out:
-/// complaints are kept until `check`.
+/// An Embree device that records Embree's errors and how much memory it holds. Embree calls back
+/// from inside C functions and from its own threads, through which no exception can pass: errors
+/// are kept until `check`.
 class Device {
  public:
   /// `config` as for rtcNewDevice: "threads=1". Throws std::runtime_error when Embree refuses.
@@ -24,14 +24,14 @@ class Device {
   ~Device();
 
   RTCDevice get() const { return device_; }
-  /// Throws the first complaint since the last check: InputError when memory ran out, otherwise
-  /// std::runtime_error. `doing` says what was tried: "building over balls:n=4".
+  /// Throws the first error since the last check: InputError when memory ran out, otherwise
+  /// std::runtime_error. `doing` describes what was tried: "building over balls:n=4".
   void check(const std::string& doing);
   /// Memory that Embree holds for this device.
   std::uint64_t bytes() const;
 
  private:
-  struct Complaint {
+  struct Failure {
     RTCError code;
     std::string text;
   };
@@ -40,7 +40,7 @@ class Device {
 
   RTCDevice device_;
   std::mutex mutex_;
-  std::optional<Complaint> complaint_;
+  std::optional<Failure> failure_;
   std::atomic<std::int64_t> bytes_{0};
 };
 

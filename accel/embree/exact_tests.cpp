@@ -11,7 +11,7 @@ using glm::dvec3;
 
 // Side of the ray on which an edge passes, by the product of their Plücker coordinates. The edge
 // vector changes sign and the sum does not when the edge is walked the other way, so the two
-// triangles of a shared edge see exactly opposite numbers: no ray slips between them.
+// triangles of a shared edge get exactly opposite numbers: no ray passes between them.
 static double side(const ExactRay& ray, const dvec3& from, const dvec3& to) {
   return glm::dot(glm::cross(to - from, from + to), ray.direction);
 }
@@ -45,8 +45,8 @@ struct Crossings {
   double leave = kInfinity;
 };
 
-/// Both roots are written so that nothing cancels. Nothing comes back for a ray that passes by, and
-/// both roots are the same for one that touches.
+/// Both roots are written so that nothing cancels. Returns nothing for a ray that misses; both
+/// roots are the same for one that touches.
 std::optional<Crossings> crossings(double a, double b, double c) {
   if (a == 0.0) {
     if (b == 0.0) return std::nullopt;
@@ -88,8 +88,8 @@ std::optional<double> first_hit(const ExactRay& ray, const scenes::Sphere& spher
 namespace {
 
 /// A cone's own frame: the middle of its axis at the origin, the apex on the z axis, and heights
-/// stretched until the surface is nowhere flatter than 45 degrees: the numbers of a cone of hardly
-/// any height would drown in its slope.
+/// stretched until the surface is nowhere flatter than 45 degrees: otherwise
+/// the height of a flat cone would be lost in rounding.
 struct ConeFrame {
   explicit ConeFrame(const scenes::Cone& cone)
       : middle(0.5 * (dvec3(cone.base) + dvec3(cone.apex))),

@@ -1,7 +1,7 @@
 #pragma once
-// Ray-primitive tests in double precision for Embree's user geometry. They are written apart from
-// the canonical tests of the classic structures, with other formulas, so that a mistake in one is
-// seen by the other.
+// Ray-primitive tests in double precision for Embree's user geometry. They are independent of
+// the canonical tests of the classic structures, with other formulas, so that each exposes mistakes
+// of the other.
 
 #include <optional>
 

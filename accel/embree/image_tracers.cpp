@@ -25,7 +25,7 @@ class Block {
   static constexpr int kHeight = N / kWidth;
   using Query = typename Packet<N>::Query;
 
-  /// What is the same for all rays of an image and what Embree leaves alone.
+  /// What is the same for all rays of an image and what Embree does not change.
   static void prepare(const PrimaryRays& rays, Query& query) {
     query = {};
     std::fill_n(query.ray.org_x, N, rays.eye().x);
@@ -47,8 +47,8 @@ class Block {
     }
   }
 
-  /// The rest, for the block whose left column of pixels is `x`, and in `valid` -1 for each lane on
-  /// the image and 0 for the others, which get an empty interval: what Embree asks for.
+  /// The rest, for the block whose left column of pixels is `x`; in `valid`, as Embree requires, -1
+  /// for each lane on the image and 0 for the others, which get an empty interval.
   void aim(int x, Query& query, int* valid) const {
     const Floats floats;
     const hn::RebindToSigned<Floats> numbers;
@@ -69,7 +69,7 @@ class Block {
     }
   }
 
-  /// Always inline: as a function of its own GCC 12 warns of a loop in it that would not end.
+  /// Always inline: otherwise GCC 12 warns of an infinite loop in it.
   HWY_INLINE void write(const OwnerTable& table, const Query& query, int x,
                         HitBuffer& buffer) const {
     alignas(64) std::array<scenes::PrimitiveId, N> owners;
@@ -274,7 +274,7 @@ void trace_nothing(const OwnerTable& owners, const PrimaryRays& rays, const Band
   constexpr int kLanes = 16;
   trace_blocks<kLanes>(owners, rays, band, buffer,
                        [](Packet<kLanes>::Query& query, const int* valid) {
-                         // As if an answer depended on all of it.
+                         // For the compiler, the result depends on all of it.
                          asm volatile("" : "+m"(query) : "r"(valid) : "memory");
                        });
 }

@@ -1,6 +1,6 @@
 #pragma once
 // Whole images through Embree. Rays are made and hits are written by SIMD, compiled for several
-// instruction sets, so that what is measured is Embree and not the making of its rays.
+// instruction sets, so that Embree is measured and not the making of its rays.
 
 #include <cstdint>
 
@@ -16,7 +16,8 @@ struct Band {
   int bottom;
 };
 
-/// An image is traced tile by tile, so that what a tile needs of the scene stays in the caches.
+/// An image is traced tile by tile, so that the part of the scene that a tile needs stays in the
+/// caches.
 inline constexpr int kTile = 16;
 
 /// Rows of tiles in an image.
@@ -37,7 +38,7 @@ struct ImageTracers {
   /// A tile's rays at once, in packets as wide as the instruction set's registers, for which alone
   /// Embree need not copy them first; nullptr in Embree 4.
   Trace stream;
-  /// Makes the rays in packets of 16 and stores a miss for each, with nothing in between.
+  /// Makes the rays in packets of 16 and stores a miss for each, without a query.
   void (*untraced)(const OwnerTable& owners, const PrimaryRays& rays, const Band& band,
                    HitBuffer& buffer);
   std::int64_t target;  ///< HWY_TARGET: hwy::TargetName gives its name

@@ -108,11 +108,11 @@ void require_isa(const std::string& isa) {
   targets_of(isa);
   const std::string used = isa_in_use(isa);
   if (isa != "best") {
-    const auto asked = std::ranges::find(kIsas, isa, &Isa::parameter);
-    if (asked == kIsas.end() || used == asked->printed) return;
+    const auto requested = std::ranges::find(kIsas, isa, &Isa::parameter);
+    if (requested == kIsas.end() || used == requested->printed) return;
     throw InputError(fmt::format(
-        "embree cannot be held to isa={}: it runs on {} then; choose isa=best or another", isa,
-        used));
+        "embree cannot be restricted to isa={}: it then runs on {}; choose isa=best or another",
+        isa, used));
   }
   const Isa* const best = best_of_machine();
   if (best == nullptr) return;
@@ -120,8 +120,18 @@ void require_isa(const std::string& isa) {
   if (found <= best) return;
   throw InputError(fmt::format(
       "Embree runs on {} although the machine has {}, so that ratios to it would mislead; install "
-      "an Embree with {}, or say isa=... to hold embree and what it is compared with to less",
+      "an Embree with {}, or give isa=... to restrict embree and what it is compared with",
       used, best->printed, best->printed));
+}
+
+std::string embree_version() {
+  const Device device("threads=1");
+  const auto part = [&](RTCDeviceProperty property) {
+    return static_cast<long>(rtcGetDeviceProperty(device.get(), property));
+  };
+  return fmt::format("{}.{}.{}", part(RTC_DEVICE_PROPERTY_VERSION_MAJOR),
+                     part(RTC_DEVICE_PROPERTY_VERSION_MINOR),
+                     part(RTC_DEVICE_PROPERTY_VERSION_PATCH));
 }
 
 }  // namespace beambench::accel::embree

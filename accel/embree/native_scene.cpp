@@ -35,7 +35,7 @@ NativeScene::NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bo
     : device_(device_config(isa, threads).c_str()),
       user_(scene),
       scene_(rtcNewScene(device_.get())) {
-  // Embree takes the largest thread count of all its living devices; this holds it to one.
+  // Embree uses the largest thread count of all its living devices; this limits it to one.
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   rtcSetSceneBuildQuality(scene_.get(), quality);
   rtcSetSceneFlags(scene_.get(), robust ? RTC_SCENE_FLAG_ROBUST : RTC_SCENE_FLAG_NONE);
@@ -64,7 +64,7 @@ NativeScene::NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bo
 }
 
 void NativeScene::attach(GeometryId id, const GeometryHandle& geometry, RTCBuildQuality quality) {
-  rtcSetGeometryBuildQuality(geometry.get(), quality);  // what makes a scene of low quality quick
+  rtcSetGeometryBuildQuality(geometry.get(), quality);  // needed for low quality to be fast
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometryByID(scene_.get(), geometry.get(), id);
 }
@@ -75,7 +75,7 @@ GeometryHandle NativeScene::make_triangles(const scenes::Scene& scene) {
                                                scene.vertices.size());
   device_.check("building over " + scene.name);
   std::memcpy(vertices, scene.vertices.data(), scene.vertices.size() * sizeof(glm::vec3));
-  // A triangle's indices stand in front of its owner, so that this array can be shared.
+  // A triangle's indices come before its owner, so that this array can be shared.
   rtcSetSharedGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                              scene.triangles.data(), 0, sizeof(scenes::Triangle),
                              scene.triangles.size());

@@ -1,5 +1,5 @@
 #pragma once
-// A scene of ours in Embree's native geometry types.
+// A scene in Embree's native geometry types.
 
 #include <array>
 #include <cstdint>
@@ -12,16 +12,16 @@
 
 namespace beambench::accel::embree {
 
-/// The numbers of our geometries in Embree.
+/// The ids of the geometries in Embree.
 enum GeometryId : unsigned { kTriangles, kSpheres, kUser, kGeometryCount };
 
-/// Whose Embree's primitives are.
+/// The owners of Embree's primitives: the scene's primitives.
 struct OwnerTable {
   /// Primitive ids of the three geometries' primitives, one geometry after the other.
   std::vector<scenes::PrimitiveId> ids;
   /// Where each geometry begins in `ids`.
   std::array<std::uint32_t, kGeometryCount> first{};
-  bool in_order = false;  ///< ids[i] is i: one need not look
+  bool in_order = false;  ///< ids[i] is i: no look-up is needed
 };
 
 /// Polygons are Embree triangles (the scene's own triangulation), hollow spheres are sphere points,
@@ -30,18 +30,18 @@ struct OwnerTable {
 /// part of the build: 0.05 ms.
 class NativeScene {
  public:
-  /// `isa` is a value of `isa_parameter`.
-  /// While it lives, TBB has no more than `threads` threads (0: one for each core).
+  /// `isa` is a value of `isa_parameter`. While the scene lives, TBB has no more than `threads`
+  /// threads (0: one for each core).
   NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
               const std::string& isa, int threads = 1);
 
   RTCScene get() const { return scene_.get(); }
-  /// Whose the hit is; kNoPrimitive for RTC_INVALID_GEOMETRY_ID.
+  /// The primitive that was hit; kNoPrimitive for RTC_INVALID_GEOMETRY_ID.
   scenes::PrimitiveId owner(unsigned geometry, unsigned primitive) const {
     return geometry == RTC_INVALID_GEOMETRY_ID ? scenes::kNoPrimitive
                                                : owners_.ids[owners_.first[geometry] + primitive];
   }
-  /// The same for those who ask for many at once.
+  /// The same for many hits at once.
   const OwnerTable& owners() const { return owners_; }
 
   std::size_t triangle_count() const { return owners_.first[kSpheres]; }

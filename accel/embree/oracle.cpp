@@ -9,13 +9,9 @@
 
 namespace beambench::accel::embree {
 
-using embree::Context;
-using embree::ExactBounds;
-using embree::ExactRay;
-
 namespace {
 
-/// A query on its way through Embree: the best hit so far keeps its double t here, since Embree's
+/// A query inside Embree: the best hit so far keeps its double t here, since Embree's
 /// own ray has only a float.
 struct OracleQuery : Context {
   explicit OracleQuery(const Ray& r) : Context(false), ray(r) {}
@@ -24,7 +20,7 @@ struct OracleQuery : Context {
   scenes::PrimitiveId primitive = scenes::kNoPrimitive;
 };
 
-OracleQuery& query_of(embree::RawContext* context) { return *static_cast<OracleQuery*>(context); }
+OracleQuery& query_of(RawContext* context) { return *static_cast<OracleQuery*>(context); }
 
 /// The smallest float that is not below: Embree prunes by it, so it may only err to the far side.
 float rounded_up(double t) {
@@ -39,7 +35,7 @@ struct Triangles {
 
   std::size_t count() const { return scene.triangles.size(); }
   scenes::PrimitiveId owner(std::size_t i) const { return scene.triangles[i].primitive; }
-  ExactBounds bounds(std::size_t i) const { return embree::bounds_of(scene, scene.triangles[i]); }
+  ExactBounds bounds(std::size_t i) const { return bounds_of(scene, scene.triangles[i]); }
   std::optional<double> hit(const ExactRay& ray, std::size_t i) const {
     return first_hit(ray, scene, scene.triangles[i]);
   }
@@ -59,7 +55,7 @@ struct Shapes {
   }
   std::size_t count() const { return shapes.size(); }
   scenes::PrimitiveId owner(std::size_t i) const { return owners[i]; }
-  ExactBounds bounds(std::size_t i) const { return embree::bounds_of(shapes[i]); }
+  ExactBounds bounds(std::size_t i) const { return bounds_of(shapes[i]); }
   std::optional<double> hit(const ExactRay& ray, std::size_t i) const {
     return first_hit(ray, shapes[i]);
   }
@@ -81,8 +77,8 @@ struct Padded {
     *arguments->bounds_o = {lower.x, lower.y, lower.z, 0.0F, upper.x, upper.y, upper.z, 0.0F};
   }
 
-  // The oracle asks with single rays only, so N is 1 in both callbacks. Embree 4 is to be
-  // told in `valid` whether there was a hit.
+  // The oracle traces single rays only, so N is 1 in both callbacks. For Embree 4 `valid` must
+  // state whether there was a hit.
   static void on_intersect(const RTCIntersectFunctionNArguments* arguments) {
     if (arguments->valid[0] == 0) return;
     const Padded& self = of(arguments->geometryUserPtr);
@@ -113,7 +109,7 @@ struct Padded {
 
   void attach(RTCDevice device, RTCScene scene) {
     if (kind.count() == 0) return;
-    const embree::GeometryHandle geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
+    const GeometryHandle geometry(rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER));
     rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(kind.count()));
     rtcSetGeometryUserData(geometry.get(), this);
     rtcSetGeometryBoundsFunction(geometry.get(), on_bounds, nullptr);
@@ -145,11 +141,11 @@ struct EmbreeOracle::State {
     device.check("building the oracle over " + s.name);
   }
 
-  embree::Device device;
+  Device device;
   Padded<Triangles> triangles;
   Padded<Shapes<scenes::Sphere>> spheres;
   Padded<Shapes<scenes::Cone>> cones;
-  embree::SceneHandle scene;
+  SceneHandle scene;
 };
 
 EmbreeOracle::EmbreeOracle(const scenes::Scene& scene, double reach)
@@ -158,16 +154,16 @@ EmbreeOracle::~EmbreeOracle() = default;
 
 std::optional<ExactHit> EmbreeOracle::closest_hit(const Ray& ray) const {
   OracleQuery query(ray);
-  RTCRayHit ray_hit = embree::to_embree_query(ray);
-  embree::intersect(state_->scene.get(), query, ray_hit);
+  RTCRayHit ray_hit = to_embree_query(ray);
+  intersect(state_->scene.get(), query, ray_hit);
   if (query.primitive == scenes::kNoPrimitive) return std::nullopt;
   return ExactHit{query.ray.t_max, query.primitive};
 }
 
 bool EmbreeOracle::any_hit(const Ray& ray) const {
   OracleQuery query(ray);
-  RTCRay out = embree::to_embree(ray);
-  return embree::occluded(state_->scene.get(), query, out);
+  RTCRay out = to_embree(ray);
+  return occluded(state_->scene.get(), query, out);
 }
 
 }  // namespace beambench::accel::embree

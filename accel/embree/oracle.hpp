@@ -1,5 +1,5 @@
 #pragma once
-// The oracle: what Embree says when it is given exact intersectors.
+// The oracle: Embree with exact intersectors.
 
 #include <memory>
 #include <optional>

@@ -9,8 +9,8 @@
 namespace beambench::accel::embree {
 namespace {
 
-/// Embree's float boxes must hold whatever the eye's distance; this many scene sizes away is as far
-/// as structures promise exactness.
+/// Embree's float boxes must hold whatever the eye's distance; this many scene sizes away is the
+/// limit up to which structures are exact (accel/core/tolerance.hpp).
 constexpr double kEyeDistance = 8.0;
 
 Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) {
@@ -66,8 +66,7 @@ void UserGeometry::on_bounds(const RTCBoundsFunctionArguments* arguments) {
   *arguments->bounds_o = {lower.x, lower.y, lower.z, 0.0F, upper.x, upper.y, upper.z, 0.0F};
 }
 
-// Embree 4 is to be told in `valid` which rays were hit; Embree 3 hands out a copy and reads
-// nothing.
+// For Embree 4 `valid` must state which rays were hit; Embree 3 passes a copy and ignores it.
 
 void UserGeometry::on_intersect(const RTCIntersectFunctionNArguments* arguments) {
   const auto& self = *static_cast<const UserGeometry*>(arguments->geometryUserPtr);

@@ -6,7 +6,7 @@ namespace beambench::accel::exhaustive {
 
 void register_exhaustive(Registry& registry) {
   registry.add({"exhaustive",
-                "tests every primitive against every ray: the definition of the right answer",
+                "tests every primitive against every ray: the definition of the correct hit",
                 Conformance::kBitExact,
                 {},
                 [](const scenes::Scene& scene, const Parameters&, const Workload&) {

@@ -1,5 +1,5 @@
 #pragma once
-// Exhaustive search: the definition of the right answer.
+// Exhaustive search: the definition of the correct hit.
 
 #include "accel/core/intersect.hpp"
 #include "accel/core/traversal_accelerator.hpp"

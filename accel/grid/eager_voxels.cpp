@@ -4,7 +4,7 @@
 #include <numeric>
 
 #include "accel/core/tolerance.hpp"
-#include "accel/grid/reference_cap.hpp"
+#include "accel/grid/voxel_grid_options.hpp"
 #include "accel/grid/voxel_walk.hpp"
 
 namespace beambench::accel::grid {
@@ -43,9 +43,10 @@ class Rasterizer {
   std::vector<Entry> take_entries() && { return std::move(entries_); }
 
  private:
-  /// Halves a block of voxels that the primitive is known to reach into, down to single ones: what
-  /// is large costs by its surface, not by the volume around it. In a row of voxels that holds the
-  /// whole primitive its surface, being connected, crosses each: no test is needed.
+  /// Halves a block of voxels that the primitive is known to reach into, down to single ones: the
+  /// cost of a large primitive depends on its surface, not on the volume around it. In a row of
+  /// voxels that holds the whole primitive its surface, being connected, crosses each: no test is
+  /// needed.
   void split(scenes::PrimitiveId id, const glm::ivec3& corner, const glm::ivec3& size, bool row) {
     const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
     if (size[axis] == 1) {

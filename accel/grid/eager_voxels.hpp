@@ -1,5 +1,5 @@
 #pragma once
-// The voxels' lists, all made beforehand.
+// The voxels' lists, all made in advance.
 
 #include <cstdint>
 #include <span>

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "accel/core/tolerance.hpp"
-#include "accel/grid/reference_cap.hpp"
+#include "accel/grid/voxel_grid_options.hpp"
 #include "accel/grid/voxel_walk.hpp"
 
 namespace beambench::accel::grid {

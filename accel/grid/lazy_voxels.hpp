@@ -1,5 +1,5 @@
 #pragma once
-// The voxels' lists, each made when the first ray comes by.
+// The voxels' lists, each made when the first ray enters.
 
 #include <atomic>
 #include <cstdint>
@@ -17,8 +17,8 @@ namespace beambench::accel::grid {
 /// of the scene tested for overlap with it, its range of voxels first. The lists are those of
 /// `EagerVoxels` (that of a cone may be longer: its overlap test is conservative).
 ///
-/// Several threads may ask at once. Each that finds no list makes one and publishes it by
-/// compare-exchange; who comes second discards its own, which holds the same.
+/// Several threads may query at once. A thread that finds no list makes one and publishes it by
+/// compare-exchange; the second to do so discards its own, which is the same.
 class LazyVoxels {
  public:
   LazyVoxels(const scenes::Scene& scene, const CellGrid& grid, std::uint64_t max_references);
@@ -53,7 +53,7 @@ class LazyVoxels {
   double tolerance_;
   std::uint64_t max_references_;
   std::vector<CellRange> ranges_;  ///< by primitive
-  /// What all empty voxels point to: most are empty, and none needs memory of its own.
+  /// Shared by all empty voxels, which are most.
   const List empty_;
   // Mutable: what a query adds is what any other query would have found. The lists are owned.
   mutable std::vector<std::atomic<const List*>> lists_;

@@ -13,8 +13,8 @@ namespace beambench::accel::grid {
 
 namespace {
 
-/// The numbers of cubic voxels an axis that come to `wanted` in all, over a box of `size`. An axis
-/// too short for one such voxel has one, and the others share what is wanted.
+/// The numbers of cubic voxels per axis, about `wanted` in all, over a box of `size`. An axis
+/// too short for one such voxel has one, and the others have more.
 glm::ivec3 cubic_cells(const glm::dvec3& size, double wanted) {
   glm::ivec3 cells(1);
   std::array<bool, 3> is_short{};
@@ -38,7 +38,7 @@ glm::ivec3 cubic_cells(const glm::dvec3& size, double wanted) {
         settled = false;
       } else {
         cells[axis] = static_cast<std::int32_t>(
-            std::clamp(std::round(size[axis] / edge), 1.0, double{kMostCellsAnAxis}));
+            std::clamp(std::round(size[axis] / edge), 1.0, double{kMaxCellsPerAxis}));
       }
     }
     if (settled) break;
@@ -46,7 +46,7 @@ glm::ivec3 cubic_cells(const glm::dvec3& size, double wanted) {
   return cells;
 }
 
-/// An estimate from above of the references in a grid of `cells`: a surface reaches into the voxels
+/// An upper estimate of the references in a grid of `cells`: a surface reaches into the voxels
 /// of its bounds, or, where those are many, into about twice as many as its bounds' sides show.
 double estimated_references(const scenes::Scene& scene, const glm::dvec3& size,
                             const glm::ivec3& cells) {
@@ -78,7 +78,7 @@ glm::ivec3 automatic_cells(const scenes::Scene& scene, const glm::dvec3& size,
 std::vector<ParameterInfo> VoxelGridOptions::parameters() {
   const VoxelGridOptions defaults;
   return {
-      cells_parameter("resolution", "auto", kMostCellsAnAxis,
+      cells_parameter("resolution", "auto", kMaxCellsPerAxis,
                       "voxels along the axes of the scene's box: one number for all three, three "
                       "numbers, or auto: cubic voxels by density, fewer where the lists would hold "
                       "more than max_references"),
@@ -88,7 +88,7 @@ std::vector<ParameterInfo> VoxelGridOptions::parameters() {
                        "when a voxel's list is made: by the first ray that visits it, testing "
                        "every primitive (thesis), or all before the first ray"),
       flag_parameter("mailboxes", defaults.mailboxes,
-                     "test no primitive twice against a ray; 4 bytes a primitive and thread"),
+                     "test no primitive twice against a ray; 4 bytes per primitive and thread"),
       integer_parameter("max_voxels", defaults.max_voxels, 1, 2'000'000'000,
                         "refuse a grid of more voxels (4 bytes each, 8 where fill is lazy)"),
       integer_parameter("max_references", static_cast<std::int64_t>(defaults.max_references), 1,
@@ -128,6 +128,15 @@ CellGrid make_voxel_grid(const scenes::Scene& scene, const VoxelGridOptions& opt
   const double tolerance = overlap_tolerance(scene);
   const glm::dvec3 margin = glm::max(size * 1e-6, glm::dvec3(2.0 * tolerance));
   return make_cell_grid(scene.bounds, size, margin, cells);
+}
+
+void fail_too_many_references(const scenes::Scene& scene, const CellGrid& grid,
+                              std::uint64_t max_references) {
+  throw InputError(fmt::format(
+      "the grid of {}x{}x{} voxels over '{}' ({} primitives) holds more than {} references; lower "
+      "resolution (or density), or raise max_references (4 bytes each)",
+      grid.cells.x, grid.cells.y, grid.cells.z, scene.name, scene.primitives.size(),
+      max_references));
 }
 
 }  // namespace beambench::accel::grid

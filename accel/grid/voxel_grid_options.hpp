@@ -15,7 +15,7 @@ namespace beambench::accel::grid {
 struct VoxelGridOptions {
   enum class Fill { kLazy, kEager };
 
-  std::optional<std::array<std::int32_t, 3>> resolution;  ///< voxels an axis; nothing: by density
+  std::optional<std::array<std::int32_t, 3>> resolution;  ///< voxels per axis; nothing: by density
   double density = 4.0;                                   ///< voxels for each primitive
   Fill fill = Fill::kEager;
   bool mailboxes = false;
@@ -28,5 +28,9 @@ struct VoxelGridOptions {
 
 /// The grid over the scene's own box. Throws InputError naming `max_voxels` when it has more.
 CellGrid make_voxel_grid(const scenes::Scene& scene, const VoxelGridOptions& options);
+
+/// Throws the InputError of a grid whose voxels refer to more than `max_references` primitives.
+[[noreturn]] void fail_too_many_references(const scenes::Scene& scene, const CellGrid& grid,
+                                           std::uint64_t max_references);
 
 }  // namespace beambench::accel::grid

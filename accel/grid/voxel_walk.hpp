@@ -12,8 +12,8 @@
 
 namespace beambench::accel::grid {
 
-/// The most cells along an axis. The bound below rests on it.
-inline constexpr std::int32_t kMostCellsAnAxis = 4096;
+/// The maximum number of cells along an axis. The bound below depends on it.
+inline constexpr std::int32_t kMaxCellsPerAxis = 4096;
 
 inline std::size_t voxel_count(const CellGrid& grid) {
   return static_cast<std::size_t>(grid.cells.x) * static_cast<std::size_t>(grid.cells.y) *

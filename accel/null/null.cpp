@@ -1,4 +1,4 @@
-// A structure that answers nothing: what remains of a measurement is the harness's own share.
+// A structure that returns misses: what remains of a measurement is the harness's own share.
 
 #include "accel/core/instruction_set.hpp"
 #include "accel/core/registry.hpp"
@@ -10,28 +10,28 @@ namespace beambench::accel::null {
 
 namespace {
 
-/// Rays one by one: what structures pay that trace an image by `PrimaryRays::ray`, or a list.
+/// Rays one by one: the share of structures that trace an image by `PrimaryRays::ray`, or a list.
 class Null : public TraversalAccelerator<Null> {
  public:
   Statistics statistics() const override { return {}; }
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting&) const {
-    take(ray);
+    use(ray);
     return std::nullopt;
   }
   template <class Counting>
   bool find_any(const Ray& ray, Counting&) const {
-    take(ray);
+    use(ray);
     return false;
   }
 
  private:
-  /// Tells the compiler that the ray is looked at: making it is part of the overhead.
-  static void take(const Ray& ray) { asm volatile("" : : "g"(&ray) : "memory"); }
+  /// For the compiler, the ray is used: making it is part of the overhead.
+  static void use(const Ray& ray) { asm volatile("" : : "g"(&ray) : "memory"); }
 };
 
-/// Images in packets made by SIMD: what `embree` pays at least, whichever its mode.
+/// Images in packets made by SIMD: the least share of `embree`, in any mode.
 class SimdNull : public Null {
  public:
   explicit SimdNull(std::int64_t targets) : tracers_(&embree::image_tracers(targets)) {}
@@ -53,7 +53,7 @@ class SimdNull : public Null {
 
  private:
   const embree::ImageTracers* tracers_;
-  embree::OwnerTable owners_;  ///< of nothing
+  embree::OwnerTable owners_;  ///< empty
 };
 
 }  // namespace

@@ -1,6 +1,12 @@
 #include "accel/octree/choose_octree.hpp"
 
+#include <algorithm>
 #include <utility>
+
+#include "accel/core/cell_search.hpp"
+#include "accel/core/primary_rays.hpp"
+#include "accel/octree/leaf_walk.hpp"
+#include "accel/octree/samet.hpp"
 
 namespace beambench::accel::octree {
 namespace {
@@ -14,7 +20,7 @@ struct Trial {
   OctreeWork work;
 };
 
-/// The work of the level before the first, at which nothing was counted: what is usual.
+/// The typical work of the level before the first, at which nothing was counted.
 OctreeWork usual_work_before(const OctreeWork& first) {
   OctreeWork before = first;
   before.nodes /= 8.0;
@@ -59,11 +65,11 @@ class LevelSearch {
   }
 
   bool promises(const OctreeWork& next, const Trial& best) const {
-    constexpr double kRoom = 0.5;          // the extrapolated number may be wrong
+    constexpr double kMargin = 0.5;        // the extrapolated number may be wrong
     constexpr double kWorthTrying = 0.95;  // trying costs something
     return options_.max_level < kLastLevel &&
            best.octree.deepest_level() == options_.max_level &&  // or nothing is left to split
-           next.references < kRoom * static_cast<double>(options_.max_references) &&
+           next.references < kMargin * static_cast<double>(options_.max_references) &&
            cost(next) < kWorthTrying * cost(best.work);
   }
 
@@ -89,6 +95,71 @@ Octree choose_octree(const scenes::Scene& scene, const OctreeOptions& options,
                      const CountMore& count_more) {
   if (options.max_level != OctreeOptions::kAutomatic) return {scene, options};
   return LevelSearch(scene, options, workload, trace_cost, count_more).find();
+}
+
+namespace {
+
+/// The factor by which a number grew from one level to the next, clamped to [lowest, highest];
+/// `lowest` where there was nothing before.
+double growth(double before, double now, double lowest, double highest) {
+  return before > 0.0 ? std::clamp(now / before, lowest, highest) : lowest;
+}
+
+/// The grid of rays over the image, and a stride that reaches all of them in a scattered order.
+constexpr int kColumns = 32;
+constexpr int kRows = 16;
+constexpr int kStride = 197;
+
+/// Have enough rays been counted? Counting is to take less than a hundredth of the work of all
+/// rays, and rays through a coarse octree are long.
+bool enough(int rays, const WorkCounters& counters, const Workload& workload) {
+  constexpr int kMinRays = 32;
+  return rays >= kMinRays &&
+         counters.get(Counter::kTraversalSteps) + counters.get(Counter::kPrimitiveTests) >
+             workload.rays / 6;
+}
+
+}  // namespace
+
+OctreeWork count_work(const scenes::Scene& scene, const Octree& octree, const Workload& workload) {
+  const PrimaryRays sample(workload.camera, kColumns, kRows, 1);
+  const AncestorNeighbors neighbors(octree);
+  WorkCounters counters;
+  std::size_t meet_objects = 0;
+  int rays = 0;
+  for (; rays < kColumns * kRows && !enough(rays, counters, workload); ++rays) {
+    const int at = rays * kStride % (kColumns * kRows);
+    const Ray ray = sample.ray(at % kColumns, at / kColumns, 0);
+    ClosestHit closest(ray);
+    bool met = false;
+    walk_leaves(octree, neighbors, ray, counters, [&](const OctreeNode& leaf, double exit_t) {
+      met = met || leaf.count > 0;
+      return test_references(scene, octree.references(leaf), exit_t, counters, closest);
+    });
+    meet_objects += met ? 1 : 0;
+  }
+  const auto a_ray = [&](std::uint64_t count) { return static_cast<double>(count) / rays; };
+  return {.rays = static_cast<double>(workload.rays),
+          .nodes = static_cast<double>(octree.nodes().size()),
+          .references = static_cast<double>(octree.reference_count()),
+          .steps = a_ray(counters.get(Counter::kTraversalSteps)),
+          .tests = a_ray(counters.get(Counter::kPrimitiveTests)),
+          .hit_share = a_ray(meet_objects)};
+}
+
+OctreeWork extrapolate(const OctreeWork& before, const OctreeWork& now) {
+  OctreeWork next = now;
+  next.nodes *= growth(before.nodes, now.nodes, 1.0, 8.0);
+  next.references *= growth(before.references, now.references, 1.0, 8.0);
+  next.steps += std::max(0.0, now.steps - before.steps);
+  // A cell of half the size holds half the tests at best, of surfaces larger than it.
+  next.tests *= growth(before.tests, now.tests, 0.25, 1.0);
+  // With twice the cells along an axis, the edges of cells cross on the image at least four times
+  // as often, and eight times where all cells are divided; at the next level growth is mostly
+  // smaller.
+  next.nonterminal *= 0.65 * growth(before.nonterminal, now.nonterminal, 7.0, 10.0);
+  next.occupied *= 0.7 * growth(before.occupied, now.occupied, 4.5, 6.0);
+  return next;
 }
 
 }  // namespace beambench::accel::octree

@@ -13,12 +13,12 @@
 
 namespace beambench::accel::octree {
 
-/// What structures over an octree count beside the rest: nodes passed from a leaf to its neighbor
-/// of equal or larger size. The way down to a smaller leaf, the same for all, is not in it.
+/// A counter of structures over an octree: nodes passed from a leaf to its neighbor of equal or
+/// larger size. The descent to a smaller leaf, the same for all, is not counted.
 inline constexpr std::string_view kNeighborSteps = "neighbor_steps";
 inline constexpr std::string_view kNeighborStepsMeaning =
-    "nodes of the octree passed from a leaf to its neighbor of equal or larger size; the way down "
-    "to a smaller leaf is not in it";
+    "nodes of the octree passed from a leaf to its neighbor of equal or larger size; the descent "
+    "to a smaller leaf is not counted";
 
 /// Where a ray leaves a leaf: at t, over the face, edge or vertex that `step` (-1, 0 or 1 for each
 /// axis) points at.
@@ -26,74 +26,82 @@ struct LeafExit {
   double t;
   glm::ivec3 step;
 };
-[[gnu::always_inline]] inline LeafExit leaf_exit(const CellRay& way, const OctreeCursor& cursor) {
-  const std::array<double, 3> exits{way.exit_t(0, cursor.corner(), cursor.size()),
-                                    way.exit_t(1, cursor.corner(), cursor.size()),
-                                    way.exit_t(2, cursor.corner(), cursor.size())};
+[[gnu::always_inline]] inline LeafExit leaf_exit(const CellRay& ray, const OctreeCursor& cursor) {
+  const std::array<double, 3> exits{ray.exit_t(0, cursor.corner(), cursor.size()),
+                                    ray.exit_t(1, cursor.corner(), cursor.size()),
+                                    ray.exit_t(2, cursor.corner(), cursor.size())};
   LeafExit exit{std::min({exits[0], exits[1], exits[2]}), glm::ivec3(0)};
   for (int axis = 0; axis < 3; ++axis) {
-    if (exits[static_cast<std::size_t>(axis)] == exit.t) exit.step[axis] = way.step(axis);
+    if (exits[static_cast<std::size_t>(axis)] == exit.t) exit.step[axis] = ray.step(axis);
   }
   return exit;
 }
 
-/// Walks from a node that the ray enters at t, as `walk_leaves` does from the root. `passed` is the
-/// number of nodes already passed on the way to it.
-template <class Neighbors, class Counting, class Visit>
-void walk_leaves_from(OctreeCursor cursor, double t, int passed, const Octree& octree,
-                      const Neighbors& neighbors, const Ray& ray, const CellRay& way,
-                      Counting& counting, Visit visit) {
-  while (true) {
-    passed += cursor.descend(way, t);
-    const OctreeNode& leaf = cursor.node();
-    counting.add(Counter::kTraversalSteps, static_cast<std::uint64_t>(passed));
-    counting.add(Counter::kLeaves);
-    counting.add(Counter::kEmptyLeaves, leaf.count == 0 ? 1 : 0);
+/// The leaves that a ray passes through, in order (Samet, "Implementing ray tracing with octrees
+/// and neighbor finding", Computers & Graphics 13(4), 1989; thesis, sections 2.2.2 and 5.4.1): the
+/// exit point of a leaf is computed, and the leaf behind it is found. A ray that leaves through an
+/// edge or a vertex goes to the edge or vertex neighbor.
+///
+/// `neighbors.move(cursor, step)` moves the cursor from a leaf to the node of equal or larger size
+/// behind the face, edge or vertex that `step` (-1, 0 or 1 for each axis) points at, and returns
+/// the number of nodes passed, the last one included; 0 where the root ends.
+template <class Neighbors>
+struct LeafWalk {
+  const Octree& octree;
+  const Neighbors& neighbors;
+  const Ray& ray;
+  const CellRay& planes;  ///< of `ray` and the octree's grid
 
-    const LeafExit exit = leaf_exit(way, cursor);
-    counting.enter([&] {
-      return TraceStep{.place = "leaf",
-                       .index = cursor.index(),
-                       .level = cursor.level(),
-                       .box = octree.grid().box(cursor.corner(), cursor.size()),
-                       .t_enter = std::max(t, static_cast<double>(ray.t_min)),
-                       .t_exit = exit.t};
-    });
-    if (visit(leaf, exit.t)) return;
-    t = exit.t;
-    passed = neighbors.move(cursor, exit.step);
+  /// Calls `visit(leaf, exit_t)` for the leaves from a node on that the ray enters at t, until it
+  /// returns true or the ray leaves the root. `passed` nodes were passed to find that node, itself
+  /// included.
+  template <class Counting, class Visit>
+  void from(OctreeCursor cursor, double t, int passed, Counting& counting, Visit visit) const {
+    while (true) {
+      passed += cursor.descend(planes, t);
+      const OctreeNode& leaf = cursor.node();
+      counting.add(Counter::kTraversalSteps, static_cast<std::uint64_t>(passed));
+      counting.add(Counter::kLeaves);
+      counting.add(Counter::kEmptyLeaves, leaf.count == 0 ? 1 : 0);
+
+      const LeafExit exit = leaf_exit(planes, cursor);
+      counting.enter([&] {
+        return TraceStep{.place = "leaf",
+                         .index = cursor.index(),
+                         .level = cursor.level(),
+                         .box = octree.grid().box(cursor.corner(), cursor.size()),
+                         .t_enter = std::max(t, static_cast<double>(ray.t_min)),
+                         .t_exit = exit.t};
+      });
+      if (visit(leaf, exit.t)) return;
+      t = exit.t;
+      passed = neighbors.move(cursor, exit.step);
+      if (passed == 0) return;
+      counting.add(kNeighborSteps, static_cast<std::uint64_t>(passed));
+    }
+  }
+
+  /// The leaves behind a leaf.
+  template <class Counting, class Visit>
+  void behind(OctreeCursor leaf, Counting& counting, Visit visit) const {
+    const LeafExit exit = leaf_exit(planes, leaf);
+    const int passed = neighbors.move(leaf, exit.step);
     if (passed == 0) return;
     counting.add(kNeighborSteps, static_cast<std::uint64_t>(passed));
+    from(leaf, exit.t, passed, counting, visit);
   }
-}
+};
 
 /// Calls `visit(leaf, exit_t)` for the leaves that the ray passes through, from t_min on, until it
-/// returns true or the ray leaves the root (Samet, "Implementing ray tracing with octrees and
-/// neighbor finding", Computers & Graphics 13(4), 1989; thesis, sections 2.2.2 and 5.4.1): the exit
-/// point of a leaf is computed, and the leaf behind it is found. A ray that leaves through an edge
-/// or a vertex goes to the edge or vertex neighbor.
-///
-/// `neighbors.move(cursor, step)` takes the cursor from a leaf to the node of equal or larger size
-/// behind the face, edge or vertex that `step` (-1, 0 or 1 for each axis) points at, and returns
-/// how many nodes it passed on the way, the last one included; 0 where the root ends.
+/// returns true or the ray leaves the root.
 template <class Neighbors, class Counting, class Visit>
 void walk_leaves(const Octree& octree, const Neighbors& neighbors, const Ray& ray,
                  Counting& counting, Visit visit) {
-  const CellRay way(octree.grid(), ray);
-  const double t = way.enter(ray.t_min);
+  const CellRay planes(octree.grid(), ray);
+  const double t = planes.enter(ray.t_min);
   if (!(t < kInfinity)) return;
-  walk_leaves_from(OctreeCursor(octree), t, 1, octree, neighbors, ray, way, counting, visit);
-}
-
-/// Goes on from a leaf that was seen to already: the leaves behind it, in order.
-template <class Neighbors, class Counting, class Visit>
-void walk_leaves_behind(OctreeCursor cursor, const Octree& octree, const Neighbors& neighbors,
-                        const Ray& ray, const CellRay& way, Counting& counting, Visit visit) {
-  const LeafExit exit = leaf_exit(way, cursor);
-  const int passed = neighbors.move(cursor, exit.step);
-  if (passed == 0) return;
-  counting.add(kNeighborSteps, static_cast<std::uint64_t>(passed));
-  walk_leaves_from(cursor, exit.t, passed, octree, neighbors, ray, way, counting, visit);
+  LeafWalk<Neighbors>{octree, neighbors, ray, planes}.from(OctreeCursor(octree), t, 1, counting,
+                                                           visit);
 }
 
 }  // namespace beambench::accel::octree

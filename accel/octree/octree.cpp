@@ -16,7 +16,8 @@ std::vector<ParameterInfo> OctreeOptions::parameters() {
       integer_or_auto_parameter(
           "max_level", defaults.max_level, 1, kDeepestLevel,
           "deepest level of the octree, the root being level 1 as in the thesis: 2^(max_level-1) "
-          "cells an axis; auto: the level that is expected to be the fastest for the rays to come"),
+          "cells per axis; auto: the level that is expected to be the fastest for the rays to "
+          "come"),
       integer_parameter("max_objects", defaults.max_objects, 0, 1'000'000,
                         "a node with more primitives than this is split"),
       choice_parameter("root", "cube", {"cube", "box"},

@@ -1,5 +1,5 @@
 #pragma once
-// The octree of the thesis (section 3.3), shared by every structure that walks one.
+// The octree of the thesis (section 3.3), shared by every structure that traverses one.
 
 #include <cstddef>
 #include <cstdint>
@@ -38,15 +38,15 @@ struct OctreeOptions {
 /// The finest cells of an octree of these options over a scene: its root, divided evenly.
 CellGrid octree_grid(const scenes::Scene& scene, const OctreeOptions& options);
 
-/// A part of an octree, where a scene is divided among several processes: all cells of `level` are
-/// there, those that are not `own` as empty leaves, whatever is in them.
+/// A part of an octree, where a scene is divided among several processes: all cells of `level`
+/// exist, and those that are not `own` are empty leaves, whatever is in them.
 struct OctreePart {
   int level;  ///< not deeper than the octree's `max_level`
   std::function<bool(const glm::ivec3& cell)> own;
 };
 
-/// A node: interior (its eight children stand together, child i at first + i, i = x + 2 y + 4 z) or
-/// a leaf (its references).
+/// A node: interior (its eight children are consecutive, child i at first + i, i = x + 2 y + 4 z)
+/// or a leaf (its references).
 struct OctreeNode {
   static constexpr std::uint32_t kInterior = 0xFFFFFFFFU;
 

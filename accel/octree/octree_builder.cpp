@@ -87,7 +87,7 @@ class OctreeBuilder {
     octree_.references_.shrink_to_fit();
   }
 
-  /// Where the coarser octree has a leaf `subdivide` goes on, with its references.
+  /// Where the coarser octree has a leaf, `subdivide` continues with its references.
   void subdivide_below(const Pending& pending, const Octree& coarser, std::uint32_t node) {
     const OctreeNode& there = coarser.nodes()[node];
     if (there.is_leaf()) {
@@ -155,7 +155,7 @@ class OctreeBuilder {
   }
 
   /// Writes the children's lists, one after the other, to the next level's array; returns where
-  /// each ends. A stable counting sort: increasing ids stay so.
+  /// each ends. A stable counting sort, which keeps ids in increasing order.
   std::array<std::size_t, 8> distribute(const Pending& pending,
                                         std::span<const scenes::PrimitiveId> primitives) {
     auto& octants = octants_[static_cast<std::size_t>(pending.level)];

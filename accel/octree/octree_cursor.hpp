@@ -1,5 +1,5 @@
 #pragma once
-// A place in an octree: a node, and where it lies.
+// A position in an octree: a node, and where it lies.
 
 #include <bit>
 #include <cstdint>
@@ -11,7 +11,8 @@
 
 namespace beambench::accel::octree {
 
-/// A node of an octree with its integer place: the cube of `size` finest cells an axis at `corner`.
+/// A node of an octree with its integer position: the cube at `corner` with `size` finest cells per
+/// axis.
 class OctreeCursor {
  public:
   explicit OctreeCursor(const Octree& octree)

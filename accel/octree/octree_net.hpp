@@ -14,14 +14,14 @@ namespace beambench::accel::octree {
 /// node in which Samet's search over the common ancestor ends, one step away. Where the neighbors
 /// are smaller the link leads to their parent, from which the ray descends.
 ///
-/// Faces alone are linked. Through an edge or a vertex, which few rays meet exactly, the way is
-/// Samet's.
+/// Only faces are linked. Through an edge or a vertex, which few rays meet exactly, the neighbor is
+/// found as Samet does.
 class OctreeNet {
  public:
   /// One pass over the nodes: a child's links follow from its parent's.
   explicit OctreeNet(const Octree& octree);
 
-  /// As `walk_leaves` asks.
+  /// As `LeafWalk` requires.
   int move(OctreeCursor& cursor, const glm::ivec3& step) const {
     const int face = face_of(step);
     if (face == kNoFace) return cursor.move_to_neighbor(step);
@@ -43,7 +43,7 @@ class OctreeNet {
   void describe(Statistics& statistics) const;
 
  private:
-  /// What a step needs to know of a node: half a cache line.
+  /// The data of a node that a step needs: half a cache line.
   struct Place {
     std::array<std::uint32_t, 6> neighbors;
     std::array<std::uint16_t, 3> corner;  ///< in finest cells

@@ -14,7 +14,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// A view's planes as the boxes' test wants them: which corner of a box lies farthest along each.
+/// A view's planes for the test of boxes: which corner of a box lies farthest along each.
 class BoxProbe {
  public:
   explicit BoxProbe(const TileView& view)
@@ -29,7 +29,7 @@ class BoxProbe {
   struct Met {
     alignas(64) std::array<std::int32_t, kTileLanes> rectangle;  ///< bytes of SampleRectangle
     alignas(64) std::array<float, kTileLanes> nearest;
-    alignas(64) std::array<float, kTileLanes> samples;  ///< on the whole screen, about
+    alignas(64) std::array<float, kTileLanes> samples;  ///< approximate number on the whole screen
     LaneBits lanes;
 
     SampleRectangle where(std::size_t lane) const {

@@ -32,17 +32,19 @@ struct Range {
   }
 };
 
-/// Of the part of a triangle that lies before the eye. `axis` of the corners is place x depth. An
-/// edge that goes behind the eye leaves the screen at one of its ends.
-Range range_of(const std::array<glm::dvec3, 3>& seen, int axis) {
+/// Of the part of a triangle that lies in front of the eye. `axis` of the corners is place x depth.
+/// An edge that goes behind the eye leaves the screen at one of its ends.
+Range range_of(const std::array<glm::dvec3, 3>& projected, int axis) {
   Range range;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (seen[i].z <= 0.0) continue;
-    range.include(seen[i][axis] / seen[i].z);
+    if (projected[i].z <= 0.0) continue;
+    range.include(projected[i][axis] / projected[i].z);
     for (const std::size_t other : {(i + 1) % 3, (i + 2) % 3}) {
-      if (seen[other].z > 0.0) continue;
-      const double way = seen[other][axis] * seen[i].z - seen[i][axis] * seen[other].z;
-      if (way != 0.0) range.include(std::copysign(std::numeric_limits<double>::infinity(), way));
+      if (projected[other].z > 0.0) continue;
+      const double direction =
+          projected[other][axis] * projected[i].z - projected[i][axis] * projected[other].z;
+      if (direction != 0.0)
+        range.include(std::copysign(std::numeric_limits<double>::infinity(), direction));
     }
   }
   return range;
@@ -50,10 +52,11 @@ Range range_of(const std::array<glm::dvec3, 3>& seen, int axis) {
 
 /// The samples that the triangle may hold. Acute corners end here, for edges moved outward meet
 /// only far beyond them.
-std::optional<SampleRectangle> box_of(const TileView& view, const std::array<glm::dvec3, 3>& seen) {
+std::optional<SampleRectangle> box_of(const TileView& view,
+                                      const std::array<glm::dvec3, 3>& projected) {
   const auto clipped = [&](int axis, double per_angle, int samples) {
     const double slack = 1.25 * kEdgeWidening * per_angle;
-    const Range range = range_of(seen, axis);
+    const Range range = range_of(projected, axis);
     return Range{std::max(0.0, std::ceil(range.low - slack)),
                  std::min(samples - 1.0, std::floor(range.high + slack))};
   };
@@ -64,7 +67,7 @@ std::optional<SampleRectangle> box_of(const TileView& view, const std::array<glm
   return SampleRectangle{small(x.low), small(x.high), small(y.low), small(y.high)};
 }
 
-/// How the eye lies to a triangle, to within what the canonical test may err by.
+/// The position of the eye relative to a triangle, to within the error of the canonical test.
 enum class Eye { kOff, kInPlane, kOnTriangle };
 
 Eye place_of_eye(const std::array<glm::dvec3, 3>& from_eye) {
@@ -93,11 +96,11 @@ SampleRectangle whole(const TileView& view) {
 std::optional<ExactTriangle> exact_triangle(const TileView& view,
                                             const std::array<glm::vec3, 3>& corners) {
   std::array<glm::dvec3, 3> from_eye;
-  std::array<glm::dvec3, 3> seen;
+  std::array<glm::dvec3, 3> projected;
   for (std::size_t i = 0; i < 3; ++i) {
     from_eye[i] = glm::dvec3(corners[i]) - glm::dvec3(view.eye);
-    seen[i] = {glm::dot(view.exact_x, from_eye[i]), glm::dot(view.exact_y, from_eye[i]),
-               glm::dot(view.exact_depth, from_eye[i])};
+    projected[i] = {glm::dot(view.exact_x, from_eye[i]), glm::dot(view.exact_y, from_eye[i]),
+                    glm::dot(view.exact_depth, from_eye[i])};
   }
   switch (place_of_eye(from_eye)) {
     case Eye::kOnTriangle:
@@ -107,17 +110,17 @@ std::optional<ExactTriangle> exact_triangle(const TileView& view,
     case Eye::kOff:
       break;
   }
-  if (std::max({seen[0].z, seen[1].z, seen[2].z}) <= 0.0) return std::nullopt;
-  const auto box = box_of(view, seen);
+  if (std::max({projected[0].z, projected[1].z, projected[2].z}) <= 0.0) return std::nullopt;
+  const auto box = box_of(view, projected);
   if (!box) return std::nullopt;
 
-  const double volume = glm::dot(seen[0], glm::cross(seen[1], seen[2]));
+  const double volume = glm::dot(projected[0], glm::cross(projected[1], projected[2]));
   if (volume == 0.0) return std::nullopt;
   const double inward = volume > 0.0 ? 1.0 : -1.0;
   ExactTriangle triangle{};
   triangle.box = *box;
   for (std::size_t i = 0; i < 3; ++i) {
-    glm::dvec3 edge = glm::cross(seen[i], seen[(i + 1) % 3]) * inward;
+    glm::dvec3 edge = glm::cross(projected[i], projected[(i + 1) % 3]) * inward;
     // In samples from the edge; of an edge that lies at infinity only the sign matters.
     const double slope = std::max(std::hypot(edge.x, edge.y), std::abs(edge.z) * 1e-12);
     if (slope == 0.0) return std::nullopt;
@@ -126,7 +129,8 @@ std::optional<ExactTriangle> exact_triangle(const TileView& view,
     if (largest(edge, view) < 0.0) return std::nullopt;
     triangle.edges[i] = rounded(edge);
   }
-  const glm::dvec3 plane = glm::cross(seen[1] - seen[0], seen[2] - seen[0]) / volume;
+  const glm::dvec3 plane =
+      glm::cross(projected[1] - projected[0], projected[2] - projected[0]) / volume;
   if (largest(plane, view) <= 0.0) return std::nullopt;
   if (!(glm::length(plane) < kNearestOfAll)) return left_to_rays(*box);
   triangle.plane = rounded(plane);

@@ -1,5 +1,5 @@
 #pragma once
-// A triangle's image made in double: where float would be too coarse.
+// A triangle's image computed in double, where float would be too inaccurate.
 
 #include <array>
 #include <optional>
@@ -18,13 +18,13 @@ struct TileLine {
   float constant;
 };
 
-/// What a sample of the box must fulfil to hit a triangle: edges that are not negative. Then 1/t is
-/// given by the plane.
+/// The condition for a sample of the box to hit a triangle: no edge is negative. The plane then
+/// gives 1/t.
 struct ExactTriangle {
   std::array<TileLine, 3> edges;
   TileLine plane;
   SampleRectangle box;
-  bool at_eye;  ///< the triangle has no image: edges and plane are not set, rays have to decide
+  bool at_eye;  ///< the triangle has no image: edges and plane are not set, rays decide
 };
 
 /// For any triangle: one that crosses the plane through the eye at right angles to the view, one

@@ -1,4 +1,4 @@
-// What the kernels need of Highway, for the instruction set being compiled.
+// Types and functions over Highway for the kernels, for the instruction set being compiled.
 
 #if defined(ACCEL_TILE_BEAM_LANES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_LANES_INL
@@ -26,7 +26,7 @@ using IntTag = hn::RebindToSigned<Tag>;
 using Ints = hn::Vec<IntTag>;
 inline constexpr std::size_t kLanes = HWY_LANES(float) < 16 ? HWY_LANES(float) : 16;
 
-/// One bit a lane.
+/// One bit per lane.
 using LaneBits = std::uint32_t;
 
 HWY_INLINE Floats all(float value) { return hn::Set(Tag(), value); }
@@ -62,7 +62,7 @@ HWY_INLINE LaneBits for_each_register(Test test) {
   return bits;
 }
 
-/// Three coordinates a lane.
+/// Three coordinates per lane.
 struct Points {
   Floats x;
   Floats y;

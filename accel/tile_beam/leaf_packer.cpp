@@ -21,25 +21,26 @@ bool same_bits(const glm::vec3& point, const Meshlet& meshlet, std::size_t verte
   return true;
 }
 
-/// The number of a corner in a meshlet, added when it is new; kMostVertices when there is no room.
+/// The number of a corner in a meshlet, added when it is new; kMaxVertices when the meshlet is
+/// full.
 std::size_t vertex_of(Meshlet& meshlet, const glm::vec3& point) {
   for (std::size_t i = meshlet.vertex_count; i-- > 0;) {
     if (same_bits(point, meshlet, i)) return i;
   }
-  if (meshlet.vertex_count == Meshlet::kMostVertices) return Meshlet::kMostVertices;
+  if (meshlet.vertex_count == Meshlet::kMaxVertices) return Meshlet::kMaxVertices;
   for (int axis = 0; axis < 3; ++axis) {
     meshlet.vertices[static_cast<std::size_t>(axis)][meshlet.vertex_count] = point[axis];
   }
   return meshlet.vertex_count++;
 }
 
-/// Adds a triangle with its corners; false, and nothing added, when there is no room for it.
+/// Adds a triangle with its corners; false, and nothing added, when it does not fit.
 bool append(Meshlet& meshlet, const scenes::Scene& scene, const scenes::Triangle& triangle) {
-  if (meshlet.triangle_count == Meshlet::kMostTriangles) return false;
+  if (meshlet.triangle_count == Meshlet::kMaxTriangles) return false;
   const std::uint32_t vertices_before = meshlet.vertex_count;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t vertex = vertex_of(meshlet, scene.vertices[triangle.vertex[i]]);
-    if (vertex == Meshlet::kMostVertices) {
+    if (vertex == Meshlet::kMaxVertices) {
       meshlet.vertex_count = vertices_before;
       return false;
     }
@@ -61,7 +62,7 @@ class LeafPacker {
  public:
   explicit LeafPacker(const TilePieces& pieces) : pieces_(&pieces) { made_.first.push_back(0); }
 
-  /// Makes room for as many leaves of a scene's pieces.
+  /// Reserves memory for that many leaves of a scene's pieces.
   void reserve(std::size_t leaves) {
     const std::size_t pieces = pieces_->pieces.size();
     const scenes::Scene& scene = pieces_->scene;
@@ -217,7 +218,7 @@ class Joining {
   Begin end_;
 };
 
-/// Leaves of a task: enough that joining costs little beside them.
+/// Leaves per task: enough that joining costs little in comparison.
 constexpr std::size_t kLeavesOfPart = 1024;
 
 }  // namespace

@@ -1,5 +1,5 @@
 #pragma once
-// From leaves of primitives to the blocks that SIMD takes: meshlets, spheres, cones.
+// From leaves of primitives to the blocks that SIMD processes: meshlets, spheres, cones.
 
 #include <cstdint>
 #include <span>

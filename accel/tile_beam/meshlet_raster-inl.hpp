@@ -1,4 +1,4 @@
-// Drawing a meshlet into a tile: each of its triangles in the way that suits its size.
+// Drawing a meshlet into a tile: each of its triangles by the method for its size.
 
 #if defined(ACCEL_TILE_BEAM_MESHLET_RASTER_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_MESHLET_RASTER_INL
@@ -19,7 +19,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Made in double, one by one.
+/// Triangles that need double, one by one.
 inline void draw_exactly(const Meshlet& meshlet, std::size_t first, Mask which,
                          const TileRays& rays, TileImage& image) {
   for (LaneBits left = bits_of(which); left != 0; left &= left - 1) {
@@ -40,7 +40,7 @@ inline void draw_exactly(const Meshlet& meshlet, std::size_t first, Mask which,
   }
 }
 
-/// Row by row, one by one; acute ones not beyond their boxes.
+/// Large triangles, one by one, row by row; acute ones not beyond their boxes.
 inline void draw_large(const StoredImages& images, const scenes::PrimitiveId* primitives,
                        Mask which, Mask acute_ones, TileImage& image) {
   const LaneBits acute = bits_of(acute_ones);
@@ -56,18 +56,18 @@ inline void draw_large(const StoredImages& images, const scenes::PrimitiveId* pr
   }
 }
 
-/// The triangles of `which` behind what is drawn where they lie: those of at most 2 x 2 squares of
-/// the coarse depths.
+/// The triangles of `which` that hierarchical Z hides: of those that cover at most 2 x 2 of its
+/// cells.
 HWY_INLINE Mask hidden(const TriangleImages& images, Mask which, const TileImage& image) {
-  const auto square = [](Floats sample) {
+  const auto cell = [](Floats sample) {
     return hn::ShiftRight<3>(hn::ConvertTo(IntTag(), sample));
   };
   const auto of = hn::RebindMask(IntTag(), which);
-  const Ints left = hn::IfThenElseZero(of, square(images.left));
-  const Ints right = hn::IfThenElseZero(of, square(images.right));
-  constexpr int kRow = std::countr_zero(static_cast<unsigned>(TileImage::kSquareColumns));
-  const Ints top = hn::IfThenElseZero(of, square(images.top));
-  const Ints bottom = hn::IfThenElseZero(of, square(images.bottom));
+  const Ints left = hn::IfThenElseZero(of, cell(images.left));
+  const Ints right = hn::IfThenElseZero(of, cell(images.right));
+  constexpr int kRow = std::countr_zero(static_cast<unsigned>(TileImage::kHzColumns));
+  const Ints top = hn::IfThenElseZero(of, cell(images.top));
+  const Ints bottom = hn::IfThenElseZero(of, cell(images.bottom));
   const Ints two = hn::Set(IntTag(), 2);
   const auto small =
       hn::And(of, hn::And(hn::Lt(hn::Sub(right, left), two), hn::Lt(hn::Sub(bottom, top), two)));
@@ -80,10 +80,10 @@ HWY_INLINE Mask hidden(const TriangleImages& images, Mask which, const TileImage
                  hn::Gt(farthest, hn::Mul(images.nearest, all(1.0F + 0x1p-18F))));
 }
 
-/// Draws triangles that float is good enough for, each in the way that suits its size.
+/// Draws triangles for which float is accurate enough, each by the method for its size.
 HWY_INLINE void draw_triangles(const TriangleImages& images, const scenes::PrimitiveId* primitives,
                                TileImage& image) {
-  const Mask small = hn::And(images.drawn, hn::Le(images.samples(), all(kMostLaneSamples)));
+  const Mask small = hn::And(images.drawn, hn::Le(images.samples(), all(kMaxLaneSamples)));
   if (!hn::AllFalse(Tag(), small)) {
     Fragments fragments;
     collect_fragments(images, small, fragments);
@@ -96,7 +96,7 @@ HWY_INLINE void draw_triangles(const TriangleImages& images, const scenes::Primi
 
   const StoredImages stored(images);
   const BlockBoxes boxes(images);
-  const Mask few = hn::And(rest, hn::Le(boxes.count(), all(static_cast<float>(kMostListedBlocks))));
+  const Mask few = hn::And(rest, hn::Le(boxes.count(), all(static_cast<float>(kMaxListedBlocks))));
   const Mask listed = hn::AndNot(images.acute, few);
   if (!hn::AllFalse(Tag(), listed)) {
     BlockList list;
@@ -109,10 +109,10 @@ HWY_INLINE void draw_triangles(const TriangleImages& images, const scenes::Primi
 /// Draws a meshlet. What lies behind `farthest` (1/t) is not drawn.
 inline void draw_meshlet(const Meshlet& meshlet, const TileRays& rays, float farthest,
                          TileImage& image) {
-  SeenVertices seen;
-  see_vertices(meshlet, rays.view, seen);
+  ProjectedVertices projected;
+  project_vertices(meshlet, rays.view, projected);
   for (std::size_t first = 0; first < meshlet.triangle_count; first += kLanes) {
-    const TriangleImages images = see_triangles(meshlet, seen, first, rays.view, farthest);
+    const TriangleImages images = project_triangles(meshlet, projected, first, rays.view, farthest);
     draw_exactly(meshlet, first, images.needs_exact, rays, image);
     draw_triangles(images, meshlet.primitives.data() + first, image);
   }

@@ -88,13 +88,13 @@ class MeshletProbe {
  private:
   const Meshlet* meshlet_;
   const bvh::ProbeRay* ray_;
-  alignas(64) std::array<float, Meshlet::kMostVertices> x_;
-  alignas(64) std::array<float, Meshlet::kMostVertices> y_;
-  alignas(64) std::array<float, Meshlet::kMostVertices> t_;
+  alignas(64) std::array<float, Meshlet::kMaxVertices> x_;
+  alignas(64) std::array<float, Meshlet::kMaxVertices> y_;
+  alignas(64) std::array<float, Meshlet::kMaxVertices> t_;
 };
 
-/// What waits to be looked at: the bits of where the ray enters it, which order as the floats do,
-/// above the child's. The nearest is on top.
+/// The entries still to be visited: the bits of where the ray enters them, which order as the
+/// floats do, above the child's. The nearest is on top.
 class WaitingChildren {
  public:
   bool empty() const { return size_ == 0; }
@@ -116,13 +116,13 @@ class WaitingChildren {
   }
 
  private:
-  std::array<std::uint64_t, kMostTileDepth*(kTileLanes - 1) + 1> entries_;  // as deep as it gets
+  std::array<std::uint64_t, kMaxTileDepth*(kTileLanes - 1) + 1> entries_;  // the maximum depth
   std::size_t size_ = 0;
   std::size_t sorted_from_ = 0;
 };
 
-/// Tests a leaf's primitives. `visit(t, primitive)` is told what each canonical test found and
-/// returns true to end; `t_max()` is how far hits are of interest. Returns whether it was ended.
+/// Tests a leaf's primitives. `visit(t, primitive)` gets the result of each canonical test
+/// and returns true to end; hits beyond `t_max()` do not matter. Returns whether it was ended.
 template <class Counting, class FarEnd, class Visit>
 HWY_INLINE bool visit_leaf(const TileHierarchy& hierarchy, const scenes::Scene& scene,
                            TileChild leaf, const bvh::ProbeRay& probe, const CanonicalRay& ray,
@@ -157,7 +157,7 @@ HWY_INLINE bool visit_leaf(const TileHierarchy& hierarchy, const scenes::Scene& 
                                                   : test_each(hierarchy.cones[leaf.index()]);
 }
 
-/// Walks the hierarchy below `from`, nearest child first.
+/// Traverses the hierarchy below `from`, nearest child first.
 template <class Counting, class FarEnd, class Visit>
 void walk_ray(const TileHierarchy& hierarchy, const scenes::Scene& scene, TileChild from,
               const Ray& ray, const CanonicalRay& canonical, Counting& counting, FarEnd t_max,

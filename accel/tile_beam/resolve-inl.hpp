@@ -18,8 +18,7 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 /// Images larger than this are written past the caches, which could not hold them.
 inline constexpr std::size_t kStreamedSamples = std::size_t{1} << 17U;
 
-/// Are the image's rows whole cache lines, and so many that they are better written past the
-/// caches?
+/// Are the image's rows whole cache lines, and too many for the caches?
 inline bool is_streamed(const HitBuffer& buffer) {
   return buffer.samples() == 1 && buffer.width() % 16 == 0 && buffer.size() > kStreamedSamples;
 }
@@ -106,7 +105,7 @@ inline void resolve_rest(const TileImage& image, const TileView& view, int first
   }
 }
 
-/// One sample a pixel: rows of blocks are runs of the buffer.
+/// One sample per pixel: rows of blocks are runs of the buffer.
 template <bool kStreamed>
 inline void resolve_blocks(const TileImage& image, const TileView& view, HitBuffer& buffer) {
   const int whole = view.width / 16 * 4;
@@ -136,7 +135,7 @@ inline void paint_background(const TileView& view, HitBuffer& buffer) {
   }
 }
 
-/// Several samples a pixel: those of a pixel lie together in the buffer, and may be shared.
+/// Several samples per pixel: those of a pixel lie together in the buffer, and may be shared.
 inline void resolve_samples(TileImage& image, const SampleRaster& raster, const TileView& view,
                             HitBuffer& buffer) {
   if (!image.touched) clear(image, view);
@@ -165,7 +164,7 @@ void resolve_pixels(const TileImage& image, const TileView& view, HitBuffer& buf
   }
 }
 
-/// Writes the hits of a tile, which is not to be used any more.
+/// Writes the hits of a tile, which is not used afterward.
 inline void resolve(TileImage& image, const SampleRaster& raster, const TileView& view,
                     HitBuffer& buffer) {
   if (buffer.samples() > 1) {

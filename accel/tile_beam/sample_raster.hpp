@@ -11,9 +11,9 @@
 
 namespace beambench::accel::tile_beam {
 
-/// Samples in rows and columns of equal distance. A grid of n x n samples a pixel is one raster of
-/// n times the image's size. The corners of pixels are one raster too, in which neighboring pixels
-/// share what is the same ray.
+/// Samples in rows and columns of equal distance. A grid of n x n samples per pixel is one raster
+/// of n times the image's size. The corners of pixels are one raster too, in which neighboring
+/// pixels share what is the same ray.
 struct SampleRaster {
   /// To which pixel and sample the raster's sample (0, 0) belongs.
   struct Place {

@@ -151,8 +151,8 @@ inline std::size_t nearest_of(const SphereBoxes& boxes, LaneBits lanes) {
   return nearest;
 }
 
-/// Is the eye so near to a sphere's surface that float cannot decide on which side it is? Half of
-/// the hits at t = 0 would be lost.
+/// Is the eye so near to a sphere's surface that float cannot decide its side? Half of the hits at
+/// t = 0 would be lost.
 HWY_INLINE bool is_at_eye(const glm::vec3& from_eye, float radius) {
   const float distance_squared = glm::dot(from_eye, from_eye);
   const float radius_squared = radius * radius;

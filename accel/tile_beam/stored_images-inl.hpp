@@ -1,4 +1,4 @@
-// Triangles' images in memory, to be taken one by one.
+// The images of triangles in memory, for access one by one.
 
 #if defined(ACCEL_TILE_BEAM_STORED_IMAGES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_STORED_IMAGES_INL

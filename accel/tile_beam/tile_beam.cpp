@@ -1,10 +1,118 @@
 #include "accel/tile_beam/tile_beam.hpp"
 
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include <hwy/cache_control.h>
 #include <hwy/targets.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
 
 #include "accel/core/registry.hpp"
 
 namespace beambench::accel::tile_beam {
+
+namespace {
+
+/// A raster, cut into tiles.
+struct TiledRaster {
+  SampleRaster raster;
+  RasterView view;
+
+  TiledRaster(const SampleRaster& from, const PrimaryRays& rays, const scenes::Bounds& scene)
+      : raster(from), view(from, rays, scene) {}
+
+  int columns() const { return (raster.width + kTileWidth - 1) / kTileWidth; }
+  int rows() const { return (raster.height + kTileHeight - 1) / kTileHeight; }
+  /// For column < columns(), row < rows().
+  TileView tile(int column, int row) const {
+    const int left = column * kTileWidth;
+    const int top = row * kTileHeight;
+    return {view, left, top, std::min(kTileWidth, raster.width - left),
+            std::min(kTileHeight, raster.height - top)};
+  }
+};
+
+/// The rasters of an image with a common numbering of tiles: tiles at the same place, which write
+/// to the same part of the buffer, have the same number.
+class TiledImage {
+ public:
+  TiledImage(const PrimaryRays& rays, const scenes::Bounds& scene) {
+    for (const SampleRaster& raster : sample_rasters(rays)) {
+      rasters_.emplace_back(raster, rays, scene);
+      columns_ = std::max(columns_, rasters_.back().columns());
+      rows_ = std::max(rows_, rasters_.back().rows());
+    }
+  }
+
+  int tiles() const { return columns_ * rows_; }
+  /// Calls `draw(raster, view)` for the tiles of a number.
+  template <class Draw>
+  void for_each_of(int number, Draw draw) const {
+    const int column = number % columns_;
+    const int row = number / columns_;
+    for (const TiledRaster& tiled : rasters_) {
+      if (column < tiled.columns() && row < tiled.rows()) {
+        draw(tiled.raster, tiled.tile(column, row));
+      }
+    }
+  }
+
+ private:
+  std::vector<TiledRaster> rasters_;
+  int columns_ = 0;
+  int rows_ = 0;
+};
+
+/// The state of one thread.
+template <class Counting>
+struct ThreadState {
+  std::unique_ptr<TileImage> image = std::make_unique_for_overwrite<TileImage>();
+  Counting counting;
+};
+
+/// `parallel`: tiles are shared among all cores; hits and counts are the same.
+template <class Counting>
+void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
+                 const scenes::Scene& scene, const PrimaryRays& rays, bool parallel,
+                 HitBuffer& buffer, Counting& counting) {
+  tbb::enumerable_thread_specific<ThreadState<Counting>> states;
+  const TiledImage tiled(rays, hierarchy.bounds);
+  const auto draw = [&](int begin, int end) {
+    ThreadState<Counting>& own = states.local();
+    for (int number = begin; number < end; ++number) {
+      tiled.for_each_of(number, [&](const SampleRaster& raster, const TileView& view) {
+        kernels.drawing<Counting>().draw({hierarchy, scene, rays, raster}, view, *own.image, buffer,
+                                         own.counting);
+      });
+    }
+    hwy::FlushStream();
+  };
+  if (parallel) {
+    tbb::parallel_for(tbb::blocked_range(0, tiled.tiles()),
+                      [&](const auto& range) { draw(range.begin(), range.end()); });
+  } else {
+    draw(0, tiled.tiles());
+  }
+  for (const ThreadState<Counting>& state : states) counting.add(state.counting);
+}
+
+}  // namespace
+
+void TileBeam::trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const {
+  with_counting(counters, [&](auto& counting) {
+    trace_tiles(*kernels_, hierarchy_, *scene_, rays, parallel_, buffer, counting);
+  });
+}
+
+void TileBeam::trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
+                            WorkCounters* counters) const {
+  with_counting(counters, [&](auto& counting) {
+    trace_tiles(*kernels_, hierarchy_, *scene_, rays, true, buffer, counting);
+  });
+}
 
 std::vector<ParameterInfo> TileBeam::parameters() {
   const TileHierarchyOptions defaults;
@@ -43,7 +151,7 @@ Statistics TileBeam::statistics() const {
 void register_tile_beam(Registry& registry) {
   registry.add({"tile-beam",
                 "beams the size of screen tiles through a wide hierarchy over meshlets, hits "
-                "resolved by SIMD: the thesis's idea with today's means",
+                "resolved by SIMD: the thesis's idea with today's methods",
                 Conformance::kTolerance, TileBeam::parameters(),
                 [](const scenes::Scene& scene, const Parameters& parameters, const Workload&) {
                   return std::make_unique<TileBeam>(scene, TileBeam::options_from(parameters),

@@ -2,22 +2,22 @@
 // Primary rays in beams the size of screen tiles, through a hierarchy over meshlets.
 
 #include "accel/bvh/probe_ray.hpp"
+#include "accel/core/hit_buffer.hpp"
 #include "accel/core/instruction_set.hpp"
+#include "accel/core/primary_rays.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 #include "accel/tile_beam/tile_kernels.hpp"
-#include "accel/tile_beam/tile_trace.hpp"
 #include "scenes/core/parameters.hpp"
 
 namespace beambench::accel::tile_beam {
 
-/// The thesis's two ideas, many primary rays moved through the scene as one beam and no rays where
-/// nothing is, with today's means: a tile of the screen goes through a hierarchy of boxes front to
-/// back, leaving out what its frustum, its samples or what it has already seen exclude
-/// (hierarchical depth: Greene, Kass and Miller 1993), and draws what leaves hold. Images are
-/// computed in float, to within a few roundings of the distances; single rays are answered as the
-/// classic structures answer them, bit for bit.
+/// The thesis's two ideas, many primary rays traced through the scene as one beam and no rays where
+/// nothing is, with today's methods: a tile of the screen goes through a hierarchy of boxes front
+/// to back, skipping what its frustum, its samples or nearer hits exclude (hierarchical Z: Greene,
+/// Kass and Miller 1993), and draws what leaves hold. Images are computed in float, to within a few
+/// roundings of the distances; single rays return the hits of the classic structures, bit for bit.
 class TileBeam : public TraversalAccelerator<TileBeam> {
  public:
   static std::vector<ParameterInfo> parameters();
@@ -36,17 +36,9 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   const char* instruction_set() const;
   Statistics statistics() const override;
 
-  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const override {
-    with_counting(counters, [&](auto& counting) {
-      trace_tiles(*kernels_, hierarchy_, *scene_, rays, parallel_, buffer, counting);
-    });
-  }
+  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const override;
   void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
-                    WorkCounters* counters) const override {
-    with_counting(counters, [&](auto& counting) {
-      trace_tiles(*kernels_, hierarchy_, *scene_, rays, true, buffer, counting);
-    });
-  }
+                    WorkCounters* counters) const override;
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {

@@ -1,5 +1,5 @@
 #pragma once
-// The hierarchy that tile beams walk: sixteen children a node, leaves that hold one kind each.
+// The hierarchy that tile beams traverse: sixteen children per node, leaves of one kind each.
 
 #include <array>
 #include <cstddef>
@@ -60,14 +60,14 @@ struct alignas(64) TileNode {
   std::uint32_t count;
 };
 
-/// A few neighboring triangles over the corners that they share: each corner is seen once.
+/// A few neighboring triangles and the corners that they share: each corner is projected once.
 struct alignas(64) Meshlet {
-  static constexpr std::size_t kMostVertices = 32;
-  static constexpr std::size_t kMostTriangles = 32;
+  static constexpr std::size_t kMaxVertices = 32;
+  static constexpr std::size_t kMaxTriangles = 32;
 
-  std::array<std::array<float, kMostVertices>, 3> vertices;         ///< x, y, z
-  std::array<std::array<std::uint8_t, kMostTriangles>, 3> corners;  ///< of triangles, into vertices
-  std::array<scenes::PrimitiveId, kMostTriangles>
+  std::array<std::array<float, kMaxVertices>, 3> vertices;         ///< x, y, z
+  std::array<std::array<std::uint8_t, kMaxTriangles>, 3> corners;  ///< of triangles, into vertices
+  std::array<scenes::PrimitiveId, kMaxTriangles>
       primitives;  ///< the polygons that the triangles belong to
   std::uint32_t vertex_count;
   std::uint32_t triangle_count;
@@ -108,7 +108,7 @@ struct TileHierarchy : TileBlocks {
   LargePageVector<TileNode> nodes;
   TileChild root{};
   scenes::Bounds bounds;    ///< of everything, widened
-  std::uint32_t depth = 0;  ///< nodes on the longest way down, leaf included
+  std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, leaf included
   std::uint64_t references = 0;
   double cost = 0.0;  ///< of the binary hierarchy it was made from: see sah_cost
 
@@ -116,9 +116,9 @@ struct TileHierarchy : TileBlocks {
   std::size_t leaves() const { return count(); }
 };
 
-/// No more nodes than this lie on any way down: the binary hierarchy's, and one for a leaf that
-/// needs several blocks.
-inline constexpr std::size_t kMostTileDepth = 97;
+/// The maximum number of nodes from the root to a leaf: the binary hierarchy's, and one for a leaf
+/// that needs several blocks.
+inline constexpr std::size_t kMaxTileDepth = 97;
 
 struct TileHierarchyOptions {
   std::uint32_t max_leaf = 32;  ///< most primitives of a leaf

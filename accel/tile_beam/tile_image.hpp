@@ -1,5 +1,5 @@
 #pragma once
-// What a tile has seen so far: the nearest hit of each of its samples.
+// The image of a tile: the nearest hit so far of each of its samples.
 
 #include <array>
 #include <bit>
@@ -24,9 +24,9 @@ struct TileImage {
   static constexpr int kWidthBits = std::countr_zero(static_cast<unsigned>(kTileWidth));
   static_assert(kTileWidth == 1 << kWidthBits);
   static constexpr std::size_t kSamples = std::size_t{kTileWidth} * kTileHeight;
-  /// The coarse depths are of squares of 8 x 8 samples.
-  static constexpr int kSquareColumns = kTileWidth / 8;
-  static constexpr int kSquareRows = kTileHeight / 8;
+  /// Hierarchical Z has one level, of cells of 8 x 8 samples.
+  static constexpr int kHzColumns = kTileWidth / 8;
+  static constexpr int kHzRows = kTileHeight / 8;
 
   static constexpr std::size_t block(int column, int row) {
     const int number = row * kBlockColumns + column;
@@ -38,16 +38,16 @@ struct TileImage {
 
   alignas(64) std::array<float, kSamples> inverse_t;
   alignas(64) std::array<scenes::PrimitiveId, kSamples> primitive;
-  /// The smallest 1/t of a square, where `stale` does not say that it has to be found anew.
-  std::array<float, std::size_t{kSquareColumns} * kSquareRows> farthest;
-  std::array<std::uint32_t, kSquareRows> stale;  ///< one bit a square of a row
-  bool touched;                                  ///< false: all background, and not even cleared
+  /// The smallest 1/t of a cell, valid unless `stale` marks the cell.
+  std::array<float, std::size_t{kHzColumns} * kHzRows> farthest;
+  std::array<std::uint32_t, kHzRows> stale;  ///< one bit per cell of a row
+  bool touched;                              ///< false: all background, not cleared yet
 };
 
-/// The 1/t of what reaches to the eye or behind it: nearer than any two places are told apart.
+/// The 1/t of what reaches to the eye or behind it: nearer than anything else.
 inline constexpr float kNearestOfAll = 1e30F;
 
-/// What is kept of a hit. t may be -0, which is as near as 0.
+/// The stored value of a hit. t may be -0, which is as near as 0.
 inline float inverse_of(float t) { return 1.0F / std::abs(t); }
 
 /// Samples [left, right] x [top, bottom] of a tile.

@@ -1,4 +1,4 @@
-// The tile's image under SIMD: clearing, coarse depths, blocks of samples.
+// The tile's image under SIMD: clearing, hierarchical Z, blocks of samples.
 
 #if defined(ACCEL_TILE_BEAM_TILE_RASTER_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef ACCEL_TILE_BEAM_TILE_RASTER_INL
@@ -27,8 +27,8 @@ HWY_INLINE Floats block_y(std::size_t first) {
 }
 
 /// Keeps hits where they are nearer than what a block holds: those with `inverse_t` in the lanes of
-/// `hit`, from place `at` on. Of primitives at the very same place the first drawn stays: to look
-/// for the lowest id would cost 5% of a trace, and rounding decides between most of them anyway.
+/// `hit`, from place `at` on. Of primitives at the same depth the first drawn stays: finding the
+/// lowest id would cost 5% of a trace, and rounding decides between most of them anyway.
 HWY_INLINE void keep_nearer(TileImage& image, std::size_t at, Floats inverse_t, Mask hit,
                             scenes::PrimitiveId primitive) {
   float* const depths = image.inverse_t.data() + at;
@@ -53,17 +53,17 @@ inline void clear(TileImage& image, const TileView& view) {
   }
 }
 
-/// Says that samples within a rectangle may have become nearer.
+/// Marks that samples within a rectangle may have become nearer.
 HWY_INLINE void mark_stale(TileImage& image, const SampleRectangle& where) {
   const std::uint32_t columns = (2U << (where.right >> 3U)) - (1U << (where.left >> 3U));
   for (unsigned row = where.top >> 3U; row <= where.bottom >> 3U; ++row)
     image.stale[row] |= columns;
 }
 
-/// A square of 8 x 8 samples of a tile.
-class Square {
+/// A cell of hierarchical Z: 8 x 8 samples of a tile.
+class HzCell {
  public:
-  HWY_INLINE Square(TileImage& image, unsigned column, unsigned row)
+  HWY_INLINE HzCell(TileImage& image, unsigned column, unsigned row)
       : image_(&image), column_(column), row_(row) {}
 
   /// The smallest 1/t.
@@ -80,7 +80,7 @@ class Square {
  private:
   HWY_INLINE bool is_stale() const { return (image_->stale[row_] >> column_ & 1U) != 0; }
   HWY_INLINE float& kept() const {
-    return image_->farthest[std::size_t{row_} * TileImage::kSquareColumns + std::size_t{column_}];
+    return image_->farthest[std::size_t{row_} * TileImage::kHzColumns + std::size_t{column_}];
   }
   HWY_INLINE Floats smallest() const {
     const float* block = image_->inverse_t.data() + TileImage::block(static_cast<int>(2 * column_),
@@ -102,34 +102,34 @@ class Square {
   unsigned row_;
 };
 
-/// Is all in a rectangle nearer than something whose 1/t is at most `inverse_t`? May say no where
-/// it is, but never yes where it is not.
+/// Is everything in a rectangle nearer than something whose 1/t is at most `inverse_t`? May return
+/// false where it is, but never true where it is not.
 inline bool hides(TileImage& image, const SampleRectangle& where, float inverse_t) {
   const unsigned left = where.left >> 3U;
   const unsigned right = where.right >> 3U;
   const unsigned top = where.top >> 3U;
   const unsigned bottom = where.bottom >> 3U;
   if ((right - left + 1) * (bottom - top + 1) > 12)
-    return false;  // looking costs more than it gains
+    return false;  // the test would cost more than it saves
   for (unsigned row = top; row <= bottom; ++row) {
     for (unsigned column = left; column <= right; ++column) {
-      if (!Square(image, column, row).hides(inverse_t)) return false;
+      if (!HzCell(image, column, row).hides(inverse_t)) return false;
     }
   }
   return true;
 }
 
-/// The smallest 1/t of all of the tile. `open` is a square that is looked at first: where there is
-/// background it becomes one that has some, and most likely will the next time.
+/// The smallest 1/t of the tile. `open` is the cell tested first; where there is background, it
+/// becomes a cell that has some and most likely will the next time.
 inline float farthest_of_all(TileImage& image, unsigned& open) {
-  constexpr unsigned kColumns = TileImage::kSquareColumns;
-  const auto farthest = [&](unsigned square) {
-    return Square(image, square % kColumns, square / kColumns).farthest();
+  constexpr unsigned kColumns = TileImage::kHzColumns;
+  const auto farthest = [&](unsigned cell) {
+    return HzCell(image, cell % kColumns, cell / kColumns).farthest();
   };
   float smallest = farthest(open);
-  for (unsigned square = 0; smallest > 0.0F && square < image.farthest.size(); ++square) {
-    smallest = std::min(smallest, farthest(square));
-    open = square;
+  for (unsigned cell = 0; smallest > 0.0F && cell < image.farthest.size(); ++cell) {
+    smallest = std::min(smallest, farthest(cell));
+    open = cell;
   }
   return smallest;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// The samples of a raster within one tile of the screen: a beam, and how it sees points.
+// The samples of a raster within one tile of the screen: a beam, and its projection of points.
 
 #include <glm/vec3.hpp>
 
@@ -16,8 +16,8 @@ inline constexpr int kTileHeight = 128;
 /// more than those made in float may err, so that no gap is left between the two.
 inline constexpr double kEdgeWidening = 0x1.8p-22;
 
-/// How a raster's camera turns points into places on the screen, in double. A point p seen from the
-/// eye has the view depth w = depth . p and lies on the screen at sample (x . p / w, y . p / w).
+/// How a raster's camera projects points to the screen, in double. A point p relative to the eye
+/// has the view depth w = depth . p and lies on the screen at sample (x . p / w, y . p / w).
 struct RasterView {
   RasterView(const SampleRaster& raster, const PrimaryRays& rays, const scenes::Bounds& scene);
 
@@ -28,7 +28,7 @@ struct RasterView {
   glm::dvec3 origin;  ///< the direction of sample (i, j) is origin + right * i + down * j
   glm::dvec3 right;
   glm::dvec3 down;
-  double per_angle_x;  ///< samples to a unit of |direction|
+  double per_angle_x;  ///< samples per unit of |direction|
   double per_angle_y;
   double reach = 0.0;  ///< no point of the scene is farther from the eye along any axis
 };
@@ -55,7 +55,7 @@ struct TileView {
   glm::vec3 down;
 
   /// Corners farther than this from the tile's first sample make the float edge functions of their
-  /// triangles too coarse. In samples, a unit of |direction|.
+  /// triangles too inaccurate. In samples per unit of |direction|.
   float guard;
   /// How far boxes of triangles are widened, in samples: more than edges evaluated in float err,
   /// but not by much, for it is the boxes that end acute corners.
@@ -63,7 +63,7 @@ struct TileView {
   /// A triangle whose float area is below sliver x (longer side of its box)^3 has too coarse a
   /// plane in float.
   float sliver;
-  double per_angle_x;  ///< samples to a unit of |direction|
+  double per_angle_x;  ///< samples per unit of |direction|
   double per_angle_y;
   /// What box tests may err by, as distances: of x . p and y . p, and of depth . p.
   float slack_x;

@@ -22,7 +22,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// A part of the hierarchy goes to single rays when it has more than this many leaves a sample.
+/// A part of the hierarchy is traversed by single rays when it has more than this many leaves per
+/// sample.
 inline constexpr float kHandoverLeaves = 1.0F;
 
 /// Draws a tile.
@@ -70,7 +71,8 @@ class TileWalk {
         is_crowded(static_cast<std::uint32_t>(hierarchy_->leaves()), met.samples[0])};
   }
 
-  /// Counted on the whole screen: of a part that reaches beyond the tile most leaves may be there.
+  /// Samples are counted on the whole screen, because most leaves of a part may lie beyond the
+  /// tile.
   static bool is_crowded(std::uint32_t leaves, float samples) {
     return static_cast<float>(leaves) > kHandoverLeaves * (samples + 1.0F);
   }
@@ -104,7 +106,7 @@ class TileWalk {
     }
   }
 
-  /// What waits is looked at soon, and in no order that the machine could guess.
+  /// Entries on the stack are visited soon, in an order that the processor cannot predict.
   HWY_INLINE void prefetch(TileChild child) const {
     const auto fetch = [](const auto& block) {
       const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&block);
@@ -145,7 +147,7 @@ class TileWalk {
     changed(entry.where);
   }
 
-  /// Single rays for what is left of the samples.
+  /// Single rays for the remaining samples.
   void hand_over(const Entry& entry) {
     if (!image_->touched) clear(*image_, *view_);
     for (int y = entry.where.top; y <= entry.where.bottom; ++y) {
@@ -164,13 +166,13 @@ class TileWalk {
     changed(entry.where);
   }
 
-  /// Now and then the whole tile's depth is looked at: not before it can have grown by much.
+  /// Updates the whole tile's depth now and then, when it may have grown by much.
   HWY_INLINE void changed(const SampleRectangle& where) {
     mark_stale(*image_, where);
     drawn_ += where.count();
     if (drawn_ < kTileWidth * kTileHeight) return;
     drawn_ = 0;
-    farthest_ = farthest_of_all(*image_, open_square_);
+    farthest_ = farthest_of_all(*image_, open_cell_);
   }
 
   const TileHierarchy* hierarchy_;
@@ -180,11 +182,11 @@ class TileWalk {
   BoxProbe probe_;
   TileImage* image_;
   Counting* counting_;
-  float farthest_ = 0.0F;     ///< the smallest 1/t of the tile, as far as known
-  unsigned open_square_ = 0;  ///< where background was seen last
-  int drawn_ = 0;             ///< samples that leaves covered since it was found
+  float farthest_ = 0.0F;   ///< the smallest 1/t of the tile, as far as known
+  unsigned open_cell_ = 0;  ///< where background was found last
+  int drawn_ = 0;           ///< samples that leaves covered since it was found
   std::size_t size_ = 0;
-  std::array<Entry, kMostTileDepth*(kTileLanes - 1) + 1> stack_;
+  std::array<Entry, kMaxTileDepth*(kTileLanes - 1) + 1> stack_;
 };
 
 }  // namespace beambench::accel::tile_beam::HWY_NAMESPACE

@@ -14,15 +14,15 @@ HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// Triangles with no more blocks than this in their box are drawn by lists.
-inline constexpr int kMostListedBlocks = 30;
+inline constexpr int kMaxListedBlocks = 30;
 
 /// A block that a triangle may meet: the block's place in the tile, and the triangle's lane in the
 /// four bits that are free there.
 struct BlockList {
-  static constexpr std::size_t kMost =
-      16 * kMostListedBlocks + 16;  // room for a whole register at the end
+  static constexpr std::size_t kMaxEntries =
+      16 * kMaxListedBlocks + 16;  // room for a whole register at the end
 
-  alignas(64) std::array<std::int32_t, kMost> entries;
+  alignas(64) std::array<std::int32_t, kMaxEntries> entries;
   std::size_t count;
 };
 

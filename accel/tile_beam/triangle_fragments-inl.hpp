@@ -14,15 +14,15 @@ HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// Triangles with no more samples than this in their box are drawn by lanes.
-inline constexpr float kMostLaneSamples = 9.0F;
+inline constexpr float kMaxLaneSamples = 9.0F;
 
-/// Hits found by lanes, before they are compared with the tile's.
+/// Hits found by lanes, before the depth test.
 struct Fragments {
-  static constexpr std::size_t kMost = 16 * 9 + 16;  // room for a whole register at the end
+  static constexpr std::size_t kMaxCount = 16 * 9 + 16;  // room for a whole register at the end
 
   /// The sample's number in the tile, row by row, and the triangle's lane in the four bits below.
-  alignas(64) std::array<std::int32_t, kMost> where;
-  alignas(64) std::array<float, kMost> inverse_t;
+  alignas(64) std::array<std::int32_t, kMaxCount> where;
+  alignas(64) std::array<float, kMaxCount> inverse_t;
   std::size_t count;
 };
 
@@ -62,7 +62,7 @@ HWY_INLINE void resolve_fragments(const Fragments& fragments, const scenes::Prim
     const auto where = static_cast<unsigned>(fragments.where[f]);
     const std::size_t at = TileImage::place(static_cast<int>(where >> 4U & (kTileWidth - 1U)),
                                             static_cast<int>(where >> (4 + TileImage::kWidthBits)));
-    // Without a branch, which the machine could not guess.
+    // Without a branch, which could not be predicted.
     const bool nearer = fragments.inverse_t[f] > image.inverse_t[at];
     image.inverse_t[at] = nearer ? fragments.inverse_t[f] : image.inverse_t[at];
     image.primitive[at] = nearer ? primitives[where & 15U] : image.primitive[at];

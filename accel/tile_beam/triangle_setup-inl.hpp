@@ -15,14 +15,15 @@ HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 /// A meshlet's vertices on the screen.
-struct SeenVertices {
-  alignas(64) std::array<float, Meshlet::kMostVertices> x;
-  alignas(64) std::array<float, Meshlet::kMostVertices> y;
+struct ProjectedVertices {
+  alignas(64) std::array<float, Meshlet::kMaxVertices> x;
+  alignas(64) std::array<float, Meshlet::kMaxVertices> y;
   /// 1 / depth; -1 for those whose triangles need double: behind the eye, or far beside the tile.
-  alignas(64) std::array<float, Meshlet::kMostVertices> inverse_t;
+  alignas(64) std::array<float, Meshlet::kMaxVertices> inverse_t;
 };
 
-HWY_INLINE void see_vertices(const Meshlet& meshlet, const TileView& view, SeenVertices& seen) {
+HWY_INLINE void project_vertices(const Meshlet& meshlet, const TileView& view,
+                                 ProjectedVertices& projected) {
   const Points eye = all_of(view.eye);
   const Points to_x = all_of(view.x);
   const Points to_y = all_of(view.y);
@@ -36,11 +37,11 @@ HWY_INLINE void see_vertices(const Meshlet& meshlet, const TileView& view, SeenV
     const Floats inverse_t = hn::Div(all(1.0F), depth);
     const Floats x = hn::Mul(dot(to_x, p), inverse_t);
     const Floats y = hn::Mul(dot(to_y, p), inverse_t);
-    const Mask tame = hn::And(hn::Gt(depth, all(view.slack_depth)),
-                              hn::Le(hn::Max(hn::Abs(x), hn::Abs(y)), guard));
-    store(x, &seen.x[i]);
-    store(y, &seen.y[i]);
-    store(hn::IfThenElse(tame, inverse_t, all(-1.0F)), &seen.inverse_t[i]);
+    const Mask in_guard_band = hn::And(hn::Gt(depth, all(view.slack_depth)),
+                                       hn::Le(hn::Max(hn::Abs(x), hn::Abs(y)), guard));
+    store(x, &projected.x[i]);
+    store(y, &projected.y[i]);
+    store(hn::IfThenElse(in_guard_band, inverse_t, all(-1.0F)), &projected.inverse_t[i]);
   }
 }
 
@@ -66,7 +67,7 @@ struct TriangleImages {
   Floats right;
   Floats top;
   Floats bottom;
-  Mask drawn;        ///< may hit samples, and float is good enough
+  Mask drawn;        ///< may hit samples, and float is accurate enough
   Mask acute;        ///< has a corner so acute that rounding may draw it far beyond its box
   Mask needs_exact;  ///< may hit samples, but float is too coarse: see exact_triangle.hpp
 
@@ -92,8 +93,9 @@ HWY_INLINE Lines edge_between(Floats x0, Floats y0, Floats x1, Floats y1, Floats
 
 /// Of the triangles of a meshlet from `first` on. Those that hold no sample, or that lie behind
 /// `farthest` (1/t) everywhere, are in neither mask.
-HWY_INLINE TriangleImages see_triangles(const Meshlet& meshlet, const SeenVertices& seen,
-                                        std::size_t first, const TileView& view, float farthest) {
+HWY_INLINE TriangleImages project_triangles(const Meshlet& meshlet,
+                                            const ProjectedVertices& projected, std::size_t first,
+                                            const TileView& view, float farthest) {
   const hn::Rebind<std::uint8_t, Tag> bytes;
   const auto corner = [&](std::size_t which) {
     return hn::PromoteTo(IntTag(), hn::LoadU(bytes, meshlet.corners[which].data() + first));
@@ -101,9 +103,9 @@ HWY_INLINE TriangleImages see_triangles(const Meshlet& meshlet, const SeenVertic
   const Ints corner0 = corner(0);
   const Ints corner1 = corner(1);
   const Ints corner2 = corner(2);
-  const Table32 xs(seen.x.data());
-  const Table32 ys(seen.y.data());
-  const Table32 inverse_ts(seen.inverse_t.data());
+  const Table32 xs(projected.x.data());
+  const Table32 ys(projected.y.data());
+  const Table32 inverse_ts(projected.inverse_t.data());
   const Floats x0 = xs.at(corner0), x1 = xs.at(corner1), x2 = xs.at(corner2);
   const Floats y0 = ys.at(corner0), y1 = ys.at(corner1), y2 = ys.at(corner2);
   const Floats z0 = inverse_ts.at(corner0), z1 = inverse_ts.at(corner1),
@@ -125,11 +127,11 @@ HWY_INLINE TriangleImages see_triangles(const Meshlet& meshlet, const SeenVertic
   images.nearest = hn::Max(z0, hn::Max(z1, z2));
 
   const Mask present = hn::FirstN(Tag(), meshlet.triangle_count - first);
-  const Mask tame = hn::Gt(hn::Min(z0, hn::Min(z1, z2)), none);
+  const Mask in_guard_band = hn::Gt(hn::Min(z0, hn::Min(z1, z2)), none);
   const Mask in_tile =
       hn::And(hn::And(hn::Le(images.left, images.right), hn::Le(images.top, images.bottom)),
               hn::Ge(hn::Mul(images.nearest, all(1.0F + 0x1p-20F)), all(farthest)));
-  const Mask candidates = hn::And(present, hn::And(tame, in_tile));
+  const Mask candidates = hn::And(present, hn::And(in_guard_band, in_tile));
 
   const Floats dx1 = hn::Sub(x1, x0), dx2 = hn::Sub(x2, x0);
   const Floats dy1 = hn::Sub(y1, y0), dy2 = hn::Sub(y2, y0);
@@ -140,7 +142,7 @@ HWY_INLINE TriangleImages see_triangles(const Meshlet& meshlet, const SeenVertic
   const Floats too_thin = hn::Mul(hn::Mul(side, side), hn::Mul(side, all(view.sliver)));
   const Mask thin = hn::Le(hn::Abs(area), too_thin);
   images.drawn = hn::AndNot(thin, candidates);
-  images.needs_exact = hn::Or(hn::And(candidates, thin), hn::AndNot(tame, present));
+  images.needs_exact = hn::Or(hn::And(candidates, thin), hn::AndNot(in_guard_band, present));
 
   const Floats sign = hn::CopySign(all(1.0F), area);
   images.edge0 = edge_between(x0, y0, x1, y1, sign);

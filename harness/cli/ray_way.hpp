@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "accel/beam/sample_way.hpp"
+#include "accel/beam/sample_path.hpp"
 #include "accel/core/accelerator.hpp"
 #include "harness/verify/differ.hpp"
 

@@ -26,7 +26,7 @@ namespace {
 constexpr double kNearLimit = 0.99;
 
 /// A size is not worth a row of its own with less than so many times the primitives of the last.
-constexpr double kLeastGrowth = 1.02;
+constexpr double kMinGrowth = 1.02;
 
 struct Row {
   std::string scene;
@@ -105,7 +105,7 @@ class Sizes {
     std::int64_t next = std::llround(std::floor(wanted)) + least_ - 1;
     const double one_more = last.primitives * std::pow((last.size + 1.0) / last.size, power);
     // Where not even one step fits in, it may be a large one; many small ones would tell nothing.
-    const bool worth_it = one_more <= limit_ && one_more >= kLeastGrowth * last.primitives;
+    const bool worth_it = one_more <= limit_ && one_more >= kMinGrowth * last.primitives;
     if (next <= size && (worth_it || power <= 0.0)) next = size + 1;
     next = std::min(next, most_);
     return next > size ? std::optional(next) : std::nullopt;

@@ -123,8 +123,8 @@ int trace(const Request& request) {
   const auto* beams = dynamic_cast<const accel::beam::BeamTracer*>(accelerator.get());
   if (beams != nullptr && input.image() != nullptr && !request.alone) {
     const rays::PixelSample at = *input.pixel(index);
-    accel::beam::SampleWay with_beams =
-        accel::beam::way_of_sample(*beams, *input.image(), at.x, at.y, at.sample);
+    accel::beam::SamplePath with_beams =
+        accel::beam::path_of_sample(*beams, *input.image(), at.x, at.y, at.sample);
     way.beams = std::move(with_beams.beams);
     way.steps = std::move(with_beams.steps);
   } else {

@@ -22,7 +22,7 @@ class GuardedStructure : public accel::Accelerator {
                     "scene has {} of them",
                     file_, name_, id, primitives_));
   }
-  std::optional<accel::Hit> sound(const std::optional<accel::Hit>& hit) const {
+  std::optional<accel::Hit> checked(const std::optional<accel::Hit>& hit) const {
     if (hit) require_primitive(hit->primitive);
     return hit;
   }
@@ -41,7 +41,7 @@ class GuardedStructure : public accel::Accelerator {
 
   std::optional<accel::Hit> closest_hit(const accel::Ray& ray,
                                         accel::WorkCounters* counters) const override {
-    return sound(call([&] { return structure_->closest_hit(ray, counters); }));
+    return checked(call([&] { return structure_->closest_hit(ray, counters); }));
   }
   bool any_hit(const accel::Ray& ray, accel::WorkCounters* counters) const override {
     return call([&] { return structure_->any_hit(ray, counters); });

@@ -5,7 +5,6 @@
 
 #include "accel/beam/beam_tracer.hpp"
 #include "accel/octree/samet.hpp"
-#include "accel/octree/samet_net.hpp"
 
 namespace beambench::rays {
 namespace {

@@ -38,7 +38,7 @@ void add_smooth(SceneBuilder& builder, const PolygonMesh& mesh, const SmoothOpti
     }
     areas.push_back(area_normal(mesh, corners));
   }
-  const double least_cosine = std::cos(glm::radians(options.crease));
+  const double min_cosine = std::cos(glm::radians(options.crease));
   std::vector<glm::dvec3> normals;
   for (std::size_t i = 0; i < mesh.size(); ++i) {
     const glm::dvec3 own = glm::normalize(areas[i]);
@@ -46,7 +46,7 @@ void add_smooth(SceneBuilder& builder, const PolygonMesh& mesh, const SmoothOpti
     for (const std::uint32_t corner : mesh.polygons[i]) {
       glm::dvec3 sum(0.0);
       for (const std::uint32_t other : around[corner]) {
-        if (glm::dot(own, glm::normalize(areas[other])) >= least_cosine) sum += areas[other];
+        if (glm::dot(own, glm::normalize(areas[other])) >= min_cosine) sum += areas[other];
       }
       normals.push_back(glm::normalize(sum));
     }

@@ -14,7 +14,6 @@
 #include "accel/core/registry.hpp"
 #include "accel/embree/isa.hpp"
 #include "accel/embree/oracle.hpp"
-#include "accel/embree/version.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/scene_builder.hpp"

@@ -230,7 +230,7 @@ TEST(BolaEspacial, LetsMostRaysHitWhereTheirBeamEnds) {
   const scenes::Scene scene = scenes::load_scene("bola-espacial");
   const PrimaryRays rays(scene.cameras.front(), 1280, 1024, 1);
   const auto samples = static_cast<double>(rays.count());
-  for (const auto& [level, least_share] : {std::pair(5, 0.79), std::pair(6, 0.70)}) {
+  for (const auto& [level, min_share] : {std::pair(5, 0.79), std::pair(6, 0.70)}) {
     SCOPED_TRACE(level);
     const auto structure =
         registry().choose({"beam", {{"max_level", std::to_string(level)}}}).build(scene);
@@ -243,8 +243,8 @@ TEST(BolaEspacial, LetsMostRaysHitWhereTheirBeamEnds) {
     EXPECT_LT(count("samples_leaving"), 0.01 * samples);
     EXPECT_GT(count("samples_in_leaves"), 0.9 * samples);
     const double first = 1.0 - count("rays_after_leaf") / count("samples_in_leaves");
-    EXPECT_GT(first, least_share);
-    EXPECT_LT(first, least_share + 0.04) << "better: pin the new share";
+    EXPECT_GT(first, min_share);
+    EXPECT_LT(first, min_share + 0.04) << "better: pin the new share";
     const double occupied = count("beams_occupied") / count("beams_made");
     EXPECT_GT(occupied, 0.5);
     EXPECT_LT(occupied, 0.85);

@@ -195,13 +195,13 @@ TEST(SceneBuilder, FittedCameraSeesAllCorners) {
   ASSERT_EQ(scene.cameras.size(), 1U);
   const Camera& camera = scene.cameras[0];
   const glm::vec3 forward = glm::normalize(camera.at - camera.from);
-  const float least_cosine = std::cos(glm::radians(0.5F * camera.angle)) - 1e-5F;
+  const float min_cosine = std::cos(glm::radians(0.5F * camera.angle)) - 1e-5F;
   for (int corner = 0; corner < 8; ++corner) {
     glm::vec3 point = scene.bounds.lower;
     for (int axis = 0; axis < 3; ++axis) {
       if ((corner >> axis & 1) != 0) point[axis] = scene.bounds.upper[axis];
     }
-    EXPECT_GE(glm::dot(glm::normalize(point - camera.from), forward), least_cosine);
+    EXPECT_GE(glm::dot(glm::normalize(point - camera.from), forward), min_cosine);
   }
 }
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "accel/core/instruction_set.hpp"
-#include "accel/embree/version.hpp"
+#include "accel/embree/isa.hpp"
 #include "harness/bench/measurement.hpp"
 #include "harness/bench/record/build_info.hpp"
 #include "harness/rays/fingerprint.hpp"

@@ -174,8 +174,8 @@ void SplitWorker::trace_ray(const CrossingRay& crossing) {
   std::optional<CrossingRay> next;
   double t = crossing.t;
   const accel::octree::OctreeNode* nodes = tracer_.octree().nodes().data();
-  accel::octree::walk_leaves_from(
-      cell_cursor(crossing.cell), t, 0, tracer_.octree(), tracer_.neighbors(), ray, way, none,
+  accel::octree::LeafWalk{tracer_.octree(), tracer_.neighbors(), ray, way}.from(
+      cell_cursor(crossing.cell), t, 0, none,
       [&](const accel::octree::OctreeNode& leaf, double exit_t) {
         if (const auto cell = foreign_.cell_at(static_cast<std::uint32_t>(&leaf - nodes))) {
           next = CrossingRay{*cell, crossing.sample, t, 0.0F, 0};

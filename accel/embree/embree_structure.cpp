@@ -7,56 +7,52 @@
 #include "accel/core/trace_on.hpp"
 #include "accel/embree/isa.hpp"
 #include "accel/embree/native_scene.hpp"
-#include "accel/embree/trace.hpp"
+#include "accel/embree/trace_modes.hpp"
 
 namespace beambench::accel::embree {
 namespace {
 
-using embree::ImageTracers;
-using embree::NativeScene;
-using embree::TraceMode;
-
-/// Differs from the contract where Embree does: of hits at one place any may come back, not the one
+/// Differs from the contract where Embree does: of hits at one place it may return any, not the one
 /// of lowest id, and without `robust` a triangle is hit at t > t_min only, not at t_min itself. It
 /// counts no work: Embree reports none.
-class EmbreeContender : public Accelerator {
+class EmbreeStructure : public Accelerator {
  public:
-  EmbreeContender(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
+  EmbreeStructure(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
                   const TraceMode& mode, bool coherent, const std::string& isa, int threads)
       : scene_(scene, quality, robust, isa, threads),
-        tracers_(embree::image_tracers(targets_of(isa))),
+        tracers_(image_tracers(targets_of(isa))),
         mode_(mode),
         coherent_(coherent),
-        isa_(embree::isa_in_use(isa)) {}
+        isa_(isa_in_use(isa)) {}
 
   std::optional<Hit> closest_hit(const Ray& ray, WorkCounters*) const override {
-    embree::Context context(coherent_);
-    RTCRayHit query = embree::to_embree_query(ray);
-    embree::intersect(scene_.get(), context, query);
+    Context context(coherent_);
+    RTCRayHit query = to_embree_query(ray);
+    intersect(scene_.get(), context, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return Hit{query.ray.tfar, scene_.owner(query.hit.geomID, query.hit.primID)};
   }
   bool any_hit(const Ray& ray, WorkCounters*) const override {
-    embree::Context context(coherent_);
-    RTCRay query = embree::to_embree(ray);
-    return embree::occluded(scene_.get(), context, query);
+    Context context(coherent_);
+    RTCRay query = to_embree(ray);
+    return occluded(scene_.get(), context, query);
   }
   void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
-    embree::Context context(coherent_);
+    Context context(coherent_);
     (tracers_.*mode_.trace)(scene_, context, rays, {0, rays.height()}, buffer);
   }
   void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
-    share_rows(embree::tile_rows(rays), [&](int begin, int end) {
-      embree::Context context(coherent_);
-      (tracers_.*mode_.trace)(scene_, context, rays, embree::band_of(rays, begin, end), buffer);
+    share_rows(tile_rows(rays), [&](int begin, int end) {
+      Context context(coherent_);
+      (tracers_.*mode_.trace)(scene_, context, rays, band_of(rays, begin, end), buffer);
     });
   }
   void closest_hits(const RayBatch& batch, HitBuffer& buffer, WorkCounters*) const override {
-    embree::Context context(coherent_);
+    Context context(coherent_);
     mode_.closest_hits(scene_, context, batch.rays, buffer);
   }
   void any_hits(const RayBatch& batch, std::span<std::uint8_t> hits, WorkCounters*) const override {
-    embree::Context context(coherent_);
+    Context context(coherent_);
     mode_.any_hits(scene_, context, batch.rays, hits);
   }
 
@@ -82,12 +78,12 @@ class EmbreeContender : public Accelerator {
 
 std::vector<std::string> mode_names() {
   std::vector<std::string> names;
-  for (const TraceMode& mode : embree::trace_modes()) names.emplace_back(mode.name);
+  for (const TraceMode& mode : trace_modes()) names.emplace_back(mode.name);
   return names;
 }
 
 const TraceMode& find_mode(const std::string& name) {
-  return *std::ranges::find(embree::trace_modes(), name, &TraceMode::name);
+  return *std::ranges::find(trace_modes(), name, &TraceMode::name);
 }
 
 RTCBuildQuality parse_quality(const std::string& name) {
@@ -115,12 +111,12 @@ void register_embree(Registry& registry) {
                        "watertight traversal; without it Embree loses rays at vertices and edges, "
                        "which costs the verdict where they matter"),
         flag_parameter("coherent", true,
-                       "tells Embree that neighboring rays are alike, which packets need"),
+                       "flags neighboring rays as coherent for Embree, which packets need"),
         isa_parameter()},
        [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
          const std::string& isa = parameters.choice("isa");
-         embree::require_isa(isa);
-         return std::make_unique<EmbreeContender>(
+         require_isa(isa);
+         return std::make_unique<EmbreeStructure>(
              scene, parse_quality(parameters.choice("quality")), parameters.flag("robust"),
              find_mode(parameters.choice("mode")), parameters.flag("coherent"), isa,
              workload.threads);

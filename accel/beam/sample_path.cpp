@@ -1,4 +1,4 @@
-#include "accel/beam/sample_way.hpp"
+#include "accel/beam/sample_path.hpp"
 
 #include <algorithm>
 #include <array>
@@ -70,7 +70,7 @@ class SampleWatch : public NoBeamWatch {
   }
   void handed_over(RayReason reason) { reason_ = reason; }
 
-  SampleWay take() && {
+  SamplePath take() && {
     return {std::move(passages_), std::move(*recorder_).take_steps(), reason_, {}};
   }
 
@@ -98,7 +98,7 @@ class SampleWatch : public NoBeamWatch {
     return {crossing.axis, octree_->grid().plane(crossing.axis, crossing.index)};
   }
 
-  /// The root's face that the ray enters by: of those that the eye sees the one crossed last.
+  /// The root's face by which the ray enters: of those that the eye sees the one crossed last.
   std::optional<CrossedPlane> face_of_root() const {
     std::optional<Crossing> last;
     for (int axis = 0; axis < 3; ++axis) {
@@ -113,7 +113,7 @@ class SampleWatch : public NoBeamWatch {
     return plane_of(*last);
   }
 
-  /// The face of the next leaf that beams enter it by: of several that the ray crosses at the same
+  /// The face by which beams enter the next leaf: of several that the ray crosses at the same
   /// t the one of the lowest axis, as in `crosses_before`.
   CrossedPlane face_of(const octree::OctreeCursor& leaf, const octree::LeafExit& exit) const {
     int axis = 0;
@@ -140,17 +140,17 @@ class SampleWatch : public NoBeamWatch {
 
 }  // namespace
 
-SampleWay way_of_sample(const BeamTracer& tracer, const PrimaryRays& rays, int x, int y,
-                        int sample) {
+SamplePath path_of_sample(const BeamTracer& tracer, const PrimaryRays& rays, int x, int y,
+                          int sample) {
   const glm::dvec2 in_pixel = rays.offsets()[static_cast<std::size_t>(sample)];
   const SampleLattice only{in_pixel + glm::dvec2(x, y), 1, 1, {{0, 0, 0}}};
   StepRecorder recorder;
   SampleWatch watch(tracer, rays, only, recorder);
   HitBuffer buffer(1, 1, 1);
   tracer.trace_watched(rays, buffer, watch);
-  SampleWay way = std::move(watch).take();
-  way.hit = buffer.get(0);
-  return way;
+  SamplePath path = std::move(watch).take();
+  path.hit = buffer.get(0);
+  return path;
 }
 
 }  // namespace beambench::accel::beam

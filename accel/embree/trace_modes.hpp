@@ -1,5 +1,5 @@
 #pragma once
-// A whole image or a list of rays through Embree, in each of the ways it takes rays.
+// A whole image or a list of rays through Embree, in each of its query modes.
 
 #include <cstdint>
 #include <span>
@@ -8,8 +8,8 @@
 
 namespace beambench::accel::embree {
 
-/// A way to ask Embree: for the closest hits of an image, and for closest or any hits of a list of
-/// rays.
+/// A query mode of Embree: for the closest hits of an image, and for closest or any hits of a list
+/// of rays. In a list, packets are of neighbors; the last one may have idle lanes.
 struct TraceMode {
   const char* name;
   ImageTracers::Trace ImageTracers::*trace;
@@ -19,7 +19,7 @@ struct TraceMode {
                    std::span<std::uint8_t> answers);
 };
 
-/// The ways that the Embree we were built with has, the simplest first.
+/// The modes of the Embree version that the program was built with, the simplest first.
 std::span<const TraceMode> trace_modes();
 
 }  // namespace beambench::accel::embree

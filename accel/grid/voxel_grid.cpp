@@ -1,8 +1,8 @@
+#include "accel/grid/voxel_grid.hpp"
+
 #include "accel/core/registry.hpp"
 #include "accel/grid/eager_voxels.hpp"
 #include "accel/grid/lazy_voxels.hpp"
-#include "accel/grid/mailboxes.hpp"
-#include "accel/grid/voxel_grid.hpp"
 
 namespace beambench::accel::grid {
 
@@ -19,7 +19,7 @@ std::unique_ptr<Accelerator> build(const scenes::Scene& scene, const VoxelGridOp
 void register_grid(Registry& registry) {
   registry.add({"voxel-grid",
                 "a uniform grid of voxels with the incremental traversal of Amanatides and Woo "
-                "(1987), filled where rays come by, as in the thesis, or beforehand",
+                "(1987), filled when rays enter its voxels, as in the thesis, or in advance",
                 Conformance::kBitExact, VoxelGridOptions::parameters(),
                 [](const scenes::Scene& scene, const Parameters& parameters, const Workload&) {
                   const auto options = VoxelGridOptions::from(parameters);

@@ -1,5 +1,5 @@
 #pragma once
-// One sample's way: the beams that it belongs to, and the ray that it becomes.
+// The traversal path of one sample: the beams that it belongs to, and the ray that it becomes.
 
 #include <cstdint>
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace beambench::accel::beam {
 
-/// A plane that rays cross: `axis` 0, 1 or 2, and where it stands on that axis, in scene units.
+/// A plane that rays cross: `axis` 0, 1 or 2, and its coordinate on that axis, in scene units.
 struct CrossedPlane {
   int axis;
   double at;
@@ -23,7 +23,7 @@ struct PlaneOrder {
   CrossedPlane second;
 };
 
-/// A beam in a leaf. A beam that goes on whole is the same beam in the next leaf.
+/// A beam in a leaf. A beam that continues whole is the same beam in the next leaf.
 struct BeamPassage {
   BeamKind kind = BeamKind::kNonTerminal;
   std::uint32_t node = 0;  ///< the leaf it enters; of a leaving beam the one it comes from
@@ -31,21 +31,21 @@ struct BeamPassage {
   Box cell{};              ///< that leaf, in scene units
   std::optional<CrossedPlane> entered;  ///< the leaf's face; nothing where the eye is in the leaf
   std::vector<glm::dvec2> corners;      ///< of its outline, in pixels from the top left
-  std::vector<PlaneOrder> cuts;  ///< that were not the last passage's; none: it went on whole
+  std::vector<PlaneOrder> cuts;  ///< that were not the last passage's; none: it continued whole
   std::uint64_t samples = 0;     ///< of the image, in it
 };
 
-/// What became of a sample.
-struct SampleWay {
+/// The traversal path of a sample.
+struct SamplePath {
   std::vector<BeamPassage> beams;   ///< from the first to the one it ends in; none: past the root
-  std::vector<TraceStep> steps;     ///< leaves whose references were tested for it, with each test
+  std::vector<TraceStep> steps;     ///< leaves whose references were tested, with each test
   std::optional<RayReason> reason;  ///< why it became a ray of its own; nothing where it did not
   std::optional<Hit> hit;
 };
 
 /// Follows one sample as `BeamTracer::trace` does: the same beams, the same tests. Beams that the
 /// sample does not belong to are divided as well, but none of their samples is traced.
-SampleWay way_of_sample(const BeamTracer& tracer, const PrimaryRays& rays, int x, int y,
-                        int sample);
+SamplePath path_of_sample(const BeamTracer& tracer, const PrimaryRays& rays, int x, int y,
+                          int sample);
 
 }  // namespace beambench::accel::beam

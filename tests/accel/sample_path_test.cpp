@@ -1,7 +1,5 @@
 // The beams of one sample: those that the image's samples are in, and the same hit.
 
-#include "accel/beam/sample_way.hpp"
-
 #include <cstdint>
 #include <map>
 #include <tuple>
@@ -10,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include "accel/beam/sample_path.hpp"
 #include "scenes/catalogue.hpp"
 
 namespace beambench::accel {
@@ -65,7 +64,7 @@ TEST_P(SampleWays, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
     for (int x = 0; x < 10; ++x) {
       for (int sample = 0; sample < GetParam().samples; ++sample) {
         SCOPED_TRACE(::testing::Message() << x << "," << y << " sample " << sample);
-        const beam::SampleWay way = beam::way_of_sample(tracer, rays, x, y, sample);
+        const beam::SamplePath way = beam::path_of_sample(tracer, rays, x, y, sample);
         ASSERT_EQ(way.hit, hits.get(hits.index(x, y, sample)));
         const Ray ray = rays.ray(x, y, sample);
         const std::vector<TraceStep> alone = tracer.explain(ray);
@@ -111,14 +110,14 @@ TEST_P(SampleWays, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
 INSTANTIATE_TEST_SUITE_P(Scenes, SampleWays, ::testing::ValuesIn(cases()));
 
 // What goes on whole has no new cut and the same outline; what is cut has both.
-TEST(SampleWay, NamesTheCutsOfADividedBeamOnly) {
+TEST(SamplePath, NamesTheCutsOfADividedBeamOnly) {
   const scenes::Scene scene = scenes::load_scene("escena2");
   const beam::BeamTracer tracer(scene, options_with(6));
   const PrimaryRays rays(scene.cameras.front(), 16, 12, 1);
   int whole = 0;
   int divided = 0;
   for (int x = 0; x < 16; ++x) {
-    const beam::SampleWay way = beam::way_of_sample(tracer, rays, x, 6, 0);
+    const beam::SamplePath way = beam::path_of_sample(tracer, rays, x, 6, 0);
     for (std::size_t i = 1; i < way.beams.size(); ++i) {
       const bool is_same = way.beams[i].corners == way.beams[i - 1].corners;
       EXPECT_EQ(way.beams[i].cuts.empty(), is_same);

@@ -1,4 +1,4 @@
-#include "accel/embree/trace_list.hpp"
+#include "accel/embree/trace_modes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -31,8 +31,6 @@ std::size_t fill_lanes(std::span<const Ray> rays, std::size_t first, typename Pa
   }
   return count;
 }
-
-}  // namespace
 
 void closest_hits_single(const NativeScene& scene, Context& context, std::span<const Ray> rays,
                          HitBuffer& buffer) {
@@ -77,24 +75,26 @@ void any_hits_by_packets(const NativeScene& scene, Context& context, std::span<c
   typename Packet<N>::Rays query{};
   for (std::size_t first = 0; first < rays.size(); first += N) {
     const std::size_t count = fill_lanes<N>(rays, first, query, valid);
-    look_for_any_hit(valid.data(), scene.get(), context, query);
+    intersect_any(valid.data(), scene.get(), context, query);
     for (std::size_t i = 0; i < count; ++i) {
       answers[first + i] = query.tfar[i] == -kInfinity ? 1 : 0;
     }
   }
 }
 
-template void closest_hits_by_packets<4>(const NativeScene&, Context&, std::span<const Ray>,
-                                         HitBuffer&);
-template void closest_hits_by_packets<8>(const NativeScene&, Context&, std::span<const Ray>,
-                                         HitBuffer&);
-template void closest_hits_by_packets<16>(const NativeScene&, Context&, std::span<const Ray>,
-                                          HitBuffer&);
-template void any_hits_by_packets<4>(const NativeScene&, Context&, std::span<const Ray>,
-                                     std::span<std::uint8_t>);
-template void any_hits_by_packets<8>(const NativeScene&, Context&, std::span<const Ray>,
-                                     std::span<std::uint8_t>);
-template void any_hits_by_packets<16>(const NativeScene&, Context&, std::span<const Ray>,
-                                      std::span<std::uint8_t>);
+constexpr TraceMode kModes[] = {
+    {"single", &ImageTracers::single, closest_hits_single, any_hits_single},
+    {"packet4", &ImageTracers::packet4, closest_hits_by_packets<4>, any_hits_by_packets<4>},
+    {"packet8", &ImageTracers::packet8, closest_hits_by_packets<8>, any_hits_by_packets<8>},
+    {"packet16", &ImageTracers::packet16, closest_hits_by_packets<16>, any_hits_by_packets<16>},
+#if BEAMBENCH_EMBREE_MAJOR == 3
+    // A list has no tile to make a stream of.
+    {"stream", &ImageTracers::stream, closest_hits_by_packets<16>, any_hits_by_packets<16>},
+#endif
+};
+
+}  // namespace
+
+std::span<const TraceMode> trace_modes() { return kModes; }
 
 }  // namespace beambench::accel::embree

@@ -1,8 +1,8 @@
+#include "accel/octree/samet.hpp"
+
 #include "accel/core/registry.hpp"
 #include "accel/octree/choose_octree.hpp"
 #include "accel/octree/leaf_walk.hpp"
-#include "accel/octree/samet.hpp"
-#include "accel/octree/samet_net.hpp"
 
 namespace beambench::accel::octree {
 
