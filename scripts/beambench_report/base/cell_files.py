@@ -5,8 +5,6 @@ repetitions.csv, a line for each repetition: `line` is that of its cell in resul
 is line 1. From it paired ratios and the noise of a calibration can be computed again.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field

@@ -1,7 +1,5 @@
 """The data dictionary: what every column of results.csv means (columns.json is its source)."""
 
-from __future__ import annotations
-
 import json
 import re
 import textwrap

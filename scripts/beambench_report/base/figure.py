@@ -6,8 +6,6 @@ seen on white, and two grays. Variants of one structure share its color and diff
 dashes.
 """
 
-from __future__ import annotations
-
 import textwrap
 from collections.abc import Sequence
 from contextlib import AbstractContextManager

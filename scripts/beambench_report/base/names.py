@@ -1,7 +1,5 @@
 """What plots and files call the contenders and the views of a run."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable
 

@@ -1,7 +1,5 @@
 """The thesis's figures, as results/thesis has them, and the resolutions at which it measured."""
 
-from __future__ import annotations
-
 from functools import cache
 from pathlib import Path
 

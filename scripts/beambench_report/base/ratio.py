@@ -14,8 +14,6 @@ Noise that both contenders of a run have in common makes that wider than it need
 intervals overlap decides nothing: they may, and the ratio be clearly off 1.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from math import comb, exp, hypot, log

@@ -1,7 +1,5 @@
 """Reads the results.csv of a run and checks that it holds what plots and pages need."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Ratios and their targets, and times as scenes and images get finer."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 
 from matplotlib.axes import Axes

@@ -1,7 +1,5 @@
 """The ratios to Embree's fastest mode that tile beams should reach."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 

@@ -1,7 +1,5 @@
 """What a night raises an alarm about: slower times, more work, wrong hits."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import expm1

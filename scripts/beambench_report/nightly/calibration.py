@@ -5,8 +5,6 @@ one after another (block bootstrap), all contenders of a scene together, since t
 reference. Nights are then judged one by one, each with those before it, as `scripts/nightly` does.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict, dataclass

@@ -1,7 +1,5 @@
 """The command `python -m beambench_report nightly`, which scripts/nightly calls."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from pathlib import Path

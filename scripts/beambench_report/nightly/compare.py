@@ -12,8 +12,6 @@ on one side of 1 by chance, and some intervals exclude 1 together. Cells are the
 together, by Holm's correction, and the ratio of all of them is made turn by turn.
 """
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from collections.abc import Callable

@@ -4,8 +4,6 @@ Milliseconds of two machines are not comparable. Where the files are of two, eac
 that of a contender that both files have, in the same file: what is compared are ratios.
 """
 
-from __future__ import annotations
-
 import tempfile
 from collections import Counter
 from collections.abc import Mapping

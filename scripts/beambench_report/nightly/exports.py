@@ -4,8 +4,6 @@ customBiggerIsBetter: https://github.com/benchmark-action/github-action-benchmar
 Google Benchmark: https://github.com/google/benchmark/blob/main/docs/tools.md (compare.py)
 """
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -14,8 +14,6 @@ it: a series holds nights of one machine only.
 the contender `reference` of the same run and the same rays.
 """
 
-from __future__ import annotations
-
 import json
 import sqlite3
 from collections.abc import Callable, Iterable, Iterator

@@ -1,7 +1,5 @@
 """Where the nights live: a folder with the history, and a folder for each run."""
 
-from __future__ import annotations
-
 import fcntl
 import json
 import os

@@ -1,7 +1,5 @@
 """One run as the history keeps it: what was asked of whom, and what came out."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """The nights of one machine as arrays: a row for each night, a column for each cell."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass

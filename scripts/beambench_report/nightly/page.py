@@ -1,7 +1,5 @@
 """The page of the newest night: alarms, changes, cells, and charts by the plotly.js beside it."""
 
-from __future__ import annotations
-
 import base64
 import json
 import subprocess

@@ -1,7 +1,5 @@
 """One night: measure, keep, judge, show."""
 
-from __future__ import annotations
-
 import json
 import signal
 import subprocess

@@ -11,8 +11,6 @@ A step is reported when
 What this comes to in false alarms and missed slow-downs is measured, not derived: calibration.py.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import log, sqrt

@@ -4,8 +4,6 @@ Texts are numbers into a list of the texts there are; figures are rounded to wha
 column that says the same in every row is said once.
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Figures of horizontal bars from zero: a panel for each view, a bar for each contender."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 

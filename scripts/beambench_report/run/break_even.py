@@ -4,8 +4,6 @@ With build times b and trace times per ray t, structure A catches up with B afte
 (b_A - b_B) / (t_B - t_A) rays.
 """
 
-from __future__ import annotations
-
 import itertools
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """How generated scenes grow: `beambench scene NAME --growth --csv` as a plot."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """What all HTML pages share: templates, and images that bring their own bytes."""
 
-from __future__ import annotations
-
 import base64
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """What comes first on the page: was everything right, and if not, what was wrong and why."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 

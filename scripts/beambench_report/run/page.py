@@ -1,7 +1,5 @@
 """The page of a run: one HTML file that holds everything and loads nothing from a network."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Pictures of scenes, rendered by beambench: those of a run, or a contact sheet."""
 
-from __future__ import annotations
-
 import json
 import math
 import subprocess

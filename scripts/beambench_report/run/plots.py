@@ -1,7 +1,5 @@
 """The plots of a run: time over rays, build and trace, memory, counters, break-even."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Does a repeated sweep find the medians of the first one again?"""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """`python -m beambench_report cluster record|simulate|split|measure|write DIR`."""
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 

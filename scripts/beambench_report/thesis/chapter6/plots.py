@@ -1,7 +1,5 @@
 """Figures 6.3 and 6.4 of the thesis as the simulation has them, and what came beyond."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import pandas as pd

@@ -1,7 +1,5 @@
 """The page of the simulated cluster: Markdown with its figures beside it."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """Which simulations are made, and running the simulator for each."""
 
-from __future__ import annotations
-
 import json
 import sys
 import threading

@@ -5,8 +5,6 @@ time: medians of several runs are kept. Machines of 1999 are those of the other 
 (`calibration.py`).
 """
 
-from __future__ import annotations
-
 import sys
 from dataclasses import dataclass, fields
 from pathlib import Path

@@ -7,8 +7,6 @@ voxels per axis, filled lazily, objects inserted into the hierarchy as given and
 describes, Kay and Kajiya's queue, no handover.
 """
 
-from __future__ import annotations
-
 from dataclasses import replace
 from itertools import pairwise, product
 

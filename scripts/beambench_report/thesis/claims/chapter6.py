@@ -7,8 +7,6 @@ traces no beam of the consumers', is counted: so p is counted here. Each network
 is judged.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pandas as pd

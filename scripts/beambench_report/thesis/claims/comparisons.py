@@ -1,7 +1,5 @@
 """Straight lines and cost formulas by least squares."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product

@@ -1,7 +1,5 @@
 """Every claim judged by the thesis's own figures and by a run's, and the table of them."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path

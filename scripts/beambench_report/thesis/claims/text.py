@@ -4,8 +4,6 @@ Such sentences have few figures or none: what "few" or "nearly all" is taken to 
 each rule. Octrees have level 6, as wherever the thesis does not vary it.
 """
 
-from __future__ import annotations
-
 from itertools import product
 
 from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS

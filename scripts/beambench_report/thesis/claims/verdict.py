@@ -1,7 +1,5 @@
 """A claim of the thesis, the rule that tests it, and from its cells to a verdict."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum

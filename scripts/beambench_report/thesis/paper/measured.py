@@ -5,8 +5,6 @@ A folder of censuses holds two files that `beambench census --json` printed, of 
 with one shadow cache for the picture (`--shadows cache --order scan` and `--order beams`).
 """
 
-from __future__ import annotations
-
 import json
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,7 +1,5 @@
 """The command `python -m beambench_report thesis`, which scripts/thesis calls."""
 
-from __future__ import annotations
-
 import argparse
 import sys
 from datetime import UTC, datetime

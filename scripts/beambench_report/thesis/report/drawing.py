@@ -1,7 +1,5 @@
 """Draws a figure of the thesis beside ours: one axis for both, shapes compared."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import chain

@@ -1,7 +1,5 @@
 """Lines of points for the figures: the thesis's seconds and ours, over the number of rays."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable, Sequence
 
 from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS, rays

@@ -1,7 +1,5 @@
 """Figures 5.4, 5.5 and 5.9: octrees of several scenes and divisions, drawn by beambench."""
 
-from __future__ import annotations
-
 import subprocess
 import tempfile
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Which sweeps are run for the tables and figures that a user asked for."""
 
-from __future__ import annotations
-
 import json
 from collections.abc import Iterator, Sequence, Set
 from dataclasses import dataclass, replace

@@ -1,7 +1,5 @@
 """Runs the sweeps of a plan one after the other, each in a folder of its own."""
 
-from __future__ import annotations
-
 import json
 import subprocess
 import sys

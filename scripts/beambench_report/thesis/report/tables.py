@@ -1,7 +1,5 @@
 """The tables of the thesis with our cells in them: times, shapes, memory and work."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
