@@ -294,7 +294,7 @@ TEST(Embree, IsHeldToAnInstructionSet) {
                   best.t()[i] == kInfinity ? 0.0F : best.t()[i], 1e-5F);
     }
   }
-  EXPECT_EQ(embree("mode=single", scene)->statistics().instruction_set, embree::embree_isa());
+  EXPECT_EQ(embree("mode=single", scene)->statistics().instruction_set, embree::isa_in_use("best"));
 }
 
 // Streams are made in packets as wide as the instruction set's registers: 4, 8 or 16 rays.
@@ -357,8 +357,8 @@ TEST(Embree, RefusesAnInstructionSetThatTheMachineLacks) {
 TEST(Embree, TellsItsVersionAndInstructionSet) {
   EXPECT_TRUE(embree::embree_version().starts_with("3.") ||
               embree::embree_version().starts_with("4."));
-  EXPECT_NE(embree::embree_isa(), "unknown");
-  EXPECT_EQ(embree::embree_isa(), embree::embree_isa());
+  EXPECT_NE(embree::isa_in_use("best"), "unknown");
+  EXPECT_EQ(embree::isa_in_use("best"), embree::isa_in_use("best"));
 }
 
 }  // namespace

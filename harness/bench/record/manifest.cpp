@@ -144,7 +144,7 @@ RunFacts facts_of(const BuildInfo& build, const std::string& run_id, const Machi
           machine.id,
           std::string(build.build_type),
           std::string(build.flags),
-          accel::embree::embree_isa(),
+          accel::embree::isa_in_use("best"),
           threads};
 }
 
