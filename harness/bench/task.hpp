@@ -70,7 +70,7 @@ class Task {
 };
 
 /// The task of a group. `core` is to measure the harness's own time on (-1: any). Throws as
-/// `make_question`.
+/// `make_trace_input`.
 std::unique_ptr<Task> make_task(const CellGroup& group, int core);
 
 }  // namespace beambench::bench
