@@ -52,12 +52,12 @@ class PrimaryRays {
   /// this size.
   template <class Visit>
   void for_each(int begin, int end, Visit visit) const {
+    std::size_t index =
+        static_cast<std::size_t>(begin) * static_cast<std::size_t>(width_) * offsets_.size();
     for (int y = begin; y < end; ++y) {
       for (int x = 0; x < width_; ++x) {
-        for (int sample = 0; sample < samples(); ++sample) {
-          const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                             static_cast<std::size_t>(x);
-          visit(pixel * offsets_.size() + static_cast<std::size_t>(sample), ray(x, y, sample));
+        for (const glm::dvec2& offset : offsets_) {
+          visit(index++, ray_at(x + offset.x, y + offset.y));
         }
       }
     }

@@ -40,17 +40,15 @@ class TraversalAccelerator : public Accelerator {
   void closest_hits(const RayBatch& batch, HitBuffer& buffer,
                     WorkCounters* counters) const override {
     with_counting(counters, [&](auto& counting) {
-      for (std::size_t i = 0; i < batch.rays.size(); ++i) {
-        buffer.set(i, self().find_closest(batch.rays[i], counting));
-      }
+      std::size_t index = 0;
+      for (const Ray& ray : batch.rays) buffer.set(index++, self().find_closest(ray, counting));
     });
   }
   void any_hits(const RayBatch& batch, std::span<std::uint8_t> hits,
                 WorkCounters* counters) const override {
     with_counting(counters, [&](auto& counting) {
-      for (std::size_t i = 0; i < batch.rays.size(); ++i) {
-        hits[i] = self().find_any(batch.rays[i], counting) ? 1 : 0;
-      }
+      std::size_t index = 0;
+      for (const Ray& ray : batch.rays) hits[index++] = self().find_any(ray, counting) ? 1 : 0;
     });
   }
   void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
