@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -65,10 +67,13 @@ struct Golden {
 
 void PrintTo(const Golden& golden, std::ostream* stream) { *stream << golden.file; }
 
+Scene printed_scene(std::string_view file) {
+  return nff::read_nff(std::filesystem::path(BEAMBENCH_TEST_FILES) / "golden/spd" / file).scene;
+}
+
 class SpdOutput : public testing::TestWithParam<Golden> {
  protected:
-  Scene printed_ =
-      nff::read_nff(std::string(BEAMBENCH_TEST_FILES) + "/golden/spd/" + GetParam().file).scene;
+  Scene printed_ = printed_scene(GetParam().file);
   Scene ours_ = load_scene(GetParam().spec);
 };
 
@@ -128,15 +133,14 @@ INSTANTIATE_TEST_SUITE_P(Spd, SpdOutput,
                                          Golden{"teapot-2.nff", "teapot:n=2", false, true},
                                          Golden{"teapot-6.nff", "teapot:n=6", false, true}),
                          [](const auto& info) {
-                           std::string name = info.param.file;
-                           name.resize(name.find('.'));
-                           name.erase(name.find('-'), 1);
+                           const std::string_view file = info.param.file;
+                           std::string name(file.substr(0, file.find('.')));
+                           std::erase(name, '-');
                            return name;
                          });
 
 TEST(SpdShells, BeginsAndEndsWhereTheSpdDoes) {
-  const Scene printed =
-      nff::read_nff(std::string(BEAMBENCH_TEST_FILES) + "/golden/spd/shells-2.nff").scene;
+  const Scene printed = printed_scene("shells-2.nff");
   const Scene ours = load_scene("shells:n=2");
   EXPECT_TRUE(agree(numbers(ours, 0, false), numbers(printed, 0, false)));
   EXPECT_TRUE(agree(numbers(ours, 720, false), numbers(printed, 79, false)));
