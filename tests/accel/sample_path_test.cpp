@@ -49,9 +49,9 @@ std::vector<Case> cases() {
   return all;
 }
 
-class SampleWays : public ::testing::TestWithParam<Case> {};
+class SamplePaths : public ::testing::TestWithParam<Case> {};
 
-TEST_P(SampleWays, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
+TEST_P(SamplePaths, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
   const scenes::Scene scene = scenes::load_scene(GetParam().scene);
   const beam::BeamOptions& options = GetParam().options;
   const beam::BeamTracer tracer(scene, options);
@@ -107,7 +107,7 @@ TEST_P(SampleWays, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, SampleWays, ::testing::ValuesIn(cases()));
+INSTANTIATE_TEST_SUITE_P(Scenes, SamplePaths, ::testing::ValuesIn(cases()));
 
 // What goes on whole has no new cut and the same outline; what is cut has both.
 TEST(SamplePath, NamesTheCutsOfADividedBeamOnly) {

@@ -40,24 +40,24 @@ class FaultyAccelerator : public accel::Accelerator {
 
   std::optional<accel::Hit> closest_hit(const accel::Ray& ray,
                                         accel::WorkCounters* counters) const override {
-    return right_->closest_hit(ray, &counters);
+    return right_->closest_hit(ray, counters);
   }
   bool any_hit(const accel::Ray& ray, accel::WorkCounters* counters) const override {
-    return right_->any_hit(ray, &counters);
+    return right_->any_hit(ray, counters);
   }
   void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
              accel::WorkCounters* counters) const override {
     const accel::HitBuffer before = buffer;
-    right_->trace(rays, buffer, &counters);
+    right_->trace(rays, buffer, counters);
     fault_({buffer, before, (*passes_)++});
   }
   void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
                     accel::WorkCounters* counters) const override {
-    right_->closest_hits({batch}, buffer, &counters);
+    right_->closest_hits({batch}, buffer, counters);
   }
   void any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
                 accel::WorkCounters* counters) const override {
-    right_->any_hits({batch}, hits, &counters);
+    right_->any_hits({batch}, hits, counters);
     hits.front() = hits.front() == 0 ? 1 : 0;  // its fault with any-hit queries
   }
   accel::Statistics statistics() const override { return right_->statistics(); }

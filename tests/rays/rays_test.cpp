@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/ray_generators.hpp"

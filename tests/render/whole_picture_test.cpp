@@ -123,7 +123,7 @@ class WrongAlone : public accel::TraversalAccelerator<WrongAlone> {
   accel::Statistics statistics() const override { return {}; }
   void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
              accel::WorkCounters* counters) const override {
-    right_->trace(rays, buffer, &counters);
+    right_->trace(rays, buffer, counters);
   }
   template <class Counting>
   std::optional<accel::Hit> find_closest(const accel::Ray& ray, Counting&) const {

@@ -63,17 +63,17 @@ class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
-    auto asked = converted(ray);
-    const auto found = visit<false>(asked, counting);
+    auto query = converted(ray);
+    const auto found = visit<false>(query, counting);
     if (!found) return std::nullopt;
-    if (exact_t_) return adapters::with_exact_t(*scene_, ray, *found, asked.tmax);
-    return Hit{asked.tmax, scene_->triangles[*found].primitive};
+    if (exact_t_) return adapters::with_exact_t(*scene_, ray, *found, query.tmax);
+    return Hit{query.tmax, scene_->triangles[*found].primitive};
   }
 
   template <class Counting>
   bool find_any(const Ray& ray, Counting& counting) const {
-    auto asked = converted(ray);
-    return visit<true>(asked, counting).has_value();
+    auto query = converted(ray);
+    return visit<true>(query, counting).has_value();
   }
 
   Statistics statistics() const override {

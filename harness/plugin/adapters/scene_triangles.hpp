@@ -25,10 +25,10 @@ inline void require_triangles_only(const beambench::scenes::Scene& scene,
                               "' holds spheres or cones; choose a scene of polygons");
 }
 
-/// The hit of a triangle that a library found. Libraries compute t in float, in a way of their own,
-/// and the differ would not always pass it; where the triangle's plane is met is told by double.
-/// Whether the triangle is hit remains the library's word: next to an edge beambench's own test may
-/// see the ray pass by, and the hit would be lost.
+/// The hit of a triangle that a library found. Libraries compute t in float by formulas of their
+/// own, which the differ would not always accept; here t of the triangle's plane is computed in
+/// double. Whether the triangle is hit remains the library's decision: next to an edge beambench's
+/// own test may reject the ray, and the hit would be lost.
 inline beambench::accel::Hit with_exact_t(const beambench::scenes::Scene& scene,
                                           const beambench::accel::Ray& ray, std::size_t triangle,
                                           float t) {

@@ -57,13 +57,13 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
   std::optional<Hit> find_closest(const Ray& ray, Counting&) const {
     if (vertices_.empty() || ray.t_min > ray.t_max) return std::nullopt;
     const float length = glm::length(ray.direction);
-    tinybvh::Ray asked = begun(ray, length);
-    const float end = asked.hit.t;
-    layout_.Intersect(asked);
-    if (!(asked.hit.t < end)) return std::nullopt;
-    const float t = ray.t_min + asked.hit.t / length;
-    if (exact_t_) return adapters::with_exact_t(*scene_, ray, asked.hit.prim, t);
-    return Hit{t, scene_->triangles[asked.hit.prim].primitive};
+    tinybvh::Ray query = begun(ray, length);
+    const float end = query.hit.t;
+    layout_.Intersect(query);
+    if (!(query.hit.t < end)) return std::nullopt;
+    const float t = ray.t_min + query.hit.t / length;
+    if (exact_t_) return adapters::with_exact_t(*scene_, ray, query.hit.prim, t);
+    return Hit{t, scene_->triangles[query.hit.prim].primitive};
   }
 
   template <class Counting>
