@@ -14,7 +14,7 @@ constexpr std::chrono::milliseconds kRedrawInterval{200};
 constexpr double kEarlyPart = 0.005;  // below this much of the work an estimate is a guess
 constexpr const char* kWipe = "\r\033[K";
 
-/// The columns of the terminal; 80 where it does not tell.
+/// The columns of the terminal; 80 if unknown.
 std::size_t columns_of(std::FILE* stream) {
   winsize size{};
   const bool known = ::ioctl(::fileno(stream), TIOCGWINSZ, &size) == 0 && size.ws_col > 0;

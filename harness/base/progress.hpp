@@ -1,5 +1,5 @@
 #pragma once
-// How far a long job is, and how long it still takes.
+// Progress of a long job, with its remaining time.
 
 #include <chrono>
 #include <cstdio>
@@ -8,7 +8,7 @@
 
 namespace beambench::base {
 
-/// "7 s", "3 min 20 s", "2 h 5 min": what a person wants to read.
+/// "7 s", "3 min 20 s", "2 h 5 min".
 std::string format_duration(double seconds);
 
 /// Reports a job of several cells on a stream (stderr). On a terminal one line is redrawn: cells
@@ -28,11 +28,11 @@ class Progress {
   void start(std::string_view name);
   /// The present cell is done to this part (0 ... 1). Cheap: redraws a few times a second at most.
   void advance(double part);
-  /// The present cell is done; `result` is what its line says behind the name.
+  /// The present cell is done; its line has `result` after the name.
   void finish(std::string_view result);
-  /// So many cells will not come.
+  /// Removes a number of cells that will not be done.
   void skip(std::size_t cells);
-  /// A line of its own (a warning, a result) that does not get mixed up with the progress line.
+  /// Prints a line of its own (a warning, a result) apart from the progress line.
   void say(std::string_view line);
   /// Wipes the progress line, before something else writes to the terminal.
   void clear();

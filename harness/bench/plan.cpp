@@ -1,12 +1,12 @@
 #include "harness/bench/plan.hpp"
 
 #include <algorithm>
-#include <cstdio>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "accel/core/registry.hpp"
+#include "harness/base/messages.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/scene.hpp"
@@ -25,12 +25,8 @@ auto placed(const SceneEntry& entry, Work work) {
 }
 
 std::shared_ptr<const scenes::Scene> load(const SceneEntry& entry) {
-  std::vector<std::string> warnings;
-  auto scene = placed(entry, [&] {
-    return std::make_shared<const scenes::Scene>(scenes::load_scene(entry.spec, &warnings));
-  });
-  for (const std::string& warning : warnings) fmt::print(stderr, "beambench: {}\n", warning);
-  return scene;
+  return placed(
+      entry, [&] { return std::make_shared<const scenes::Scene>(base::open_scene(entry.spec)); });
 }
 
 std::vector<scenes::Camera> cameras_of(const scenes::Scene& scene, const SceneEntry& entry) {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "harness/base/counted.hpp"
+#include "harness/base/messages.hpp"
 #include "harness/base/progress.hpp"
 #include "harness/base/stopwatch.hpp"
 #include "harness/bench/contender.hpp"

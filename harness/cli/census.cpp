@@ -1,26 +1,27 @@
 // beambench census: how many rays of which kind the whole ray tracer takes.
 
+#include "harness/experiments/census.hpp"
+
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/base/counted.hpp"
-#include "harness/base/stopwatch.hpp"
-#include "harness/cli/census_result.hpp"
+#include "harness/base/messages.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
-#include "harness/cli/picture_folder.hpp"
-#include "harness/cli/whitted_request.hpp"
-#include "harness/rays/hit_check.hpp"
-#include "harness/rays/trace_results.hpp"
-#include "harness/render/picture/image.hpp"
+#include "harness/cli/text.hpp"
 #include "harness/render/picture/image_file.hpp"
-#include "harness/render/shading_order.hpp"
+#include "harness/render/ray_census.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 
@@ -38,114 +39,153 @@ struct Request {
   bool json = false;
 };
 
-/// The eye's rays by the structure's own way for images, or one by one at the corners of pixels.
-accel::HitBuffer eye_hits(const accel::Accelerator& structure, const render::CameraRays& rays,
-                          const accel::PrimaryRays* image) {
-  accel::HitBuffer hits(rays.width, rays.height, rays.samples);
-  if (image != nullptr) {
-    structure.trace(*image, hits, nullptr);
-    return hits;
-  }
-  for (int y = 0; y < rays.height; ++y) {
-    for (int x = 0; x < rays.width; ++x) {
-      hits.set(hits.index(x, y, 0), structure.closest_hit(rays.ray(x, y, 0), nullptr));
-    }
-  }
-  return hits;
-}
+using experiments::CensusResult;
 
 bool by_spd(const Request& request) { return request.rules == "spd"; }
 
-render::WhittedOptions options_of(const Request& request, const WhittedRequest& whitted) {
-  render::WhittedOptions options = whitted_options(whitted);
-  options.glass_always_mirrors = by_spd(request);
-  return options;
-}
+using Cells = std::vector<std::string>;
 
-/// The picture in the order that was asked for.
-render::WhittedPicture draw(const render::Whitted& tracer, const accel::Accelerator& structure,
-                            const accel::PrimaryRays& primary, const render::CameraRays& rays,
-                            const accel::HitBuffer& hits, const Request& request,
-                            base::Progress& progress) {
-  const render::ShadingOrder order = render::parse_shading_order(request.order);
-  if (order == render::ShadingOrder::kRows) {
-    return watched_picture(tracer, rays, hits, request.whitted, progress);
+std::string number(std::uint64_t value) { return fmt::format("{}", value); }
+std::string time(double ms) { return fmt::format("{:.4g} ms", ms); }
+
+Cells row_of(const CensusResult& result) {
+  const render::RayCensus& census = result.census;
+  Cells row{result.scene,
+            number(census.eye),
+            number(census.eye_hits),
+            number(census.reflected),
+            number(census.refracted),
+            number(census.shadow),
+            format_share(census.shadow_hidden, census.shadow),
+            format_share(census.shadow_cached, census.shadow_hidden),
+            format_share(census.shadow_listed, census.shadow),
+            time(result.build_ms),
+            time(result.eye_ms),
+            time(result.preparation_ms),
+            time(result.picture_ms)};
+  if (result.full) {
+    row.push_back(number(census.too_faint));
+    row.push_back(format_share(census.all_rays(), result.full->rays));
+    row.push_back(fmt::format("{:.1f}%", 100.0 * result.picture_ms / result.full->picture_ms));
+    row.push_back(fmt::format("{:.2f}", result.full->error));
   }
-  const auto places = order == render::ShadingOrder::kBeams ? render::beam_order(structure, primary)
-                                                            : render::scan_order(primary);
-  return render::whitted_picture_along(places, tracer, rays, hits,
-                                       [&](double part) { progress.advance(part); });
+  return row;
 }
 
-/// The picture without `least_weight`, and how far the one with it is from it.
-FullPicture draw_full(const scenes::Scene& scene, const accel::Accelerator& structure,
-                      const rays::HitCheck& check, const render::CameraRays& rays,
-                      const accel::HitBuffer& hits, const Request& request,
-                      const render::Image& picture, base::Progress& progress) {
-  WhittedRequest whitted = request.whitted;
-  whitted.least_weight = 0.0;
-  progress.start(fmt::format("{} without --least-weight", scene.name));
-  const render::Whitted tracer(scene, structure, options_of(request, whitted), check);
-  const base::Stopwatch stopwatch;
-  const render::WhittedPicture full = watched_picture(tracer, rays, hits, whitted, progress);
-  const double picture_ms = stopwatch.milliseconds();
-  progress.finish(fmt::format("{} rays", full.census.all_rays()));
-  return {full.census.all_rays(), picture_ms, render::root_mean_square_error(picture, full.image)};
-}
+/// Above this a difference from a published count needs an explanation.
+constexpr double kNotablePercent = 2.0;
 
-CensusResult take_census(const Request& request, const std::string& name,
-                         base::Progress& progress) {
-  const accel::StructureChoice choice = choose_one("--accel", request.structure);
-  const scenes::Scene scene = open_scene(name);
-  const rays::ImageOfRays image = choose_image(scene, request.image);
-  const accel::PrimaryRays primary = choose_rays(scene, request.image);
-  const bool spd = by_spd(request);
-  progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
+/// One of our counts beside that of the literature.
+struct Compared {
+  std::string_view rays;
+  std::uint64_t ours;
+  std::uint64_t published;
 
-  CensusResult result{scene.name, scene.lights.size(), {}, 0, 0, 0, 0, 0, {}};
-  const base::Stopwatch all;
-  base::Stopwatch stopwatch;
-  const auto structure = choice.build(scene, rays::workload_of(image, primary));
-  result.build_ms = stopwatch.milliseconds();
-  const render::CameraRays rays =
-      spd ? render::corner_rays(image.camera) : render::camera_rays(primary);
-  stopwatch = {};
-  const accel::HitBuffer hits = eye_hits(*structure, rays, spd ? nullptr : &primary);
-  result.eye_ms = stopwatch.milliseconds();
-  const rays::HitCheck check(scene, choice);
-  check.require(hits, rays.ray);
-  stopwatch = {};
-  const render::Whitted tracer(scene, *structure, options_of(request, request.whitted), check);
-  result.preparation_ms = stopwatch.milliseconds();
-  stopwatch = {};
-  const render::WhittedPicture picture =
-      draw(tracer, *structure, primary, rays, hits, request, progress);
-  result.picture_ms = stopwatch.milliseconds();
-  result.census = picture.census;
-  result.shadow_bytes = tracer.shadows().memory_bytes();
-  if (!request.pictures.empty()) {
-    render::write_image(std::filesystem::path(request.pictures) / picture_name(scene.name),
-                        picture.image);
+  /// Nothing where there is nothing to be a percentage of.
+  std::optional<double> percent() const {
+    if (published == 0) return ours == 0 ? std::optional(0.0) : std::nullopt;
+    return 100.0 * (static_cast<double>(ours) / static_cast<double>(published) - 1.0);
   }
-  progress.finish(fmt::format("{} rays in {}", picture.census.all_rays(),
-                              base::format_duration(all.seconds())));
-  if (request.whitted.least_weight > 0.0) {
-    result.full = draw_full(scene, *structure, check, rays, hits, request, picture.image, progress);
-  }
-  return result;
+  bool notable() const { return !percent() || std::abs(*percent()) > kNotablePercent; }
+};
+
+std::array<Compared, 4> compared(const render::RayCensus& ours,
+                                 const render::PublishedCounts& theirs) {
+  return {{{"eye_hits", ours.eye_hits, theirs.eye_hits},
+           {"reflected", ours.reflected, theirs.reflected},
+           {"refracted", ours.refracted + ours.totally_reflected, theirs.refracted},
+           {"shadow", ours.shadow, theirs.shadow}}};
 }
 
-/// How the request departs from the rules of SPD, which explains other counts than the published.
+nlohmann::ordered_json to_json(const CensusResult& result) {
+  const render::RayCensus& census = result.census;
+  nlohmann::ordered_json out{{"scene", result.scene},
+                             {"lights", result.lights},
+                             {"eye_rays", census.eye},
+                             {"eye_hits", census.eye_hits},
+                             {"reflected_rays", census.reflected},
+                             {"refracted_rays", census.refracted},
+                             {"totally_reflected", census.totally_reflected},
+                             {"secondary_hits", census.secondary_hits},
+                             {"too_faint", census.too_faint},
+                             {"shadow_rays", census.shadow},
+                             {"shadow_hidden", census.shadow_hidden},
+                             {"shadow_cached", census.shadow_cached},
+                             {"shadow_listed", census.shadow_listed},
+                             {"shadow_tests", census.shadow_tests},
+                             {"shadow_queries", census.shadow_queries},
+                             {"shadow_bytes", result.shadow_bytes},
+                             {"build_ms", result.build_ms},
+                             {"eye_ms", result.eye_ms},
+                             {"preparation_ms", result.preparation_ms},
+                             {"picture_ms", result.picture_ms}};
+  if (result.full) {
+    out["full_rays"] = result.full->rays;
+    out["full_picture_ms"] = result.full->picture_ms;
+    out["error"] = result.full->error;
+  }
+  return out;
+}
+
+std::string published_text(const std::vector<CensusResult>& results, const std::string& departure) {
+  TextTable table({"scene", "rays", "here", "published", "difference", "remark"}, 2);
+  bool any = false;
+  for (const CensusResult& result : results) {
+    const render::PublishedCounts* theirs = render::find_published_counts(result.scene);
+    if (theirs == nullptr) continue;
+    for (const Compared& each : compared(result.census, *theirs)) {
+      if (each.ours == 0 && each.published == 0) continue;
+      const auto percent = each.percent();
+      const std::string remark = departure.empty() ? "unexplained" : "by " + departure;
+      table.add({result.scene, std::string(each.rays), number(each.ours), number(each.published),
+                 percent ? fmt::format("{:+.2f}%", *percent) : "-", each.notable() ? remark : ""});
+      any = true;
+    }
+  }
+  if (!any) return "";
+  return "Comparison with the counts that Haines published with SPD 3.14 (refracted includes rays "
+         "that are\ntotally reflected instead):\n\n" +
+         table.text();
+}
+
+nlohmann::ordered_json to_json_beside_published(const CensusResult& result) {
+  nlohmann::ordered_json out = to_json(result);
+  const render::PublishedCounts* theirs = render::find_published_counts(result.scene);
+  if (theirs == nullptr) return out;
+  for (const Compared& each : compared(result.census, *theirs)) {
+    const auto percent = each.percent();
+    out["published"][std::string(each.rays)] = {
+        {"here", each.ours},
+        {"published", each.published},
+        {"difference_percent", percent ? nlohmann::ordered_json(*percent) : nullptr}};
+  }
+  return out;
+}
+
+std::string census_text(const std::vector<CensusResult>& results) {
+  Cells header{"scene",  "eye rays", "hits",  "reflected", "refracted", "shadow",  "hidden",
+               "cached", "listed",   "build", "eye",       "lists",     "the rest"};
+  if (!results.empty() && results.front().full) {
+    for (const char* column : {"too faint", "of the rays", "of the rest", "error"}) {
+      header.emplace_back(column);
+    }
+  }
+  TextTable table(std::move(header));
+  for (const CensusResult& result : results) table.add(row_of(result));
+  return table.text();
+}
+
+/// The options that depart from the rules of SPD, which explains other counts than the published.
 std::string departure(const Request& request) {
-  std::vector<std::string> ways;
+  std::vector<std::string> options;
   const int published_depth = render::WhittedOptions{}.max_depth;
   if (request.whitted.max_depth != published_depth) {
-    ways.push_back(fmt::format("--depth {}", request.whitted.max_depth));
+    options.push_back(fmt::format("--depth {}", request.whitted.max_depth));
   }
-  if (request.whitted.least_weight > 0.0) {
-    ways.push_back(fmt::format("--least-weight {}", request.whitted.least_weight));
+  if (request.whitted.min_weight > 0.0) {
+    options.push_back(fmt::format("--min-weight {}", request.whitted.min_weight));
   }
-  return fmt::format("{}", fmt::join(ways, ", "));
+  return fmt::format("{}", fmt::join(options, ", "));
 }
 
 void print_text(const Request& request, const std::vector<CensusResult>& results) {
@@ -162,7 +202,7 @@ void print_json(const Request& request, const std::vector<CensusResult>& results
                              {"depth", request.whitted.max_depth},
                              {"shadows", request.whitted.shadows},
                              {"order", request.order},
-                             {"least_weight", request.whitted.least_weight},
+                             {"min_weight", request.whitted.min_weight},
                              {"threads", request.whitted.threads},
                              {"scenes", nlohmann::ordered_json::array()}};
   for (const CensusResult& result : results) {
@@ -171,7 +211,7 @@ void print_json(const Request& request, const std::vector<CensusResult>& results
   fmt::print("{}\n", out.dump(2));
 }
 
-void census(const Request& request) {
+experiments::CensusOptions options_of(const Request& request) {
   if (!by_spd(request) && request.rules != "image") {
     throw InputError(
         fmt::format("there are no rules '{}'; choose from: spd, image", request.rules));
@@ -181,23 +221,33 @@ void census(const Request& request) {
         "the rules of SPD fix the rays, 513x513 through the corners of pixels; "
         "leave out --resolution and --samples");
   }
-  if (render::parse_shading_order(request.order) != render::ShadingOrder::kRows &&
-      by_spd(request)) {
+  const experiments::CensusOptions options{whitted_options(request.whitted), by_spd(request),
+                                           render::parse_shading_order(request.order),
+                                           request.whitted.threads};
+  if (options.order != render::ShadingOrder::kRows && by_spd(request)) {
     throw InputError("the rules of SPD have rows of corners of pixels; leave out --order");
   }
-  choose_one("--accel", request.structure);
-  whitted_options(request.whitted);
+  return options;
+}
+
+void census(const Request& request) {
+  const experiments::CensusOptions options = options_of(request);
+  const accel::StructureChoice choice = choose_one("--accel", request.structure);
   if (!request.pictures.empty()) make_picture_folder(request.pictures);
   std::vector<std::string> scenes = request.scenes;
   if (scenes.empty()) {
     for (const scenes::SceneInfo& info : scenes::scene_catalogue()) scenes.push_back(info.name);
   }
-  const bool twice = request.whitted.least_weight > 0.0;
-  base::Progress progress(scenes.size() * (twice ? 2 : 1));
+  base::Progress progress(scenes.size() * (options.whitted.min_weight > 0.0 ? 2 : 1));
   std::vector<CensusResult> results;
   results.reserve(scenes.size());
   for (const std::string& name : scenes) {
-    results.push_back(take_census(request, name, progress));
+    const scenes::Scene scene = open_scene(name);
+    CensusResult& result = results.emplace_back(experiments::take_census(
+        choice, scene, choose_image(scene, request.image), options, progress));
+    if (request.pictures.empty()) continue;
+    render::write_image(std::filesystem::path(request.pictures) / picture_name(scene.name),
+                        std::exchange(result.picture, render::Image(1, 1)));
   }
   progress.clear();
   if (!request.pictures.empty()) {
@@ -210,8 +260,8 @@ void census(const Request& request) {
 }  // namespace
 
 void add_census_command(CLI::App& app, int&) {
-  CLI::App* command =
-      app.add_subcommand("census", "Count the rays of whole pictures: eye, shadow, mirror, glass");
+  CLI::App* command = app.add_subcommand(
+      "census", "Count the rays of whole pictures: primary, shadow, reflected, refracted");
   const auto request = std::make_shared<Request>();
   command->add_option(
       "SCENE", request->scenes,
@@ -223,39 +273,37 @@ void add_census_command(CLI::App& app, int&) {
                    "image: rays as for 'render'; spd: Haines's Standard Procedural Databases")
       ->capture_default_str();
   command
-      ->add_option("--order", request->order,
-                   "In which order pixels are shaded, which a shadow cache depends on: rows, the "
-                   "cache begins anew in each; scan: along the rows with one cache, on one thread; "
-                   "beams: the same, beam by beam")
+      ->add_option(
+          "--order", request->order,
+          "Order in which pixels are shaded, which matters to a shadow cache: rows, each "
+          "with a new cache; scan: rows with one cache, on one thread; beams: beam by beam, "
+          "with one cache, on one thread")
       ->capture_default_str();
   add_image_options(*command, request->image);
   add_whitted_options(*command, request->whitted);
   command
       ->add_option("--pictures", request->pictures,
-                   "Write each scene's picture, too: to this folder, which is made")
+                   "Also write each scene's picture to this folder, which is created")
       ->type_name("DIR");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
-      "The rules of SPD: 513x513 rays through the corners of pixels, rays of depth 5, none left "
-      "out\n"
-      "for being faint, a mirror ray from all glass, even where the picture takes nothing from "
-      "it,\n"
-      "one ray at total reflection, no shadow ray to a light behind the surface; the counts that\n"
-      "Haines published are printed beside. hidden: of the shadow rays,\n"
-      "those that something opaque stops; cached: of these, what the shadow cache knew; listed: "
-      "of\n"
-      "the shadow rays, what light buffers answered. Times: building, the eye's rays, making "
-      "light\n"
-      "buffers, the rest (on --threads). With --least-weight each picture is drawn once more "
-      "without:\n"
-      "too faint: not traced; of the rays, of the rest: how much of its rays and time were "
-      "needed;\n"
-      "error: the root mean square of the pictures' difference, of 255.\n"
+      "The rules of SPD: 513x513 rays through the corners of pixels, maximum depth 5, no minimum\n"
+      "weight, a mirror ray from all glass, even where it adds nothing to the picture, one ray at\n"
+      "total reflection, no shadow ray to a light behind the surface; the counts that Haines\n"
+      "published are printed for comparison. hidden: shadow rays that hit an opaque object; "
+      "cached:\n"
+      "hidden ones answered by the shadow cache; listed: shadow rays answered by light buffers.\n"
+      "Times: build; eye: primary rays; lists: light buffers; the rest, on --threads threads. "
+      "With\n"
+      "--min-weight each picture is drawn again with all rays: too faint: rays not traced; of the\n"
+      "rays, of the rest: share of its rays and of its time; error: RMS difference of the "
+      "pictures\n"
+      "on a 0-255 scale.\n"
       "Examples:\n"
       "  beambench census tetra teapot:n=12 --rules spd\n"
       "  beambench census escena1 --accel beam --resolution 640x480 --shadows cache --json\n"
       "  beambench census maceta --accel beam --shadows cache --order beams\n"
-      "  beambench census mount --least-weight 0.01\n"
+      "  beambench census mount --min-weight 0.01\n"
       "  beambench census --resolution 1280x1024 --threads 2 --pictures drawn");
   command->callback([request] { census(*request); });
 }

@@ -1,4 +1,4 @@
-// beambench completion: what a shell needs to complete command lines, read off the program itself.
+// beambench completion: a shell's script, generated from the program's options.
 
 #include <cstdio>
 #include <map>
@@ -11,9 +11,8 @@
 
 #include "accel/core/registry.hpp"
 #include "harness/cli/commands.hpp"
-#include "harness/cli/difference_picture.hpp"
-#include "harness/cli/overlay_picture.hpp"
 #include "harness/rays/ray_kind.hpp"
+#include "harness/render/diagnostics.hpp"
 #include "harness/render/shading.hpp"
 #include "harness/render/whitted_options.hpp"
 #include "scenes/catalogue.hpp"
@@ -42,7 +41,7 @@ Words ray_kind_names() {
   return names;
 }
 
-/// What 'beambench list' prints alone.
+/// The names that 'beambench list' takes.
 Words listed_names() {
   Words names;
   for (const accel::StructureInfo& info : accel::registry().structures())
@@ -53,16 +52,16 @@ Words listed_names() {
   return names;
 }
 
-/// What may stand for an option's value, by the option's name; file names for all others.
+/// The valid values of options by their name; file names for all others.
 const std::map<std::string, Words>& known_values() {
   static const std::map<std::string, Words> values{
       {"SCENE", scene_names()},
       {"NAME", listed_names()},
       {"SHELL", {"bash", "zsh", "fish"}},
       {"--accel", structure_names("all")},
-      {"--difference", structure_names(kOracleName)},
+      {"--difference", structure_names(render::kOracleName)},
       {"--heatmap", {accel::kCounterNames.begin(), accel::kCounterNames.end()}},
-      {"--overlay", {overlay_names().begin(), overlay_names().end()}},
+      {"--overlay", {render::overlay_names().begin(), render::overlay_names().end()}},
       {"--rays", ray_kind_names()},
       {"--rules", {"spd", "image"}},
       {"--shadows", {render::shadow_method_names().begin(), render::shadow_method_names().end()}},
@@ -146,7 +145,7 @@ std::string bash_script(const CLI::App& app) {
 }
 
 /// zsh runs bash's completions. The first completion loads the script as a function, which must
-/// answer it, too.
+/// complete, too.
 std::string zsh_script(const CLI::App& app) {
   return "#compdef beambench\nautoload -U +X bashcompinit && bashcompinit\n" + bash_script(app) +
          "if [[ -n ${compstate+loading} ]]; then _bash_complete -o default -F _beambench; fi\n";
@@ -206,7 +205,7 @@ std::string script_for(const std::string& shell, const CLI::App& app) {
 }  // namespace
 
 void add_completion_command(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("completion", "A shell's script that completes beambench");
+  CLI::App* command = app.add_subcommand("completion", "Print a shell's completion script");
   const auto shell = std::make_shared<std::string>();
   command->add_option("SHELL", *shell, "bash, zsh or fish")
       ->required()

@@ -38,12 +38,12 @@ void export_scene(const Request& request) {
 }  // namespace
 
 void add_export_command(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("export", "A scene as an NFF file");
+  CLI::App* command = app.add_subcommand("export", "Write a scene as an NFF file");
   const auto request = std::make_shared<Request>();
   add_scene_option(*command, request->scene);
   command->add_option("-o", request->file, "File to write, .nff")->required();
   command->add_flag("--strict", request->options.strict,
-                    "Refuse a file with unknown words, ignored fields, degenerate primitives or "
+                    "Reject a file with unknown words, ignored fields, degenerate primitives or "
                     "polygons to repair");
   command->footer(
       "The file reads back as the same scene, bit for bit.\n"

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -15,13 +16,6 @@
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::cli {
-
-scenes::Scene open_scene(std::string_view spec, scenes::ReadOptions options) {
-  std::vector<std::string> warnings;
-  scenes::Scene scene = scenes::load_scene(spec, &warnings, options);
-  for (const std::string& warning : warnings) fmt::print(stderr, "beambench: {}\n", warning);
-  return scene;
-}
 
 void add_scene_option(CLI::App& command, std::string& scene) {
   command.add_option("SCENE", scene, kSceneHelp)->required();
@@ -36,9 +30,9 @@ void add_view_options(CLI::App& command, ViewRequest& request) {
   const auto add = [&](const char* name, std::string& value, const char* help) {
     command.add_option(name, value, help)->type_name("X,Y,Z");
   };
-  add("--from", request.from, "Where the eye is, in place of the camera's");
-  add("--at", request.at, "The point that it looks at");
-  add("--up", request.up, "The direction that is up in the image");
+  add("--from", request.from, "Eye point, in place of the camera's");
+  add("--at", request.at, "Point that the camera looks at");
+  add("--up", request.up, "Up direction in the image");
   command
       .add_option("--angle", request.angle,
                   "Vertical field of view in degrees, more than 0 and less than 180")
@@ -75,7 +69,9 @@ void require_view(const scenes::Camera& camera) {
   const glm::dvec3 up(camera.up);
   if (glm::length(up) == 0.0 ||
       glm::length(glm::cross(glm::normalize(way), glm::normalize(up))) < 1e-6) {
-    throw InputError("the view goes along its up direction; give another with --up, such as 0,0,1");
+    throw InputError(
+        "the view direction is parallel to the up direction; give another with --up, such as "
+        "0,0,1");
   }
 }
 
@@ -94,7 +90,7 @@ scenes::Camera choose_camera(const scenes::Scene& scene, const ViewRequest& requ
   if (request.angle) {
     if (!(*request.angle > 0.0 && *request.angle < 180.0)) {
       throw InputError(fmt::format(
-          "--angle {} is no field of view; expected more than 0 and less than 180 degrees",
+          "--angle {} is not a field of view; expected more than 0 and less than 180 degrees",
           *request.angle));
     }
     camera.angle = static_cast<float>(*request.angle);
@@ -106,8 +102,8 @@ scenes::Camera choose_camera(const scenes::Scene& scene, const ViewRequest& requ
 accel::StructureChoice choose_one(std::string_view option, std::string_view text) {
   std::vector<accel::StructureChoice> choices = accel::registry().choose_list(text);
   if (choices.size() == 1) return choices.front();
-  throw InputError(fmt::format("{} '{}' names {} structures, but one is shown at a time; name one",
-                               option, text, choices.size()));
+  throw InputError(
+      fmt::format("{} '{}' names {} structures; name one", option, text, choices.size()));
 }
 
 rays::ImageOfRays choose_image(const scenes::Scene& scene, const ImageRequest& request) {
@@ -127,7 +123,7 @@ accel::PrimaryRays choose_rays(const scenes::Scene& scene, const ImageRequest& r
 
 void add_size_options(CLI::App& command, ImageRequest& request) {
   command.add_option("--resolution", request.resolution, "WxH (default: the camera's own)");
-  command.add_option("--samples", request.samples, "Rays a pixel: 1, 4, 5, 9, 16, ...")
+  command.add_option("--samples", request.samples, "Rays per pixel: 1, 4, 5, 9, 16, ...")
       ->capture_default_str();
 }
 
@@ -150,11 +146,77 @@ Contenders choose_contenders(std::string_view list, const scenes::Scene& scene) 
       return choice.info().name == "exhaustive";
     });
     contenders.note = fmt::format(
-        "{}: exhaustive is left out of 'all' above {} primitives (the scene has {}); name it after "
-        "--accel to have it all the same",
+        "{}: exhaustive is left out of 'all' above {} primitives (the scene has {}); name it in "
+        "--accel to include it",
         scene.name, kExhaustiveLimit, scene.primitives.size());
   }
   return contenders;
+}
+
+const accel::beam::BeamTracer& require_beams(const accel::Accelerator& structure,
+                                             const accel::StructureChoice& choice) {
+  const auto* tracer = dynamic_cast<const accel::beam::BeamTracer*>(&structure);
+  if (tracer != nullptr) return *tracer;
+  throw InputError(fmt::format(
+      "'{}' traces no beams; give --accel beam, with or without parameters", choice.info().name));
+}
+
+void add_light_options(CLI::App& command, WhittedRequest& request) {
+  command
+      .add_option("--depth", request.max_depth,
+                  "Maximum ray depth, the primary ray included; 1: no mirrors and no glass")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 64));
+  command
+      .add_option("--shadows", request.shadows,
+                  "rays; cache: test the last occluder first; light-buffer: lists of "
+                  "occluders made in advance for each direction from a light")
+      ->capture_default_str();
+  command
+      .add_option("--min-weight", request.min_weight,
+                  "Minimum weight in its pixel for a reflected or refracted ray to be traced; "
+                  "0: all are traced")
+      ->capture_default_str()
+      ->check(CLI::Range(0.0, 1.0));
+}
+
+void add_whitted_options(CLI::App& command, WhittedRequest& request) {
+  add_light_options(command, request);
+  command.add_option("--threads", request.threads, "0: one for each core")
+      ->capture_default_str()
+      ->check(CLI::Range(0, 1024));
+}
+
+render::WhittedOptions whitted_options(const WhittedRequest& request) {
+  return {request.max_depth, request.min_weight, render::parse_shadow_method(request.shadows)};
+}
+
+void make_picture_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!error) return;
+  throw InputError(fmt::format("cannot make the folder '{}': {}; choose another with --pictures",
+                               folder.string(), error.message()));
+}
+
+std::string picture_name(std::string title) {
+  for (char& c : title) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '.') c = '-';
+  }
+  return title + ".png";
+}
+
+void replace_renamed_options(std::string_view program, std::vector<std::string>& arguments) {
+  constexpr std::array<std::array<std::string_view, 2>, 1> kRenamed{{
+      {"--least-weight", "--min-weight"},
+  }};
+  for (std::string& argument : arguments) {
+    for (const auto& [old_name, new_name] : kRenamed) {
+      if (argument != old_name && !argument.starts_with(fmt::format("{}=", old_name))) continue;
+      base::report_error(program, fmt::format("{} is now called {}", old_name, new_name), 0);
+      argument.replace(0, old_name.size(), new_name);
+    }
+  }
 }
 
 }  // namespace beambench::cli

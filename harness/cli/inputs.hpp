@@ -1,6 +1,7 @@
 #pragma once
-// What several commands ask for: a scene, a camera, structures to put over it.
+// Options of several commands: scenes, cameras, images, structures, light; and renamed options.
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,16 +9,16 @@
 
 #include <CLI/CLI.hpp>
 
+#include "accel/beam/beam_tracer.hpp"
 #include "accel/core/registry.hpp"
+#include "harness/base/messages.hpp"
 #include "harness/rays/trace_input.hpp"
-#include "scenes/catalogue.hpp"
+#include "harness/render/whitted_options.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::cli {
 
-/// Loads a scene; what its file's reader noticed goes to stderr, or where the options are strict,
-/// is refused. Throws as load_scene.
-scenes::Scene open_scene(std::string_view spec, scenes::ReadOptions options = {});
+using base::open_scene;
 
 /// What SCENE may be, for the help of every command.
 inline constexpr const char* kSceneHelp =
@@ -25,7 +26,7 @@ inline constexpr const char* kSceneHelp =
 /// Adds SCENE, one and required.
 void add_scene_option(CLI::App& command, std::string& scene);
 
-/// Where the rays come from: one of the scene's cameras, or a view of the user's own.
+/// The camera: one of the scene's, or a view given by options.
 struct ViewRequest {
   std::string camera;  ///< empty: the scene's first
   std::string from;    ///< X,Y,Z; empty, like the others: the camera's own
@@ -38,18 +39,18 @@ void add_camera_option(CLI::App& command, ViewRequest& request);
 /// The same, --from, --at, --up and --angle.
 void add_view_options(CLI::App& command, ViewRequest& request);
 
-/// What a camera of the user's own is called in pictures and records.
+/// The name of a camera that is given by options, in pictures and records.
 inline constexpr const char* kTypedCamera = "typed";
 
-/// The camera that is asked for: one of the scene's, or where a part of it is typed, that camera
-/// with this part replaced, named `kTypedCamera`. Throws InputError listing the scene's cameras for
+/// The requested camera: one of the scene's, or where parts of it are given, that camera with these
+/// parts replaced, named `kTypedCamera`. Throws InputError listing the scene's cameras for
 /// an unknown name, and saying what is expected for a view that is none.
 scenes::Camera choose_camera(const scenes::Scene& scene, const ViewRequest& request);
 
-/// The one structure that is typed after `option`. Throws InputError when they are several.
+/// The structure that is given for `option`. Throws InputError when there are several.
 accel::StructureChoice choose_one(std::string_view option, std::string_view text);
 
-/// How an image is asked for.
+/// An image's options.
 struct ImageRequest {
   std::string resolution;  ///< empty: the camera's own
   ViewRequest view;
@@ -63,7 +64,7 @@ void add_size_options(CLI::App& command, ImageRequest& request);
 /// The same and the options of the view.
 void add_image_options(CLI::App& command, ImageRequest& request);
 
-/// The structures of a list as typed after --accel. Where `all` brought in `exhaustive` and the
+/// The structures given for --accel. Where `all` brought in `exhaustive` and the
 /// scene is too large for it (kExhaustiveLimit), it is left out and `note` says so.
 struct Contenders {
   std::vector<accel::StructureChoice> choices;
@@ -71,5 +72,33 @@ struct Contenders {
 };
 Contenders choose_contenders(std::string_view list, const scenes::Scene& scene);
 inline constexpr std::size_t kExhaustiveLimit = 20000;
+
+/// The structure as a beam tracer. Throws InputError where it traces no beams.
+const accel::beam::BeamTracer& require_beams(const accel::Accelerator& structure,
+                                             const accel::StructureChoice& choice);
+
+/// How light is followed in pictures of the whole ray tracer.
+struct WhittedRequest {
+  std::string shadows = "rays";
+  int max_depth = render::WhittedOptions{}.max_depth;
+  double min_weight = 0.0;
+  int threads = 0;  ///< 0: one for each core
+};
+/// Adds --shadows, --depth and --min-weight.
+void add_light_options(CLI::App& command, WhittedRequest& request);
+/// The same and --threads.
+void add_whitted_options(CLI::App& command, WhittedRequest& request);
+/// Throws InputError for an unknown shadow method.
+render::WhittedOptions whitted_options(const WhittedRequest& request);
+
+/// Makes the folder of --pictures and its parents. Throws InputError.
+void make_picture_folder(const std::filesystem::path& folder);
+/// `tetra-n-4-default-samet-max_level-5.png` of `tetra:n=4-default-samet:max_level=5`: a name that
+/// file systems and shells take.
+std::string picture_name(std::string title);
+
+/// Replaces options by their new names where they were renamed, with a warning by `program` on
+/// stderr.
+void replace_renamed_options(std::string_view program, std::vector<std::string>& arguments);
 
 }  // namespace beambench::cli

@@ -1,4 +1,4 @@
-// beambench list: what can be asked for.
+// beambench list: structures, scenes, kinds of rays, plug-ins.
 
 #include <algorithm>
 #include <cstdio>
@@ -143,7 +143,8 @@ void print_counters(std::span<const accel::CounterInfo> counters) {
 /// Of each structure that has some of its own.
 void print_all_counters() {
   fmt::print(
-      "What the counting pass counts, never in timed code: for --heatmap, in 'beambench stats' and "
+      "Counters, kept in a separate pass, never in timed code: for --heatmap, in 'beambench stats' "
+      "and "
       "as\ncolumns of results.csv, NAME_per_ray.\n\n  every structure\n");
   print_counters(accel::common_counters());
   for (const accel::StructureInfo& info : accel::registry().structures()) {
@@ -172,7 +173,7 @@ const Info* find_named(std::span<const Info> infos, std::string_view name) {
       did_you_mean(name, names)));
 }
 
-/// All that goes by that name; what stands behind a colon does not matter.
+/// Everything of that name, of which the part after a colon is ignored.
 void print_named(const std::string& spec) {
   const std::string name = spec.substr(0, spec.find(':'));
   const accel::StructureInfo* structure = find_named(accel::registry().structures(), name);
@@ -183,7 +184,7 @@ void print_named(const std::string& spec) {
     fmt::print("Structure, for --accel {}:parameter=value,...\n", name);
     print_structure(*structure);
     if (const auto own = accel::registry().own_counters(name); !own.empty()) {
-      fmt::print("\n    counts, beside what every structure counts (--counters):\n");
+      fmt::print("\n    counters of its own, beside the common ones (--counters):\n");
       print_counters(own);
     }
   }
@@ -198,12 +199,13 @@ void print_named(const std::string& spec) {
 }
 
 void print_text() {
-  fmt::print("Structures, for --accel NAME:parameter=value,... ('all' is every one):\n");
+  fmt::print("Structures, for --accel NAME:parameter=value,... ('all' for every one):\n");
   for (const accel::StructureInfo& info : accel::registry().structures()) print_structure(info);
-  fmt::print("\n{}", wrap("bit-exact: equal to exhaustive bit for bit; tolerance: arithmetic of "
-                          "its own, judged by the differ's classes; baseline: answers nothing by "
-                          "design.",
-                          2));
+  fmt::print("\n{}",
+             wrap("bit-exact: hits equal to exhaustive bit for bit; tolerance: arithmetic of "
+                  "its own, verified by the differ's classes; baseline: finds no hits by "
+                  "design.",
+                  2));
   fmt::print("\nScenes, as NAME:parameter=value,... (or the path of a mesh or of an NFF file):\n");
   for (const scenes::SceneInfo& info : scenes::scene_catalogue()) print_scene(info);
   print_meshes();
@@ -294,12 +296,12 @@ void list(const Request& request) {
 
 void add_list_command(CLI::App& app, int&) {
   CLI::App* command =
-      app.add_subcommand("list", "Structures with their parameters, scenes, kinds of rays");
+      app.add_subcommand("list", "List structures with their parameters, scenes, kinds of rays");
   const auto request = std::make_shared<Request>();
   CLI::Option* names = command->add_option(
-      "NAME", request->names, "Structures, scenes or kinds of rays to print alone (default: all)");
-  CLI::Option* counters = command->add_flag("--counters", request->counters,
-                                            "Print what is counted of a structure's work instead");
+      "NAME", request->names, "Structures, scenes or kinds of rays to print (default: all)");
+  CLI::Option* counters =
+      command->add_flag("--counters", request->counters, "Print the work counters instead");
   command->add_flag("--json", request->json, "Print JSON of everything instead of text")
       ->excludes(names)
       ->excludes(counters);

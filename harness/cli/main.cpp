@@ -1,5 +1,4 @@
-// The command line: picks a subcommand, and turns whatever goes wrong into one sentence and an exit
-// code.
+// The command line: picks a subcommand and turns errors into one sentence and an exit code.
 
 #include <algorithm>
 #include <cstdio>
@@ -14,8 +13,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/base/messages.hpp"
 #include "harness/bench/record/build_info.hpp"
 #include "harness/cli/commands.hpp"
+#include "harness/cli/inputs.hpp"
 #include "harness/plugin/guard.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "harness/rays/hit_check.hpp"
@@ -26,29 +27,22 @@ namespace beambench::cli {
 namespace {
 
 constexpr const char* kDescription =
-    "Compares the acceleration structures of ray tracing on the same scenes, cameras and rays,\n"
-    "and lets no timing out that the hits do not back.";
+    "Compares acceleration structures for ray tracing on the same scenes, cameras and rays,\n"
+    "and reports a time only when the hits are correct.";
 constexpr const char* kExamples =
     "Examples:\n"
     "  beambench list\n"
     "  beambench render balls --accel samet -o balls.png\n"
     "  beambench verify tetra:n=4 --accel all\n"
-    "'beambench COMMAND --help' tells more. Exit codes: 0 fine, 1 a mismatch or regression was\n"
-    "found, 2 the request was wrong, 130 interrupted.";
+    "'beambench COMMAND --help' describes a command. Exit codes: 0 success, 1 a mismatch or\n"
+    "regression, 2 invalid arguments or input, 130 interrupted.";
 
-/// One line, whatever the message was made of.
-int complain(std::string message, int exit_code) {
-  for (char& c : message) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  while (!message.empty() && message.back() == ' ') message.pop_back();
-  fmt::print(stderr, "beambench: {}\n", message);
-  return exit_code;
+int fail(const std::string& message, int exit_code) {
+  return base::report_error("beambench", message, exit_code);
 }
 
-int complain_of_output() {
-  return complain("cannot write to the standard output; make room where it goes",
-                  base::kInvalidInput);
+int fail_to_print() {
+  return fail("cannot write to the standard output; make room where it goes", base::kInvalidInput);
 }
 
 using Arguments = std::vector<std::string>;
@@ -67,7 +61,7 @@ void require_known_command(const CLI::App& app, const Arguments& arguments) {
   const std::string word = arguments.size() > 1 ? arguments[1] : "";
   if (word.starts_with('-')) return;
   if (std::find(names.begin(), names.end(), word) != names.end()) return;
-  const std::string_view remedy = "'beambench --help' tells what they do";
+  const std::string_view remedy = "'beambench --help' describes them";
   if (word.empty()) {
     throw InputError(fmt::format("name a command: {}; {}", fmt::join(names, ", "), remedy));
   }
@@ -121,10 +115,10 @@ int parse_and_run(const Arguments& arguments, plugin::Activity& activity) {
     const auto picked = app.get_subcommands();
     const std::string command = picked.empty() ? "" : picked.front()->get_name() + ' ';
     const std::string meant = picked.empty() ? "" : suggested_option(*picked.front());
-    return complain(fmt::format("{}; {}see 'beambench {}--help'", error.what(), meant, command),
-                    base::kInvalidInput);
+    return fail(fmt::format("{}; {}see 'beambench {}--help'", error.what(), meant, command),
+                base::kInvalidInput);
   }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return complain_of_output();
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) return fail_to_print();
   return exit_code;
 }
 
@@ -134,27 +128,25 @@ int run_command_line(const Arguments& arguments, const std::vector<std::string>&
     for (const std::string& file : plugins) plugin::load_plugin(file, activity);
     return parse_and_run(arguments, activity);
   } catch (const InputError& error) {
-    return complain(error.what(), base::kInvalidInput);
+    return fail(error.what(), base::kInvalidInput);
   } catch (const PluginError& error) {
-    return complain(error.what(), base::kMismatch);
+    return fail(error.what(), base::kMismatch);
   } catch (const rays::InvalidHit& error) {
-    return complain(error.what(), base::kMismatch);
+    return fail(error.what(), base::kMismatch);
   } catch (const std::bad_alloc&) {
-    return complain(
-        "the memory does not suffice for this request; choose a smaller scene, resolution or "
-        "structure",
-        base::kInvalidInput);
+    return fail("out of memory; choose a smaller scene, resolution or structure",
+                base::kInvalidInput);
   } catch (const std::filesystem::filesystem_error& error) {
-    return complain(error.what(), base::kInvalidInput);
+    return fail(error.what(), base::kInvalidInput);
   } catch (const std::exception& error) {
-    if (std::ferror(stdout) != 0) return complain_of_output();  // thrown while printing
-    return complain(
+    if (std::ferror(stdout) != 0) return fail_to_print();  // thrown while printing
+    return fail(
         fmt::format("internal error, please report it with the command line: {}", error.what()),
         base::kInternalError);
   }
 }
 
-/// Does the user want to look on in a debugger?
+/// For debuggers.
 bool wants_no_guard() { return std::getenv("BEAMBENCH_UNGUARDED") != nullptr; }
 
 /// Foreign code is kept in a process of its own.
@@ -164,6 +156,7 @@ int begin(int argc, char** argv) {
     Arguments arguments(argv, argv + argc);
     const std::vector<std::string> plugins = plugin::take_requested_plugins(arguments);
     take_help_for_a_command(arguments);
+    replace_renamed_options("beambench", arguments);
     std::unique_ptr<plugin::Activity> activity = plugin::guarded_activity();
     const bool guarded = activity != nullptr;
     if (!plugins.empty() && !guarded && !wants_no_guard()) return plugin::run_guarded(argv);
@@ -173,7 +166,7 @@ int begin(int argc, char** argv) {
     activity->clear(plugin::Activity::Line::kCell);
     return code;
   } catch (const std::exception& error) {
-    return complain(error.what(), base::kInvalidInput);
+    return fail(error.what(), base::kInvalidInput);
   }
 }
 

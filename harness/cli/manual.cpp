@@ -1,4 +1,4 @@
-// beambench man: the manual page, read off the program itself.
+// beambench man: the manual page, generated from the program's options.
 
 #include <cstdio>
 #include <string>
@@ -12,7 +12,7 @@
 namespace beambench::cli {
 namespace {
 
-/// A text as roff shows it: no character of it is taken for a request (groff_char(7), roff(7)).
+/// A text escaped for roff: no character is taken for a request (groff_char(7), roff(7)).
 std::string escaped(std::string_view text) {
   std::string out;
   bool line_begins = true;
@@ -30,7 +30,7 @@ std::string escaped(std::string_view text) {
   return out;
 }
 
-/// Lines that stay as they are.
+/// Lines without filling.
 std::string verbatim(std::string_view text) { return fmt::format(".nf\n{}\n.fi\n", escaped(text)); }
 
 std::string bold(const std::string& word) { return R"(\fB)" + escaped(word) + R"(\fR)"; }
@@ -77,7 +77,7 @@ std::string manual_page(const CLI::App& app) {
 }  // namespace
 
 void add_man_command(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("man", "The manual page, as roff");
+  CLI::App* command = app.add_subcommand("man", "Print the manual page as roff");
   command->footer(
       "Where beambench is installed, 'man beambench' shows it.\n"
       "Examples:\n"

@@ -1,4 +1,4 @@
-// beambench rays: the rays that structures are asked with, looked at and saved.
+// beambench rays: describes and saves a set of rays.
 
 #include <cstdio>
 #include <memory>
@@ -78,8 +78,8 @@ void show_rays(const Request& request) {
   const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
   if (!request.file.empty()) {
     if (!request.file.ends_with(rays::kRayFileEnding)) {
-      throw InputError(fmt::format("'{}' does not end in {}, by which files of rays are known",
-                                   request.file, rays::kRayFileEnding));
+      throw InputError(fmt::format("'{}' does not end in {}, the ending of ray files", request.file,
+                                   rays::kRayFileEnding));
     }
     require_writable(request.file);
   }
@@ -94,20 +94,19 @@ void show_rays(const Request& request) {
 }  // namespace
 
 void add_rays_command(CLI::App& app, int&) {
-  CLI::App* command =
-      app.add_subcommand("rays", "Makes a set of rays, says what it is like, and saves it");
+  CLI::App* command = app.add_subcommand("rays", "Generate a set of rays, describe it and save it");
   const auto request = std::make_shared<Request>();
   add_scene_option(*command, request->scene);
   command
       ->add_option("--rays", request->rays, "Kind of rays (see 'beambench list') or a .rays file")
       ->capture_default_str();
   add_image_options(*command, request->image);
-  command->add_option("-o", request->file, "Save them to this file, which must end in .rays");
+  command->add_option("-o", request->file, "File to save them to, ending in .rays");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "Coherence is the mean cosine of the angle between the directions of a ray and the next. A\n"
       "saved file can be given wherever a kind of rays can, in --rays and in sweeps; it holds a\n"
-      "line 'beambench-rays 1', a line of JSON, then eight little-endian 32-bit floats a ray:\n"
+      "line 'beambench-rays 1', a line of JSON, then eight little-endian 32-bit floats per ray:\n"
       "origin, t_min, direction, t_max.\n"
       "Examples:\n"
       "  beambench rays escena1 --rays shadow --resolution 320x200\n"

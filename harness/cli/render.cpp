@@ -1,4 +1,4 @@
-// beambench render: a picture of what a structure sees, or of the work it does.
+// beambench render: a picture of a scene, or of the work that a structure does.
 
 #include <algorithm>
 #include <cstdio>
@@ -11,24 +11,22 @@
 #include <fmt/format.h>
 
 #include "harness/cli/commands.hpp"
-#include "harness/cli/difference_picture.hpp"
 #include "harness/cli/inputs.hpp"
-#include "harness/cli/overlay_picture.hpp"
 #include "harness/cli/text.hpp"
-#include "harness/cli/watched_ask.hpp"
-#include "harness/cli/whitted_request.hpp"
-#include "harness/cli/work_picture.hpp"
 #include "harness/rays/hit_check.hpp"
+#include "harness/rays/trace_with_progress.hpp"
+#include "harness/render/diagnostics.hpp"
 #include "harness/render/picture/image.hpp"
 #include "harness/render/picture/image_file.hpp"
 #include "harness/render/shading.hpp"
+#include "harness/render/whitted_picture.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
 
 namespace beambench::cli {
 namespace {
 
-/// Draws pictures where no structure is asked for: quick to build and to trace.
+/// The structure of plain pictures if none is given: quick to build and to trace.
 constexpr const char* kPlainStructure = "sah-bvh";
 
 struct Request {
@@ -90,8 +88,10 @@ render::Image shaded(const Request& request, const accel::StructureChoice& choic
   if (shading != render::Shading::kWhitted) return render::shade(scene, rays, hits, shading);
   const render::Whitted tracer(scene, accelerator, whitted_options(request.whitted),
                                rays::HitCheck(scene, choice));
-  render::Image image =
-      watched_picture(tracer, render::camera_rays(rays), hits, request.whitted, progress).image;
+  render::Image image = render::whitted_picture(
+                            tracer, render::camera_rays(rays), hits,
+                            [&](double part) { progress.advance(part); }, request.whitted.threads)
+                            .image;
   if (request.exposure != 0.0) render::expose(image, request.exposure);
   return image;
 }
@@ -108,16 +108,16 @@ std::string remark_on_light(const Request& request, const render::Image& image) 
       100.0 * found.share, request.exposure + found.remedy);
 }
 
-/// Shades the hits and draws over them what is asked for; returns what the picture tells of it. A
-/// PNG gets its legend.
+/// Shades the hits and draws the overlay, with its legend in a PNG; returns remarks on the picture.
 std::string write_shaded(const Request& request, const accel::StructureChoice& choice,
-                         std::optional<Overlay> overlay, const accel::Accelerator& accelerator,
-                         const scenes::Scene& scene, const accel::PrimaryRays& rays,
-                         const accel::HitBuffer& hits, base::Progress& progress) {
+                         std::optional<render::Overlay> overlay,
+                         const accel::Accelerator& accelerator, const scenes::Scene& scene,
+                         const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
+                         base::Progress& progress) {
   render::Image image = shaded(request, choice, accelerator, scene, rays, hits, progress);
   const std::string remark = remark_on_light(request, image);
   std::vector<render::LegendEntry> legend;
-  if (overlay) legend = draw_overlay(*overlay, image, accelerator, rays);
+  if (overlay) legend = render::draw_overlay(*overlay, image, accelerator, rays);
   if (overlay && render::image_format(request.file) == render::ImageFormat::kPng) {
     const std::string title =
         fmt::format("{} of {}, {}", request.overlay, choice.short_label(), scene.name);
@@ -146,13 +146,13 @@ std::string remark_on(const render::HeatMap& map, const accel::StructureChoice& 
 /// What --difference compares with: the oracle, or what another structure finds.
 verify::ReferenceHits find_reference(const Request& request, const scenes::Scene& scene,
                                      const accel::PrimaryRays& rays) {
-  if (request.difference == kOracleName) return {scene, rays};
+  if (request.difference == render::kOracleName) return {scene, rays};
   const accel::StructureChoice other = choose_one("--difference", request.difference);
   rays::TraceResults results = rays::make_results(rays);
   rays::trace(*other.build(scene, rays::workload_of(choose_image(scene, request.image), rays)),
               rays, results);
   rays::HitCheck(scene, other).require(std::get<accel::HitBuffer>(results), rays);
-  return reference_from(scene, rays, results);
+  return render::reference_from(scene, rays, results);
 }
 
 /// Writes the picture of differences; returns how many there are.
@@ -163,7 +163,8 @@ std::string compare(const Request& request, const accel::StructureChoice& choice
   std::vector<verify::DiffClass> classes(rays.count());
   const verify::DiffReport report =
       verify::verify_results(reference, results, accel::Conformance::kTolerance, classes);
-  write_difference(request.file, reference, classes, {choice.short_label(), request.difference});
+  render::write_difference(request.file, reference, classes,
+                           {choice.short_label(), request.difference});
   return fmt::format("{} of {} rays differ from {}: {} ties, {} grazes, {} wrong, {} wrong there",
                      report.rays - report.count(verify::DiffClass::kAgree), report.rays,
                      request.difference, report.count(verify::DiffClass::kTie),
@@ -172,7 +173,7 @@ std::string compare(const Request& request, const accel::StructureChoice& choice
                      report.count(verify::DiffClass::kEmbreeError));
 }
 
-/// Any structure draws the same plain picture; the others show what one of them does.
+/// Any structure draws the same plain picture; other pictures show what one structure does.
 accel::StructureChoice chosen_structure(const Request& request) {
   if (!request.structure.empty()) return choose_one("--accel", request.structure);
   for (const auto& [option, value] :
@@ -188,17 +189,17 @@ accel::StructureChoice chosen_structure(const Request& request) {
 void render(const Request& request) {
   const render::Shading shading = render::parse_shading(request.shading);
   if (request.exposure != 0.0 && shading != render::Shading::kWhitted) {
-    throw InputError("--exposure is of the light that --shade whitted follows; name both");
+    throw InputError("--exposure needs --shade whitted; give both");
   }
   whitted_options(request.whitted);
   render::image_format(request.file);
   require_writable(request.file);
-  if (!request.difference.empty() && request.difference != kOracleName) {
+  if (!request.difference.empty() && request.difference != render::kOracleName) {
     choose_one("--difference", request.difference);
   }
   const accel::StructureChoice choice = chosen_structure(request);
-  std::optional<Overlay> overlay;
-  if (!request.overlay.empty()) overlay = parse_overlay(request.overlay, choice.info());
+  std::optional<render::Overlay> overlay;
+  if (!request.overlay.empty()) overlay = render::parse_overlay(request.overlay, choice.info());
   const scenes::Scene scene = open_scene(request.scene);
   const accel::PrimaryRays rays = choose_rays(scene, request.image);
 
@@ -211,12 +212,13 @@ void render(const Request& request) {
   const rays::HitCheck check(scene, choice);
   std::string found;
   if (!request.heatmap.empty()) {
-    const render::HeatMap map = count_work(*accelerator, rays, request.heatmap, hits, progress);
+    const render::HeatMap map =
+        render::count_work(*accelerator, rays, request.heatmap, hits, progress);
     check.require(hits, rays);
     write_heat_map(request, map, hits);
     found = share_of_hits(hits) + remark_on(map, choice);
   } else {
-    watched_ask(*accelerator, rays, results, request.whitted.threads, progress);
+    rays::trace_with_progress(*accelerator, rays, results, request.whitted.threads, progress);
     if (request.difference.empty()) {
       check.require(hits, rays);
       found = share_of_hits(hits) +
@@ -232,8 +234,7 @@ void render(const Request& request) {
 }  // namespace
 
 void add_render_command(CLI::App& app, int&) {
-  CLI::App* command =
-      app.add_subcommand("render", "A picture of a scene, or of a structure's work");
+  CLI::App* command = app.add_subcommand("render", "Draw a scene, or the work of a structure");
   const auto request = std::make_shared<Request>();
   add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structure,
@@ -249,11 +250,11 @@ void add_render_command(CLI::App& app, int&) {
   add_whitted_options(*command, request->whitted);
   command
       ->add_option("--exposure", request->exposure,
-                   "Of --shade whitted, in stops: -1 halves the light, 1 doubles it")
+                   "For --shade whitted, in stops: -1 halves the light, 1 doubles it")
       ->check(CLI::Range(-32.0, 32.0))
       ->capture_default_str();
   CLI::Option* heatmap = command->add_option("--heatmap", request->heatmap,
-                                             "Instead of shading: a work counter in colors");
+                                             "Instead of shading: a work counter as colors");
   CLI::Option* difference =
       command
           ->add_option("--difference", request->difference,
@@ -262,7 +263,7 @@ void add_render_command(CLI::App& app, int&) {
           ->excludes(heatmap);
   command
       ->add_option("--overlay", request->overlay,
-                   "Over the shading, dimmed: 'beams', their outlines, or 'cells', the occupied "
+                   "Over the dimmed shading: 'beams', their outlines, or 'cells', the occupied "
                    "ones in perspective")
       ->excludes(heatmap)
       ->excludes(difference);
@@ -270,9 +271,8 @@ void add_render_command(CLI::App& app, int&) {
       "Counters for --heatmap: traversal_steps, leaves, empty_leaves, box_tests, primitive_tests,\n"
       "and a structure's own. A .png gets a legend; an .exr holds the counts beside linear float\n"
       "R, G, B, the depth Z and the primitive id (4294967295 for a miss). --difference colors\n"
-      "pixels by the classes that 'beambench verify --help' tells; who is wrong, the search of "
-      "all\n"
-      "primitives says. --overlay beams colors those that end at occupied leaves, those that go\n"
+      "pixels by the classes of 'beambench verify --help'. --overlay beams colors those that end "
+      "at occupied leaves, those that go\n"
       "on and those that leave the scene; --overlay cells leaves out what cells before them hide.\n"
       "Examples:\n"
       "  beambench render escena1 -o escena1.png\n"

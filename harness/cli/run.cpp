@@ -1,17 +1,23 @@
 // beambench run: measures a sweep.
 
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <thread>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <unistd.h>
 
-#include "harness/base/counted.hpp"
+#include "harness/base/messages.hpp"
 #include "harness/bench/record/run_folder.hpp"
 #include "harness/bench/sweep_run.hpp"
 #include "harness/cli/commands.hpp"
-#include "harness/cli/interruption.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/shell_word.hpp"
@@ -19,11 +25,74 @@
 namespace beambench::cli {
 namespace {
 
+/// While it lives, SIGINT and SIGTERM end the process at once with exit code 130 and one last line
+/// on stderr. For work whose results are safe against a kill at any moment.
+///
+/// The signals are blocked and received by a thread of its own, which is not limited to what a
+/// signal handler may do. Construct it before other threads are started, which inherit the blocked
+/// signals.
+class Interruption {
+ public:
+  explicit Interruption(std::string last_line);
+  ~Interruption();
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+
+  void set_last_line(std::string line);
+
+ private:
+  void wait(const std::stop_token& stop);
+  [[noreturn]] void end();
+
+  std::mutex mutex_;
+  std::string last_line_;
+  sigset_t signals_{};
+  sigset_t previous_{};
+  std::jthread waiting_;
+};
+
+Interruption::Interruption(std::string last_line) : last_line_(std::move(last_line)) {
+  ::sigemptyset(&signals_);
+  ::sigaddset(&signals_, SIGINT);
+  ::sigaddset(&signals_, SIGTERM);
+  ::pthread_sigmask(SIG_BLOCK, &signals_, &previous_);
+  waiting_ = std::jthread([this](const std::stop_token& stop) { wait(stop); });
+}
+
+Interruption::~Interruption() {
+  waiting_.request_stop();
+  ::pthread_kill(waiting_.native_handle(), SIGTERM);  // to that thread alone
+  waiting_.join();
+  ::pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
+}
+
+void Interruption::set_last_line(std::string line) {
+  const std::lock_guard lock(mutex_);
+  last_line_ = std::move(line);
+}
+
+void Interruption::wait(const std::stop_token& stop) {
+  int signal = 0;
+  while (::sigwait(&signals_, &signal) != 0) {
+  }
+  if (!stop.stop_requested()) end();
+}
+
+void Interruption::end() {
+  const std::lock_guard lock(mutex_);
+  ::flockfile(stderr);  // for good: nothing follows the last line
+  const char* wipe = ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
+  fmt::print(stderr, "{}{}\n", wipe, last_line_);
+  std::fflush(stderr);
+  std::_Exit(base::kInterrupted);
+}
+
 struct RunRequest {
   std::string config;
   std::string output;
   std::string resume;
   bool dry_run = false;
+  bool json = false;
   std::vector<std::string> benchmark_flags;
 };
 
@@ -62,12 +131,33 @@ std::vector<std::string> cell_names(const bench::Plan& plan) {
   return names;
 }
 
-/// The cells that the configuration asks for and --benchmark_filter selects.
+/// The cells in the order in which they are recorded.
+nlohmann::ordered_json to_json(const bench::Plan& plan) {
+  nlohmann::ordered_json cells = nlohmann::ordered_json::array();
+  for (const bench::CellGroup& group : plan.groups) {
+    for (const bench::PlannedCell& cell : group.cells) {
+      cells.push_back({{"name", cell.id.name()},
+                       {"scene", cell.id.scene},
+                       {"primitives", group.scene->primitives.size()},
+                       {"camera", cell.id.camera},
+                       {"width", cell.id.resolution.width},
+                       {"height", cell.id.resolution.height},
+                       {"samples", cell.id.samples},
+                       {"rays", cell.id.rays},
+                       {"structure", cell.id.structure},
+                       {"parameters", cell.id.parameters},
+                       {"threads", group.threads}});
+    }
+  }
+  return {{"cells", cells}};
+}
+
+/// The cells of the configuration that --benchmark_filter selects.
 bench::Plan selected_plan(const bench::SweepConfig& config,
                           const bench::GoogleBenchmark& benchmark) {
   bench::Plan plan = bench::make_plan(config);
   if (plan.merged > 0) {
-    fmt::print(stderr, "{} cells that the configuration asks for more than once are made once\n",
+    fmt::print(stderr, "{} cells that the configuration has more than once are measured once\n",
                plan.merged);
   }
   const std::set<std::string> selected = benchmark.select(cell_names(plan));
@@ -77,7 +167,7 @@ bench::Plan selected_plan(const bench::SweepConfig& config,
 
 int report(const bench::SweepOutcome& outcome) {
   if (outcome.failed > 0) {
-    fmt::print(stderr, "{} of {} have no times: their hits were not right\n", outcome.failed,
+    fmt::print(stderr, "{} of {} have no times: their hits were not correct\n", outcome.failed,
                base::counted(outcome.cells, "cell"));
   } else if (outcome.without_rays < outcome.cells) {
     fmt::print(stderr, "{}, all verified\n",
@@ -135,7 +225,10 @@ int run(RunRequest request, plugin::Activity& activity) {
   const bench::GoogleBenchmark benchmark(flags);
   bench::Plan plan = selected_plan(config, benchmark);
   if (request.dry_run || flags.list) {
-    for (const std::string& name : cell_names(plan)) fmt::print("{}\n", name);
+    if (request.json) fmt::print("{}\n", to_json(plan).dump(2));
+    for (const std::string& name : cell_names(plan)) {
+      if (!request.json) fmt::print("{}\n", name);
+    }
     return base::kSuccess;
   }
   return report(run_resumable(config, std::move(plan), benchmark, options_of(request, activity),
@@ -156,10 +249,16 @@ void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity) 
       ->add_option("--resume", request->resume,
                    "Resume the run in this folder; finished cells are not repeated")
       ->excludes(output);
-  command->add_flag("--dry-run", request->dry_run, "Print the names of the cells and stop");
+  CLI::Option* dry_run =
+      command->add_flag("--dry-run", request->dry_run, "Print the names of the cells and stop");
+  command
+      ->add_flag("--json", request->json,
+                 "Print JSON instead: each cell's name, scene, primitives, camera, width, height, "
+                 "samples, rays, structure, parameters and threads")
+      ->needs(dry_run);
   command->allow_extras();
   command->footer(
-      "Google Benchmark's flags work where they mean something here: --benchmark_filter=REGEX\n"
+      "These flags of Google Benchmark are accepted: --benchmark_filter=REGEX\n"
       "(over the names that --dry-run prints), --benchmark_repetitions=N,\n"
       "--benchmark_list_tests, --benchmark_context=KEY=VALUE, --v=N.\n"
       "Examples:\n"

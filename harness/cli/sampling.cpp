@@ -1,4 +1,6 @@
-// beambench sampling: what the choice of the number of samples of a pixel costs and gains.
+// beambench sampling: cost and error of choosing the number of samples for each pixel.
+
+#include "harness/experiments/sampling.hpp"
 
 #include <cstdio>
 #include <memory>
@@ -13,7 +15,6 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
-#include "harness/experiments/compare_sampling.hpp"
 #include "harness/render/picture/heat_map.hpp"
 #include "harness/render/picture/image_file.hpp"
 #include "scenes/core/error.hpp"
@@ -35,12 +36,12 @@ void print_text(const scenes::Scene& scene, const Request& request,
                 const std::vector<experiments::SamplingResult>& results) {
   fmt::print("{}: {} primitives, {}, {}\n\n", scene.name, scene.primitives.size(),
              request.structure, request.image.resolution);
-  TextTable table({"method", "setting", "rays a pixel", "trace", "error (1)"}, 2);
+  TextTable table({"method", "setting", "rays per pixel", "trace", "error (1)"}, 2);
   for (const experiments::SamplingResult& result : results) {
     table.add({result.method, result.setting, fmt::format("{:.3f}", result.rays),
                fmt::format("{:.4g} ms", result.trace_ms), fmt::format("{:.3f}", result.error)});
   }
-  fmt::print("{}\n(1) root mean square of 255, against 64 samples a pixel\n", table.text());
+  fmt::print("{}\n(1) RMS error on a 0-255 scale, against 64 samples per pixel\n", table.text());
 }
 
 void print_json(const scenes::Scene& scene, const Request& request,
@@ -82,43 +83,38 @@ void compare(const Request& request) {
   const rays::ImageOfRays image = choose_image(scene, request.image);
   const auto structure =
       choice.build(scene, rays::workload_of(image, choose_rays(scene, request.image)));
-  const auto* tracer = dynamic_cast<const accel::beam::BeamTracer*>(structure.get());
-  if (tracer == nullptr) {
-    throw InputError(
-        fmt::format("'{}' traces no beams, whose leaves choose the number of samples; "
-                    "give --accel beam, with parameters if you like",
-                    choice.info().name));
-  }
+  const accel::beam::BeamTracer& tracer = require_beams(*structure, choice);
   base::Progress progress(experiments::sampling_steps());
   const auto results =
-      experiments::compare_sampling(*tracer, scene, image, request.repetitions, progress);
+      experiments::compare_sampling(tracer, scene, image, request.repetitions, progress);
   progress.clear();
   request.json ? print_json(scene, request, results) : print_text(scene, request, results);
-  if (!request.picture.empty()) write_picture(request.picture, *tracer, image);
+  if (!request.picture.empty()) write_picture(request.picture, tracer, image);
 }
 
 }  // namespace
 
 void add_sampling_command(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand(
-      "sampling", "Choose the samples of a pixel in object space or image space");
+  CLI::App* command =
+      app.add_subcommand("sampling", "Compare adaptive sampling in object space and image space");
   const auto request = std::make_shared<Request>();
   add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structure, "beam, with parameters where wanted")
       ->capture_default_str();
   command->add_option("--resolution", request->image.resolution, "WxH")->capture_default_str();
   add_view_options(*command, request->image.view);
-  command->add_option("--repetitions", request->repetitions, "Times each way is timed")
+  command->add_option("--repetitions", request->repetitions, "How often each method is timed")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
   command->add_option("--picture", request->picture,
-                      "PNG of how many samples object-space sampling gives each pixel");
+                      "PNG of the number of object-space samples in each pixel");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
-      "Uniform sampling, as the thesis has it (none where beams leave the scene); object-space\n"
-      "sampling, its future work: the leaf at which a beam ends chooses 1, 5 or 25 samples by its\n"
-      "references and its size in pixels; image-space sampling: a pixel that differs from its\n"
-      "neighbors gets more. Errors are against 64 samples a pixel, in preview shading.\n"
+      "Uniform sampling, as in the thesis (no rays where beams leave the scene); object-space\n"
+      "sampling, the thesis's future work: the leaf at which a beam ends chooses 1, 5 or 25 "
+      "samples\n"
+      "by its references and its size in pixels; image-space sampling: a pixel that differs from\n"
+      "its neighbors gets more. Errors are against 64 samples per pixel, in preview shading.\n"
       "Examples:\n"
       "  beambench sampling delfines\n"
       "  beambench sampling maceta --accel beam:max_level=7 --resolution 320x200 --json\n"

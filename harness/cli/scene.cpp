@@ -1,4 +1,4 @@
-// beambench scene: what a scene consists of.
+// beambench scene: the contents of a scene, or its growth with its size.
 
 #include <algorithm>
 #include <cstdio>
@@ -13,7 +13,8 @@
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
-#include "harness/cli/scene_growth.hpp"
+#include "harness/cli/text.hpp"
+#include "harness/experiments/scene_growth.hpp"
 #include "harness/rays/fingerprint.hpp"
 
 namespace beambench::cli {
@@ -107,6 +108,39 @@ void print_json(const scenes::Scene& scene) {
   fmt::print("{}\n", out.dump(2));
 }
 
+void print_text(const experiments::SceneGrowth& growth) {
+  TextTable table({growth.size_parameter, "primitives", "memory", "per primitive", "seconds"}, 0);
+  for (const experiments::GrownScene& row : growth.sizes) {
+    const double each = static_cast<double>(row.bytes) / static_cast<double>(row.primitives);
+    table.add({fmt::format("{}", row.size), fmt::format("{}", row.primitives),
+               format_bytes(row.bytes), fmt::format("{:.0f} bytes", each),
+               fmt::format("{:.4f}", row.seconds)});
+  }
+  fmt::print("{}\n{}", growth.generator, table.text());
+}
+
+void print_json(const experiments::SceneGrowth& growth) {
+  nlohmann::ordered_json out{{"scene", growth.generator},
+                             {"size_parameter", growth.size_parameter}};
+  for (const experiments::GrownScene& row : growth.sizes) {
+    out["sizes"].push_back({{"scene", row.scene},
+                            {"size", row.size},
+                            {"primitives", row.primitives},
+                            {"bytes", row.bytes},
+                            {"seconds", row.seconds}});
+  }
+  fmt::print("{}\n", out.dump(2));
+}
+
+/// A label may hold commas, so it is quoted.
+void print_csv(const experiments::SceneGrowth& growth) {
+  fmt::print("generator,parameter,size,primitives,bytes,seconds,scene\n");
+  for (const experiments::GrownScene& row : growth.sizes) {
+    fmt::print("{},{},{},{},{},{:.6f},\"{}\"\n", growth.generator, growth.size_parameter, row.size,
+               row.primitives, row.bytes, row.seconds, row.scene);
+  }
+}
+
 struct Request {
   std::string scene;
   bool json = false;
@@ -118,10 +152,10 @@ struct Request {
 
 void show(const Request& request) {
   if (request.growth) {
-    const auto form = request.csv    ? GrowthForm::kCsv
-                      : request.json ? GrowthForm::kJson
-                                     : GrowthForm::kText;
-    show_growth(request.scene, request.growth_limit, form);
+    base::Progress progress(1);
+    const auto growth = experiments::measure_growth(request.scene, request.growth_limit, progress);
+    progress.clear();
+    request.csv ? print_csv(growth) : request.json ? print_json(growth) : print_text(growth);
     return;
   }
   const scenes::Scene scene = open_scene(request.scene, request.options);
@@ -131,27 +165,26 @@ void show(const Request& request) {
 }  // namespace
 
 void add_scene_command(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("scene", "A scene's counts, bounds, cameras and hash");
+  CLI::App* command =
+      app.add_subcommand("scene", "Print a scene's counts, bounds, cameras and hash");
   const auto request = std::make_shared<Request>();
   add_scene_option(*command, request->scene);
   CLI::Option* json = command->add_flag("--json", request->json, "Print JSON instead of text");
   command->add_flag("--strict", request->options.strict,
-                    "Refuse a file with unknown words, ignored fields, degenerate primitives or "
+                    "Reject a file with unknown words, ignored fields, degenerate primitives or "
                     "polygons to repair");
-  CLI::Option* growth =
-      command->add_flag("--growth", request->growth,
-                        "Generate it in growing sizes: primitives, bytes and seconds of each");
-  command
-      ->add_option("--growth-limit", request->growth_limit,
-                   "No size with more primitives than this")
-      ->check(CLI::Range(std::size_t{1}, kLargestGrowth))
+  CLI::Option* growth = command->add_flag(
+      "--growth", request->growth,
+      "Generate it in growing sizes; print primitives, bytes and seconds of each");
+  command->add_option("--growth-limit", request->growth_limit, "Maximum number of primitives")
+      ->check(CLI::Range(std::size_t{1}, experiments::kMaxGrowth))
       ->capture_default_str()
       ->needs(growth);
   command->add_flag("--csv", request->csv, "Print the growth as CSV")
       ->needs(growth)
       ->excludes(json);
   command->footer(
-      "Bytes are what the scene's arrays hold, room for more included; seconds are wall time.\n"
+      "Bytes are those of the scene's arrays, spare capacity included; seconds are wall time.\n"
       "Examples:\n"
       "  beambench scene escena1\n"
       "  beambench scene balls:n=3 --json\n"

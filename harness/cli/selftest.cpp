@@ -77,10 +77,10 @@ void print(const std::vector<CheckedProperty>& checked) {
   }
 }
 
-/// `, over polygons alone: it refuses spheres and cones`; empty where it takes everything.
+/// `, over polygons only: it does not support spheres and cones`; empty if it supports all.
 std::string limits_of(const verify::PrimitiveKinds& kinds) {
   if (kinds.all()) return "";
-  return fmt::format(", over {} alone: it refuses {}", fmt::join(kinds.names(), " and "),
+  return fmt::format(", over {} only: it does not support {}", fmt::join(kinds.names(), " and "),
                      fmt::join(kinds.without().names(), " and "));
 }
 
@@ -98,9 +98,9 @@ void print_verdicts(const std::vector<CheckedProperty>& checked,
       if (!property.outcome.passed()) ++failed;
     }
     if (made == 0) {
-      fmt::print("{}: returns nothing by design, so there is nothing to check\n", label);
+      fmt::print("{}: finds no hits by design, so there is nothing to check\n", label);
     } else if (failed == 0) {
-      fmt::print("{}: ok, it keeps its contract in all {} checks{}\n", label, made, limits);
+      fmt::print("{}: ok, passes all {} checks{}\n", label, made, limits);
     } else {
       fmt::print("{}: failed {} of {} checks{}\n", label, failed, made, limits);
     }
@@ -148,25 +148,23 @@ int selftest(const Request& request) {
 }  // namespace
 
 void add_selftest_command(CLI::App& app, int& exit_code) {
-  CLI::App* command = app.add_subcommand(
-      "selftest", "Checks that a structure keeps its contract, over scenes made to break it");
+  CLI::App* command =
+      app.add_subcommand("selftest", "Check a structure's contract over scenes made to break it");
   const auto request = std::make_shared<Request>();
   command->add_option("--accel", request->structures, "Structures: NAME:parameter=value,... or all")
       ->capture_default_str();
-  command->add_option("--scenes", request->effort.scenes, "Random scenes")
+  command->add_option("--scenes", request->effort.scenes, "Number of random scenes")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
-  command->add_option("--seed", request->effort.seed, "Of the first random scene")
+  command->add_option("--seed", request->effort.seed, "Seed of the first random scene")
       ->capture_default_str();
-  command->add_option("--json", request->json, "Write the outcome to this file, too");
+  command->add_option("--json", request->json, "Also write the results to this file");
   command->footer(
-      "TraceResults are compared with those of exhaustive search, bit for bit; those of a "
-      "structure "
-      "with\n"
-      "arithmetic of its own are judged by the differ's classes. A structure without parameters\n"
-      "after its name gets random ones in the random scenes; one that refuses a kind of "
-      "primitives\n"
-      "is asked over the others. Exits with 1 when a check failed.\n"
+      "Hits are compared with those of exhaustive search, bit for bit; those of a structure with\n"
+      "arithmetic of its own by the differ's classes. A structure without parameters after its "
+      "name\n"
+      "gets random ones in the random scenes; one that does not support a kind of primitives is\n"
+      "checked over the others. Exits with 1 if a check failed.\n"
       "Examples:\n"
       "  beambench selftest --accel samet --scenes 10\n"
       "  beambench selftest --accel samet:max_level=4,voxel-grid --scenes 5 --json selftest.json");

@@ -1,7 +1,6 @@
 // beambench stats: how large structures are and how much work a ray makes them do.
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <map>
 #include <memory>
@@ -13,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/base/progress.hpp"
+#include "harness/base/stopwatch.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
@@ -48,15 +48,14 @@ struct Finding {
 
 Finding examine(const accel::StructureChoice& choice, const scenes::Scene& scene,
                 const rays::ImageOfRays& image, const rays::TraceInput& input, bool levels) {
-  const auto begin = std::chrono::steady_clock::now();
+  const base::Stopwatch stopwatch;
   const auto accelerator = choice.build(scene, rays::workload_of(image, input));
-  const std::chrono::duration<double, std::milli> building =
-      std::chrono::steady_clock::now() - begin;
+  const double build_ms = stopwatch.milliseconds();
 
   rays::TraceResults results = rays::make_results(input);
   accel::WorkCounters counters;
   rays::trace(*accelerator, input, results, &counters);
-  Finding finding{choice, accelerator->statistics(), building.count(), 0, counters.by_name(), {}};
+  Finding finding{choice, accelerator->statistics(), build_ms, 0, counters.by_name(), {}};
   for (std::size_t i = 0; i < input.size(); ++i) finding.hits += rays::is_hit_at(results, i);
   if (levels) finding.levels = rays::count_level_visits(*accelerator, input);
   return finding;
@@ -154,7 +153,7 @@ void print_text(const scenes::Scene& scene, const rays::ImageOfRays& image,
   StatisticsTable table(findings);
   add_sizes(table, findings);
   add_work(table, findings, input.size());
-  fmt::print("{}\n(1) of this one build, for information; 'beambench run' measures\n",
+  fmt::print("{}\n(1) of this one build, for information; 'beambench run' measures times\n",
              table.text());
   for (const Finding& finding : findings) {
     if (!finding.levels.empty()) fmt::print("{}", levels_text(finding));
@@ -248,7 +247,7 @@ int show_statistics(const Request& request) {
 
 void add_stats_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
-      app.add_subcommand("stats", "Sizes of structures and the work a ray makes them do");
+      app.add_subcommand("stats", "Print the sizes of structures and their work per ray");
   const auto request = std::make_shared<Request>();
   add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structures, "Structures: NAME:parameter=value,... or all")
@@ -259,7 +258,7 @@ void add_stats_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   add_view_options(*command, request->view);
   command->add_flag("--levels", request->levels,
-                    "Also, of octrees, how often rays and beams come to nodes of each level");
+                    "For octrees, also print the visits of rays and beams by level");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "Examples:\n"

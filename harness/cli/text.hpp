@@ -1,5 +1,5 @@
 #pragma once
-// Text for people: tables whose columns stand under each other, wrapped sentences, sizes.
+// Text output: aligned tables, wrapped sentences, sizes.
 
 #include <cstddef>
 #include <cstdint>
@@ -25,7 +25,7 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;  // the header first
 };
 
-/// Breaks a text at blanks into lines of at most `width` characters, each behind `indent` blanks
+/// Breaks a text at blanks into lines of at most `width` characters, each after `indent` blanks
 /// and with its line end.
 std::string wrap(std::string_view text, std::size_t indent, std::size_t width = 100);
 

@@ -1,4 +1,4 @@
-// beambench trace: one ray's way through a structure, step by step.
+// beambench trace: the traversal path of one ray, step by step.
 
 #include <charconv>
 #include <cstdio>
@@ -11,9 +11,7 @@
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
-#include "harness/cli/ray_way.hpp"
-#include "harness/cli/watched_ask.hpp"
-#include "harness/verify/verify_ray.hpp"
+#include "harness/verify/ray_path.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::cli {
@@ -93,16 +91,6 @@ std::size_t chosen_index(const Request& request, const rays::TraceInput& input) 
   return image != nullptr ? index_in_image(request, *image) : index_in_list(request, input);
 }
 
-/// Puts the answer to one ray in its place.
-void answer_alone(const accel::Accelerator& structure, const accel::Ray& ray, std::size_t index,
-                  rays::TraceResults& results) {
-  if (auto* any = std::get_if<rays::AnyHits>(&results)) {
-    (*any)[index] = structure.any_hit(ray, nullptr) ? 1 : 0;
-  } else {
-    std::get<accel::HitBuffer>(results).set(index, structure.closest_hit(ray, nullptr));
-  }
-}
-
 int trace(const Request& request) {
   if (!request.pixel.empty()) parse_pixel(request.pixel);
   const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
@@ -110,48 +98,20 @@ int trace(const Request& request) {
   const scenes::Scene scene = open_scene(request.scene);
   const rays::ImageOfRays image = choose_image(scene, request.image);
   const rays::TraceInput input = rays::make_trace_input(scene, image, kind);
-  const std::size_t index = chosen_index(request, input);
-  const accel::Ray ray = input.ray(index);
-
-  const auto accelerator = choice.build(scene, rays::workload_of(image, input));
-  const accel::embree::EmbreeOracle oracle(scene, input.reach());
-  RayWay way{choice.short_label(), image, input, {}, {}, {}, {}, true, {}};
-  way.asked_all = !request.alone;
-  accel::WorkCounters counters;
-  accelerator->closest_hit(ray, &counters);
-  way.counters = counters.by_name();
-  const auto* beams = dynamic_cast<const accel::beam::BeamTracer*>(accelerator.get());
-  if (beams != nullptr && input.image() != nullptr && !request.alone) {
-    const rays::PixelSample at = *input.pixel(index);
-    accel::beam::SamplePath with_beams =
-        accel::beam::path_of_sample(*beams, *input.image(), at.x, at.y, at.sample);
-    way.beams = std::move(with_beams.beams);
-    way.steps = std::move(with_beams.steps);
-  } else {
-    way.steps = accelerator->explain(ray);
-  }
-  way.alone = accelerator->closest_hit(ray, nullptr);
-  rays::TraceResults results = rays::make_results(input);
-  if (request.alone) {
-    answer_alone(*accelerator, ray, index, results);
-  } else {
-    base::Progress progress(1);
-    progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
-    watched_ask(*accelerator, input, results, 1, progress);
-  }
-  way.judgment = verify::candidate_mismatch(input, results, index, oracle.closest_hit(ray));
-  verify::verify_ray(scene, choice.info().conformance, way.judgment);
-
-  fmt::print("{}", request.json ? to_json(scene, way).dump(2) + '\n' : to_text(scene, way));
-  return way.judgment.diff_class == verify::DiffClass::kStructureError ? base::kMismatch
-                                                                       : base::kSuccess;
+  base::Progress progress(1);
+  const verify::RayPath path = verify::trace_path(
+      choice, scene, image, input, chosen_index(request, input), request.alone, progress);
+  progress.clear();
+  fmt::print("{}", request.json ? to_json(scene, path).dump(2) + '\n' : to_text(scene, path));
+  return path.judgment.diff_class == verify::DiffClass::kStructureError ? base::kMismatch
+                                                                        : base::kSuccess;
 }
 
 }  // namespace
 
 void add_trace_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
-      app.add_subcommand("trace", "One ray's way through a structure, step by step");
+      app.add_subcommand("trace", "Print the traversal path of one ray, step by step");
   const auto request = std::make_shared<Request>();
   add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structure, "Structure: NAME:parameter=value,...")
@@ -166,21 +126,17 @@ void add_trace_command(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   command->add_option("--ray", request->ray, "Which of the rays that are not primary, from 0");
   command->add_flag("--alone", request->alone,
-                    "Do not ask the other rays: quicker, but packets and beams may answer "
-                    "otherwise");
+                    "Trace no other rays: faster, but packets and beams may find another hit");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
-      "Tells the cells or nodes that the ray enters, in which interval of t, the primitives that\n"
-      "are tested there, the hit, and what the oracle says of it, by the classes that 'beambench\n"
-      "verify --help' tells. Of primary rays t is view depth. Of shadow rays the way to the "
-      "closest\n"
-      "hit is told, though any would do. Exits with 1 where the structure is wrong.\n"
-      "With --accel beam, a primary ray is shown with its image: the beams that the sample "
-      "belongs\n"
-      "to, from the first to the one it ends in, each with its leaf, the planes that cut it, its\n"
-      "outline in pixels and its number of samples; then the sample's own tests. --alone shows "
-      "the\n"
-      "ray without beams, by Samet's traversal.\n"
+      "Prints the cells or nodes that the ray enters, the interval of t in each, the primitives\n"
+      "tested there, the hit, and how it compares with the oracle's, in the classes of 'beambench\n"
+      "verify --help'. For primary rays t is view depth. For shadow rays the path to the closest\n"
+      "hit is printed, though any hit would do. Exits with 1 if the structure is wrong.\n"
+      "With --accel beam, a primary ray is traced with its image: the beams that contain the\n"
+      "sample are printed, from the first to the one it ends in, each with its leaf, the planes\n"
+      "that cut it, its outline in pixels and its number of samples; then the sample's own tests.\n"
+      "--alone traces the ray without beams, by Samet's traversal.\n"
       "Examples:\n"
       "  beambench trace delfines --accel beam --pixel 30,30 --resolution 64x64\n"
       "  beambench trace escena1 --accel samet --pixel 160,100 --resolution 320x200\n"

@@ -1,9 +1,10 @@
-// beambench verify: are the structures right?
+// beambench verify: compares the hits of structures with an exact oracle.
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,12 +14,12 @@
 #include "harness/bench/record/build_info.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
-#include "harness/cli/picture_folder.hpp"
 #include "harness/cli/text.hpp"
-#include "harness/cli/verification.hpp"
-#include "harness/cli/verify_picture.hpp"
+#include "harness/plugin/load_plugin.hpp"
 #include "harness/rays/ray_kind.hpp"
 #include "harness/rays/resolution.hpp"
+#include "harness/render/diagnostics.hpp"
+#include "harness/render/verify_picture.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
@@ -40,16 +41,16 @@ struct Request {
   std::string pictures;
 };
 
-std::string bits_text(const VerifiedCell& cell) {
+std::string bits_text(const verify::VerifiedCell& cell) {
   if (cell.bits_reference.empty()) return "-";
   return cell.different_bits == 0 ? "equal" : fmt::format("{} differ", cell.different_bits);
 }
 
-std::string table_text(const std::vector<VerifiedCell>& cells) {
+std::string table_text(const std::vector<verify::VerifiedCell>& cells) {
   TextTable table({"scene", "ray kind", "structure", "rays", "hits", "agree", "tie", "graze",
                    "structure error", "embree error", "bits", "verdict"},
                   3);
-  for (const VerifiedCell& cell : cells) {
+  for (const verify::VerifiedCell& cell : cells) {
     std::vector<std::string> row{cell.scene, cell.rays, cell.label};
     if (cell.report) {
       row.push_back(fmt::format("{}", cell.report->rays));
@@ -65,7 +66,7 @@ std::string table_text(const std::vector<VerifiedCell>& cells) {
   return table.text();
 }
 
-void print_disputes(const VerifiedCell& cell) {
+void print_disputes(const verify::VerifiedCell& cell) {
   if (!cell.message.empty() && cell.has_rays()) {
     fmt::print("\n{} over {}: {}\n", cell.label, cell.scene, cell.message);
   }
@@ -76,20 +77,21 @@ void print_disputes(const VerifiedCell& cell) {
   if (shown < cell.disputes.size()) {
     fmt::print("... and {} more, which --json FILE writes\n", cell.disputes.size() - shown);
   }
-  if (!cell.picture.empty()) fmt::print("picture: {}\n", cell.picture.string());
+  if (!cell.picture.empty()) fmt::print("picture: {}\n", cell.picture);
 }
 
 /// Why kinds have no rays, each once: it is the same for all structures.
-void print_missing_rays(const std::vector<VerifiedCell>& cells) {
+void print_missing_rays(const std::vector<verify::VerifiedCell>& cells) {
   const std::string* last = nullptr;
-  for (const VerifiedCell& cell : cells) {
+  for (const verify::VerifiedCell& cell : cells) {
     if (cell.has_rays() || (last != nullptr && *last == cell.message)) continue;
     fmt::print("\n{} over {}: {}\n", cell.rays, cell.scene, cell.message);
     last = &cell.message;
   }
 }
 
-void write_json(const Request& request, const std::vector<VerifiedCell>& cells, bool passed) {
+void write_json(const Request& request, const std::vector<verify::VerifiedCell>& cells,
+                bool passed) {
   nlohmann::ordered_json out{{"beambench", bench::build_info().version},
                              {"resolution", request.resolution},
                              {"samples", request.samples},
@@ -97,11 +99,11 @@ void write_json(const Request& request, const std::vector<VerifiedCell>& cells, 
                              {"threads", accel::thread_count(request.threads)},
                              {"passed", passed},
                              {"cells", nlohmann::ordered_json::array()}};
-  for (const VerifiedCell& cell : cells) out["cells"].push_back(to_json(cell));
+  for (const verify::VerifiedCell& cell : cells) out["cells"].push_back(to_json(cell));
   write_file(request.json, out.dump(2) + '\n');
 }
 
-/// All of them before any work is done, so that a wrong name costs nobody's patience.
+/// All of them before any work is done, so that a wrong name fails early.
 std::vector<scenes::Scene> open_scenes(const Request& request) {
   std::vector<scenes::Scene> scenes;
   for (const std::string& spec : request.scenes) scenes.push_back(open_scene(spec));
@@ -111,22 +113,35 @@ std::vector<scenes::Scene> open_scenes(const Request& request) {
   return scenes;
 }
 
-std::vector<VerifiedCell> verify_kind(const scenes::Scene& scene, const rays::ImageOfRays& image,
-                                      const rays::RayChoice& kind, const Contenders& contenders,
-                                      const Request& request, base::Progress& progress) {
+std::vector<verify::VerifiedCell> verify_kind(const scenes::Scene& scene,
+                                              const rays::ImageOfRays& image,
+                                              const rays::RayChoice& kind,
+                                              const Contenders& contenders, const Request& request,
+                                              base::Progress& progress) {
   if (kind.kind == rays::RayKind::kWhitted) {
-    return verify_picture(scene, image, kind, contenders.choices, progress);
+    return render::verify_picture(scene, image, kind, contenders.choices, progress);
   }
   try {
-    const VerifiedView view{scene, image, rays::make_trace_input(scene, image, kind),
-                            request.threads};
-    return verify_scene(view, contenders.choices, request.pictures, progress);
-  } catch (const rays::NoRaysError& error) {  // the other kinds go on
-    return cells_without_rays(scene, kind.label, contenders.choices, progress, error.what());
+    const verify::VerifiedView view{scene, image, rays::make_trace_input(scene, image, kind),
+                                    request.threads, plugin::program_call()};
+    verify::DrawDifferences draw;
+    if (!request.pictures.empty())
+      draw = [&](const verify::ReferenceHits& reference, std::span<const verify::DiffClass> classes,
+                 const verify::VerifiedCell& cell) {
+        const auto file =
+            std::filesystem::path(request.pictures) /
+            picture_name(fmt::format("{}-{}-{}", cell.scene, image.camera.name, cell.label));
+        render::write_difference(file, reference, classes, {cell.label, render::kOracleName});
+        return file.string();
+      };
+    return verify::verify_scene(view, contenders.choices, progress, draw);
+  } catch (const rays::NoRaysError& error) {  // the other kinds continue
+    return verify::cells_without_rays(scene, kind.label, contenders.choices, progress,
+                                      error.what());
   }
 }
 
-int verify(const Request& request) {
+int verify_structures(const Request& request) {
   const rays::Resolution resolution = rays::parse_resolution(request.resolution);
   const std::vector<rays::RayChoice> kinds = rays::parse_ray_choices(request.rays);
   rays::require_ray_count(resolution,
@@ -138,24 +153,25 @@ int verify(const Request& request) {
   if (!request.pictures.empty()) make_picture_folder(request.pictures);
 
   base::Progress progress(scenes.size() * kinds.size() * structures);
-  std::vector<VerifiedCell> cells;
+  std::vector<verify::VerifiedCell> cells;
   for (const scenes::Scene& scene : scenes) {
     const rays::ImageOfRays image{choose_camera(scene, request.view), resolution, request.samples};
     const Contenders contenders = choose_contenders(request.structures, scene);
     if (!contenders.note.empty()) progress.say(contenders.note);
     for (const rays::RayChoice& kind : kinds) {
       progress.skip(structures - contenders.choices.size());
-      for (VerifiedCell& cell : verify_kind(scene, image, kind, contenders, request, progress)) {
+      for (verify::VerifiedCell& cell :
+           verify_kind(scene, image, kind, contenders, request, progress)) {
         cells.push_back(std::move(cell));
       }
     }
   }
   progress.clear();
 
-  const bool verified = std::ranges::any_of(cells, &VerifiedCell::has_rays);
-  const bool passed = verified && std::ranges::all_of(cells, &VerifiedCell::passed);
+  const bool verified = std::ranges::any_of(cells, &verify::VerifiedCell::has_rays);
+  const bool passed = verified && std::ranges::all_of(cells, &verify::VerifiedCell::passed);
   fmt::print("{}", table_text(cells));
-  for (const VerifiedCell& cell : cells) print_disputes(cell);
+  for (const verify::VerifiedCell& cell : cells) print_disputes(cell);
   print_missing_rays(cells);
   if (!request.json.empty()) write_json(request, cells, passed);
   if (!verified) {
@@ -171,7 +187,7 @@ int verify(const Request& request) {
 
 void add_verify_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
-      app.add_subcommand("verify", "Judges structures, ray by ray, against an exact oracle");
+      app.add_subcommand("verify", "Verify structures, ray by ray, against an exact oracle");
   const auto request = std::make_shared<Request>();
   command->add_option("SCENE", request->scenes,
                       fmt::format("{}; several may be given (default: the whole catalogue, which "
@@ -183,32 +199,31 @@ void add_verify_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--rays", request->rays, "Kinds of rays (see 'beambench list'), or .rays files")
       ->capture_default_str();
-  command->add_option("--samples", request->samples, "Rays a pixel: 1, 4, 5, 9, 16, ...")
+  command->add_option("--samples", request->samples, "Rays per pixel: 1, 4, 5, 9, 16, ...")
       ->capture_default_str();
   add_view_options(*command, request->view);
   command
       ->add_option("--threads", request->threads,
-                   "That trace images of primary rays; 0: one for each core")
+                   "Threads for images of primary rays; 0: one for each core")
       ->capture_default_str()
       ->check(CLI::Range(0, 1024));
-  command->add_option("--json", request->json, "Write the judgment to this file, too");
+  command->add_option("--json", request->json, "Also write the results to this file");
   command
       ->add_option("--pictures", request->pictures,
-                   "Write a picture of the differences to this folder where there are errors")
+                   "Write a picture of the differences to this folder if there are errors")
       ->type_name("DIR");
   command->footer(
-      "Each ray's answer is compared with that of Embree given exact intersectors. agree: the "
-      "same\n"
+      "Each ray's hit is compared with that of Embree given exact intersectors. agree: the same\n"
       "primitive at the same place; tie: another primitive at the same place; graze: the ray "
       "passes\n"
-      "a boundary within rounding; structure error, embree error: one of both is wrong, as a "
-      "search "
-      "of\n"
-      "all primitives in long double finds. bits: do bit-exact structures repeat exhaustive, or\n"
-      "the first of them? Exits with 1 unless every verdict is ok (baseline for 'null'; no_rays "
-      "where\n"
-      "the scene has no rays of a kind, which is no error unless no kind has any).\n"
-      "Each error is printed with the command that replays it, a 'beambench trace'.\n"
+      "a boundary within rounding; structure error, embree error: one of the two is wrong, as a\n"
+      "search of all primitives in long double shows. bits: whether bit-exact structures return "
+      "the\n"
+      "same bits as exhaustive, or as the first of them. Exits with 1 unless every verdict is ok\n"
+      "(baseline for 'null'; no_rays where the scene has no rays of a kind, which is an error "
+      "only\n"
+      "if no kind has any). Each error is printed with the command that replays it, a 'beambench\n"
+      "trace'.\n"
       "Examples:\n"
       "  beambench verify tetera\n"
       "  beambench verify escena1 tetra:n=4 --accel all\n"
@@ -216,7 +231,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       "  beambench verify finishes --accel all --rays whitted\n"
       "  beambench verify balls --accel samet:max_level=5,embree --resolution 640x480 --json "
       "v.json");
-  command->callback([request, &exit_code] { exit_code = verify(*request); });
+  command->callback([request, &exit_code] { exit_code = verify_structures(*request); });
 }
 
 }  // namespace beambench::cli

@@ -5,72 +5,73 @@
 #include <fmt/format.h>
 
 #include "harness/base/stopwatch.hpp"
-#include "harness/cluster/parcel.hpp"
+#include "harness/cluster/messages.hpp"
 
 namespace beambench::cluster {
 
-Bytes write_account(const ConsumerAccount& account) {
+Bytes write_report(const ConsumerReport& report) {
   Bytes bytes;
   ByteWriter writer(bytes);
-  writer.put(account.tasks);
-  writer.put(account.busy_seconds);
-  writer.put(account.cpu_seconds);
-  writer.put(account.wait_seconds);
-  writer.put_bytes(account.counted);
+  writer.put(report.tasks);
+  writer.put(report.busy_seconds);
+  writer.put(report.cpu_seconds);
+  writer.put(report.wait_seconds);
+  writer.put_bytes(report.counted);
   return bytes;
 }
 
-ConsumerAccount read_account(std::span<const std::byte> bytes) {
+ConsumerReport read_consumer_report(std::span<const std::byte> bytes) {
   ByteReader reader(bytes);
-  ConsumerAccount account;
-  account.tasks = reader.get<std::uint64_t>();
-  account.busy_seconds = reader.get<double>();
-  account.cpu_seconds = reader.get<double>();
-  account.wait_seconds = reader.get<double>();
+  ConsumerReport report;
+  report.tasks = reader.get<std::uint64_t>();
+  report.busy_seconds = reader.get<double>();
+  report.cpu_seconds = reader.get<double>();
+  report.wait_seconds = reader.get<double>();
   const auto counted = reader.rest();
-  account.counted.assign(counted.begin(), counted.end());
-  return account;
+  report.counted.assign(counted.begin(), counted.end());
+  return report;
 }
 
-void Consumer::run(Bytes introduction) {
-  send(Tag::kReady, std::move(introduction));
+void Consumer::run(Bytes ready_report) {
+  send(Tag::kReady, std::move(ready_report));
   while (true) {
     const double before = transport_->seconds();
     const auto message = transport_->wait(Transport::kForever);
-    account_.wait_seconds += transport_->seconds() - before;
+    report_.wait_seconds += transport_->seconds() - before;
     if (!message) continue;
     if (message->tag == Tag::kEnd) break;
-    if (message->tag != Tag::kTasks) throw ProtocolError("a consumer got a consumer's message");
+    if (message->tag != Tag::kTasks)
+      throw ProtocolError("a consumer received a message for the producer");
     do_parcel(*message);
   }
-  worker_->tell(account_.counted);
-  send(Tag::kFarewell, write_account(account_));
+  worker_->write_counts(report_.counted);
+  send(Tag::kFinalReport, write_report(report_));
 }
 
 void Consumer::do_parcel(const Message& message) {
   const ParcelReader tasks(message.bytes);
   ParcelWriter results(tasks.number());
-  const auto pulse = [this] {
-    if (transport_->seconds() - last_sent_ < alive_every_) return;
-    transport_->send(kProducer, Tag::kAlive, {});
+  const auto heartbeat = [this] {
+    if (transport_->seconds() - last_sent_ < heartbeat_interval_) return;
+    transport_->send(kProducer, Tag::kHeartbeat, {});
     last_sent_ = transport_->seconds();
   };
   last_sent_ = transport_->seconds();
   for (const ParcelItem& task : tasks.items()) {
     const double before = transport_->seconds();
     const base::CpuStopwatch timer;
-    worker_->perform(task.bytes, results.begin_item(), pulse);
+    worker_->perform(task.bytes, results.begin_item(), heartbeat);
     const double seconds = timer.seconds();
     results.end_item(static_cast<float>(seconds));
-    ++account_.tasks;
-    account_.cpu_seconds += seconds;
-    account_.busy_seconds += transport_->seconds() - before;
-    pulse();
+    ++report_.tasks;
+    report_.cpu_seconds += seconds;
+    report_.busy_seconds += transport_->seconds() - before;
+    heartbeat();
   }
   send(Tag::kResults, std::move(results).take());
 }
 
-/// As MPI_Send does, it waits until the message has left.
+/// Waits until the message has left, as MPI_Send does.
 void Consumer::send(Tag tag, Bytes bytes) {
   transport_->send(kProducer, tag, std::move(bytes));
   transport_->flush();

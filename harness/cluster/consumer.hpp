@@ -1,5 +1,5 @@
 #pragma once
-// The process that does what the producer gives it.
+// The process that performs the producer's tasks.
 
 #include <cstdint>
 #include <span>
@@ -9,29 +9,29 @@
 
 namespace beambench::cluster {
 
-/// What a consumer tells at its end.
-struct ConsumerAccount {
+/// A consumer's final report.
+struct ConsumerReport {
   std::uint64_t tasks = 0;
   double busy_seconds = 0.0;
   double cpu_seconds = 0.0;
   double wait_seconds = 0.0;
-  Bytes counted;  ///< `TaskWorker::tell`
+  Bytes counted;  ///< `TaskWorker::write_counts`
 };
 
-/// As bytes, and back. Reading throws ProtocolError where it is none.
-Bytes write_account(const ConsumerAccount& account);
-ConsumerAccount read_account(std::span<const std::byte> bytes);
+/// As bytes, and back. Reading throws ProtocolError for other bytes.
+Bytes write_report(const ConsumerReport& report);
+ConsumerReport read_consumer_report(std::span<const std::byte> bytes);
 
-/// A consumer of section 6.2: waits for a parcel, does its tasks, sends the results, until it is
-/// told that there is no more. In a long task it tells the producer that it is alive.
+/// A consumer of section 6.2: waits for a parcel, performs its tasks, sends the results, until the
+/// end message. In a long task it sends heartbeats.
 class Consumer {
  public:
-  /// `alive_every`: seconds between two signs of life.
-  Consumer(Transport& transport, TaskWorker& worker, double alive_every)
-      : transport_(&transport), worker_(&worker), alive_every_(alive_every) {}
+  /// `heartbeat_interval`: seconds between two heartbeats.
+  Consumer(Transport& transport, TaskWorker& worker, double heartbeat_interval)
+      : transport_(&transport), worker_(&worker), heartbeat_interval_(heartbeat_interval) {}
 
-  /// `introduction`: what it says of itself when it is ready.
-  void run(Bytes introduction);
+  /// `ready_report`: its first message.
+  void run(Bytes ready_report);
 
  private:
   void do_parcel(const Message& message);
@@ -39,9 +39,9 @@ class Consumer {
 
   Transport* transport_;
   TaskWorker* worker_;
-  double alive_every_;
+  double heartbeat_interval_;
   double last_sent_ = 0.0;
-  ConsumerAccount account_;
+  ConsumerReport report_;
 };
 
 }  // namespace beambench::cluster

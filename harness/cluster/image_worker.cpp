@@ -36,8 +36,9 @@ ImageWorker::ImageWorker(const accel::beam::BeamTracer& tracer, const accel::Pri
       painter_(tracer.scene(), tracer, tracer.options(), view_, rays, sight_, hits_, {}, decided_) {
 }
 
-void ImageWorker::perform(std::span<const std::byte> task, Bytes& result, const Pulse& pulse) {
-  decided_.begin(pulse);
+void ImageWorker::perform(std::span<const std::byte> task, Bytes& result,
+                          const Heartbeat& heartbeat) {
+  decided_.begin(heartbeat);
   std::visit([this](const auto& each) { trace(each); }, read_task(task, tracer_->octree(), view_));
   // Beams find their samples lattice by lattice; sorted, a pixel's samples are neighbors.
   std::vector<std::uint32_t>& samples = decided_.samples();
@@ -46,9 +47,9 @@ void ImageWorker::perform(std::span<const std::byte> task, Bytes& result, const 
     write_hits(samples, hits_, result);
     return;
   }
-  // Begun anew, so that the census does not depend on which process had which task before.
+  // A new one for each task, so that the census does not depend on their distribution.
   render::Whitted::Progress progress = light_->begin();
-  write_colors(samples, hits_, *rays_, *light_, progress, pulse, result);
+  write_colors(samples, hits_, *rays_, *light_, progress, heartbeat, result);
   census_ += progress.census;
 }
 
@@ -81,7 +82,7 @@ void ImageWorker::trace(const BlockTask& block) {
   }
 }
 
-void ImageWorker::tell(Bytes& bytes) const {
+void ImageWorker::write_counts(Bytes& bytes) const {
   ByteWriter writer(bytes);
   for (const auto count : kCounts) writer.put(census_.*count);
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Beams and blocks to hits or light: what a consumer computes.
+// What a consumer computes: the hits or light of beams and blocks.
 
 #include <cstdint>
 #include <span>
@@ -8,17 +8,17 @@
 #include "accel/beam/beam_painter.hpp"
 #include "accel/beam/beam_tracer.hpp"
 #include "harness/cluster/roles.hpp"
-#include "harness/cluster/task_message.hpp"
+#include "harness/cluster/tasks.hpp"
 #include "harness/render/whitted.hpp"
 
 namespace beambench::cluster {
 
-/// Notes which samples a beam decided.
+/// Records which samples a beam decided.
 class DecidedSamples : public accel::beam::NoBeamWatch {
  public:
-  /// Begins anew; `pulse` is called from time to time and must outlive the notes.
-  void begin(const Pulse& pulse) {
-    pulse_ = &pulse;
+  /// Clears; `heartbeat` is called from time to time and must outlive the record.
+  void begin(const Heartbeat& heartbeat) {
+    pulse_ = &heartbeat;
     samples_.clear();
   }
   void painted(std::size_t index) {
@@ -29,20 +29,20 @@ class DecidedSamples : public accel::beam::NoBeamWatch {
 
  private:
   std::vector<std::uint32_t> samples_;
-  const Pulse* pulse_ = nullptr;
+  const Heartbeat* pulse_ = nullptr;
 };
 
-/// Finds the samples of a beam (thesis, section 6.2.3, "BuscarPixel") and traces them; where light
-/// is wanted it follows it, too. One for each process.
+/// Finds the samples of a beam (thesis, section 6.2.3, "BuscarPixel") and traces them, with light
+/// if requested. One for each process.
 class ImageWorker : public TaskWorker {
  public:
   /// Results are hits, or light where `light` is given. All must outlive this.
   ImageWorker(const accel::beam::BeamTracer& tracer, const accel::PrimaryRays& rays,
               const render::Whitted* light);
 
-  void perform(std::span<const std::byte> task, Bytes& result, const Pulse& pulse) override;
+  void perform(std::span<const std::byte> task, Bytes& result, const Heartbeat& heartbeat) override;
   /// Its census of rays.
-  void tell(Bytes& bytes) const override;
+  void write_counts(Bytes& bytes) const override;
 
  private:
   void trace(const BeamTask& task);
@@ -59,7 +59,7 @@ class ImageWorker : public TaskWorker {
   render::RayCensus census_;
 };
 
-/// What `ImageWorker::tell` tells. Throws ProtocolError where it is nothing of that kind.
+/// Reads what `ImageWorker::write_counts` wrote. Throws ProtocolError for other bytes.
 render::RayCensus read_census(std::span<const std::byte> bytes);
 
 }  // namespace beambench::cluster

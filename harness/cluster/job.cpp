@@ -3,14 +3,15 @@
 #include <fmt/format.h>
 
 #include "harness/bench/record/build_info.hpp"
-#include "harness/cli/inputs.hpp"
 #include "harness/rays/fingerprint.hpp"
+#include "harness/rays/resolution.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/scene.hpp"
 
 namespace beambench::cluster {
 namespace {
 
-constexpr std::uint32_t kMagic = 0x62624331;  // "1Cbb": nothing that comes by chance
+constexpr std::uint32_t kMagic = 0x62624331;  // "1Cbb"
 
 std::string this_version() {
   const bench::BuildInfo& build = bench::build_info();
@@ -23,7 +24,7 @@ void write_version(ByteWriter& writer) {
   writer.put_text(this_version());
 }
 
-/// Every message that a process sends first begins so, in all versions.
+/// The first message of every process begins like this, in all versions.
 std::string read_version(ByteReader& reader) {
   if (reader.get<std::uint32_t>() != kMagic) {
     throw InputError("a process of this run is another program; start the same one everywhere");
@@ -34,10 +35,12 @@ std::string read_version(ByteReader& reader) {
 }  // namespace
 
 rays::ImageOfRays job_image(const Job& job, const scenes::Scene& scene) {
-  cli::ImageRequest request{"", {}, job.samples};
-  request.view.camera = job.camera;
-  if (job.width > 0) request.resolution = rays::to_string(rays::Resolution{job.width, job.height});
-  return cli::choose_image(scene, request);
+  const scenes::Camera camera =
+      job.camera.empty() ? scene.cameras.front() : scenes::find_camera(scene, job.camera);
+  const rays::Resolution resolution = job.width > 0 ? rays::Resolution{job.width, job.height}
+                                                    : rays::Resolution{camera.width, camera.height};
+  rays::require_ray_count(resolution, static_cast<int>(accel::sample_offsets(job.samples).size()));
+  return {camera, resolution, job.samples};
 }
 
 Bytes write_job(const Job& job) {
@@ -52,10 +55,10 @@ Bytes write_job(const Job& job) {
   writer.put(job.samples);
   writer.put(job.light);
   writer.put(job.whitted.max_depth);
-  writer.put(job.whitted.least_weight);
+  writer.put(job.whitted.min_weight);
   writer.put(static_cast<std::int32_t>(job.whitted.shadows));
   writer.put(job.split_level);
-  writer.put(job.alive_every);
+  writer.put(job.heartbeat_interval);
   return bytes;
 }
 
@@ -76,14 +79,14 @@ Job read_job(std::span<const std::byte> bytes) {
   job.samples = reader.get<int>();
   job.light = reader.get<bool>();
   job.whitted.max_depth = reader.get<int>();
-  job.whitted.least_weight = reader.get<double>();
+  job.whitted.min_weight = reader.get<double>();
   job.whitted.shadows = static_cast<render::ShadowMethod>(reader.get<std::int32_t>());
   job.split_level = reader.get<int>();
-  job.alive_every = reader.get<double>();
+  job.heartbeat_interval = reader.get<double>();
   return job;
 }
 
-std::uint64_t look_hash(const scenes::Scene& scene) {
+std::uint64_t visible_hash(const scenes::Scene& scene) {
   Bytes looks;
   ByteWriter writer(looks);
   const auto put = [&](const glm::vec3& vector) {
@@ -119,56 +122,60 @@ std::uint64_t look_hash(const scenes::Scene& scene) {
       std::string_view(reinterpret_cast<const char*>(looks.data()), looks.size()));
 }
 
-Bytes write_introduction(const Introduction& introduction) {
+Bytes write_ready_report(const ReadyReport& ready_report) {
   Bytes bytes;
   ByteWriter writer(bytes);
   write_version(writer);
-  writer.put_text(introduction.host);
-  writer.put_text(introduction.problem);
-  writer.put(introduction.identity.scene);
-  writer.put(introduction.identity.nodes);
-  writer.put(introduction.identity.references);
-  writer.put(introduction.build_seconds);
-  writer.put(introduction.structure_bytes);
+  writer.put_text(ready_report.host);
+  writer.put_text(ready_report.problem);
+  writer.put(ready_report.identity.scene);
+  writer.put(ready_report.identity.primitives);
+  writer.put(ready_report.identity.nodes);
+  writer.put(ready_report.identity.references);
+  writer.put(ready_report.build_seconds);
+  writer.put(ready_report.structure_bytes);
   return bytes;
 }
 
-Introduction read_introduction(int process, std::span<const std::byte> bytes,
-                               const Identity& mine) {
+ReadyReport read_ready_report(int process, std::span<const std::byte> bytes, const Identity& mine) {
   ByteReader reader(bytes);
   const std::string version = read_version(reader);
-  Introduction introduction;
-  introduction.host = reader.get_text();
-  const std::string who = fmt::format("process {} on {}", process, introduction.host);
+  ReadyReport ready_report;
+  ready_report.host = reader.get_text();
+  const std::string who = fmt::format("process {} on {}", process, ready_report.host);
   if (version != this_version()) {
     throw InputError(
         fmt::format("{} is version {}, but process 0 is version {}; start the same "
                     "program everywhere",
                     who, version, this_version()));
   }
-  introduction.problem = reader.get_text();
-  if (!introduction.problem.empty()) {
-    throw InputError(fmt::format("{}: {}", who, introduction.problem));
+  ready_report.problem = reader.get_text();
+  if (!ready_report.problem.empty()) {
+    throw InputError(fmt::format("{}: {}", who, ready_report.problem));
   }
-  introduction.identity.scene = reader.get<std::uint64_t>();
-  introduction.identity.nodes = reader.get<std::uint64_t>();
-  introduction.identity.references = reader.get<std::uint64_t>();
-  introduction.build_seconds = reader.get<double>();
-  introduction.structure_bytes = reader.get<std::uint64_t>();
-  if (introduction.identity.scene != mine.scene) {
+  ready_report.identity.scene = reader.get<std::uint64_t>();
+  ready_report.identity.primitives = reader.get<std::uint64_t>();
+  ready_report.identity.nodes = reader.get<std::uint64_t>();
+  ready_report.identity.references = reader.get<std::uint64_t>();
+  ready_report.build_seconds = reader.get<double>();
+  ready_report.structure_bytes = reader.get<std::uint64_t>();
+  if (ready_report.identity.scene != mine.scene) {
     throw InputError(
         fmt::format("{} has another scene under that name (hash {:016x}, process 0 "
                     "has {:016x}); give all of them the same file",
-                    who, introduction.identity.scene, mine.scene));
+                    who, ready_report.identity.scene, mine.scene));
   }
-  if (introduction.identity != mine) {
+  if (ready_report.identity != mine) {
+    const auto text = [](const Identity& identity) {
+      return fmt::format("{} primitives, {} nodes, {} references", identity.primitives,
+                         identity.nodes, identity.references);
+    };
     throw InputError(
-        fmt::format("{} made another octree of the scene ({} nodes, {} references; "
-                    "process 0 made {} and {}); start the same build everywhere",
-                    who, introduction.identity.nodes, introduction.identity.references, mine.nodes,
-                    mine.references));
+        fmt::format("{} built another octree of the scene ({}; process 0: {}); start the same "
+                    "build everywhere",
+                    who, text(ready_report.identity), text(mine)));
   }
-  return introduction;
+  return ready_report;
 }
 
 }  // namespace beambench::cluster

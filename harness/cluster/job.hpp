@@ -1,11 +1,11 @@
 #pragma once
-// What all processes are told at the beginning, and how they are found to be alike.
+// The job that is broadcast at the beginning, and the check that all processes agree.
 
 #include <cstdint>
 #include <span>
 #include <string>
 
-#include "harness/cluster/bytes.hpp"
+#include "harness/cluster/messages.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/render/whitted_options.hpp"
 #include "scenes/scene.hpp"
@@ -20,42 +20,43 @@ struct Job {
   int width = 0;          ///< 0: the camera's
   int height = 0;
   int samples = 1;
-  bool light = false;  ///< light is followed by the consumers; else they find hits
+  bool light = false;  ///< consumers send light; otherwise hits
   render::WhittedOptions whitted;
-  int split_level = 0;  ///< the scene is divided by the cells of this level; 0: everybody has it
-  double alive_every = 1.0;  ///< seconds between signs of life in long tasks
+  int split_level =
+      0;  ///< level of the cells that divide the scene; 0: every process has all of it
+  double heartbeat_interval = 1.0;  ///< seconds between heartbeats in long tasks
 };
 
 /// The image of a job over its scene, which must outlive it.
 rays::ImageOfRays job_image(const Job& job, const scenes::Scene& scene);
 
-/// As bytes, with the version of this program before them.
+/// As bytes, preceded by the version of this program.
 Bytes write_job(const Job& job);
 /// Throws InputError where the producer is another version of this program.
 Job read_job(std::span<const std::byte> bytes);
 
-/// What must be the same in all processes, for a beam to mean the same.
+/// What must be equal in all processes for a beam to mean the same.
 struct Identity {
-  std::uint64_t scene = 0;  ///< fingerprint of all that can be seen: shapes, looks, lights, cameras
-  std::uint64_t nodes = 0;
+  std::uint64_t scene = 0;  ///< hash of all that is visible: primitives, surfaces, lights, cameras
+  std::uint64_t primitives = 0;
+  std::uint64_t nodes = 0;  ///< of the octree of the whole scene; 0 where no process has it
   std::uint64_t references = 0;
   friend bool operator==(const Identity&, const Identity&) = default;
 };
 
-/// Of scene and looks.
-std::uint64_t look_hash(const scenes::Scene& scene);
+/// Hash of the scene and everything that shading depends on.
+std::uint64_t visible_hash(const scenes::Scene& scene);
 
-/// What a consumer says of itself when it is ready: that it is like this, or why it cannot work.
-struct Introduction {
+/// What a process sends when it is set up: its identity, or why it cannot work.
+struct ReadyReport {
   std::string host;
   std::string problem;  ///< empty: none
   Identity identity;
   double build_seconds = 0.0;
   std::uint64_t structure_bytes = 0;
 };
-Bytes write_introduction(const Introduction& introduction);
-/// Throws InputError, naming the process, where it comes from another version, has a problem, or is
-/// not like `mine`.
-Introduction read_introduction(int process, std::span<const std::byte> bytes, const Identity& mine);
+Bytes write_ready_report(const ReadyReport& ready_report);
+/// Throws InputError, naming the process, if it has another version, a problem or another identity.
+ReadyReport read_ready_report(int process, std::span<const std::byte> bytes, const Identity& mine);
 
 }  // namespace beambench::cluster

@@ -22,9 +22,9 @@ Message receive(MPI_Comm processes, const MPI_Status& coming) {
   return message;
 }
 
-/// Who waits looks again and again at first, so that a message that comes soon is taken soon; then
-/// he sleeps for longer and longer moments, to take nothing from the others on his processor.
-class Patience {
+/// Polls without a pause at first, so that a message that comes soon is received soon; then sleeps
+/// longer and longer, to leave the processor to others.
+class Backoff {
  public:
   using Clock = std::chrono::steady_clock;
 
@@ -38,8 +38,8 @@ class Patience {
   }
 
  private:
-  /// A message and its answer take some 0.1 ms between two that work. Where three processes share
-  /// two processors, 0.5 to 20 ms made no difference, and less cost up to a third.
+  /// A message and its reply take about 0.1 ms. With three processes on two processors, 0.5 to 20
+  /// ms made no difference, and less cost up to a third.
   static constexpr std::chrono::milliseconds kAwake{2};
   static constexpr std::chrono::microseconds kLongest{200};
   Clock::time_point sleeps_from_ = Clock::now() + kAwake;
@@ -50,10 +50,10 @@ class Patience {
 
 struct MpiTransport::Mpi {
   MPI_Comm processes = MPI_COMM_NULL;
-  /// Messages on their way, each kept until it has left.
+  /// Messages being sent, each kept until it has left.
   std::vector<MPI_Request> sending;
   std::vector<Bytes> sent;
-  /// Room for any message, made when it is needed and, untouched, no burden.
+  /// A buffer for any message, allocated when needed and not touched before.
   std::unique_ptr<std::byte[]> room;  // NOLINT(modernize-avoid-c-arrays): not initialized
 
   void forget_what_left();
@@ -76,7 +76,7 @@ void MpiTransport::Mpi::forget_what_left() {
   }
 }
 
-/// Without a probe: SimGrid's MPI_Probe looks and looks again, which takes simulated time.
+/// Without a probe: SimGrid's MPI_Probe polls, which takes simulated time.
 Message MpiTransport::Mpi::receive_next() {
   constexpr int kLargest = 1 << 26;
   // NOLINTNEXTLINE(modernize-avoid-c-arrays)
@@ -103,13 +103,13 @@ MpiTransport::MpiTransport(Waiting waiting) : mpi_(std::make_unique<Mpi>()), wai
   MPI_Comm_size(mpi_->processes, &processes_);
 }
 
-/// The communicator is left to MPI_Finalize: to free it, all would have to come here.
+/// MPI_Finalize frees the communicator: here all processes would have to take part.
 MpiTransport::~MpiTransport() = default;
 
 double MpiTransport::seconds() const { return MPI_Wtime(); }
 
-/// MPI_Isend, as in the thesis; but there the producer waits here for its last message to leave.
-/// Messages keep their own bytes here, so that nobody waits for a slow consumer.
+/// MPI_Isend, as in the thesis, where the producer first waits for its last message to leave. Here
+/// each message has a buffer of its own, so that a slow consumer delays no one.
 void MpiTransport::send(ProcessId to, Tag tag, Bytes bytes) {
   mpi_->forget_what_left();
   const Bytes& kept = mpi_->sent.emplace_back(std::move(bytes));
@@ -134,11 +134,11 @@ std::optional<Message> MpiTransport::poll() {
 std::optional<Message> MpiTransport::wait(double seconds) {
   if (waiting_ == Waiting::kBlocking) return mpi_->receive_next();
   const double deadline = this->seconds() + seconds;
-  Patience patience;
+  Backoff startup_timeout;
   while (true) {
     if (auto message = poll()) return message;
     if (this->seconds() >= deadline) return std::nullopt;
-    patience.rest();
+    startup_timeout.rest();
   }
 }
 

@@ -7,7 +7,7 @@
 
 namespace beambench::cluster {
 
-/// MPI from its beginning to its end. One for a program, made before anything else.
+/// MPI from its beginning to its end. One per program, constructed before anything else.
 class MpiSession {
  public:
   MpiSession(int& argc, char**& argv);
@@ -16,7 +16,7 @@ class MpiSession {
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;
 
-  /// Ends all processes at once, those that hang, too.
+  /// Ends all processes at once, hanging ones included.
   [[noreturn]] static void abort(int exit_code);
 };
 
@@ -25,11 +25,11 @@ class MpiTransport : public Transport {
  public:
   /// How it waits for messages.
   enum class Waiting {
-    kSleeping,  ///< looks, and sleeps for a moment: leaves the processor to those that work
+    kSleeping,  ///< polls and sleeps: leaves the processor to others
     kBlocking   ///< in MPI_Recv, with no time limit: for a simulation, where waiting is exact
   };
   explicit MpiTransport(Waiting waiting);
-  /// What has not left by now is given up.
+  /// Messages that have not left are lost.
   ~MpiTransport() override;
   MpiTransport(const MpiTransport&) = delete;
   MpiTransport& operator=(const MpiTransport&) = delete;
@@ -44,7 +44,7 @@ class MpiTransport : public Transport {
   void broadcast(Bytes& bytes) override;
 
  private:
-  struct Mpi;  // what of MPI it holds
+  struct Mpi;
   std::unique_ptr<Mpi> mpi_;
   Waiting waiting_;
   int self_ = 0;

@@ -18,7 +18,7 @@ Producer::Producer(Transport& transport, TaskSource& source, ResultSink& sink, T
       own_(&own),
       check_(std::move(check)),
       options_(options),
-      crew_(transport.processes(), options.in_flight, options.timeout) {
+      pool_(transport.processes(), options.in_flight, options.timeout) {
   report_.processes.resize(static_cast<std::size_t>(transport.processes()));
 }
 
@@ -28,7 +28,7 @@ ClusterReport Producer::run() {
     produce();
     finish();
   } catch (...) {
-    dismiss_all();
+    shut_down_all();
     throw;
   }
   return std::move(report_);
@@ -39,33 +39,33 @@ void Producer::produce() {
   report_.last_walk_seconds = walked_;
 }
 
-/// Consumers get the end with their last result; what they lose is done here.
+/// Consumers are shut down with their last result; lost tasks are performed here.
 void Producer::finish() {
-  dismiss_idle();
+  shut_down_idle();
   while (!open_.empty()) {
     give_lost();
-    if (!lost_.empty() && crew_.nobody_present()) {
+    if (!lost_.empty() && pool_.nobody_present()) {
       const Number number = lost_.front();
       lost_.pop_front();
       do_here(number);
     } else {
       wait_for_message();
-      if (lost_.empty()) dismiss_idle();
+      if (lost_.empty()) shut_down_idle();
     }
   }
   report_.seconds = transport_->seconds() - begin_;
-  dismiss_all();
-  take_leave();
-  own_->tell(of(kProducer).counted);
+  shut_down_all();
+  wait_for_final_reports();
+  own_->write_counts(of(kProducer).counted);
 }
 
-/// Waits for the farewells of all, but not for ever: one that hangs would not be heard.
-void Producer::take_leave() {
+/// Waits for all final reports, at most for the timeout.
+void Producer::wait_for_final_reports() {
   const double last_call = transport_->seconds() + options_.timeout;
   const auto missing = [this] {
     std::vector<ProcessId> processes;
     for (ProcessId process = kProducer + 1; process < transport_->processes(); ++process) {
-      if (!of(process).said_farewell) processes.push_back(process);
+      if (!of(process).final_report_came) processes.push_back(process);
     }
     return processes;
   };
@@ -77,11 +77,11 @@ void Producer::take_leave() {
   report_.lost = missing();
   for (const ProcessId process : report_.lost) {
     report_.remarks.push_back(
-        fmt::format("process {} said nothing for {} s at the end", process, options_.timeout));
+        fmt::format("process {} was silent for {} s at the end", process, options_.timeout));
   }
 }
 
-/// The next tasks as an open parcel; false when there are none.
+/// Opens a parcel with the next tasks; false if there are none.
 bool Producer::make_parcel() {
   ParcelWriter parcel(next_number_);
   const std::size_t first = report_.tasks.size();
@@ -111,7 +111,7 @@ void Producer::hand_out(Number number) {
   take_in_what_came();
   give_lost();
   while (true) {
-    if (const auto consumer = crew_.longest_waiting()) return give(number, *consumer);
+    if (const auto consumer = pool_.longest_waiting()) return give(number, *consumer);
     if (options_.consumes || must_work_alone()) return do_here(number);
     wait_for_message();
     give_lost();
@@ -123,16 +123,16 @@ void Producer::give(Number number, ProcessId consumer) {
   parcel.holder = consumer;
   of(consumer).from_producer.add(parcel.bytes.size());
   transport_->send(consumer, Tag::kTasks, parcel.bytes);
-  crew_.gave(consumer, transport_->seconds());
+  pool_.gave(consumer, transport_->seconds());
 }
 
 void Producer::give_lost() {
   while (!lost_.empty()) {
-    const auto consumer = crew_.longest_waiting();
+    const auto consumer = pool_.longest_waiting();
     if (!consumer) return;
     const Number number = lost_.front();
     lost_.pop_front();
-    if (open_.contains(number)) give(number, *consumer);  // or its results came after all
+    if (open_.contains(number)) give(number, *consumer);  // its results may have come after all
   }
 }
 
@@ -158,9 +158,9 @@ void Producer::do_here(Number number) {
 }
 
 bool Producer::must_work_alone() const {
-  if (!crew_.nobody_present()) return false;
-  return transport_->processes() == 1 || transport_->seconds() - begin_ >= options_.patience ||
-         !crew_.lost().empty();
+  if (!pool_.nobody_present()) return false;
+  return transport_->processes() == 1 ||
+         transport_->seconds() - begin_ >= options_.startup_timeout || !pool_.lost().empty();
 }
 
 void Producer::take_in_what_came() {
@@ -169,12 +169,12 @@ void Producer::take_in_what_came() {
 
 void Producer::wait_for_message() {
   const double now = transport_->seconds();
-  double deadline = crew_.next_deadline();
-  if (crew_.nobody_present()) deadline = std::min(deadline, begin_ + options_.patience);
+  double deadline = pool_.next_deadline();
+  if (pool_.nobody_present()) deadline = std::min(deadline, begin_ + options_.startup_timeout);
   const auto message = transport_->wait(std::max(0.0, deadline - now));
   report_.producer_wait_seconds += transport_->seconds() - now;
   if (message) handle(*message);
-  give_up_silent();
+  declare_silent_lost();
 }
 
 void Producer::handle(const Message& message) {
@@ -183,27 +183,28 @@ void Producer::handle(const Message& message) {
   switch (message.tag) {
     case Tag::kReady:
       check_(message.from, message.bytes);
-      crew_.join(message.from, now);
+      pool_.join(message.from, now);
       break;
     case Tag::kResults:
       take_results(message);
-      crew_.returned(message.from, now);
+      pool_.returned(message.from, now);
       break;
-    case Tag::kFarewell:
-      take_farewell(message);
+    case Tag::kFinalReport:
+      take_final_report(message);
       break;
-    case Tag::kAlive:
-      crew_.heard(message.from, now);
+    case Tag::kHeartbeat:
+      pool_.heard(message.from, now);
       break;
     default:
-      throw ProtocolError(fmt::format("process {} sent what no consumer sends", message.from));
+      throw ProtocolError(
+          fmt::format("process {} sent a message that no consumer sends", message.from));
   }
 }
 
 void Producer::take_results(const Message& message) {
   const ParcelReader reader(message.bytes);
   const auto found = open_.find(reader.number());
-  if (found == open_.end()) return;  // others were asked for it meanwhile, and were faster
+  if (found == open_.end()) return;  // another process was faster
   std::size_t task = found->second.first_task;
   open_.erase(found);
   for (const ParcelItem& item : reader.items()) take_result(task++, message.from, item);
@@ -223,19 +224,19 @@ void Producer::take_result(std::size_t task, ProcessId from, const ParcelItem& r
   of(from).last_result = transport_->seconds() - begin_;
 }
 
-void Producer::take_farewell(const Message& message) {
+void Producer::take_final_report(const Message& message) {
   ProcessReport& report = of(message.from);
-  report.said_farewell = true;
-  const ConsumerAccount account = read_account(message.bytes);
-  report.tasks = account.tasks;
-  report.busy_seconds = account.busy_seconds;
-  report.cpu_seconds = account.cpu_seconds;
-  report.wait_seconds = account.wait_seconds;
-  report.counted = account.counted;
+  report.final_report_came = true;
+  const ConsumerReport consumer = read_consumer_report(message.bytes);
+  report.tasks = consumer.tasks;
+  report.busy_seconds = consumer.busy_seconds;
+  report.cpu_seconds = consumer.cpu_seconds;
+  report.wait_seconds = consumer.wait_seconds;
+  report.counted = consumer.counted;
 }
 
-void Producer::give_up_silent() {
-  for (const ProcessId consumer : crew_.give_up_silent(transport_->seconds())) {
+void Producer::declare_silent_lost() {
+  for (const ProcessId consumer : pool_.declare_silent_lost(transport_->seconds())) {
     std::size_t count = 0;
     for (const auto& [number, parcel] : open_) {
       if (parcel.holder != consumer) continue;
@@ -243,26 +244,27 @@ void Producer::give_up_silent() {
       ++count;
     }
     report_.remarks.push_back(
-        fmt::format("process {} was silent for {} s; its {} messages' work was given to others",
+        fmt::format("process {} was silent for {} s and was declared lost; its {} messages were "
+                    "given to others",
                     consumer, options_.timeout, count));
   }
 }
 
-void Producer::dismiss(ProcessId consumer) {
+void Producer::shut_down(ProcessId consumer) {
   of(consumer).from_producer.add(0);
   transport_->send(consumer, Tag::kEnd, {});
-  crew_.dismiss(consumer);
+  pool_.shut_down(consumer);
 }
 
-void Producer::dismiss_idle() {
-  for (const ProcessId consumer : crew_.present()) {
-    if (crew_.idle(consumer)) dismiss(consumer);
+void Producer::shut_down_idle() {
+  for (const ProcessId consumer : pool_.present()) {
+    if (pool_.idle(consumer)) shut_down(consumer);
   }
 }
 
-/// The end for those, too, that never came or were given up, should they still read it.
-void Producer::dismiss_all() {
-  for (const ProcessId consumer : crew_.not_dismissed()) dismiss(consumer);
+/// Also those that never joined or were declared lost, should they still receive it.
+void Producer::shut_down_all() {
+  for (const ProcessId consumer : pool_.not_shut_down()) shut_down(consumer);
 }
 
 }  // namespace beambench::cluster

@@ -1,47 +1,45 @@
 #pragma once
-// The process that makes the work, gives it away and puts the results together.
+// The process that makes the tasks, distributes them and collects the results.
 
 #include <deque>
 #include <functional>
 #include <map>
 #include <span>
 
-#include "harness/cluster/crew.hpp"
-#include "harness/cluster/parcel.hpp"
-#include "harness/cluster/process_report.hpp"
+#include "harness/cluster/messages.hpp"
+#include "harness/cluster/report.hpp"
 #include "harness/cluster/roles.hpp"
 #include "harness/cluster/transport.hpp"
+#include "harness/cluster/worker_pool.hpp"
 
 namespace beambench::cluster {
 
-/// As in the thesis unless told otherwise.
+/// The defaults are those of the thesis.
 struct ProducerOptions {
-  std::size_t batch = 1;   ///< tasks in a message
-  int in_flight = 1;       ///< messages that a consumer may have at a time
-  bool consumes = false;   ///< does a task itself when no consumer waits
-  double timeout = 30.0;   ///< seconds after which a silent consumer is given up
-  double patience = 60.0;  ///< seconds after which it begins alone where no consumer is ready
+  std::size_t batch = 1;          ///< tasks per message
+  int in_flight = 1;              ///< messages that a consumer may hold
+  bool consumes = false;          ///< performs tasks itself while no consumer waits
+  double timeout = 30.0;          ///< seconds after which a silent consumer is declared lost
+  double startup_timeout = 60.0;  ///< seconds after which it begins alone if no consumer is ready
 };
 
-/// The producer of section 6.2: takes a task from its source, gives it to the consumer that has
-/// waited longest without waiting for the message to leave, and looks for results before each
-/// message it sends, whoever they come from. When there are no more tasks each consumer is sent
-/// home with its last result.
+/// The producer of section 6.2: takes a task from its source, sends it to the consumer that has
+/// waited longest without waiting for the message to leave, and receives results before each
+/// message it sends. When there are no more tasks, each consumer is shut down with its last result.
 ///
-/// A consumer that is silent for too long is given up: what it had goes to the others, or is done
-/// here where nobody is left. Should it be heard again it is given work again; whatever comes twice
-/// is used once.
+/// A consumer that is silent for too long is declared lost: its tasks go to the others, or are
+/// performed here if none is left. If it is heard again it is given work again; duplicate results
+/// are used once.
 class Producer {
  public:
-  /// Is told what a consumer says of itself when it is ready; throws InputError when that does not
-  /// fit this run, which ends the run.
+  /// Checks a consumer's ready report; throws InputError if it does not match, which ends the run.
   using Check = std::function<void(ProcessId, std::span<const std::byte>)>;
 
-  /// All that is given must outlive this. `own` does what is not given away.
+  /// All arguments must outlive this. `own` performs the tasks that no consumer gets.
   Producer(Transport& transport, TaskSource& source, ResultSink& sink, TaskWorker& own, Check check,
            const ProducerOptions& options);
 
-  /// All tasks, from the first to the last result. Whatever it throws, the consumers were sent home
+  /// All tasks, from the first to the last result. If it throws, the consumers were shut down
   /// before.
   ClusterReport run();
 
@@ -55,7 +53,7 @@ class Producer {
 
   void produce();
   void finish();
-  void take_leave();
+  void wait_for_final_reports();
   bool make_parcel();
   void hand_out(Number number);
   void give(Number number, ProcessId consumer);
@@ -68,11 +66,11 @@ class Producer {
   void handle(const Message& message);
   void take_results(const Message& message);
   void take_result(std::size_t task, ProcessId from, const ParcelItem& result);
-  void take_farewell(const Message& message);
-  void give_up_silent();
-  void dismiss(ProcessId consumer);
-  void dismiss_idle();
-  void dismiss_all();
+  void take_final_report(const Message& message);
+  void declare_silent_lost();
+  void shut_down(ProcessId consumer);
+  void shut_down_idle();
+  void shut_down_all();
 
   ProcessReport& of(ProcessId process) {
     return report_.processes[static_cast<std::size_t>(process)];
@@ -84,9 +82,9 @@ class Producer {
   TaskWorker* own_;
   Check check_;
   ProducerOptions options_;
-  Crew crew_;
+  WorkerPool pool_;
   std::map<Number, Parcel> open_;  ///< parcels without results
-  std::deque<Number> lost_;        ///< of these: those that nobody is doing
+  std::deque<Number> lost_;        ///< of these: those that no process is working on
   Number next_number_ = 0;
   double begin_ = 0.0;
   double walked_ = 0.0;  ///< CPU seconds since the task before

@@ -1,14 +1,14 @@
 #pragma once
-// What producer and consumers do between messages: the parts of a run that compute.
+// The computing parts of a run: sources of tasks, workers, sinks of results.
 
 #include <functional>
 #include <span>
 
-#include "harness/cluster/bytes.hpp"
+#include "harness/cluster/messages.hpp"
 
 namespace beambench::cluster {
 
-/// The producer's own work: it makes tasks.
+/// Makes the producer's tasks.
 class TaskSource {
  public:
   TaskSource() = default;
@@ -20,10 +20,10 @@ class TaskSource {
   virtual bool next(Bytes& task) = 0;
 };
 
-/// To be called from time to time within a long task.
-using Pulse = std::function<void()>;
+/// Called from time to time within a long task.
+using Heartbeat = std::function<void()>;
 
-/// A consumer's work.
+/// Performs tasks.
 class TaskWorker {
  public:
   TaskWorker() = default;
@@ -31,14 +31,15 @@ class TaskWorker {
   TaskWorker& operator=(const TaskWorker&) = delete;
   virtual ~TaskWorker() = default;
 
-  /// Does a task and appends what came of it to a message. The same task gives the same bytes,
-  /// whoever does it. Throws ProtocolError for bytes that are no task.
-  virtual void perform(std::span<const std::byte> task, Bytes& result, const Pulse& pulse) = 0;
-  /// Appends what it counted; for the report.
-  virtual void tell(Bytes&) const {}
+  /// Performs a task and appends its result to a message. The same task gives the same bytes on
+  /// every process. Throws ProtocolError for bytes that are no task.
+  virtual void perform(std::span<const std::byte> task, Bytes& result,
+                       const Heartbeat& heartbeat) = 0;
+  /// Appends its counts, for the report.
+  virtual void write_counts(Bytes&) const {}
 };
 
-/// Where results are put together.
+/// Collects results.
 class ResultSink {
  public:
   ResultSink() = default;
@@ -46,8 +47,8 @@ class ResultSink {
   ResultSink& operator=(const ResultSink&) = delete;
   virtual ~ResultSink() = default;
 
-  /// Results come in any order, each once. Returns how many samples are in it. Throws ProtocolError
-  /// for bytes that are no result.
+  /// Results come in any order, each once. Returns the number of samples in it. Throws
+  /// ProtocolError for bytes that are no result.
   virtual std::size_t accept(std::span<const std::byte> result) = 0;
 };
 

@@ -5,10 +5,10 @@
 namespace beambench::cluster {
 namespace {
 
-/// What a run of results of `write_colors` holds.
+/// The contents of a run of results of `write_colors`.
 enum class Part : std::uint8_t { kPixels, kSample };
 
-/// How many of the samples follow each other without a gap.
+/// The number of samples that follow each other without a gap.
 std::size_t run_length(SampleList samples) {
   std::size_t length = 1;
   while (length < samples.size() && samples[length] == samples[0] + length) ++length;
@@ -94,7 +94,7 @@ std::size_t HitSink::accept(std::span<const std::byte> result) {
 
 void write_colors(SampleList samples, const accel::HitBuffer& hits, const accel::PrimaryRays& rays,
                   const render::Whitted& tracer, render::Whitted::Progress& progress,
-                  const Pulse& pulse, Bytes& bytes) {
+                  const Heartbeat& heartbeat, Bytes& bytes) {
   const SampleColors colors(hits, rays, tracer, progress);
   const auto each = static_cast<std::uint32_t>(hits.samples());
   ByteWriter writer(bytes);
@@ -106,7 +106,7 @@ void write_colors(SampleList samples, const accel::HitBuffer& hits, const accel:
       writer.put(first);
       put_vector(colors.at(first), writer);
       samples = samples.subspan(1);
-      pulse();
+      heartbeat();
       continue;
     }
     writer.put(static_cast<std::uint8_t>(Part::kPixels));
@@ -117,7 +117,7 @@ void write_colors(SampleList samples, const accel::HitBuffer& hits, const accel:
       put_vector(mean(hits.samples(),
                       [&](int k) { return colors.at(sample + static_cast<std::uint32_t>(k)); }),
                  writer);
-      pulse();
+      heartbeat();
     }
     samples = samples.subspan(pixels * each);
   }

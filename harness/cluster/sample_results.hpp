@@ -1,5 +1,5 @@
 #pragma once
-// What became of samples, as bytes, and put together.
+// Hits and light of samples: as bytes, and collected.
 
 #include <cstdint>
 #include <span>
@@ -22,7 +22,7 @@ using SampleList = std::span<const std::uint32_t>;
 /// Appends the hits of samples, 8 bytes each and 8 for each run of neighbors.
 void write_hits(SampleList samples, const accel::HitBuffer& hits, Bytes& bytes);
 
-/// Hits from everywhere.
+/// Collects hits.
 class HitSink : public ResultSink {
  public:
   /// Nothing is hit yet. The buffer must outlive the sink.
@@ -33,21 +33,21 @@ class HitSink : public ResultSink {
   accel::HitBuffer* hits_;
 };
 
-/// Appends what light comes along samples: a pixel that has all its samples here is 12 bytes, the
-/// mean of its samples as a picture has it; other samples are 28 bytes each in double, so that the
-/// sink can add a pixel's samples in their one order. `pulse` is called from time to time.
+/// Appends the light of samples: 12 bytes for a pixel with all its samples here, their mean; 28
+/// bytes for other samples, in double, so that the sink can add a pixel's samples in their order.
+/// `heartbeat` is called from time to time.
 void write_colors(SampleList samples, const accel::HitBuffer& hits, const accel::PrimaryRays& rays,
                   const render::Whitted& tracer, render::Whitted::Progress& progress,
-                  const Pulse& pulse, Bytes& bytes);
+                  const Heartbeat& heartbeat, Bytes& bytes);
 
-/// Light from everywhere: a picture equal bit for bit to `whitted_picture`.
+/// Collects light: the picture equals `whitted_picture` bit for bit.
 class ColorSink : public ResultSink {
  public:
   /// `background`: along rays that hit nothing.
   ColorSink(int width, int height, int samples, const glm::dvec3& background);
   std::size_t accept(std::span<const std::byte> result) override;
 
-  /// The picture; to be asked for when all results are in.
+  /// The picture, once all results are in.
   render::Image image() const;
 
  private:
@@ -57,7 +57,7 @@ class ColorSink : public ResultSink {
   int samples_;
   glm::dvec3 background_;
   render::Image image_;
-  /// Pixels that were divided among several tasks: all their samples.
+  /// All samples of the pixels that were divided among several tasks.
   std::unordered_map<std::uint32_t, std::vector<glm::dvec3>> divided_;
 };
 

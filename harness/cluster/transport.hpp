@@ -1,29 +1,29 @@
 #pragma once
-// How messages get from one process to another.
+// Messages between processes.
 
 #include <limits>
 #include <optional>
 
-#include "harness/cluster/bytes.hpp"
+#include "harness/cluster/messages.hpp"
 
 namespace beambench::cluster {
 
 /// What a message is.
 enum class Tag {
-  kReady,     ///< consumer: I have built my octree, and this is what it is like
-  kTasks,     ///< producer: a parcel of work
-  kResults,   ///< consumer: what came of a parcel
-  kAlive,     ///< consumer: I am still at it
-  kEnd,       ///< producer: there is no more work
-  kFarewell,  ///< consumer: what I did; of a divided scene, with what was found
+  kReady,        ///< consumer: its octree is built; its identity
+  kTasks,        ///< producer: a parcel of work
+  kResults,      ///< consumer: results of a parcel
+  kHeartbeat,    ///< consumer: it is working on a long task
+  kEnd,          ///< producer: there is no more work
+  kFinalReport,  ///< consumer: its report; of a divided scene, with its hits
   // Of a divided scene (split/):
   kGo,     ///< process 0: all have the same scene; begin
-  kCross,  ///< to any process: beams and rays that come into your part
-  kAsk,    ///< process 0: when you have nothing to do, tell how many of these you sent and got
-  kCount   ///< that
+  kCross,  ///< to any process: beams and rays that enter its part
+  kAsk,    ///< process 0: request for a kCount when idle
+  kCount   ///< the numbers of kCross messages sent and received
 };
 
-/// What processes call themselves among each other: 0 is the producer.
+/// The rank of a process; 0 is the producer.
 using ProcessId = int;
 inline constexpr ProcessId kProducer = 0;
 
@@ -33,7 +33,7 @@ struct Message {
   Bytes bytes;
 };
 
-/// A process's post office. Messages of one process may overtake each other.
+/// Sends and receives the messages of a process. Messages of one process may overtake each other.
 class Transport {
  public:
   static constexpr double kForever = std::numeric_limits<double>::infinity();
@@ -45,18 +45,17 @@ class Transport {
 
   virtual ProcessId self() const = 0;
   virtual int processes() const = 0;
-  /// A clock.
-  virtual double seconds() const = 0;
+  virtual double seconds() const = 0;  ///< wall time
 
-  /// Puts a message on its way and does not wait for it to be taken.
+  /// Sends a message without waiting for its receiver.
   virtual void send(ProcessId to, Tag tag, Bytes bytes) = 0;
-  /// Waits until all that was sent has left.
+  /// Waits until all messages have left.
   virtual void flush() = 0;
-  /// A message that has come, if any.
+  /// A message that has arrived, if any.
   virtual std::optional<Message> poll() = 0;
-  /// The next message; nothing where none comes within `seconds`.
+  /// The next message; nothing if none arrives within `seconds`.
   virtual std::optional<Message> wait(double seconds) = 0;
-  /// Gives the producer's bytes to all; everybody calls it.
+  /// Sends the producer's bytes to all; every process calls it.
   virtual void broadcast(Bytes& bytes) = 0;
 };
 

@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include "harness/base/exit_code.hpp"
+#include "harness/base/messages.hpp"
 
 namespace beambench::plugin {
 namespace {
@@ -113,18 +114,17 @@ int end_by(int signal, const HeldSignals& signals) {
   return 128 + signal;
 }
 
-int complain(const Activity& activity, const std::string& what) {
+int report_breakdown(const Activity& activity, const std::string& what) {
   const std::string foreign = activity.read(Line::kForeign);
   const bool loading = foreign.ends_with(": loading it");
   const std::string_view remedy = loading ? "it was not taken in"
                                           : "nothing of what it answered was kept; in a debugger: "
                                             "BEAMBENCH_UNGUARDED=1 gdb --args beambench ...";
-  if (foreign.empty()) {
-    fmt::print(stderr, "beambench: a process with plug-ins {}\n", what);
-  } else {
-    fmt::print(stderr, "beambench: the plug-in {} {}; {}\n", foreign, what, remedy);
-  }
-  return loading ? base::kInvalidInput : base::kMismatch;
+  return base::report_error("beambench",
+                            foreign.empty()
+                                ? fmt::format("a process with plug-ins {}", what)
+                                : fmt::format("the plug-in {} {}; {}", foreign, what, remedy),
+                            loading ? base::kInvalidInput : base::kMismatch);
 }
 
 }  // namespace
@@ -144,7 +144,7 @@ int run_guarded(char** arguments) {
     // A cell is given up once; else there would be no end.
     if (cell.empty() || activity.broken_cells().contains(cell) ||
         !activity.add_broken_cell(cell, how)) {
-      return complain(activity, *what);
+      return report_breakdown(activity, *what);
     }
     activity.clear(Line::kCell);
     activity.clear(Line::kForeign);

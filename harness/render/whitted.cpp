@@ -173,7 +173,7 @@ bool Whitted::enters(const Place& at, const Path& path) const {
 dvec3 Whitted::traced(const Kind& kind, const dvec3& origin, const dvec3& direction,
                       const Path& path, Progress& progress) const {
   if (path.depth > options_.max_depth) return dvec3(0.0);
-  if (path.weight < options_.least_weight) {
+  if (path.weight < options_.min_weight) {
     ++progress.census.too_faint;
     return dvec3(0.0);
   }

@@ -27,7 +27,7 @@ struct WhittedOptions {
   /// Adaptive depth control (Hall and Greenberg, "A testbed for realistic image synthesis", IEEE
   /// CG&A 3(8), 1983): a ray whose part in its pixel's color is less than this is not traced. 0
   /// traces all.
-  double least_weight = 0.0;
+  double min_weight = 0.0;
   ShadowMethod shadows = ShadowMethod::kRays;
   /// Glass spawns a mirror ray even where its specular factor is 0, so that the picture takes
   /// nothing from it: rule 8 of Haines's databases (SPD), whose counts include these rays.

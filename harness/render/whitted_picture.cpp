@@ -3,9 +3,11 @@
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 namespace beambench::render {
@@ -31,7 +33,12 @@ RayCensus draw_row(const Whitted& tracer, const CameraRays& rays, const accel::H
 }  // namespace
 
 WhittedPicture whitted_picture(const Whitted& tracer, const CameraRays& rays,
-                               const accel::HitBuffer& hits, const PictureWatch& watch) {
+                               const accel::HitBuffer& hits, const PictureWatch& watch,
+                               int threads) {
+  std::optional<tbb::global_control> limit;
+  if (threads > 0) {
+    limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  }
   WhittedPicture picture{Image(rays.width, rays.height), {}};
   std::vector<RayCensus> rows(static_cast<std::size_t>(rays.height));
   std::atomic<int> done = 0;

@@ -47,10 +47,12 @@ struct WhittedPicture {
 using PictureWatch = std::function<void(double part)>;
 
 /// Each pixel is the mean of its samples. `hits` are the structure's answers to `rays`, found
-/// beforehand by its query for whole images (beams); what follows them is traced ray by ray.
-/// Rows are shared among TBB's threads; picture and census do not depend on how many there are.
+/// beforehand by whatever way it has for whole images (beams); what follows them goes ray by ray.
+/// Rows are shared among TBB's threads, at most `threads` of them unless it is 0; picture and
+/// census do not depend on how many there are.
 WhittedPicture whitted_picture(const Whitted& tracer, const CameraRays& rays,
-                               const accel::HitBuffer& hits, const PictureWatch& watch = {});
+                               const accel::HitBuffer& hits, const PictureWatch& watch = {},
+                               int threads = 0);
 
 /// The same picture (but for rounding, with several samples a pixel) with its samples shaded in the
 /// order of `places` in the hit buffer, each of which is there once: on this thread alone, with one

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/cluster/job.hpp"
-#include "harness/cluster/lead.hpp"
+#include "harness/cluster/run.hpp"
 #include "tests/cluster/local_network.hpp"
 
 namespace beambench::cluster {

@@ -1,5 +1,7 @@
 // What must be true of messages: they say in every process what they said where they were written.
 
+#include "harness/cluster/messages.hpp"
+
 #include <set>
 #include <span>
 #include <string>
@@ -8,9 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/cluster/job.hpp"
-#include "harness/cluster/leaf_code.hpp"
-#include "harness/cluster/parcel.hpp"
-#include "harness/cluster/task_sources.hpp"
+#include "harness/cluster/tasks.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/random.hpp"
 #include "tests/random_scene.hpp"
@@ -185,7 +185,7 @@ TEST(JobMessage, ComesBack) {
   job.samples = 5;
   job.light = true;
   job.whitted = {3, 0.25, render::ShadowMethod::kCache};
-  job.alive_every = 0.5;
+  job.heartbeat_interval = 0.5;
   const Job read = read_job(write_job(job));
   EXPECT_EQ(read.scene, job.scene);
   EXPECT_EQ(read.structure, job.structure);
@@ -195,9 +195,9 @@ TEST(JobMessage, ComesBack) {
   EXPECT_EQ(read.samples, 5);
   EXPECT_TRUE(read.light);
   EXPECT_EQ(read.whitted.max_depth, 3);
-  EXPECT_EQ(read.whitted.least_weight, 0.25);
+  EXPECT_EQ(read.whitted.min_weight, 0.25);
   EXPECT_EQ(read.whitted.shadows, render::ShadowMethod::kCache);
-  EXPECT_EQ(read.alive_every, 0.5);
+  EXPECT_EQ(read.heartbeat_interval, 0.5);
 }
 
 /// What reading throws; empty: nothing.
@@ -217,22 +217,24 @@ Bytes from_another_version(Bytes bytes) {
   return bytes;
 }
 
-TEST(Introduction, IsRefusedUnlessTheProcessIsAlike) {
-  const Identity mine{1, 2, 3};
-  Introduction introduction{"node7", "", mine, 0.5, 100};
+TEST(ReadyReport, IsRefusedUnlessTheProcessIsAlike) {
+  const Identity mine{1, 2, 3, 4};
+  ReadyReport ready_report{"node7", "", mine, 0.5, 100};
   const auto problem = [&](const Bytes& bytes) {
-    return problem_of([&] { read_introduction(4, bytes, mine); });
+    return problem_of([&] { read_ready_report(4, bytes, mine); });
   };
-  EXPECT_EQ(problem(write_introduction(introduction)), "");
-  EXPECT_NE(problem(from_another_version(write_introduction(introduction)))
+  EXPECT_EQ(problem(write_ready_report(ready_report)), "");
+  EXPECT_NE(problem(from_another_version(write_ready_report(ready_report)))
                 .find("process 4 on node7 is version"),
             std::string::npos);
-  introduction.identity.references = 4;
-  EXPECT_NE(problem(write_introduction(introduction)).find("another octree"), std::string::npos);
-  introduction.identity.scene = 5;
-  EXPECT_NE(problem(write_introduction(introduction)).find("another scene"), std::string::npos);
-  introduction.problem = "there is no scene 'x'";
-  EXPECT_EQ(problem(write_introduction(introduction)), "process 4 on node7: there is no scene 'x'");
+  ready_report.identity.primitives = 9;
+  EXPECT_NE(problem(write_ready_report(ready_report)).find("9 primitives"), std::string::npos);
+  ready_report.identity.references = 9;
+  EXPECT_NE(problem(write_ready_report(ready_report)).find("another octree"), std::string::npos);
+  ready_report.identity.scene = 5;
+  EXPECT_NE(problem(write_ready_report(ready_report)).find("another scene"), std::string::npos);
+  ready_report.problem = "there is no scene 'x'";
+  EXPECT_EQ(problem(write_ready_report(ready_report)), "process 4 on node7: there is no scene 'x'");
   EXPECT_NE(problem(Bytes(40)).find("another program"), std::string::npos);
 }
 
@@ -244,20 +246,20 @@ TEST(JobMessage, OfAnotherVersionIsRefused) {
 
 TEST(LookHash, SeesWhatThePictureDependsOn) {
   const scenes::Scene scene = verify::random_scene(5, 10);
-  const std::uint64_t before = look_hash(scene);
-  EXPECT_EQ(look_hash(scene), before);
+  const std::uint64_t before = visible_hash(scene);
+  EXPECT_EQ(visible_hash(scene), before);
   scenes::Scene other = scene;
   other.lights.push_back({glm::vec3(1.0F), glm::vec3(1.0F)});
-  EXPECT_NE(look_hash(other), before);
+  EXPECT_NE(visible_hash(other), before);
   other = scene;
   other.surfaces.front().diffuse += 0.25F;
-  EXPECT_NE(look_hash(other), before);
+  EXPECT_NE(visible_hash(other), before);
   other = scene;
   other.background.x += 0.25F;
-  EXPECT_NE(look_hash(other), before);
+  EXPECT_NE(visible_hash(other), before);
   other = scene;
   other.cameras.front().angle += 1.0F;
-  EXPECT_NE(look_hash(other), before);
+  EXPECT_NE(visible_hash(other), before);
 }
 
 }  // namespace

@@ -10,10 +10,10 @@
 
 #include "harness/cluster/consumer.hpp"
 #include "harness/cluster/image_worker.hpp"
-#include "harness/cluster/lead.hpp"
 #include "harness/cluster/producer.hpp"
+#include "harness/cluster/run.hpp"
 #include "harness/cluster/sample_results.hpp"
-#include "harness/cluster/task_sources.hpp"
+#include "harness/cluster/tasks.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/render/shading.hpp"
 #include "harness/render/whitted_picture.hpp"
@@ -183,7 +183,7 @@ TEST(Cluster, TellsWhatEachProcessDid) {
 ProducerOptions impatient() {
   ProducerOptions options;
   options.timeout = 0.2;
-  options.patience = 0.5;
+  options.startup_timeout = 0.5;
   return options;
 }
 
@@ -257,7 +257,7 @@ TEST(Cluster, RunsFromACommandLineToItsEnd) {
   LocalNetwork network(3, 1, 0.0001);
   const ClusterRun run = led(lead, request, network);
   EXPECT_EQ(run.result_hash, rays::fingerprint(expected));
-  EXPECT_EQ(run.introductions[2].identity, run.introductions[0].identity);
+  EXPECT_EQ(run.ready_reports[2].identity, run.ready_reports[0].identity);
 }
 
 TEST(Cluster, SendsAllHomeWhereTheSceneIsMissing) {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "harness/cluster/sample_results.hpp"
-#include "harness/cluster/split/split_member.hpp"
+#include "harness/cluster/split/part_member.hpp"
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/catalogue.hpp"
@@ -79,16 +79,16 @@ TEST(ScenePart, IsTheSameGeometryUnderLocalIds) {
 accel::HitBuffer traced_in_parts(const scenes::Scene& scene,
                                  const accel::beam::BeamOptions& options,
                                  const accel::PrimaryRays& rays, int level, int processes,
-                                 unsigned seed, std::vector<SplitAccount>* accounts = nullptr) {
+                                 unsigned seed, std::vector<PartReport>* reports = nullptr) {
   LocalNetwork network(processes, seed, 0.0003);
   const SceneSplit split(scene, options.octree, level, processes);
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
   std::mutex mutex;
   const auto trace = [&](ProcessId self) {
     Outbox outbox(network.at(self), split);
-    SplitWorker worker(part_of(scene, split, self), split, self, options, rays, outbox);
-    SplitMember member(network.at(self), worker, outbox, 20.0,
-                       [](ProcessId, std::span<const std::byte>) {});
+    PartWorker worker(part_of(scene, split, self), split, self, options, rays, outbox);
+    PartMember member(network.at(self), worker, outbox, 20.0,
+                      [](ProcessId, std::span<const std::byte>) {});
     if (self == kProducer) {
       member.lead();
     } else {
@@ -100,7 +100,7 @@ accel::HitBuffer traced_in_parts(const scenes::Scene& scene,
       EXPECT_FALSE(hits.get(sample)) << "found twice";
       hits.set(sample, worker.hits().get(sample));
     }
-    if (accounts != nullptr) accounts->push_back(member.account());
+    if (reports != nullptr) reports->push_back(member.report());
   };
   std::vector<std::jthread> others;
   for (ProcessId process = 1; process < processes; ++process) others.emplace_back(trace, process);
@@ -144,19 +144,19 @@ TEST(SplitScene, SeesTheSameFromInside) {
 TEST(SplitScene, AccountsForWhatCrossed) {
   const scenes::Scene scene = verify::random_scene(2, 200);
   const accel::PrimaryRays rays(scene.cameras.front(), 80, 60, 1);
-  std::vector<SplitAccount> accounts;
-  traced_in_parts(scene, options_with(6), rays, 3, 3, 1, &accounts);
+  std::vector<PartReport> reports;
+  traced_in_parts(scene, options_with(6), rays, 3, 3, 1, &reports);
   Traffic out;
   Traffic in;
   std::uint64_t travelers = 0;
-  for (const SplitAccount& account : accounts) {
-    out.messages += account.crossings_out.messages;
-    out.bytes += account.crossings_out.bytes;
-    in.messages += account.crossings_in.messages;
-    in.bytes += account.crossings_in.bytes;
-    travelers += account.beams_out + account.rays_out;
-    EXPECT_LT(account.primitives, scene.primitives.size());
-    EXPECT_GT(account.structure_bytes, 0U);
+  for (const PartReport& report : reports) {
+    out.messages += report.crossings_out.messages;
+    out.bytes += report.crossings_out.bytes;
+    in.messages += report.crossings_in.messages;
+    in.bytes += report.crossings_in.bytes;
+    travelers += report.beams_out + report.rays_out;
+    EXPECT_LT(report.primitives, scene.primitives.size());
+    EXPECT_GT(report.structure_bytes, 0U);
   }
   EXPECT_GT(travelers, 0U);
   EXPECT_EQ(out.messages, in.messages);
@@ -188,15 +188,15 @@ TEST(SplitScene, EndsWithAnErrorWhereAProcessIsSilent) {
   network.mute_after(1, 1);  // it says that it is ready
   std::jthread other([&] {
     Outbox outbox(network.at(1), split);
-    SplitWorker worker(part_of(scene, split, 1), split, 1, options, rays, outbox);
+    PartWorker worker(part_of(scene, split, 1), split, 1, options, rays, outbox);
     network.at(1).send(kProducer, Tag::kReady, {});
-    SplitMember(network.at(1), worker, outbox, 0.2, [](ProcessId, std::span<const std::byte>) {
+    PartMember(network.at(1), worker, outbox, 0.2, [](ProcessId, std::span<const std::byte>) {
     }).follow([] { return Bytes{}; });
   });
   Outbox outbox(network.at(0), split);
-  SplitWorker worker(part_of(scene, split, 0), split, 0, options, rays, outbox);
-  SplitMember member(network.at(0), worker, outbox, 0.2,
-                     [](ProcessId, std::span<const std::byte>) {});
+  PartWorker worker(part_of(scene, split, 0), split, 0, options, rays, outbox);
+  PartMember member(network.at(0), worker, outbox, 0.2,
+                    [](ProcessId, std::span<const std::byte>) {});
   EXPECT_THROW(member.lead(), LostProcess);
 }
 
@@ -208,7 +208,7 @@ TEST(SplitScene, RefusesOptionsThatNeedTheWholeImage) {
   const SceneSplit split(scene, options.octree, 4, 1);
   Outbox outbox(network.at(0), split);
   const auto make = [&] {
-    const SplitWorker worker(part_of(scene, split, 0), split, 0, options, rays, outbox);
+    const PartWorker worker(part_of(scene, split, 0), split, 0, options, rays, outbox);
   };
   EXPECT_THROW(make(), InputError);  // cells deeper than the octree
   options = options_with(5);

@@ -1,12 +1,11 @@
 // What must be true of ways of sampling an image.
 
+#include "harness/experiments/sampling.hpp"
+
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "harness/experiments/compare_sampling.hpp"
-#include "harness/experiments/image_space_sampling.hpp"
-#include "harness/experiments/sparse_image.hpp"
 #include "harness/render/picture/image.hpp"
 #include "harness/render/shading.hpp"
 #include "scenes/catalogue.hpp"

@@ -248,6 +248,38 @@ def test_a_sweep_s_lines_leave_out_what_is_at_its_default(tmp_path: Path) -> Non
     assert "4 cells, all verified" in done.stderr
 
 
+def test_the_plan_of_a_sweep_as_json(tmp_path: Path) -> None:
+    (tmp_path / "sweep.json").write_text(
+        '{"name": "s", "scenes": ["tetra:n=1"], "structures": ["samet:max_level=3", "sah-bvh"],'
+        ' "resolutions": ["8x8", "16x8"]}'
+    )
+    names = beambench("run", "sweep.json", "--dry-run", cwd=tmp_path).stdout.splitlines()
+    plan = json.loads(beambench("run", "sweep.json", "--dry-run", "--json", cwd=tmp_path).stdout)
+    assert [cell["name"] for cell in plan["cells"]] == names
+    first = plan["cells"][0]
+    assert first.pop("parameters").startswith("max_level=3,")
+    assert first == {
+        "name": names[0],
+        "scene": "tetra:n=1",
+        "primitives": 4,
+        "camera": "default",
+        "width": 8,
+        "height": 8,
+        "samples": 1,
+        "rays": "primary",
+        "structure": "samet",
+        "threads": 1,
+    }
+
+
+def test_a_renamed_option_works_with_a_warning() -> None:
+    census = ["census", "tetra:n=1", "--resolution", "8x8"]
+    done = beambench(*census, "--least-weight", "0.1")
+    assert done.returncode == 0
+    assert "beambench: --least-weight is now called --min-weight\n" in done.stderr
+    assert "--least-weight" not in beambench(*census, "--min-weight=0.1").stderr
+
+
 def test_the_hint_to_resume_can_be_pasted(tmp_path: Path) -> None:
     """As it was called: by a path, from another folder, without the program on the PATH."""
     sweep = {
@@ -479,7 +511,7 @@ def test_sampling_compares_methods(tmp_path: Path) -> None:
     picture = tmp_path / "samples.png"
     arguments = ("sampling", "delfines", "--resolution", "64x48", "--repetitions", "1")
     text = output_of(*arguments, "--picture", picture)
-    for word in ["uniform", "object-space", "image-space", "rays a pixel", "error"]:
+    for word in ["uniform", "object-space", "image-space", "rays per pixel", "error"]:
         assert word in text
     assert count_colors(Image.open(picture)) > 2
 
@@ -539,15 +571,15 @@ def test_a_census_tells_what_faint_rays_save_and_cost() -> None:
 
     whole = scene()
     assert "error" not in whole
-    little, much = scene("--least-weight", "0.01"), scene("--least-weight", "0.1")
+    little, much = scene("--min-weight", "0.01"), scene("--min-weight", "0.1")
     for result in (little, much):
         assert result["full_rays"] == rays(whole)
         assert result["too_faint"] > 0
     assert rays(much) < rays(little) < rays(whole)
     assert 0 < little["error"] < much["error"] < 20
     # A part that no ray can have less of leaves nothing out.
-    assert scene("--least-weight", "1e-9")["error"] == 0
-    text = output_of("census", "mount:n=3", "--resolution", "64x64", "--least-weight", "0.01")
+    assert scene("--min-weight", "1e-9")["error"] == 0
+    text = output_of("census", "mount:n=3", "--resolution", "64x64", "--min-weight", "0.01")
     for word in ["too faint", "of the rays", "error"]:
         assert word in text
 
@@ -602,8 +634,8 @@ def test_a_census_says_why_it_is_far_from_what_haines_published() -> None:
     assert re.search(r"mount:n=6 +reflected +\d+ +354769 +-\d+\.\d\d% +by --depth 2\n", text), text
     by_rays = [line for line in text.splitlines() if " eye_hits " in line]
     assert "--depth" not in by_rays[0], "they do not depend on it"
-    faint = output_of("census", "mount", "--rules", "spd", "--least-weight", "0.2")
-    assert re.search(r"reflected .* by --least-weight 0.2\n", faint), faint
+    faint = output_of("census", "mount", "--rules", "spd", "--min-weight", "0.2")
+    assert re.search(r"reflected .* by --min-weight 0.2\n", faint), faint
     wrong = output_of("census", "tetra", "--rules", "spd", "--accel", "null")
     assert re.search(r"eye_hits +0 +49788 +-100\.00% +unexplained\n", wrong), wrong
 
@@ -948,7 +980,7 @@ WRONG_REQUESTS = [
     ([*STATS, "null", "--at", "1,2,nan"], ["--at", "nan"]),
     ([*STATS, "null", "--from", "1e30,2,3"], ["--from", "1e30", "1e+09"]),
     ([*STATS, "null", "--from", "1,2,3", "--at", "1,2,3"], ["--from", "--at", "same point"]),
-    ([*STATS, "null", "--from", "0,0,5", "--at", "0,0,0", "--up", "0,0,1"], ["--up", "along"]),
+    ([*STATS, "null", "--from", "0,0,5", "--at", "0,0,0", "--up", "0,0,1"], ["--up", "parallel"]),
     ([*STATS, "null", "--up", "0,0,0"], ["--up"]),
     *(
         ([*STATS, "null", "--angle", angle], ["--angle", "180"])

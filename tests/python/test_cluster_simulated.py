@@ -43,13 +43,13 @@ def tasks(path: Path, works: Sequence[float], walk: float = 1e-4) -> Path:
 
 def simulated(path: Path, *arguments: str) -> dict:
     done = subprocess.run(
-        [SIMULATOR, path, *arguments], capture_output=True, text=True, check=True, timeout=60
+        [SIMULATOR, "cluster", path, *arguments], capture_output=True, text=True, check=True, timeout=60
     )
     return json.loads(done.stdout)
 
 
 def refusal(path: Path) -> str:
-    done = subprocess.run([SIMULATOR, path], capture_output=True, text=True, check=False)
+    done = subprocess.run([SIMULATOR, "cluster", path], capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert done.stdout == ""
     return done.stderr

@@ -13,22 +13,31 @@ from beambench_report.thesis.chapter6.split import SCENES, read_split, split_plo
 from cluster import CLUSTER, mpirun, needs_mpi
 from program import BINARY
 
-SIMULATOR = BINARY.resolve().with_name("beambench-split-simulated")
+SIMULATOR = BINARY.resolve().with_name("beambench-cluster-simulated")
 needs_simulator = pytest.mark.skipif(
-    not SIMULATOR.is_file(), reason="beambench-split-simulated was not built: no libsimgrid-dev"
+    not SIMULATOR.is_file(), reason="beambench-cluster-simulated was not built: no libsimgrid-dev"
 )
 ASKED = ["--accel", "beam:max_level=6", "--split", "3", "--resolution", "80x60"]
 
 
 def simulated(processes: int, *arguments: str) -> dict:
     done = subprocess.run(
-        [SIMULATOR, "tetra:n=4", *ASKED, "--processes", str(processes), *arguments],
+        [SIMULATOR, "split", "tetra:n=4", *ASKED, "--processes", str(processes), *arguments],
         capture_output=True,
         text=True,
         check=True,
         timeout=120,
     )
     return json.loads(done.stdout)
+
+
+@needs_simulator
+def test_the_old_names_work_with_a_warning() -> None:
+    arguments = ["tetra:n=4", *ASKED, "--processes", "2"]
+    old = SIMULATOR.with_name("beambench-split-simulated")
+    done = subprocess.run([old, *arguments], capture_output=True, text=True, check=True)
+    assert "now called 'beambench-cluster-simulated split'" in done.stderr
+    assert json.loads(done.stdout)["result_hash"] == simulated(2)["result_hash"]
 
 
 @needs_simulator
@@ -78,7 +87,11 @@ def test_wrong_requests_are_refused() -> None:
         (["tetra:n=2", "--accel", "sah-bvh"], "sah-bvh"),
     ):
         done = subprocess.run(
-            [SIMULATOR, *arguments], capture_output=True, text=True, check=False, timeout=60
+            [SIMULATOR, "split", *arguments],
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=60,
         )
         assert done.returncode == 2
         assert word in done.stderr

@@ -77,7 +77,7 @@ def test_a_structure_that_tells_no_steps_is_judged_all_the_same() -> None:
     way = way_of("--accel", "embree:mode=packet8")
     assert way["steps"] == []
     assert way["class"] == "agree"
-    assert "tells no steps" in output_of(*TRACE, "--accel", "embree")
+    assert "lists no steps" in output_of(*TRACE, "--accel", "embree")
     assert way_of("--accel", "null")["class"] == "agree", "a baseline is right when it is silent"
 
 

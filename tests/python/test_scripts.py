@@ -117,7 +117,7 @@ def set_up(tree: Path, *arguments: str) -> subprocess.Popen[str]:
     ("job", "targets"),
     [
         ("beambench", "beambench"),
-        ("cluster", "beambench-cluster beambench-cluster-simulated beambench-split-simulated"),
+        ("cluster", "beambench-cluster beambench-cluster-simulated"),
         ("all", "all"),
     ],
 )

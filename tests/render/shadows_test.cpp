@@ -96,7 +96,7 @@ TEST(ShadowMethods, AreThoseOfTheKindOfRays) {
     const WhittedOptions options = whitted_options(choice);
     EXPECT_EQ(options.max_depth, 3);
     EXPECT_EQ(options.shadows, parse_shadow_method(name));
-    EXPECT_EQ(options.least_weight, 0.0);
+    EXPECT_EQ(options.min_weight, 0.0);
   }
   EXPECT_EQ(whitted_options(rays::parse_ray_choice("whitted")).max_depth,
             WhittedOptions{}.max_depth);

@@ -89,7 +89,7 @@ TEST(Whitted, TwoMirrorsEndAtTheDepth) {
     EXPECT_EQ(progress.census.reflected, static_cast<std::uint64_t>(depth - 1));
   }
   // The third ray is a quarter of the pixel, the fourth an eighth.
-  const Whitted tracer(scene, *structure, {.max_depth = 6, .least_weight = 0.2});
+  const Whitted tracer(scene, *structure, {.max_depth = 6, .min_weight = 0.2});
   Whitted::Progress progress = tracer.begin();
   accel::Ray ray;
   ray.origin = {0, 0, 1};

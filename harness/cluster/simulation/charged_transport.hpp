@@ -1,21 +1,24 @@
 #pragma once
-// What messages cost the processor, on either side.
+// CPU time of messages, on either side.
 
+#include <functional>
 #include <utility>
 
-#include "harness/cluster/simulation/spend.hpp"
 #include "harness/cluster/transport.hpp"
 
 namespace beambench::cluster {
 
-/// Processor seconds for messages, which a network does not know of.
+/// Lets seconds of the (simulated) CPU pass.
+using Spend = std::function<void(double seconds)>;
+
+/// CPU seconds for messages, in addition to the network's time.
 struct MessageCost {
   double message_seconds;  ///< for each, sent or received
   double byte_seconds;     ///< for each byte of it
-  double look_seconds;     ///< to find that there is none
+  double look_seconds;     ///< to poll when there is none
 };
 
-/// A transport whose user also pays for his messages.
+/// A transport that charges CPU time for messages.
 class ChargedTransport : public Transport {
  public:
   ChargedTransport(Transport& carrier, const MessageCost& cost, Spend spend)

@@ -19,12 +19,12 @@ namespace {
 
 namespace s4u = simgrid::s4u;
 
-/// Operations a second of a machine of speed 1; any number does.
+/// Operations per second of a machine of speed 1; an arbitrary number.
 constexpr double kSpeedOne = 1e9;
 constexpr const char* kProgram = "beambench-cluster";
 
-/// Times and sizes are as the model has them, without SimGrid's corrections for today's clusters;
-/// what the program really computes takes no time, and MPI's calls what `ChargedTransport` says.
+/// Times and sizes are those of the model, without SimGrid's corrections for today's clusters; what
+/// the program really computes takes no time, and MPI's calls take what `ChargedTransport` charges.
 void configure() {
   const auto set = [](const std::string& option) { s4u::Engine::set_config(option); };
   set("network/model:CM02");
@@ -34,7 +34,7 @@ void configure() {
   set("network/TCP-gamma:0");
   set("network/crosstraffic:no");
   set("smpi/simulate-computation:no");
-  set("smpi/cpu-threshold:0");  // or what takes less than a microsecond would take nothing
+  set("smpi/cpu-threshold:0");  // otherwise less than a microsecond would take no time
   set(fmt::format("smpi/host-speed:{}f", kSpeedOne));
   set("smpi/bw-factor:1");
   set("smpi/lat-factor:1");
@@ -47,7 +47,7 @@ void configure() {
   set("smpi/init:0");
 }
 
-/// Full speed, and what is left of it when others use the machine.
+/// Full speed, and the share of it that others leave.
 simgrid::kernel::profile::Profile* load_of(const std::string& name, const ClusterModel& cluster) {
   const std::string points =
       fmt::format("0 1\n{} {}\n", 0.5 * cluster.load_period, cluster.loaded_share);
@@ -70,7 +70,7 @@ std::vector<s4u::Host*> make_machines(const ClusterModel& cluster) {
     }
     machine->seal();
     if (medium != nullptr) {
-      // Once on the way, whoever sends.
+      // One link on the route, whoever sends.
       zone->add_route(machine->get_netpoint(), nullptr, nullptr, nullptr,
                       {s4u::LinkInRoute(medium)}, false);
       zone->add_route(nullptr, machine->get_netpoint(), nullptr, nullptr,
@@ -87,36 +87,36 @@ std::vector<s4u::Host*> make_machines(const ClusterModel& cluster) {
   return machines;
 }
 
-/// What the processes share while they are simulated, one at a time.
+/// Shared by the processes, which are simulated one at a time.
 struct Stage {
   MessageCost message_cost;
-  const Play& play;
+  const ProcessMain& process;
   int ended = 0;
   double seconds = 0.0;
   std::exception_ptr problem;
 };
 
-void play_part(Stage& stage) {
+void run_process_main(Stage& stage) {
   MpiTransport carrier(MpiTransport::Waiting::kBlocking);
   ChargedTransport transport(carrier, stage.message_cost, smpi_execute);
-  stage.play(transport, smpi_execute);
+  stage.process(transport, smpi_execute);
   stage.seconds = std::max(stage.seconds, transport.seconds());
-  // What has left but not arrived would be lost with its sender.
+  // Messages that have not arrived would be lost with their sender.
   MPI_Comm everybody = MPI_COMM_NULL;
   MPI_Comm_dup(MPI_COMM_WORLD, &everybody);
   MPI_Barrier(everybody);
   ++stage.ended;
 }
 
-/// One process. A problem ends them all, without MPI_Finalize, where each would wait for the
+/// One process. An exception ends them all, without MPI_Finalize, where each would wait for the
 /// others.
 void live(Stage& stage) {
   try {
     MPI_Init(nullptr, nullptr);
-    play_part(stage);
+    run_process_main(stage);
     MPI_Finalize();
   } catch (const simgrid::ForcefulKillException&) {
-    throw;  // SimGrid's own way to end a process
+    throw;  // how SimGrid ends a process
   } catch (...) {
     stage.problem = std::current_exception();
     s4u::Actor::kill_all();
@@ -126,7 +126,7 @@ void live(Stage& stage) {
 
 }  // namespace
 
-double run_on(const ClusterModel& cluster, const char* program, const Play& play) {
+double run_on(const ClusterModel& cluster, const char* program, const ProcessMain& process) {
   std::string name(program);
   std::string quiet("--log=root.thres:warning");
   std::array<char*, 3> arguments{name.data(), quiet.data(), nullptr};
@@ -137,7 +137,7 @@ double run_on(const ClusterModel& cluster, const char* program, const Play& play
   const std::vector<s4u::Host*> machines = make_machines(cluster);
   const int processes = static_cast<int>(machines.size());
   SMPI_app_instance_register(kProgram, nullptr, processes);
-  Stage stage{cluster.message_cost, play, 0, 0.0, nullptr};
+  Stage stage{cluster.message_cost, process, 0, 0.0, nullptr};
   for (int i = 0; i < processes; ++i) {
     const auto process =
         s4u::Actor::init(fmt::format("process-{}", i), machines[static_cast<std::size_t>(i)]);
@@ -149,7 +149,7 @@ double run_on(const ClusterModel& cluster, const char* program, const Play& play
   SMPI_finalize();
   if (stage.problem) std::rethrow_exception(stage.problem);
   if (stage.ended < processes) {
-    throw std::runtime_error("the simulated processes waited for each other; that is a fault");
+    throw std::runtime_error("deadlock: the simulated processes wait for each other");
   }
   return stage.seconds;
 }

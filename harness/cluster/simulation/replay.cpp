@@ -1,13 +1,99 @@
 #include "harness/cluster/simulation/replay.hpp"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "scenes/core/error.hpp"
+#include "scenes/core/files.hpp"
 
 namespace beambench::cluster {
 namespace {
 
+constexpr std::string_view kRemedy = "'beambench-cluster SCENE --tasks FILE.csv' writes such files";
+constexpr std::string_view kEnd = "end";  // the name of the row after the last task
+
+std::vector<std::string> split(std::string_view line) {
+  std::vector<std::string> fields(1);
+  for (const char c : line) {
+    if (c == '\r') continue;
+    if (c == ',') {
+      fields.emplace_back();
+    } else {
+      fields.back() += c;
+    }
+  }
+  return fields;
+}
+
+/// The columns by name, and the fields of one line.
+class Line {
+ public:
+  Line(const std::filesystem::path& path, std::map<std::string, std::size_t> columns)
+      : path_(path), columns_(std::move(columns)) {
+    for (const char* name : {"task", "walk_seconds", "work_seconds", "accept_seconds", "task_bytes",
+                             "result_bytes", "samples"}) {
+      if (!columns_.contains(name)) fail(fmt::format("there is no column '{}'; {}", name, kRemedy));
+    }
+  }
+
+  void read(std::string_view text) {
+    ++number_;
+    fields_ = split(text);
+    if (fields_.size() != columns_.size()) {
+      fail(fmt::format("{} fields where the first line has {}", fields_.size(), columns_.size()));
+    }
+  }
+
+  const std::string& text(const char* column) const { return fields_[columns_.at(column)]; }
+  double number(const char* column) const {
+    const std::string& field = text(column);
+    double value = 0.0;
+    const char* end = field.data() + field.size();
+    const auto [stop, error] = std::from_chars(field.data(), end, value);
+    if (error != std::errc() || stop != end || !std::isfinite(value) || value < 0.0) {
+      fail(fmt::format("{} is '{}'; expected a number that is not negative", column, field));
+    }
+    return value;
+  }
+  std::size_t count(const char* column) const { return static_cast<std::size_t>(number(column)); }
+
+  [[noreturn]] void fail(const std::string& what) const {
+    throw InputError(fmt::format("{}:{}: {}", path_.string(), number_, what));
+  }
+
+ private:
+  std::filesystem::path path_;
+  std::map<std::string, std::size_t> columns_;
+  std::size_t number_ = 1;
+  std::vector<std::string> fields_;
+};
+
+template <class Value>
+double sum(const std::vector<TaskCost>& tasks, Value value) {
+  double total = 0.0;
+  for (const TaskCost& task : tasks) total += task.*value;
+  return total;
+}
+
+std::string read_tasks(const std::filesystem::path& path) {
+  try {
+    return read_input(path);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}; {}", error.what(), kRemedy));
+  }
+}
+
 using Number = std::uint32_t;
 
-/// The number of a task in as many bytes as the real message had, or in its own four.
+/// The number of a task, padded to the size of the real message.
 void put(Number number, std::size_t size, Bytes& bytes) {
   const std::size_t begin = bytes.size();
   ByteWriter(bytes).put(number);
@@ -16,11 +102,63 @@ void put(Number number, std::size_t size, Bytes& bytes) {
 
 Number number_in(std::span<const std::byte> bytes, const TaskCosts& costs) {
   const auto number = ByteReader(bytes).get<Number>();
-  if (number >= costs.tasks.size()) throw ProtocolError("a message tells of a task that is none");
+  if (number >= costs.tasks.size()) throw ProtocolError("a message has the number of no task");
   return number;
 }
 
 }  // namespace
+
+double TaskCosts::walk_seconds() const {
+  return sum(tasks, &TaskCost::walk_seconds) + last_walk_seconds;
+}
+double TaskCosts::work_seconds() const { return sum(tasks, &TaskCost::work_seconds); }
+double TaskCosts::accept_seconds() const { return sum(tasks, &TaskCost::accept_seconds); }
+
+TaskCosts read_task_costs(const std::filesystem::path& path) {
+  std::istringstream file(read_tasks(path));
+  std::string text;
+  if (!std::getline(file, text)) {
+    throw InputError(fmt::format("cannot read tasks from '{}'; {}", path.string(), kRemedy));
+  }
+  std::map<std::string, std::size_t> columns;
+  for (const std::string& name : split(text)) columns.emplace(name, columns.size());
+  Line line(path, std::move(columns));
+  TaskCosts costs;
+  bool ended = false;
+  while (std::getline(file, text)) {
+    line.read(text);
+    if (ended) line.fail("there is a task behind the row 'end'");
+    ended = line.text("task") == kEnd;
+    if (ended) {
+      costs.last_walk_seconds = line.number("walk_seconds");
+    } else {
+      costs.tasks.push_back({line.number("walk_seconds"), line.number("work_seconds"),
+                             line.number("accept_seconds"), line.count("task_bytes"),
+                             line.count("result_bytes"), line.count("samples")});
+    }
+  }
+  if (!ended) line.fail("the file ends before the row 'end': it was cut off");
+  if (costs.tasks.empty()) line.fail("there is no task");
+  return costs;
+}
+
+TaskCosts slowed(TaskCosts costs, double walk, double work) {
+  for (TaskCost& task : costs.tasks) {
+    task.walk_seconds *= walk;
+    task.work_seconds *= work;
+    task.accept_seconds *= work;
+  }
+  costs.last_walk_seconds *= walk;
+  return costs;
+}
+
+TaskCosts with_results_of(double bytes_per_sample, TaskCosts costs) {
+  for (TaskCost& task : costs.tasks) {
+    task.result_bytes =
+        static_cast<std::size_t>(std::ceil(bytes_per_sample * static_cast<double>(task.samples)));
+  }
+  return costs;
+}
 
 bool ReplayedSource::next(Bytes& task) {
   if (made_ == costs_->tasks.size()) {
@@ -33,7 +171,7 @@ bool ReplayedSource::next(Bytes& task) {
   return true;
 }
 
-void ReplayedWorker::perform(std::span<const std::byte> task, Bytes& result, const Pulse&) {
+void ReplayedWorker::perform(std::span<const std::byte> task, Bytes& result, const Heartbeat&) {
   const Number number = number_in(task, *costs_);
   const TaskCost& cost = costs_->tasks[number];
   spend_(cost.work_seconds);

@@ -30,7 +30,7 @@ std::uint32_t morton(const glm::ivec3& cell) {
   return code;
 }
 
-/// Copies what a primitive refers to, each vertex once.
+/// Copies primitives with all that they refer to, each vertex once.
 class PartBuilder {
  public:
   PartBuilder(const scenes::Scene& whole, ScenePart& part) : whole_(&whole), part_(&part) {}
@@ -103,7 +103,7 @@ SceneSplit::SceneSplit(const scenes::Scene& scene, const accel::octree::OctreeOp
   const accel::CellGrid grid = accel::octree::octree_grid(scene, coarse);
   const auto count = static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_) *
                      static_cast<std::size_t>(cells_);
-  // A little for each cell, so that empty ones are shared out, too.
+  // A little for each cell, so that empty ones are distributed, too.
   std::vector<double> weight(count, 0.01);
   ranges_.reserve(scene.primitives.size());
   for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {

@@ -1,5 +1,5 @@
 #pragma once
-// Who has which part of a scene that is divided among processes.
+// The division of a scene among processes.
 
 #include <cstdint>
 #include <vector>
@@ -11,9 +11,8 @@
 
 namespace beambench::cluster {
 
-/// The cells of one level of an octree, divided among processes. Cells that follow each other in
-/// Morton's order go together, so that a process's cells are neighbors, and about as many
-/// primitives go to each process. All processes that see the same scene divide it alike.
+/// The cells of one level of an octree, distributed in Morton order, so that a process's cells are
+/// neighbors, with about as many primitives for each process. All processes compute the same split.
 class SceneSplit {
  public:
   /// Cells of `level`, at most 7 and not deeper than the octree of `options`.
@@ -35,7 +34,7 @@ class SceneSplit {
 
   /// Does the primitive's box reach into a cell of the process? Not after `forget_primitives`.
   bool reaches(ProcessId process, scenes::PrimitiveId id) const;
-  /// Gives up the memory that grows with the scene.
+  /// Frees the memory that grows with the scene.
   void forget_primitives() { ranges_ = {}; }
 
  private:
@@ -45,7 +44,7 @@ class SceneSplit {
   std::vector<accel::CellRange> ranges_;  ///< by primitive
 };
 
-/// What one process keeps of a scene.
+/// The part of a scene that one process keeps.
 struct ScenePart {
   /// Its primitives, in their order; bounds, cameras, surfaces and lights are those of the whole.
   scenes::Scene scene;

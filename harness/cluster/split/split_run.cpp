@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include "harness/bench/record/build_info.hpp"
-#include "harness/cluster/set_up.hpp"
-#include "harness/cluster/split/split_studio.hpp"
-#include "harness/cluster/studio.hpp"
+#include "harness/cluster/run.hpp"
+#include "harness/cluster/split/part_member.hpp"
+#include "harness/cluster/worker_state.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/render/picture/image_file.hpp"
@@ -21,18 +21,19 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A process's part, and what it says of the whole.
-struct Workplace {
+/// A process's part, and facts of the whole scene.
+struct Setup {
   Identity identity;
   std::uint64_t whole_bytes = 0;
-  std::unique_ptr<SplitStudio> studio;
+  std::unique_ptr<PartState> state;
 };
 
-Workplace set_up(const Job& job, Transport& transport, std::vector<std::string>* warnings) {
+Setup set_up(const Job& job, Transport& transport, std::vector<std::string>* warnings) {
   auto whole = std::make_shared<const scenes::Scene>(scenes::load_scene(job.scene, warnings));
-  Workplace place{
-      {look_hash(*whole), whole->primitives.size(), 0}, scenes::memory_bytes(*whole), nullptr};
-  place.studio = std::make_unique<SplitStudio>(std::move(whole), job, transport);
+  Setup place{{visible_hash(*whole), whole->primitives.size(), 0, 0},
+              scenes::memory_bytes(*whole),
+              nullptr};
+  place.state = std::make_unique<PartState>(std::move(whole), job, transport);
   return place;
 }
 
@@ -40,40 +41,40 @@ Json to_json(const Traffic& traffic) {
   return {{"messages", traffic.messages}, {"bytes", traffic.bytes}};
 }
 
-Json to_json(const SplitAccount& account) {
-  return {{"primitives", account.primitives},
-          {"scene_bytes", account.scene_bytes},
-          {"structure_bytes", account.structure_bytes},
-          {"beams_out", account.beams_out},
-          {"rays_out", account.rays_out},
-          {"crossings_out", to_json(account.crossings_out)},
-          {"crossings_in", to_json(account.crossings_in)},
-          {"cpu_seconds", account.cpu_seconds},
-          {"wait_seconds", account.wait_seconds}};
+Json to_json(const PartReport& report) {
+  return {{"primitives", report.primitives},
+          {"scene_bytes", report.scene_bytes},
+          {"structure_bytes", report.structure_bytes},
+          {"beams_out", report.beams_out},
+          {"rays_out", report.rays_out},
+          {"crossings_out", to_json(report.crossings_out)},
+          {"crossings_in", to_json(report.crossings_in)},
+          {"cpu_seconds", report.cpu_seconds},
+          {"wait_seconds", report.wait_seconds}};
 }
 
 }  // namespace
 
 SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
-  Workplace place;
-  set_up_to_lead(transport, [&](std::vector<std::string>& warnings) {
+  Setup place;
+  set_up_producer(transport, [&](std::vector<std::string>& warnings) {
     place = set_up(request.job, transport, &warnings);
   });
-  const auto check = [&](ProcessId process, std::span<const std::byte> introduction) {
-    read_introduction(process, introduction, place.identity);
+  const auto check = [&](ProcessId process, std::span<const std::byte> ready_report) {
+    read_ready_report(process, ready_report, place.identity);
   };
   SplitRun run;
   run.job = request.job;
   run.whole_scene_bytes = place.whole_bytes;
-  run.whole_primitives = place.identity.nodes;
+  run.whole_primitives = place.identity.primitives;
   const double begin = transport.seconds();
-  SplitStudio& studio = *place.studio;
-  SplitMember member(transport, studio.worker(), studio.outbox(), request.producer.timeout, check);
+  PartState& state = *place.state;
+  PartMember member(transport, state.worker(), state.outbox(), request.producer.timeout, check);
   std::vector<Bytes> results = member.lead();
-  results[kProducer] = write_result(member.account(), studio.worker());
-  const accel::PrimaryRays& rays = studio.rays();
+  results[kProducer] = write_result(member.report(), state.worker());
+  const accel::PrimaryRays& rays = state.rays();
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-  for (const Bytes& result : results) run.accounts.push_back(take_result(result, hits));
+  for (const Bytes& result : results) run.reports.push_back(take_result(result, hits));
   run.seconds = transport.seconds() - begin;
   run.result_hash = rays::fingerprint(hits);
   run.job.width = rays.width();
@@ -82,23 +83,23 @@ SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
     // The ids are those of the whole scene, of which each process has a part.
     rays::HitCheck(run.whole_primitives, "structure 'beam'").require(hits, rays);
     render::write_image(request.picture,
-                        render::shade(studio.worker().scene(), rays, hits, request.shading));
+                        render::shade(state.worker().scene(), rays, hits, request.shading));
   }
   if (!request.report.empty()) write_file(request.report, to_json(run).dump(2) + "\n");
   return run;
 }
 
 void follow_split(const Job& job, Transport& transport) {
-  const auto place = set_up_to_follow(transport, [&] { return set_up(job, transport, nullptr); });
+  const auto place = set_up_consumer(transport, [&] { return set_up(job, transport, nullptr); });
   if (!place) return;
-  Introduction introduction;
-  introduction.host = host_name();
-  introduction.identity = place->identity;
-  transport.send(kProducer, Tag::kReady, write_introduction(introduction));
-  SplitWorker& worker = place->studio->worker();
-  SplitMember member(transport, worker, place->studio->outbox(), 5.0 * job.alive_every,
-                     [](ProcessId, std::span<const std::byte>) {});
-  member.follow([&] { return write_result(member.account(), worker); });
+  ReadyReport ready_report;
+  ready_report.host = host_name();
+  ready_report.identity = place->identity;
+  transport.send(kProducer, Tag::kReady, write_ready_report(ready_report));
+  PartWorker& worker = place->state->worker();
+  PartMember member(transport, worker, place->state->outbox(), 5.0 * job.heartbeat_interval,
+                    [](ProcessId, std::span<const std::byte>) {});
+  member.follow([&] { return write_result(member.report(), worker); });
 }
 
 nlohmann::ordered_json to_json(const SplitRun& run) {
@@ -113,13 +114,13 @@ nlohmann::ordered_json to_json(const SplitRun& run) {
             {"samples", run.job.samples},
             {"work", "parts"},
             {"cells_level", run.job.split_level},
-            {"processes", run.accounts.size()},
+            {"processes", run.reports.size()},
             {"seconds", run.seconds},
             {"result_hash", fmt::format("{:016x}", run.result_hash)},
             {"whole_primitives", run.whole_primitives},
             {"whole_scene_bytes", run.whole_scene_bytes}};
   Json& each = json["each"] = Json::array();
-  for (const SplitAccount& account : run.accounts) each.push_back(to_json(account));
+  for (const PartReport& report : run.reports) each.push_back(to_json(report));
   return json;
 }
 
@@ -129,18 +130,18 @@ std::string summary(const SplitRun& run) {
   std::uint64_t rays = 0;
   std::uint64_t most = 0;
   std::uint64_t largest = 0;
-  for (const SplitAccount& account : run.accounts) {
-    crossings.messages += account.crossings_out.messages;
-    crossings.bytes += account.crossings_out.bytes;
-    beams += account.beams_out;
-    rays += account.rays_out;
-    most = std::max(most, account.primitives);
-    largest = std::max(largest, account.scene_bytes + account.structure_bytes);
+  for (const PartReport& report : run.reports) {
+    crossings.messages += report.crossings_out.messages;
+    crossings.bytes += report.crossings_out.bytes;
+    beams += report.beams_out;
+    rays += report.rays_out;
+    most = std::max(most, report.primitives);
+    largest = std::max(largest, report.scene_bytes + report.structure_bytes);
   }
   return fmt::format(
-      "{} processes in {:.3f} s; {} beams and {} rays crossed borders, in {} messages with {:.2f} "
+      "{} processes in {:.3f} s; {} beams and {} rays were handed over in {} messages with {:.2f} "
       "MB; the largest part has {} of {} primitives and {:.2f} MB with its octree",
-      run.accounts.size(), run.seconds, beams, rays, crossings.messages,
+      run.reports.size(), run.seconds, beams, rays, crossings.messages,
       1e-6 * static_cast<double>(crossings.bytes), most, run.whole_primitives,
       1e-6 * static_cast<double>(largest));
 }

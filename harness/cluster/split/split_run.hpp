@@ -5,23 +5,23 @@
 
 #include <nlohmann/json.hpp>
 
-#include "harness/cluster/request.hpp"
-#include "harness/cluster/split/split_member.hpp"
+#include "harness/cluster/run.hpp"
+#include "harness/cluster/split/part_member.hpp"
 #include "harness/cluster/transport.hpp"
 
 namespace beambench::cluster {
 
 struct SplitRun {
   Job job;
-  std::vector<SplitAccount> accounts;  ///< by process
-  double seconds = 0.0;                ///< wall time from the first beam to the last hit
+  std::vector<PartReport> reports;  ///< by process
+  double seconds = 0.0;             ///< wall time from the first beam to the last hit
   std::uint64_t whole_scene_bytes = 0;
   std::uint64_t whole_primitives = 0;
   std::uint64_t result_hash = 0;
 };
 
 /// As `lead` and `follow`, each process keeping only its part of the scene. Each reads the whole
-/// before and lets go of it before it builds.
+/// scene and frees it before it builds.
 SplitRun lead_split(const ClusterRequest& request, Transport& transport);
 void follow_split(const Job& job, Transport& transport);
 

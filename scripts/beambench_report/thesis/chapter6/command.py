@@ -28,7 +28,7 @@ def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) ->
         (first, "beambench-cluster"),
         (real, "beambench-cluster"),
         (second, "beambench-cluster-simulated"),
-        (split, "beambench-split-simulated"),
+        (split, "beambench-cluster-simulated"),
     ):
         step.add_argument(
             "--program",

@@ -223,7 +223,9 @@ def _simulate(
         *simulation.arguments(),
     ]
     tasks = tasks_file(folder, simulation.scene, simulation.work)
-    result = cache.result([tasks.name, *arguments], [str(program), str(tasks), *arguments])
+    result = cache.result(
+        [tasks.name, *arguments], [str(program), "cluster", str(tasks), *arguments]
+    )
     # Whatever is distributed, it is compared with the sequential beam tracer.
     beams = recorded[simulation.scene, BEAMS]
     sequential = (

@@ -102,7 +102,7 @@ def simulate_split(
                 print(what, end="", file=sys.stderr, flush=True)
                 arguments = _arguments(era, divided, parts, slow, resolution)
                 runs = [
-                    cache.result([str(repeat), *arguments], [str(program), *arguments])
+                    cache.result([str(repeat), *arguments], [str(program), "split", *arguments])
                     for repeat in range(repeats)
                 ]
                 # The run whose tracing took the median.

@@ -1,0 +1,213 @@
+// beambench-cluster: one image on the processes that mpirun starts.
+
+#include <algorithm>
+#include <cstdio>
+#include <new>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "harness/base/exit_code.hpp"
+#include "harness/base/messages.hpp"
+#include "harness/bench/record/build_info.hpp"
+#include "harness/cli/inputs.hpp"
+#include "harness/cluster/mpi_transport.hpp"
+#include "harness/cluster/run.hpp"
+#include "harness/cluster/split/split_run.hpp"
+#include "harness/rays/hit_check.hpp"
+#include "harness/rays/resolution.hpp"
+#include "harness/render/picture/image_file.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/files.hpp"
+
+namespace beambench::cli {
+namespace {
+
+using namespace cluster;
+
+constexpr const char* kProgram = "beambench-cluster";
+constexpr const char* kDescription =
+    "One image on several processes (thesis, chapter 6): process 0 traces beams to occupied\n"
+    "leaves, the others trace their rays. Start it with mpirun.";
+constexpr const char* kFooter =
+    "The picture is that of 'beambench render', bit for bit, with any number of processes.\n"
+    "A process that dies ends the run (exit code not 0, no picture); one that is silent for\n"
+    "--timeout seconds is declared lost, and its work is done by others.\n"
+    "Examples:\n"
+    "  mpirun -n 3 beambench-cluster balls -o balls.png --shade whitted --samples 5\n"
+    "  mpirun -n 5 beambench-cluster tetra:n=8 -o tetra.png --batch 16 --in-flight 2\n"
+    "  mpirun -n 3 beambench-cluster escena1 -o escena1.png --report run.json --tasks tasks.csv\n"
+    "As root in a container: mpirun --allow-run-as-root --oversubscribe ...";
+
+/// Options before they are parsed.
+struct Options {
+  std::string scene;
+  std::string structure = "beam";
+  ImageRequest image;
+  std::string shading = "preview";
+  WhittedRequest whitted;
+  std::string work = "beams";
+};
+
+void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
+  add_scene_option(app, typed.scene);
+  app.add_option("-o", request.picture, "Picture to write, .png or .exr (default: none)");
+  app.add_option("--accel", typed.structure, "beam, with parameters: beam:max_level=6,...")
+      ->capture_default_str();
+  add_size_options(app, typed.image);
+  add_camera_option(app, typed.image.view);
+  app.add_option("--shade", typed.shading,
+                 "preview, normals, id, depth: consumers send hits; whitted: they send light")
+      ->capture_default_str();
+  add_light_options(app, typed.whitted);
+  app.add_option("--work", typed.work, "beams, or blocks of the image traced by individual rays")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"beams", "blocks"}));
+  app.add_option("--split", request.job.split_level,
+                 "Divide the scene instead: each process has the primitives in its share of the "
+                 "octree's cells of this level; beams and rays are handed over at borders")
+      ->check(CLI::Range(2, 7));
+  app.add_option("--block", request.block_size, "Side of a block in pixels")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 4096));
+  app.add_option("--batch", request.producer.batch, "Beams or blocks per message")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--in-flight", request.producer.in_flight,
+                 "Messages that a consumer may hold; 2: the next one is already there")
+      ->capture_default_str()
+      ->check(CLI::Range(1, 64));
+  app.add_flag("--producer-consumes", request.producer.consumes,
+               "Process 0 works itself while no consumer waits");
+  app.add_option("--timeout", request.producer.timeout,
+                 "Seconds after which a silent consumer is declared lost")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 1e6));
+  app.add_option("--report", request.report,
+                 "Write JSON: messages, bytes, busy times of each process");
+  app.add_option("--tasks", request.tasks, "Write CSV: cost and size of each beam or block");
+}
+
+/// Shading needs the primitives that were hit.
+void require_hits_alone(const ClusterRequest& request) {
+  const bool needs_scene =
+      request.shading != render::Shading::kId && request.shading != render::Shading::kDepth;
+  if (!request.picture.empty() && needs_scene) {
+    throw InputError(
+        "with --split no process has the whole scene to shade; give --shade id or --shade depth");
+  }
+  if (request.blocks || !request.tasks.empty()) {
+    throw InputError(
+        "--split divides the scene, not the work; leave out --work blocks and --tasks");
+  }
+}
+
+void fill(const Options& typed, ClusterRequest& request) {
+  request.shading = render::parse_shading(typed.shading);
+  request.blocks = typed.work == "blocks";
+  Job& job = request.job;
+  job.scene = typed.scene;
+  job.structure = choose_one("--accel", typed.structure).label();
+  job.camera = typed.image.view.camera;
+  if (!typed.image.resolution.empty()) {
+    const rays::Resolution resolution = rays::parse_resolution(typed.image.resolution);
+    job.width = resolution.width;
+    job.height = resolution.height;
+  }
+  job.samples = typed.image.samples;
+  accel::sample_offsets(job.samples);
+  job.light = request.shading == render::Shading::kWhitted;
+  job.whitted = whitted_options(typed.whitted);
+  job.heartbeat_interval = std::min(1.0, 0.25 * request.producer.timeout);
+  if (job.split_level > 0) require_hits_alone(request);
+  if (!request.picture.empty()) render::image_format(request.picture);
+  for (const std::string& file : {request.picture, request.report, request.tasks}) {
+    if (!file.empty()) require_writable(file);
+  }
+}
+
+/// Nothing after --help or --version. Throws InputError before anything long is begun.
+std::optional<ClusterRequest> parse_request(int argc, char** argv) {
+  CLI::App app(kDescription, kProgram);
+  app.set_version_flag("--version", fmt::format("{} {}", kProgram, bench::build_info().version));
+  app.footer(kFooter);
+  app.get_formatter()->column_width(34);
+  Options typed;
+  ClusterRequest request;
+  add_options(app, typed, request);
+  try {
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    replace_renamed_options(kProgram, arguments);
+    std::ranges::reverse(arguments);  // CLI11 takes them from the back
+    app.parse(std::move(arguments));
+  } catch (const CLI::Success& success) {
+    app.exit(success);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    throw InputError(fmt::format("{}; see 'beambench-cluster --help'", error.what()));
+  }
+  fill(typed, request);
+  return request;
+}
+
+/// Process 0. The others receive the job, or nothing where there is none.
+int lead_run(int argc, char** argv, Transport& transport) {
+  std::optional<ClusterRequest> request;
+  Bytes job;
+  try {
+    request = parse_request(argc, argv);
+    if (request) job = write_job(request->job);
+  } catch (...) {
+    transport.broadcast(job);
+    throw;
+  }
+  transport.broadcast(job);
+  if (!request) return base::kSuccess;
+  if (request->job.split_level > 0) {
+    base::report_error(kProgram, summary(lead_split(*request, transport)), 0);
+    return base::kSuccess;
+  }
+  const ClusterRun run = lead(*request, transport);
+  for (const std::string& remark : run.report.remarks) base::report_error(kProgram, remark, 0);
+  base::report_error(kProgram, summary(run), 0);
+  if (run.report.lost.empty()) return base::kSuccess;
+  // Lost processes would not reach MPI_Finalize, where all others would wait. All is written.
+  MpiSession::abort(base::kSuccess);
+}
+
+int run_process(int argc, char** argv, Transport& transport) {
+  try {
+    if (transport.self() == kProducer) return lead_run(argc, argv, transport);
+    follow(transport);
+    return base::kSuccess;
+  } catch (const LostProcess& error) {
+    base::report_error(kProgram, error.what(), base::kInvalidInput);
+    MpiSession::abort(base::kInvalidInput);
+  } catch (const InputError& error) {
+    return base::report_error(kProgram, error.what(), base::kInvalidInput);
+  } catch (const rays::InvalidHit& error) {  // the others wait for results that will not come
+    base::report_error(kProgram, error.what(), base::kMismatch);
+    MpiSession::abort(base::kMismatch);
+  } catch (const std::exception& error) {
+    const auto* memory = dynamic_cast<const std::bad_alloc*>(&error);
+    base::report_error(kProgram,
+                       memory != nullptr
+                           ? "out of memory; choose a smaller scene or resolution"
+                           : fmt::format("internal error, please report it: {}", error.what()),
+                       base::kInternalError);
+    MpiSession::abort(base::kInternalError);
+  }
+}
+
+}  // namespace
+}  // namespace beambench::cli
+
+int main(int argc, char** argv) {
+  const beambench::cluster::MpiSession session(argc, argv);
+  beambench::cluster::MpiTransport transport(beambench::cluster::MpiTransport::Waiting::kSleeping);
+  return beambench::cli::run_process(argc, argv, transport);
+}

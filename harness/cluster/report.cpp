@@ -1,0 +1,119 @@
+#include "harness/cluster/report.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/bench/record/build_info.hpp"
+#include "harness/bench/record/machine.hpp"
+#include "harness/cluster/image_worker.hpp"
+
+namespace beambench::cluster {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json to_json(const Traffic& traffic) {
+  return {{"messages", traffic.messages}, {"bytes", traffic.bytes}};
+}
+
+Json to_json(const render::RayCensus& census) {
+  return {{"eye_hits", census.eye_hits},   {"reflected", census.reflected},
+          {"refracted", census.refracted}, {"secondary_hits", census.secondary_hits},
+          {"shadow", census.shadow},       {"shadow_hidden", census.shadow_hidden}};
+}
+
+Json process_json(const ClusterRun& run, std::size_t process) {
+  const ProcessReport& report = run.report.processes[process];
+  const ReadyReport& ready_report = run.ready_reports[process];
+  Json json{{"process", process},
+            {"role", process == kProducer ? "producer" : "consumer"},
+            {"host", ready_report.host},
+            {"build_seconds", ready_report.build_seconds},
+            {"structure_bytes", ready_report.structure_bytes},
+            {"tasks", report.tasks},
+            {"samples", report.samples},
+            {"busy_seconds", report.busy_seconds},
+            {"cpu_seconds", report.cpu_seconds},
+            {"wait_seconds",
+             process == kProducer ? run.report.producer_wait_seconds : report.wait_seconds},
+            {"last_result_seconds", report.last_result}};
+  if (process != kProducer) {
+    json["from_producer"] = to_json(report.from_producer);
+    json["to_producer"] = to_json(report.to_producer);
+  }
+  if (run.job.light && !report.counted.empty()) json["rays"] = to_json(read_census(report.counted));
+  return json;
+}
+
+Traffic total(const ClusterReport& report, Traffic ProcessReport::*way) {
+  Traffic sum;
+  for (const ProcessReport& process : report.processes) {
+    sum.messages += (process.*way).messages;
+    sum.bytes += (process.*way).bytes;
+  }
+  return sum;
+}
+
+}  // namespace
+
+Json to_json(const ClusterRun& run) {
+  const bench::BuildInfo& build = bench::build_info();
+  const ClusterReport& report = run.report;
+  Json json{{"version", build.version},
+            {"commit", build.commit},
+            {"dirty", build.dirty},
+            {"finished_utc", bench::utc_now()},
+            {"scene", run.job.scene},
+            {"structure", run.job.structure},
+            {"width", run.job.width},
+            {"height", run.job.height},
+            {"samples", run.job.samples},
+            {"results", run.job.light ? "light" : "hits"},
+            {"work", run.work},
+            {"batch", run.batch},
+            {"in_flight", run.in_flight},
+            {"producer_consumes", run.producer_consumes},
+            {"result_hash", fmt::format("{:016x}", run.result_hash)},
+            {"processes", report.processes.size()},
+            {"tasks", report.tasks.size()},
+            {"seconds", report.seconds},
+            {"producer_busy_share", report.producer_busy_share()},
+            {"walk_seconds", report.walk_seconds},
+            {"accept_seconds", report.accept_seconds},
+            {"from_producer", to_json(total(report, &ProcessReport::from_producer))},
+            {"to_producer", to_json(total(report, &ProcessReport::to_producer))},
+            {"remarks", report.remarks},
+            {"lost", report.lost}};
+  Json& processes = json["each"] = Json::array();
+  for (std::size_t i = 0; i < report.processes.size(); ++i) {
+    processes.push_back(process_json(run, i));
+  }
+  return json;
+}
+
+std::string task_table(const ClusterReport& report) {
+  std::string table =
+      "task,process,walk_seconds,work_seconds,accept_seconds,samples,task_bytes,result_bytes\n";
+  for (std::size_t i = 0; i < report.tasks.size(); ++i) {
+    const TaskReport& task = report.tasks[i];
+    table += fmt::format("{},{},{:.9f},{:.9f},{:.9f},{},{},{}\n", i, task.process,
+                         task.walk_seconds, task.work_seconds, task.accept_seconds, task.samples,
+                         task.task_bytes, task.result_bytes);
+  }
+  table += fmt::format("end,0,{:.9f},0,0,0,0,0\n", report.last_walk_seconds);
+  return table;
+}
+
+std::string summary(const ClusterRun& run) {
+  const ClusterReport& report = run.report;
+  const Traffic out = total(report, &ProcessReport::from_producer);
+  const Traffic back = total(report, &ProcessReport::to_producer);
+  return fmt::format(
+      "{} {} on {} processes in {:.3f} s; the producer was busy {:.0f}% of that time; it sent {} "
+      "messages with {:.2f} MB and received {} with {:.2f} MB",
+      report.tasks.size(), run.work, report.processes.size(), report.seconds,
+      100.0 * report.producer_busy_share(), out.messages, 1e-6 * static_cast<double>(out.bytes),
+      back.messages, 1e-6 * static_cast<double>(back.bytes));
+}
+
+}  // namespace beambench::cluster

@@ -1,0 +1,60 @@
+#pragma once
+// Simulated runs on machines and a network that SimGrid computes. Producer and consumers replay a
+// record; a divided scene is really traced while it is simulated, because who hands what to whom,
+// and in which messages, depends on the times.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "harness/cluster/job.hpp"
+#include "harness/cluster/producer.hpp"
+#include "harness/cluster/simulation/machines.hpp"
+#include "harness/cluster/simulation/replay.hpp"
+#include "harness/cluster/split/part_member.hpp"
+
+namespace beambench::cluster {
+
+/// The producer's report, and the time of the whole run.
+struct SimulatedRun {
+  double seconds = 0.0;  ///< from the start of the processes to the end of the last one
+  ClusterReport report;
+};
+
+/// Runs producer and consumers on the cluster, the producer on the first machine; every process
+/// first builds its octree for `build_seconds` (at speed 1). As `run_on`.
+SimulatedRun simulate(const ClusterModel& cluster, const TaskCosts& costs, double build_seconds,
+                      const ProducerOptions& options, const char* program);
+
+/// Times of a machine of speed 1 over those of this one.
+struct TimeScale {
+  double build = 1.0;  ///< to divide the scene and to build
+  double walk = 1.0;   ///< to trace beams
+  double work = 1.0;   ///< for all else
+};
+
+/// What a process did, in CPU seconds of this machine.
+struct SplitProcess {
+  PartReport report;
+  double build_seconds = 0.0;  ///< to divide the scene and to build its part
+  double walk_seconds = 0.0;
+  double test_seconds = 0.0;  ///< of samples and rays
+  double take_seconds = 0.0;  ///< to receive handoffs and, at the end, hits
+  double ready = 0.0;         ///< simulated: when it was ready
+  double busy = 0.0;          ///< simulated: time of traversal, tests and receiving
+};
+
+struct SimulatedSplit {
+  double seconds = 0.0;         ///< simulated: to the end of the last process
+  double traced_seconds = 0.0;  ///< of it: since the last process was ready
+  std::uint64_t result_hash = 0;
+  std::vector<SplitProcess> processes;
+};
+
+/// Traces `job`, each process of the cluster with its part of the scene. Reading the scene takes no
+/// simulated time. As `run_on`.
+SimulatedSplit simulate_split(const ClusterModel& cluster, const Job& job,
+                              const std::shared_ptr<const scenes::Scene>& whole,
+                              const TimeScale& scale, const char* program);
+
+}  // namespace beambench::cluster

@@ -1,0 +1,153 @@
+#pragma once
+// Tracing one process's part of a scene.
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "accel/beam/beam_painter.hpp"
+#include "accel/beam/beam_tracer.hpp"
+#include "harness/cluster/split/handoff.hpp"
+#include "harness/cluster/split/scene_split.hpp"
+
+namespace beambench::cluster {
+
+/// Which leaves of a process's octree are other processes' cells.
+class ForeignLeaves {
+ public:
+  ForeignLeaves(const accel::octree::Octree& octree, const SceneSplit& split, ProcessId self);
+
+  /// The cell of another process that a leaf stands for, if any.
+  std::optional<std::uint32_t> cell_at(std::uint32_t leaf) const {
+    if (cells_[leaf] == kOwn) return std::nullopt;
+    return cells_[leaf];
+  }
+  std::size_t memory_bytes() const { return cells_.capacity() * sizeof(std::uint32_t); }
+
+ private:
+  static constexpr std::uint32_t kOwn = 0xFFFFFFFFU;
+  std::vector<std::uint32_t> cells_;  ///< by node
+};
+
+/// Records which samples beams decided, and which continue as rays into a foreign leaf.
+class BorderWatch : public accel::beam::NoBeamWatch {
+ public:
+  BorderWatch(const accel::octree::Octree& octree, const ForeignLeaves& foreign)
+      : nodes_(octree.nodes().data()), foreign_(&foreign) {}
+
+  bool leaves_part(const accel::octree::OctreeNode& leaf, double t) {
+    const auto cell = foreign_->cell_at(static_cast<std::uint32_t>(&leaf - nodes_));
+    if (cell) crossing_ = Crossed{*cell, 0, t};
+    return cell.has_value();
+  }
+  void painted(std::size_t index) {
+    const auto sample = static_cast<std::uint32_t>(index);
+    if (crossing_) {
+      crossed.push_back({crossing_->cell, sample, crossing_->t});
+      crossing_.reset();
+    } else {
+      decided.push_back(sample);
+    }
+  }
+
+  struct Crossed {
+    std::uint32_t cell;
+    std::uint32_t sample;
+    double t;
+  };
+  std::vector<std::uint32_t> decided;
+  std::vector<Crossed> crossed;
+
+ private:
+  const accel::octree::OctreeNode* nodes_;
+  const ForeignLeaves* foreign_;
+  std::optional<Crossed> crossing_;
+};
+
+/// A kind of work.
+enum class PartWork {
+  kNone,
+  kWalking,  ///< traversal of beams through empty leaves
+  kTesting,  ///< samples in occupied leaves, and the rays behind them
+  kTaking,   ///< receiving handoffs
+};
+
+/// The beam tracer over a part of a scene: beams and rays that reach the border are handed over,
+/// rays with their best hit, and those of others continue here. Together, the processes find the
+/// hits of one process with the whole scene, bit for bit: beams are divided by the same planes, a
+/// primitive is tested in every cell that it overlaps, and ties go to the lowest id of the whole
+/// scene.
+class PartWorker : private accel::beam::BeamBorder {
+ public:
+  /// Begins the beams that begin in this part. Rays and sink must outlive the worker. Throws
+  /// InputError for options that a divided scene does not support.
+  PartWorker(ScenePart part, const SceneSplit& split, ProcessId self,
+             const accel::beam::BeamOptions& options, const accel::PrimaryRays& rays,
+             HandoffSink& post);
+  PartWorker(const PartWorker&) = delete;
+  PartWorker& operator=(const PartWorker&) = delete;
+  ~PartWorker() override = default;
+
+  /// Queues a handoff. Throws ProtocolError if its cell is another process's.
+  void take(const BeamHandoff& beam);
+  void take(const RayHandoff& ray);
+
+  /// Does some of the queued work, if any, and returns its kind.
+  PartWork work();
+
+  /// The samples with a hit in this part, ascending, and their hits.
+  std::vector<std::uint32_t> hit_samples() const;
+  const accel::HitBuffer& hits() const { return found_; }
+
+  const accel::beam::EyeView& view() const { return view_; }
+  const scenes::Scene& scene() const { return part_.scene; }
+  std::uint64_t structure_bytes() const;
+
+ private:
+  /// Rays and beams that are traced between two polls for messages.
+  static constexpr std::size_t kRaysAtOnce = 256;
+  static constexpr std::size_t kBeamsAtOnce = 32;
+
+  enum class EndOfWalk { kOccupied, kCrowded, kHandover };
+
+  bool takes(std::uint32_t leaf, const accel::beam::Crossing& face,
+             const accel::beam::Beam& beam) override;
+  void trace_rays();
+  bool has_next();
+  /// The leaf of the eye may be another process's.
+  bool is_foreign(const accel::beam::Beam& beam) const {
+    return foreign_.cell_at(beam.node).has_value();
+  }
+  std::optional<EndOfWalk> end_of_walk(const accel::beam::BeamStep& step) const;
+  void walk(const accel::beam::BeamStep& step);
+  void test(const accel::beam::Beam& beam, EndOfWalk end);
+  void trace_ray(const RayHandoff& ray);
+  void collect_samples();
+  void require_own(std::uint32_t cell) const;
+  void decide(std::uint32_t sample, const accel::Hit& best);
+  accel::Hit global(const std::optional<accel::Hit>& local) const;
+  accel::octree::OctreeCursor cell_cursor(std::uint32_t cell) const;
+  accel::Ray ray_of(std::uint32_t sample) const;
+
+  ScenePart part_;
+  const SceneSplit* split_;
+  ProcessId self_;
+  const accel::PrimaryRays* rays_;
+  HandoffSink* sink_;
+  accel::beam::BeamTracer tracer_;
+  ForeignLeaves foreign_;
+  accel::beam::EyeView view_;
+  accel::beam::WholeImage sight_;
+  accel::HitBuffer found_here_;  ///< by this part's ids, while a beam is traced
+  accel::HitBuffer found_;       ///< by the whole scene's
+  BorderWatch watch_;
+  accel::beam::BeamPainter<BorderWatch, accel::beam::WholeImage> painter_;
+  double samples_;
+  bool beginning_ = true;
+  accel::beam::BeamQueue queue_;
+  std::optional<accel::beam::BeamStep> next_;  ///< popped from the queue
+  std::deque<BeamHandoff> entering_;
+  std::deque<RayHandoff> waiting_;
+};
+
+}  // namespace beambench::cluster

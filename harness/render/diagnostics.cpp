@@ -1,0 +1,183 @@
+#include "harness/render/diagnostics.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "harness/render/picture/category_map.hpp"
+#include "harness/render/picture/image_file.hpp"
+#include "harness/render/picture/overlay.hpp"
+#include "harness/render/shading.hpp"
+#include "harness/verify/verify_ray.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/core/error.hpp"
+
+namespace beambench::render {
+namespace {
+
+/// In increasing severity; the position is the category in the map, agreement aside.
+constexpr std::array kBySeverity{verify::DiffClass::kTie, verify::DiffClass::kGraze,
+                                 verify::DiffClass::kEmbreeError,
+                                 verify::DiffClass::kStructureError};
+
+std::uint8_t category_of(verify::DiffClass diff_class) {
+  const auto found = std::find(kBySeverity.begin(), kBySeverity.end(), diff_class);
+  return found == kBySeverity.end() ? CategoryMap::kNone
+                                    : static_cast<std::uint8_t>(found - kBySeverity.begin());
+}
+
+/// Each pixel's worst class.
+std::vector<verify::DiffClass> worst(std::span<const verify::DiffClass> classes,
+                                     std::size_t samples) {
+  const auto less_severe = [](verify::DiffClass a, verify::DiffClass b) {
+    // kNone, the category of agreement, is the largest number: plus one it is the smallest.
+    return static_cast<std::uint8_t>(category_of(a) + 1) <
+           static_cast<std::uint8_t>(category_of(b) + 1);
+  };
+  std::vector<verify::DiffClass> pixels;
+  for (auto rest = classes; !rest.empty(); rest = rest.subspan(samples)) {
+    const auto pixel = rest.first(samples);
+    pixels.push_back(*std::max_element(pixel.begin(), pixel.end(), less_severe));
+  }
+  return pixels;
+}
+
+CategoryMap map_of(const std::vector<verify::DiffClass>& pixels, const ComparedNames& comparison) {
+  CategoryMap map{fmt::format("{} against {}", comparison.judged, comparison.reference),
+                  {{"tie", okabe_ito::kSkyBlue},
+                   {"graze", okabe_ito::kYellow},
+                   {comparison.reference + " is wrong", okabe_ito::kBluishGreen},
+                   {comparison.judged + " is wrong", okabe_ito::kVermillion}},
+                  {}};
+  for (const verify::DiffClass diff_class : pixels) map.pixels.push_back(category_of(diff_class));
+  return map;
+}
+
+Image preview_of(const verify::ReferenceHits& reference) {
+  const accel::PrimaryRays& rays = *reference.input().image();
+  accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const std::optional<accel::embree::ExactHit>& hit = reference.hits()[i];
+    if (hit) hits.set(i, accel::Hit{static_cast<float>(hit->t), hit->primitive});
+  }
+  return shade(reference.scene(), rays, hits, Shading::kPreview);
+}
+
+constexpr std::array<std::string_view, 2> kNames{"beams", "cells"};
+
+/// Whether a structure has what the overlay draws, tried over a scene where it would show it.
+bool shows(const accel::StructureInfo& structure, Overlay overlay) {
+  const scenes::Scene scene = scenes::load_scene("tetra:n=1");
+  const accel::PrimaryRays rays(scene.cameras.front(), 8, 8, 1);
+  const auto accelerator = accel::registry().choose({structure.name, {}}).build(scene);
+  if (overlay == Overlay::kBeams) return !accelerator->beam_outlines(rays).empty();
+  accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
+  accelerator->trace(rays, hits, nullptr);  // cells may be made where rays pass
+  return !accelerator->occupied_cells().empty();
+}
+
+using Names = std::set<std::string, std::less<>>;
+
+/// Reads one counter. A name of the family's own may be absent from a ray that did no such work.
+std::uint64_t read(const accel::WorkCounters& counters, const std::string& name, Names& seen) {
+  const auto standard = std::find(accel::kCounterNames.begin(), accel::kCounterNames.end(), name);
+  if (standard != accel::kCounterNames.end()) {
+    return counters.get(static_cast<accel::Counter>(standard - accel::kCounterNames.begin()));
+  }
+  std::uint64_t value = 0;
+  for (const auto& [each, count] : counters.by_name()) {
+    seen.insert(each);
+    if (each == name) value = count;
+  }
+  return value;
+}
+
+void require_known(const std::string& counter, const Names& seen) {
+  // No names were read: the counter is a standard one.
+  if (seen.empty() || seen.contains(counter)) return;
+  throw InputError(fmt::format("this structure has no counter '{}'; choose from: {}", counter,
+                               fmt::join(seen, ", ")));
+}
+
+}  // namespace
+
+void write_difference(const std::filesystem::path& file, const verify::ReferenceHits& reference,
+                      std::span<const verify::DiffClass> classes, const ComparedNames& comparison) {
+  const std::vector<verify::DiffClass> pixels =
+      worst(classes, static_cast<std::size_t>(reference.input().image()->samples()));
+  const Image ground = preview_of(reference);
+  if (image_format(file) == ImageFormat::kPng) {
+    write_image(file, draw_category_map(map_of(pixels, comparison), ground));
+    return;
+  }
+  std::vector<std::uint32_t> numbers;
+  numbers.reserve(pixels.size());
+  for (const verify::DiffClass each : pixels) numbers.push_back(static_cast<std::uint32_t>(each));
+  const DataChannel channel{"class", std::move(numbers)};
+  write_image(file, ground, {&channel, 1});
+}
+
+verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::TraceInput& input,
+                                     const rays::TraceResults& results) {
+  std::vector<std::optional<accel::embree::ExactHit>> hits(input.size());
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const verify::Mismatch asked = verify::candidate_mismatch(input, results, i, std::nullopt);
+    if (asked.answer && !verify::is_invalid(scene, asked.ray, *asked.answer)) {
+      hits[i] = accel::embree::ExactHit{asked.answer->t, asked.answer->primitive};
+    }
+  }
+  return {scene, input, std::move(hits)};
+}
+
+std::span<const std::string_view> overlay_names() { return kNames; }
+
+Overlay parse_overlay(std::string_view name, const accel::StructureInfo& structure) {
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end()) {
+    throw InputError(
+        fmt::format("unknown overlay '{}'; choose from: {}", name, fmt::join(kNames, ", ")));
+  }
+  const auto overlay = static_cast<Overlay>(found - kNames.begin());
+  if (shows(structure, overlay)) return overlay;
+  std::vector<std::string> able;
+  for (const accel::StructureInfo& info : accel::registry().structures()) {
+    if (shows(info, overlay)) able.push_back(info.name);
+  }
+  throw InputError(fmt::format("{} has no {} to draw with --overlay; structures that have: {}",
+                               structure.name, name, fmt::join(able, ", ")));
+}
+
+std::vector<LegendEntry> draw_overlay(Overlay overlay, Image& image,
+                                      const accel::Accelerator& accelerator,
+                                      const accel::PrimaryRays& rays) {
+  return overlay == Overlay::kBeams ? overlay_beams(image, accelerator.beam_outlines(rays))
+                                    : overlay_cells(image, rays, accelerator.occupied_cells());
+}
+
+HeatMap count_work(const accel::Accelerator& accelerator, const accel::PrimaryRays& rays,
+                   const std::string& counter, accel::HitBuffer& hits, base::Progress& progress) {
+  HeatMap map{counter + " per ray", rays.width(), rays.height(), {}};
+  Names seen;
+  for (int y = 0; y < rays.height(); ++y) {
+    for (int x = 0; x < rays.width(); ++x) {
+      std::uint64_t sum = 0;
+      for (int sample = 0; sample < rays.samples(); ++sample) {
+        accel::WorkCounters counters;
+        const auto hit = accelerator.closest_hit(rays.ray(x, y, sample), &counters);
+        hits.set(hits.index(x, y, sample), hit);
+        sum += read(counters, counter, seen);
+      }
+      map.values.push_back(static_cast<float>(sum) / static_cast<float>(rays.samples()));
+    }
+    progress.advance(static_cast<double>(y + 1) / rays.height());
+  }
+  require_known(counter, seen);
+  return map;
+}
+
+}  // namespace beambench::render

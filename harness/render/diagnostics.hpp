@@ -1,0 +1,60 @@
+#pragma once
+// Pictures of what a structure does: where its hits differ from others, its beams or cells, its
+// work.
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "accel/core/registry.hpp"
+#include "harness/base/progress.hpp"
+#include "harness/render/picture/category_map.hpp"
+#include "harness/render/picture/heat_map.hpp"
+#include "harness/verify/differ.hpp"
+
+namespace beambench::render {
+
+/// The names of the compared.
+struct ComparedNames {
+  std::string judged;     ///< whose errors are `DiffClass::kStructureError`
+  std::string reference;  ///< whose errors are `DiffClass::kEmbreeError`
+};
+
+/// `kOracleName` as a reference stands for the oracle itself.
+inline constexpr const char* kOracleName = "oracle";
+
+/// Writes the classes of the rays of an image (the input's rays are primary) over a gray preview
+/// of the reference; a pixel shows the worst class of its samples. A .png gets a
+/// legend; an .exr the preview in colors and the classes as numbers (0 agree, 1 tie, 2 graze, 3
+/// the verified structure is wrong, 4 the reference is).
+void write_difference(const std::filesystem::path& file, const verify::ReferenceHits& reference,
+                      std::span<const verify::DiffClass> classes, const ComparedNames& comparison);
+
+/// A structure's hits as reference; invalid hits count as misses.
+verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::TraceInput& input,
+                                     const rays::TraceResults& results);
+
+enum class Overlay {
+  kBeams,  ///< `Accelerator::beam_outlines`
+  kCells   ///< `Accelerator::occupied_cells`
+};
+
+/// The names after --overlay, in the order of `Overlay`.
+std::span<const std::string_view> overlay_names();
+/// Throws InputError listing the valid names, or the structures that have such an overlay if this
+/// one does not. That is found by a trial over a small scene, not by the name.
+Overlay parse_overlay(std::string_view name, const accel::StructureInfo& structure);
+
+/// Draws over the picture of `rays`, once they have been traced: a grid that is filled by rays
+/// shows what they filled. Returns the legend.
+std::vector<LegendEntry> draw_overlay(Overlay overlay, Image& image,
+                                      const accel::Accelerator& accelerator,
+                                      const accel::PrimaryRays& rays);
+
+/// Traces each ray's closest hit with counters; a pixel's value is the mean of its samples. Hits go
+/// to `hits`. Throws InputError listing the counters of the structure if `counter` is none of them.
+HeatMap count_work(const accel::Accelerator& accelerator, const accel::PrimaryRays& rays,
+                   const std::string& counter, accel::HitBuffer& hits, base::Progress& progress);
+
+}  // namespace beambench::render
