@@ -54,7 +54,7 @@ Finding examine(const accel::StructureChoice& choice, const scenes::Scene& scene
 
   rays::TraceResults results = rays::make_results(input);
   accel::WorkCounters counters;
-  rays::trace(*accelerator, input, results, counters);
+  rays::trace(*accelerator, input, results, &counters);
   Finding finding{choice, accelerator->statistics(), build_ms, 0, counters.by_name(), {}};
   for (std::size_t i = 0; i < input.size(); ++i) finding.hits += rays::is_hit_at(results, i);
   if (levels) finding.levels = rays::count_level_visits(*accelerator, input);

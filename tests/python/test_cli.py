@@ -248,6 +248,38 @@ def test_a_sweep_s_lines_leave_out_what_is_at_its_default(tmp_path: Path) -> Non
     assert "4 cells, all verified" in done.stderr
 
 
+def test_the_plan_of_a_sweep_as_json(tmp_path: Path) -> None:
+    (tmp_path / "sweep.json").write_text(
+        '{"name": "s", "scenes": ["tetra:n=1"], "structures": ["samet:max_level=3", "sah-bvh"],'
+        ' "resolutions": ["8x8", "16x8"]}'
+    )
+    names = beambench("run", "sweep.json", "--dry-run", cwd=tmp_path).stdout.splitlines()
+    plan = json.loads(beambench("run", "sweep.json", "--dry-run", "--json", cwd=tmp_path).stdout)
+    assert [cell["name"] for cell in plan["cells"]] == names
+    first = plan["cells"][0]
+    assert first.pop("parameters").startswith("max_level=3,")
+    assert first == {
+        "name": names[0],
+        "scene": "tetra:n=1",
+        "primitives": 4,
+        "camera": "default",
+        "width": 8,
+        "height": 8,
+        "samples": 1,
+        "rays": "primary",
+        "structure": "samet",
+        "threads": 1,
+    }
+
+
+def test_a_renamed_option_works_with_a_warning() -> None:
+    census = ["census", "tetra:n=1", "--resolution", "8x8"]
+    done = beambench(*census, "--least-weight", "0.1")
+    assert done.returncode == 0
+    assert "beambench: --least-weight is now called --min-weight\n" in done.stderr
+    assert "--least-weight" not in beambench(*census, "--min-weight=0.1").stderr
+
+
 def test_the_hint_to_resume_can_be_pasted(tmp_path: Path) -> None:
     """As it was called: by a path, from another folder, without the program on the PATH."""
     sweep = {

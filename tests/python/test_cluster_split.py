@@ -32,6 +32,15 @@ def simulated(processes: int, *arguments: str) -> dict:
 
 
 @needs_simulator
+def test_the_old_names_work_with_a_warning() -> None:
+    arguments = ["tetra:n=4", *ASKED, "--processes", "2"]
+    old = SIMULATOR.with_name("beambench-split-simulated")
+    done = subprocess.run([old, *arguments], capture_output=True, text=True, check=True)
+    assert "now called 'beambench-cluster-simulated split'" in done.stderr
+    assert json.loads(done.stdout)["result_hash"] == simulated(2)["result_hash"]
+
+
+@needs_simulator
 def test_parts_give_the_picture_of_the_whole() -> None:
     runs = {processes: simulated(processes) for processes in (1, 2, 5)}
     assert len({run["result_hash"] for run in runs.values()}) == 1
@@ -78,7 +87,11 @@ def test_wrong_requests_are_refused() -> None:
         (["tetra:n=2", "--accel", "sah-bvh"], "sah-bvh"),
     ):
         done = subprocess.run(
-            [SIMULATOR, "split", *arguments], capture_output=True, text=True, check=False, timeout=60
+            [SIMULATOR, "split", *arguments],
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=60,
         )
         assert done.returncode == 2
         assert word in done.stderr
