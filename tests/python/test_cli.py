@@ -251,7 +251,7 @@ def test_a_sweep_s_lines_leave_out_what_is_at_its_default(tmp_path: Path) -> Non
 def test_the_plan_of_a_sweep_as_json(tmp_path: Path) -> None:
     (tmp_path / "sweep.json").write_text(
         '{"name": "s", "scenes": ["tetra:n=1"], "structures": ["samet:max_level=3", "sah-bvh"],'
-        ' "resolutions": ["8x8", "16x8"]}'
+        ' "resolutions": ["8x8", "16x8"], "budget_seconds": 1}'
     )
     names = beambench("run", "sweep.json", "--dry-run", cwd=tmp_path).stdout.splitlines()
     plan = json.loads(beambench("run", "sweep.json", "--dry-run", "--json", cwd=tmp_path).stdout)
