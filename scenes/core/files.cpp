@@ -264,18 +264,19 @@ bool reaches_disk(int descriptor) {
 }
 
 /// Writes a regular file aside and renames it; a power loss later does not bring back the old one.
-void replace_file(const fs::path& target, const std::function<void(std::ostream&)>& write) {
+void replace_file(const fs::path& target, const fs::path& named,
+                  const std::function<void(std::ostream&)>& write) {
   const fs::path folder = folder_of(target);
   const fs::path beside = folder / fmt::format(".{}.{}{}{}", target.stem().string(), ::getpid(),
                                                kPartial, target.extension().string());
   const Descriptor file(::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (file.number() < 0) refuse_output_error(target, errno);
+  if (file.number() < 0) refuse_output_error(named, errno);
   try {
-    if (const auto error = write_into(file.number(), write)) refuse_output_error(target, *error);
-    if (!reaches_disk(file.number())) refuse_output_error(target, errno);
+    if (const auto error = write_into(file.number(), write)) refuse_output_error(named, *error);
+    if (!reaches_disk(file.number())) refuse_output_error(named, errno);
     std::error_code error;
     fs::rename(beside, target, error);
-    if (error) refuse_output_error(target, error.value());
+    if (error) refuse_output_error(named, error.value());
   } catch (...) {
     std::error_code ignored;
     fs::remove(beside, ignored);
@@ -283,7 +284,7 @@ void replace_file(const fs::path& target, const std::function<void(std::ostream&
   }
   // The new name is the folder's contents.
   const Descriptor place(::open(folder.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!reaches_disk(place.number())) refuse_output_error(target, errno);
+  if (!reaches_disk(place.number())) refuse_output_error(named, errno);
 }
 
 /// Writes into what is not replaced. What has gone into it cannot be taken back.
@@ -369,7 +370,7 @@ void write_file(const fs::path& target, const std::function<void(std::ostream&)>
   const OutputTarget found = target_of(target);
   if (found.kind == OutputTarget::Kind::kFile) {
     require_writable(target);
-    replace_file(found.path, write);
+    replace_file(found.path, target, write);
   } else {
     write_through(target, found, write);
   }
