@@ -18,8 +18,8 @@ std::string device_config(const std::string& isa, int threads = 1);
 /// device printed: "AVX512"; "unknown" where the text has none.
 std::string widest_target(const std::string& printed);
 
-/// What Embree runs on when restricted to `isa`. Found once for each value, by a verbose device that
-/// prints on std::cout: no other thread may write there meanwhile.
+/// What Embree runs on when restricted to `isa`. Found once for each value, by a verbose device
+/// that prints on std::cout: no other thread may write there meanwhile.
 std::string isa_in_use(const std::string& isa);
 
 /// Throws InputError when the machine lacks `isa`, or Embree restricted to it does not run on it;

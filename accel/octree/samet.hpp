@@ -11,8 +11,8 @@
 namespace beambench::accel::octree {
 
 /// The octree of the thesis (section 3.3) for individual rays. `Neighbors`, made
-/// from the octree, finds the leaf behind a leaf (see `walk_leaves`); it changes no leaf, no order and
-/// no hit.
+/// from the octree, finds the leaf behind a leaf (see `walk_leaves`); it changes no leaf, no order
+/// and no hit.
 template <class Neighbors>
 class OctreeTracer : public TraversalAccelerator<OctreeTracer<Neighbors>> {
  public:

@@ -1,9 +1,10 @@
 // The net over an octree: its links are Samet's neighbors, and nothing but the way to them
 // changes.
 
+#include "accel/octree/octree_net.hpp"
+
 #include <gtest/gtest.h>
 
-#include "accel/octree/octree_net.hpp"
 #include "accel/octree/samet.hpp"
 #include "scenes/catalogue.hpp"
 #include "tests/random_scene.hpp"

@@ -1,5 +1,7 @@
 // The beams of one sample: those that the image's samples are in, and the same hit.
 
+#include "accel/beam/sample_path.hpp"
+
 #include <cstdint>
 #include <map>
 #include <tuple>
@@ -8,7 +10,6 @@
 
 #include <gtest/gtest.h>
 
-#include "accel/beam/sample_path.hpp"
 #include "scenes/catalogue.hpp"
 
 namespace beambench::accel {

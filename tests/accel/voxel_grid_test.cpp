@@ -1,5 +1,7 @@
 // The grid of voxels: its lists, its two ways to fill them, its caps, its mailboxes, its threads.
 
+#include "accel/grid/voxel_grid.hpp"
+
 #include <algorithm>
 #include <thread>
 #include <vector>
@@ -11,7 +13,6 @@
 #include "accel/exhaustive/exhaustive.hpp"
 #include "accel/grid/eager_voxels.hpp"
 #include "accel/grid/lazy_voxels.hpp"
-#include "accel/grid/voxel_grid.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/scene_builder.hpp"

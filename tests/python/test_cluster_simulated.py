@@ -43,7 +43,11 @@ def tasks(path: Path, works: Sequence[float], walk: float = 1e-4) -> Path:
 
 def simulated(path: Path, *arguments: str) -> dict:
     done = subprocess.run(
-        [SIMULATOR, "cluster", path, *arguments], capture_output=True, text=True, check=True, timeout=60
+        [SIMULATOR, "cluster", path, *arguments],
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
     )
     return json.loads(done.stdout)
 

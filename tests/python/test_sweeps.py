@@ -9,14 +9,14 @@ import jsonschema
 import pytest
 
 REPOSITORY = Path(__file__).resolve().parents[2]
-SWEEPS = sorted((REPOSITORY / "harness" / "sweeps").glob("*.json"))
+SWEEPS = sorted((REPOSITORY / "harness" / "bench" / "sweeps").glob("*.json"))
 LIBRARIES = REPOSITORY / "harness" / "plugin" / "adapters" / "libraries.json"
 
 
 @pytest.fixture(scope="module")
 def validator() -> jsonschema.Draft202012Validator:
     """The schema, itself checked."""
-    schema = json.loads((REPOSITORY / "harness" / "sweep" / "sweep.schema.json").read_text())
+    schema = json.loads((REPOSITORY / "harness" / "bench" / "sweep.schema.json").read_text())
     jsonschema.Draft202012Validator.check_schema(schema)
     return jsonschema.Draft202012Validator(schema)
 
@@ -35,7 +35,7 @@ def structures_of(sweep: dict) -> dict[str, list[dict]]:
 
 
 def test_the_default_sweep_has_every_structure_and_the_modes_of_embree() -> None:
-    sweep = json.loads((REPOSITORY / "harness" / "sweeps" / "default.json").read_text())
+    sweep = json.loads((REPOSITORY / "harness" / "bench" / "sweeps" / "default.json").read_text())
     structures = structures_of(sweep)
     assert set(structures) == {
         "null", "exhaustive", "samet", "samet-net", "voxel-grid", "goldsmith-salmon",
@@ -63,7 +63,7 @@ def test_a_committed_sweep_is_valid(path: Path, validator: jsonschema.Draft20201
     ],
 )
 def test_the_schema_refuses(change: dict, validator: jsonschema.Draft202012Validator) -> None:
-    sweep = json.loads((REPOSITORY / "harness" / "sweeps" / "default.json").read_text())
+    sweep = json.loads((REPOSITORY / "harness" / "bench" / "sweeps" / "default.json").read_text())
     assert not validator.is_valid(sweep | change)
 
 
@@ -115,7 +115,9 @@ def test_sweeps_whose_verdicts_are_judged_repeat_often_enough_for_an_interval() 
 def test_no_image_is_judged_twice_against_embree() -> None:
     seen: set[tuple] = set()
     for name in JUDGED:
-        sweep = json.loads((REPOSITORY / "harness" / "sweeps" / f"{name}.json").read_text())
+        sweep = json.loads(
+            (REPOSITORY / "harness" / "bench" / "sweeps" / f"{name}.json").read_text()
+        )
         (tile_beam,) = structures_of(sweep)["tile-beam"]
         isa = tile_beam.get("isa", "best")
         for scene in sweep["scenes"]:

@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files of the system are not read by read_input(): those of /sys are shorter than they claim to be,
-/// and one that is missing is no error.
+/// Files of the system are not read by read_input(): those of /sys are shorter than they claim to
+/// be, and one that is missing is no error.
 std::string first_line(const fs::path& path) {
   std::ifstream file(path);
   std::string line;
