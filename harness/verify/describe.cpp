@@ -97,7 +97,7 @@ std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
 
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch, const ReplayCommand& replay) {
-  return fmt::format("{}  replay    {}\n", describe(scene, input, mismatch),
+  return fmt::format("{}  replay {}\n", describe(scene, input, mismatch),
                      replay.of(mismatch.index));
 }
 

@@ -188,7 +188,7 @@ def test_a_sweep_measures_it_and_the_manifest_says_what_it_was(
     assert re.fullmatch("[0-9a-f]{16}", plugin["hash"])
     assert plugin["structures"] == ["mine"]
     assert plugin["scenes"] == ["helix"]
-    assert plugin["optimised"]
+    assert plugin["optimized"]
 
 
 def test_the_self_test_ends_with_a_verdict(template: Path, faulty: Path, tmp_path: Path) -> None:
@@ -322,9 +322,9 @@ def test_another_interface_is_refused_by_its_stamp(
         ("throw in trace", ["threw when 'faulty' was queried", "lost the way"]),
         ("throw in statistics", ["threw when 'faulty' was queried", "never counted"]),
         ("crash in build", ["building 'faulty'", "crashed", "SIGSEGV"]),
-        ("crash in trace", ["asking 'faulty'", "crashed", "SIGSEGV"]),
-        ("abort in trace", ["asking 'faulty'", "crashed", "SIGABRT"]),
-        ("exit in trace", ["asking 'faulty'", "ended the process"]),
+        ("crash in trace", ["querying 'faulty'", "crashed", "SIGSEGV"]),
+        ("abort in trace", ["querying 'faulty'", "crashed", "SIGABRT"]),
+        ("exit in trace", ["querying 'faulty'", "ended the process"]),
     ],
 )
 def test_a_sweep_says_in_the_row_what_went_wrong_and_goes_on(
