@@ -161,7 +161,7 @@ std::string counters_text(const RayPath& path) {
     if (count > 0) parts.push_back(fmt::format("{} {}", name, count));
   }
   if (parts.empty()) return "";
-  return fmt::format("  work   {}{}\n",
+  return fmt::format("  work      {}{}\n",
                      path.beams.empty() ? "" : "without beams: ", fmt::join(parts, ", "));
 }
 

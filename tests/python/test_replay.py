@@ -63,7 +63,7 @@ def test_trace_tells_the_way_the_hit_and_what_the_oracle_says() -> None:
     assert text.count("leaf ") == len(way["steps"])
     assert f"primitive {way['hit']['primitive']} is hit at t = " in text
     assert "pixel (32, 40) sample 0: agree" in text
-    assert "oracle primitive" in text
+    assert "oracle    primitive" in text
 
 
 def test_exhaustive_tests_everything_in_one_step() -> None:
