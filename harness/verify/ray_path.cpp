@@ -173,7 +173,7 @@ std::string alone_text(const RayPath& path) {
   if (!path.asked_all || path.judgment.query == rays::Query::kAnyHit) return "";
   if (same(path.alone, path.judgment.answer)) return "";
   return fmt::format(
-      "  alone  {}: traced without the other rays\n",
+      "  alone     {}: traced without the other rays\n",
       path.alone ? fmt::format("primitive {} at t = {}", path.alone->primitive, path.alone->t)
                  : "miss");
 }

@@ -99,7 +99,7 @@ def test_alone_does_not_trace_the_image() -> None:
 
 
 def replays(text: str) -> list[str]:
-    return re.findall(r"^ *replay (beambench .*)$", text, re.MULTILINE)
+    return re.findall(r"^ *replay +(beambench .*)$", text, re.MULTILINE)
 
 
 def test_every_dispute_of_verify_prints_the_command_that_replays_it(far_away: Path) -> None:
