@@ -47,7 +47,7 @@ def test_help_is_given(script: str, repository: Path) -> None:
         ("run", ["--resume=a", "--output=b"], "--resume excludes --sweep and --output"),
         ("setup", ["--jobs"], "knows no job '--jobs', only beambench, cluster and all"),
         ("setup", ["all", "cluster"], "takes one job, not 2"),
-        ("test", ["--quick"], "takes no argument"),
+        ("test", ["--quick"], "unknown arguments: --quick"),
         ("meshes", ["--all"], "unknown argument '--all'"),
         ("meshes", ["--beambench", "no/such"], "no/such is not a program"),
     ],
@@ -269,4 +269,4 @@ def test_a_small_sweep_leaves_records_pictures_plots_and_a_page(
     assert (run / "pictures" / "stetra.png").exists()
     assert (run / "pictures" / "stetra-samet-traversal_steps.png").exists()
     assert f"Look at {run}/report.html\n" in result.stdout
-    assert "All 6 cells were right" in (run / "report.html").read_text()
+    assert "All 6 cells were verified" in (run / "report.html").read_text()
