@@ -52,6 +52,13 @@ def test_a_committed_sweep_is_valid(path: Path, validator: jsonschema.Draft20201
     validator.validate(json.loads(path.read_text()))
 
 
+def test_editors_find_the_schema_that_each_sweep_names() -> None:
+    schema = REPOSITORY / "harness" / "bench" / "sweep.schema.json"
+    for path in [*SWEEPS, *SWEEPS[0].parent.glob("*/*.json"), LIBRARIES]:
+        named = path.parent / json.loads(path.read_text())["$schema"]
+        assert named.resolve() == schema, path
+
+
 @pytest.mark.parametrize(
     "change",
     [
