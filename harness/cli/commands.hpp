@@ -1,7 +1,7 @@
 #pragma once
 // The subcommands of `beambench`, one file each.
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include "harness/base/exit_code.hpp"
 #include "harness/plugin/activity.hpp"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
 
 #include "accel/beam/beam_tracer.hpp"
 #include "accel/core/registry.hpp"

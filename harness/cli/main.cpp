@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include <CLI/CLI.hpp>  // all of it in one file alone: it makes much code wherever it is included
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
