@@ -56,8 +56,8 @@ const SceneFormat* find_format(std::string_view spec) {
   for (const SceneInfo& info : scene_catalogue()) names.push_back(info.name);
   throw InputError(fmt::format(
       "there is no scene '{}'; {}the scenes are {}; a file is given as a path with a slash or the "
-      "ending .nff or of a mesh, an installed mesh as mesh:NAME, and a scene of a plug-in is known "
-      "after --plugin FILE",
+      "ending .nff or of a mesh, and an installed mesh as mesh:NAME; scenes of a plug-in need "
+      "--plugin FILE",
       name, did_you_mean(name, names), fmt::join(names, ", ")));
 }
 

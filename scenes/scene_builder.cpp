@@ -350,7 +350,7 @@ void SceneBuilder::add_polygon(std::span<const glm::dvec3> vertices,
 
 std::uint32_t SceneBuilder::current_surface() {
   if (surface_index_) return *surface_index_;
-  // Generators go round a few surfaces, millions of times; one that is older comes again.
+  // Generators cycle through a few surfaces, millions of times; an older one is added again.
   constexpr std::size_t kRemembered = 64;
   auto& surfaces = scene_.surfaces;
   const auto oldest =

@@ -1,5 +1,5 @@
 #pragma once
-// Random scenes and rays for the tests of every room: those of `beambench selftest`.
+// Random scenes and rays for the tests of every module: those of `beambench selftest`.
 
 #include "harness/verify/selftest/test_scenes.hpp"
 

@@ -94,25 +94,26 @@ class BeamPainter {
   /// After a sample was tested in an occupied leaf: finishes it, or returns false where it
   /// continues with its beam.
   bool settle(const octree::OctreeCursor& place, LeafBatch::Sample& sample) {
-    const CellRay way(octree().grid(), sample.ray);
-    if (!(sample.closest.ray.t_max < static_cast<float>(octree::leaf_exit(way, place).t))) {
+    const CellRay cell_ray(octree().grid(), sample.ray);
+    if (!(sample.closest.ray.t_max < static_cast<float>(octree::leaf_exit(cell_ray, place).t))) {
       if (!continue_with_rays_) {
         for_each_index(sample,
                        [&](std::size_t index) { buffer_->set(index, sample.closest.result()); });
         return false;
       }
       watch_->handed_over(RayReason::kOccupied);
-      follow(place, way, sample);
+      follow(place, cell_ray, sample);
     }
     finish(sample);
     return true;
   }
 
   /// Traces a ray behind a leaf on its own (thesis, section 3.6.2).
-  void follow(const octree::OctreeCursor& place, const CellRay& way, LeafBatch::Sample& sample) {
+  void follow(const octree::OctreeCursor& place, const CellRay& cell_ray,
+              LeafBatch::Sample& sample) {
     ClosestHit closest = sample.closest;  // a copy can stay in registers
-    double t = octree::leaf_exit(way, place).t;
-    octree::LeafWalk{octree(), tracer_->neighbors(), sample.ray, way}.behind(
+    double t = octree::leaf_exit(cell_ray, place).t;
+    octree::LeafWalk{octree(), tracer_->neighbors(), sample.ray, cell_ray}.behind(
         place, counting_, [&](const octree::OctreeNode& leaf, double exit_t) {
           if (watch_->leaves_part(leaf, t)) return true;
           t = exit_t;

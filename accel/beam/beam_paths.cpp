@@ -124,7 +124,7 @@ class Exits {
       for (const int side : {-1, 1}) {
         const Crossing face{beam.corner[axis] + (side > 0 ? beam.size : 0),
                             static_cast<std::int16_t>(axis), static_cast<std::int16_t>(side)};
-        // No ray leaves through a face that the eye is beyond.
+        // No ray leaves through a face whose plane the eye is already beyond.
         if (view.distance(face) >= 0.0) add(view, beam, face);
       }
     }

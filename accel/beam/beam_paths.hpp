@@ -46,8 +46,8 @@ class BeamStack {
     take(cuts_, entry.cuts, step.beam.cuts);
   }
 
-  /// Removes the half that was pushed first: the beams next to the eye, with the most work behind
-  /// them.
+  /// Removes the half that was pushed first: the beams nearest to the camera, with the most work
+  /// behind them.
   BeamStack take_older_half() {
     const auto half = static_cast<std::ptrdiff_t>(entries_.size() / 2);
     std::ptrdiff_t corners = 0;
@@ -105,8 +105,8 @@ class BeamBorder {
 /// Beams that wait to be traced, and the work of finding them.
 ///
 /// The thesis counts a beam when one is created: at the beginning, and for each part of a beam that
-/// is cut. A beam that continues whole is the same beam in another leaf (section 4.4.2: `PasaPor`
-/// against the constructor; graphic 3.4: "the standard beam is not modified").
+/// is cut. A beam that continues undivided is the same beam in another leaf (section 4.4.2:
+/// `PasaPor` against the constructor; graphic 3.4: "the standard beam is not modified").
 struct BeamQueue {
   BeamStack waiting;
   std::uint64_t clips = 0;
@@ -119,9 +119,9 @@ struct BeamQueue {
 };
 
 /// Appends the beams at which tracing begins (thesis, section 3.4), through a convex `part` of the
-/// image: all of it is `view.screen()`. From outside: for each face of the root that the eye sees,
-/// the part clipped to it, divided among the leaves behind it. From inside: the part itself
-/// in the eye's leaf. Samples of no beam miss the root.
+/// image: all of it is `view.screen()`. From outside: for each face of the root that faces the
+/// camera, the part clipped to it, divided among the leaves behind it. From inside: the part itself
+/// in the leaf that contains the camera. Samples of no beam miss the root.
 void begin_beams(const octree::Octree& octree, const EyeView& view, const ImagePolygon& part,
                  BeamQueue& queue);
 

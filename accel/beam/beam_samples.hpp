@@ -131,9 +131,9 @@ class SampleScan {
   };
 
   bool belongs(const Beam& beam, const SampleLattice& lattice, int x, int y) const {
-    const CellRay way(view_->grid(), ray(lattice, x, y));
+    const CellRay cell_ray(view_->grid(), ray(lattice, x, y));
     return std::all_of(beam.cuts.begin(), beam.cuts.end(), [&](const BeamCut& each) {
-      return crosses_before(way, each.first, each.second);
+      return crosses_before(cell_ray, each.first, each.second);
     });
   }
 
@@ -144,7 +144,7 @@ class SampleScan {
 
   const EyeView* view_;
   const PrimaryRays* rays_;
-  /// In rows: enough for the rounding of directions. A row too many is harmless.
+  /// In rows: enough for the rounding of directions. An extra row is harmless.
   double row_slack_;
 };
 

@@ -18,7 +18,7 @@ namespace beambench::accel::beam {
 /// The policy of an image: all of it, starting at the eye.
 struct WholeImage {
   ImagePolygon part(const EyeView& view) const { return view.screen(); }
-  /// Is a leaf to be passed, whatever is in it?
+  /// Is a leaf skipped, whatever is in it?
   static constexpr bool passes(const CellGrid&, const Beam&) { return false; }
   /// Where a ray begins.
   static constexpr void begin(Ray&) {}
@@ -43,7 +43,7 @@ class BehindMirror {
 
   const ImagePolygon& part(const EyeView&) const { return part_; }
 
-  /// Leaves on the virtual eye's side of the mirror are passed.
+  /// Leaves on the same side of the mirror as the virtual eye are skipped.
   bool passes(const CellGrid& grid, const Beam& beam) const {
     double highest = -glm::dot(point_, normal_);
     for (int axis = 0; axis < 3; ++axis) {

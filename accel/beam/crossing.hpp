@@ -23,9 +23,9 @@ struct Crossing {
 /// Does the ray make crossing `a` before `b`? A crossing that the ray does not make comes last. At
 /// the same t the lower axis is first, so that the crossings of a ray have one order and every
 /// division of beams by them is a partition, however close to an edge or a vertex a ray passes.
-inline bool crosses_before(const CellRay& way, const Crossing& a, const Crossing& b) {
+inline bool crosses_before(const CellRay& ray, const Crossing& a, const Crossing& b) {
   const auto t = [&](const Crossing& crossing) {
-    return way.step(crossing.axis) == crossing.side ? way.plane_t(crossing.axis, crossing.index)
+    return ray.step(crossing.axis) == crossing.side ? ray.plane_t(crossing.axis, crossing.index)
                                                     : std::numeric_limits<double>::infinity();
   };
   const double t_a = t(a);
@@ -37,7 +37,7 @@ inline bool crosses_before(const CellRay& way, const Crossing& a, const Crossing
 /// How far rounding a ray's direction to float may move it, in units of view depth 1.
 double direction_rounding(const PrimaryRays& rays);
 
-/// The planes of a grid as seen from an eye.
+/// The planes of a grid as seen from the camera.
 class EyeView {
  public:
   EyeView(const CellGrid& grid, const PrimaryRays& rays);

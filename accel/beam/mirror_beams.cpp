@@ -21,7 +21,7 @@ dvec3 corner_of(const scenes::Scene& scene, const scenes::Polygon& polygon, std:
   return {scene.vertices[scene.corners[polygon.first_corner + corner]]};
 }
 
-/// Newell's normal: twice the area of the polygon's shadow along each axis.
+/// Newell's normal: twice the area of the polygon's projection along each axis.
 dvec3 unit_normal(const scenes::Scene& scene, const scenes::Polygon& polygon) {
   dvec3 normal(0.0);
   for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {
@@ -52,8 +52,8 @@ bool lies_in(const scenes::Scene& scene, const scenes::Polygon& polygon, const P
 /// A cell of the space of planes: normal and distance, rounded.
 using PlaneCell = std::array<std::int64_t, 4>;
 
-/// Only planes in one cell are compared, so that a million small mirrors are affordable. Two halves
-/// of a plane that fall into neighboring cells are two mirrors, which show the same.
+/// Only planes in one cell are compared, so that a million small mirrors take little time. Two
+/// halves of a plane that fall into neighboring cells are two mirrors, which show the same.
 PlaneCell cell_of(const scenes::Scene& scene, const PlanarMirror& mirror) {
   constexpr double kNormals = 0x1p8;
   constexpr double kDistances = 0x1p10;
@@ -79,10 +79,10 @@ ImagePolygon cover(const std::vector<glm::dvec2>& corners) {
   constexpr int kDirections = 16;
   for (int i = 0; i < kDirections; ++i) {
     const double angle = 2.0 * std::numbers::pi * i / kDirections;
-    const glm::dvec2 way(std::cos(angle), std::sin(angle));
+    const glm::dvec2 axis(std::cos(angle), std::sin(angle));
     double farthest = -1e30;
-    for (const glm::dvec2& corner : corners) farthest = std::max(farthest, glm::dot(corner, way));
-    part = clip(part, {way.x, way.y, -farthest}, 1e-9);
+    for (const glm::dvec2& corner : corners) farthest = std::max(farthest, glm::dot(corner, axis));
+    part = clip(part, {axis.x, axis.y, -farthest}, 1e-9);
   }
   return part;
 }
@@ -148,7 +148,7 @@ std::optional<MirrorView> view_in(const PlanarMirror& mirror, const scenes::Scen
   const dvec3 eye(rays.eye());
   const double side = glm::dot(eye - mirror.point, mirror.normal) > 0.0 ? 1.0 : -1.0;
   const PrimaryRays behind = rays.mirrored(mirror.point, mirror.normal);
-  // As far as rays begin from other surfaces (harness/rays/normal.hpp).
+  // The offset of rays that begin on other surfaces (harness/rays/normal.hpp).
   const double lift =
       64.0 * 0x1p-24 * (scene.bounds.largest_coordinate() + glm::length(dvec3(behind.eye())));
   ImagePolygon part = cover(ends_of_rows(hits, unwanted));

@@ -38,7 +38,7 @@ struct SparseSamples {
 /// The numbers of samples that leaves choose from, in increasing order.
 inline constexpr std::array<int, 3> kSampleNumbers{1, 5, 25};
 
-/// Which of them belongs to a value, the second from `few` on and the third from `many` on.
+/// The index of the number for a value: the second from `few` on, the third from `many` on.
 constexpr std::size_t sample_choice(double value, double few, double many) {
   return value >= many ? 2 : value >= few ? 1 : 0;
 }

@@ -63,8 +63,7 @@ inline SampleMask all_samples(const SampleBatch& batch) {
   return batch.size == SampleBatch::kCapacity ? ~SampleMask{0} : (SampleMask{1} << batch.size) - 1;
 }
 
-/// The images of a scene's primitives for one camera and resolution, each made when first asked
-/// for.
+/// The images of a scene's primitives for one camera and resolution, each made on first use.
 class PrimitiveImages {
  public:
   PrimitiveImages(const scenes::Scene& scene, const PrimaryRays& rays);

@@ -23,15 +23,15 @@ struct PlaneOrder {
   CrossedPlane second;
 };
 
-/// A beam in a leaf. A beam that continues whole is the same beam in the next leaf.
+/// A beam in a leaf. A beam that continues undivided is the same beam in the next leaf.
 struct BeamPassage {
   BeamKind kind = BeamKind::kNonTerminal;
   std::uint32_t node = 0;  ///< the leaf it enters; of a leaving beam the one it comes from
   int level = 0;           ///< of that leaf, the root being level 1
   Box cell{};              ///< that leaf, in scene units
-  std::optional<CrossedPlane> entered;  ///< the leaf's face; nothing where the eye is in the leaf
+  std::optional<CrossedPlane> entered;  ///< the leaf's face; nothing if the camera is in the leaf
   std::vector<glm::dvec2> corners;      ///< of its outline, in pixels from the top left
-  std::vector<PlaneOrder> cuts;  ///< that were not the last passage's; none: it continued whole
+  std::vector<PlaneOrder> cuts;  ///< new since the last passage; none: it continued undivided
   std::uint64_t samples = 0;     ///< of the image, in it
 };
 

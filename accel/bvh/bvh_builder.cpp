@@ -40,7 +40,7 @@ class Binning {
 
   std::size_t count() const { return count_; }
   bool divides(std::size_t axis) const { return scale_[axis] > 0.0F; }
-  /// The bins of a center, an axis a lane.
+  /// The bins of a center, one axis per lane.
   IntQuad bins(Quad center) const {
     return __builtin_convertvector(smaller((center - lower_) * scale_, last_), IntQuad);
   }
@@ -181,8 +181,8 @@ class Builder {
     return sum_up(begin, end, [] { return BuildExtent(); });
   }
 
-  /// Sums up items, beginning with what `nothing()` returns, in parallel when asked: minima, maxima
-  /// and counts do not depend on the order.
+  /// Sums up items, beginning with what `nothing()` returns, in parallel where requested: minima,
+  /// maxima and counts do not depend on the order.
   template <class Nothing>
   std::invoke_result_t<Nothing> sum_up(std::size_t begin, std::size_t end,
                                        const Nothing& nothing) const {
@@ -220,8 +220,8 @@ class Builder {
     return Halves{middle, measure(pending.begin, middle), measure(middle, pending.end)};
   }
 
-  /// From both ends to the middle, as std::partition does, but the extents are summed up on the
-  /// way.
+  /// From both ends to the middle, as std::partition does, but summing up the extents at the same
+  /// time.
   Halves partition(const Pending& pending, const Binning& binning, const Split& split) {
     Halves halves{pending.begin, {}, {}};
     std::size_t end = pending.end;
@@ -243,7 +243,7 @@ class Builder {
     }
   }
 
-  /// The cheapest split; none when a leaf is allowed and no dearer.
+  /// The cheapest split; none when a leaf is allowed and costs no more.
   Split best_split(const Pending& pending, const Binning& binning) const {
     const Bins bins = sum_up(pending.begin, pending.end, [&] { return Bins(binning); });
     Split best;

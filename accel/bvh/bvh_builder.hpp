@@ -45,9 +45,10 @@ BinaryBvh build_bvh(std::span<const scenes::Bounds> boxes, const BvhOptions& opt
 /// options say: what the builder minimizes.
 double sah_cost(const BinaryBvh& bvh, const BvhOptions& options);
 
-/// The nodes that become the children of `node` in a hierarchy of `width` children a node: its own
-/// two, of which the interior one of largest area is replaced by its children for as long as there
-/// is room. Writes to `children` (of size `width`); returns how many. `node` must be interior.
+/// The nodes that become the children of `node` in a hierarchy of `width` children per node: its
+/// own two, of which the interior one of largest area is replaced by its children for as long as
+/// there is room. Writes to `children` (of size `width`); returns how many. `node` must be
+/// interior.
 std::size_t gather_children(const BinaryBvh& bvh, std::uint32_t node,
                             std::span<std::uint32_t> children);
 

@@ -47,7 +47,7 @@ std::vector<ParameterInfo> GoldsmithSalmonOptions::parameters() {
                        "scene's longest axis"),
       integer_parameter("seed", 1, 0, 1'000'000'000, "seed of order=shuffled"),
       choice_parameter("queue", "heap", {"heap", "stack"},
-                       "what waits for the closest hit: Kay and Kajiya's priority queue by "
+                       "order of traversal for the closest hit: Kay and Kajiya's priority queue by "
                        "distance, or a stack with each volume's children in order"),
       choice_parameter("insert", "everywhere", {"everywhere", "terminal"},
                        "where on its path down an object may be placed: wherever it costs least "

@@ -96,10 +96,10 @@ class OrderedStack {
   std::size_t sorted_ = 0;
 };
 
-/// A hierarchy built by Goldsmith and Salmon's insertion, walked by Kay and Kajiya's queue for the
-/// closest hit and by plain depth-first search for any hit. Volumes and objects alike have a box,
-/// which is tested before they are entered. With `Insertion::kTerminal` it is the hierarchy of the
-/// thesis (sections 4.3 and 5.4.2).
+/// A hierarchy built by Goldsmith and Salmon's insertion, traversed with Kay and Kajiya's queue for
+/// the closest hit and by plain depth-first search for any hit. Volumes and objects alike have a
+/// box, which is tested before they are entered. With `Insertion::kTerminal` it is the hierarchy of
+/// the thesis (sections 4.3 and 5.4.2).
 class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon> {
  public:
   GoldsmithSalmon(const scenes::Scene& scene, const GoldsmithSalmonOptions& options);

@@ -158,8 +158,8 @@ class Inserter {
     }
   }
 
-  /// The pair with the object of a volume that grows least, if by less than `growth`, or as much to
-  /// less than `area`; otherwise it costs kNever.
+  /// The pair with the object of a volume that grows least, if it grows by less than `growth`, or
+  /// by as much to an area less than `area`; otherwise it costs kNever.
   Choice least_growing_object(std::uint32_t index, double growth, double area) {
     Choice best;
     for (std::uint32_t list = 0; list < volumes_[index].objects.size(); ++list) {

@@ -10,6 +10,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "accel/core/canonical_ray.hpp"
 #include "accel/core/ray.hpp"
 #include "scenes/bounds.hpp"
 
@@ -62,12 +63,7 @@ class ProbeRay {
       reach = std::max({reach, std::abs(scene_bounds.lower[axis] - origin[slot]),
                         std::abs(scene_bounds.upper[axis] - origin[slot])});
     }
-    const glm::vec3 size = glm::abs(ray.direction);
-    main_axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-    side_axis[0] = (main_axis + 1) % 3;
-    side_axis[1] = (main_axis + 2) % 3;
-    shear[0] = direction[side_axis[0]] / direction[main_axis];
-    shear[1] = direction[side_axis[1]] / direction[main_axis];
+    set_shear(*this, ray.direction);
     rounding = 0x1p-24F * reach;
     depth_margin = 5.0F * rounding * std::abs(inverse[main_axis]);
   }

@@ -25,7 +25,7 @@ using Tag = hn::CappedTag<float, kBvhLanes>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-/// One bit a lane.
+/// One bit per lane.
 using LaneBits = std::uint32_t;
 
 /// Calls `test(lane)` for the first lane of each register and joins the masks it returns.

@@ -123,7 +123,7 @@ class WideBvhBuilder {
     }
     if (wide_.blocks.size() > ChildReference::kBlockIndices) {
       throw InputError(
-          fmt::format("sah-bvh over '{}' needs more than {} leaf blocks; take a scene "
+          fmt::format("sah-bvh over '{}' needs more than {} leaf blocks; use a scene "
                       "with fewer primitives",
                       scene_.name, ChildReference::kBlockIndices));
     }

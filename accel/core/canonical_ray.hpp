@@ -19,16 +19,22 @@ namespace beambench::accel {
 inline constexpr float kMiss = std::numeric_limits<float>::quiet_NaN();
 inline bool is_hit(float t) { return t == t; }
 
+/// Sets `main_axis`, `side_axis` and `shear` of a ray in any precision, whose `direction` is set.
+template <class ShearedRay>
+void set_shear(ShearedRay& ray, const glm::vec3& direction) {
+  const glm::vec3 size = glm::abs(direction);
+  ray.main_axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
+  ray.side_axis[0] = (ray.main_axis + 1) % 3;
+  ray.side_axis[1] = (ray.main_axis + 2) % 3;
+  ray.shear[0] = ray.direction[ray.side_axis[0]] / ray.direction[ray.main_axis];
+  ray.shear[1] = ray.direction[ray.side_axis[1]] / ray.direction[ray.main_axis];
+}
+
 /// A ray widened to double. `t_max` shrinks while a traversal finds nearer hits.
 struct CanonicalRay {
   explicit CanonicalRay(const Ray& ray)
       : origin(ray.origin), direction(ray.direction), t_min(ray.t_min), t_max(ray.t_max) {
-    const glm::vec3 size = glm::abs(ray.direction);
-    main_axis = size.x > size.y ? (size.x > size.z ? 0 : 2) : (size.y > size.z ? 1 : 2);
-    side_axis[0] = (main_axis + 1) % 3;
-    side_axis[1] = (main_axis + 2) % 3;
-    shear[0] = direction[side_axis[0]] / direction[main_axis];
-    shear[1] = direction[side_axis[1]] / direction[main_axis];
+    set_shear(*this, ray.direction);
   }
 
   glm::dvec3 at(double t) const { return origin + direction * t; }

@@ -16,10 +16,10 @@
 
 namespace beambench::accel {
 
-/// How a structure's hits are judged.
+/// How a structure's hits are verified.
 enum class Conformance {
   kBitExact,   ///< equal to `exhaustive` bit for bit, id and t
-  kTolerance,  ///< arithmetic of its own: judged by the differ's classes
+  kTolerance,  ///< arithmetic of its own: classified by the differ
   kBaseline    ///< returns misses by design (`null`), and nothing else
 };
 

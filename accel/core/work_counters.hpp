@@ -1,5 +1,5 @@
 #pragma once
-// What a traversal does, counted: a compile-time policy, so that timed code has none of it.
+// Counting the work of a traversal: a compile-time policy, so that timed code counts nothing.
 
 #include <array>
 #include <cstddef>

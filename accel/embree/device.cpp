@@ -12,8 +12,8 @@ namespace beambench::accel::embree {
 Device::Device(const char* config) : device_(rtcNewDevice(config)) {
   if (device_ == nullptr) {
     throw std::runtime_error(
-        fmt::format("Embree made no device from the configuration '{}' (error {})", config,
-                    static_cast<int>(rtcGetDeviceError(nullptr))));
+        fmt::format("Embree could not create a device with the configuration '{}' (error {})",
+                    config, static_cast<int>(rtcGetDeviceError(nullptr))));
   }
   rtcSetDeviceErrorFunction(device_, on_error, this);
   rtcSetDeviceMemoryMonitorFunction(device_, on_memory, this);

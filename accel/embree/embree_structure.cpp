@@ -109,7 +109,7 @@ void register_embree(Registry& registry) {
                          "robust=false only"),
         flag_parameter("robust", true,
                        "watertight traversal; without it Embree loses rays at vertices and edges, "
-                       "which costs the verdict where they matter"),
+                       "and fails verification where they matter"),
         flag_parameter("coherent", true,
                        "flags neighboring rays as coherent for Embree, which packets need"),
         isa_parameter()},

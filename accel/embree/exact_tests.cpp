@@ -10,8 +10,8 @@ namespace beambench::accel::embree {
 using glm::dvec3;
 
 // Side of the ray on which an edge passes, by the product of their Plücker coordinates. The edge
-// vector changes sign and the sum does not when the edge is walked the other way, so the two
-// triangles of a shared edge get exactly opposite numbers: no ray passes between them.
+// vector changes sign and the sum does not when the edge is traversed in the opposite direction, so
+// the two triangles of a shared edge get exactly opposite numbers: no ray passes between them.
 static double side(const ExactRay& ray, const dvec3& from, const dvec3& to) {
   return glm::dot(glm::cross(to - from, from + to), ray.direction);
 }

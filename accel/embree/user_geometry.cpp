@@ -9,9 +9,9 @@
 namespace beambench::accel::embree {
 namespace {
 
-/// Embree's float boxes must hold whatever the eye's distance; this many scene sizes away is the
+/// Embree's float boxes must hold at any distance from the camera up to this many scene sizes, the
 /// limit up to which structures are exact (accel/core/tolerance.hpp).
-constexpr double kEyeDistance = 8.0;
+constexpr double kCameraDistance = 8.0;
 
 Ray ray_of(RTCRayN* rays, unsigned n, unsigned i) {
   Ray ray;
@@ -42,7 +42,7 @@ UserGeometry::UserGeometry(const scenes::Scene& scene)
     : scene_(scene),
       pad_(static_cast<float>(4.0 * 0x1p-23 *
                               (scene.bounds.largest_coordinate() +
-                               kEyeDistance * glm::length(glm::dvec3(scene.bounds.extent()))))) {
+                               kCameraDistance * glm::length(glm::dvec3(scene.bounds.extent()))))) {
   for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     if (is_user_primitive(scene, scene.primitives[id])) ids_.push_back(id);
   }

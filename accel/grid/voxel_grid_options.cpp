@@ -93,7 +93,7 @@ std::vector<ParameterInfo> VoxelGridOptions::parameters() {
                         "refuse a grid of more voxels (4 bytes each, 8 where fill is lazy)"),
       integer_parameter("max_references", static_cast<std::int64_t>(defaults.max_references), 1,
                         2'000'000'000,
-                        "give up with an error beyond this many references (4 bytes each)")};
+                        "stop with an error beyond this many references (4 bytes each)")};
 }
 
 VoxelGridOptions VoxelGridOptions::from(const Parameters& parameters) {

@@ -45,8 +45,8 @@ inline glm::ivec3 voxel_at(const CellGrid& grid, std::size_t index) {
 /// diagonals, of which the canonical tests use less than 0.63.
 template <class Counting, class Visit>
 void walk_voxels(const CellGrid& grid, const Ray& ray, Counting& counting, Visit visit) {
-  const CellRay way(grid, ray);
-  double enter_t = way.enter(ray.t_min);
+  const CellRay cell_ray(grid, ray);
+  double enter_t = cell_ray.enter(ray.t_min);
   if (!(enter_t < kInfinity)) return;
 
   const std::array<std::ptrdiff_t, 3> strides{
@@ -58,13 +58,13 @@ void walk_voxels(const CellGrid& grid, const Ray& ray, Counting& counting, Visit
   std::array<std::int32_t, 3> steps_left{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto slot = static_cast<std::size_t>(axis);
-    voxel[axis] = way.cell_at(axis, enter_t);
-    delta_t[slot] = way.delta_t(axis);
-    stride[slot] = strides[slot] * way.step(axis);
-    steps_left[slot] = way.step(axis) > 0 ? grid.cells[axis] - 1 - voxel[axis] : voxel[axis];
+    voxel[axis] = cell_ray.cell_at(axis, enter_t);
+    delta_t[slot] = cell_ray.delta_t(axis);
+    stride[slot] = strides[slot] * cell_ray.step(axis);
+    steps_left[slot] = cell_ray.step(axis) > 0 ? grid.cells[axis] - 1 - voxel[axis] : voxel[axis];
   }
   for (int axis = 0; axis < 3; ++axis) {
-    next_t[static_cast<std::size_t>(axis)] = way.exit_t(axis, voxel, 1);
+    next_t[static_cast<std::size_t>(axis)] = cell_ray.exit_t(axis, voxel, 1);
   }
 
   std::size_t index = voxel_index(grid, voxel);

@@ -21,7 +21,7 @@ struct OctreeWork {
 };
 
 /// Counts the work of individual rays on a grid of 32 x 16 rays over the camera's image, or on some
-/// of them where a ray is much work.
+/// of them where rays take much work.
 OctreeWork count_work(const scenes::Scene& scene, const Octree& octree, const Workload& workload);
 
 /// The work of the next level, extrapolated from this level's and the one before.

@@ -29,7 +29,7 @@ std::vector<ParameterInfo> OctreeOptions::parameters() {
                      "margin added to each side of the root cell, as a fraction of its size"),
       integer_parameter("max_references", static_cast<std::int64_t>(defaults.max_references), 1,
                         2'000'000'000,
-                        "give up with an error beyond this many references (4 bytes each)")};
+                        "stop with an error beyond this many references (4 bytes each)")};
 }
 
 OctreeOptions OctreeOptions::from(const Parameters& parameters) {

@@ -22,7 +22,7 @@ struct Pending {
   std::uint32_t node;
   int level;
   glm::ivec3 corner;
-  std::int32_t size;  ///< in finest cells an axis
+  std::int32_t size;  ///< in finest cells per axis
 };
 
 }  // namespace

@@ -53,7 +53,7 @@ bool append(Meshlet& meshlet, const scenes::Scene& scene, const scenes::Triangle
 void require_index(const scenes::Scene& scene, std::size_t index) {
   if (index < TileChild::kIndices) return;
   throw InputError(fmt::format(
-      "tile-beam over '{}' needs more than {} leaves; take a scene with fewer primitives",
+      "tile-beam over '{}' needs more than {} leaves; use a scene with fewer primitives",
       scene.name, TileChild::kIndices));
 }
 

@@ -81,7 +81,7 @@ HWY_INLINE void see_spheres(const SphereBlock& block, const TileView& view, Sphe
     const Floats high_x = hn::Min(place(x.high, scale_x, left, kSlack), width);
     const Floats low_y = hn::Max(place(y.low, scale_y, top, -kSlack), none);
     const Floats high_y = hn::Min(place(y.high, scale_y, top, kSlack), height);
-    // A sphere around the eye, or nearly, may be anywhere.
+    // A sphere that contains the eye, or nearly, may be anywhere.
     const Floats box_left = hn::Ceil(hn::IfThenElse(before, low_x, none));
     const Floats box_right = hn::Floor(hn::IfThenElse(before, high_x, width));
     const Floats box_top = hn::Ceil(hn::IfThenElse(before, low_y, none));

@@ -13,16 +13,16 @@ namespace beambench {
 
 inline constexpr std::uint64_t kNoByteLimit = std::numeric_limits<std::uint64_t>::max();
 
-/// Reads an input whole: a file, or what comes through a pipe or a device until its end
+/// Reads a whole input: a file, or what comes through a pipe or a device until its end
 /// (`/dev/stdin` is the standard input). Opening never waits: a named pipe into which nothing is
-/// written is refused. Nothing is ever returned of an input that did not come whole: throws
-/// InputError naming the path and the reason when it cannot be opened, is a folder, holds more than
+/// written is refused. No part of an input that is incomplete is ever returned: throws InputError
+/// naming the path and the reason when it cannot be opened, is a folder, holds more than
 /// `max_bytes`, does not fit into memory, when the system reports an error while it is read, or
 /// when it ends before the length that it had at the beginning.
 std::string read_input(const std::filesystem::path& path, std::uint64_t max_bytes = kNoByteLimit);
 
-/// The same of an open descriptor, read from where it stands; `name` stands for it in messages. It
-/// stays open.
+/// The same for an open descriptor, read from its current position; `name` stands for it in
+/// messages. It stays open.
 std::string read_input(int descriptor, const std::string& name,
                        std::uint64_t max_bytes = kNoByteLimit);
 
@@ -31,13 +31,14 @@ std::string read_input(int descriptor, const std::string& name,
 /// a request before the long work starts.
 void require_writable(const std::filesystem::path& target);
 
-/// Writes an output. A file is written whole or not at all: beside its place (under a name with its
-/// ending), to the disk, and renamed onto it; of a symbolic link, the file that it leads to. What
-/// is no regular file (a device, a named pipe, the standard output) is never replaced but written
-/// into; a named pipe waits for its reader. Throws InputError when that cannot be done.
+/// Writes an output. A file is written completely or not at all: beside its place (under a name
+/// with its ending), synced to the disk, and renamed onto it; through a symbolic link, the file
+/// that it leads to. What is not a regular file (a device, a named pipe, the standard output) is
+/// never replaced but written into; a named pipe waits for its reader. Throws InputError when that
+/// cannot be done.
 void write_file(const std::filesystem::path& target, std::string_view text);
-/// The same, for what is too long to be put together first: `write` puts it into the stream.
-/// Whatever it throws leaves a file as it was.
+/// The same, for what is too long to be built in memory first: `write` puts it into the stream. If
+/// it throws, the file stays as it was.
 void write_file(const std::filesystem::path& target,
                 const std::function<void(std::ostream&)>& write);
 

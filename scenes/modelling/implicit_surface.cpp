@@ -174,7 +174,7 @@ class BorderDrawing {
     if (move(vertex, onto_surface(surface_, nearest, edge_length))) region_of_[vertex] = kBorder;
   }
 
-  /// The share of the way between two vertices at which the first one's region ends.
+  /// Where between two vertices, from 0 to 1, the first one's region ends.
   double border(std::uint32_t from, std::uint32_t to) const {
     double inside = 0.0;
     double outside = 1.0;
@@ -222,9 +222,10 @@ double ellipsoid_field(const glm::dvec3& place, const glm::dvec3& center,
 }
 
 double limb_field(const glm::dvec3& place, const Limb& limb) {
-  const glm::dvec3 way = limb.to - limb.from;
-  const double share = std::clamp(glm::dot(place - limb.from, way) / glm::dot(way, way), 0.0, 1.0);
-  return glm::length(place - limb.from - share * way) -
+  const glm::dvec3 axis = limb.to - limb.from;
+  const double share =
+      std::clamp(glm::dot(place - limb.from, axis) / glm::dot(axis, axis), 0.0, 1.0);
+  return glm::length(place - limb.from - share * axis) -
          std::lerp(limb.from_radius, limb.to_radius, share);
 }
 

@@ -24,8 +24,8 @@ double limb_field(const glm::dvec3& place, const Limb& limb);
 /// Two bodies in one, their seam filled in over a distance of about `blend`.
 double joined(double a, double b, double blend);
 
-/// The surface of the field inside a box, of quads whose corners lie on it, one a cube of side
-/// `cell` that it crosses (surface nets: Gibson 1998), facing where the field is positive. The
+/// The surface of the field inside a box, of quads whose corners lie on it, one for each cube of
+/// side `cell` that it crosses (surface nets: Gibson 1998), facing where the field is positive. The
 /// body must end inside the box and be thicker than a cell.
 PolygonMesh implicit_surface(const Field& field, const glm::dvec3& lower, const glm::dvec3& upper,
                              double cell);

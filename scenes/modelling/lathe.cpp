@@ -16,8 +16,9 @@ Profile& Profile::line(const glm::dvec2& to) {
 
 Profile& Profile::curve(const glm::dvec2& to, double bulge, int steps) {
   const glm::dvec2 from = points_.back();
-  const glm::dvec2 way = glm::normalize(to - from);
-  const glm::dvec2 control = 0.5 * (from + to) + 2.0 * bulge * glm::dvec2(way.y, -way.x);
+  const glm::dvec2 direction = glm::normalize(to - from);
+  const glm::dvec2 control =
+      0.5 * (from + to) + 2.0 * bulge * glm::dvec2(direction.y, -direction.x);
   for (int i = 1; i < steps; ++i) {
     const double t = static_cast<double>(i) / steps;
     points_.push_back((1.0 - t) * (1.0 - t) * from + 2.0 * t * (1.0 - t) * control + t * t * to);

@@ -17,7 +17,7 @@ class Profile {
 
   Profile& line(const glm::dvec2& to);
   /// A parabola in `steps` pieces whose middle is `bulge` outside the straight line (to the right
-  /// of the way, which walks upward), inside where it is negative.
+  /// of its direction, upward), inside where it is negative.
   Profile& curve(const glm::dvec2& to, double bulge, int steps);
   /// A ball around a place on the axis, from where its surface has the present point's radius to
   /// its top, in `steps` pieces. The present point must be at or below that place.
@@ -30,7 +30,7 @@ class Profile {
 };
 
 /// The profile's points (radius, height) revolved in `sides` steps, the first at `first_turn` of a
-/// full turn. Walked upward on the outside, the surface faces outward. Each piece of the profile
+/// full turn. Drawn upward on the outside, the surface faces outward. Each piece of the profile
 /// gives a ring of flat quads, of triangles where one end has radius 0; a piece with both ends on
 /// the axis gives none. Ends with a radius stay open.
 PolygonMesh lathe(std::span<const glm::dvec2> profile, int sides, double first_turn = 0.0);

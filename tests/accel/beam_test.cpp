@@ -102,7 +102,7 @@ beam::BeamOptions random_options(Random& random) {
   return options;
 }
 
-/// An eye outside, inside or in the middle planes of the scene's box, looking somewhere.
+/// A camera outside, inside or in the middle planes of the scene's box, in a random direction.
 scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
   const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
   const glm::vec3 size = scene.bounds.upper - scene.bounds.lower;
@@ -120,9 +120,11 @@ scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
     }
   }
   if (camera.from == camera.at) camera.at.x += reach;
-  const glm::vec3 way = camera.at - camera.from;
+  const glm::vec3 view = camera.at - camera.from;
   camera.up = {0.0F, 1.0F, 0.0F};
-  if (std::abs(way.x) + std::abs(way.z) < 1e-3F * std::abs(way.y)) camera.up = {0.0F, 0.0F, 1.0F};
+  if (std::abs(view.x) + std::abs(view.z) < 1e-3F * std::abs(view.y)) {
+    camera.up = {0.0F, 0.0F, 1.0F};
+  }
   camera.angle = std::array{5.0F, 45.0F, 90.0F, 170.0F}[random.below(4)];
   camera.aspect = std::array{1.0F, 1.6F, 0.4F}[random.below(3)];
   return camera;
@@ -171,21 +173,21 @@ TEST_P(EyeOnPlanes, LosesNoSampleAtFacesEdgesAndCorners) {
   options.octree.pad = GetParam();
   // Faces, edges and corners of cells of all sizes, outside and inside, and places beside them.
   constexpr std::array kPlaces{-6.0F, -1.0F, 0.25F, 1.5F, 4.0F, 4.625F, 6.3F, 9.0F, 14.0F};
-  const std::array<glm::vec3, 7> ways{
+  const std::array<glm::vec3, 7> directions{
       {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {1, 1, 1}, {-1, 1, 0}, {-1, -1, -1}, {0.3F, -0.7F, 0.2F}}};
   Random random(5);
   for (int i = 0; i < 200; ++i) {
     scenes::Camera camera;
     for (int axis = 0; axis < 3; ++axis) camera.from[axis] = kPlaces[random.below(9)];
-    const glm::vec3 way = ways[static_cast<std::size_t>(i) % ways.size()];
-    camera.at = random.below(3) == 0 ? glm::vec3(4.0F) : camera.from + way;
-    if (camera.at == camera.from) camera.at = camera.from + way;
+    const glm::vec3 direction = directions[static_cast<std::size_t>(i) % directions.size()];
+    camera.at = random.below(3) == 0 ? glm::vec3(4.0F) : camera.from + direction;
+    if (camera.at == camera.from) camera.at = camera.from + direction;
     camera.up = {0.0F, 0.0F, 1.0F};
     const glm::vec3 look = camera.at - camera.from;
     if (look.x == 0.0F && look.y == 0.0F) camera.up = {0.0F, 1.0F, 0.0F};
     camera.angle = std::array{45.0F, 90.0F, 170.0F}[random.below(3)];
     camera.aspect = std::array{1.0F, 2.0F}[random.below(2)];
-    // Odd sizes have samples on the axis of view; five samples a pixel lie on its borders too.
+    // Odd sizes have samples on the axis of view; five samples per pixel lie on its borders too.
     const int size = std::array{1, 16, 17}[random.below(3)];
     SCOPED_TRACE(fmt::format("camera {}: from ({}, {}, {}) at ({}, {}, {}), {} degrees, {}", i,
                              camera.from.x, camera.from.y, camera.from.z, camera.at.x, camera.at.y,
@@ -317,7 +319,7 @@ TEST(Beam, SharesCornersBetweenPixels) {
   expect_painted_once(scene, shared, rays);
 }
 
-TEST(Beam, GoesOnBehindOccupiedLeavesWhenAsked) {
+TEST(Beam, ContinuesBehindOccupiedLeavesWhereRequested) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 160, 100, 1);
   beam::BeamOptions beams = options_with(6);

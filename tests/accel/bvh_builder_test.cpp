@@ -78,13 +78,13 @@ TEST(BvhBuilder, HoldsEveryBoxOnce) {
   }
 }
 
-TEST(BvhBuilder, NothingMakesNothing) {
+TEST(BvhBuilder, NoBoxesMakeNoNodes) {
   const bvh::BinaryBvh bvh = bvh::build_bvh({}, {});
   EXPECT_TRUE(bvh.nodes.empty());
   EXPECT_EQ(bvh::sah_cost(bvh, {}), 0.0);
 }
 
-TEST(BvhBuilder, InParallelTheSame) {
+TEST(BvhBuilder, IsTheSameBuiltInParallel) {
   const auto boxes = random_boxes(200'000, 9);
   bvh::BvhOptions options;
   const bvh::BinaryBvh serial = bvh::build_bvh(boxes, options);
@@ -132,7 +132,7 @@ TEST(BvhBuilder, SplitsByAreaAndNotByCount) {
   EXPECT_EQ(bvh.nodes[2].count, 1U);
 }
 
-TEST(BvhBuilder, AHeapInOnePlaceIsSplitInTheMiddle) {
+TEST(BvhBuilder, ManyBoxesInOnePlaceAreSplitInTheMiddle) {
   const std::vector<scenes::Bounds> boxes(10'000, scenes::Bounds{glm::vec3(1.0F), glm::vec3(2.0F)});
   const bvh::BvhOptions options;
   const bvh::BinaryBvh bvh = bvh::build_bvh(boxes, options);

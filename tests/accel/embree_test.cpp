@@ -112,7 +112,7 @@ TEST(EmbreeOracle, LosesNoRayAtTheVerticesOfAClosedMesh) {
   }
 }
 
-TEST(EmbreeOracle, AnswersAnyHitAsClosestHit) {
+TEST(EmbreeOracle, AnyHitAgreesWithClosestHit) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     const scenes::Scene scene = verify::random_scene(seed, 30);
     const embree::EmbreeOracle oracle(scene, 20'000.0);
@@ -226,7 +226,7 @@ TEST_P(EmbreeModes, MissEverythingInAnEmptyScene) {
   EXPECT_FALSE(structure->any_hit(rays.ray(3, 3, 0), nullptr));
 }
 
-TEST(Embree, AnswersAnyHitAsClosestHit) {
+TEST(Embree, AnyHitAgreesWithClosestHit) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const scenes::Scene scene = verify::random_scene(seed, 30);
     const auto structure = embree("mode=single", scene);
@@ -243,7 +243,7 @@ TEST(Embree, AnswersAnyHitAsClosestHit) {
   }
 }
 
-TEST(Embree, TellsItsMemoryAndWhatItHolds) {
+TEST(Embree, ReportsItsMemoryAndWhatItHolds) {
   const scenes::Scene scene = scenes::load_scene("balls:n=3");
   const Statistics statistics = embree("quality=medium", scene)->statistics();
   EXPECT_GT(statistics.bytes, scene.primitives.size() * 16);
@@ -272,14 +272,14 @@ constexpr const char* kPrinted = R"(
               SSE2 SSE4.2 AVX AVX2{} (compile time enabled)
 )";
 
-TEST(Embree, ReadsItsInstructionSetOffWhatItPrints) {
+TEST(Embree, ReadsItsInstructionSetFromWhatItPrints) {
   const auto with = [](const char* more) { return fmt::format(fmt::runtime(kPrinted), more); };
   EXPECT_EQ(embree::widest_target(with(" AVX512 ")), "AVX512");
   EXPECT_EQ(embree::widest_target(with("")), "AVX2");
   EXPECT_EQ(embree::widest_target("nothing of the kind"), "unknown");
 }
 
-TEST(Embree, IsHeldToAnInstructionSet) {
+TEST(Embree, IsRestrictedToAnInstructionSet) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const PrimaryRays rays(scene.cameras.front(), 40, 30, 1);
   HitBuffer best(40, 30, 1);
@@ -326,7 +326,7 @@ TEST(Embree, NamesTheTypesOfItsGeometry) {
 }
 
 // What is subtracted from Embree's times is the time of making the same rays, with a miss for each.
-TEST(Embree, TheNullOfItsOwnRaysAnswersEveryRayOfAnImage) {
+TEST(Embree, NullWithSimdRaysWritesAMissForEveryRayOfAnImage) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   const auto null = registry().choose({"null", {{"rays", "simd"}}}).build(scene);
   EXPECT_EQ(null->statistics().image_rays, embree("mode=packet8", scene)->statistics().image_rays);
@@ -351,10 +351,10 @@ TEST(Embree, RefusesAnInstructionSetThatTheMachineLacks) {
   const testing::OnlyTarget only(HWY_SSE4);
   EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { embree("isa=avx2", scene); }),
                            {"avx2", "does not have", "isa=best"}));
-  EXPECT_NO_THROW(embree("isa=best", scene)) << "Embree runs on more than is asked for";
+  EXPECT_NO_THROW(embree("isa=best", scene)) << "Embree runs on more than was requested";
 }
 
-TEST(Embree, TellsItsVersionAndInstructionSet) {
+TEST(Embree, ReportsItsVersionAndInstructionSet) {
   EXPECT_TRUE(embree::embree_version().starts_with("3.") ||
               embree::embree_version().starts_with("4."));
   EXPECT_NE(embree::isa_in_use("best"), "unknown");

@@ -1,4 +1,4 @@
-// A ray's way, step by step: what is told is what was done.
+// A ray's traversal path, step by step: what is reported is what was done.
 
 #include <algorithm>
 #include <array>
@@ -45,7 +45,7 @@ void expect_leaf(const TraceStep& step, std::uint64_t index, const glm::dvec3& l
   EXPECT_NEAR(step.t_exit, t_exit, 2.0 * kPad);
 }
 
-TEST(Explain, SametWalksASmallOctreeAsByHand) {
+TEST(Explain, SametTraversesASmallOctreeAsByHand) {
   const scenes::Scene scene = two_corners();
   const octree::Samet samet(scene, eight_cells());
   Ray ray;
@@ -98,9 +98,9 @@ std::optional<Hit> nearest(const std::vector<TraceStep>& steps) {
   return best;
 }
 
-// Holds for every structure that tells steps, and for those that are still to come.
-TEST(Explain, TellsTheWorkThatIsCountedAndTheHitThatIsFound) {
-  int told = 0;
+// Holds for every structure that reports steps, and for those that are still to come.
+TEST(Explain, ReportsTheWorkThatIsCountedAndTheHitThatIsFound) {
+  int reported = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const scenes::Scene scene = testing::random_scene(seed, 30);
     for (const StructureInfo& info : registry().structures()) {
@@ -110,7 +110,7 @@ TEST(Explain, TellsTheWorkThatIsCountedAndTheHitThatIsFound) {
         const Ray ray = testing::random_ray(scene, random);
         const std::vector<TraceStep> steps = structure->explain(ray);
         if (steps.empty()) continue;
-        ++told;
+        ++reported;
         WorkCounters counters;
         ASSERT_EQ(structure->closest_hit(ray, &counters), nearest(steps)) << info.name;
         std::uint64_t tests = 0;
@@ -122,7 +122,7 @@ TEST(Explain, TellsTheWorkThatIsCountedAndTheHitThatIsFound) {
       }
     }
   }
-  EXPECT_GT(told, 1000);
+  EXPECT_GT(reported, 1000);
 }
 
 TEST(Explain, SametsLeavesFollowEachOther) {

@@ -129,7 +129,7 @@ TEST(GoldsmithSalmon, ChoosesAsByHand) {
 }
 
 TEST(GoldsmithSalmon, ChoosesBesideTheTerminalNodeByHand) {
-  // The third cube's way ends at the first cube. One more child of the root: 300. A pair: 24.
+  // The third cube's path ends at the first cube. One more child of the root: 300. A pair: 24.
   const bvh::InsertionHierarchy paired =
       insert_in_order({cube(0, 1), cube(9, 10), cube(1, 2)}, bvh::Insertion::kTerminal);
   EXPECT_EQ(paired.volumes, 2U);
@@ -180,7 +180,7 @@ TEST(GoldsmithSalmon, HasTheseSizesInScenesOfTheThesis) {
   }
 }
 
-TEST(GoldsmithSalmon, StatisticsTellSizeAndCost) {
+TEST(GoldsmithSalmon, StatisticsReportSizeAndCost) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   const bvh::GoldsmithSalmon structure(scene, {});
   const Statistics statistics = structure.statistics();
@@ -251,7 +251,7 @@ TEST(GoldsmithSalmon, TheQueueEntersNoMoreThanTheStack) {
 }
 
 /// Boxes weighed for each object.
-double work_a_primitive(const scenes::Scene& scene, const bvh::GoldsmithSalmonOptions& options) {
+double work_per_primitive(const scenes::Scene& scene, const bvh::GoldsmithSalmonOptions& options) {
   const bvh::GoldsmithSalmon structure(scene, options);
   return static_cast<double>(structure.hierarchy().boxes_weighed) /
          static_cast<double>(scene.primitives.size());
@@ -260,20 +260,20 @@ double work_a_primitive(const scenes::Scene& scene, const bvh::GoldsmithSalmonOp
 TEST(GoldsmithSalmon, BuildingIsFarFromQuadratic) {
   const scenes::Scene small_scene = scenes::load_scene("bumpy:triangles=4000");
   const scenes::Scene large_scene = scenes::load_scene("bumpy:triangles=64000");
-  // 16 times as many; when this was written, the work a primitive grew 2.0 times at most where the
-  // object may be placed anywhere, 3.6 times where the terminal node decides.
+  // 16 times as many; when this was written, the work per primitive grew 2.0 times at most where
+  // the object may be placed anywhere, 3.6 times where the terminal node decides.
   for (const auto& [insertion, growth] :
        {std::pair(bvh::Insertion::kEverywhere, 3.0), std::pair(bvh::Insertion::kTerminal, 4.5)}) {
     for (const Order order : {Order::kGiven, Order::kShuffled, Order::kSorted}) {
-      const double small = work_a_primitive(small_scene, options_for(order, insertion));
-      const double large = work_a_primitive(large_scene, options_for(order, insertion));
+      const double small = work_per_primitive(small_scene, options_for(order, insertion));
+      const double large = work_per_primitive(large_scene, options_for(order, insertion));
       EXPECT_LT(large, growth * small)
           << "exponent " << 1.0 + std::log(large / small) / std::log(16.0);
     }
   }
 }
 
-TEST(GoldsmithSalmon, AHeapInOnePlaceIsBuiltInLinearTime) {
+TEST(GoldsmithSalmon, ManyObjectsInOnePlaceAreBuiltInLinearTime) {
   for (const double jitter : {0.0, 1e-6, 0.05}) {
     scenes::SceneBuilder builder("heap");
     Random random(1);
@@ -281,7 +281,7 @@ TEST(GoldsmithSalmon, AHeapInOnePlaceIsBuiltInLinearTime) {
       builder.add_sphere(
           {random.uniform(0, jitter), random.uniform(0, jitter), random.uniform(0, jitter)}, 0.5);
     }
-    EXPECT_LT(work_a_primitive(std::move(builder).build(), options_for(Order::kGiven)), 3.0)
+    EXPECT_LT(work_per_primitive(std::move(builder).build(), options_for(Order::kGiven)), 3.0)
         << jitter;
   }
 }

@@ -2,12 +2,13 @@
 // Databases, TETRA at n = 6): 7,636,497 box tests and 964,567 polygon tests, for 263,169 eye rays
 // through the corners of 512 x 512 pixels (49,788 hit) and 46,112 shadow rays.
 //
-// What the comparison showed. Over a hierarchy of objects inserted at random, a walk that looks at
-// everything it meets, whether or not a nearer hit is known, and tests the objects of a volume
-// without boxes of their own costs within 7% of his box tests and 8% of his polygon tests: that is
-// the kind of walk he must have counted. Kay and Kajiya's queue stops at the closest hit, and then
-// polygon tests are 42% fewer: a better walk, not another tree. Insertion in the scene's own order
-// makes a tree 30% dearer in box tests; his text does not say which order he took.
+// What the comparison showed. Over a hierarchy of objects inserted at random, a traversal that
+// visits everything it meets, whether or not a nearer hit is known, and tests the objects of a
+// volume without boxes of their own costs within 7% of his box tests and 8% of his polygon tests:
+// that is the kind of traversal he must have counted. Kay and Kajiya's queue stops at the closest
+// hit, and then polygon tests are 42% fewer: a better traversal, not another tree. Insertion in the
+// scene's own order makes a tree that costs 30% more box tests; his text does not state which order
+// he took.
 
 #include <cmath>
 
@@ -76,10 +77,10 @@ Counts count_ours(const bvh::GoldsmithSalmon& structure, const RaySet& rays) {
   return {work.get(Counter::kBoxTests), work.get(Counter::kPrimitiveTests)};
 }
 
-/// A walk that enters every volume the ray meets and tests all of its objects; a shadow ray ends at
-/// the first hit.
-void walk_plainly(const bvh::InsertionHierarchy& hierarchy, const scenes::Scene& scene,
-                  const Ray& ray, bool shadow, Counts& counts) {
+/// A traversal that enters every volume the ray meets and tests all of its objects; a shadow ray
+/// ends at the first hit.
+void traverse_plainly(const bvh::InsertionHierarchy& hierarchy, const scenes::Scene& scene,
+                      const Ray& ray, bool shadow, Counts& counts) {
   const bvh::SlabRay slabs(ray);
   const CanonicalRay canonical(ray);
   for (std::uint32_t index = 0; index < hierarchy.entries.size();) {
@@ -99,10 +100,10 @@ Counts count_plainly(const bvh::GoldsmithSalmon& structure, const scenes::Scene&
                      const RaySet& rays) {
   Counts counts;
   for (const Ray& ray : rays.eye) {
-    walk_plainly(structure.hierarchy(), scene, ray, false, counts);
+    traverse_plainly(structure.hierarchy(), scene, ray, false, counts);
   }
   for (const Ray& ray : rays.shadow) {
-    walk_plainly(structure.hierarchy(), scene, ray, true, counts);
+    traverse_plainly(structure.hierarchy(), scene, ray, true, counts);
   }
   return counts;
 }
@@ -129,12 +130,12 @@ TEST(HainesCounts, GoldsmithSalmonOnTetra) {
   at_random.order = bvh::GoldsmithSalmonOptions::Order::kShuffled;
   const bvh::GoldsmithSalmon shuffled(scene, at_random);
 
-  fmt::print("  {:<44} {:>10} {:>9} {:>12}\n", "TETRA n = 6", "box tests", "polygons", "a ray");
+  fmt::print("  {:<44} {:>10} {:>9} {:>12}\n", "TETRA n = 6", "box tests", "polygons", "per ray");
   print_row("Haines", kHainesBoxes, kHainesPolygons, kHainesRays);
   const Counts plain = count_plainly(shuffled, scene, rays);
-  print_row("plain walk, inserted at random", plain, rays);
+  print_row("plain traversal, inserted at random", plain, rays);
   const Counts plain_given = count_plainly(given, scene, rays);
-  print_row("plain walk, inserted in order", plain_given, rays);
+  print_row("plain traversal, inserted in order", plain_given, rays);
   const Counts queue = count_ours(shuffled, rays);
   print_row("goldsmith-salmon:order=shuffled", queue, rays);
   const Counts queue_given = count_ours(given, rays);

@@ -22,11 +22,11 @@ Ray ray(glm::vec3 origin, glm::vec3 direction, float t_min = 0.0F, float t_max =
 
 std::optional<float> hit_or_none(float t) { return is_hit(t) ? std::optional(t) : std::nullopt; }
 
-std::optional<float> hit(const scenes::Sphere& sphere, const Ray& asked) {
-  return hit_or_none(intersect_sphere(CanonicalRay(asked), sphere));
+std::optional<float> hit(const scenes::Sphere& sphere, const Ray& query) {
+  return hit_or_none(intersect_sphere(CanonicalRay(query), sphere));
 }
-std::optional<float> hit(const scenes::Cone& cone, const Ray& asked) {
-  return hit_or_none(intersect_cone(CanonicalRay(asked), cone));
+std::optional<float> hit(const scenes::Cone& cone, const Ray& query) {
+  return hit_or_none(intersect_cone(CanonicalRay(query), cone));
 }
 
 const scenes::Sphere kUnitSphere{{0, 0, 0}, 1.0F, false};
@@ -79,8 +79,8 @@ TEST(IntersectTriangle, ClosedEdgesBothSides) {
   const glm::vec3 a(0, 0, 0);
   const glm::vec3 b(1, 0, 0);
   const glm::vec3 c(0, 1, 0);
-  const auto t = [&](const Ray& asked) {
-    return hit_or_none(intersect_triangle(CanonicalRay(asked), a, b, c));
+  const auto t = [&](const Ray& query) {
+    return hit_or_none(intersect_triangle(CanonicalRay(query), a, b, c));
   };
   EXPECT_EQ(t(ray({0.25F, 0.25F, 2}, {0, 0, -1})), 2.0F);
   EXPECT_EQ(t(ray({0.25F, 0.25F, -2}, {0, 0, 1})), 2.0F);
@@ -93,9 +93,9 @@ TEST(IntersectTriangle, ClosedEdgesBothSides) {
 
 TEST(IntersectTriangle, ClosedMeshIsWatertight) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=768");
-  const auto any = [&](const CanonicalRay& asked) {
+  const auto any = [&](const CanonicalRay& query) {
     for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-      if (is_hit(intersect(asked, scene, id))) return true;
+      if (is_hit(intersect(query, scene, id))) return true;
     }
     return false;
   };
@@ -142,7 +142,7 @@ double distance_to(const scenes::Scene& scene, scenes::PrimitiveId id, const glm
     const double radius = cone.base_radius + s * taper;
     const double slant = taper / glm::length(axis);
     const double beyond = std::max({-s, s - 1.0, 0.0}) * glm::length(axis);
-    // Both are at most the way from a point of the surface.
+    // Both are at most the distance from a point of the surface.
     return std::max(std::abs(glm::length(m - axis * s) - radius) / std::hypot(1.0, slant), beyond);
   }
   const scenes::Polygon& polygon = scene.polygons[primitive.index];
@@ -160,14 +160,14 @@ RC_GTEST_PROP(Intersect, PointAtTheHitLiesOnThePrimitive, (std::uint32_t seed)) 
   const scenes::Scene scene = testing::random_scene(seed, 12);
   Random random(seed);
   for (int i = 0; i < 100; ++i) {
-    const Ray asked = testing::random_ray(scene, random);
-    const CanonicalRay canonical(asked);
+    const Ray query = testing::random_ray(scene, random);
+    const CanonicalRay canonical(query);
     const double diagonal = glm::length(glm::dvec3(scene.bounds.extent()));
     for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
       const float t = intersect(canonical, scene, id);
       if (!is_hit(t)) continue;
-      RC_ASSERT(t >= asked.t_min);
-      RC_ASSERT(t <= asked.t_max);
+      RC_ASSERT(t >= query.t_min);
+      RC_ASSERT(t <= query.t_max);
       const double rounding = 0x1p-24 * t * glm::length(canonical.direction);
       RC_ASSERT(distance_to(scene, id, canonical.at(t)) <= rounding + 0x1p-30 * diagonal);
     }

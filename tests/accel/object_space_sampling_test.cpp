@@ -70,7 +70,7 @@ TEST_F(ObjectSpaceSampling, LowerThresholdsTakeMoreSamples) {
   const std::size_t more = sampled(0.1, 0.3).taken();
   EXPECT_LT(least, some);
   EXPECT_LT(some, more);
-  EXPECT_LE(least, 80U * 64U) << "one a pixel at most";
+  EXPECT_LE(least, 80U * 64U) << "at most one per pixel";
 }
 
 TEST_F(ObjectSpaceSampling, OnlyImagesOf25SamplesAreTaken) {

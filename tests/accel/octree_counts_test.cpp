@@ -57,7 +57,7 @@ octree::Octree octree_of(const Row& row) {
   return octree::Octree(scene_of(row), options);
 }
 
-/// The pixels that a beam takes out of the root without an occupied leaf on its way: their ray
+/// The pixels that a beam takes out of the root without an occupied leaf on its path: their ray
 /// crosses the root cube through empty leaves only.
 std::int64_t exit_pixels(const octree::Octree& octree, const scenes::Camera& camera) {
   const PrimaryRays rays(camera, 1280, 1024, 1);
@@ -90,7 +90,7 @@ TEST_P(OctreeCounts, OccupiedLeavesAreWithinAQuarterOfTheThesis) {
   EXPECT_LE(4 * std::abs(leaves - row.thesis_leaves), row.thesis_leaves);
 }
 
-// Asked for with max_objects = 0: from level 5 up within a quarter, at level 4 of the same order
+// Required with max_objects = 0: from level 5 up within a quarter, at level 4 of the same order
 // (a corner of the image more or less). The other rows are pinned to be reported.
 TEST_P(OctreeCounts, PixelsOfExitBeamsAreThoseReported) {
   const Row& row = GetParam();

@@ -1,5 +1,4 @@
-// The net over an octree: its links are Samet's neighbors, and nothing but the way to them
-// changes.
+// The net over an octree: its links are Samet's neighbors, and only the search for them is saved.
 
 #include "accel/octree/octree_net.hpp"
 
@@ -105,13 +104,13 @@ TEST(OctreeNet, OneStepForEachNeighborWhereSametClimbs) {
     EXPECT_LE(net["neighbor_steps"], net["leaves"]);
     EXPECT_GT(net["neighbor_steps"], net["leaves"] / 2);
     EXPECT_GT(samet["neighbor_steps"], 2 * net["neighbor_steps"]);
-    // What is saved is the way to the neighbor, and nothing else.
+    // What is saved is the search for the neighbor, and nothing else.
     EXPECT_EQ(samet["traversal_steps"] - net["traversal_steps"],
               samet["neighbor_steps"] - net["neighbor_steps"]);
   }
 }
 
-TEST(OctreeNet, TellsWhatItsLinksTake) {
+TEST(OctreeNet, ReportsTheMemoryOfItsLinks) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=4");
   const Statistics samet = octree::Samet(scene, {}).statistics();
   const Statistics net = octree::SametNet(scene, {}).statistics();

@@ -90,7 +90,7 @@ TEST(Octree, LeavesReferToExactlyWhatOverlapsThem) {
                     EXPECT_TRUE(std::includes(references.begin(), references.end(),
                                               expected.begin(), expected.end()));
                     EXPECT_TRUE(std::is_sorted(references.begin(), references.end()));
-                    // More than the definition asks for only within rounding of the boundary (the
+                    // More than the definition requires only within rounding of the boundary (the
                     // overlap of cones is conservative, so theirs may be more).
                     for (const scenes::PrimitiveId id : references) {
                       if (scene.primitives[id].kind == scenes::PrimitiveKind::kCone) continue;
@@ -124,7 +124,7 @@ TEST(Octree, MaxLevelCountsTheRootAsOne) {
   EXPECT_EQ(octree::Octree(scene, options).statistics().nodes, 1U);
   options.max_level = 6;
   EXPECT_EQ(octree::Octree(scene, options).grid().cells.x, 32)
-      << "thesis: level 6 is 32 cells an axis";
+      << "thesis: level 6 is 32 cells per axis";
 }
 
 TEST(Octree, CapOnReferencesIsAClearError) {

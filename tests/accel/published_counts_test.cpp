@@ -1,16 +1,16 @@
 // Havran's published counts for Samet's traversal ("A Summary of Octree Ray Traversal Algorithms",
 // Ray Tracing News 12(2), 1999; TETRA at n = 6), ours beside them.
 //
-// What the comparison showed. Leaves and empty leaves a ray agree within 1%, and so do the other
+// What the comparison showed. Leaves and empty leaves per ray agree within 1%, and so do the other
 // two once they are counted alike:
 // - Traversal steps: ours end with the leaf in which a ray leaves the root, for integer coordinates
-//   say that there is no neighbor. Samet's search climbs to the root before it knows. With these
+//   show that there is no neighbor. Samet's search climbs to the root before it knows. With these
 //   climbs, which are counted here apart, the steps agree within 1%; without them ours are 4 to 7%
 //   fewer.
 // - Intersection tests: his are not an average over the rays. Divided by the rays that hit (eye
-//   rays that see something, shadow rays that are blocked), ours are his within 1%; a ray's average
-//   is 5.6 times smaller at every depth. So his figure must be the ratio of the tests made to
-//   the least that must be made.
+//   rays that see something, shadow rays that are blocked), ours are his within 1%; the average
+//   per ray is 5.6 times smaller at every depth. So his figure must be the ratio of the tests made
+//   to the least that must be made.
 
 #include <cmath>
 
@@ -119,7 +119,7 @@ TEST_P(HavranRays, CountsOfSametOnTetra) {
   fmt::print("                              tests/hit    steps   leaves    empty\n");
   print("Havran", row.depth, row.published);
   print("ours", row.depth, ours);
-  fmt::print("           ours, a ray: {:.2f} tests; {:.2f} steps without climbing out\n",
+  fmt::print("           ours, per ray: {:.2f} tests; {:.2f} steps without climbing out\n",
              static_cast<double>(totals.tests) / all, static_cast<double>(totals.steps) / all);
 
   const auto near = [](double mine, double theirs) {

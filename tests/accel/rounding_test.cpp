@@ -24,7 +24,7 @@ TEST(Rounding, ToFloatAndBackLosesBits) {
 }
 
 // The same where it hurt: inlined into a structure's loop over pixels, rays kept unrounded
-// directions, and 7% of the hits of this scene had other bits than those of the rays asked alone.
+// directions, and 7% of the hits of this scene had other bits than those of the rays traced alone.
 TEST(Rounding, ATraceShootsTheVeryRaysOfTheCamera) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 64, 48, 4);

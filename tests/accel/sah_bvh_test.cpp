@@ -17,7 +17,7 @@
 namespace beambench::accel {
 namespace {
 
-/// Hits of rays that look for trouble, and of the same rays with any_hit.
+/// Hits of difficult rays, and of the same rays with any_hit.
 void expect_equal_to_exhaustive(const bvh::SahBvh& structure, const scenes::Scene& scene,
                                 std::uint64_t seed, int rays) {
   const exhaustive::Exhaustive exhaustive(scene);
@@ -203,7 +203,7 @@ TEST(SahBvh, HoldsEveryPrimitiveOnceInBoxesThatFit) {
   }
 }
 
-TEST(SahBvh, BuiltInParallelizTheSame) {
+TEST(SahBvh, IsTheSameBuiltInParallel) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=50000");
   bvh::BvhOptions options;
   const bvh::SahBvh serial(scene, options);
@@ -219,7 +219,7 @@ TEST(SahBvh, BuiltInParallelizTheSame) {
   }
 }
 
-TEST(SahBvh, TellsWhatItDid) {
+TEST(SahBvh, ReportsWhatItDid) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=3");
   const bvh::SahBvh structure(scene, {});
   const Ray ray = PrimaryRays(scene.cameras.front(), 64, 64, 1).ray(31, 32, 0);

@@ -65,38 +65,38 @@ TEST_P(SamplePaths, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
     for (int x = 0; x < 10; ++x) {
       for (int sample = 0; sample < GetParam().samples; ++sample) {
         SCOPED_TRACE(::testing::Message() << x << "," << y << " sample " << sample);
-        const beam::SamplePath way = beam::path_of_sample(tracer, rays, x, y, sample);
-        ASSERT_EQ(way.hit, hits.get(hits.index(x, y, sample)));
+        const beam::SamplePath path = beam::path_of_sample(tracer, rays, x, y, sample);
+        ASSERT_EQ(path.hit, hits.get(hits.index(x, y, sample)));
         const Ray ray = rays.ray(x, y, sample);
         const std::vector<TraceStep> alone = tracer.explain(ray);
         if (alone.empty()) {
-          EXPECT_TRUE(way.beams.empty());
+          EXPECT_TRUE(path.beams.empty());
           continue;
         }
-        ASSERT_FALSE(way.beams.empty());
-        for (std::size_t i = 0; i < way.beams.size(); ++i) {
-          const beam::BeamPassage& beam = way.beams[i];
+        ASSERT_FALSE(path.beams.empty());
+        for (std::size_t i = 0; i < path.beams.size(); ++i) {
+          const beam::BeamPassage& beam = path.beams[i];
           ++samples[name_of(beam)].second;
           samples[name_of(beam)].first = beam.samples;
           if (beam.kind == BeamKind::kLeaving) {
-            EXPECT_EQ(i + 1, way.beams.size());
-            EXPECT_TRUE(way.steps.empty() || !options.continue_with_rays);
+            EXPECT_EQ(i + 1, path.beams.size());
+            EXPECT_TRUE(path.steps.empty() || !options.continue_with_rays);
             continue;
           }
-          // The leaves of the ray's own way, as long as it is in beams.
+          // The leaves of the ray's own path, as long as it is in beams.
           ASSERT_LT(i, alone.size());
           EXPECT_EQ(beam.node, alone[i].index);
           EXPECT_EQ(beam.level, alone[i].level);
-          const bool last = i + 1 == way.beams.size();
+          const bool last = i + 1 == path.beams.size();
           EXPECT_EQ(beam.kind == BeamKind::kOccupied, !alone[i].tests.empty());
           if (options.handover == 0 && options.continue_with_rays) {
             EXPECT_EQ(last, beam.kind == BeamKind::kOccupied);
           }
         }
-        if (way.beams.back().kind == BeamKind::kOccupied && options.continue_with_rays) {
-          ASSERT_FALSE(way.steps.empty());
-          EXPECT_EQ(way.steps.front().index, way.beams.back().node);
-          EXPECT_EQ(way.reason.has_value(), way.steps.size() > 1 || !way.hit);
+        if (path.beams.back().kind == BeamKind::kOccupied && options.continue_with_rays) {
+          ASSERT_FALSE(path.steps.empty());
+          EXPECT_EQ(path.steps.front().index, path.beams.back().node);
+          EXPECT_EQ(path.reason.has_value(), path.steps.size() > 1 || !path.hit);
         }
       }
     }
@@ -110,7 +110,7 @@ TEST_P(SamplePaths, GiveTheImagesHitsAndEndWhereTheBeamEnds) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SamplePaths, ::testing::ValuesIn(cases()));
 
-// What goes on whole has no new cut and the same outline; what is cut has both.
+// A beam that continues undivided has no new cut and the same outline; one that is cut has both.
 TEST(SamplePath, NamesTheCutsOfADividedBeamOnly) {
   const scenes::Scene scene = scenes::load_scene("escena2");
   const beam::BeamTracer tracer(scene, options_with(6));
@@ -118,13 +118,13 @@ TEST(SamplePath, NamesTheCutsOfADividedBeamOnly) {
   int whole = 0;
   int divided = 0;
   for (int x = 0; x < 16; ++x) {
-    const beam::SamplePath way = beam::path_of_sample(tracer, rays, x, 6, 0);
-    for (std::size_t i = 1; i < way.beams.size(); ++i) {
-      const bool is_same = way.beams[i].corners == way.beams[i - 1].corners;
-      EXPECT_EQ(way.beams[i].cuts.empty(), is_same);
+    const beam::SamplePath path = beam::path_of_sample(tracer, rays, x, 6, 0);
+    for (std::size_t i = 1; i < path.beams.size(); ++i) {
+      const bool is_same = path.beams[i].corners == path.beams[i - 1].corners;
+      EXPECT_EQ(path.beams[i].cuts.empty(), is_same);
       ++(is_same ? whole : divided);
-      EXPECT_LE(way.beams[i].samples, way.beams[i - 1].samples);
-      for (const beam::PlaneOrder& cut : way.beams[i].cuts) {
+      EXPECT_LE(path.beams[i].samples, path.beams[i - 1].samples);
+      for (const beam::PlaneOrder& cut : path.beams[i].cuts) {
         EXPECT_TRUE(cut.first.axis != cut.second.axis || cut.first.at != cut.second.at);
       }
     }

@@ -1,4 +1,4 @@
-// The stand-ins for the thesis's scenes: no primitive is there to pad a count.
+// The stand-ins for the thesis's scenes: no primitive is there only to reach a count.
 
 #include <algorithm>
 #include <array>
@@ -72,7 +72,7 @@ TEST_P(StandIns, RepeatNoPrimitive) {
   }
 }
 
-/// No sliver: every polygon has an area that counts beside its longest side.
+/// No sliver: every polygon has an area that is not tiny compared with its longest side.
 TEST_P(StandIns, HaveNoPolygonWithoutArea) {
   const scenes::Scene scene = scenes::load_scene(GetParam().name);
   for (std::size_t id = 0; id < scene.polygons.size(); ++id) {
@@ -91,7 +91,7 @@ TEST_P(StandIns, HaveNoPolygonWithoutArea) {
   }
 }
 
-/// Looks for a free way from a polygon to where somebody can look at it from.
+/// Looks for a free line of sight from a polygon to where somebody can see it from.
 class Onlooker {
  public:
   Onlooker(const scenes::Scene& scene, bool inside)
@@ -114,12 +114,12 @@ class Onlooker {
     for (int i = 0; i < kTries; ++i) {
       const glm::dvec3 point = point_on(polygon);
       if (eyes_.empty()) {
-        const glm::dvec3 way =
+        const glm::dvec3 path =
             2.0 * glm::dvec3(random_.unit(), random_.unit(), random_.unit()) - glm::dvec3(1.0);
-        if (!blocked(point, glm::normalize(way) * size_, 1.0)) return true;
+        if (!blocked(point, glm::normalize(path) * size_, 1.0)) return true;
       } else {
-        const glm::dvec3 way = eyes_[random_.below(eyes_.size())] - point;
-        if (!blocked(point, way, 1.0)) return true;
+        const glm::dvec3 path = eyes_[random_.below(eyes_.size())] - point;
+        if (!blocked(point, path, 1.0)) return true;
       }
     }
     return false;
@@ -141,12 +141,12 @@ class Onlooker {
     return a + u * (b - a) + v * (c - a);
   }
 
-  /// Whether anything stands on the way but what it starts from.
-  bool blocked(const glm::dvec3& from, const glm::dvec3& way, double end) const {
+  /// Whether anything is in between, other than what it starts from.
+  bool blocked(const glm::dvec3& from, const glm::dvec3& path, double end) const {
     Ray ray;
     ray.origin = glm::vec3(from);
-    ray.direction = glm::vec3(way);
-    ray.t_min = static_cast<float>(1e-5 * size_ / glm::length(way));
+    ray.direction = glm::vec3(path);
+    ray.t_min = static_cast<float>(1e-5 * size_ / glm::length(path));
     ray.t_max = static_cast<float>(end);
     return structure_->any_hit(ray, nullptr);
   }
@@ -191,7 +191,7 @@ TEST(Onlooker, SeesNothingOfABoxInABoxButFromInside) {
   }
 }
 
-// Whole images are judged by `beambench verify`; this holds for scenes too large for that, too.
+// Whole images are verified by `beambench verify`; this holds for scenes too large for that, too.
 TEST_P(StandIns, GiveASampleOfRaysTheHitsOfExhaustiveSearch) {
   const scenes::Scene scene = scenes::load_scene(GetParam().name);
   const auto exhaustive = registry().choose({"exhaustive", {}}).build(scene);
@@ -239,7 +239,7 @@ TEST(BolaEspacial, LetsMostRaysHitWhereTheirBeamEnds) {
     structure->trace(rays, buffer, &work);
     const auto counters = work.by_name();
     const auto count = [&](const char* name) { return static_cast<double>(counters.at(name)); };
-    // Hardly a ray leaves the root without an occupied leaf on its way.
+    // Hardly a ray leaves the root without an occupied leaf on its path.
     EXPECT_LT(count("samples_leaving"), 0.01 * samples);
     EXPECT_GT(count("samples_in_leaves"), 0.9 * samples);
     const double first = 1.0 - count("rays_after_leaf") / count("samples_in_leaves");

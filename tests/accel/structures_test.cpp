@@ -77,7 +77,7 @@ TEST(Registry, EveryStructureExplainsItself) {
   }
 }
 
-TEST(Null, AnswersNothing) {
+TEST(Null, HitsNothing) {
   const scenes::Scene scene = testing::random_scene(3, 10);
   const auto null = registry().choose({"null", {}}).build(scene);
   HitBuffer buffer(8, 8, 1);

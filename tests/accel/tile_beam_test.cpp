@@ -24,7 +24,7 @@ namespace {
 using testing::random_ray;
 using testing::random_scene;
 
-/// An eye outside, inside or in the middle planes of the scene's box, looking somewhere.
+/// A camera outside, inside or in the middle planes of the scene's box, in a random direction.
 scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
   const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
   const glm::vec3 size = scene.bounds.upper - scene.bounds.lower;
@@ -50,14 +50,14 @@ scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
   return camera;
 }
 
-/// How far apart places are that float cannot tell apart, K u of the differ.
+/// The distance below which float cannot tell two places apart: K u of the differ.
 double indistinct(const scenes::Scene& scene, const glm::vec3& eye) {
   return 16.0 * 0x1p-24 *
          (static_cast<double>(scene.bounds.largest_coordinate()) + glm::length(glm::dvec3(eye)));
 }
 
-/// Do rays near the given one, at the distance of the hits in question, get both answers? Then the
-/// answers differ by rounding only.
+/// Do rays near the given one, at the distance of the hits in question, have both results? Then the
+/// results differ by rounding only.
 bool is_close_call(const exhaustive::Exhaustive& exhaustive, const Ray& ray,
                    const std::optional<Hit>& answer, double slack) {
   const float t = answer ? answer->t : 1.0F;
@@ -226,12 +226,12 @@ std::vector<Touching> touching_eyes() {
 /// Looking along an axis, a diagonal, and neither.
 std::vector<scenes::Camera> cameras_at(const glm::vec3& eye) {
   std::vector<scenes::Camera> cameras;
-  for (const glm::vec3& way : {glm::vec3(1, 0, 0), glm::vec3(0, 0, -1), glm::vec3(-1, 1, 0),
-                               glm::vec3(0.3F, -0.8F, 0.4F)}) {
+  for (const glm::vec3& direction : {glm::vec3(1, 0, 0), glm::vec3(0, 0, -1), glm::vec3(-1, 1, 0),
+                                     glm::vec3(0.3F, -0.8F, 0.4F)}) {
     scenes::Camera camera;
     camera.from = eye;
-    camera.at = eye + way;
-    camera.up = std::abs(way.y) < 0.75F ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
+    camera.at = eye + direction;
+    camera.up = std::abs(direction.y) < 0.75F ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, 1);
     camera.angle = 70.0F;
     cameras.push_back(camera);
   }
@@ -374,7 +374,7 @@ TEST(TileBeam, BackgroundOfAnEmptySceneIsPainted) {
   EXPECT_EQ(image_of(tile_beam::TileBeam(scene, {}), rays), HitBuffer(70, 3, 5));
 }
 
-TEST(TileBeam, CrowdedTilesGoToRays) {
+TEST(TileBeam, CrowdedTilesAreTracedByRays) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=12288");
   const tile_beam::TileBeam structure(scene, {});
   const PrimaryRays rays(scene.cameras.front(), 7, 5, 1);
@@ -474,7 +474,7 @@ TEST(TileBeam, EveryInstructionSetIsRight) {
   }
 }
 
-TEST(TileBeam, CanBeHeldToAnInstructionSet) {
+TEST(TileBeam, CanBeRestrictedToAnInstructionSet) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=2");
   const auto best = registry().choose({"tile-beam", {}}).build(scene);
   EXPECT_EQ(best->statistics().instruction_set, best_simd_target());

@@ -85,8 +85,8 @@ std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
 
 INSTANTIATE_TEST_SUITE_P(All, Threads, ::testing::ValuesIn(all_names()), test_name);
 
-// Where threads share more than the buffer: beams that go on behind leaves, corners of many pixels,
-// packets across the borders of what a thread gets, lists that are filled when first asked for.
+// Where threads share more than the buffer: beams that continue behind leaves, corners of many
+// pixels, packets across the borders of what a thread gets, lists that are filled on first use.
 TEST(ThreadsOf, EveryModeChangeNoHitAndNoCount) {
   for (const char* spec :
        {"beam:continue=beams", "beam:handover=48", "beam:share_corners=true,continue=beams",
@@ -99,7 +99,7 @@ TEST(ThreadsOf, EveryModeChangeNoHitAndNoCount) {
   }
 }
 
-/// Notes which threads asked it, and in which floating-point mode they were; makes each wait until
+/// Notes which threads called it, and in which floating-point mode they were; makes each wait until
 /// as many as are expected have come.
 class Meeting : public TraversalAccelerator<Meeting> {
  public:
@@ -133,7 +133,7 @@ class Meeting : public TraversalAccelerator<Meeting> {
   mutable std::set<unsigned> modes_;
 };
 
-TEST(TraceOn, TakesAsManyThreadsAsAskedFor) {
+TEST(TraceOn, UsesAsManyThreadsAsRequested) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   const PrimaryRays rays(scene.cameras.front(), 1, 64, 1);
   HitBuffer buffer(1, 64, 1);
@@ -146,7 +146,7 @@ TEST(TraceOn, TakesAsManyThreadsAsAskedFor) {
   EXPECT_GE(thread_count(0), 1);
 }
 
-// Embree holds TBB to the threads of its devices, and would hold back who else traces, too.
+// Embree limits TBB to the threads of its devices, and so would limit other structures, too.
 TEST(TraceOn, EmbreeLeavesTheThreadsThatItsWorkloadHas) {
   const scenes::Scene scene = scenes::load_scene("escena1");
   Workload workload = usual_workload(scene);

@@ -125,7 +125,7 @@ TEST(VoxelGrid, LazyAndEagerDoTheSameWork) {
   }
 }
 
-TEST(VoxelGrid, LazyLivesThroughManyThreadsAtOnce) {
+TEST(VoxelGrid, LazyIsRightOnManyThreadsAtOnce) {
   for (const std::uint64_t seed : {3U, 4U, 5U, 6U}) {
     const scenes::Scene scene = testing::random_scene(seed, 60);
     const exhaustive::Exhaustive exhaustive(scene);
@@ -138,7 +138,7 @@ TEST(VoxelGrid, LazyLivesThroughManyThreadsAtOnce) {
     }
     const grid::VoxelGrid<grid::LazyVoxels, grid::Mailboxes> grid(scene,
                                                                   with_resolution(12, 12, 12));
-    // All ask for all: the same voxels are wanted at the same time.
+    // All query all: the same voxels are needed at the same time.
     std::vector<std::vector<std::optional<Hit>>> found(4);
     {
       std::vector<std::jthread> threads;
@@ -171,7 +171,7 @@ TEST(VoxelGrid, MailboxesSaveTestsAndNoHit) {
   EXPECT_LT(saved.get(Counter::kPrimitiveTests), all.get(Counter::kPrimitiveTests));
 }
 
-TEST(VoxelGrid, MailboxesTellEachPrimitiveOnceARay) {
+TEST(VoxelGrid, MailboxesAreFirstForEachPrimitiveOncePerRay) {
   for (int ray = 0; ray < 3; ++ray) {
     grid::Mailboxes boxes(10);
     EXPECT_TRUE(boxes.is_first(7));
@@ -212,7 +212,7 @@ TEST(VoxelGrid, AFlatSceneHasOneLayerOfVoxels) {
   EXPECT_EQ(grid::make_voxel_grid(scene, options).cells, glm::ivec3(30, 30, 1));
 }
 
-TEST(VoxelGrid, AutomaticVoxelsGetFewerForAHeap) {
+TEST(VoxelGrid, AutomaticVoxelsAreFewerForACluster) {
   scenes::SceneBuilder builder("heap");
   for (int i = 0; i < 2'000; ++i) builder.add_sphere({0.0, 0.0, 0.0}, 1.0);
   const scenes::Scene scene = std::move(builder).build();
@@ -250,7 +250,7 @@ TEST(VoxelGrid, LazyListsHaveTheSameCap) {
                InputError);
 }
 
-TEST(VoxelGrid, TellsItsSizes) {
+TEST(VoxelGrid, ReportsItsSizes) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=4");
   const Statistics eager = build("voxel-grid:resolution=10x20x30", scene)->statistics();
   EXPECT_EQ(eager.leaves, 6000U);

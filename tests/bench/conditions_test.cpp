@@ -44,7 +44,7 @@ TEST(PinnedThread, StaysOnItsCoreAndIsFreedAgain) {
 
 TEST(PinnedThread, WithoutACoreDoesNothing) { EXPECT_FALSE(PinnedThread(-1).pinned()); }
 
-TEST(PhaseTimer, TellsWorkFromWaiting) {
+TEST(PhaseTimer, DistinguishesWorkFromWaiting) {
   const PhaseTime busy = time_phase([] { warm_up(std::chrono::milliseconds(20)); });
   EXPECT_GE(busy.wall_ms, 20.0);
   EXPECT_GT(busy.cpu_ms, 1.0);

@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A sweep that is fine; tests change one thing.
+/// A valid sweep; tests change one thing.
 json fine() {
   return json::parse(R"({
     "name": "test",
@@ -194,7 +194,7 @@ TEST_F(Config, EachSceneIsLoadedOnce) {
   EXPECT_EQ(plan.groups[0].scene.get(), plan.groups[3].scene.get());
 }
 
-TEST_F(Config, CellsAskedForTwiceAreMadeOnce) {
+TEST_F(Config, CellsRequestedTwiceAreMadeOnce) {
   json document = fine();
   document["scenes"] = {"tetra:n=1", "tetra:n=1"};
   document["structures"] = {"null", "null"};
@@ -268,7 +268,7 @@ TEST(BenchmarkFlags, TheFilterSelectsByGoogleBenchmarksRules) {
       scenes::says(scenes::thrown_message([&] { select("bvh"); }), {"'bvh'", "none of the 3"}));
 }
 
-TEST(Stopping, GoesOnUntilOneReasonHolds) {
+TEST(Stopping, ContinuesUntilOneReasonHolds) {
   const StoppingRule rule{0.05, 9, 20};
   const std::vector<double> steady(12, 100.0);
   std::vector<double> wild{100, 200, 50, 300, 20, 150, 90, 180, 10};

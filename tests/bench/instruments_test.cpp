@@ -16,7 +16,7 @@
 namespace beambench::bench {
 namespace {
 
-/// A counter that tells these numbers, 8 bytes each, as it is read.
+/// A counter that reports these numbers, 8 bytes each, as it is read.
 int counter_that_tells(const std::vector<std::uint64_t>& numbers) {
   std::array<int, 2> ends{};
   EXPECT_EQ(::pipe(ends.data()), 0);
@@ -31,7 +31,7 @@ int refused(int error) {
   return -1;
 }
 
-TEST(HardwareCounters, TellWhatWasCountedDuringTheWork) {
+TEST(HardwareCounters, ReportWhatWasCountedDuringTheWork) {
   const HardwareCounters counters([](const perf_event_attr& attributes) {
     EXPECT_EQ(attributes.exclude_kernel, 1U);
     switch (attributes.config) {
@@ -81,7 +81,7 @@ TEST(HardwareCounters, OfThisMachineCountOrSayWhyNot) {
 
 TEST(Heap, GrowsByWhatIsAllocated) {
   const auto before = heap_in_use();
-  if (!before) GTEST_SKIP() << "this allocator does not tell";
+  if (!before) GTEST_SKIP() << "this allocator does not report its bytes";
   for (const std::size_t size : {std::size_t{20'000}, std::size_t{8'000'000}}) {
     const auto empty = heap_in_use();
     const std::vector<char> block(size, 'x');
@@ -129,14 +129,13 @@ TEST(Overhead, IsTheHarnessesPartWhereThatIsLargest) {
   cells[1]["row"]["verdict"] = "baseline";
   EXPECT_TRUE(largest_overheads(cells).empty()) << "null is the harness's time itself";
   cells[1] = cell("b", "picture", 1.0, 50.0);
-  EXPECT_TRUE(largest_overheads(cells).empty())
-      << "shading is part of what is asked of a whole picture";
+  EXPECT_TRUE(largest_overheads(cells).empty()) << "shading is part of the work of a whole picture";
   cells[1] = cell("b", "image-own", 0.0, 50.0);
   EXPECT_TRUE(largest_overheads(cells).empty()) << "it has no such part";
   EXPECT_TRUE(to_json(largest_overheads(cells)).is_null());
 }
 
-TEST(Overhead, IsStatedForEachWayOfAsking) {
+TEST(Overhead, IsStatedForEachQueryPath) {
   const std::vector cells{cell("a", "image-single", 1.0, 50.0), cell("b", "image-simd", 1.0, 4.0),
                           cell("c", "list", 1.0, 100.0), cell("d", "image-simd", 1.0, 5.0)};
   const auto overheads = largest_overheads(cells);

@@ -39,7 +39,7 @@ class Process {
   }
 
   void send(int signal) const { ::kill(id_, signal); }
-  /// The status as waitpid tells it, once the process has ended.
+  /// The status as waitpid reports it, once the process has ended.
   int wait() const {
     int status = 0;
     ::waitpid(id_, &status, 0);
@@ -209,7 +209,7 @@ void wait_for_a_cell(const fs::path& folder) {
 
 class Interrupted : public Kill, public testing::WithParamInterface<int> {};
 
-TEST_P(Interrupted, EndsAtOnceAndSaysHowToGoOn) {
+TEST_P(Interrupted, EndsAtOnceAndSaysHowToContinue) {
   json sweep = json::parse(read_text(folder_.path() / "tiny.json"));
   sweep["resolutions"] = {"8x8", "2000x2000"};
   sweep["scenes"] = {"tetra:n=4"};

@@ -324,7 +324,7 @@ TEST(CellId, KeysDifferWhereCellsDo) {
   EXPECT_EQ(id.key().size(), 16U);
 }
 
-TEST(Fingerprint, TellsRaysAndHitsApart) {
+TEST(Fingerprint, DiffersWhereRaysOrHitsDo) {
   const scenes::Camera camera;
   scenes::Camera other = camera;
   other.angle = 45.001F;
@@ -396,7 +396,7 @@ TEST(RunFolder, BelongsToOneAtATime) {
                    {"another beambench", "wait until"}));
 }
 
-TEST(Machine, WhatDisturbsIsSaidInPlainWords) {
+TEST(Machine, DisturbancesAreReportedInPlainWords) {
   Machine machine{};
   machine.governor = "performance";
   machine.turbo = "off";
@@ -436,7 +436,7 @@ std::string cpuinfo(std::string_view maker, int model, double mhz) {
   return fmt::format("processor\t: 0\n{0}\nprocessor\t: 1\n{0}\n", core);
 }
 
-TEST(Machine, ProcessorsOfOneNameAreToldApartByMakerAndModel) {
+TEST(Machine, ProcessorsOfOneNameAreDistinguishedByMakerAndModel) {
   const std::string xeon = processor_identity(cpuinfo("GenuineIntel", 143, 2000));
   EXPECT_EQ(xeon,
             "vendor_id\t: GenuineIntel\ncpu family\t: 6\nmodel\t\t: 143\n"
@@ -459,7 +459,7 @@ TEST(Machine, TheIdIsOfProcessorAndInstallation) {
   EXPECT_NE(machine_id("ab", "c"), machine_id("a", "bc"));
 }
 
-TEST(Machine, TellsWhatItCan) {
+TEST(Machine, ReportsWhatItCan) {
   const Machine machine = inspect_machine();
   EXPECT_EQ(machine.id.size(), 16U);
   EXPECT_GE(machine.cores, 1U);

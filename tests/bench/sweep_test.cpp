@@ -157,7 +157,7 @@ TEST_F(Sweep, RightStructuresKeepTheirTimes) {
   EXPECT_EQ(cells()["samet"]["hits_hash"], cells()["exhaustive"]["hits_hash"]);
 }
 
-TEST_F(Sweep, SeveralThreadsTraceAndAreTold) {
+TEST_F(Sweep, SeveralThreadsTraceAndAreRecorded) {
   json document = config({"exhaustive", "beam", "embree"});
   document["threads"] = 2;
   run(document);
@@ -172,7 +172,7 @@ TEST_F(Sweep, SeveralThreadsTraceAndAreTold) {
   EXPECT_EQ(manifest["measurement"]["pinned"], false);
 }
 
-TEST_F(Sweep, TheHarnessesOwnTimeIsTold) {
+TEST_F(Sweep, TheHarnessesOwnTimeIsReported) {
   run(config({"null", "exhaustive"}));
   const json row = cells()["exhaustive"]["row"];
   EXPECT_GT(row["harness_ms"], 0.0);
@@ -182,7 +182,7 @@ TEST_F(Sweep, TheHarnessesOwnTimeIsTold) {
   EXPECT_TRUE(scenes::says(messages(), {"harness overhead: at most"}));
 }
 
-TEST_F(Sweep, EachWayOfAskingHasAShareOfItsOwn) {
+TEST_F(Sweep, EachQueryPathHasAShareOfItsOwn) {
   json document =
       config({"null:rays=single", "samet:max_level=4", "beam", "tile-beam", "embree:mode=packet8"});
   document["resolutions"] = {"320x200"};
@@ -311,7 +311,7 @@ INSTANTIATE_TEST_SUITE_P(
                             "the counting pass found other hits"}),
     [](const auto& planted) { return planted.param.name; });
 
-TEST_F(Sweep, AsksEveryKindOfRays) {
+TEST_F(Sweep, TracesEveryKindOfRays) {
   json all = config({"exhaustive", "samet:max_level=4", "embree"});
   all["rays"] = {"primary", "shadow", "reflection", "diffuse:seed=3", "random"};
   EXPECT_EQ(run(all).failed, 0U);
@@ -415,7 +415,7 @@ TEST_F(Sweep, AWrongHitIsDescribed) {
   EXPECT_TRUE(scenes::says(cells()["faulty"]["examples"][0].get<std::string>(), {"16", "10"}));
 }
 
-TEST_F(Sweep, AStructureThatCannotBeBuiltIsAnErrorAndTheRunGoesOn) {
+TEST_F(Sweep, AStructureThatCannotBeBuiltIsAnErrorAndTheRunContinues) {
   const SweepOutcome outcome = run(config({"samet:max_level=8,max_references=1", "exhaustive"}));
   EXPECT_EQ(outcome.failed, 1U);
   const json samet = cells()["samet"];

@@ -1,4 +1,4 @@
-// What must be true of messages: they say in every process what they said where they were written.
+// What must be true of messages: they mean the same in every process.
 
 #include "harness/cluster/messages.hpp"
 

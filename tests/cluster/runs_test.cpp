@@ -152,7 +152,7 @@ TEST(Cluster, MakesTheSequentialPicture) {
   }
 }
 
-TEST(Cluster, TellsWhatEachProcessDid) {
+TEST(Cluster, ReportsWhatEachProcessDid) {
   const scenes::Scene scene = verify::random_scene(2, 40);
   const Workplace place(scene, options_with(5), 1);
   LocalNetwork network(3, 1, 0.0001);
@@ -174,7 +174,7 @@ TEST(Cluster, TellsWhatEachProcessDid) {
   for (const int consumer : {1, 2}) {
     const ProcessReport& process = report.processes[static_cast<std::size_t>(consumer)];
     EXPECT_EQ(process.from_producer.messages, process.tasks + 1);    // and the end
-    EXPECT_EQ(process.to_producer.messages, process.tasks + 2);      // ready and farewell
+    EXPECT_EQ(process.to_producer.messages, process.tasks + 2);      // ready and final report
     task_bytes -= process.from_producer.bytes - 12 * process.tasks;  // number, length, note
   }
   EXPECT_EQ(task_bytes, 0U);
@@ -226,7 +226,7 @@ TEST(Cluster, EndsWithAnErrorWhereAProcessDoesNotFit) {
   const accel::beam::BeamTracer tracer(scene, options_with(4));
   const accel::PrimaryRays rays(scene.cameras.front(), 20, 20, 1);
   LocalNetwork network(3, 1, 0.0);
-  std::vector<std::jthread> consumers;  // they are sent home, or this would not end
+  std::vector<std::jthread> consumers;  // they are shut down, or this would not end
   for (const ProcessId process : {1, 2}) {
     consumers.emplace_back([&, process] {
       ImageWorker worker(tracer, rays, nullptr);
@@ -260,7 +260,7 @@ TEST(Cluster, RunsFromACommandLineToItsEnd) {
   EXPECT_EQ(run.ready_reports[2].identity, run.ready_reports[0].identity);
 }
 
-TEST(Cluster, SendsAllHomeWhereTheSceneIsMissing) {
+TEST(Cluster, ShutsAllDownWhereTheSceneIsMissing) {
   ClusterRequest request;
   request.job.scene = "no-such-scene";
   request.job.structure = "beam";

@@ -74,7 +74,7 @@ TEST(WorkerPool, TakesBackWhoIsHeardAgain) {
   EXPECT_EQ(pool.longest_waiting(), 1);
 }
 
-TEST(WorkerPool, ForgetsWhoWasSentHome) {
+TEST(WorkerPool, ForgetsWhoWasShutDown) {
   WorkerPool pool(3, 1, 10.0);
   pool.join(1, 0.0);
   pool.shut_down(1);

@@ -27,8 +27,8 @@ namespace {
 
 using glm::dvec3;
 
-TraceInput question_over(const scenes::Scene& scene, std::string_view rays,
-                         Resolution resolution = {64, 48}) {
+TraceInput input_over(const scenes::Scene& scene, std::string_view rays,
+                      Resolution resolution = {64, 48}) {
   return make_trace_input(scene, {scene.cameras.front(), resolution, 1}, parse_ray_choice(rays));
 }
 
@@ -109,7 +109,7 @@ TEST(DiffuseRays, FollowTheCosineAndTheSeed) {
 TEST(SecondaryRays, DoNotMeetTheSurfaceTheyLeave) {
   const scenes::Scene scene = lonely_sphere();
   for (const char* kind : {"shadow", "reflection", "diffuse"}) {
-    const verify::ReferenceHits reference(scene, question_over(scene, kind));
+    const verify::ReferenceHits reference(scene, input_over(scene, kind));
     EXPECT_EQ(reference.hit_count(), 0U) << kind;
   }
 }
@@ -144,7 +144,7 @@ TEST(Coherence, IsTheMeanCosineOfNeighbors) {
   EXPECT_DOUBLE_EQ(coherence(std::vector{x, x, y, y}), 2.0 / 3.0);
   EXPECT_DOUBLE_EQ(coherence(std::vector{x}), 1.0);
   const scenes::Scene scene = lonely_sphere();
-  const TraceInput image = question_over(scene, "primary", {5, 4});
+  const TraceInput image = input_over(scene, "primary", {5, 4});
   std::vector<accel::Ray> rays;
   for (std::size_t i = 0; i < image.size(); ++i) rays.push_back(image.ray(i));
   EXPECT_NEAR(coherence(image), coherence(rays), 1e-12);
@@ -158,13 +158,13 @@ TEST(ShareWarning, IsGivenBelowOneAndAboveNinetyNinePercent) {
   EXPECT_TRUE(share_warning(image, 991));
 }
 
-TEST(MakeQuestion, ExplainsWhyThereAreNoRays) {
+TEST(MakeInput, ExplainsWhyThereAreNoRays) {
   scenes::Scene scene = lonely_sphere();
   scene.lights.clear();
   EXPECT_TRUE(
-      scenes::says(scenes::thrown_message([&] { question_over(scene, "shadow"); }), {"no lights"}));
+      scenes::says(scenes::thrown_message([&] { input_over(scene, "shadow"); }), {"no lights"}));
   scene.cameras.front().at = {1.0F, 2.0F, 23.0F};
-  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { question_over(scene, "diffuse"); }),
+  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { input_over(scene, "diffuse"); }),
                            {"no diffuse rays", "another camera"}));
 }
 
@@ -175,7 +175,7 @@ TEST(EveryKindOfRays, FindsExhaustiveAndEmbreeRight) {
   for (const char* name : {"tetra:n=3", "escena1:spheres=60", "balls:n=1"}) {
     const scenes::Scene scene = scenes::load_scene(name);
     for (const char* kind : {"shadow", "reflection", "diffuse", "random"}) {
-      const verify::ReferenceHits reference(scene, question_over(scene, kind));
+      const verify::ReferenceHits reference(scene, input_over(scene, kind));
       for (const std::string& structure : structures) {
         const accel::StructureChoice choice = accel::registry().choose(parse_spec(structure));
         TraceResults results = make_results(reference.input());
@@ -208,7 +208,7 @@ class AnyHitAnswers : public ::testing::Test {
   }
 
   scenes::Scene scene_ = scenes::load_scene("escena1:spheres=60");
-  verify::ReferenceHits reference_{scene_, question_over(scene_, "shadow")};
+  verify::ReferenceHits reference_{scene_, input_over(scene_, "shadow")};
   TraceResults results_ = make_results(reference_.input());
 };
 
@@ -294,11 +294,11 @@ class RayFile : public ::testing::Test {
   TemporaryFolder folder_;
   std::filesystem::path path_ = folder_.path() / "some.rays";
   scenes::Scene scene_ = lonely_sphere();
-  RaySet set_ = *question_over(scene_, "diffuse:seed=9").list();
+  RaySet set_ = *input_over(scene_, "diffuse:seed=9").list();
 };
 
 TEST_F(RayFile, HoldsTheSameRays) {
-  const TraceInput read = question_over(scene_, path_.string());
+  const TraceInput read = input_over(scene_, path_.string());
   EXPECT_EQ(fingerprint(read), fingerprint(set_.rays));
   EXPECT_EQ(read.seed(), 9U);
   EXPECT_EQ(read.query(), Query::kClosestHit);
@@ -307,7 +307,7 @@ TEST_F(RayFile, HoldsTheSameRays) {
 
 TEST_F(RayFile, OfAnotherSceneIsRefused) {
   const scenes::Scene other = scenes::load_scene("tetra:n=1");
-  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { question_over(other, path_.string()); }),
+  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { input_over(other, path_.string()); }),
                            {"some.rays", "made for a scene with hash", "tetra:n=1"}));
 }
 

@@ -79,14 +79,14 @@ RC_GTEST_PROP(Line, VisitsJustThePixelsNearIt, ()) {
     RC_ASSERT(coverage > 0.0F && coverage <= 1.0F);
     RC_ASSERT(along >= 0.0 && along <= 1.0);
   });
-  const glm::dvec2 way = line.to - line.from;
+  const glm::dvec2 along = line.to - line.from;
   for (int y = 0; y < 15; ++y) {
     for (int x = 0; x < 20; ++x) {
       const glm::dvec2 center(x + 0.5, y + 0.5);
-      const double square = glm::dot(way, way);
+      const double square = glm::dot(along, along);
       const double s =
-          square > 0.0 ? glm::clamp(glm::dot(center - line.from, way) / square, 0.0, 1.0) : 0.0;
-      const double distance = glm::distance(center, line.from + s * way);
+          square > 0.0 ? glm::clamp(glm::dot(center - line.from, along) / square, 0.0, 1.0) : 0.0;
+      const double distance = glm::distance(center, line.from + s * along);
       const double beyond = distance - 0.5 * (thickness + 1.0);
       if (std::abs(beyond) < 1e-6) continue;  // rounding decides
       RC_ASSERT(visits[static_cast<std::size_t>(20 * y + x)] == (beyond < 0.0 ? 1 : 0));
@@ -214,7 +214,7 @@ TEST(OverlayCells, ACellAroundTheEyeShowsItsEdgesAndHidesNothing) {
 }
 
 // A beam of a box, from behind the eye to before it, passing on the left below: what lies behind
-// the eye's plane must not be mirrored into the image.
+// the camera plane must not be mirrored into the image.
 TEST(OverlayCells, EdgesAreCutOffAtTheEye) {
   const Image image = picture_of({{{-5, 1, -2}, {4, 2, -1}}});
   for (int y = 0; y < 50; ++y) {

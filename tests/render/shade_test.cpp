@@ -1,4 +1,4 @@
-// Normals stand upright on what was hit, and pictures tell hits from misses.
+// Normals are perpendicular to what was hit, and pictures tell hits from misses.
 
 #include <cmath>
 
@@ -38,7 +38,7 @@ glm::dvec3 point_at(const accel::Ray& ray, const accel::Hit& hit) {
   return glm::dvec3(ray.origin) + double{hit.t} * glm::dvec3(ray.direction);
 }
 
-/// Whether a vector stands upright on a direction, to float accuracy of the hit.
+/// Whether a vector is perpendicular to a direction, to float accuracy of the hit.
 void require_upright(const glm::dvec3& normal, const glm::dvec3& tangent) {
   RC_ASSERT(std::abs(glm::dot(normal, glm::normalize(tangent))) < 1e-4);
 }

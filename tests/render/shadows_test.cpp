@@ -1,4 +1,4 @@
-// All ways of finding shadows find the same ones.
+// All shadow methods find the same shadows.
 
 #include "harness/render/shadows.hpp"
 

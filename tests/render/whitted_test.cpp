@@ -117,7 +117,7 @@ TEST(Refracted, FollowsSnell) {
     EXPECT_NEAR(behind->x, sine / 1.5, 1e-12);
     EXPECT_NEAR(glm::length(*behind), 1.0, 1e-12);
     EXPECT_LT(behind->z, 0.0);
-    // And the same way back.
+    // And back along the same path.
     const auto before = refracted(-*behind, -normal, 1.5);
     ASSERT_TRUE(before.has_value());
     EXPECT_NEAR(glm::length(*before + incoming), 0.0, 1e-9);
@@ -193,8 +193,8 @@ scenes::Scene prism_below_a_ceiling(float index) {
 }
 
 TEST(Whitted, APrismTurnsARayByTotalReflection) {
-  // In upright at x = 0, onto the long side at 45 degrees, up and out upright at z = 2: three rays
-  // follow the eye's. The light stands straight below what they see.
+  // In at right angles at x = 0, onto the long side at 45 degrees, up and out at right angles at z
+  // = 2: three rays follow the camera ray. The light stands straight below what they see.
   expect_color(seen(prism_below_a_ceiling(1.5F), {-5, 0, 1}, {1, 0, 0}), dvec3(kAmbient + 1.0));
   expect_color(seen(prism_below_a_ceiling(1.5F), {-5, 0, 1}, {1, 0, 0}, {.max_depth = 3}),
                dvec3(0.0));
@@ -248,16 +248,16 @@ TEST(Whitted, ByTheRulesOfSpdGlassSpawnsAMirrorRayThatThePictureTakesNothingFrom
   accel::Ray ray;
   ray.origin = {0.0F, 0.0F, 5.0F};
   ray.direction = {0.3F, 0.0F, -1.0F};
-  const auto asked = [&](const WhittedOptions& options) {
+  const auto census = [&](const WhittedOptions& options) {
     const Whitted tracer(scene, *structure, options);
     Whitted::Progress progress = tracer.begin();
     expect_color(tracer.camera_ray_color(ray, structure->closest_hit(ray, nullptr), progress),
                  0.5 * linear(0.2, 0.4, 0.8));
     return progress.census;
   };
-  EXPECT_EQ(asked({}).reflected, 0U);
-  EXPECT_EQ(asked({.glass_always_mirrors = true}).reflected, 1U);
-  EXPECT_EQ(asked({.glass_always_mirrors = true}).refracted, 1U);
+  EXPECT_EQ(census({}).reflected, 0U);
+  EXPECT_EQ(census({.glass_always_mirrors = true}).reflected, 1U);
+  EXPECT_EQ(census({.glass_always_mirrors = true}).refracted, 1U);
 }
 
 TEST(Whitted, AShadingNormalSendsNoRefractedRayBackThroughItsSurface) {

@@ -16,7 +16,7 @@
 namespace beambench::render {
 namespace {
 
-/// A group that asks for a whole picture of a scene.
+/// A group that requests a whole picture of a scene.
 bench::CellGroup group_of(scenes::Scene scene, const std::string& rays = "whitted") {
   const scenes::Camera camera = scene.cameras.front();
   return {std::make_shared<const scenes::Scene>(std::move(scene)),
@@ -114,7 +114,7 @@ TEST(WholePicture, ItsFactsAreThoseOfTheOraclesPicture) {
   EXPECT_NE(bench::make_task(shallow, -1)->facts().rays_hash, facts.rays_hash);
 }
 
-/// `exhaustive`, wrong only where it is asked for single rays, and there now and then.
+/// `exhaustive`, wrong only where it traces single rays, and there now and then.
 class WrongAlone : public accel::TraversalAccelerator<WrongAlone> {
  public:
   enum class In { kClosest, kAny };

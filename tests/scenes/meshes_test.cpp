@@ -306,11 +306,11 @@ RC_GTEST_PROP(FittedCameras, SeeAllPointsAndFillTheImage, ()) {
     const glm::dvec3 upright = glm::cross(right, forward);
     double widest = 0.0;
     for (const glm::vec3& point : points) {
-      const glm::dvec3 way = glm::dvec3(point) - eye;
-      const double depth = glm::dot(way, forward);
+      const glm::dvec3 to_point = glm::dvec3(point) - eye;
+      const double depth = glm::dot(to_point, forward);
       RC_ASSERT(depth >= 0.0);
       for (const glm::dvec3& axis : {right, upright}) {
-        widest = std::max(widest, std::abs(glm::dot(way, axis)) / depth);
+        widest = std::max(widest, std::abs(glm::dot(to_point, axis)) / depth);
       }
     }
     RC_ASSERT(widest < std::tan(0.125 * 3.14159265));

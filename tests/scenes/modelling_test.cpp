@@ -43,7 +43,7 @@ double surface_area(const modelling::PolygonMesh& mesh) {
   return sum;
 }
 
-/// Every edge has one polygon on each side, which walk it in opposite directions.
+/// Every edge has one polygon on each side, which traverse it in opposite directions.
 bool is_closed(const modelling::PolygonMesh& mesh) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
   for (const auto& corners : mesh.polygons) {
@@ -67,7 +67,7 @@ TEST(Box, IsClosedAndAsLargeAsItsCornersSay) {
   EXPECT_EQ(modelling::box_without_bottom({0, 0, 0}, {1, 1, 1}).size(), 5U);
 }
 
-TEST(BevelledBox, IsClosedAndLosesItsEdges) {
+TEST(BeveledBox, IsClosedAndLosesItsEdges) {
   const modelling::PolygonMesh mesh = modelling::beveled_box({0, 0, 0}, {2, 2, 2}, 0.1);
   EXPECT_EQ(mesh.size(), 26U);
   EXPECT_TRUE(is_closed(mesh));
@@ -113,7 +113,7 @@ TEST(Tube, IsClosedByCapsAndTips) {
   EXPECT_TRUE(is_closed(tip));
 }
 
-TEST(Sweep, KeepsItsOutlineAcrossTheWay) {
+TEST(Sweep, KeepsItsOutlineAcrossThePath) {
   const std::vector<glm::dvec3> path = {{0, 0, 0}, {0, 0, 1}, {0, 0, 3}};
   const std::vector<double> scales = {1.0, 1.0, 1.0};
   const modelling::PolygonMesh mesh =

@@ -301,7 +301,7 @@ TEST(NffReader, LaterViewsAreFurtherCameras) {
   EXPECT_EQ(scene.cameras[1].name, "view 2");
 }
 
-TEST(NffReader, OurOwnCommentsTellNameAndAspect) {
+TEST(NffReader, OurOwnCommentsGiveNameAndAspect) {
   const std::string view = "v\nfrom 1 2 3\nat 0 0 0\nup 0 0 1\nangle 40\nresolution 8 8\n";
   const nff::NffResult result = parse(view +
                                       "#beambench name  from the side  # the left one\r\n"

@@ -90,7 +90,7 @@ class Contents {
   std::vector<std::uint32_t> words_;
 };
 
-/// Whether the written scene reads back the same, without a word of complaint.
+/// Whether the written scene reads back the same, without a warning.
 testing::AssertionResult survives(const Scene& scene) {
   const nff::NffResult result = nff::parse_nff(written(scene), "test.nff", {.strict = true});
   if (Contents(result.scene) != Contents(scene)) {

@@ -46,7 +46,7 @@ TEST(Parameters, EqualValuesPrintEqually) {
 }
 
 TEST(Parameters, CellsAreOneNumberOrThreeOrAutomatic) {
-  const std::vector<ParameterInfo> infos = {cells_parameter("cells", "auto", 64, "cells an axis")};
+  const std::vector<ParameterInfo> infos = {cells_parameter("cells", "auto", 64, "cells per axis")};
   const auto given = [&](const char* text) {
     return Parameters("grid", infos, Given{{"cells", text}});
   };

@@ -30,8 +30,8 @@ std::int64_t power(std::int64_t base, std::int64_t exponent) {
   return exponent == 0 ? 1 : base * power(base, exponent - 1);
 }
 
-/// The formulae of the SPD's table.
-const std::map<std::string, std::function<Count(std::int64_t)>>& formulae() {
+/// The formulas of the SPD's table.
+const std::map<std::string, std::function<Count(std::int64_t)>>& formulas() {
   static const std::map<std::string, std::function<Count(std::int64_t)>> all = {
       {"balls",
        [](auto n) {
@@ -90,8 +90,8 @@ std::int64_t smallest(const std::string& name) {
   return static_cast<std::int64_t>(info_of(name).parameters.at(0).minimum);
 }
 
-TEST(Spd, CountsFollowTheFormulae) {
-  for (const auto& [name, formula] : formulae()) {
+TEST(Spd, CountsFollowTheFormulas) {
+  for (const auto& [name, formula] : formulas()) {
     for (const std::int64_t n : {1, 2, 3, 4, 5}) {
       const Count expected = formula(n);
       if (n < smallest(name) || expected.total() > 100000) continue;
@@ -107,7 +107,7 @@ TEST(Spd, CountsFollowTheFormulae) {
 // At size 1 four of the 56 triangles of the SPD's teapot lie on a line, which no scene here may
 // hold; the SPD's own program warns of that size.
 TEST(Spd, OnlyTheTeapotStartsAtSizeTwo) {
-  for (const auto& [name, formula] : formulae()) {
+  for (const auto& [name, formula] : formulas()) {
     EXPECT_EQ(std::max<std::int64_t>(smallest(name), 1), name == "teapot" ? 2 : 1) << name;
   }
 }
@@ -123,7 +123,7 @@ TEST(Spd, DefaultsAreThoseOfTheTable) {
 }
 
 TEST(Spd, EveryGeneratorGrowsToTenMillionPrimitives) {
-  for (const auto& [name, formula] : formulae()) {
+  for (const auto& [name, formula] : formulas()) {
     const auto largest = static_cast<std::int64_t>(info_of(name).parameters.at(0).maximum);
     EXPECT_GE(formula(largest).total(), 10'000'000) << name << ":n=" << largest;
   }

@@ -103,7 +103,7 @@ class PlantedFault : public ::testing::TestWithParam<Subject> {
       };
       accel::octree::walk_leaves(octree, accel::octree::AncestorNeighbors(octree), ray, none,
                                  look_for_hit);
-      if (leaves == 1) return fault;  // no other leaf on the whole way knows the primitive
+      if (leaves == 1) return fault;  // no other leaf on the whole path knows the primitive
     }
     ADD_FAILURE() << "no ray finds its hit in one leaf alone";
     return fault;

@@ -167,9 +167,9 @@ TEST_F(PlantedMismatch, OneRayIsClassifiedAsInItsImage) {
     std::vector<DiffClass> classes(buffer.size());
     verify_results(reference, buffer, conformance, classes);
     for (std::size_t i = 0; i < buffer.size(); ++i) {
-      Mismatch asked = candidate_mismatch(rays, buffer, i, reference.hits()[i]);
-      verify_ray(scene_, conformance, asked);
-      EXPECT_EQ(asked.diff_class, classes[i]) << i;
+      Mismatch candidate = candidate_mismatch(rays, buffer, i, reference.hits()[i]);
+      verify_ray(scene_, conformance, candidate);
+      EXPECT_EQ(candidate.diff_class, classes[i]) << i;
     }
   }
 }

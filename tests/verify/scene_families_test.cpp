@@ -1,6 +1,6 @@
 // Awkward scenes: no structure errs on them, by any kind of rays, on any instruction set.
 //
-// BEAMBENCH_FAMILY_SCENES=1000 in the environment asks for more of them, BEAMBENCH_FAMILY_SEED=N
+// BEAMBENCH_FAMILY_SCENES=1000 in the environment requests more of them, BEAMBENCH_FAMILY_SEED=N
 // for others.
 
 #include "harness/verify/selftest/scene_families.hpp"

@@ -85,9 +85,9 @@ class Faulty : public accel::TraversalAccelerator<Faulty> {
     return fault_ == Fault::kAnyHitAlways || find_closest(ray, counting).has_value();
   }
   accel::Statistics statistics() const override {
-    accel::Statistics told;
-    if (fault_ == Fault::kMoreLeavesThanNodes) told.leaves = 1;
-    return told;
+    accel::Statistics statistics;
+    if (fault_ == Fault::kMoreLeavesThanNodes) statistics.leaves = 1;
+    return statistics;
   }
 
  private:
@@ -135,7 +135,7 @@ accel::StructureInfo picky(PrimitiveKinds takes) {
           }};
 }
 
-TEST(Selftest, AsksOverThePrimitivesThatAreTaken) {
+TEST(Selftest, TracesThePrimitivesThatAreTaken) {
   for (const PrimitiveKinds takes :
        {PrimitiveKinds{.cones = false}, PrimitiveKinds{false, true, false},
         PrimitiveKinds{true, false, false}, PrimitiveKinds{false, false, true}}) {

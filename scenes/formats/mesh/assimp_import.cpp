@@ -51,7 +51,7 @@ class AssimpFiles : public Assimp::IOSystem {
   std::map<std::string, std::string> companions_;  // their bytes, by the name Assimp used
 };
 
-/// The bytes of a companion; none when it cannot be read, which importers take as they like.
+/// The bytes of a companion; none when it cannot be read; how that matters depends on the importer.
 std::string companion_bytes(const std::string& name) {
   try {
     return read_bytes(name);
@@ -97,7 +97,7 @@ std::vector<MeshCompanion> AssimpFiles::companions() const {
   return list;
 }
 
-/// Counts up whenever this file, or what it calls, reads a mesh differently.
+/// Incremented whenever this file, or what it calls, reads a mesh differently.
 constexpr std::uint32_t kOwnVersion = 1;
 
 constexpr unsigned kSteps =
@@ -119,8 +119,8 @@ bool is_default(const aiMaterial& material) {
          std::string_view(name.C_Str()) == AI_DEFAULT_MATERIAL_NAME;
 }
 
-/// Color and transparency of a material. A black one with a picture on it is as gray as pictures
-/// are on the average.
+/// Color and transparency of a material. A black one with a texture is as gray as textures are on
+/// average.
 Surface surface_of(const aiMaterial& material) {
   Surface surface = clay();
   aiColor3D color;
@@ -162,7 +162,7 @@ std::size_t collect(const aiMesh& mesh, MeshCollector& collector) {
   return others;
 }
 
-/// What Assimp makes of the file. Throws InputError with what it says where that is nothing.
+/// What Assimp makes of the file. Throws InputError with Assimp's message where that is nothing.
 const aiScene& read_scene(Assimp::Importer& importer, const std::string& name,
                           const std::filesystem::path& path) {
   constexpr const char* kRemedy = "export it again, or convert it to another format";

@@ -17,8 +17,8 @@ namespace beambench::scenes::mesh {
 namespace {
 
 constexpr double kMargin = 1.08;
-/// An eye that is nearer to what it looks at, in parts of the coordinates' size, might be at the
-/// same place in float.
+/// The smallest distance of an eye from what it looks at, relative to the size of the coordinates:
+/// nearer, both might be the same place in float.
 constexpr double kMinDistance = 1e-5;
 
 /// A direction by its parts to the right, to the top and to the front of the mesh.

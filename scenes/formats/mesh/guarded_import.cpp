@@ -82,8 +82,8 @@ class Pipe {
   const rlimit time{seconds_allowed(bytes), seconds_allowed(bytes) + 1};
   ::setrlimit(RLIMIT_CPU, &time);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
-  // What Assimp says at its end is for Assimp's developers, and what stands in a buffer of stdout
-  // is the parent's to write.
+  // Assimp's last messages are for Assimp's developers, and what is in a buffer of stdout is the
+  // parent's to write.
   ::dup2(nowhere, STDERR_FILENO);
   ::dup2(nowhere, STDOUT_FILENO);
   std::string reply;

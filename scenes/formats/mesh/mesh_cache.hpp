@@ -1,5 +1,5 @@
 #pragma once
-// The cache folder, and in it the meshes that were imported before, in a form that is read fast.
+// The cache folder, and in it the meshes that were imported before, in a form that is fast to read.
 
 #include <cstdint>
 #include <filesystem>

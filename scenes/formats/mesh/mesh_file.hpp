@@ -1,5 +1,5 @@
 #pragma once
-// Mesh files: their endings, their bytes, and how a mesh stands in its coordinates.
+// Mesh files: their endings, their bytes, and the axes of their coordinates.
 
 #include <cstdint>
 #include <filesystem>

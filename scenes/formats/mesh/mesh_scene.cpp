@@ -53,13 +53,13 @@ ImportedMesh cached_import(const fs::path& path, const std::string& ending,
   if (cached.state == CachedMesh::State::kFound) return std::move(cached.mesh);
   if (cached.state == CachedMesh::State::kDamaged) {
     notes.push_back(
-        fmt::format("what the cache {} held of it was damaged, and is made anew", folder.string()));
+        fmt::format("its copy in the cache {} was damaged and is made anew", folder.string()));
   }
   ImportedMesh imported = import();
   if (!cache_mesh(folder, key, imported)) {
     notes.push_back(
-        fmt::format("the cache {} cannot be written, so that it is read as slowly the "
-                    "next time; set BEAMBENCH_CACHE to a folder that can",
+        fmt::format("the cache {} cannot be written, so reading it will be as slow the next "
+                    "time; set BEAMBENCH_CACHE to a writable folder",
                     folder.string()));
   }
   return imported;

@@ -146,7 +146,7 @@ class NffReader {
   void read_smooth_polygon() { read_corners(true); }
   void read_corners(bool smooth);
 
-  /// Runs a call of the builder and puts file and line of the command before its complaints.
+  /// Runs a call of the builder and puts file and line of the command before its errors.
   template <typename Add>
   void add(Add call) {
     try {
@@ -261,7 +261,7 @@ void NffReader::skip_unknown() {
   note(unknown.line, fmt::format("unknown word '{}'", unknown.text), ", skipped up to " + end);
 }
 
-/// Remarks on something that the file can be read in spite of.
+/// Reports something in spite of which the file can be read.
 void NffReader::note(std::size_t line, const std::string& cause, const std::string& more) {
   if (options_.strict) {
     tokens_.refuse(line, cause + "; correct the file, or read it without --strict");

@@ -10,7 +10,7 @@
 
 namespace beambench::scenes::nff {
 
-/// A scene read from NFF and what was noticed on the way (unknown words and degenerate primitives
+/// A scene read from NFF and what was noticed meanwhile (unknown words and degenerate primitives
 /// that were skipped, fields that were ignored, repaired polygons), each as `file:line: message`;
 /// what happened often is reported once, with a count.
 struct NffResult {

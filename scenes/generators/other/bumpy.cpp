@@ -10,7 +10,7 @@
 namespace beambench::scenes::generators {
 namespace {
 
-/// The points of a cube's surface on a grid of k cells an edge, numbered layer by layer: a full
+/// The points of a cube's surface on a grid of k cells per edge, numbered layer by layer: a full
 /// square at the bottom, a ring of 4 k points in between, a full square at the top.
 class CubeGrid {
  public:
@@ -82,7 +82,8 @@ std::uint32_t cells_per_edge(std::int64_t triangles) {
       std::max<std::int64_t>(1, below + (over_by < short_by ? 1 : 0)));
 }
 
-/// The two sides of the cube across one axis, two triangles a cell, counter-clockwise from outside.
+/// The two sides of the cube across one axis, two triangles per cell, counter-clockwise from
+/// outside.
 void add_sides(SceneBuilder& builder, const CubeGrid& grid, std::uint32_t k, std::size_t axis) {
   const std::size_t u = (axis + 1) % 3;
   const std::size_t v = (axis + 2) % 3;
@@ -136,7 +137,7 @@ void register_bumpy(Catalogue& catalogue) {
   catalogue.add({"bumpy",
                  "A closed bumpy sphere of 12 k^2 triangles (15,552 by default)",
                  {integer_parameter("triangles", 15680, 12, 20000000,
-                                    "wanted number of triangles; 12 k^2 for the nearest k come")},
+                                    "number of triangles, rounded to 12 k^2 for the nearest k")},
                  generate,
                  "triangles"});
 }

@@ -51,13 +51,13 @@ void add_gear(SceneBuilder& builder, const Outline& corners, const glm::dvec3& c
     const std::size_t next = (i + 1) % kRim;
     builder.add_polygon(std::array{upper[i], lower[i], lower[next], upper[next]});
   }
-  // The other way round, for the face points down; from the same tooth on.
+  // The other way around, because the face points down; from the same tooth on.
   std::array<std::uint32_t, kRim> face{};
   for (std::size_t i = 0; i < kRim; ++i) face[i] = lower[(kRim + 1 - i) % kRim];
   builder.add_polygon(face);
 }
 
-/// A color that looks random, brightened until its largest component is 1; each fifth is of glass.
+/// A color that looks random, brightened until its largest component is 1; every fifth is glass.
 Surface gear_surface(std::int64_t x, std::int64_t y, std::int64_t z) {
   const auto component = [](std::int64_t sevenths) {
     return 0.01 + static_cast<double>(sevenths % 7) / 7.0;

@@ -209,7 +209,7 @@ constexpr std::array<std::string_view, 8> kPosition = {{"r.bqkbnr", "pppp.ppp", 
                                                         ".B..p...", "....P...", ".....N..",
                                                         "PPPP.PPP", "RNBQK..R"}};
 
-/// The set's pieces, each modelled once.
+/// The set's pieces, each modeled once.
 class ChessSet {
  public:
   const modelling::PolygonMesh& piece(char name) const {

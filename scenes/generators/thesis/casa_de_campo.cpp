@@ -45,7 +45,7 @@ void add_strip(modelling::PolygonMesh& mesh, const std::vector<glm::dvec3>& low,
   }
 }
 
-/// Rows of round tiles, each row lying on the one below: six quads a tile.
+/// Rows of round tiles, each row lying on the one below: six quads per tile.
 modelling::PolygonMesh tiled_slope(const RoofSlope& slope) {
   const glm::dvec3 outward = glm::normalize(glm::cross(slope.along, slope.up));
   const double width = glm::length(slope.along) / slope.tiles;
@@ -72,14 +72,14 @@ modelling::PolygonMesh tiled_slope(const RoofSlope& slope) {
 /// The round tiles that cover a ridge.
 modelling::PolygonMesh ridge_tiles(const glm::dvec3& from, const glm::dvec3& to, double radius,
                                    int tiles) {
-  const glm::dvec3 way = to - from;
+  const glm::dvec3 along = to - from;
   const glm::dvec3 up(0.0, 0.0, 1.0);
-  const glm::dvec3 aside = glm::normalize(glm::cross(way, up));
+  const glm::dvec3 aside = glm::normalize(glm::cross(along, up));
   const auto arc = [&](double share, double size) {
     std::vector<glm::dvec3> places;
     for (int i = 0; i <= kPieces; ++i) {
       const double angle = std::numbers::pi * i / kPieces;
-      places.push_back(from + share * way +
+      places.push_back(from + share * along +
                        size * (portable_cos(angle) * aside + portable_sin(angle) * up));
     }
     return places;

@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kHalfSize = 10.0;  // the spheres fill the cube [-10, 10]^3
 
-/// The balls by the cell of a grid that holds their center, as lists: millions find their room.
+/// The balls by the cell of a grid that holds their center, as lists, so that millions can be
+/// placed.
 class BallGrid {
  public:
   /// `cells` on each axis.
@@ -64,8 +65,8 @@ class BallGrid {
     return static_cast<std::size_t>((at[2] * cells_ + at[1]) * cells_ + at[0]);
   }
 
-  /// Whether the layer of cells lies in the grid and near enough for a ball nearer than `least`; a
-  /// hair's breadth more, for rounding.
+  /// Whether the layer of cells lies in the grid and near enough for a ball nearer than `least`, or
+  /// very slightly farther, for rounding.
   bool may_hold_nearer(double coordinate, std::int64_t layer, double least) const {
     if (layer < 0 || layer >= cells_) return false;
     const double low = static_cast<double>(layer) * width_ - kHalfSize;

@@ -17,8 +17,8 @@ struct Ball {
 };
 
 /// Balls of random sizes in the cube [-10, 10]^3, spread evenly by best-candidate sampling
-/// (Mitchell 1991): of several random places each ball takes the one with most room, and shrinks
-/// where that is too little.
+/// (Mitchell 1991): of several random places each ball takes the one with the most room, and
+/// shrinks where that is too little.
 std::vector<Ball> scattered_balls(std::int64_t count, std::uint64_t seed);
 
 /// Their camera, background and lights.

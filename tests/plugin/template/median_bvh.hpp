@@ -20,7 +20,7 @@ class MedianBvh : public beambench::accel::TraversalAccelerator<MedianBvh> {
     if (!order_.empty()) build(0, static_cast<std::uint32_t>(order_.size()), max_leaf, 1);
   }
 
-  /// `counting` is told of the work; in timed code its calls are empty
+  /// `counting` is given each piece of work; in timed code its calls are empty
   /// (accel/core/work_counters.hpp).
   template <class Counting>
   std::optional<beambench::accel::Hit> find_closest(const beambench::accel::Ray& ray,
@@ -86,8 +86,8 @@ class MedianBvh : public beambench::accel::TraversalAccelerator<MedianBvh> {
     build(middle, end, max_leaf, level + 1);
   }
 
-  /// Depth first; ends early when `test` says so. `t_max` shrinks while hits are found. A box is
-  /// passed by only where it is entered behind t_max: at the same t a lower id may still be found.
+  /// Depth first; ends early when `test` returns true. `t_max` shrinks while hits are found. A box
+  /// is skipped only where it is entered behind t_max: at the same t a lower id may still be found.
   template <class Counting, class Test>
   bool visit(const beambench::accel::Ray& ray, Counting& counting, Test test,
              const float& t_max) const {

@@ -1,4 +1,4 @@
-// The way into beambench: what is brought, under which name, with which parameters.
+// The plug-in's entry point: what it brings, under which names, with which parameters.
 
 #include <cmath>
 #include <memory>

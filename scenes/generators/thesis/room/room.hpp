@@ -68,7 +68,8 @@ modelling::PolygonMesh settee_feet(const Settee& settee);
 /// A cushion of a half width and height that lies flat around the origin, pointed at its corners.
 modelling::PolygonMesh scatter_cushion(double half, double height, int steps);
 
-/// A woven rug over a rectangle of the floor, a quad a knot of its pattern, fringed left and right.
+/// A woven rug over a rectangle of the floor, a quad for each knot of its pattern, fringed left and
+/// right.
 void add_rug(SceneBuilder& builder, const modelling::Rectangle& place);
 
 /// Two curtains on a rod in the plane y = `y` before the window from `window.lower` to
