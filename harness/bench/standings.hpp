@@ -1,0 +1,98 @@
+#pragma once
+// Who is fastest: in each view, by how much, and over all views of one kind of rays.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "harness/bench/config.hpp"
+#include "harness/bench/record/robust_statistics.hpp"
+
+namespace beambench::bench {
+
+/// How many times one time is of another, with a 95% interval where there are repetitions enough.
+struct TimeRatio {
+  double value = 1.0;
+  std::optional<Interval> interval{};
+};
+
+/// One contender in one view.
+struct Standing {
+  std::string contender;  ///< the structure, with the parameters by which its variants differ
+  std::string structure;  ///< the bare name
+  double build_ms;        ///< median
+  double ns_per_ray;      ///< median of the first trace after a build
+  TimeRatio ratio;        ///< its trace time over that of the fastest
+
+  /// Is it the fastest, or does the interval of its ratio to the fastest hold 1?
+  bool is_tied() const { return ratio.interval && ratio.interval->low <= 1.0; }
+};
+
+/// A contender without a time in a view, and the reason in a clause.
+struct LeftOut {
+  std::string contender;
+  std::string reason;
+};
+
+/// The contenders of one view (scene, camera, samples, kind of rays) at its highest resolution.
+struct Standings {
+  std::string view;  ///< the scene, with camera, samples and kind of rays where a run has several
+  std::string size;  ///< `1280x1024`
+  std::string ray_kind;
+  std::uint64_t rays;
+  std::vector<Standing> ranked;      ///< the fastest first; empty where no hits were correct
+  std::vector<Standing> references;  ///< `null`, which finds nothing; `exhaustive`, which tests all
+  std::vector<LeftOut> left_out;
+
+  /// The first that is not tied with the fastest; null where there is none.
+  const Standing* behind() const;
+  /// Embree's fastest mode; null where there is none.
+  const Standing* embree() const;
+  /// From how many rays on the fastest, build included, is ahead of all that are not tied with it:
+  /// the dearer build over what each ray saves. 0: from the first; infinite: never; none: there is
+  /// nobody to compare with.
+  std::optional<double> break_even_rays() const;
+};
+
+/// A contender over all views of one kind of rays.
+struct MeanStanding {
+  std::string contender;
+  TimeRatio ratio;  ///< geometric mean of its ratios to the fastest of each view
+  int views;        ///< in which it has a time
+  int wins;         ///< in which it is the fastest, or tied with it
+};
+
+struct OverallStandings {
+  std::string ray_kind;
+  int views;
+  std::vector<MeanStanding> means;  ///< those with times in every view first, the fastest ahead
+  std::vector<MeanStanding> references;
+};
+
+/// The median ratio of the rounds that both cells have, with the 95% interval of that median: what
+/// disturbs a round disturbs both. Takes `repetitions` as the file of a cell has them; nothing
+/// where they have no round in common.
+std::optional<TimeRatio> paired_trace_ratio(const nlohmann::ordered_json& over,
+                                            const nlohmann::ordered_json& under);
+
+/// Of each view, in the order of the cells, which are files of a run (`RunFolder::cells`).
+/// `exclude` are the sweep's conditions: they explain why a contender is absent.
+std::vector<Standings> standings(std::span<const nlohmann::ordered_json> cells,
+                                 std::span<const Exclusion> exclude);
+
+/// Of each kind of rays. The views' noise is independent, so that the distances to the ends of
+/// their intervals add up in quadrature.
+std::vector<OverallStandings> overall(std::span<const Standings> views);
+
+/// A line for each view: the fastest, the next, Embree's best, and from how many rays on the
+/// fastest pays off; then the geometric means over all views, where there are several.
+std::string describe(std::span<const Standings> views);
+
+/// A table for each view with a line for each contender: build, trace, ratio to the fastest.
+std::string describe_contenders(std::span<const Standings> views);
+
+}  // namespace beambench::bench
