@@ -184,7 +184,7 @@ def headline(report: Report) -> str:
     cells, wrong = len(report.cells.cells), len(report.cells.wrong)
     if not cells:
         return "Nothing was measured yet."
-    right = f"{wrong} of them wrong, and without times" if wrong else "all of them verified"
+    right = f"{wrong} of them wrong, and without times" if wrong else "all with correct hits"
     return f"{cells:,} cells in {len(report.cells.runs)} runs, {right}."
 
 
