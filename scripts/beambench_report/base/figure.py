@@ -136,7 +136,7 @@ class Look:
 
 
 def structure_color(structure: str) -> str:
-    """The color of a structure; a newcomer gets one of the others', always the same."""
+    """The color of a structure; an unknown one gets one of the others', always the same."""
     spare = list(_COLORS.values())
     return _COLORS.get(structure, spare[crc32(structure.encode()) % len(spare)])
 

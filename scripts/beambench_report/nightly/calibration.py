@@ -1,4 +1,4 @@
-"""How often does pure noise raise an alarm, and how small a slow-down is found?
+"""How often does pure noise raise a false alarm, and which slow-downs are found?
 
 Noise is taken from repeated runs of one sweep by one program: blocks of consecutive runs are put
 one after another (block bootstrap), all contenders of a scene together, since they share a

@@ -137,7 +137,7 @@ def _read(path: Path) -> _File:
 
 
 def _reference(rows_a: pd.DataFrame, rows_b: pd.DataFrame) -> Contender:
-    """Whom both files have in the most views; Embree's single rays where they are among these.
+    """The contender that both files have in the most views; Embree's single rays if possible.
 
     Raises Problem where they have no contender in common.
     """
@@ -156,7 +156,7 @@ def _reference(rows_a: pd.DataFrame, rows_b: pd.DataFrame) -> Contender:
 
 
 def _figures(file: _File, reference: Contender | None) -> dict[Key, tuple[Median, str]]:
-    """The time of each cell, or its ratio to the reference, and what was asked."""
+    """The time of each cell, or its ratio to the reference, and its inputs."""
     timed = contenders_with_times(file.rows)
     rows = [row for _, row in timed.iterrows()]
     keys = keys_of(timed)

@@ -8,7 +8,7 @@ import pandas as pd
 from beambench_report.base.cell_files import CellFile, Example, Identity, identity
 from beambench_report.base.records import ERROR, FAULTLESS_VERDICTS, NO_RAYS, Run
 
-# Whoever has more wrong cells than this has one cause, not many.
+# More wrong cells than this have one cause, not many.
 _MOST_SHOWN = 40
 
 _MEANINGS = {

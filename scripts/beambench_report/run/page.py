@@ -108,9 +108,9 @@ class Compared:
 
 
 def choose_reference(run: Run, wanted: str | None = None) -> str | None:
-    """The contender others are compared with: right in the most views, Embree rather than others.
+    """The contender that others are compared with: correct in the most views, of equals Embree.
 
-    None when no contender was right anywhere. Raises Problem for a name the run does not have.
+    None where no contender has correct hits. Raises Problem for a name the run does not have.
     """
     right = run.rows[run.rows["timed"] & (run.rows["verdict"] == OK)]
     contenders = list(dict.fromkeys(right["contender"]))

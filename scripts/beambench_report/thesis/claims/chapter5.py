@@ -408,7 +408,7 @@ def beams_win_at_best_levels(e: Evidence) -> list[Check]:
 
 _INSERTION = (
     "the hierarchy of section 4.3 descends to a terminal node before it weighs a new volume "
-    "(insert=terminal); the former rule was of Goldsmith and Salmon's own insertion, which weighs "
+    "(insert=terminal); the former rule tested Goldsmith and Salmon's own insertion, which weighs "
     "at every level"
 )
 _FORMER_HIERARCHY = {"hierarchy": PAPER_HIERARCHY}

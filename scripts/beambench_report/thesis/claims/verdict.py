@@ -10,7 +10,7 @@ from beambench_report.thesis.paper.evidence import Evidence, Measured
 
 
 class Outcome(Enum):
-    """What one cell says of the claim."""
+    """Whether one cell supports the claim."""
 
     YES = "yes"
     NO = "no"
@@ -19,7 +19,7 @@ class Outcome(Enum):
 
 
 class Verdict(Enum):
-    """What all cells say of it."""
+    """The outcome of all cells together."""
 
     HOLDS = "holds"
     IN_PART = "holds in part"
@@ -30,7 +30,7 @@ class Verdict(Enum):
 
 @dataclass(frozen=True)
 class Check:
-    """One cell of a claim: where, what it says, and the figures it says it by."""
+    """One cell of a claim: where, its outcome, and the figures behind it."""
 
     cell: str
     outcome: Outcome

@@ -88,7 +88,7 @@ class ClusterEvidence:
 
     @property
     def networks(self) -> list[str]:
-        """Those that something is known of."""
+        """Those with figures."""
         return list(dict.fromkeys(self.figures["network"]))
 
     def figure(self, quantity: str, scene: str, network: str) -> Measured | None:

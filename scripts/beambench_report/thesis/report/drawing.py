@@ -35,7 +35,7 @@ class Side:
     lines: tuple[Points, ...]
     title: str
     nothing: str = ""
-    """What to say where there are no lines."""
+    """The text where there are no lines."""
 
 
 @dataclass(frozen=True)

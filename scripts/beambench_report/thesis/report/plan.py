@@ -13,7 +13,7 @@ from beambench_report.base.published import rays
 
 @dataclass(frozen=True)
 class Table:
-    """A table of the thesis; in the `best` sweeps its contenders look for their own best."""
+    """A table of the thesis; in its `best` sweeps each contender's best parameters are sought."""
 
     number: str
     title: str
