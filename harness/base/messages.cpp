@@ -2,16 +2,27 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <new>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "scenes/catalogue.hpp"
+#include "scenes/core/error.hpp"
 
 namespace beambench::base {
 
 std::string counted(std::size_t number, std::string_view noun) {
   return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
+}
+
+std::size_t place_of_name(std::string_view what, std::string_view name,
+                          std::span<const std::string_view> names) {
+  const auto found = std::ranges::find(names, name);
+  if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
+  throw InputError(
+      fmt::format("unknown {} '{}'; choose from: {}", what, name, fmt::join(names, ", ")));
 }
 
 int report_error(std::string_view program, std::string message, int exit_code) {
@@ -20,6 +31,17 @@ int report_error(std::string_view program, std::string message, int exit_code) {
   message.erase(message.find_last_not_of(' ') + 1);
   fmt::print(stderr, "{}: {}\n", program, message);
   return exit_code;
+}
+
+int report_failure(std::string_view program, const std::exception& error) {
+  if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) {
+    return report_error(program, "out of memory; choose a smaller scene, resolution or structure",
+                        kInvalidInput);
+  }
+  return report_error(
+      program,
+      fmt::format("internal error, please report it with the command line: {}", error.what()),
+      kInternalError);
 }
 
 scenes::Scene open_scene(std::string_view spec, scenes::ReadOptions options) {

@@ -1,7 +1,9 @@
 #pragma once
-// Messages to the user.
+// Messages to the user, and exit codes.
 
 #include <cstddef>
+#include <exception>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,11 +12,28 @@
 
 namespace beambench::base {
 
+enum ExitCode : int {
+  kSuccess = 0,
+  kMismatch = 1,      ///< a mismatch, an error of a structure or a regression was found
+  kInvalidInput = 2,  ///< invalid arguments or input
+  kInternalError = 70,
+  kNotRun = 127,      ///< as shells report it
+  kInterrupted = 130  ///< as shells report it
+};
+
 /// "1 cell", "2 cells": the noun is given in the singular and takes an s in the plural.
 std::string counted(std::size_t number, std::string_view noun);
 
+/// The place of a name among those of a kind, `what`. Throws InputError listing them.
+std::size_t place_of_name(std::string_view what, std::string_view name,
+                          std::span<const std::string_view> names);
+
 /// Prints `program: message` on stderr as one line, and returns `exit_code`.
 int report_error(std::string_view program, std::string message, int exit_code);
+
+/// The same for an exception that nothing else has handled: out of memory, with `kInvalidInput`, or
+/// an internal error.
+int report_failure(std::string_view program, const std::exception& error);
 
 /// Loads a scene; the warnings of its reader are printed on stderr, or, if the options are strict,
 /// thrown. Throws as `scenes::load_scene`.

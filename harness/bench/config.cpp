@@ -1,6 +1,7 @@
 #include "harness/bench/config.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -175,14 +176,6 @@ void read_effort(const JsonNode& root, SweepConfig& config) {
   read_repetitions(root, config);
 }
 
-void read_structures(const JsonNode& list, const accel::Registry& structures, SweepConfig& config) {
-  for (const JsonNode& node : list.elements()) {
-    for (accel::StructureChoice& choice : read_structure_entry(node, structures)) {
-      config.structures.push_back(std::move(choice));
-    }
-  }
-}
-
 /// Refuses a file of rays that is not there before hours are spent on other cells.
 rays::RayChoice existing(rays::RayChoice choice) {
   if (!choice.file.empty() && !std::filesystem::is_regular_file(choice.file)) {
@@ -244,7 +237,10 @@ SweepConfig read_sweep(const std::filesystem::path& path, const accel::Registry&
   for (const JsonNode& node : root.require("scenes").elements()) {
     config.scenes.push_back(read_scene(node));
   }
-  read_structures(root.require("structures"), structures, config);
+  for (const JsonNode& node : root.require("structures").elements()) {
+    std::ranges::move(read_structure_entry(node, structures),
+                      std::back_inserter(config.structures));
+  }
   read_rays(root, config);
   config.threads = read_threads(root, config);
   read_effort(root, config);

@@ -12,7 +12,7 @@
 
 #include "accel/core/registry.hpp"
 #include "harness/rays/ray_kind.hpp"
-#include "harness/rays/resolution.hpp"
+#include "harness/rays/trace_input.hpp"
 
 namespace beambench::bench {
 

@@ -10,6 +10,7 @@
 
 #include "harness/bench/measurement.hpp"
 #include "harness/bench/record/machine.hpp"
+#include "harness/bench/record/robust_statistics.hpp"
 
 namespace beambench::bench {
 namespace {
@@ -33,6 +34,11 @@ std::string message_of(const std::exception& error) {
 bool is_all_zero(const std::map<std::string, std::uint64_t, std::less<>>& counters) {
   return std::all_of(counters.begin(), counters.end(),
                      [](const auto& counter) { return counter.second == 0; });
+}
+
+bool is_precise(std::span<const double> samples, double precision) {
+  const std::optional<Interval> interval = repeat_interval(samples);
+  return interval && 0.5 * (interval->high - interval->low) <= precision * median(samples);
 }
 
 }  // namespace
@@ -107,15 +113,12 @@ Repetition Contender::time_once(const Instruments& instruments,
         });
         if (instruments.threads > 1) trace_counts = {};  // they are of the calling thread alone
         state.SetIterationTime(1e-3 * (build.wall_ms + trace.wall_ms));
-        repetition = {0,
-                      0,
-                      build.wall_ms,
-                      trace.wall_ms,
-                      build.cpu_ms,
-                      trace.cpu_ms,
-                      build_counts,
-                      trace_counts,
-                      {}};
+        repetition.build_ms = build.wall_ms;
+        repetition.trace_ms = trace.wall_ms;
+        repetition.build_cpu_ms = build.cpu_ms;
+        repetition.trace_cpu_ms = trace.cpu_ms;
+        repetition.build_counts = build_counts;
+        repetition.trace_counts = trace_counts;
       }
     } catch (...) {
       // The library is not made for exceptions to pass through it.
@@ -166,6 +169,24 @@ CellRecord Contender::finish(std::optional<StopReason> reason) && {
   record_.stop_reason = reason;
   record_.time_utc = utc_now();
   return std::move(record_);
+}
+
+bool is_look(int repetitions, int minimum) {
+  int look = minimum;
+  while (look < repetitions) look += std::max(1, look / 4);
+  return look == repetitions;
+}
+
+std::optional<StopReason> reason_to_stop(std::span<const double> cycles, double spent_ms,
+                                         double allowance_ms, const StoppingRule& rule) {
+  const auto repetitions = static_cast<int>(cycles.size());
+  if (repetitions < rule.minimum) return std::nullopt;
+  if (is_look(repetitions, rule.minimum) && is_precise(cycles, rule.precision)) {
+    return StopReason::kPrecision;
+  }
+  if (repetitions >= rule.maximum) return StopReason::kRepetitions;
+  if (spent_ms >= allowance_ms) return StopReason::kBudget;
+  return std::nullopt;
 }
 
 }  // namespace beambench::bench

@@ -119,12 +119,6 @@ void mark_failed(Run& run, const std::string& message) {
   }
 }
 
-benchmark::BenchmarkReporter::Run failed_run(const Json& cell) {
-  auto run = base_run(cell);
-  mark_failed(run, cell.at("message").get<std::string>());
-  return run;
-}
-
 benchmark::BenchmarkReporter::Run repetition_run(const Json& cell, const Json& repetition) {
   auto run = base_run(cell);
   const double build_ms = repetition.at("build_ms").get<double>();
@@ -147,7 +141,9 @@ std::vector<benchmark::BenchmarkReporter::Run> runs_of(const Json& cell, std::in
     run.repetitions = static_cast<std::int64_t>(repetitions.size());
     runs.push_back(std::move(run));
   }
-  if (runs.empty()) runs.push_back(failed_run(cell));
+  if (runs.empty()) {
+    mark_failed(runs.emplace_back(base_run(cell)), cell.at("message").get<std::string>());
+  }
   for (auto& run : runs) run.family_index = index;
   return runs;
 }

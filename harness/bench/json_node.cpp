@@ -37,7 +37,7 @@ std::string_view plain_message(std::string_view what) {
   const std::size_t column = line_start == std::string_view::npos ? at + 1 : at - line_start;
   if (comma_is_last(text, at)) {
     throw InputError(fmt::format(
-        "{}:{}:{}: not JSON: there is a comma before this '{}', behind the last element; "
+        "{}:{}:{}: not JSON: there is a comma before this '{}', after the last element; "
         "remove the comma",
         file, line, column, text[at]));
   }

@@ -1,17 +1,21 @@
 #pragma once
 // How timed code is run and measured: the same conditions and instruments for every contender.
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <ctime>
 #include <functional>
 #include <optional>
 #include <span>
+#include <string>
 #include <utility>
 
+#include <linux/perf_event.h>
 #include <sched.h>
 
 #include "harness/base/stopwatch.hpp"
+#include "harness/bench/record/cell_record.hpp"
 
 namespace beambench::bench {
 
@@ -58,7 +62,7 @@ struct PhaseTime {
   double cpu_ms;  ///< of this thread, or of all
 };
 
-/// The clock of the CPU time of work on so many threads.
+/// The clock of the CPU time of work on that many threads.
 inline clockid_t cpu_clock(int threads) {
   return threads == 1 ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID;
 }
@@ -101,5 +105,42 @@ std::optional<double> noise(std::span<const double> slices);
 /// The time of a trace that costs a structure nothing: the median of several in milliseconds, after
 /// one that is not timed. `core` is to pin to; -1: any.
 double harness_ms(int core, const std::function<void()>& trace);
+
+/// Opens an event of the calling thread: a file descriptor, or -1 and errno (perf_event_open(2)).
+using OpenEvent = std::function<int(const perf_event_attr&)>;
+int open_perf_event(const perf_event_attr& attributes);
+
+/// Counters of the thread that made it, in user mode. They run all the time and are read before and
+/// after a phase, so that reading them is outside of what is timed.
+class HardwareCounters {
+ public:
+  explicit HardwareCounters(const OpenEvent& open = open_perf_event);
+  ~HardwareCounters();
+  HardwareCounters(const HardwareCounters&) = delete;
+  HardwareCounters& operator=(const HardwareCounters&) = delete;
+
+  /// Why an event is not counted, in a sentence; empty when all are.
+  const std::string& problem() const { return problem_; }
+
+  /// Runs `work` and returns what was counted meanwhile.
+  HardwareCounts count(const std::function<void()>& work) const;
+
+ private:
+  /// As read from an event: its count, and for how long it was enabled and running (the system lets
+  /// events take turns when there are too few counters).
+  struct Reading {
+    std::uint64_t value;
+    std::uint64_t enabled_ns;
+    std::uint64_t running_ns;
+  };
+  using Readings = std::array<std::optional<Reading>, kHardwareEvents.size()>;
+
+  Readings read() const;
+  static std::optional<std::uint64_t> difference(const std::optional<Reading>& before,
+                                                 const std::optional<Reading>& after);
+
+  std::array<int, kHardwareEvents.size()> descriptors_;
+  std::string problem_;
+};
 
 }  // namespace beambench::bench

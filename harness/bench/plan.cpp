@@ -54,7 +54,7 @@ bool applies(const Exclusion& rule, const CellGroup& group, const SceneEntry& en
   return !rule.rays_above || ray_count(group) > *rule.rays_above;
 }
 
-/// Adds the group's cells, each once: `names` are of those that the plan has.
+/// Adds the group's cells, each once; `names` are those of the cells in the plan.
 void add_group(const SweepConfig& config, const SceneEntry& entry, CellGroup group, Plan& plan,
                std::set<std::string>& names) {
   for (const accel::StructureChoice& structure : config.structures) {

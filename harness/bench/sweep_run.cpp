@@ -9,11 +9,9 @@
 #include "harness/base/stopwatch.hpp"
 #include "harness/bench/contender.hpp"
 #include "harness/bench/measurement.hpp"
-#include "harness/bench/overhead.hpp"
 #include "harness/bench/plan.hpp"
 #include "harness/bench/record/manifest.hpp"
 #include "harness/bench/record/run_folder.hpp"
-#include "harness/bench/stopping.hpp"
 #include "harness/bench/task.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/core/error.hpp"
@@ -111,14 +109,12 @@ class SweepRun {
 
  private:
   RunFolder open_folder() {
-    if (options_.resume) return reopen_folder();
-    RunFolder folder = RunFolder::create(
-        options_.folder.value_or(std::filesystem::path("results") / "runs" / manifest_.run.run_id));
-    folder.write_json("config.json", config_.source);
-    return folder;
-  }
-
-  RunFolder reopen_folder() {
+    if (!options_.resume) {
+      RunFolder folder = RunFolder::create(options_.folder.value_or(
+          std::filesystem::path("results") / "runs" / manifest_.run.run_id));
+      folder.write_json("config.json", config_.source);
+      return folder;
+    }
     RunFolder folder = RunFolder::open(options_.folder.value());
     require_same_run(folder, config_.source, to_json(manifest_));
     continue_with(manifest_, folder.read_json("manifest.json"));
@@ -133,7 +129,7 @@ class SweepRun {
 
   void record_crashed_cells() {
     if (options_.activity == nullptr) return;
-    const auto crashed = options_.activity->broken_cells();
+    const auto crashed = options_.activity->crashed_cells();
     for (const CellGroup& group : plan_.groups) {
       for (const PlannedCell& cell : group.cells) {
         const auto found = crashed.find(cell.id.key());

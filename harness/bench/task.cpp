@@ -24,7 +24,7 @@ double share(std::uint64_t part, std::uint64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// Rays that are the same whatever is answered: an image's, or a list.
+/// Rays that do not depend on the results: an image's, or a list.
 class RaysTask : public Task {
  public:
   RaysTask(const CellGroup& group, int core)
@@ -73,7 +73,15 @@ class RaysTask : public Task {
  private:
   QueryPath path_of(const accel::Accelerator& structure) const override {
     if (input().image() == nullptr) return QueryPath::kList;
-    return image_path(structure.statistics().image_rays);
+    switch (structure.statistics().image_rays) {
+      case accel::ImageRays::kSimd:
+        return QueryPath::kImageSimd;
+      case accel::ImageRays::kOwn:
+        return QueryPath::kImageOwn;
+      case accel::ImageRays::kSingle:
+        break;
+    }
+    return QueryPath::kImageSingle;
   }
   double measure_harness_ms(QueryPath path) override {
     const char* const rays = path == QueryPath::kImageSimd ? "simd" : "single";
@@ -87,15 +95,6 @@ class RaysTask : public Task {
   int core_;
 };
 
-accel::HitBuffer rounded(const verify::ReferenceHits& reference, const accel::PrimaryRays& rays) {
-  accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    const std::optional<accel::embree::ExactHit>& hit = reference.hits()[i];
-    if (hit) hits.set(i, accel::Hit{static_cast<float>(hit->t), hit->primitive});
-  }
-  return hits;
-}
-
 /// Of all rays, camera rays first.
 std::uint64_t hash_of(const accel::PrimaryRays& rays, const render::RecordedPicture& picture) {
   std::string hashes = rays::hex_digits(rays::fingerprint(rays));
@@ -106,13 +105,6 @@ std::uint64_t hash_of(const accel::PrimaryRays& rays, const render::RecordedPict
   return rays::fingerprint(hashes);
 }
 
-std::uint64_t hash_of(const render::Image& image) {
-  const std::span<const glm::vec3> pixels = image.pixels();
-  return rays::fingerprint(
-      std::string_view(reinterpret_cast<const char*>(pixels.data()),  // NOLINT: bytes
-                       pixels.size_bytes()));
-}
-
 /// The picture of `render --shade whitted`, on one thread: camera rays by what the structure has
 /// for images (beams), the rest ray by ray, shading included. Not the picture is verified but every
 /// answer that it depends on, reflected, refracted and shadow rays too: a second drawing, with all
@@ -121,23 +113,23 @@ class PictureTask : public Task {
  public:
   PictureTask(const CellGroup& group, int core)
       : Task(group),
-        rays_(group.camera, group.resolution.width, group.resolution.height, group.samples),
+        rays_(group.image().rays()),
         options_(render::whitted_options(group.rays)),
         reference_(*group.scene, rays_),
         hits_(rays_.width(), rays_.height(), rays_.samples()),
         image_(rays_.width(), rays_.height()) {
     const accel::embree::EmbreeOracle oracle(scene(), glm::length(glm::dvec3(rays_.eye())));
-    const render::RecordedPicture picture = render::record_picture(
-        scene(), render::OracleQueries(oracle), rays_, rounded(reference_, rays_), options_,
-        rays::HitCheck(scene(), "the oracle"));
+    const render::RecordedPicture picture =
+        render::record_picture(scene(), render::oracle_queries(oracle), rays_, reference_.rounded(),
+                               options_, rays::HitCheck(scene(), "the oracle"));
     set_facts(picture);
     // What the picture takes without a structure: its results are known.
     hits_ = picture.primary;
     const auto& [reflected, refracted, shadow] = picture.asked;
     shading_ms_ = harness_ms(core, [&] {
-      const render::ReplayedAnswers mirrors(reflected);
-      const render::ReplayedAnswers glass(refracted);
-      const render::ReplayedAnswers lights(shadow);
+      const auto mirrors = render::replayed_results(reflected);
+      const auto glass = render::replayed_results(refracted);
+      const auto lights = render::replayed_results(shadow);
       draw({&mirrors, &glass, &lights});
     });
   }
@@ -155,9 +147,9 @@ class PictureTask : public Task {
     accel::WorkCounters all;
     render::ByFollowingRays<accel::WorkCounters> following;
     structure.trace(rays_, hits_, &all);
-    const render::CountedQueries reflected(structure, following[0]);
-    const render::CountedQueries refracted(structure, following[1]);
-    const render::CountedQueries shadow(structure, following[2]);
+    const auto reflected = render::counted_queries(structure, following[0]);
+    const auto refracted = render::counted_queries(structure, following[1]);
+    const auto shadow = render::counted_queries(structure, following[2]);
     const render::RayCensus census = draw({&reflected, &refracted, &shadow});
 
     CountedWork work;
@@ -174,7 +166,7 @@ class PictureTask : public Task {
   }
   std::uint64_t fingerprint() const override {
     return rays::fingerprint(rays::hex_digits(rays::fingerprint(hits_)) +
-                             rays::hex_digits(hash_of(image_)));
+                             rays::hex_digits(render::fingerprint(image_)));
   }
 
   Verification verify_results(const accel::Accelerator& structure,
@@ -189,15 +181,7 @@ class PictureTask : public Task {
     image_ = picture.image;
     const std::vector<render::VerifiedRays> verified =
         render::verify_recorded_picture(reference_, std::move(picture), choice.info().conformance);
-    Verification found{render::sum_of(verified), {}};
-    for (const render::VerifiedRays& rays : verified) {
-      if (verify::is_right(rays.report.verdict)) continue;
-      for (const verify::Mismatch& example : rays.report.examples) {
-        found.examples.push_back(
-            fmt::format("{} rays, {}", rays.kind, verify::describe(scene(), rays.input, example)));
-      }
-    }
-    return found;
+    return {render::sum_of(verified), render::described_examples(scene(), verified)};
   }
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-// What the contenders of a group trace, whatever it is.
+// What the contenders of a group trace: rays, or a whole picture.
 
 #include <cstdint>
 #include <map>
@@ -22,7 +22,7 @@ struct Verification {
   std::vector<std::string> examples;  ///< disputed rays, described, where the verdict is bad
 };
 
-/// Rays, and room for one set of answers: contenders take turns.
+/// Rays, and one buffer for their results: contenders take turns.
 class Task {
  public:
   Task(const Task&) = delete;
@@ -35,16 +35,16 @@ class Task {
     return {group_.camera, static_cast<std::size_t>(facts_.rays), group_.threads};
   }
 
-  /// A clause on rays that are not as one expects.
+  /// A clause about rays that are not as expected.
   virtual std::optional<std::string> warning() const { return std::nullopt; }
 
-  /// Overwrites all answers with invalid ones: the differ finds every one left unwritten.
+  /// Overwrites all results with invalid ones: the differ finds each that is left unwritten.
   virtual void poison() = 0;
-  /// Asks a structure. What is timed.
+  /// Traces with a structure. This is what is timed.
   virtual void ask(const accel::Accelerator& structure) = 0;
   /// The same, counting work.
   virtual CountedWork count(const accel::Accelerator& structure) = 0;
-  /// Of all answers, bit for bit.
+  /// Of all results, bit for bit.
   virtual std::uint64_t fingerprint() const = 0;
   /// Verifies the answers; may have `structure`, which `choice` has built, trace again for it.
   virtual Verification verify_results(const accel::Accelerator& structure,

@@ -99,26 +99,13 @@ std::array<Compared, 4> compared(const render::RayCensus& ours,
 
 nlohmann::ordered_json to_json(const CensusResult& result) {
   const render::RayCensus& census = result.census;
-  nlohmann::ordered_json out{{"scene", result.scene},
-                             {"lights", result.lights},
-                             {"eye_rays", census.eye},
-                             {"eye_hits", census.eye_hits},
-                             {"reflected_rays", census.reflected},
-                             {"refracted_rays", census.refracted},
-                             {"totally_reflected", census.totally_reflected},
-                             {"secondary_hits", census.secondary_hits},
-                             {"too_faint", census.too_faint},
-                             {"shadow_rays", census.shadow},
-                             {"shadow_hidden", census.shadow_hidden},
-                             {"shadow_cached", census.shadow_cached},
-                             {"shadow_listed", census.shadow_listed},
-                             {"shadow_tests", census.shadow_tests},
-                             {"shadow_queries", census.shadow_queries},
-                             {"shadow_bytes", result.shadow_bytes},
-                             {"build_ms", result.build_ms},
-                             {"eye_ms", result.eye_ms},
-                             {"preparation_ms", result.preparation_ms},
-                             {"picture_ms", result.picture_ms}};
+  nlohmann::ordered_json out{{"scene", result.scene}, {"lights", result.lights}};
+  for (const render::CensusCount& each : render::kCensusCounts) out[each.name] = census.*each.count;
+  out["shadow_bytes"] = result.shadow_bytes;
+  out["build_ms"] = result.build_ms;
+  out["eye_ms"] = result.eye_ms;
+  out["preparation_ms"] = result.preparation_ms;
+  out["picture_ms"] = result.picture_ms;
   if (result.full) {
     out["full_rays"] = result.full->rays;
     out["full_picture_ms"] = result.full->picture_ms;
@@ -212,10 +199,8 @@ void print_json(const Request& request, const std::vector<CensusResult>& results
 }
 
 experiments::CensusOptions options_of(const Request& request) {
-  if (!by_spd(request) && request.rules != "image") {
-    throw InputError(
-        fmt::format("there are no rules '{}'; choose from: spd, image", request.rules));
-  }
+  constexpr std::array<std::string_view, 2> kRules{"spd", "image"};
+  base::place_of_name("rules", request.rules, kRules);
   if (by_spd(request) && (!request.image.resolution.empty() || request.image.samples != 1)) {
     throw InputError(
         "the rules of SPD fix the rays, 513x513 through the corners of pixels; "

@@ -1,20 +1,22 @@
-// beambench completion: a shell's script, generated from the program's options.
+// beambench completion, beambench man: generated from the program's options.
 
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include "accel/core/registry.hpp"
+#include "harness/bench/record/machine.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/rays/ray_kind.hpp"
 #include "harness/render/diagnostics.hpp"
 #include "harness/render/shading.hpp"
-#include "harness/render/whitted_options.hpp"
+#include "harness/render/shadows.hpp"
 #include "scenes/catalogue.hpp"
 
 namespace beambench::cli {
@@ -22,47 +24,28 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-Words structure_names(std::string extra) {
-  Words names{std::move(extra)};
-  for (const accel::StructureInfo& info : accel::registry().structures())
-    names.push_back(info.name);
-  return names;
-}
-
-Words scene_names() {
-  Words names;
-  for (const scenes::SceneInfo& info : scenes::scene_catalogue()) names.push_back(info.name);
-  return names;
-}
-
-Words ray_kind_names() {
-  Words names;
-  for (const rays::RayKindInfo& info : rays::ray_kinds()) names.emplace_back(info.name);
-  return names;
-}
-
-/// The names that 'beambench list' takes.
-Words listed_names() {
-  Words names;
-  for (const accel::StructureInfo& info : accel::registry().structures())
-    names.push_back(info.name);
-  for (const Words& more : {scene_names(), ray_kind_names()}) {
-    names.insert(names.end(), more.begin(), more.end());
-  }
-  return names;
+/// `first`, then the names of structures, scenes or kinds of rays.
+template <class... Infos>
+Words names_with(Words first, const Infos&... all) {
+  const auto add = [&](const auto& infos) {
+    for (const auto& info : infos) first.push_back(info.name);
+  };
+  (add(all), ...);
+  return first;
 }
 
 /// The valid values of options by their name; file names for all others.
 const std::map<std::string, Words>& known_values() {
+  const auto structures = accel::registry().structures();
   static const std::map<std::string, Words> values{
-      {"SCENE", scene_names()},
-      {"NAME", listed_names()},
+      {"SCENE", names_with({}, scenes::scene_catalogue())},
+      {"NAME", names_with({}, structures, scenes::scene_catalogue(), rays::ray_kinds())},
       {"SHELL", {"bash", "zsh", "fish"}},
-      {"--accel", structure_names("all")},
-      {"--difference", structure_names(render::kOracleName)},
+      {"--accel", names_with({"all"}, structures)},
+      {"--difference", names_with({render::kOracleName}, structures)},
       {"--heatmap", {accel::kCounterNames.begin(), accel::kCounterNames.end()}},
       {"--overlay", {render::overlay_names().begin(), render::overlay_names().end()}},
-      {"--rays", ray_kind_names()},
+      {"--rays", names_with({}, rays::ray_kinds())},
       {"--rules", {"spd", "image"}},
       {"--shadows", {render::shadow_method_names().begin(), render::shadow_method_names().end()}},
       {"--shade", {render::shading_names().begin(), render::shading_names().end()}}};
@@ -202,6 +185,67 @@ std::string script_for(const std::string& shell, const CLI::App& app) {
   return bash_script(app);
 }
 
+/// A text escaped for roff: no character is taken for a request (groff_char(7), roff(7)).
+std::string escaped(std::string_view text) {
+  std::string out;
+  bool line_begins = true;
+  for (const char c : text) {
+    if (line_begins && (c == '.' || c == '\'')) out += "\\&";
+    if (c == '\\') {
+      out += "\\e";
+    } else if (c == '-') {
+      out += "\\-";
+    } else {
+      out += c;
+    }
+    line_begins = c == '\n';
+  }
+  return out;
+}
+
+/// Lines without filling.
+std::string verbatim(std::string_view text) { return fmt::format(".nf\n{}\n.fi\n", escaped(text)); }
+
+std::string bold(const std::string& word) { return R"(\fB)" + escaped(word) + R"(\fR)"; }
+
+/// `\fB\-o\fR, \fB\-\-output\fR \fITEXT\fR`, and in the next lines what it is for.
+std::string option_entry(const CLI::Option& option) {
+  std::string names;
+  if (option.get_positional()) {
+    names = R"(\fI)" + escaped(option.get_name(true)) + R"(\fR)";
+  } else {
+    for (const std::string& name : names_of(option)) names += bold(name) + ", ";
+    names.resize(names.size() - 2);
+    if (takes_value(option)) names += " \\fIVALUE\\fR";
+  }
+  std::string about = escaped(option.get_description());
+  if (!option.get_default_str().empty()) {
+    about += fmt::format(" (default: {})", escaped(option.get_default_str()));
+  }
+  if (option.get_required()) about += " (required)";
+  return fmt::format(".TP\n{}\n{}\n", names, about);
+}
+
+std::string command_section(const CLI::App& command) {
+  std::string out = fmt::format(".SS beambench {}\n{}.\n", escaped(command.get_name()),
+                                escaped(command.get_description()));
+  for (const CLI::Option* option : command.get_options()) out += option_entry(*option);
+  return out + ".PP\n" + verbatim(command.get_footer());
+}
+
+std::string manual_page(const CLI::App& app) {
+  std::string out = fmt::format(
+      ".TH BEAMBENCH 1 \"\" \"beambench {}\" \"User Commands\"\n"
+      ".SH NAME\nbeambench \\- compares the acceleration structures of ray tracing\n"
+      ".SH SYNOPSIS\n.B beambench\n\\fICOMMAND\\fR [\\fIOPTION\\fR]...\n"
+      ".SH DESCRIPTION\n{}\n.SH OPTIONS\n",
+      escaped(bench::build_info().version), escaped(app.get_description()));
+  for (const CLI::Option* option : app.get_options()) out += option_entry(*option);
+  out += ".SH COMMANDS\n";
+  for (const CLI::App* command : app.get_subcommands({})) out += command_section(*command);
+  return out + ".SH EXAMPLES AND EXIT STATUS\n" + verbatim(app.get_footer());
+}
+
 }  // namespace
 
 void add_completion_command(CLI::App& app, int&) {
@@ -217,6 +261,15 @@ void add_completion_command(CLI::App& app, int&) {
       "  beambench completion bash\n"
       "  beambench completion fish");
   command->callback([shell, &app] { fmt::print("{}", script_for(*shell, app)); });
+}
+
+void add_man_command(CLI::App& app, int&) {
+  CLI::App* command = app.add_subcommand("man", "Print the manual page as roff");
+  command->footer(
+      "Where beambench is installed, 'man beambench' shows it.\n"
+      "Examples:\n"
+      "  beambench man > beambench.1");
+  command->callback([&app] { fmt::print("{}", manual_page(app)); });
 }
 
 }  // namespace beambench::cli

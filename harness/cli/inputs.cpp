@@ -10,35 +10,12 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "harness/rays/resolution.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/scene.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::cli {
-
-void add_scene_option(CLI::App& command, std::string& scene) {
-  command.add_option("SCENE", scene, kSceneHelp)->required();
-}
-
-void add_camera_option(CLI::App& command, ViewRequest& request) {
-  command.add_option("--camera", request.camera, "By name (default: the scene's first)");
-}
-
-void add_view_options(CLI::App& command, ViewRequest& request) {
-  add_camera_option(command, request);
-  const auto add = [&](const char* name, std::string& value, const char* help) {
-    command.add_option(name, value, help)->type_name("X,Y,Z");
-  };
-  add("--from", request.from, "Eye point, in place of the camera's");
-  add("--at", request.at, "Point that the camera looks at");
-  add("--up", request.up, "Up direction in the image");
-  command
-      .add_option("--angle", request.angle,
-                  "Vertical field of view in degrees, more than 0 and less than 180")
-      ->type_name("DEGREES");
-}
-
 namespace {
 
 /// `option` names the value in messages.
@@ -62,13 +39,13 @@ glm::vec3 parse_vector(std::string_view option, std::string_view text) {
 }
 
 void require_view(const scenes::Camera& camera) {
-  const glm::dvec3 way = glm::dvec3(camera.at) - glm::dvec3(camera.from);
-  if (glm::length(way) == 0.0) {
+  const glm::dvec3 view = glm::dvec3(camera.at) - glm::dvec3(camera.from);
+  if (glm::length(view) == 0.0) {
     throw InputError("--from and --at are the same point; look at another one");
   }
   const glm::dvec3 up(camera.up);
   if (glm::length(up) == 0.0 ||
-      glm::length(glm::cross(glm::normalize(way), glm::normalize(up))) < 1e-6) {
+      glm::length(glm::cross(glm::normalize(view), glm::normalize(up))) < 1e-6) {
     throw InputError(
         "the view direction is parallel to the up direction; give another with --up, such as "
         "0,0,1");
@@ -76,6 +53,28 @@ void require_view(const scenes::Camera& camera) {
 }
 
 }  // namespace
+
+void add_scene_option(CLI::App& command, std::string& scene) {
+  command.add_option("SCENE", scene, kSceneHelp)->required();
+}
+
+void add_camera_option(CLI::App& command, ViewRequest& request) {
+  command.add_option("--camera", request.camera, "By name (default: the scene's first)");
+}
+
+void add_view_options(CLI::App& command, ViewRequest& request) {
+  add_camera_option(command, request);
+  const auto add = [&](const char* name, std::string& value, const char* help) {
+    command.add_option(name, value, help)->type_name("X,Y,Z");
+  };
+  add("--from", request.from, "Eye point, in place of the camera's");
+  add("--at", request.at, "Point that the camera looks at");
+  add("--up", request.up, "Up direction in the image");
+  command
+      .add_option("--angle", request.angle,
+                  "Vertical field of view in degrees, more than 0 and less than 180")
+      ->type_name("DEGREES");
+}
 
 scenes::Camera choose_camera(const scenes::Scene& scene, const ViewRequest& request) {
   scenes::Camera camera =
@@ -108,17 +107,12 @@ accel::StructureChoice choose_one(std::string_view option, std::string_view text
 
 rays::ImageOfRays choose_image(const scenes::Scene& scene, const ImageRequest& request) {
   const scenes::Camera camera = choose_camera(scene, request.view);
-  const rays::Resolution resolution = request.resolution.empty()
-                                          ? rays::Resolution{camera.width, camera.height}
-                                          : rays::parse_resolution(request.resolution);
-  const auto samples = accel::sample_offsets(request.samples).size();
-  rays::require_ray_count(resolution, static_cast<int>(samples));
-  return {camera, resolution, request.samples};
+  return rays::image_of(camera, chosen_resolution(request), request.samples);
 }
 
-accel::PrimaryRays choose_rays(const scenes::Scene& scene, const ImageRequest& request) {
-  const rays::ImageOfRays image = choose_image(scene, request);
-  return {image.camera, image.resolution.width, image.resolution.height, image.samples};
+std::optional<rays::Resolution> chosen_resolution(const ImageRequest& request) {
+  if (request.resolution.empty()) return std::nullopt;
+  return rays::parse_resolution(request.resolution);
 }
 
 void add_size_options(CLI::App& command, ImageRequest& request) {

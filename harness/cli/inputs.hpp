@@ -13,7 +13,7 @@
 #include "accel/core/registry.hpp"
 #include "harness/base/messages.hpp"
 #include "harness/rays/trace_input.hpp"
-#include "harness/render/whitted_options.hpp"
+#include "harness/render/shadows.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::cli {
@@ -58,7 +58,8 @@ struct ImageRequest {
 };
 /// Throws InputError for a wrong resolution, camera or number of samples.
 rays::ImageOfRays choose_image(const scenes::Scene& scene, const ImageRequest& request);
-accel::PrimaryRays choose_rays(const scenes::Scene& scene, const ImageRequest& request);
+/// The resolution of the options; nothing where it is the camera's own.
+std::optional<rays::Resolution> chosen_resolution(const ImageRequest& request);
 /// Adds --resolution and --samples.
 void add_size_options(CLI::App& command, ImageRequest& request);
 /// The same and the options of the view.

@@ -118,20 +118,16 @@ void print_plugins() {
   }
 }
 
+/// A structure, scene or kind of rays; `note` stands behind its name.
+template <class Info>
+void print_entry(const Info& info, const std::string& note) {
+  fmt::print("\n  {}{}\n{}", info.name, note, wrap(info.summary, 6));
+  print_parameters(info.parameters);
+}
+
 void print_structure(const accel::StructureInfo& info) {
-  fmt::print("\n  {}  [{}]{}\n{}", info.name, conformance_name(info.conformance),
-             origin_text(info.origin), wrap(info.summary, 6));
-  print_parameters(info.parameters);
-}
-
-void print_scene(const scenes::SceneInfo& info) {
-  fmt::print("\n  {}{}\n{}", info.name, origin_text(info.origin), wrap(info.summary, 6));
-  print_parameters(info.parameters);
-}
-
-void print_ray_kind(const rays::RayKindInfo& info) {
-  fmt::print("\n  {}\n{}", info.name, wrap(info.summary, 6));
-  print_parameters(info.parameters);
+  print_entry(
+      info, fmt::format("  [{}]{}", conformance_name(info.conformance), origin_text(info.origin)));
 }
 
 void print_counters(std::span<const accel::CounterInfo> counters) {
@@ -190,11 +186,11 @@ void print_named(const std::string& spec) {
   }
   if (scene != nullptr) {
     fmt::print("Scene, as {}:parameter=value,...\n", name);
-    print_scene(*scene);
+    print_entry(*scene, origin_text(scene->origin));
   }
   if (rays != nullptr) {
     fmt::print("Kind of rays, for --rays {}:parameter=value,...\n", name);
-    print_ray_kind(*rays);
+    print_entry(*rays, "");
   }
 }
 
@@ -207,11 +203,13 @@ void print_text() {
                   "design.",
                   2));
   fmt::print("\nScenes, as NAME:parameter=value,... (or the path of a mesh or of an NFF file):\n");
-  for (const scenes::SceneInfo& info : scenes::scene_catalogue()) print_scene(info);
+  for (const scenes::SceneInfo& info : scenes::scene_catalogue()) {
+    print_entry(info, origin_text(info.origin));
+  }
   print_meshes();
   print_plugins();
   fmt::print("\nKinds of rays, for --rays (or the path of a .rays file, see 'beambench rays'):\n");
-  for (const rays::RayKindInfo& info : rays::ray_kinds()) print_ray_kind(info);
+  for (const rays::RayKindInfo& info : rays::ray_kinds()) print_entry(info, "");
 }
 
 Json counters_json(std::span<const accel::CounterInfo> counters) {

@@ -15,10 +15,10 @@
 #include <fmt/ranges.h>
 
 #include "harness/base/messages.hpp"
-#include "harness/bench/record/build_info.hpp"
+#include "harness/bench/record/machine.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
-#include "harness/plugin/guard.hpp"
+#include "harness/plugin/activity.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "scenes/core/error.hpp"
@@ -43,7 +43,7 @@ int fail(const std::string& message, int exit_code) {
 }
 
 int fail_to_print() {
-  return fail("cannot write to the standard output; make room where it goes", base::kInvalidInput);
+  return fail("cannot write to the standard output; make room on its disk", base::kInvalidInput);
 }
 
 using Arguments = std::vector<std::string>;
@@ -134,16 +134,11 @@ int run_command_line(const Arguments& arguments, const std::vector<std::string>&
     return fail(error.what(), base::kMismatch);
   } catch (const rays::InvalidHit& error) {
     return fail(error.what(), base::kMismatch);
-  } catch (const std::bad_alloc&) {
-    return fail("out of memory; choose a smaller scene, resolution or structure",
-                base::kInvalidInput);
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(error.what(), base::kInvalidInput);
   } catch (const std::exception& error) {
     if (std::ferror(stdout) != 0) return fail_to_print();  // thrown while printing
-    return fail(
-        fmt::format("internal error, please report it with the command line: {}", error.what()),
-        base::kInternalError);
+    return base::report_failure("beambench", error);
   }
 }
 

@@ -74,9 +74,9 @@ void print_json(const scenes::Scene& scene, const Request& request,
 bool show_mirrors(const Request& request) {
   const accel::StructureChoice choice = choose_one("--accel", request.structure);
   const scenes::Scene scene = open_scene(request.scene);
-  const accel::PrimaryRays rays = choose_rays(scene, request.image);
-  const auto structure =
-      choice.build(scene, rays::workload_of(choose_image(scene, request.image), rays));
+  const rays::ImageOfRays image = choose_image(scene, request.image);
+  const accel::PrimaryRays rays = image.rays();
+  const auto structure = choice.build(scene, rays::workload_of(image, rays));
   const accel::beam::BeamTracer& tracer = require_beams(*structure, choice);
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
   tracer.trace(rays, hits, nullptr);

@@ -14,7 +14,7 @@
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "harness/rays/trace_with_progress.hpp"
+#include "harness/rays/trace_results.hpp"
 #include "harness/render/diagnostics.hpp"
 #include "harness/render/picture/image.hpp"
 #include "harness/render/picture/image_file.hpp"
@@ -201,12 +201,13 @@ void render(const Request& request) {
   std::optional<render::Overlay> overlay;
   if (!request.overlay.empty()) overlay = render::parse_overlay(request.overlay, choice.info());
   const scenes::Scene scene = open_scene(request.scene);
-  const accel::PrimaryRays rays = choose_rays(scene, request.image);
+  const rays::ImageOfRays image = choose_image(scene, request.image);
+  const accel::PrimaryRays rays = image.rays();
 
   base::Progress progress(1);
   progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
-  const auto accelerator = choice.build(
-      scene, rays::workload_of(choose_image(scene, request.image), rays, request.whitted.threads));
+  const auto accelerator =
+      choice.build(scene, rays::workload_of(image, rays, request.whitted.threads));
   rays::TraceResults results = rays::make_results(rays);
   auto& hits = std::get<accel::HitBuffer>(results);
   const rays::HitCheck check(scene, choice);
@@ -272,8 +273,9 @@ void add_render_command(CLI::App& app, int&) {
       "and a structure's own. A .png gets a legend; an .exr holds the counts beside linear float\n"
       "R, G, B, the depth Z and the primitive id (4294967295 for a miss). --difference colors\n"
       "pixels by the classes of 'beambench verify --help'. --overlay beams colors those that end "
-      "at occupied leaves, those that go\n"
-      "on and those that leave the scene; --overlay cells leaves out what cells before them hide.\n"
+      "at occupied leaves, those that\n"
+      "continue and those that leave the scene; --overlay cells leaves out what cells before them "
+      "hide.\n"
       "Examples:\n"
       "  beambench render escena1 -o escena1.png\n"
       "  beambench render balls -o from-above.png --from 0,0,5 --up 0,1,0 --angle 30\n"

@@ -33,16 +33,41 @@ namespace {
 /// signals.
 class Interruption {
  public:
-  explicit Interruption(std::string last_line);
-  ~Interruption();
+  explicit Interruption(std::string last_line) : last_line_(std::move(last_line)) {
+    ::sigemptyset(&signals_);
+    ::sigaddset(&signals_, SIGINT);
+    ::sigaddset(&signals_, SIGTERM);
+    ::pthread_sigmask(SIG_BLOCK, &signals_, &previous_);
+    waiting_ = std::jthread([this](const std::stop_token& stop) {
+      int signal = 0;
+      while (::sigwait(&signals_, &signal) != 0) {
+      }
+      if (!stop.stop_requested()) end();
+    });
+  }
+  ~Interruption() {
+    waiting_.request_stop();
+    ::pthread_kill(waiting_.native_handle(), SIGTERM);  // to that thread alone
+    waiting_.join();
+    ::pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
+  }
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
-  void set_last_line(std::string line);
+  void set_last_line(std::string line) {
+    const std::lock_guard lock(mutex_);
+    last_line_ = std::move(line);
+  }
 
  private:
-  void wait(const std::stop_token& stop);
-  [[noreturn]] void end();
+  [[noreturn]] void end() {
+    const std::lock_guard lock(mutex_);
+    ::flockfile(stderr);  // for good: nothing follows the last line
+    const char* wipe = ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
+    fmt::print(stderr, "{}{}\n", wipe, last_line_);
+    std::fflush(stderr);
+    std::_Exit(base::kInterrupted);
+  }
 
   std::mutex mutex_;
   std::string last_line_;
@@ -50,42 +75,6 @@ class Interruption {
   sigset_t previous_{};
   std::jthread waiting_;
 };
-
-Interruption::Interruption(std::string last_line) : last_line_(std::move(last_line)) {
-  ::sigemptyset(&signals_);
-  ::sigaddset(&signals_, SIGINT);
-  ::sigaddset(&signals_, SIGTERM);
-  ::pthread_sigmask(SIG_BLOCK, &signals_, &previous_);
-  waiting_ = std::jthread([this](const std::stop_token& stop) { wait(stop); });
-}
-
-Interruption::~Interruption() {
-  waiting_.request_stop();
-  ::pthread_kill(waiting_.native_handle(), SIGTERM);  // to that thread alone
-  waiting_.join();
-  ::pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
-}
-
-void Interruption::set_last_line(std::string line) {
-  const std::lock_guard lock(mutex_);
-  last_line_ = std::move(line);
-}
-
-void Interruption::wait(const std::stop_token& stop) {
-  int signal = 0;
-  while (::sigwait(&signals_, &signal) != 0) {
-  }
-  if (!stop.stop_requested()) end();
-}
-
-void Interruption::end() {
-  const std::lock_guard lock(mutex_);
-  ::flockfile(stderr);  // for good: nothing follows the last line
-  const char* wipe = ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
-  fmt::print(stderr, "{}{}\n", wipe, last_line_);
-  std::fflush(stderr);
-  std::_Exit(base::kInterrupted);
-}
 
 struct RunRequest {
   std::string config;
@@ -207,9 +196,9 @@ bench::SweepOutcome run_resumable(const bench::SweepConfig& config, bench::Plan 
   }
 }
 
-/// Where a plug-in crashed an earlier process over a cell, this one continues behind it.
-void continue_behind_crashed_cells(RunRequest& request, const plugin::Activity& activity) {
-  if (activity.broken_cells().empty()) return;
+/// Where a plug-in crashed an earlier process over a cell, this one continues after it.
+void continue_after_crashed_cells(RunRequest& request, const plugin::Activity& activity) {
+  if (activity.crashed_cells().empty()) return;
   request.config.clear();
   request.output.clear();
   request.resume = activity.read(plugin::Activity::Line::kRunFolder);
@@ -217,7 +206,7 @@ void continue_behind_crashed_cells(RunRequest& request, const plugin::Activity& 
 
 int run(RunRequest request, plugin::Activity& activity) {
   Interruption interruption("interrupted; nothing was measured yet");
-  continue_behind_crashed_cells(request, activity);
+  continue_after_crashed_cells(request, activity);
   const bench::BenchmarkFlags flags = bench::parse_benchmark_flags(request.benchmark_flags);
   for (const std::string& note : flags.notes) fmt::print(stderr, "{}\n", note);
   bench::SweepConfig config = bench::read_sweep(config_path(request), accel::registry());

@@ -15,8 +15,8 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
-#include "harness/render/picture/heat_map.hpp"
 #include "harness/render/picture/image_file.hpp"
+#include "harness/render/picture/legend.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
 
@@ -81,8 +81,7 @@ void compare(const Request& request) {
   }
   const scenes::Scene scene = open_scene(request.scene);
   const rays::ImageOfRays image = choose_image(scene, request.image);
-  const auto structure =
-      choice.build(scene, rays::workload_of(image, choose_rays(scene, request.image)));
+  const auto structure = choice.build(scene, rays::workload_of(image, image.rays()));
   const accel::beam::BeamTracer& tracer = require_beams(*structure, choice);
   base::Progress progress(experiments::sampling_steps());
   const auto results =

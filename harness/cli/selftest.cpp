@@ -14,7 +14,7 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/base/progress.hpp"
-#include "harness/bench/record/build_info.hpp"
+#include "harness/bench/record/machine.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/text.hpp"
 #include "scenes/core/error.hpp"

@@ -61,29 +61,26 @@ Finding examine(const accel::StructureChoice& choice, const scenes::Scene& scene
   return finding;
 }
 
-/// One line of the table: a name and how to show it for a structure.
-class StatisticsTable {
- public:
-  explicit StatisticsTable(const std::vector<Finding>& findings)
-      : findings_(findings), table_(header(findings)) {}
+/// A table with a column for each structure.
+struct StatisticsTable {
+  explicit StatisticsTable(const std::vector<Finding>& all)
+      : findings(all),
+        table(row("", [](const Finding& finding) { return finding.choice.short_label(); })) {}
 
   template <class Show>
+  std::vector<std::string> row(std::string name, Show show) const {
+    std::vector<std::string> cells{std::move(name)};
+    for (const Finding& finding : findings) cells.push_back(show(finding));
+    return cells;
+  }
+  /// A line: a name and how to show it for a structure.
+  template <class Show>
   void add(std::string name, Show show) {
-    std::vector<std::string> row{std::move(name)};
-    for (const Finding& finding : findings_) row.push_back(show(finding));
-    table_.add(std::move(row));
-  }
-  std::string text() const { return table_.text(); }
-
- private:
-  static std::vector<std::string> header(const std::vector<Finding>& findings) {
-    std::vector<std::string> names{""};
-    for (const Finding& finding : findings) names.push_back(finding.choice.short_label());
-    return names;
+    table.add(row(std::move(name), show));
   }
 
-  const std::vector<Finding>& findings_;
-  TextTable table_;
+  const std::vector<Finding>& findings;
+  TextTable table;
 };
 
 std::string or_dash(std::uint64_t value) { return value == 0 ? "-" : fmt::format("{}", value); }
@@ -154,7 +151,7 @@ void print_text(const scenes::Scene& scene, const rays::ImageOfRays& image,
   add_sizes(table, findings);
   add_work(table, findings, input.size());
   fmt::print("{}\n(1) of this one build, for information; 'beambench run' measures times\n",
-             table.text());
+             table.table.text());
   for (const Finding& finding : findings) {
     if (!finding.levels.empty()) fmt::print("{}", levels_text(finding));
   }

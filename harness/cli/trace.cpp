@@ -8,6 +8,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <glm/vec2.hpp>
 
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
@@ -29,10 +30,6 @@ struct Request {
   bool json = false;
 };
 
-struct Pixel {
-  int x, y;
-};
-
 std::optional<int> parse_whole(std::string_view text) {
   int value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -40,7 +37,7 @@ std::optional<int> parse_whole(std::string_view text) {
   return value;
 }
 
-Pixel parse_pixel(std::string_view text) {
+glm::ivec2 parse_pixel(std::string_view text) {
   const std::size_t comma = text.find(',');
   if (comma != std::string_view::npos) {
     const auto x = parse_whole(text.substr(0, comma));
@@ -58,7 +55,7 @@ std::size_t index_in_image(const Request& request, const accel::PrimaryRays& ray
     throw InputError("a primary ray is named by its pixel; give --pixel X,Y");
   }
   if (request.ray) throw InputError("a primary ray is named by --pixel; leave --ray out");
-  const Pixel pixel = parse_pixel(request.pixel);
+  const glm::ivec2 pixel = parse_pixel(request.pixel);
   if (pixel.x < 0 || pixel.x >= rays.width() || pixel.y < 0 || pixel.y >= rays.height()) {
     throw InputError(fmt::format(
         "pixel {} is outside of the image; at {}x{} pixels x is 0 to {} and y is 0 to "
@@ -86,11 +83,6 @@ std::size_t index_in_list(const Request& request, const rays::TraceInput& input)
   return *request.ray;
 }
 
-std::size_t chosen_index(const Request& request, const rays::TraceInput& input) {
-  const accel::PrimaryRays* image = input.image();
-  return image != nullptr ? index_in_image(request, *image) : index_in_list(request, input);
-}
-
 int trace(const Request& request) {
   if (!request.pixel.empty()) parse_pixel(request.pixel);
   const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
@@ -98,12 +90,14 @@ int trace(const Request& request) {
   const scenes::Scene scene = open_scene(request.scene);
   const rays::ImageOfRays image = choose_image(scene, request.image);
   const rays::TraceInput input = rays::make_trace_input(scene, image, kind);
+  const std::size_t index = input.image() != nullptr ? index_in_image(request, *input.image())
+                                                     : index_in_list(request, input);
   base::Progress progress(1);
-  const verify::RayPath path = verify::trace_path(
-      choice, scene, image, input, chosen_index(request, input), request.alone, progress);
+  const verify::RayPath path =
+      verify::trace_path(choice, scene, image, input, index, request.alone, progress);
   progress.clear();
   fmt::print("{}", request.json ? to_json(scene, path).dump(2) + '\n' : to_text(scene, path));
-  return path.judgment.diff_class == verify::DiffClass::kStructureError ? base::kMismatch
+  return path.verified.diff_class == verify::DiffClass::kStructureError ? base::kMismatch
                                                                         : base::kSuccess;
 }
 

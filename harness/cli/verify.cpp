@@ -11,15 +11,15 @@
 #include <fmt/format.h>
 
 #include "accel/core/trace_on.hpp"
-#include "harness/bench/record/build_info.hpp"
+#include "harness/bench/record/machine.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "harness/rays/ray_kind.hpp"
-#include "harness/rays/resolution.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "harness/render/diagnostics.hpp"
-#include "harness/render/verify_picture.hpp"
+#include "harness/render/verified_picture.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"

@@ -1,30 +1,161 @@
 #include "harness/cluster/image_worker.hpp"
 
 #include <algorithm>
-#include <array>
 
-#include "harness/cluster/sample_results.hpp"
+#include "harness/rays/trace_input.hpp"
 
 namespace beambench::cluster {
 namespace {
 
-constexpr std::array kCounts{&render::RayCensus::eye,
-                             &render::RayCensus::eye_hits,
-                             &render::RayCensus::reflected,
-                             &render::RayCensus::refracted,
-                             &render::RayCensus::totally_reflected,
-                             &render::RayCensus::secondary_hits,
-                             &render::RayCensus::too_faint,
-                             &render::RayCensus::shadow,
-                             &render::RayCensus::shadow_hidden,
-                             &render::RayCensus::shadow_cached,
-                             &render::RayCensus::shadow_listed,
-                             &render::RayCensus::shadow_tests,
-                             &render::RayCensus::shadow_queries};
-static_assert(sizeof(render::RayCensus) == kCounts.size() * sizeof(std::uint64_t),
-              "a count is missing");
+/// The contents of a run of results of `write_colors`.
+enum class Part : std::uint8_t { kPixels, kSample };
+
+/// The number of samples that follow each other without a gap.
+std::size_t run_length(SampleList samples) {
+  std::size_t length = 1;
+  while (length < samples.size() && samples[length] == samples[0] + length) ++length;
+  return length;
+}
+
+/// The mean of a pixel's samples, in the order and the precision of `whitted_picture`.
+template <class Color>
+glm::vec3 mean(int samples, Color color) {
+  glm::dvec3 sum(0.0);
+  for (int sample = 0; sample < samples; ++sample) sum += color(sample);
+  return {(1.0 / samples) * sum};
+}
+
+template <class Vector>
+void put_vector(const Vector& vector, ByteWriter& writer) {
+  for (int i = 0; i < 3; ++i) writer.put(vector[i]);
+}
+
+template <class Vector>
+Vector get_vector(ByteReader& reader) {
+  Vector vector;
+  for (int i = 0; i < 3; ++i) vector[i] = reader.get<typename Vector::value_type>();
+  return vector;
+}
 
 }  // namespace
+
+void write_hits(SampleList samples, const accel::HitBuffer& hits, Bytes& bytes) {
+  ByteWriter writer(bytes);
+  while (!samples.empty()) {
+    const std::size_t length = run_length(samples);
+    writer.put(samples[0]);
+    writer.put(static_cast<std::uint32_t>(length));
+    for (const std::uint32_t index : samples.first(length)) {
+      writer.put(hits.t()[index]);
+      writer.put(hits.primitive()[index]);
+    }
+    samples = samples.subspan(length);
+  }
+}
+
+std::size_t HitSink::accept(std::span<const std::byte> result) {
+  ByteReader reader(result);
+  std::size_t count = 0;
+  while (!reader.at_end()) {
+    const std::size_t first = reader.get<std::uint32_t>();
+    const std::size_t length = reader.get<std::uint32_t>();
+    if (first + length > hits_->size()) throw ProtocolError("hits of samples outside of the image");
+    for (std::size_t index = first; index < first + length; ++index) {
+      hits_->t()[index] = reader.get<float>();
+      hits_->primitive()[index] = reader.get<scenes::PrimitiveId>();
+    }
+    count += length;
+  }
+  return count;
+}
+
+void write_colors(SampleList samples, const accel::HitBuffer& hits, const accel::PrimaryRays& rays,
+                  const render::Whitted& tracer, render::Whitted::Progress& progress,
+                  const Heartbeat& heartbeat, Bytes& bytes) {
+  const auto color_of = [&](std::uint32_t index) {
+    return tracer.camera_ray_color(rays::ray_at(rays, index), hits.get(index), progress);
+  };
+  const auto each = static_cast<std::uint32_t>(hits.samples());
+  ByteWriter writer(bytes);
+  while (!samples.empty()) {
+    const std::uint32_t first = samples[0];
+    const std::size_t pixels = first % each == 0 ? run_length(samples) / each : 0;
+    if (pixels == 0) {
+      writer.put(Part::kSample);
+      writer.put(first);
+      put_vector(color_of(first), writer);
+      samples = samples.subspan(1);
+      heartbeat();
+      continue;
+    }
+    writer.put(Part::kPixels);
+    writer.put(first / each);
+    writer.put(static_cast<std::uint32_t>(pixels));
+    for (std::size_t i = 0; i < pixels; ++i) {
+      const std::uint32_t sample = samples[i * each];
+      put_vector(mean(hits.samples(),
+                      [&](int k) { return color_of(sample + static_cast<std::uint32_t>(k)); }),
+                 writer);
+      heartbeat();
+    }
+    samples = samples.subspan(pixels * each);
+  }
+}
+
+ColorSink::ColorSink(int width, int height, int samples, const glm::dvec3& background)
+    : samples_(samples),
+      background_(background),
+      image_(width, height, mean(samples, [&](int) { return background; })) {}
+
+std::size_t ColorSink::accept(std::span<const std::byte> result) {
+  ByteReader reader(result);
+  std::size_t count = 0;
+  while (!reader.at_end()) {
+    switch (reader.get<Part>()) {
+      case Part::kPixels:
+        count += accept_pixels(reader);
+        break;
+      case Part::kSample:
+        count += accept_sample(reader);
+        break;
+      default:
+        throw ProtocolError("light of an unknown kind");
+    }
+  }
+  return count;
+}
+
+std::size_t ColorSink::accept_pixels(ByteReader& reader) {
+  const std::size_t first = reader.get<std::uint32_t>();
+  const std::size_t length = reader.get<std::uint32_t>();
+  if (first + length > image_.pixels().size()) {
+    throw ProtocolError("light of pixels outside of the image");
+  }
+  for (glm::vec3& pixel : image_.pixels().subspan(first, length)) {
+    pixel = get_vector<glm::vec3>(reader);
+  }
+  return length * static_cast<std::size_t>(samples_);
+}
+
+std::size_t ColorSink::accept_sample(ByteReader& reader) {
+  const auto index = reader.get<std::uint32_t>();
+  const auto each = static_cast<std::uint32_t>(samples_);
+  if (index / each >= image_.pixels().size())
+    throw ProtocolError("light of samples outside of the image");
+  auto& samples = divided_[index / each];
+  if (samples.empty()) samples.assign(each, background_);
+  samples[index % each] = get_vector<glm::dvec3>(reader);
+  return 1;
+}
+
+render::Image ColorSink::image() const {
+  render::Image image = image_;
+  for (const auto& divided : divided_) {
+    image.pixels()[divided.first] = mean(
+        samples_, [&](int sample) { return divided.second[static_cast<std::size_t>(sample)]; });
+  }
+  return image;
+}
 
 ImageWorker::ImageWorker(const accel::beam::BeamTracer& tracer, const accel::PrimaryRays& rays,
                          const render::Whitted* light)
@@ -53,19 +184,7 @@ void ImageWorker::perform(std::span<const std::byte> task, Bytes& result,
   census_ += progress.census;
 }
 
-void ImageWorker::trace(const BeamTask& task) {
-  switch (task.kind) {
-    case BeamTask::Kind::kTestLeaf:
-      painter_.test_leaf(task.beam);
-      break;
-    case BeamTask::Kind::kSmall:
-      painter_.hand_over(task.beam, accel::beam::RayReason::kHandover);
-      break;
-    case BeamTask::Kind::kCrowded:
-      painter_.hand_over(task.beam, accel::beam::RayReason::kCrowded);
-      break;
-  }
-}
+void ImageWorker::trace(const BeamTask& task) { paint(task.kind, task.beam, painter_); }
 
 void ImageWorker::trace(const BlockTask& block) {
   if (block.left + block.width > rays_->width() || block.top + block.height > rays_->height()) {
@@ -84,13 +203,15 @@ void ImageWorker::trace(const BlockTask& block) {
 
 void ImageWorker::write_counts(Bytes& bytes) const {
   ByteWriter writer(bytes);
-  for (const auto count : kCounts) writer.put(census_.*count);
+  for (const render::CensusCount& each : render::kCensusCounts) writer.put(census_.*each.count);
 }
 
 render::RayCensus read_census(std::span<const std::byte> bytes) {
   ByteReader reader(bytes);
   render::RayCensus census;
-  for (const auto count : kCounts) census.*count = reader.get<std::uint64_t>();
+  for (const render::CensusCount& each : render::kCensusCounts) {
+    census.*each.count = reader.get<std::uint64_t>();
+  }
   return census;
 }
 

@@ -1,17 +1,68 @@
 #pragma once
-// What a consumer computes: the hits or light of beams and blocks.
+// What a consumer computes, the hits or light of beams and blocks: as bytes, and collected.
 
 #include <cstdint>
 #include <span>
+#include <unordered_map>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "accel/beam/beam_painter.hpp"
 #include "accel/beam/beam_tracer.hpp"
-#include "harness/cluster/roles.hpp"
+#include "accel/core/hit_buffer.hpp"
+#include "accel/core/primary_rays.hpp"
 #include "harness/cluster/tasks.hpp"
+#include "harness/cluster/transport.hpp"
+#include "harness/render/picture/image.hpp"
 #include "harness/render/whitted.hpp"
 
 namespace beambench::cluster {
+
+/// Indices in a hit buffer, ascending.
+using SampleList = std::span<const std::uint32_t>;
+
+/// Appends the hits of samples, 8 bytes each and 8 for each run of neighbors.
+void write_hits(SampleList samples, const accel::HitBuffer& hits, Bytes& bytes);
+
+/// Collects hits.
+class HitSink : public ResultSink {
+ public:
+  /// Nothing is hit yet. The buffer must outlive the sink.
+  explicit HitSink(accel::HitBuffer& hits) : hits_(&hits) {}
+  std::size_t accept(std::span<const std::byte> result) override;
+
+ private:
+  accel::HitBuffer* hits_;
+};
+
+/// Appends the light of samples: 12 bytes for a pixel with all its samples here, their mean; 28
+/// bytes for other samples, in double, so that the sink can add a pixel's samples in their order.
+/// `heartbeat` is called from time to time.
+void write_colors(SampleList samples, const accel::HitBuffer& hits, const accel::PrimaryRays& rays,
+                  const render::Whitted& tracer, render::Whitted::Progress& progress,
+                  const Heartbeat& heartbeat, Bytes& bytes);
+
+/// Collects light: the picture equals `whitted_picture` bit for bit.
+class ColorSink : public ResultSink {
+ public:
+  /// `background`: along rays that hit nothing.
+  ColorSink(int width, int height, int samples, const glm::dvec3& background);
+  std::size_t accept(std::span<const std::byte> result) override;
+
+  /// The picture, once all results are in.
+  render::Image image() const;
+
+ private:
+  std::size_t accept_pixels(ByteReader& reader);
+  std::size_t accept_sample(ByteReader& reader);
+
+  int samples_;
+  glm::dvec3 background_;
+  render::Image image_;
+  /// All samples of the pixels that were divided among several tasks.
+  std::unordered_map<std::uint32_t, std::vector<glm::dvec3>> divided_;
+};
 
 /// Records which samples a beam decided.
 class DecidedSamples : public accel::beam::NoBeamWatch {

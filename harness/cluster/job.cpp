@@ -1,10 +1,17 @@
 #include "harness/cluster/job.hpp"
 
-#include <fmt/format.h>
+#include <array>
+#include <concepts>
+#include <optional>
+#include <tuple>
+#include <type_traits>
 
-#include "harness/bench/record/build_info.hpp"
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "harness/bench/record/machine.hpp"
 #include "harness/rays/fingerprint.hpp"
-#include "harness/rays/resolution.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/scene.hpp"
 
@@ -32,33 +39,35 @@ std::string read_version(ByteReader& reader) {
   return reader.get_text();
 }
 
+/// What is sent of a job, in its order; the argument may be const.
+template <class AJob>
+auto members(AJob& job) requires std::same_as<std::remove_const_t<AJob>, Job> {
+  return std::tie(job.scene, job.structure, job.camera, job.resolution.width, job.resolution.height,
+                  job.samples, job.light, job.whitted.max_depth, job.whitted.min_weight,
+                  job.whitted.shadows, job.split_level, job.heartbeat_interval);
+}
+
+/// What is sent of a report behind its host and problem.
+template <class Report>
+auto members(Report& report) requires std::same_as<std::remove_const_t<Report>, ReadyReport> {
+  return std::tie(report.identity.scene, report.identity.primitives, report.identity.nodes,
+                  report.identity.references, report.build_seconds, report.structure_bytes);
+}
+
 }  // namespace
 
 rays::ImageOfRays job_image(const Job& job, const scenes::Scene& scene) {
   const scenes::Camera camera =
       job.camera.empty() ? scene.cameras.front() : scenes::find_camera(scene, job.camera);
-  const rays::Resolution resolution = job.width > 0 ? rays::Resolution{job.width, job.height}
-                                                    : rays::Resolution{camera.width, camera.height};
-  rays::require_ray_count(resolution, static_cast<int>(accel::sample_offsets(job.samples).size()));
-  return {camera, resolution, job.samples};
+  const auto resolution = job.resolution.width > 0 ? std::optional(job.resolution) : std::nullopt;
+  return rays::image_of(camera, resolution, job.samples);
 }
 
 Bytes write_job(const Job& job) {
   Bytes bytes;
   ByteWriter writer(bytes);
   write_version(writer);
-  writer.put_text(job.scene);
-  writer.put_text(job.structure);
-  writer.put_text(job.camera);
-  writer.put(job.width);
-  writer.put(job.height);
-  writer.put(job.samples);
-  writer.put(job.light);
-  writer.put(job.whitted.max_depth);
-  writer.put(job.whitted.min_weight);
-  writer.put(static_cast<std::int32_t>(job.whitted.shadows));
-  writer.put(job.split_level);
-  writer.put(job.heartbeat_interval);
+  writer.put(members(job));
   return bytes;
 }
 
@@ -71,18 +80,7 @@ Job read_job(std::span<const std::byte> bytes) {
                     this_version(), version));
   }
   Job job;
-  job.scene = reader.get_text();
-  job.structure = reader.get_text();
-  job.camera = reader.get_text();
-  job.width = reader.get<int>();
-  job.height = reader.get<int>();
-  job.samples = reader.get<int>();
-  job.light = reader.get<bool>();
-  job.whitted.max_depth = reader.get<int>();
-  job.whitted.min_weight = reader.get<double>();
-  job.whitted.shadows = static_cast<render::ShadowMethod>(reader.get<std::int32_t>());
-  job.split_level = reader.get<int>();
-  job.heartbeat_interval = reader.get<double>();
+  reader.get(members(job));
   return job;
 }
 
@@ -126,14 +124,8 @@ Bytes write_ready_report(const ReadyReport& ready_report) {
   Bytes bytes;
   ByteWriter writer(bytes);
   write_version(writer);
-  writer.put_text(ready_report.host);
-  writer.put_text(ready_report.problem);
-  writer.put(ready_report.identity.scene);
-  writer.put(ready_report.identity.primitives);
-  writer.put(ready_report.identity.nodes);
-  writer.put(ready_report.identity.references);
-  writer.put(ready_report.build_seconds);
-  writer.put(ready_report.structure_bytes);
+  writer.put(std::tie(ready_report.host, ready_report.problem));
+  writer.put(members(ready_report));
   return bytes;
 }
 
@@ -153,12 +145,7 @@ ReadyReport read_ready_report(int process, std::span<const std::byte> bytes, con
   if (!ready_report.problem.empty()) {
     throw InputError(fmt::format("{}: {}", who, ready_report.problem));
   }
-  ready_report.identity.scene = reader.get<std::uint64_t>();
-  ready_report.identity.primitives = reader.get<std::uint64_t>();
-  ready_report.identity.nodes = reader.get<std::uint64_t>();
-  ready_report.identity.references = reader.get<std::uint64_t>();
-  ready_report.build_seconds = reader.get<double>();
-  ready_report.structure_bytes = reader.get<std::uint64_t>();
+  reader.get(members(ready_report));
   if (ready_report.identity.scene != mine.scene) {
     throw InputError(
         fmt::format("{} has another scene under that name (hash {:016x}, process 0 "
@@ -176,6 +163,12 @@ ReadyReport read_ready_report(int process, std::span<const std::byte> bytes, con
                     who, text(ready_report.identity), text(mine)));
   }
   return ready_report;
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  if (::gethostname(name.data(), name.size() - 1) != 0) return "unnamed machine";
+  return name.data();
 }
 
 }  // namespace beambench::cluster

@@ -7,7 +7,7 @@
 
 #include "harness/cluster/messages.hpp"
 #include "harness/rays/trace_input.hpp"
-#include "harness/render/whitted_options.hpp"
+#include "harness/render/shadows.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::cluster {
@@ -15,10 +15,9 @@ namespace beambench::cluster {
 /// The scene's name and how it is subdivided (thesis, section 6.2.3), and the image.
 struct Job {
   std::string scene;
-  std::string structure;  ///< `beam:max_level=6,...`
-  std::string camera;     ///< empty: the scene's first
-  int width = 0;          ///< 0: the camera's
-  int height = 0;
+  std::string structure;              ///< `beam:max_level=6,...`
+  std::string camera;                 ///< empty: the scene's first
+  rays::Resolution resolution{0, 0};  ///< 0: the camera's
   int samples = 1;
   bool light = false;  ///< consumers send light; otherwise hits
   render::WhittedOptions whitted;
@@ -58,5 +57,8 @@ struct ReadyReport {
 Bytes write_ready_report(const ReadyReport& ready_report);
 /// Throws InputError, naming the process, if it has another version, a problem or another identity.
 ReadyReport read_ready_report(int process, std::span<const std::byte> bytes, const Identity& mine);
+
+/// This machine's name.
+std::string host_name();
 
 }  // namespace beambench::cluster

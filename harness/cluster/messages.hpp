@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -25,14 +26,31 @@ class ProtocolError : public std::runtime_error {
 
 static_assert(std::endian::native == std::endian::little, "messages are little-endian");
 
+/// A number, or an enumeration, which is sent as one.
+template <class Value>
+concept PlainNumber = std::is_arithmetic_v<Value> || std::is_enum_v<Value>;
+
 /// Appends to a message.
 class ByteWriter {
  public:
   explicit ByteWriter(Bytes& bytes) : bytes_(&bytes) {}
 
-  template <class Number>
-  requires std::is_arithmetic_v<Number>
-  void put(Number number) { append(&number, sizeof number); }
+  template <PlainNumber Number>
+  void put(Number number) {
+    append(&number, sizeof number);
+  }
+  /// All of them in their order.
+  template <class... Values>
+  void put(const std::tuple<Values&...>& values) {
+    const auto put_one = [this](const auto& value) {
+      if constexpr (std::is_convertible_v<decltype(value), std::string_view>) {
+        put_text(value);
+      } else {
+        put(value);
+      }
+    };
+    std::apply([&](const auto&... each) { (put_one(each), ...); }, values);
+  }
   void put_bytes(std::span<const std::byte> bytes) { append(bytes.data(), bytes.size()); }
   void put_text(std::string_view text) {
     put(static_cast<std::uint32_t>(text.size()));
@@ -57,11 +75,23 @@ class ByteReader {
 
   bool at_end() const { return bytes_.empty(); }
 
-  template <class Number>
-  requires std::is_arithmetic_v<Number> Number get() {
+  template <PlainNumber Number>
+  Number get() {
     Number number{};
     std::memcpy(&number, get_bytes(sizeof number).data(), sizeof number);
     return number;
+  }
+  /// What `ByteWriter::put` wrote of the same values.
+  template <class... Values>
+  void get(const std::tuple<Values&...>& values) {
+    const auto get_one = [this]<class Value>(Value& value) {
+      if constexpr (PlainNumber<Value>) {
+        value = get<Value>();
+      } else {
+        value = get_text();
+      }
+    };
+    std::apply([&](auto&... each) { (get_one(each), ...); }, values);
   }
   std::span<const std::byte> get_bytes(std::size_t size) {
     if (size > bytes_.size()) throw ProtocolError("a message is shorter than it should be");
@@ -87,15 +117,28 @@ class ParcelWriter {
 
   /// Begins an item; its bytes are appended to the returned message. `end_item` or `drop_item`
   /// follows.
-  Bytes& begin_item();
+  Bytes& begin_item() {
+    head_ = bytes_.size();
+    bytes_.resize(head_ + sizeof(ItemHead));
+    return bytes_;
+  }
   /// `note` goes with the item.
-  void end_item(float note = 0.0F);
+  void end_item(float note = 0.0F) {
+    const ItemHead head{static_cast<std::uint32_t>(bytes_.size() - head_ - sizeof(ItemHead)), note};
+    std::memcpy(bytes_.data() + head_, &head, sizeof head);
+    ++items_;
+  }
   void drop_item() { bytes_.resize(head_); }
 
   std::size_t items() const { return items_; }
   Bytes take() && { return std::move(bytes_); }
 
  private:
+  struct ItemHead {
+    std::uint32_t length;
+    float note;
+  };
+
   Bytes bytes_;
   std::size_t head_ = 0;  ///< of the item being written
   std::size_t items_ = 0;
@@ -110,7 +153,15 @@ struct ParcelItem {
 class ParcelReader {
  public:
   /// `bytes` must outlive the items.
-  explicit ParcelReader(std::span<const std::byte> bytes);
+  explicit ParcelReader(std::span<const std::byte> bytes) {
+    ByteReader reader(bytes);
+    number_ = reader.get<std::uint32_t>();
+    while (!reader.at_end()) {
+      const auto length = reader.get<std::uint32_t>();
+      const auto note = reader.get<float>();
+      items_.push_back({note, reader.get_bytes(length)});
+    }
+  }
 
   std::uint32_t number() const { return number_; }
   const std::vector<ParcelItem>& items() const { return items_; }

@@ -25,18 +25,14 @@ Producer::Producer(Transport& transport, TaskSource& source, ResultSink& sink, T
 ClusterReport Producer::run() {
   try {
     begin_ = transport_->seconds();
-    produce();
+    while (make_parcel()) hand_out(next_number_ - 1);
+    report_.last_walk_seconds = walked_;
     finish();
   } catch (...) {
     shut_down_all();
     throw;
   }
   return std::move(report_);
-}
-
-void Producer::produce() {
-  while (make_parcel()) hand_out(next_number_ - 1);
-  report_.last_walk_seconds = walked_;
 }
 
 /// Consumers are shut down with their last result; lost tasks are performed here.
@@ -108,7 +104,7 @@ bool Producer::make_parcel() {
 }
 
 void Producer::hand_out(Number number) {
-  take_in_what_came();
+  while (const auto message = transport_->poll()) handle(*message);
   give_lost();
   while (true) {
     if (const auto consumer = pool_.longest_waiting()) return give(number, *consumer);
@@ -163,10 +159,6 @@ bool Producer::must_work_alone() const {
          transport_->seconds() - begin_ >= options_.startup_timeout || !pool_.lost().empty();
 }
 
-void Producer::take_in_what_came() {
-  while (const auto message = transport_->poll()) handle(*message);
-}
-
 void Producer::wait_for_message() {
   const double now = transport_->seconds();
   double deadline = pool_.next_deadline();
@@ -190,7 +182,8 @@ void Producer::handle(const Message& message) {
       pool_.returned(message.from, now);
       break;
     case Tag::kFinalReport:
-      take_final_report(message);
+      of(message.from).final_report_came = true;
+      read_report(message.bytes, of(message.from));
       break;
     case Tag::kHeartbeat:
       pool_.heard(message.from, now);
@@ -222,17 +215,6 @@ void Producer::take_result(std::size_t task, ProcessId from, const ParcelItem& r
   report_.accept_seconds += row.accept_seconds;
   of(from).samples += samples;
   of(from).last_result = transport_->seconds() - begin_;
-}
-
-void Producer::take_final_report(const Message& message) {
-  ProcessReport& report = of(message.from);
-  report.final_report_came = true;
-  const ConsumerReport consumer = read_consumer_report(message.bytes);
-  report.tasks = consumer.tasks;
-  report.busy_seconds = consumer.busy_seconds;
-  report.cpu_seconds = consumer.cpu_seconds;
-  report.wait_seconds = consumer.wait_seconds;
-  report.counted = consumer.counted;
 }
 
 void Producer::declare_silent_lost() {

@@ -8,7 +8,6 @@
 
 #include "harness/cluster/messages.hpp"
 #include "harness/cluster/report.hpp"
-#include "harness/cluster/roles.hpp"
 #include "harness/cluster/transport.hpp"
 #include "harness/cluster/worker_pool.hpp"
 
@@ -51,7 +50,6 @@ class Producer {
   };
   using Number = std::uint32_t;
 
-  void produce();
   void finish();
   void wait_for_final_reports();
   bool make_parcel();
@@ -61,12 +59,10 @@ class Producer {
   void do_here(Number number);
   bool must_work_alone() const;
 
-  void take_in_what_came();
   void wait_for_message();
   void handle(const Message& message);
   void take_results(const Message& message);
   void take_result(std::size_t task, ProcessId from, const ParcelItem& result);
-  void take_final_report(const Message& message);
   void declare_silent_lost();
   void shut_down(ProcessId consumer);
   void shut_down_idle();

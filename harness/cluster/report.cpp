@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/bench/record/build_info.hpp"
 #include "harness/bench/record/machine.hpp"
 #include "harness/cluster/image_worker.hpp"
 
@@ -11,10 +10,6 @@ namespace beambench::cluster {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json to_json(const Traffic& traffic) {
-  return {{"messages", traffic.messages}, {"bytes", traffic.bytes}};
-}
 
 Json to_json(const render::RayCensus& census) {
   return {{"eye_hits", census.eye_hits},   {"reflected", census.reflected},
@@ -45,16 +40,11 @@ Json process_json(const ClusterRun& run, std::size_t process) {
   return json;
 }
 
-Traffic total(const ClusterReport& report, Traffic ProcessReport::*way) {
-  Traffic sum;
-  for (const ProcessReport& process : report.processes) {
-    sum.messages += (process.*way).messages;
-    sum.bytes += (process.*way).bytes;
-  }
-  return sum;
-}
-
 }  // namespace
+
+Json to_json(const Traffic& traffic) {
+  return {{"messages", traffic.messages}, {"bytes", traffic.bytes}};
+}
 
 Json to_json(const ClusterRun& run) {
   const bench::BuildInfo& build = bench::build_info();
@@ -65,8 +55,8 @@ Json to_json(const ClusterRun& run) {
             {"finished_utc", bench::utc_now()},
             {"scene", run.job.scene},
             {"structure", run.job.structure},
-            {"width", run.job.width},
-            {"height", run.job.height},
+            {"width", run.job.resolution.width},
+            {"height", run.job.resolution.height},
             {"samples", run.job.samples},
             {"results", run.job.light ? "light" : "hits"},
             {"work", run.work},
@@ -80,8 +70,8 @@ Json to_json(const ClusterRun& run) {
             {"producer_busy_share", report.producer_busy_share()},
             {"walk_seconds", report.walk_seconds},
             {"accept_seconds", report.accept_seconds},
-            {"from_producer", to_json(total(report, &ProcessReport::from_producer))},
-            {"to_producer", to_json(total(report, &ProcessReport::to_producer))},
+            {"from_producer", to_json(report.total(&ProcessReport::from_producer))},
+            {"to_producer", to_json(report.total(&ProcessReport::to_producer))},
             {"remarks", report.remarks},
             {"lost", report.lost}};
   Json& processes = json["each"] = Json::array();
@@ -106,8 +96,8 @@ std::string task_table(const ClusterReport& report) {
 
 std::string summary(const ClusterRun& run) {
   const ClusterReport& report = run.report;
-  const Traffic out = total(report, &ProcessReport::from_producer);
-  const Traffic back = total(report, &ProcessReport::to_producer);
+  const Traffic out = report.total(&ProcessReport::from_producer);
+  const Traffic back = report.total(&ProcessReport::to_producer);
   return fmt::format(
       "{} {} on {} processes in {:.3f} s; the producer was busy {:.0f}% of that time; it sent {} "
       "messages with {:.2f} MB and received {} with {:.2f} MB",

@@ -20,7 +20,13 @@ struct Traffic {
     ++messages;
     bytes += size;
   }
+  Traffic& operator+=(const Traffic& other) {
+    messages += other.messages;
+    bytes += other.bytes;
+    return *this;
+  }
 };
+nlohmann::ordered_json to_json(const Traffic& traffic);
 
 /// What a process did. Wall times are of the transport's clock.
 struct ProcessReport {
@@ -58,6 +64,12 @@ struct ClusterReport {
   std::vector<std::string> remarks;  ///< failures that were recovered from, a sentence each
   std::vector<ProcessId> lost;       ///< processes that hung at the end
 
+  /// The messages of all processes in one direction.
+  Traffic total(Traffic ProcessReport::*direction) const {
+    Traffic sum;
+    for (const ProcessReport& process : processes) sum += process.*direction;
+    return sum;
+  }
   /// The part of the run in which the producer did not wait for a message.
   double producer_busy_share() const {
     return seconds > 0.0 ? 1.0 - producer_wait_seconds / seconds : 1.0;

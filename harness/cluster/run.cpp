@@ -7,16 +7,19 @@
 
 #include <fmt/format.h>
 
+#include "accel/beam/beam_tracer.hpp"
+#include "accel/core/registry.hpp"
+#include "harness/base/stopwatch.hpp"
 #include "harness/cluster/consumer.hpp"
 #include "harness/cluster/image_worker.hpp"
-#include "harness/cluster/sample_results.hpp"
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/cluster/tasks.hpp"
-#include "harness/cluster/worker_state.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/render/picture/image_file.hpp"
 #include "harness/render/shading.hpp"
+#include "harness/render/whitted.hpp"
+#include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
 
@@ -37,25 +40,62 @@ void wait_for_end(Transport& transport) {
   }
 }
 
-std::unique_ptr<TaskSource> make_source(const ClusterRequest& request, const WorkerState& state) {
-  const accel::PrimaryRays& rays = state.rays();
-  if (request.blocks) {
-    return std::make_unique<BlockSource>(rays.width(), rays.height(), request.block_size);
+/// What every process builds for itself: the scene, its octree, the rays.
+struct WorkerState {
+  /// Loads and builds. Throws InputError if that fails or the structure is not `beam`. Warnings of
+  /// the scene's reader are appended to `warnings` if given.
+  explicit WorkerState(const Job& job, std::vector<std::string>* warnings = nullptr)
+      : scene(scenes::load_scene(job.scene, warnings)),
+        image(job_image(job, scene)),
+        rays(image.rays()) {
+    const accel::StructureChoice choice = accel::registry().choose(parse_spec(job.structure));
+    const base::CpuStopwatch timer;
+    structure = choice.build(scene, rays::workload_of(image, rays));
+    build_seconds = timer.seconds();
+    tracer = dynamic_cast<const accel::beam::BeamTracer*>(structure.get());
+    if (tracer == nullptr) {
+      throw InputError(fmt::format(
+          "{} traces no beams to distribute; the cluster needs 'beam', with or without parameters",
+          choice.info().name));
+    }
+    if (job.light) light.emplace(scene, *structure, job.whitted, rays::HitCheck(scene, choice));
   }
-  return std::make_unique<BeamSource>(state.tracer(), rays);
+
+  ReadyReport ready_report() const {
+    const accel::octree::Octree& octree = tracer->octree();
+    return {host_name(),
+            "",
+            {visible_hash(scene), scene.primitives.size(), octree.nodes().size(),
+             octree.reference_count()},
+            build_seconds,
+            structure->statistics().bytes};
+  }
+  ImageWorker worker() const { return {*tracer, rays, light ? &*light : nullptr}; }
+
+  scenes::Scene scene;
+  rays::ImageOfRays image;
+  accel::PrimaryRays rays;
+  std::unique_ptr<accel::Accelerator> structure;
+  const accel::beam::BeamTracer* tracer = nullptr;
+  std::optional<render::Whitted> light;  ///< nothing if the job is for hits alone
+  double build_seconds = 0.0;
+};
+
+std::unique_ptr<TaskSource> make_source(const ClusterRequest& request, const WorkerState& state) {
+  if (!request.blocks) return std::make_unique<BeamSource>(*state.tracer, state.rays);
+  return std::make_unique<BlockSource>(state.rays.width(), state.rays.height(), request.block_size);
 }
 
 /// Collects the results.
 class Result {
  public:
   Result(const WorkerState& state, bool light)
-      : hits_(light ? 1 : state.rays().width(), light ? 1 : state.rays().height(),
-              light ? 1 : state.rays().samples()),
+      : hits_(light ? 1 : state.rays.width(), light ? 1 : state.rays.height(),
+              light ? 1 : state.rays.samples()),
         hit_sink_(hits_) {
     if (!light) return;
-    const accel::PrimaryRays& rays = state.rays();
-    color_sink_.emplace(rays.width(), rays.height(), rays.samples(),
-                        glm::dvec3(render::background_color(state.scene())));
+    color_sink_.emplace(state.rays.width(), state.rays.height(), state.rays.samples(),
+                        glm::dvec3(render::background_color(state.scene)));
   }
 
   ResultSink& sink() {
@@ -65,17 +105,12 @@ class Result {
 
   render::Image picture(const WorkerState& state, render::Shading shading) const {
     if (color_sink_) return color_sink_->image();
-    rays::HitCheck(state.scene(), "structure 'beam'").require(hits_, state.rays());
-    return render::shade(state.scene(), state.rays(), hits_, shading);
+    rays::HitCheck(state.scene, "structure 'beam'").require(hits_, state.rays);
+    return render::shade(state.scene, state.rays, hits_, shading);
   }
 
   std::uint64_t hash() const {
-    if (!color_sink_) return rays::fingerprint(hits_);
-    const render::Image image = color_sink_->image();
-    const std::size_t pixels =
-        static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height());
-    return rays::fingerprint(std::string_view(reinterpret_cast<const char*>(&image.at(0, 0)),
-                                              pixels * sizeof(glm::vec3)));
+    return color_sink_ ? render::fingerprint(color_sink_->image()) : rays::fingerprint(hits_);
   }
 
  private:
@@ -97,8 +132,7 @@ void write_files(const ClusterRequest& request, const WorkerState& state, const 
 ClusterRun describe(const ClusterRequest& request, const WorkerState& state, int processes) {
   ClusterRun run;
   run.job = request.job;
-  run.job.width = state.rays().width();
-  run.job.height = state.rays().height();
+  run.job.resolution = state.image.resolution;
   run.work = request.blocks ? "blocks" : "beams";
   run.batch = request.producer.batch;
   run.in_flight = request.producer.in_flight;
@@ -118,13 +152,13 @@ ClusterRun lead(const ClusterRequest& request, Transport& transport) {
     source = make_source(request, *state);
   });
   ClusterRun run = describe(request, *state, transport.processes());
-  const auto check = [&, mine = state->identity()](ProcessId process,
-                                                   std::span<const std::byte> ready_report) {
+  const auto check = [&, mine = run.ready_reports[kProducer].identity](
+                         ProcessId process, std::span<const std::byte> ready_report) {
     run.ready_reports[static_cast<std::size_t>(process)] =
         read_ready_report(process, ready_report, mine);
   };
   Result result(*state, request.job.light);
-  ImageWorker own(state->tracer(), state->rays(), state->light());
+  ImageWorker own = state->worker();
   run.report = Producer(transport, *source, result.sink(), own, check, request.producer).run();
   run.result_hash = result.hash();
   write_files(request, *state, result, run);
@@ -141,10 +175,8 @@ void follow(Transport& transport) {
   const auto state =
       set_up_consumer(transport, [&] { return std::make_unique<WorkerState>(*job); });
   if (!state) return;
-  const WorkerState& built = **state;
-  ImageWorker worker(built.tracer(), built.rays(), built.light());
-  Consumer(transport, worker, job->heartbeat_interval)
-      .run(write_ready_report(built.ready_report()));
+  ImageWorker worker = (*state)->worker();
+  consume(transport, worker, job->heartbeat_interval, write_ready_report((*state)->ready_report()));
 }
 
 void set_up_producer(Transport& transport,
@@ -162,10 +194,7 @@ void set_up_producer(Transport& transport,
 }
 
 void report_setup_failure(Transport& transport, const std::string& problem) {
-  ReadyReport ready_report;
-  ready_report.host = host_name();
-  ready_report.problem = problem;
-  transport.send(kProducer, Tag::kReady, write_ready_report(ready_report));
+  transport.send(kProducer, Tag::kReady, write_ready_report({host_name(), problem, {}, 0.0, 0}));
   wait_for_end(transport);
 }
 

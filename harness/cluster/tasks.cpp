@@ -106,7 +106,7 @@ void read_shape(ByteReader& reader, const accel::beam::EyeView& view, accel::bea
 void write_task(const BeamTask& task, const accel::octree::Octree& octree, Bytes& bytes) {
   const accel::beam::Beam& beam = task.beam;
   ByteWriter writer(bytes);
-  writer.put(static_cast<std::uint8_t>(task.kind));
+  writer.put(task.kind);
   writer.put(leaf_code(octree, beam.corner, beam.size));
   write_shape(beam, writer);
 }
@@ -132,10 +132,19 @@ std::variant<BeamTask, BlockTask> read_task(std::span<const std::byte> bytes,
   return block;
 }
 
+std::optional<BeamTask::Kind> end_of(const accel::beam::BeamStep& step,
+                                     const accel::beam::BeamTracer& tracer,
+                                     const accel::PrimaryRays& rays) {
+  if (step.kind == accel::BeamKind::kLeaving) return std::nullopt;
+  if (step.kind == accel::BeamKind::kOccupied) return BeamTask::Kind::kTestLeaf;
+  if (step.beam.crowded()) return BeamTask::Kind::kCrowded;
+  const auto least = static_cast<double>(tracer.options().handover);
+  const double samples = accel::beam::area(step.beam.outline) * static_cast<double>(rays.count());
+  return least > 0.0 && samples < least ? std::optional(BeamTask::Kind::kSmall) : std::nullopt;
+}
+
 BeamSource::BeamSource(const accel::beam::BeamTracer& tracer, const accel::PrimaryRays& rays)
-    : tracer_(&tracer),
-      view_(tracer.octree().grid(), rays),
-      samples_(static_cast<double>(rays.count())) {
+    : tracer_(&tracer), rays_(&rays), view_(tracer.octree().grid(), rays) {
   if (!tracer.options().continue_with_rays) {
     throw InputError(
         "continue=beams cannot be distributed: what passes a leaf would have to be sent back as a "
@@ -148,24 +157,14 @@ bool BeamSource::next(Bytes& task) {
   accel::beam::BeamStep step;
   while (!queue_.waiting.empty()) {
     queue_.waiting.pop(step);
-    if (step.kind == accel::BeamKind::kLeaving) continue;
-    const auto kind =
-        step.kind == accel::BeamKind::kOccupied ? BeamTask::Kind::kTestLeaf : as_rays(step.beam);
-    if (kind) {
+    if (const auto kind = end_of(step, *tracer_, *rays_)) {
       write_task({*kind, step.beam}, tracer_->octree(), task);
       return true;
     }
+    if (step.kind == accel::BeamKind::kLeaving) continue;
     accel::beam::continue_beam(tracer_->octree(), view_, step.beam, queue_);
   }
   return false;
-}
-
-std::optional<BeamTask::Kind> BeamSource::as_rays(const accel::beam::Beam& beam) const {
-  if (beam.crowded()) return BeamTask::Kind::kCrowded;
-  const auto least = static_cast<double>(tracer_->options().handover);
-  if (least > 0.0 && accel::beam::area(beam.outline) * samples_ < least)
-    return BeamTask::Kind::kSmall;
-  return std::nullopt;
 }
 
 BlockSource::BlockSource(int width, int height, int size)

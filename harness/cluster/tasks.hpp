@@ -6,10 +6,11 @@
 #include <variant>
 
 #include "accel/beam/beam.hpp"
+#include "accel/beam/beam_painter.hpp"
 #include "accel/beam/beam_tracer.hpp"
 #include "accel/octree/octree_cursor.hpp"
 #include "harness/cluster/messages.hpp"
-#include "harness/cluster/roles.hpp"
+#include "harness/cluster/transport.hpp"
 
 namespace beambench::cluster {
 
@@ -42,6 +43,23 @@ struct BeamTask {
   accel::beam::Beam beam;
 };
 
+/// Why a beam ends where it is and its samples become rays; nothing where it continues or leaves
+/// the scene.
+std::optional<BeamTask::Kind> end_of(const accel::beam::BeamStep& step,
+                                     const accel::beam::BeamTracer& tracer,
+                                     const accel::PrimaryRays& rays);
+
+/// Traces the samples of a beam that ends.
+template <class Painter>
+void paint(BeamTask::Kind end, const accel::beam::Beam& beam, Painter& painter) {
+  if (end == BeamTask::Kind::kTestLeaf) {
+    painter.test_leaf(beam);
+  } else {
+    painter.hand_over(beam, end == BeamTask::Kind::kCrowded ? accel::beam::RayReason::kCrowded
+                                                            : accel::beam::RayReason::kHandover);
+  }
+}
+
 /// Pixels from (left, top), traced by individual rays.
 struct BlockTask {
   int left;
@@ -72,12 +90,9 @@ class BeamSource : public TaskSource {
   bool next(Bytes& task) override;
 
  private:
-  /// The reason for which an empty leaf's beam becomes rays, if any.
-  std::optional<BeamTask::Kind> as_rays(const accel::beam::Beam& beam) const;
-
   const accel::beam::BeamTracer* tracer_;
+  const accel::PrimaryRays* rays_;
   accel::beam::EyeView view_;
-  double samples_;
   accel::beam::BeamQueue queue_;
 };
 

@@ -1,8 +1,11 @@
 #pragma once
-// Messages between processes.
+// Messages between processes, and the computing parts of a run: sources of tasks, workers, sinks of
+// results.
 
+#include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "harness/cluster/messages.hpp"
 
@@ -33,15 +36,19 @@ struct Message {
   Bytes bytes;
 };
 
+/// The base of what several classes implement; used by reference only.
+class Role {
+ public:
+  Role() = default;
+  Role(const Role&) = delete;
+  Role& operator=(const Role&) = delete;
+  virtual ~Role() = default;
+};
+
 /// Sends and receives the messages of a process. Messages of one process may overtake each other.
-class Transport {
+class Transport : public Role {
  public:
   static constexpr double kForever = std::numeric_limits<double>::infinity();
-
-  Transport() = default;
-  Transport(const Transport&) = delete;
-  Transport& operator=(const Transport&) = delete;
-  virtual ~Transport() = default;
 
   virtual ProcessId self() const = 0;
   virtual int processes() const = 0;
@@ -57,6 +64,35 @@ class Transport {
   virtual std::optional<Message> wait(double seconds) = 0;
   /// Sends the producer's bytes to all; every process calls it.
   virtual void broadcast(Bytes& bytes) = 0;
+};
+
+/// Makes the producer's tasks.
+class TaskSource : public Role {
+ public:
+  /// Appends the next task to a message; false when there are no more.
+  virtual bool next(Bytes& task) = 0;
+};
+
+/// Called from time to time within a long task.
+using Heartbeat = std::function<void()>;
+
+/// Performs tasks.
+class TaskWorker : public Role {
+ public:
+  /// Performs a task and appends its result to a message. The same task gives the same bytes on
+  /// every process. Throws ProtocolError for bytes that are no task.
+  virtual void perform(std::span<const std::byte> task, Bytes& result,
+                       const Heartbeat& heartbeat) = 0;
+  /// Appends its counts, for the report.
+  virtual void write_counts(Bytes&) const {}
+};
+
+/// Collects results.
+class ResultSink : public Role {
+ public:
+  /// Results come in any order, each once. Returns the number of samples in it. Throws
+  /// ProtocolError for bytes that are no result.
+  virtual std::size_t accept(std::span<const std::byte> result) = 0;
 };
 
 }  // namespace beambench::cluster

@@ -76,8 +76,7 @@ FullPicture draw_full(const Setting& at, const render::Image& picture) {
 CensusResult take_census(const accel::StructureChoice& choice, const scenes::Scene& scene,
                          const rays::ImageOfRays& image, const CensusOptions& options,
                          base::Progress& progress) {
-  const accel::PrimaryRays primary(image.camera, image.resolution.width, image.resolution.height,
-                                   image.samples);
+  const accel::PrimaryRays primary = image.rays();
   progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
   CensusResult result{scene.name, scene.lights.size(), {}, 0, 0, 0, 0, 0, {}, render::Image(1, 1)};
   const base::Stopwatch all;

@@ -11,8 +11,8 @@
 #include "harness/rays/trace_input.hpp"
 #include "harness/render/picture/image.hpp"
 #include "harness/render/ray_census.hpp"
-#include "harness/render/shading_order.hpp"
-#include "harness/render/whitted_options.hpp"
+#include "harness/render/shadows.hpp"
+#include "harness/render/whitted_picture.hpp"
 
 namespace beambench::experiments {
 

@@ -22,10 +22,7 @@ namespace {
 
 /// Display values of an image's pixels.
 render::Image displayed(render::Image image) {
-  for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x)
-      image.at(x, y) = render::srgb_from_linear(image.at(x, y));
-  }
+  for (glm::vec3& pixel : image.pixels()) pixel = render::srgb_from_linear(pixel);
   return image;
 }
 
@@ -204,13 +201,8 @@ accel::beam::SparseSamples trace_image_space(const accel::beam::BeamTracer& trac
   }
   const auto more = choose(displayed(render::shade(scene, first, hits, render::Shading::kPreview)),
                            contrast, samples);
-  const auto width = static_cast<std::size_t>(rays.width());
   for (const std::size_t index : more) {
-    const std::size_t pixel = index / per_pixel;
-    samples.hits.set(index, tracer.closest_hit(rays.ray(static_cast<int>(pixel % width),
-                                                        static_cast<int>(pixel / width),
-                                                        static_cast<int>(index % per_pixel)),
-                                               nullptr));
+    samples.hits.set(index, tracer.closest_hit(rays::ray_at(rays, index), nullptr));
   }
   return samples;
 }

@@ -1,7 +1,9 @@
 #pragma once
-// What a process is doing, recorded where another process can read it after a crash.
+// What a process is doing, recorded where another process can read it after a crash; and the guard,
+// which is that process.
 
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -30,9 +32,9 @@ class Activity {
   std::string read(Line line) const;
 
   /// Records that a cell crashed: its key and a sentence. False where there is no space left.
-  bool add_broken_cell(std::string_view key, std::string_view how);
+  bool add_crashed_cell(std::string_view key, std::string_view how);
   /// By key.
-  std::map<std::string, std::string> broken_cells() const;
+  std::map<std::string, std::string> crashed_cells() const;
 
   /// To be inherited by the process that writes here.
   int descriptor() const { return descriptor_; }
@@ -42,5 +44,16 @@ class Activity {
   int descriptor_;
   Board* board_;
 };
+
+/// Runs this program once more with the same arguments, in a process of its own that finds by
+/// `guarded_activity` that it is guarded, and returns what this one should end with: what that one
+/// ended with, or where foreign code crashed, hung while it was loaded or ended the process, 1
+/// after a sentence on stderr that says which and where (2 when it was being loaded). Where that
+/// happened to a cell of a sweep, the program is run again, with the cell among the broken ones.
+/// Signals to end are passed on. For the start of a program.
+int run_guarded(char** arguments);
+
+/// Where a guarded process records what it is doing; nullptr in others.
+std::unique_ptr<Activity> guarded_activity();
 
 }  // namespace beambench::plugin

@@ -133,7 +133,7 @@ void require_same_stamp(const std::string& file, const PluginStamp& stamp) {
 }
 
 PluginContents contents_of(const std::string& file, const Plugin& plugin) {
-  if (plugin.fill == nullptr) refuse(file, "has no function to fill in what it brings");
+  if (plugin.fill == nullptr) refuse(file, "has no function that fills in what it provides");
   PluginContents contents;
   try {
     foreign_call(file, "while it was loaded", [&] { plugin.fill(contents); });
@@ -156,11 +156,7 @@ std::vector<std::string> names_of(const std::vector<Thing>& things, std::string 
   return names;
 }
 
-std::uint64_t fingerprint_of_file(const std::string& file) {
-  return rays::fingerprint(read_input(file));
-}
-
-/// Calls `make`, which is the plug-in's, and looks its scene over.
+/// Calls `make`, which is the plug-in's, and validates its scene.
 template <class Make>
 scenes::Scene guarded_scene(const std::string& file, const std::string& name, Activity& activity,
                             Make&& make) {
@@ -172,16 +168,12 @@ scenes::Scene guarded_scene(const std::string& file, const std::string& name, Ac
     check_scene(scene);
   } catch (const PluginError& error) {
     throw PluginError(
-        fmt::format("the plug-in {} made a broken scene {}: {}", file, name, error.what()));
+        fmt::format("the plug-in {} made an invalid scene {}: {}", file, name, error.what()));
   }
   return scene;
 }
 
-accel::StructureInfo guarded_thing(accel::StructureInfo info, Activity& activity) {
-  return guarded(std::move(info), activity);
-}
-
-scenes::SceneInfo guarded_thing(scenes::SceneInfo info, Activity& activity) {
+scenes::SceneInfo guarded(scenes::SceneInfo info, Activity& activity) {
   info.generate = [generate = std::move(info.generate), file = info.origin,
                    &activity](const Parameters& parameters) {
     return guarded_scene(file, parameters.label(), activity, [&] {
@@ -193,7 +185,7 @@ scenes::SceneInfo guarded_thing(scenes::SceneInfo info, Activity& activity) {
   return info;
 }
 
-scenes::SceneReader guarded_thing(scenes::SceneReader reader, Activity& activity) {
+scenes::SceneReader guarded(scenes::SceneReader reader, Activity& activity) {
   reader.read = [read = std::move(reader.read), file = reader.origin, &activity](
                     const std::filesystem::path& path, std::vector<std::string>& warnings) {
     return guarded_scene(file, path.string(), activity, [&] { return read(path, warnings); });
@@ -205,43 +197,9 @@ template <class Thing>
 void adopt(std::vector<Thing>& things, const std::string& file, Activity& activity) {
   for (Thing& thing : things) {
     thing.origin = file;
-    thing = guarded_thing(std::move(thing), activity);
+    thing = guarded(std::move(thing), activity);
   }
 }
-
-}  // namespace
-
-void load_plugin(const std::string& file, Activity& activity) {
-  const LoadingTime time;
-  activity.write(Activity::Line::kForeign, file, ": loading it");
-  const Plugin& plugin = open(file);
-  require_same_stamp(file, plugin.stamp);
-  PluginContents contents = contents_of(file, plugin);
-  activity.clear(Activity::Line::kForeign);
-
-  const PluginStamp& stamp = plugin.stamp;
-  all_loaded().push_back({file, plugin.description == nullptr ? "" : plugin.description,
-                          fingerprint_of_file(file), stamp.compiler, stamp.instructions,
-                          stamp.optimized,
-                          names_of(contents.structures, &accel::StructureInfo::name),
-                          names_of(contents.scenes, &scenes::SceneInfo::name),
-                          names_of(contents.readers, &scenes::SceneReader::ending)});
-  adopt(contents.structures, file, activity);
-  adopt(contents.scenes, file, activity);
-  adopt(contents.readers, file, activity);
-  accel::register_plugin_structures(std::move(contents.structures));
-  scenes::register_plugin_scenes(std::move(contents.scenes), std::move(contents.readers));
-}
-
-std::span<const LoadedPlugin> loaded_plugins() { return all_loaded(); }
-
-std::string program_call() { return call_with_plugins("beambench"); }
-
-void set_program_name(std::string_view word) { program_name() = word; }
-
-std::string program_call_here() { return call_with_plugins(program_name()); }
-
-namespace {
 
 namespace fs = std::filesystem;
 
@@ -279,6 +237,36 @@ void add_from_environment(std::vector<std::string>& files) {
 }
 
 }  // namespace
+
+void load_plugin(const std::string& file, Activity& activity) {
+  const LoadingTime time;
+  activity.write(Activity::Line::kForeign, file, ": loading it");
+  const Plugin& plugin = open(file);
+  require_same_stamp(file, plugin.stamp);
+  PluginContents contents = contents_of(file, plugin);
+  activity.clear(Activity::Line::kForeign);
+
+  const PluginStamp& stamp = plugin.stamp;
+  all_loaded().push_back({file, plugin.description == nullptr ? "" : plugin.description,
+                          rays::fingerprint(read_input(file)), stamp.compiler, stamp.instructions,
+                          stamp.optimized,
+                          names_of(contents.structures, &accel::StructureInfo::name),
+                          names_of(contents.scenes, &scenes::SceneInfo::name),
+                          names_of(contents.readers, &scenes::SceneReader::ending)});
+  adopt(contents.structures, file, activity);
+  adopt(contents.scenes, file, activity);
+  adopt(contents.readers, file, activity);
+  accel::register_plugin_structures(std::move(contents.structures));
+  scenes::register_plugin_scenes(std::move(contents.scenes), std::move(contents.readers));
+}
+
+std::span<const LoadedPlugin> loaded_plugins() { return all_loaded(); }
+
+std::string program_call() { return call_with_plugins("beambench"); }
+
+void set_program_name(std::string_view word) { program_name() = word; }
+
+std::string program_call_here() { return call_with_plugins(program_name()); }
 
 std::vector<std::string> take_requested_plugins(std::vector<std::string>& arguments) {
   std::vector<std::string> files;

@@ -24,8 +24,8 @@ struct LoadedPlugin {
   std::vector<std::string> readers;  ///< the endings of their files
 };
 
-/// Loads a plug-in (plugin.hpp) and adds what it brings to `registry()` and to the catalogue, each
-/// with `origin` set; to be called before a structure or a scene is chosen. Refuses it by an
+/// Loads a plug-in (plugin.hpp) and adds what it provides to `registry()` and to the catalogue,
+/// each with `origin` set; to be called before a structure or a scene is chosen. Refuses it by an
 /// InputError that names the file: it cannot be loaded, is no plug-in, was built for another
 /// version of the interface (the message says what changed), with other types or another C++
 /// library, throws, or provides nothing or what check_contents refuses. Then nothing of it is

@@ -101,26 +101,6 @@ bool is_camera(const scenes::Camera& camera) {
          camera.height > 0;
 }
 
-}  // namespace
-
-void check_scene(const scenes::Scene& scene) {
-  if (scene.cameras.empty() || !std::ranges::all_of(scene.cameras, is_camera)) {
-    throw PluginError("it has no camera, or one that sees nothing; make scenes with SceneBuilder");
-  }
-  scenes::Bounds bounds;
-  for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-    check_primitive(scene, id);
-    bounds.include(scenes::primitive_bounds(scene, id));
-  }
-  const std::string fault = scenes::extent_fault(bounds);
-  if (!fault.empty()) throw PluginError(fault);
-  if (bounds.lower != scene.bounds.lower || bounds.upper != scene.bounds.upper) {
-    throw PluginError("its bounds are not those of its primitives; make scenes with SceneBuilder");
-  }
-}
-
-namespace {
-
 /// Names that commands give a meaning of their own.
 constexpr std::array<std::string_view, 2> kReserved{"all", "oracle"};
 
@@ -141,14 +121,15 @@ class Names {
 
   void take(const std::string& name) {
     if (!is_name(name) || std::ranges::find(kReserved, name) != kReserved.end()) {
-      throw PluginError(fmt::format(
-          "calls a {} '{}', which is no name; take letters, digits, '-' and '_', a letter first, "
-          "and neither 'all' nor 'oracle'",
-          what_, name));
+      throw PluginError(
+          fmt::format("names a {} '{}', which is not a valid name; use letters, digits, '-' and "
+                      "'_', a letter first, "
+                      "and neither 'all' nor 'oracle'",
+                      what_, name));
     }
     if (!taken_.insert(name).second) {
       throw PluginError(
-          fmt::format("brings a {} '{}', but there is one of that name already; "
+          fmt::format("provides a {} '{}', but there is one of that name already; "
                       "rename it",
                       what_, name));
     }
@@ -167,7 +148,7 @@ std::set<std::string> names_of(const Infos& infos) {
 }
 
 void require(bool right, std::string_view what, const std::string& name, std::string_view lack) {
-  if (!right) throw PluginError(fmt::format("brings a {} '{}' {}", what, name, lack));
+  if (!right) throw PluginError(fmt::format("provides a {} '{}' {}", what, name, lack));
 }
 
 /// Its parameters, each set to its default, must pass the check that a user's values have to pass.
@@ -182,7 +163,7 @@ void check_parameters(std::string_view what, const std::string& owner,
   try {
     const Parameters checked(owner, infos, defaults);
   } catch (const std::exception& error) {
-    throw PluginError(fmt::format("brings a {} '{}' whose defaults it would refuse: {}", what,
+    throw PluginError(fmt::format("provides a {} '{}' whose defaults it would refuse: {}", what,
                                   owner, error.what()));
   }
 }
@@ -203,9 +184,25 @@ void check_reader(const scenes::SceneReader& reader, std::set<std::string>& endi
 
 }  // namespace
 
+void check_scene(const scenes::Scene& scene) {
+  if (scene.cameras.empty() || !std::ranges::all_of(scene.cameras, is_camera)) {
+    throw PluginError("it has no camera, or one that sees nothing; make scenes with SceneBuilder");
+  }
+  scenes::Bounds bounds;
+  for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+    check_primitive(scene, id);
+    bounds.include(scenes::primitive_bounds(scene, id));
+  }
+  const std::string fault = scenes::extent_fault(bounds);
+  if (!fault.empty()) throw PluginError(fault);
+  if (bounds.lower != scene.bounds.lower || bounds.upper != scene.bounds.upper) {
+    throw PluginError("its bounds are not those of its primitives; make scenes with SceneBuilder");
+  }
+}
+
 void check_contents(const PluginContents& contents) {
   if (contents.structures.empty() && contents.scenes.empty() && contents.readers.empty()) {
-    throw PluginError("brings nothing: neither structures nor scenes nor readers of files");
+    throw PluginError("provides nothing: neither structures nor scenes nor readers of files");
   }
   Names structures("structure", names_of(accel::registry().structures()));
   for (const accel::StructureInfo& info : contents.structures) {

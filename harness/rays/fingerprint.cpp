@@ -22,9 +22,7 @@ std::uint64_t fingerprint(const accel::PrimaryRays& rays) {
   std::vector<accel::Ray> row;
   for (int y = 0; y < rays.height(); ++y) {
     row.clear();
-    for (int x = 0; x < rays.width(); ++x) {
-      for (int sample = 0; sample < rays.samples(); ++sample) row.push_back(rays.ray(x, y, sample));
-    }
+    rays.for_each(y, y + 1, [&](std::size_t, const accel::Ray& ray) { row.push_back(ray); });
     // Each row's hash is seeded with that of the rows above, so the whole is never in memory.
     hash = XXH3_64bits_withSeed(row.data(), row.size() * sizeof(accel::Ray), hash);
   }

@@ -27,7 +27,7 @@ class HitCheck {
   /// `structure` is the subject of the message: "structure 'samet:max_level=6'".
   explicit HitCheck(const scenes::Scene& scene, std::string structure = "the structure")
       : HitCheck(scene.primitives.size(), std::move(structure)) {}
-  /// Over a scene of so many primitives, where the scene itself is not at hand.
+  /// Over a scene with that many primitives, where the scene itself is not available.
   HitCheck(std::size_t primitives, std::string structure)
       : primitives_(primitives), structure_(std::move(structure)) {}
   /// The message names the choice and, where it comes from a plug-in, its file.

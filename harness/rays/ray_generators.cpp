@@ -89,13 +89,10 @@ std::vector<PrimaryHitPoint> surface_points(const scenes::Scene& scene,
   const accel::embree::EmbreeOracle oracle(scene, glm::length(dvec3(rays.eye())));
   std::vector<std::vector<PrimaryHitPoint>> rows(static_cast<std::size_t>(rays.height()));
   tbb::parallel_for(0, rays.height(), [&](int y) {
-    for (int x = 0; x < rays.width(); ++x) {
-      for (int sample = 0; sample < rays.samples(); ++sample) {
-        const accel::Ray ray = rays.ray(x, y, sample);
-        const std::optional<accel::embree::ExactHit> hit = oracle.closest_hit(ray);
-        if (hit) rows[static_cast<std::size_t>(y)].push_back(point_of(scene, ray, *hit));
-      }
-    }
+    rays.for_each(y, y + 1, [&](std::size_t, const accel::Ray& ray) {
+      const std::optional<accel::embree::ExactHit> hit = oracle.closest_hit(ray);
+      if (hit) rows[static_cast<std::size_t>(y)].push_back(point_of(scene, ray, *hit));
+    });
   });
   std::vector<PrimaryHitPoint> points;
   for (const auto& row : rows) points.insert(points.end(), row.begin(), row.end());

@@ -1,6 +1,9 @@
 #include "harness/rays/trace_input.hpp"
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,6 +16,18 @@
 
 namespace beambench::rays {
 namespace {
+
+constexpr std::int64_t kMaxRays = std::int64_t{1} << 28;
+
+/// The whole text as a side of an image.
+std::optional<int> parse_side(std::string_view text) {
+  int value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, value);
+  if (error != std::errc() || stop != end) return std::nullopt;
+  if (value < 1 || value > Resolution::kMaxSide) return std::nullopt;
+  return value;
+}
 
 std::vector<accel::Ray> made_rays(const scenes::Scene& scene, const accel::PrimaryRays& primary,
                                   const RayChoice& choice) {
@@ -68,6 +83,51 @@ RaySet read_for(const scenes::Scene& scene, const RayChoice& choice) {
 
 }  // namespace
 
+Resolution parse_resolution(std::string_view text) {
+  const std::size_t cross = text.find('x');
+  if (cross != std::string_view::npos) {
+    const std::optional<int> width = parse_side(text.substr(0, cross));
+    const std::optional<int> height = parse_side(text.substr(cross + 1));
+    if (width && height) return {*width, *height};
+  }
+  throw InputError(fmt::format(
+      "resolution '{}' is not WIDTHxHEIGHT with whole numbers from 1 to {}; write it as 640x480",
+      text, Resolution::kMaxSide));
+}
+
+std::string to_string(const Resolution& resolution) {
+  return fmt::format("{}x{}", resolution.width, resolution.height);
+}
+
+void require_ray_count(const Resolution& resolution, int samples) {
+  const std::int64_t rays =
+      std::int64_t{resolution.width} * std::int64_t{resolution.height} * std::int64_t{samples};
+  if (rays <= kMaxRays) return;
+  throw InputError(fmt::format(
+      "{} pixels with {} samples each are {} rays, more than the {} that an image may have; lower "
+      "the resolution or the samples",
+      to_string(resolution), samples, rays, kMaxRays));
+}
+
+ImageOfRays image_of(const scenes::Camera& camera, const std::optional<Resolution>& resolution,
+                     int samples) {
+  const Resolution size = resolution.value_or(Resolution{camera.width, camera.height});
+  require_ray_count(size, static_cast<int>(accel::sample_offsets(samples).size()));
+  return {camera, size, samples};
+}
+
+PixelSample place_of(const accel::PrimaryRays& image, std::size_t index) {
+  const auto samples = static_cast<std::size_t>(image.samples());
+  const auto width = static_cast<std::size_t>(image.width());
+  return {static_cast<int>(index / samples % width), static_cast<int>(index / samples / width),
+          static_cast<int>(index % samples)};
+}
+
+accel::Ray ray_at(const accel::PrimaryRays& image, std::size_t index) {
+  const PixelSample at = place_of(image, index);
+  return image.ray(at.x, at.y, at.sample);
+}
+
 TraceInput::TraceInput(accel::PrimaryRays rays) : image_(std::move(rays)) {}
 
 TraceInput::TraceInput(RaySet rays) : list_(std::make_shared<const RaySet>(std::move(rays))) {}
@@ -75,9 +135,7 @@ TraceInput::TraceInput(RaySet rays) : list_(std::make_shared<const RaySet>(std::
 std::size_t TraceInput::size() const { return list_ ? list_->rays.size() : image_->count(); }
 
 accel::Ray TraceInput::ray(std::size_t index) const {
-  if (list_) return list_->rays[index];
-  const PixelSample at = *pixel(index);
-  return image_->ray(at.x, at.y, at.sample);
+  return list_ ? list_->rays[index] : ray_at(*image_, index);
 }
 
 const std::string& TraceInput::label() const {
@@ -85,11 +143,7 @@ const std::string& TraceInput::label() const {
 }
 
 std::optional<PixelSample> TraceInput::pixel(std::size_t index) const {
-  if (!image_) return std::nullopt;
-  const auto samples = static_cast<std::size_t>(image_->samples());
-  const auto width = static_cast<std::size_t>(image_->width());
-  return PixelSample{static_cast<int>(index / samples % width),
-                     static_cast<int>(index / samples / width), static_cast<int>(index % samples)};
+  return image_ ? std::optional(place_of(*image_, index)) : std::nullopt;
 }
 
 double TraceInput::reach() const {
@@ -135,8 +189,7 @@ TraceInput make_trace_input(const scenes::Scene& scene, const ImageOfRays& image
         "'whitted' is for the sweeps of 'beambench run', 'beambench verify' and 'render --shade', "
         "and 'beambench census' counts its rays");
   }
-  accel::PrimaryRays primary(image.camera, image.resolution.width, image.resolution.height,
-                             image.samples);
+  accel::PrimaryRays primary = image.rays();
   if (choice.kind == RayKind::kPrimary) return {std::move(primary)};
   return TraceInput(made_set(scene, primary, choice));
 }

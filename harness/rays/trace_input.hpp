@@ -5,17 +5,37 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "accel/core/primary_rays.hpp"
 #include "accel/core/registry.hpp"
 #include "harness/rays/ray_kind.hpp"
 #include "harness/rays/ray_set.hpp"
-#include "harness/rays/resolution.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::rays {
+
+/// Width and height in pixels, each in 1 ... kMaxSide.
+struct Resolution {
+  static constexpr int kMaxSide = 16384;
+
+  int width;
+  int height;
+
+  friend bool operator==(const Resolution&, const Resolution&) = default;
+};
+
+/// Throws InputError when the text is not `WxH` with whole numbers in 1 ... kMaxSide.
+Resolution parse_resolution(std::string_view text);
+
+/// `640x480`.
+std::string to_string(const Resolution& resolution);
+
+/// Throws InputError when the image has more samples than a buffer is meant for (2^28), naming
+/// what to lower.
+void require_ray_count(const Resolution& resolution, int samples);
 
 /// The place of a primary ray in its image.
 struct PixelSample {
@@ -23,6 +43,11 @@ struct PixelSample {
 
   friend bool operator==(const PixelSample&, const PixelSample&) = default;
 };
+
+/// Where in its image the ray of that index is, as a hit buffer counts them.
+PixelSample place_of(const accel::PrimaryRays& image, std::size_t index);
+/// The ray itself.
+accel::Ray ray_at(const accel::PrimaryRays& image, std::size_t index);
 
 /// Rays by their index, and one query for all of them. A small value: lists are shared.
 class TraceInput {
@@ -65,7 +90,14 @@ struct ImageOfRays {
   scenes::Camera camera;
   Resolution resolution;
   int samples;
+
+  accel::PrimaryRays rays() const { return {camera, resolution.width, resolution.height, samples}; }
 };
+
+/// The image of a camera, in the camera's own resolution if none is given. Throws InputError where
+/// it has too many rays or no such number of samples exists.
+ImageOfRays image_of(const scenes::Camera& camera, const std::optional<Resolution>& resolution,
+                     int samples);
 
 /// What a structure is built for: the rays, the camera behind them, and the threads that trace.
 accel::Workload workload_of(const ImageOfRays& image, const TraceInput& input, int threads = 1);

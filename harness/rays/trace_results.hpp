@@ -1,5 +1,5 @@
 #pragma once
-// Tracing the rays of a `TraceInput`, and the results.
+// Tracing the rays of a `TraceInput`, with progress where it takes long, and the results.
 
 #include <cstdint>
 #include <optional>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "accel/core/accelerator.hpp"
+#include "harness/base/progress.hpp"
 #include "harness/rays/trace_input.hpp"
 
 namespace beambench::rays {
@@ -35,5 +36,10 @@ void trace(const accel::Accelerator& structure, const TraceInput& input, TraceRe
 /// A sentence where less than 1% or more than 99% of the rays hit anything (are occluded): times
 /// over them compare how structures miss, or how they find anything at all, and little else.
 std::optional<std::string> share_warning(const TraceInput& input, std::uint64_t hits);
+
+/// `trace` without counters; on a terminal with the remaining time, estimated from a few rays that
+/// are traced first.
+void trace_with_progress(const accel::Accelerator& structure, const TraceInput& input,
+                         TraceResults& results, int threads, base::Progress& progress);
 
 }  // namespace beambench::rays

@@ -9,8 +9,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "harness/render/picture/category_map.hpp"
+#include "harness/base/messages.hpp"
 #include "harness/render/picture/image_file.hpp"
+#include "harness/render/picture/legend.hpp"
 #include "harness/render/picture/overlay.hpp"
 #include "harness/render/shading.hpp"
 #include "harness/verify/verify_ray.hpp"
@@ -48,24 +49,14 @@ std::vector<verify::DiffClass> worst(std::span<const verify::DiffClass> classes,
 }
 
 CategoryMap map_of(const std::vector<verify::DiffClass>& pixels, const ComparedNames& comparison) {
-  CategoryMap map{fmt::format("{} against {}", comparison.judged, comparison.reference),
+  CategoryMap map{fmt::format("{} against {}", comparison.verified, comparison.reference),
                   {{"tie", okabe_ito::kSkyBlue},
                    {"graze", okabe_ito::kYellow},
                    {comparison.reference + " is wrong", okabe_ito::kBluishGreen},
-                   {comparison.judged + " is wrong", okabe_ito::kVermillion}},
+                   {comparison.verified + " is wrong", okabe_ito::kVermillion}},
                   {}};
   for (const verify::DiffClass diff_class : pixels) map.pixels.push_back(category_of(diff_class));
   return map;
-}
-
-Image preview_of(const verify::ReferenceHits& reference) {
-  const accel::PrimaryRays& rays = *reference.input().image();
-  accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    const std::optional<accel::embree::ExactHit>& hit = reference.hits()[i];
-    if (hit) hits.set(i, accel::Hit{static_cast<float>(hit->t), hit->primitive});
-  }
-  return shade(reference.scene(), rays, hits, Shading::kPreview);
 }
 
 constexpr std::array<std::string_view, 2> kNames{"beams", "cells"};
@@ -110,7 +101,8 @@ void write_difference(const std::filesystem::path& file, const verify::Reference
                       std::span<const verify::DiffClass> classes, const ComparedNames& comparison) {
   const std::vector<verify::DiffClass> pixels =
       worst(classes, static_cast<std::size_t>(reference.input().image()->samples()));
-  const Image ground = preview_of(reference);
+  const Image ground =
+      shade(reference.scene(), *reference.input().image(), reference.rounded(), Shading::kPreview);
   if (image_format(file) == ImageFormat::kPng) {
     write_image(file, draw_category_map(map_of(pixels, comparison), ground));
     return;
@@ -137,12 +129,7 @@ verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::Tra
 std::span<const std::string_view> overlay_names() { return kNames; }
 
 Overlay parse_overlay(std::string_view name, const accel::StructureInfo& structure) {
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) {
-    throw InputError(
-        fmt::format("unknown overlay '{}'; choose from: {}", name, fmt::join(kNames, ", ")));
-  }
-  const auto overlay = static_cast<Overlay>(found - kNames.begin());
+  const auto overlay = static_cast<Overlay>(base::place_of_name("overlay", name, kNames));
   if (shows(structure, overlay)) return overlay;
   std::vector<std::string> able;
   for (const accel::StructureInfo& info : accel::registry().structures()) {

@@ -9,15 +9,14 @@
 
 #include "accel/core/registry.hpp"
 #include "harness/base/progress.hpp"
-#include "harness/render/picture/category_map.hpp"
-#include "harness/render/picture/heat_map.hpp"
+#include "harness/render/picture/legend.hpp"
 #include "harness/verify/differ.hpp"
 
 namespace beambench::render {
 
 /// The names of the compared.
 struct ComparedNames {
-  std::string judged;     ///< whose errors are `DiffClass::kStructureError`
+  std::string verified;   ///< whose errors are `DiffClass::kStructureError`
   std::string reference;  ///< whose errors are `DiffClass::kEmbreeError`
 };
 

@@ -6,19 +6,17 @@
 #include <functional>
 #include <stdexcept>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "harness/base/messages.hpp"
 #include "harness/rays/normal.hpp"
 #include "harness/render/picture/color.hpp"
-#include "scenes/core/error.hpp"
 
 namespace beambench::render {
 namespace {
 
-// Shares of the light on a surface that faces the eye and the lights: they add up to 1.
+// Shares of the light on a surface that faces the camera and the lights: they add up to 1.
 constexpr double kAmbient = 0.06;
 constexpr double kHeadlight = 0.24;
 constexpr double kLights = 0.70;
@@ -29,7 +27,7 @@ glm::vec3 display_to_linear(const glm::vec3& color) {
   return linear_from_srgb(glm::clamp(color, 0.0F, 1.0F));
 }
 
-/// What the lights send to the eye, in parts of white.
+/// What the lights send to the camera, in parts of white.
 struct Reflected {
   glm::dvec3 matte{0.0};
   glm::dvec3 glossy{0.0};
@@ -44,10 +42,10 @@ Reflected reflect_lights(const scenes::Scene& scene, const glm::dvec3& point,
   }
   const double share = 1.0 / std::sqrt(static_cast<double>(scene.lights.size()));
   for (const scenes::Light& light : scene.lights) {
-    const glm::dvec3 way = glm::dvec3(light.position) - point;
-    const double distance = glm::length(way);
+    const glm::dvec3 offset = glm::dvec3(light.position) - point;
+    const double distance = glm::length(offset);
     if (distance == 0.0) continue;
-    const glm::dvec3 to_light = way / distance;
+    const glm::dvec3 to_light = offset / distance;
     const double cosine = glm::dot(normal, to_light);
     if (cosine <= 0.0) continue;
     const glm::dvec3 power = share * glm::dvec3(glm::clamp(light.color, 0.0F, 1.0F));
@@ -125,28 +123,20 @@ glm::vec3 background_color(const scenes::Scene& scene) {
 std::span<const std::string_view> shading_names() { return kNames; }
 
 Shading parse_shading(std::string_view name) {
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) {
-    throw InputError(
-        fmt::format("unknown shading '{}'; choose from: {}", name, fmt::join(kNames, ", ")));
-  }
-  return static_cast<Shading>(found - kNames.begin());
+  return static_cast<Shading>(base::place_of_name("shading", name, kNames));
 }
 
 Image shade(const scenes::Scene& scene, const accel::PrimaryRays& rays,
             const accel::HitBuffer& hits, Shading shading) {
   const HitColor hit_color = color_of(scene, hits, shading);
   const glm::vec3 miss = shading == Shading::kPreview ? background_color(scene) : glm::vec3(0.0F);
-  const float share = 1.0F / static_cast<float>(rays.samples());
+  const auto samples = static_cast<std::size_t>(rays.samples());
+  const float share = 1.0F / static_cast<float>(samples);
   Image image(rays.width(), rays.height());
-  for (int y = 0; y < rays.height(); ++y) {
-    for (int x = 0; x < rays.width(); ++x) {
-      for (int sample = 0; sample < rays.samples(); ++sample) {
-        const auto hit = hits.get(hits.index(x, y, sample));
-        image.at(x, y) += share * (hit ? hit_color(rays.ray(x, y, sample), *hit) : miss);
-      }
-    }
-  }
+  rays.for_each(0, rays.height(), [&](std::size_t index, const accel::Ray& ray) {
+    const auto hit = hits.get(index);
+    image.pixels()[index / samples] += share * (hit ? hit_color(ray, *hit) : miss);
+  });
   return image;
 }
 

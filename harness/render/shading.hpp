@@ -38,9 +38,9 @@ inline std::optional<glm::dvec3> refracted(const glm::dvec3& incoming, const glm
   return glm::normalize(ratio * incoming + (ratio * cosine - std::sqrt(behind)) * normal);
 }
 
-/// Linear light from a hit: Lambert and Phong under the scene's lights and a headlight at the eye,
-/// without shadows. The headlight leaves no side of a thing black. The scene's colors are display
-/// values, as they were in 1987; they are decoded to linear light first.
+/// Linear light from a hit: Lambert and Phong under the scene's lights and a headlight at the
+/// camera, without shadows. The headlight leaves no side of a thing black. The scene's colors are
+/// display values, as they were in 1987; they are decoded to linear light first.
 glm::vec3 preview_color(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& hit);
 
 /// Linear light of a miss.

@@ -1,6 +1,7 @@
 #include "harness/render/shadows.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -9,10 +10,13 @@
 
 #include "accel/core/intersect.hpp"
 #include "accel/core/tolerance.hpp"
+#include "harness/base/messages.hpp"
 #include "harness/rays/normal.hpp"
 
 namespace beambench::render {
 namespace {
+
+constexpr std::array<std::string_view, 3> kNames{"rays", "cache", "light-buffer"};
 
 using glm::dvec3;
 
@@ -86,10 +90,6 @@ void visit_cells(const LitBox& box, int cells, Visit visit) {
   }
 }
 
-bool is_transparent(const scenes::Scene& scene, scenes::PrimitiveId id) {
-  return scene.surfaces[scene.primitives[id].surface].transmittance > 0.0F;
-}
-
 /// Cells along an edge of a light buffer.
 constexpr int kBufferCells = 128;
 
@@ -98,6 +98,19 @@ float transmittance_of(const scenes::Scene& scene, scenes::PrimitiveId id) {
 }
 
 }  // namespace
+
+std::span<const std::string_view> shadow_method_names() { return kNames; }
+
+ShadowMethod parse_shadow_method(std::string_view name) {
+  return static_cast<ShadowMethod>(base::place_of_name("shadow method", name, kNames));
+}
+
+WhittedOptions whitted_options(const rays::RayChoice& choice) {
+  const rays::RayKindInfo& info = rays::info_of(rays::RayKind::kWhitted);
+  const Parameters parameters(info.name, info.parameters, parse_spec(choice.label).parameters);
+  return {static_cast<int>(parameters.integer("depth")), parameters.real("least_weight"),
+          parse_shadow_method(parameters.choice("shadows"))};
+}
 
 LightBuffer::LightBuffer(const scenes::Scene& scene, const glm::vec3& light, int cells)
     : scene_(&scene), light_(light), cells_(cells), first_(cell_index(6, 0, 0, cells) + 1) {
@@ -140,7 +153,7 @@ LightBuffer::Answer LightBuffer::ask(const accel::Ray& to_light, std::uint64_t& 
     ++tests;
     const scenes::PrimitiveId id = entries_[i].primitive;
     if (!accel::is_hit(accel::intersect(ray, *scene_, id))) continue;
-    if (!is_transparent(*scene_, id)) return Answer::kHidden;
+    if (transmittance_of(*scene_, id) <= 0.0F) return Answer::kHidden;
     answer = Answer::kTransparent;
   }
   return answer;

@@ -52,6 +52,18 @@ using glm::dvec3;
 /// How many times the largest feature of a texture fits into the scene's longest side.
 constexpr double kFeatures = 12.0;
 
+/// The sum over octaves of what `of` makes of noise of twice the frequency and half the size.
+template <class Of>
+double over_octaves(const dvec3& point, int octaves, Of of) {
+  double sum = 0.0;
+  double size = 1.0;
+  for (int octave = 0; octave < octaves; ++octave) {
+    sum += size * of(gradient_noise(point / size));
+    size *= 0.5;
+  }
+  return sum;
+}
+
 double smooth_step(double low, double high, double x) {
   const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
@@ -111,23 +123,11 @@ double gradient_noise(const glm::dvec3& point) {
 }
 
 double fractal_noise(const glm::dvec3& point, int octaves) {
-  double sum = 0.0;
-  double size = 1.0;
-  for (int octave = 0; octave < octaves; ++octave) {
-    sum += size * gradient_noise(point / size);
-    size *= 0.5;
-  }
-  return sum;
+  return over_octaves(point, octaves, [](double noise) { return noise; });
 }
 
 double turbulence(const glm::dvec3& point, int octaves) {
-  double sum = 0.0;
-  double size = 1.0;
-  for (int octave = 0; octave < octaves; ++octave) {
-    sum += size * std::abs(gradient_noise(point / size));
-    size *= 0.5;
-  }
-  return sum;
+  return over_octaves(point, octaves, [](double noise) { return std::abs(noise); });
 }
 
 TextureSpace::TextureSpace(const scenes::Scene& scene) {

@@ -1,8 +1,14 @@
 #include "harness/render/verified_picture.hpp"
 
+#include <optional>
+#include <string>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "harness/render/whitted_picture.hpp"
+#include "harness/verify/describe.hpp"
+#include "scenes/core/error.hpp"
 
 namespace beambench::render {
 namespace {
@@ -20,6 +26,19 @@ verify::Verdict worse(verify::Verdict a, verify::Verdict b) {
   return a;
 }
 
+/// Bit-exact structures must draw the picture that the first of them drew.
+void compare_bits(const Image& image, const std::string& first_label, const Image& first,
+                  verify::VerifiedCell& cell) {
+  cell.bits_reference = first_label;
+  for (std::size_t i = 0; i < image.pixels().size(); ++i) {
+    if (image.pixels()[i] != first.pixels()[i]) ++cell.different_bits;
+  }
+  if (cell.different_bits == 0) return;
+  cell.disputes.push_back(fmt::format(
+      "{} of {} pixels differ from those of {}; a bit-exact structure must draw the same\n",
+      cell.different_bits, image.pixels().size(), first_label));
+}
+
 }  // namespace
 
 RecordedPicture record_picture(const scenes::Scene& scene, const accel::Accelerator& structure,
@@ -27,9 +46,20 @@ RecordedPicture record_picture(const scenes::Scene& scene, const accel::Accelera
                                const WhittedOptions& options, rays::HitCheck check) {
   RecordedPicture picture{std::move(primary), {}, Image(rays.width(), rays.height()), {}};
   auto& [reflected_rays, refracted_rays, shadow_rays] = picture.asked;
-  const RecordedQueries reflected(structure, reflected_rays);
-  const RecordedQueries refracted(structure, refracted_rays);
-  const RecordedQueries shadow(structure, shadow_rays);
+  const auto recorded = [&](AskedRays& asked) {
+    return AnsweredBy(
+        [&](const accel::Ray& ray) {
+          asked.closest.push_back(ray);
+          return asked.hits.emplace_back(structure.closest_hit(ray, nullptr));
+        },
+        [&](const accel::Ray& ray) {
+          asked.any.push_back(ray);
+          return asked.any_hits.emplace_back(structure.any_hit(ray, nullptr) ? 1 : 0) != 0;
+        });
+  };
+  const auto reflected = recorded(reflected_rays);
+  const auto refracted = recorded(refracted_rays);
+  const auto shadow = recorded(shadow_rays);
   const Whitted tracer(scene, {&reflected, &refracted, &shadow}, options, std::move(check));
   picture.census = draw_in_order(tracer, camera_rays(rays), picture.primary, picture.image);
   return picture;
@@ -70,6 +100,52 @@ verify::DiffReport sum_of(const std::vector<VerifiedRays>& verified) {
     sum.verdict = worse(sum.verdict, rays.report.verdict);
   }
   return sum;
+}
+
+std::vector<verify::VerifiedCell> verify_picture(const scenes::Scene& scene,
+                                                 const rays::ImageOfRays& image,
+                                                 const rays::RayChoice& choice,
+                                                 std::vector<accel::StructureChoice> contenders,
+                                                 base::Progress& progress) {
+  const accel::PrimaryRays rays = image.rays();
+  const WhittedOptions options = whitted_options(choice);
+  const verify::ReferenceHits camera_hits(scene, rays);
+  std::optional<std::pair<std::string, Image>> bits;  // of the first bit-exact structure
+  return verify::verify_each(
+      scene, choice.label, std::move(contenders), progress,
+      [&](const accel::StructureChoice& contender, verify::VerifiedCell& cell) {
+        const auto structure = contender.build(scene, rays::workload_of(image, rays));
+        accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
+        structure->trace(rays, hits, nullptr);
+        RecordedPicture picture = record_picture(scene, *structure, rays, std::move(hits), options,
+                                                 rays::HitCheck(scene, contender));
+        const accel::Conformance conformance = contender.info().conformance;
+        if (conformance == accel::Conformance::kBitExact && bits) {
+          compare_bits(picture.image, bits->first, bits->second, cell);
+        } else if (conformance == accel::Conformance::kBitExact) {
+          bits.emplace(cell.label, picture.image);
+        }
+        const auto verified = verify_recorded_picture(camera_hits, std::move(picture), conformance);
+        cell.report = sum_of(verified);
+        if (cell.different_bits > 0) cell.report->verdict = verify::Verdict::kMismatch;
+        cell.verdict = cell.report->verdict;
+        for (std::string& dispute : described_examples(scene, verified)) {
+          cell.disputes.push_back(std::move(dispute));
+        }
+      });
+}
+
+std::vector<std::string> described_examples(const scenes::Scene& scene,
+                                            const std::vector<VerifiedRays>& verified) {
+  std::vector<std::string> examples;
+  for (const VerifiedRays& rays : verified) {
+    if (verify::is_right(rays.report.verdict)) continue;
+    for (const verify::Mismatch& example : rays.report.examples) {
+      examples.push_back(
+          fmt::format("{} rays, {}", rays.kind, verify::describe(scene, rays.input, example)));
+    }
+  }
+  return examples;
 }
 
 }  // namespace beambench::render

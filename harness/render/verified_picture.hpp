@@ -6,37 +6,40 @@
 #include <cstdint>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "accel/core/hit_buffer.hpp"
 #include "accel/core/primary_rays.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "accel/embree/oracle.hpp"
+#include "harness/rays/ray_kind.hpp"
 #include "harness/render/picture/image.hpp"
 #include "harness/render/whitted.hpp"
 #include "harness/verify/differ.hpp"
+#include "harness/verify/verification.hpp"
 
 namespace beambench::render {
 
-/// Counts the work of the structure behind it.
-class CountedQueries : public accel::TraversalAccelerator<CountedQueries> {
+/// A structure whose queries are answered by two functions of a ray.
+template <class Closest, class Any>
+class AnsweredBy : public accel::TraversalAccelerator<AnsweredBy<Closest, Any>> {
  public:
-  CountedQueries(const accel::Accelerator& structure, accel::WorkCounters& counters)
-      : structure_(structure), counters_(counters) {}
+  AnsweredBy(Closest closest, Any any) : closest_(std::move(closest)), any_(std::move(any)) {}
 
-  accel::Statistics statistics() const override { return structure_.statistics(); }
+  accel::Statistics statistics() const override { return {}; }
   template <class Counting>
   std::optional<accel::Hit> find_closest(const accel::Ray& ray, Counting&) const {
-    return structure_.closest_hit(ray, &counters_);
+    return closest_(ray);
   }
   template <class Counting>
   bool find_any(const accel::Ray& ray, Counting&) const {
-    return structure_.any_hit(ray, &counters_);
+    return any_(ray);
   }
 
  private:
-  const accel::Accelerator& structure_;
-  accel::WorkCounters& counters_;
+  mutable Closest closest_;
+  mutable Any any_;
 };
 
 /// Rays and their results, each kind of query in its order.
@@ -47,71 +50,25 @@ struct AskedRays {
   std::vector<std::uint8_t> any_hits;  ///< of `any`
 };
 
-/// Records the queries and results of the structure behind it.
-class RecordedQueries : public accel::TraversalAccelerator<RecordedQueries> {
- public:
-  RecordedQueries(const accel::Accelerator& structure, AskedRays& asked)
-      : structure_(structure), asked_(asked) {}
-
-  accel::Statistics statistics() const override { return structure_.statistics(); }
-  template <class Counting>
-  std::optional<accel::Hit> find_closest(const accel::Ray& ray, Counting&) const {
-    asked_.closest.push_back(ray);
-    return asked_.hits.emplace_back(structure_.closest_hit(ray, nullptr));
-  }
-  template <class Counting>
-  bool find_any(const accel::Ray& ray, Counting&) const {
-    asked_.any.push_back(ray);
-    return asked_.any_hits.emplace_back(structure_.any_hit(ray, nullptr) ? 1 : 0) != 0;
-  }
-
- private:
-  const accel::Accelerator& structure_;
-  AskedRays& asked_;
-};
+/// Counts the work of a structure.
+inline auto counted_queries(const accel::Accelerator& structure, accel::WorkCounters& counters) {
+  return AnsweredBy([&](const accel::Ray& ray) { return structure.closest_hit(ray, &counters); },
+                    [&](const accel::Ray& ray) { return structure.any_hit(ray, &counters); });
+}
 
 /// Returns recorded results to the same queries in the same order: what is left of a time is all
 /// that is not the structure's.
-class ReplayedAnswers : public accel::TraversalAccelerator<ReplayedAnswers> {
- public:
-  explicit ReplayedAnswers(const AskedRays& asked) : asked_(asked) {}
+inline auto replayed_results(const AskedRays& asked) {
+  return AnsweredBy(
+      [next = asked.hits.data()](const accel::Ray&) mutable { return *next++; },
+      [next = asked.any_hits.data()](const accel::Ray&) mutable { return *next++ != 0; });
+}
 
-  accel::Statistics statistics() const override { return {}; }
-  template <class Counting>
-  std::optional<accel::Hit> find_closest(const accel::Ray&, Counting&) const {
-    return asked_.hits[next_closest_++];
-  }
-  template <class Counting>
-  bool find_any(const accel::Ray&, Counting&) const {
-    return asked_.any_hits[next_any_++] != 0;
-  }
-
- private:
-  const AskedRays& asked_;
-  mutable std::size_t next_closest_ = 0;
-  mutable std::size_t next_any_ = 0;
-};
-
-/// The oracle as a structure: its hits rounded to float.
-class OracleQueries : public accel::TraversalAccelerator<OracleQueries> {
- public:
-  explicit OracleQueries(const accel::embree::EmbreeOracle& oracle) : oracle_(oracle) {}
-
-  accel::Statistics statistics() const override { return {}; }
-  template <class Counting>
-  std::optional<accel::Hit> find_closest(const accel::Ray& ray, Counting&) const {
-    const std::optional<accel::embree::ExactHit> hit = oracle_.closest_hit(ray);
-    if (!hit) return std::nullopt;
-    return accel::Hit{static_cast<float>(hit->t), hit->primitive};
-  }
-  template <class Counting>
-  bool find_any(const accel::Ray& ray, Counting&) const {
-    return oracle_.any_hit(ray);
-  }
-
- private:
-  const accel::embree::EmbreeOracle& oracle_;
-};
+/// The oracle: its hits rounded to float.
+inline auto oracle_queries(const accel::embree::EmbreeOracle& oracle) {
+  return AnsweredBy([&](const accel::Ray& ray) { return verify::rounded(oracle.closest_hit(ray)); },
+                    [&](const accel::Ray& ray) { return oracle.any_hit(ray); });
+}
 
 /// The kinds of rays that follow camera rays.
 inline constexpr std::size_t kFollowingRays = 3;
@@ -147,7 +104,19 @@ std::vector<VerifiedRays> verify_recorded_picture(const verify::ReferenceHits& p
                                                   RecordedPicture picture,
                                                   accel::Conformance conformance);
 
+/// The disputed rays of the kinds whose verdict is bad, described.
+std::vector<std::string> described_examples(const scenes::Scene& scene,
+                                            const std::vector<VerifiedRays>& verified);
+
 /// All of them together: counts added up, the worst verdict, no examples.
 verify::DiffReport sum_of(const std::vector<VerifiedRays>& verified);
+
+/// As `verify_scene`, for `whitted` rays. Bit-exact structures must draw the same picture;
+/// `different_bits` counts pixels.
+std::vector<verify::VerifiedCell> verify_picture(const scenes::Scene& scene,
+                                                 const rays::ImageOfRays& image,
+                                                 const rays::RayChoice& choice,
+                                                 std::vector<accel::StructureChoice> contenders,
+                                                 base::Progress& progress);
 
 }  // namespace beambench::render

@@ -55,7 +55,7 @@ struct Whitted::Kind {
 
 /// How a ray came about.
 struct Whitted::Path {
-  int depth = 1;        ///< rays from the eye to here
+  int depth = 1;        ///< rays from the camera to here
   double weight = 1.0;  ///< the largest part that it can have in the pixel's color
   bool inside = false;  ///< in something transparent
 };
@@ -130,7 +130,7 @@ Whitted::Place Whitted::place_of(const accel::Ray& ray, const accel::Hit& hit) c
           rays::geometric_normal(*scene_, ray, hit),     rays::shading_normal(*scene_, ray, hit)};
 }
 
-/// What the lights send to the eye from here. Lights behind the surface get no shadow ray.
+/// What the lights send to the camera from here. Lights behind the surface get no shadow ray.
 dvec3 Whitted::lit(const Place& at, const Path& path, Progress& progress) const {
   const scenes::Surface& surface = *at.surface;
   const dvec3 display = glm::clamp(textures_.color_at(surface, at.point), 0.0, 1.0);
@@ -138,15 +138,15 @@ dvec3 Whitted::lit(const Place& at, const Path& path, Progress& progress) const 
   const dvec3 origin = rays::beside_surface(*scene_, at.point, at.geometric);
   dvec3 sum = kAmbient * matte;
   for (std::size_t i = 0; i < scene_->lights.size(); ++i) {
-    const dvec3 way = dvec3(scene_->lights[i].position) - origin;
-    if (glm::dot(way, at.geometric) <= 0.0 || glm::dot(way, at.shading) <= 0.0) continue;
+    const dvec3 offset = dvec3(scene_->lights[i].position) - origin;
+    if (glm::dot(offset, at.geometric) <= 0.0 || glm::dot(offset, at.shading) <= 0.0) continue;
     accel::Ray ray;
     ray.origin = glm::vec3(origin);
-    ray.direction = glm::vec3(way);
+    ray.direction = glm::vec3(offset);
     ray.t_max = 1.0F;
     const double part = shadows_.transmitted(ray, i, path.depth, progress.shadows, progress.census);
     if (part == 0.0) continue;
-    const dvec3 to_light = glm::normalize(way);
+    const dvec3 to_light = glm::normalize(offset);
     sum += part * light_colors_[i] *
            (glm::dot(to_light, at.shading) * matte +
             surface.specular * phong(at.shading, to_light, -at.incoming, surface.shine));

@@ -12,7 +12,6 @@
 #include "harness/render/ray_census.hpp"
 #include "harness/render/shadows.hpp"
 #include "harness/render/texture.hpp"
-#include "harness/render/whitted_options.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::render {

@@ -1,14 +1,21 @@
 #include "harness/render/whitted_picture.hpp"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <numeric>
 #include <optional>
 #include <vector>
 
 #include <glm/vec3.hpp>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+
+#include "accel/beam/beam_tracer.hpp"
+#include "harness/base/messages.hpp"
+#include "scenes/core/error.hpp"
 
 namespace beambench::render {
 namespace {
@@ -29,6 +36,26 @@ RayCensus draw_row(const Whitted& tracer, const CameraRays& rays, const accel::H
   }
   return progress.census;
 }
+
+/// Keeps the samples of one beam after the other.
+class PaintedPlaces : public accel::beam::NoBeamWatch {
+ public:
+  void met(accel::BeamKind, const accel::beam::Beam&) { end_beam(); }
+  void painted(std::size_t place) { places_.push_back(place); }
+  void finished() { end_beam(); }
+
+  std::vector<std::size_t> take() && { return std::move(places_); }
+
+ private:
+  /// A beam finds its samples lattice by lattice, and those that hit before the others.
+  void end_beam() {
+    std::sort(places_.begin() + static_cast<std::ptrdiff_t>(begin_), places_.end());
+    begin_ = places_.size();
+  }
+
+  std::vector<std::size_t> places_;
+  std::size_t begin_ = 0;  ///< of the beam that was met last
+};
 
 }  // namespace
 
@@ -82,10 +109,8 @@ WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const 
   }
   WhittedPicture picture{Image(rays.width, rays.height), progress.census};
   const double share = 1.0 / rays.samples;
-  for (std::size_t pixel = 0; pixel < sums.size(); ++pixel) {
-    picture.image.at(static_cast<int>(pixel % width), static_cast<int>(pixel / width)) =
-        glm::vec3(share * sums[pixel]);
-  }
+  std::ranges::transform(sums, picture.image.pixels().begin(),
+                         [share](const glm::dvec3& sum) { return glm::vec3(share * sum); });
   return picture;
 }
 
@@ -94,6 +119,38 @@ RayCensus draw_in_order(const Whitted& tracer, const CameraRays& rays, const acc
   RayCensus census;
   for (int y = 0; y < rays.height; ++y) census += draw_row(tracer, rays, hits, y, image);
   return census;
+}
+
+ShadingOrder parse_shading_order(std::string_view name) {
+  constexpr std::array<std::string_view, 3> kNames{"rows", "scan", "beams"};
+  return static_cast<ShadingOrder>(base::place_of_name("order", name, kNames));
+}
+
+std::vector<std::size_t> scan_order(const accel::PrimaryRays& rays) {
+  std::vector<std::size_t> places(rays.count());
+  std::iota(places.begin(), places.end(), std::size_t{0});
+  return places;
+}
+
+std::vector<std::size_t> beam_order(const accel::Accelerator& structure,
+                                    const accel::PrimaryRays& rays) {
+  const auto* tracer = dynamic_cast<const accel::beam::BeamTracer*>(&structure);
+  if (tracer == nullptr) {
+    throw InputError(
+        "only beams have an order of their own: give --accel beam, with parameters if you like, "
+        "or --order scan");
+  }
+  accel::HitBuffer buffer(rays.width(), rays.height(), rays.samples());
+  PaintedPlaces painted;
+  tracer->trace_watched(rays, buffer, painted);
+  std::vector<std::size_t> places = std::move(painted).take();
+
+  std::vector<bool> seen(buffer.size(), false);
+  for (const std::size_t place : places) seen[place] = true;
+  for (std::size_t place = 0; place < buffer.size(); ++place) {
+    if (!seen[place]) places.push_back(place);
+  }
+  return places;
 }
 
 }  // namespace beambench::render

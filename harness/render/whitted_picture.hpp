@@ -1,10 +1,13 @@
 #pragma once
-// The rays that a picture begins with.
+// The whole picture: the rays that it begins with, and the order in which its samples are shaded.
 
 #include <cstddef>
 #include <functional>
 #include <span>
+#include <string_view>
+#include <vector>
 
+#include "accel/core/accelerator.hpp"
 #include "accel/core/hit_buffer.hpp"
 #include "accel/core/primary_rays.hpp"
 #include "accel/core/ray.hpp"
@@ -47,7 +50,7 @@ struct WhittedPicture {
 using PictureWatch = std::function<void(double part)>;
 
 /// Each pixel is the mean of its samples. `hits` are the structure's answers to `rays`, found
-/// beforehand by whatever way it has for whole images (beams); what follows them goes ray by ray.
+/// beforehand by its own query for whole images (beams); what follows them is traced ray by ray.
 /// Rows are shared among TBB's threads, at most `threads` of them unless it is 0; picture and
 /// census do not depend on how many there are.
 WhittedPicture whitted_picture(const Whitted& tracer, const CameraRays& rays,
@@ -64,5 +67,23 @@ WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const 
 /// The same picture into `image`, which has its size, on this thread alone; returns its census.
 RayCensus draw_in_order(const Whitted& tracer, const CameraRays& rays, const accel::HitBuffer& hits,
                         Image& image);
+
+/// What a shadow cache remembers depends on which samples follow each other.
+enum class ShadingOrder {
+  kRows,  ///< row by row, the cache begins anew in each; rows may be shared among threads
+  kScan,  ///< pixel by pixel along the rows, with one cache
+  kBeams  ///< beam by beam, with one cache: what the thesis expects a cache to gain by (6.2.2)
+};
+
+/// `rows`, `scan`, `beams`. Throws InputError for another name.
+ShadingOrder parse_shading_order(std::string_view name);
+
+/// The places in the hit buffer of all samples along the rows.
+std::vector<std::size_t> scan_order(const accel::PrimaryRays& rays);
+
+/// The same places as beams decide them: those of a beam are together, along the rows; then those
+/// that no beam at an occupied leaf had. Throws InputError for a structure that traces no beams.
+std::vector<std::size_t> beam_order(const accel::Accelerator& structure,
+                                    const accel::PrimaryRays& rays);
 
 }  // namespace beambench::render

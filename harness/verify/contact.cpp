@@ -1,5 +1,3 @@
-#include "harness/verify/contact.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,8 @@
 #include <limits>
 
 #include <glm/geometric.hpp>
+
+#include "harness/verify/verify_ray.hpp"
 
 namespace beambench::verify {
 namespace {

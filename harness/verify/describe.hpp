@@ -11,7 +11,7 @@ namespace beambench::verify {
 
 /// `beambench trace SCENE --accel A --pixel X,Y ...` for the rays of an image,
 /// `... --rays KIND --ray N ...` for those of a list, to be pasted into a shell. Scenes from files
-/// are named by their path as it was typed.
+/// are named by their path as it was given.
 class ReplayCommand {
  public:
   /// `program` is how the program is called, with its plug-ins (`plugin::program_call`); `image` is

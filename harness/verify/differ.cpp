@@ -227,6 +227,13 @@ ReferenceHits::ReferenceHits(const scenes::Scene& scene, rays::TraceInput input,
   }
 }
 
+accel::HitBuffer ReferenceHits::rounded() const {
+  const accel::PrimaryRays& image = *input_.image();
+  accel::HitBuffer hits(image.width(), image.height(), image.samples());
+  for (std::size_t i = 0; i < hits.size(); ++i) hits.set(i, verify::rounded(hits_[i]));
+  return hits;
+}
+
 std::uint64_t ReferenceHits::hit_count() const {
   return static_cast<std::uint64_t>(
       std::ranges::count_if(hits_, [](const auto& hit) { return hit.has_value(); }));

@@ -78,7 +78,13 @@ struct DiffReport {
   }
 };
 
-/// The oracle's closest hit of each ray of a input, computed once (on all cores) and used for
+/// The hit with `t` rounded to float.
+inline std::optional<accel::Hit> rounded(const std::optional<accel::embree::ExactHit>& hit) {
+  if (!hit) return std::nullopt;
+  return accel::Hit{static_cast<float>(hit->t), hit->primitive};
+}
+
+/// The oracle's closest hit of each ray of an input, computed once (on all cores) and used for
 /// every contender. The scene must outlive it.
 class ReferenceHits {
  public:
@@ -92,6 +98,8 @@ class ReferenceHits {
   std::span<const std::optional<accel::embree::ExactHit>> hits() const { return hits_; }
   /// How many rays hit.
   std::uint64_t hit_count() const;
+  /// The hits of an image, `t` rounded to float.
+  accel::HitBuffer rounded() const;
 
  private:
   const scenes::Scene* scene_;

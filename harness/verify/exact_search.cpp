@@ -1,8 +1,8 @@
-#include "harness/verify/exact_search.hpp"
-
 #include <cmath>
 
 #include <glm/geometric.hpp>
+
+#include "harness/verify/verify_ray.hpp"
 
 namespace beambench::verify {
 namespace {

@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "accel/core/intersect.hpp"
-#include "harness/rays/trace_with_progress.hpp"
+#include "harness/rays/trace_results.hpp"
 #include "harness/verify/describe.hpp"
 #include "harness/verify/verify_ray.hpp"
 
@@ -64,7 +64,7 @@ std::string tests_text(const std::vector<TestOutcome>& outcomes) {
     if (outcome.hit) {
       out += fmt::format("primitive {} is hit at t = {}\n", outcome.primitive, outcome.t);
     } else if (accel::is_hit(outcome.t)) {
-      out += fmt::format("primitive {} would be hit at t = {}, behind the best\n",
+      out += fmt::format("primitive {} would be hit at t = {}, beyond the best\n",
                          outcome.primitive, outcome.t);
     } else {
       missed.push_back(outcome.primitive);
@@ -127,12 +127,12 @@ std::string passage_text(std::size_t number, const accel::beam::BeamPassage& bea
   if (beam.entered) {
     out += fmt::format(", by {}", plane_text(*beam.entered));
   } else {
-    out += ", the eye is in it";
+    out += ", the camera is in it";
   }
   out += fmt::format(
       "\n        {} samples; {}\n", beam.samples,
       is_last ? end_text(beam)
-              : (beam.kind == accel::BeamKind::kOccupied ? "goes on behind it" : "non-terminal"));
+              : (beam.kind == accel::BeamKind::kOccupied ? "continues behind it" : "non-terminal"));
   if (beam.cuts.empty()) out += "        not cut\n";
   for (const accel::beam::PlaneOrder& cut : beam.cuts) {
     out += fmt::format("        cut: crosses {} before {}\n", plane_text(cut.first),
@@ -170,8 +170,8 @@ bool same(const std::optional<accel::Hit>& a, const std::optional<accel::Hit>& b
 }
 
 std::string alone_text(const RayPath& path) {
-  if (!path.asked_all || path.judgment.query == rays::Query::kAnyHit) return "";
-  if (same(path.alone, path.judgment.answer)) return "";
+  if (!path.asked_all || path.verified.query == rays::Query::kAnyHit) return "";
+  if (same(path.alone, path.verified.answer)) return "";
   return fmt::format(
       "  alone     {}: traced without the other rays\n",
       path.alone ? fmt::format("primitive {} at t = {}", path.alone->primitive, path.alone->t)
@@ -274,8 +274,8 @@ RayPath trace_path(const accel::StructureChoice& choice, const scenes::Scene& sc
     progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
     rays::trace_with_progress(*accelerator, input, results, 1, progress);
   }
-  path.judgment = candidate_mismatch(input, results, index, oracle.closest_hit(ray));
-  verify_ray(scene, choice.info().conformance, path.judgment);
+  path.verified = candidate_mismatch(input, results, index, oracle.closest_hit(ray));
+  verify_ray(scene, choice.info().conformance, path.verified);
   return path;
 }
 
@@ -286,7 +286,7 @@ std::string to_text(const scenes::Scene& scene, const RayPath& path) {
                   path.input.label(), rays::to_string(path.image.resolution), samples,
                   samples == 1 ? "sample" : "samples");
   out += beams_text(path);
-  Account account(scene, path.judgment.ray);
+  Account account(scene, path.verified.ray);
   for (std::size_t i = 0; i < path.steps.size(); ++i) {
     // In the leaf where its beam ends, the images of the primitives on the screen are tested
     // first.
@@ -300,22 +300,22 @@ std::string to_text(const scenes::Scene& scene, const RayPath& path) {
     out += fmt::format("{} lists no steps: the ray entered nothing, or it cannot list them\n",
                        path.structure);
   }
-  return out + '\n' + describe(scene, path.input, path.judgment) + alone_text(path) +
+  return out + '\n' + describe(scene, path.input, path.verified) + alone_text(path) +
          counters_text(path);
 }
 
 nlohmann::ordered_json to_json(const scenes::Scene& scene, const RayPath& path) {
-  const Mismatch& judgment = path.judgment;
-  const accel::Ray& ray = judgment.ray;
+  const Mismatch& verified = path.verified;
+  const accel::Ray& ray = verified.ray;
   Json out{{"scene", scene.name},
            {"structure", path.structure},
            {"width", path.image.resolution.width},
            {"height", path.image.resolution.height},
            {"samples", path.image.samples},
            {"ray_kind", path.input.label()},
-           {"query", rays::to_string(judgment.query)},
-           {"index", judgment.index}};
-  if (const auto pixel = path.input.pixel(judgment.index)) {
+           {"query", rays::to_string(verified.query)},
+           {"index", verified.index}};
+  if (const auto pixel = path.input.pixel(verified.index)) {
     out["pixel"] = {pixel->x, pixel->y};
     out["sample"] = pixel->sample;
   }
@@ -330,19 +330,19 @@ nlohmann::ordered_json to_json(const scenes::Scene& scene, const RayPath& path) 
   }
   out["steps"] = Json::array();
   out["counters"] = path.counters;
-  if (judgment.query == rays::Query::kAnyHit) {
-    out["any_hit"] = judgment.any_hit_answer;
+  if (verified.query == rays::Query::kAnyHit) {
+    out["any_hit"] = verified.any_hit_answer;
   } else {
-    out["hit"] = hit_json(judgment.answer);
+    out["hit"] = hit_json(verified.answer);
   }
   out["hit_alone"] = hit_json(path.alone);
   out["asked_all"] = path.asked_all;
-  out["oracle"] = hit_json(judgment.oracle);
+  out["oracle"] = hit_json(verified.oracle);
   Account account(scene, ray);
   for (const accel::TraceStep& step : path.steps) out["steps"].push_back(step_json(step, account));
-  if (judgment.searched) out["exact"] = hit_json(judgment.exact);
-  out["class"] = kDiffClassNames[static_cast<std::size_t>(judgment.diff_class)];
-  out["reason"] = judgment.reason;
+  if (verified.searched) out["exact"] = hit_json(verified.exact);
+  out["class"] = kDiffClassNames[static_cast<std::size_t>(verified.diff_class)];
+  out["reason"] = verified.reason;
   return out;
 }
 

@@ -24,7 +24,7 @@ struct RayPath {
   std::vector<accel::TraceStep> steps;  ///< empty where the structure cannot list them
   std::map<std::string, std::uint64_t, std::less<>> counters;
   /// The ray, its hit among all rays (or, unless `asked_all`, alone), the oracle's, the class.
-  Mismatch judgment;
+  Mismatch verified;
   std::optional<accel::Hit> alone;  ///< its closest hit, traced alone
   bool asked_all = true;            ///< were all rays of the input traced?
   /// With beams: those that contain the sample. The steps are then of the sample with its beams.

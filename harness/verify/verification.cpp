@@ -9,7 +9,6 @@
 
 #include "harness/rays/hit_check.hpp"
 #include "harness/rays/trace_results.hpp"
-#include "harness/rays/trace_with_progress.hpp"
 #include "harness/verify/describe.hpp"
 #include "scenes/core/error.hpp"
 
@@ -69,47 +68,8 @@ std::vector<std::string> describe_disputes(const VerifiedView& view, const DiffR
   return texts;
 }
 
-class SceneVerifier {
- public:
-  SceneVerifier(const VerifiedView& view, base::Progress& progress, const DrawDifferences& draw)
-      : view_(view), reference_(view.scene, view.input), progress_(progress), draw_(draw) {
-    if (const auto warning = rays::share_warning(view.input, reference_.hit_count())) {
-      progress_.say(fmt::format("warning: {}: {}", view.scene.name, *warning));
-    }
-  }
-
-  void verify_into(const accel::StructureChoice& choice, VerifiedCell& cell) {
-    const auto accelerator =
-        choice.build(view_.scene, rays::workload_of(view_.image, view_.input, view_.threads));
-    rays::TraceResults results = rays::make_results(view_.input);
-    rays::trace_with_progress(*accelerator, view_.input, results, view_.threads, progress_);
-    const ReplayCommand replay(view_.program, view_.scene, view_.image, choice, view_.input);
-    std::vector<DiffClass> classes(view_.input.size());
-    cell.report = verify_results(reference_, results, choice.info().conformance, classes);
-    cell.verdict = cell.report->verdict;
-    cell.disputes = describe_disputes(view_, *cell.report, replay);
-    if (choice.info().conformance == accel::Conformance::kBitExact) {
-      if (bits_) {
-        compare_bits(view_.input, results, *bits_, replay, classes, cell);
-      } else {
-        bits_ = BitsReference{cell.label, std::move(results)};
-      }
-    }
-    if (draw_ && !cell.passed() && view_.input.image() != nullptr) {
-      cell.picture = draw_(reference_, classes, cell);
-    }
-  }
-
- private:
-  const VerifiedView& view_;
-  ReferenceHits reference_;
-  base::Progress& progress_;
-  const DrawDifferences& draw_;
-  std::optional<BitsReference> bits_;
-};
-
 void fail(VerifiedCell& cell, const std::exception& error) {
-  cell.verdict = verify::Verdict::kError;
+  cell.verdict = Verdict::kError;
   cell.message = error.what();
 }
 
@@ -147,7 +107,7 @@ std::vector<VerifiedCell> verify_each(const scenes::Scene& scene, const std::str
     } catch (const rays::InvalidHit& error) {  // nothing can be traced on from there
       fail(cell, error);
     }
-    const std::string_view verdict = verify::to_string(cell.verdict);
+    const std::string_view verdict = to_string(cell.verdict);
     progress.finish(cell.message.empty() ? std::string(verdict)
                                          : fmt::format("{}: {}", verdict, cell.message));
   }
@@ -158,11 +118,32 @@ std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
                                        std::vector<accel::StructureChoice> contenders,
                                        base::Progress& progress,
                                        const DrawDifferences& draw_differences) {
-  SceneVerifier verifier(view, progress, draw_differences);
-  return verify_each(view.scene, view.input.label(), std::move(contenders), progress,
-                     [&](const accel::StructureChoice& choice, VerifiedCell& cell) {
-                       verifier.verify_into(choice, cell);
-                     });
+  const ReferenceHits reference(view.scene, view.input);
+  if (const auto warning = rays::share_warning(view.input, reference.hit_count())) {
+    progress.say(fmt::format("warning: {}: {}", view.scene.name, *warning));
+  }
+  std::optional<BitsReference> bits;
+  const auto verify_into = [&](const accel::StructureChoice& choice, VerifiedCell& cell) {
+    const auto accelerator =
+        choice.build(view.scene, rays::workload_of(view.image, view.input, view.threads));
+    rays::TraceResults results = rays::make_results(view.input);
+    rays::trace_with_progress(*accelerator, view.input, results, view.threads, progress);
+    const ReplayCommand replay(view.program, view.scene, view.image, choice, view.input);
+    std::vector<DiffClass> classes(view.input.size());
+    cell.report = verify_results(reference, results, choice.info().conformance, classes);
+    cell.verdict = cell.report->verdict;
+    cell.disputes = describe_disputes(view, *cell.report, replay);
+    const bool bit_exact = choice.info().conformance == accel::Conformance::kBitExact;
+    if (bit_exact && bits) {
+      compare_bits(view.input, results, *bits, replay, classes, cell);
+    } else if (bit_exact) {
+      bits = BitsReference{cell.label, std::move(results)};
+    }
+    if (draw_differences && !cell.passed() && view.input.image() != nullptr) {
+      cell.picture = draw_differences(reference, classes, cell);
+    }
+  };
+  return verify_each(view.scene, view.input.label(), std::move(contenders), progress, verify_into);
 }
 
 std::vector<VerifiedCell> cells_without_rays(const scenes::Scene& scene, const std::string& rays,
@@ -176,10 +157,9 @@ std::vector<VerifiedCell> cells_without_rays(const scenes::Scene& scene, const s
 }
 
 nlohmann::ordered_json to_json(const VerifiedCell& cell) {
-  nlohmann::ordered_json out{
-      {"scene", cell.scene},           {"ray_kind", cell.rays},
-      {"primitives", cell.primitives}, {"structure", cell.structure},
-      {"parameters", cell.parameters}, {"verdict", verify::to_string(cell.verdict)}};
+  nlohmann::ordered_json out{{"scene", cell.scene},           {"ray_kind", cell.rays},
+                             {"primitives", cell.primitives}, {"structure", cell.structure},
+                             {"parameters", cell.parameters}, {"verdict", to_string(cell.verdict)}};
   if (!cell.message.empty()) out["message"] = cell.message;
   if (cell.report) {
     out["rays"] = cell.report->rays;

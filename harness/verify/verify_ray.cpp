@@ -5,9 +5,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "harness/verify/contact.hpp"
-#include "harness/verify/exact_search.hpp"
-
 namespace beambench::verify {
 namespace {
 

@@ -9,10 +9,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/bench/contender.hpp"
 #include "harness/bench/google_benchmark.hpp"
 #include "harness/bench/measurement.hpp"
 #include "harness/bench/plan.hpp"
-#include "harness/bench/stopping.hpp"
 #include "tests/scenes/thrown_message.hpp"
 #include "tests/temporary_folder.hpp"
 

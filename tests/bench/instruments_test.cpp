@@ -8,9 +8,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "harness/bench/hardware_counters.hpp"
 #include "harness/bench/measurement.hpp"
-#include "harness/bench/overhead.hpp"
+#include "harness/bench/record/manifest.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
 namespace beambench::bench {

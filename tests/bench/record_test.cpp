@@ -11,7 +11,6 @@
 #include <rapidcheck/gtest.h>
 
 #include "harness/bench/record/cell_record.hpp"
-#include "harness/bench/record/csv.hpp"
 #include "harness/bench/record/machine.hpp"
 #include "harness/bench/record/manifest.hpp"
 #include "harness/bench/record/robust_statistics.hpp"

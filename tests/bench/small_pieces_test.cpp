@@ -10,7 +10,7 @@
 
 #include "harness/base/progress.hpp"
 #include "harness/rays/ray_kind.hpp"
-#include "harness/rays/resolution.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::bench {

@@ -180,8 +180,7 @@ TEST(JobMessage, ComesBack) {
   job.scene = "balls:n=2";
   job.structure = "beam:max_level=5";
   job.camera = "side";
-  job.width = 30;
-  job.height = 20;
+  job.resolution = {30, 20};
   job.samples = 5;
   job.light = true;
   job.whitted = {3, 0.25, render::ShadowMethod::kCache};
@@ -190,8 +189,7 @@ TEST(JobMessage, ComesBack) {
   EXPECT_EQ(read.scene, job.scene);
   EXPECT_EQ(read.structure, job.structure);
   EXPECT_EQ(read.camera, job.camera);
-  EXPECT_EQ(read.width, 30);
-  EXPECT_EQ(read.height, 20);
+  EXPECT_EQ(read.resolution, (rays::Resolution{30, 20}));
   EXPECT_EQ(read.samples, 5);
   EXPECT_TRUE(read.light);
   EXPECT_EQ(read.whitted.max_depth, 3);

@@ -12,7 +12,6 @@
 #include "harness/cluster/image_worker.hpp"
 #include "harness/cluster/producer.hpp"
 #include "harness/cluster/run.hpp"
-#include "harness/cluster/sample_results.hpp"
 #include "harness/cluster/tasks.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/render/shading.hpp"
@@ -76,7 +75,7 @@ class Workplace {
     for (ProcessId process = 1; process < processes; ++process) {
       consumers.emplace_back([this, process, light, &network] {
         ImageWorker worker(tracer_, rays_, light);
-        Consumer(network.at(process), worker, 0.01).run({});
+        consume(network.at(process), worker, 0.01, {});
       });
     }
     std::unique_ptr<TaskSource> source = std::make_unique<BeamSource>(tracer_, rays_);
@@ -230,7 +229,7 @@ TEST(Cluster, EndsWithAnErrorWhereAProcessDoesNotFit) {
   for (const ProcessId process : {1, 2}) {
     consumers.emplace_back([&, process] {
       ImageWorker worker(tracer, rays, nullptr);
-      Consumer(network.at(process), worker, 1.0).run({});
+      consume(network.at(process), worker, 1.0, {});
     });
   }
   BeamSource source(tracer, rays);
@@ -251,8 +250,7 @@ TEST(Cluster, RunsFromACommandLineToItsEnd) {
   ClusterRequest request;
   request.job.scene = "tetra:n=2";
   request.job.structure = "beam:max_level=6";
-  request.job.width = 40;
-  request.job.height = 30;
+  request.job.resolution = {40, 30};
   request.job.samples = 4;
   LocalNetwork network(3, 1, 0.0001);
   const ClusterRun run = led(lead, request, network);

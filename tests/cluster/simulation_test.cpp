@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/cluster/simulation/charged_transport.hpp"
 #include "harness/cluster/simulation/replay.hpp"
 #include "tests/cluster/local_network.hpp"
 

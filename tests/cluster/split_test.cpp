@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "harness/cluster/sample_results.hpp"
+#include "harness/cluster/image_worker.hpp"
 #include "harness/cluster/split/part_member.hpp"
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/rays/fingerprint.hpp"
@@ -172,8 +172,7 @@ TEST(SplitScene, RunsFromACommandLineToItsEnd) {
   ClusterRequest request;
   request.job.scene = "tetra:n=3";
   request.job.structure = "beam:max_level=6";
-  request.job.width = 40;
-  request.job.height = 30;
+  request.job.resolution = {40, 30};
   request.job.split_level = 3;
   LocalNetwork network(3, 1, 0.0);
   EXPECT_EQ(led(lead_split, request, network).result_hash, rays::fingerprint(expected));

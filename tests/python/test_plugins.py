@@ -247,11 +247,11 @@ def test_a_scene_is_named_as_it_is_asked_for_and_a_file_by_its_path(
     ("fault", "words"),
     [
         ("throw in fill", ["threw", "while it was loaded", "not ready"]),
-        ("throw at load", ["crashed", "SIGABRT", "not taken in"]),
-        ("crash at load", ["crashed", "SIGSEGV", "not taken in"]),
-        ("exit at load", ["ended the process", "not taken in"]),
-        ("hang in fill", ["did not come to an end", "not taken in"]),
-        ("brings nothing", ["brings nothing"]),
+        ("throw at load", ["crashed", "SIGABRT", "not loaded"]),
+        ("crash at load", ["crashed", "SIGSEGV", "not loaded"]),
+        ("exit at load", ["ended the process", "not loaded"]),
+        ("hang in fill", ["did not come to an end", "not loaded"]),
+        ("brings nothing", ["provides nothing"]),
         ("taken name", ["'samet'", "rename it"]),
         ("no name", ["'my structure:1'", "letters, digits"]),
         ("reserved", ["'all'", "letters, digits"]),
@@ -398,7 +398,7 @@ def test_other_commands_end_by_name_when_it_crashes(faulty: Path, command: list[
     assert message.startswith(
         f"beambench: the plug-in {faulty}: querying 'faulty' over row:n=3 crashed"
     )
-    assert "nothing of what it answered was kept" in message
+    assert "none of its results were kept" in message
 
 
 @pytest.mark.parametrize(
@@ -414,7 +414,7 @@ def test_other_commands_end_by_name_when_it_crashes(faulty: Path, command: list[
         ),
         ("throw in scene", ["threw when it made the scene row", "no idea"]),
         ("crash in scene", ["making the scene row", "crashed"]),
-        ("scene beyond its arrays", ["broken scene row", "primitive 0", "not there"]),
+        ("scene beyond its arrays", ["invalid scene row", "primitive 0", "not there"]),
     ],
 )
 def test_a_picture_of_it_fails_by_name(

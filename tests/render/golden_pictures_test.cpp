@@ -85,7 +85,7 @@ INSTANTIATE_TEST_SUITE_P(
 // Why ours are up to 0.4% above his: his 513 rays a row seem to be spread over 513 pixels, not over
 // the 512 of the frame. Made so, the eye rays that hit are his but for one in 5,000.
 TEST(PublishedCounts, AreThoseOfRaysSpreadOverOnePixelMore) {
-  for (const PublishedCounts& published : published_spd_counts()) {
+  for (const PublishedCounts& published : kPublishedSpdCounts) {
     SCOPED_TRACE(published.scene);
     const scenes::Scene scene = scenes::load_scene(published.scene);
     scenes::Camera wider = scene.cameras.front();
@@ -100,7 +100,7 @@ TEST(PublishedCounts, AreThoseOfRaysSpreadOverOnePixelMore) {
 }
 
 TEST(PublishedCounts, AreThoseOfSevenScenes) {
-  EXPECT_EQ(published_spd_counts().size(), 7U);
+  EXPECT_EQ(kPublishedSpdCounts.size(), 7U);
   EXPECT_EQ(find_published_counts("balls:n=3"), nullptr) << "another size";
   EXPECT_EQ(find_published_counts("lattice:n=12"), nullptr);
 }

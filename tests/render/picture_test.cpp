@@ -15,12 +15,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "harness/render/picture/category_map.hpp"
 #include "harness/render/picture/color.hpp"
-#include "harness/render/picture/heat_map.hpp"
 #include "harness/render/picture/image.hpp"
 #include "harness/render/picture/image_file.hpp"
-#include "harness/render/picture/text.hpp"
+#include "harness/render/picture/legend.hpp"
 #include "scenes/core/error.hpp"
 #include "tests/temporary_folder.hpp"
 

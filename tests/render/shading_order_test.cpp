@@ -1,12 +1,11 @@
 // The order in which samples are shaded changes what a shadow cache knows, and no picture.
 
-#include "harness/render/shading_order.hpp"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
 
 #include "accel/beam/beam_tracer.hpp"
+#include "harness/render/whitted_picture.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "tests/drawn.hpp"

@@ -10,7 +10,6 @@
 
 #include "accel/core/registry.hpp"
 #include "harness/verify/describe.hpp"
-#include "harness/verify/exact_search.hpp"
 #include "harness/verify/verify_ray.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"

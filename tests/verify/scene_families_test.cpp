@@ -3,8 +3,6 @@
 // BEAMBENCH_FAMILY_SCENES=1000 in the environment requests more of them, BEAMBENCH_FAMILY_SEED=N
 // for others.
 
-#include "harness/verify/selftest/scene_families.hpp"
-
 #include <algorithm>
 #include <cstdlib>
 #include <map>
@@ -23,6 +21,7 @@
 #include "harness/render/verified_picture.hpp"
 #include "harness/verify/describe.hpp"
 #include "harness/verify/selftest/subject.hpp"
+#include "harness/verify/selftest/test_scenes.hpp"
 #include "harness/verify/verify_ray.hpp"
 #include "scenes/core/error.hpp"
 #include "tests/only_target.hpp"

@@ -10,12 +10,17 @@
 #include <string_view>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include "accel/core/statistics.hpp"
-#include "harness/bench/record/csv.hpp"
-#include "harness/rays/resolution.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "harness/verify/differ.hpp"
 
 namespace beambench::bench {
+
+/// A row of a record: column names to numbers, texts, flags, or null for what was not measured. The
+/// order is that of the columns.
+using Row = nlohmann::ordered_json;
 
 enum class QueryPath {
   kImageSingle,  ///< an image, its rays made one by one
@@ -33,35 +38,22 @@ constexpr std::string_view to_string(QueryPath path) {
   return kQueryPathNames[static_cast<std::size_t>(path)];
 }
 
-/// The query path of an image for a structure that gets rays so.
-constexpr QueryPath image_path(accel::ImageRays rays) {
-  switch (rays) {
-    case accel::ImageRays::kSimd:
-      return QueryPath::kImageSimd;
-    case accel::ImageRays::kOwn:
-      return QueryPath::kImageOwn;
-    case accel::ImageRays::kSingle:
-      break;
-  }
-  return QueryPath::kImageSingle;
-}
-
 /// The harness's own share of a trace by a path: what it takes where answers cost nothing.
 struct HarnessShare {
   QueryPath path;
   double ms;
 };
 
-/// The events, as columns name them behind the phase: `trace_instructions`.
+/// The events, as columns name them after the phase: `trace_instructions`.
 inline constexpr std::array<std::string_view, 3> kHardwareEvents{"instructions", "cycles",
                                                                  "cache_misses"};
 
 /// One count for each event; nothing for one that this machine does not count.
 using HardwareCounts = std::array<std::optional<std::uint64_t>, kHardwareEvents.size()>;
 
-/// The version of the columns of results.csv, their first one. Counted up when a column changes its
-/// name, meaning or unit or goes away, since a reader of the old ones would err; a new column alone
-/// is no new version. What each means is in scripts/beambench_report/columns.json.
+/// The version of the columns of results.csv, their first one. Incremented when a column changes
+/// its name, meaning or unit or goes away, since a reader of the old ones would err; a new column
+/// alone is no new version. What each means is in scripts/beambench_report/columns.json.
 inline constexpr int kSchemaVersion = 1;
 
 /// What two runs differ by however often each repeats: another process has its code and data at

@@ -1,15 +1,19 @@
 #include "harness/bench/record/manifest.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <optional>
 #include <utility>
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "accel/core/instruction_set.hpp"
 #include "accel/embree/isa.hpp"
 #include "harness/bench/measurement.hpp"
-#include "harness/bench/record/build_info.hpp"
+#include "harness/bench/record/cell_record.hpp"
+#include "harness/bench/record/machine.hpp"
 #include "harness/rays/fingerprint.hpp"
 
 namespace beambench::bench {
@@ -17,7 +21,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The layout of the files of a run. Counted up when a reader of the old one would err.
+// The layout of the files of a run. Incremented when a reader of the old layout would fail.
 constexpr int kRecordVersion = 1;
 
 constexpr std::string_view kLibraryNote =
@@ -136,16 +140,28 @@ std::string new_run_id(const std::string& sweep) {
                      fmt::gmtime(std::chrono::system_clock::to_time_t(now)), milliseconds, sweep);
 }
 
-RunFacts facts_of(const BuildInfo& build, const std::string& run_id, const Machine& machine,
-                  int threads) {
-  return {run_id,
-          std::string(build.commit),
-          build.dirty,
-          machine.id,
-          std::string(build.build_type),
-          std::string(build.flags),
-          accel::embree::isa_in_use("best"),
-          threads};
+std::optional<Overhead> overhead_of(const Json& cell) {
+  const Json& row = cell.at("row");
+  if (row.at("verdict") != verify::to_string(verify::Verdict::kOk) ||
+      row.at("trace_ms_median").is_null())
+    return std::nullopt;
+  const Json& path = row.at("query_path");
+  if (path.is_null() || path == to_string(QueryPath::kImageOwn) ||
+      path == to_string(QueryPath::kPicture)) {
+    return std::nullopt;
+  }
+  const double trace_ms = row.at("trace_ms_median").get<double>();
+  const double harness_ms = row.at("harness_ms").get<double>();
+  // A plug-in that is faster than making rays one by one does not do so, whatever it states.
+  if (trace_ms <= harness_ms) return std::nullopt;
+  return Overhead{path.get<std::string>(), cell.at("name").get<std::string>(),
+                  harness_ms / trace_ms};
+}
+
+std::string_view subject_of(const std::string& path) {
+  if (path == to_string(QueryPath::kImageSingle)) return "images by single rays";
+  if (path == to_string(QueryPath::kImageSimd)) return "images by SIMD rays";
+  return "lists of rays";
 }
 
 }  // namespace
@@ -204,7 +220,14 @@ Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes
   manifest.machine = inspect_machine();
   manifest.sweep = sweep;
   manifest.begun_utc = manifest.part_begun_utc = utc_now();
-  manifest.run = facts_of(build, new_run_id(sweep), manifest.machine, threads);
+  manifest.run = {new_run_id(sweep),
+                  std::string(build.commit),
+                  build.dirty,
+                  manifest.machine.id,
+                  std::string(build.build_type),
+                  std::string(build.flags),
+                  accel::embree::isa_in_use("best"),
+                  threads};
   manifest.measurement = {MeasuringFloatMode::available(),
                           core,
                           MeasuringFloatMode::control_word(),
@@ -235,6 +258,43 @@ Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes
         fmt::format("The plug-in {} was built without optimization.", plugin.file));
   }
   return manifest;
+}
+
+std::vector<Overhead> largest_overheads(std::span<const Json> cells) {
+  std::vector<Overhead> largest;
+  for (const Json& cell : cells) {
+    const std::optional<Overhead> found = overhead_of(cell);
+    if (!found) continue;
+    const auto same = std::ranges::find(largest, found->path, &Overhead::path);
+    if (same == largest.end()) {
+      largest.push_back(*found);
+    } else if (found->part > same->part) {
+      *same = *found;
+    }
+  }
+  std::ranges::stable_sort(largest, std::ranges::greater(), &Overhead::part);
+  return largest;
+}
+
+std::string describe(std::span<const Overhead> overheads) {
+  std::vector<std::string> parts;
+  for (const Overhead& each : overheads) {
+    parts.push_back(fmt::format("{:.2g}%{} for {} ({})", 100.0 * each.part,
+                                parts.empty() ? " of a contender's trace time" : "",
+                                subject_of(each.path), each.cell));
+  }
+  return fmt::format(
+      "harness overhead: at most {}; trace_net_ms_median in results.csv is without it",
+      fmt::join(parts, ", "));
+}
+
+Json to_json(std::span<const Overhead> overheads) {
+  if (overheads.empty()) return {};
+  Json json{{"part", overheads.front().part}, {"cell", overheads.front().cell}};
+  for (const Overhead& each : overheads) {
+    json["by_query_path"][each.path] = {{"part", each.part}, {"cell", each.cell}};
+  }
+  return json;
 }
 
 }  // namespace beambench::bench

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -61,9 +62,29 @@ std::optional<std::string> noise_warning(const std::optional<double>& noise);
 std::vector<std::string> preflight(const Manifest& manifest);
 
 /// The manifest of a new run of the sweep of that name, whose timed code is pinned to `core` (-1:
-/// to none) and runs on so many threads, after a warm-up. The rest is read from this program, the
+/// to none) and runs on that many threads, after a warm-up. The rest is read from this program, the
 /// machine and Embree.
 Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes, int core,
                         int threads, std::chrono::duration<double> warm_up);
+
+/// The harness's own share of a trace (`harness_ms`) in the cell where it is the largest part of
+/// the contender's time, among those of one query path.
+struct Overhead {
+  std::string path;  ///< the QueryPath, by name
+  std::string cell;  ///< its name
+  double part;       ///< of its median trace time
+};
+
+/// One for each path with right answers among finished cells (their JSON files), the largest first.
+/// Structures that trace images by samples of their own have none, nor whole pictures, whose
+/// shading is wanted.
+std::vector<Overhead> largest_overheads(std::span<const nlohmann::ordered_json> cells);
+
+/// `harness overhead: at most 1.2% of a contender's trace time for images by single rays
+/// (tetra.../samet), ...`, and where the times without it are. Of at least one.
+std::string describe(std::span<const Overhead> overheads);
+
+/// The largest, and each by its path; null where there is none.
+nlohmann::ordered_json to_json(std::span<const Overhead> overheads);
 
 }  // namespace beambench::bench

@@ -16,25 +16,29 @@ std::vector<double> sorted(std::span<const double> samples) {
   return values;
 }
 
-/// How many of the smallest (and of the largest) of n samples lie outside the interval: the
-/// largest k with P(B(n, 1/2) < k) <= kTail.
-std::size_t samples_outside(std::size_t n) {
-  const auto count = static_cast<double>(n);
+double log_choose(double n, double k) {
+  return std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0);
+}
+
+/// The largest k up to n with log_probability(0) + ... + log_probability(k - 1) <= kTail, in
+/// probabilities.
+template <class LogProbability>
+std::size_t largest_tail(std::size_t n, LogProbability log_probability) {
   double cumulative = 0.0;
   std::size_t k = 0;
   while (k < n) {
-    const auto chosen = static_cast<double>(k);
-    const double log_probability = std::lgamma(count + 1.0) - std::lgamma(chosen + 1.0) -
-                                   std::lgamma(count - chosen + 1.0) - count * std::log(2.0);
-    cumulative += std::exp(log_probability);
+    cumulative += std::exp(log_probability(static_cast<double>(k)));
     if (cumulative > kTail) break;
     ++k;
   }
   return k;
 }
 
-double log_choose(double n, double k) {
-  return std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0);
+/// How many of the smallest (and of the largest) of n samples lie outside the interval: the
+/// largest k with P(B(n, 1/2) < k) <= kTail.
+std::size_t samples_outside(std::size_t n) {
+  const auto count = static_cast<double>(n);
+  return largest_tail(n, [&](double k) { return log_choose(count, k) - count * std::log(2.0); });
 }
 
 /// The same for the interval of a repeat: the largest r with P(Y < X_r) <= kTail, where Y is the
@@ -42,17 +46,10 @@ double log_choose(double n, double k) {
 std::size_t samples_outside_repeat(std::size_t n) {
   const auto count = static_cast<double>(n);
   const auto middle = static_cast<double>((n + 1) / 2);
-  double cumulative = 0.0;
-  std::size_t r = 0;
-  while (r < n) {
-    const auto below = static_cast<double>(r);  // of the first samples, below Y
-    cumulative += std::exp(log_choose(middle - 1.0 + below, below) +
-                           log_choose(2.0 * count - middle - below, count - below) -
-                           log_choose(2.0 * count, count));
-    if (cumulative > kTail) break;
-    ++r;
-  }
-  return r;
+  return largest_tail(n, [&](double below) {  // how many of the first samples are below Y
+    return log_choose(middle - 1.0 + below, below) +
+           log_choose(2.0 * count - middle - below, count - below) - log_choose(2.0 * count, count);
+  });
 }
 
 std::optional<Interval> between_order_statistics(std::span<const double> samples,

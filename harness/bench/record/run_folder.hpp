@@ -4,11 +4,14 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
+#include "harness/bench/record/cell_record.hpp"
 #include "scenes/core/files.hpp"
 
 namespace beambench::bench {
@@ -59,5 +62,14 @@ void require_run(const std::filesystem::path& folder);
 /// new ones would not compare. The reason is named.
 void require_same_run(const RunFolder& folder, const nlohmann::json& config,
                       const nlohmann::ordered_json& manifest);
+
+/// A text as a CSV field: in quotes, inner quotes doubled, when it holds a comma, quote or line
+/// end.
+std::string csv_field(std::string_view text);
+
+/// Header and rows, lines ending with a line feed. The columns are those of the first row; columns
+/// that only later rows have are inserted after the one they follow there. What a row lacks, and
+/// null, is an empty field; numbers are in their shortest exact form.
+std::string csv_table(std::span<const Row> rows);
 
 }  // namespace beambench::bench

@@ -11,15 +11,14 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "harness/base/exit_code.hpp"
 #include "harness/base/messages.hpp"
-#include "harness/bench/record/build_info.hpp"
+#include "harness/bench/record/machine.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cluster/mpi_transport.hpp"
 #include "harness/cluster/run.hpp"
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "harness/rays/resolution.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "harness/render/picture/image_file.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
@@ -113,11 +112,7 @@ void fill(const Options& typed, ClusterRequest& request) {
   job.scene = typed.scene;
   job.structure = choose_one("--accel", typed.structure).label();
   job.camera = typed.image.view.camera;
-  if (!typed.image.resolution.empty()) {
-    const rays::Resolution resolution = rays::parse_resolution(typed.image.resolution);
-    job.width = resolution.width;
-    job.height = resolution.height;
-  }
+  job.resolution = chosen_resolution(typed.image).value_or(job.resolution);
   job.samples = typed.image.samples;
   accel::sample_offsets(job.samples);
   job.light = request.shading == render::Shading::kWhitted;
@@ -193,12 +188,7 @@ int run_process(int argc, char** argv, Transport& transport) {
     base::report_error(kProgram, error.what(), base::kMismatch);
     MpiSession::abort(base::kMismatch);
   } catch (const std::exception& error) {
-    const auto* memory = dynamic_cast<const std::bad_alloc*>(&error);
-    base::report_error(kProgram,
-                       memory != nullptr
-                           ? "out of memory; choose a smaller scene or resolution"
-                           : fmt::format("internal error, please report it: {}", error.what()),
-                       base::kInternalError);
+    base::report_failure(kProgram, error);
     MpiSession::abort(base::kInternalError);
   }
 }

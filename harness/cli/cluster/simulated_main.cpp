@@ -12,11 +12,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "harness/base/exit_code.hpp"
 #include "harness/base/messages.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cluster/simulation/simulate.hpp"
-#include "harness/rays/resolution.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::cli {
@@ -26,6 +25,8 @@ using namespace cluster;
 using Json = nlohmann::ordered_json;
 
 constexpr const char* kProgram = "beambench-cluster-simulated";
+const CLI::Range kPositive(1e-12, 1e12);
+const CLI::Range kNotNegative(0.0, 1e12);
 
 struct ClusterOptions {
   ClusterModel model;
@@ -34,8 +35,6 @@ struct ClusterOptions {
 };
 
 void add_cluster_options(CLI::App& app, ClusterOptions& cluster) {
-  const CLI::Range positive(1e-12, 1e12);
-  const CLI::Range not_negative(0.0, 1e12);
   app.add_option("--network", cluster.network,
                  "shared: one medium; switched: a line in both directions for each machine")
       ->capture_default_str()
@@ -44,25 +43,25 @@ void add_cluster_options(CLI::App& app, ClusterOptions& cluster) {
   app.add_option("--bandwidth", model.bytes_per_second,
                  "Bytes per second of the medium or of each line")
       ->capture_default_str()
-      ->check(positive);
+      ->check(kPositive);
   app.add_option("--latency", model.latency_seconds, "Seconds between two machines")
       ->capture_default_str()
-      ->check(not_negative);
+      ->check(kNotNegative);
   app.add_option("--message-seconds", model.message_cost.message_seconds,
                  "CPU seconds per message, of the sender and of the receiver")
       ->capture_default_str()
-      ->check(not_negative);
+      ->check(kNotNegative);
   app.add_option("--byte-seconds", model.message_cost.byte_seconds, "... and per byte")
       ->capture_default_str()
-      ->check(not_negative);
+      ->check(kNotNegative);
   app.add_option("--look-seconds", model.message_cost.look_seconds,
                  "CPU seconds to poll when there is no message")
       ->capture_default_str()
-      ->check(positive);
+      ->check(kPositive);
   app.add_option("--speeds", cluster.speeds,
                  "Speeds of all machines but the first, repeated: 1,0.5")
       ->delimiter(',')
-      ->check(positive);
+      ->check(kPositive);
   app.add_option("--loaded", model.loaded, "Number of machines that others use now and then");
   app.add_option("--loaded-share", model.loaded_share, "Share of their speed that others leave")
       ->capture_default_str()
@@ -70,7 +69,7 @@ void add_cluster_options(CLI::App& app, ClusterOptions& cluster) {
   app.add_option("--load-period", model.load_period,
                  "Seconds; others use the machines in the second half of each period")
       ->capture_default_str()
-      ->check(positive);
+      ->check(kPositive);
 }
 
 /// With a machine of speed 1 for process 0; the given speeds are repeated for the others.
@@ -110,15 +109,10 @@ Json process_json(std::size_t number, const ProcessReport& process) {
 
 Json to_json(const TaskCosts& costs, double build_seconds, const SimulatedRun& run) {
   Json processes = Json::array();
-  Traffic down;
-  Traffic up;
+  const Traffic down = run.report.total(&ProcessReport::from_producer);
+  const Traffic up = run.report.total(&ProcessReport::to_producer);
   for (std::size_t i = 0; i < run.report.processes.size(); ++i) {
-    const ProcessReport& process = run.report.processes[i];
-    processes.push_back(process_json(i, process));
-    down.messages += process.from_producer.messages;
-    down.bytes += process.from_producer.bytes;
-    up.messages += process.to_producer.messages;
-    up.bytes += process.to_producer.bytes;
+    processes.push_back(process_json(i, run.report.processes[i]));
   }
   return {{"tasks", costs.tasks.size()},
           {"seconds", run.seconds},
@@ -147,8 +141,6 @@ void replay(const ReplayRequest& request, const char* program) {
 }
 
 void add_replay_options(CLI::App& app, ReplayRequest& request) {
-  const CLI::Range positive(1e-12, 1e12);
-  const CLI::Range not_negative(0.0, 1e12);
   app.add_option("TASKS", request.tasks, "Recording of 'beambench-cluster SCENE --tasks FILE.csv'")
       ->required();
   app.add_option("--consumers", request.consumers, "Number of consumers")
@@ -156,14 +148,15 @@ void add_replay_options(CLI::App& app, ReplayRequest& request) {
       ->check(CLI::Range(0, 4095));
   app.add_option("--walk-scale", request.walk_scale,
                  "Time of a machine of speed 1 over the recorded one, to trace beams")
-      ->check(positive);
-  app.add_option("--work-scale", request.work_scale, "... and for all other work")->check(positive);
+      ->check(kPositive);
+  app.add_option("--work-scale", request.work_scale, "... and for all other work")
+      ->check(kPositive);
   app.add_option("--build-seconds", request.build_seconds,
                  "Time of every process to read the scene and build the octree")
-      ->check(not_negative);
+      ->check(kNotNegative);
   app.add_option("--sample-bytes", request.bytes_per_sample,
                  "Bytes of a result per sample (default: as recorded)")
-      ->check(positive);
+      ->check(kPositive);
   add_cluster_options(app, request.cluster);
   app.add_option("--batch", request.options.batch, "Tasks per message")
       ->capture_default_str()
@@ -212,11 +205,7 @@ Json to_json(const scenes::Scene& whole, const SimulatedSplit& run) {
 void trace_split(const SplitRequest& request, const char* program) {
   const auto whole = std::make_shared<const scenes::Scene>(open_scene(request.job.scene));
   Job job = request.job;
-  if (!request.image.resolution.empty()) {
-    const rays::Resolution resolution = rays::parse_resolution(request.image.resolution);
-    job.width = resolution.width;
-    job.height = resolution.height;
-  }
+  job.resolution = chosen_resolution(request.image).value_or(job.resolution);
   job.camera = request.image.view.camera;
   job.samples = request.image.samples;
   const SimulatedSplit result = simulate_split(cluster_of(request.cluster, request.processes), job,
@@ -225,7 +214,6 @@ void trace_split(const SplitRequest& request, const char* program) {
 }
 
 void add_split_options(CLI::App& app, SplitRequest& request) {
-  const CLI::Range positive(1e-12, 1e12);
   add_scene_option(app, request.job.scene);
   app.add_option("--accel", request.job.structure, "beam, with parameters: beam:max_level=6,...")
       ->capture_default_str();
@@ -241,9 +229,9 @@ void add_split_options(CLI::App& app, SplitRequest& request) {
   app.add_option("--build-scale", request.scale.build,
                  "Time of a machine of speed 1 over that of this one, to divide the scene "
                  "and to build")
-      ->check(positive);
-  app.add_option("--walk-scale", request.scale.walk, "... to trace beams")->check(positive);
-  app.add_option("--work-scale", request.scale.work, "... for all other work")->check(positive);
+      ->check(kPositive);
+  app.add_option("--walk-scale", request.scale.walk, "... to trace beams")->check(kPositive);
+  app.add_option("--work-scale", request.scale.work, "... for all other work")->check(kPositive);
   add_cluster_options(app, request.cluster);
 }
 
@@ -297,10 +285,9 @@ int main(int argc, char** argv) {
   using namespace beambench;
   try {
     return cli::run(argc, argv);
-  } catch (const std::bad_alloc&) {
-    return base::report_error("error", "out of memory; choose a smaller scene or resolution",
-                              base::kInvalidInput);
-  } catch (const std::exception& error) {
+  } catch (const InputError& error) {
     return base::report_error("error", error.what(), base::kInvalidInput);
+  } catch (const std::exception& error) {
+    return base::report_failure("error", error);
   }
 }

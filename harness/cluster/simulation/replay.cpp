@@ -127,7 +127,7 @@ TaskCosts read_task_costs(const std::filesystem::path& path) {
   bool ended = false;
   while (std::getline(file, text)) {
     line.read(text);
-    if (ended) line.fail("there is a task behind the row 'end'");
+    if (ended) line.fail("there is a task after the row 'end'");
     ended = line.text("task") == kEnd;
     if (ended) {
       costs.last_walk_seconds = line.number("walk_seconds");

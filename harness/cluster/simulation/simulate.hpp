@@ -4,16 +4,32 @@
 // and in which messages, depends on the times.
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <vector>
 
 #include "harness/cluster/job.hpp"
 #include "harness/cluster/producer.hpp"
-#include "harness/cluster/simulation/machines.hpp"
 #include "harness/cluster/simulation/replay.hpp"
 #include "harness/cluster/split/part_member.hpp"
 
 namespace beambench::cluster {
+
+/// Speeds are relative: a machine of speed 1 takes the recorded seconds.
+struct ClusterModel {
+  enum class Network {
+    kShared,   ///< one medium for all, as in an Ethernet with hubs or coaxial cable
+    kSwitched  ///< for each machine a line of its own in both directions
+  };
+  Network network = Network::kSwitched;
+  double bytes_per_second = 1.25e7;  ///< of the medium, or of each line
+  double latency_seconds = 1e-4;     ///< between any two machines
+  MessageCost message_cost{1e-4, 0.0, 2e-5};
+  std::vector<double> speeds;  ///< of each process's machine
+  std::size_t loaded = 0;      ///< number of machines, the last ones, that others use, too
+  double loaded_share = 0.5;   ///< share of their speed that others leave
+  double load_period = 20.0;   ///< seconds; others use them in the second half
+};
 
 /// The producer's report, and the time of the whole run.
 struct SimulatedRun {

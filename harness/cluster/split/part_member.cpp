@@ -1,75 +1,29 @@
 #include "harness/cluster/split/part_member.hpp"
 
+#include <concepts>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "accel/core/registry.hpp"
 #include "harness/base/stopwatch.hpp"
-#include "harness/cluster/sample_results.hpp"
+#include "harness/cluster/image_worker.hpp"
 
 namespace beambench::cluster {
 namespace {
 
-constexpr std::size_t kLarge = 1 << 15;  // bytes that make a message worth sending early
+/// What is sent of a report, in its order.
+template <class Report>
+auto members(Report& report) requires std::same_as<std::remove_const_t<Report>, PartReport> {
+  return std::tie(report.primitives, report.scene_bytes, report.structure_bytes, report.beams_out,
+                  report.rays_out, report.crossings_out.messages, report.crossings_out.bytes,
+                  report.crossings_in.messages, report.crossings_in.bytes, report.cpu_seconds,
+                  report.wait_seconds);
+}
 
 }  // namespace
-
-void write_report(const PartReport& report, ByteWriter& writer) {
-  for (const std::uint64_t number :
-       {report.primitives, report.scene_bytes, report.structure_bytes, report.beams_out,
-        report.rays_out, report.crossings_out.messages, report.crossings_out.bytes,
-        report.crossings_in.messages, report.crossings_in.bytes}) {
-    writer.put(number);
-  }
-  writer.put(report.cpu_seconds);
-  writer.put(report.wait_seconds);
-}
-
-PartReport read_part_report(ByteReader& reader) {
-  PartReport report;
-  for (std::uint64_t* number :
-       {&report.primitives, &report.scene_bytes, &report.structure_bytes, &report.beams_out,
-        &report.rays_out, &report.crossings_out.messages, &report.crossings_out.bytes,
-        &report.crossings_in.messages, &report.crossings_in.bytes}) {
-    *number = reader.get<std::uint64_t>();
-  }
-  report.cpu_seconds = reader.get<double>();
-  report.wait_seconds = reader.get<double>();
-  return report;
-}
-
-Outbox::Outbox(Transport& transport, const SceneSplit& split)
-    : transport_(&transport),
-      split_(&split),
-      open_(static_cast<std::size_t>(transport.processes())) {}
-
-void Outbox::hand_over(const BeamHandoff& beam) {
-  write_handoff(beam, open_[static_cast<std::size_t>(split_->owner(beam.cell))]);
-  ++beams_;
-}
-
-void Outbox::hand_over(const RayHandoff& ray) {
-  write_handoff(ray, open_[static_cast<std::size_t>(split_->owner(ray.cell))]);
-  ++rays_;
-}
-
-void Outbox::send_large() {
-  for (std::size_t i = 0; i < open_.size(); ++i) {
-    if (open_[i].size() >= kLarge) send(i);
-  }
-}
-
-void Outbox::send_all() {
-  for (std::size_t i = 0; i < open_.size(); ++i) {
-    if (!open_[i].empty()) send(i);
-  }
-}
-
-void Outbox::send(std::size_t process) {
-  sent_.add(open_[process].size());
-  transport_->send(static_cast<ProcessId>(process), Tag::kCross, std::exchange(open_[process], {}));
-}
 
 PartMember::PartMember(Transport& transport, PartWorker& worker, Outbox& outbox, double timeout,
                        Check check, Meter meter)
@@ -150,7 +104,7 @@ void PartMember::run() {
       continue;
     }
     done(work, timer.seconds());
-    outbox_->send_large();
+    outbox_->send(Outbox::kLarge);
     send_heartbeat();
   }
 }
@@ -205,12 +159,15 @@ void PartMember::done(PartWork work, double cpu_seconds) {
 }
 
 void PartMember::wait_idle() {
-  outbox_->send_all();
+  outbox_->send();
   if (transport_->self() == kProducer) {
     if (!in_wave_) begin_wave();
     if (missing_counts_ == 0) return end_wave();
   } else if (asked_) {
-    answer();
+    Bytes counts;
+    ByteWriter(counts).put(std::tie(outbox_->sent().messages, received_.messages));
+    transport_->send(kProducer, Tag::kCount, std::move(counts));
+    asked_ = false;
   }
   const double before = transport_->seconds();
   const bool leads = transport_->self() == kProducer;
@@ -218,15 +175,6 @@ void PartMember::wait_idle() {
   wait_seconds_ += transport_->seconds() - before;
   if (message) handle(*message);
   if (leads) require_heartbeats();
-}
-
-void PartMember::answer() {
-  Bytes bytes;
-  ByteWriter writer(bytes);
-  writer.put(outbox_->sent().messages);
-  writer.put(received_.messages);
-  transport_->send(kProducer, Tag::kCount, std::move(bytes));
-  asked_ = false;
 }
 
 void PartMember::begin_wave() {
@@ -252,8 +200,7 @@ void PartMember::take_count(const Message& message) {
 void PartMember::end_wave() {
   wave_.sent += outbox_->sent().messages;
   wave_.received += received_.messages;
-  over_ = wave_.sent == wave_.received && last_wave_ && last_wave_->sent == wave_.sent &&
-          last_wave_->received == wave_.received;
+  over_ = wave_.sent == wave_.received && last_wave_ == wave_;
   last_wave_ = wave_;
   in_wave_ = false;
 }
@@ -287,31 +234,30 @@ void PartMember::require_heartbeats() {
 }
 
 PartState::PartState(std::shared_ptr<const scenes::Scene> whole, const Job& job,
-                     Transport& transport) {
-  const accel::beam::BeamOptions options = accel::beam::BeamOptions::from(
-      accel::registry().choose(parse_spec(job.structure)).parameters());
-  const rays::ImageOfRays image = job_image(job, *whole);
-  rays_.emplace(image.camera, image.resolution.width, image.resolution.height, image.samples);
-  split_.emplace(*whole, options.octree, job.split_level, transport.processes());
-  ScenePart part = part_of(*whole, *split_, transport.self());
+                     Transport& transport)
+    : options(accel::beam::BeamOptions::from(
+          accel::registry().choose(parse_spec(job.structure)).parameters())),
+      rays(job_image(job, *whole).rays()),
+      split(*whole, options.octree, job.split_level, transport.processes()),
+      outbox(transport, split) {
+  ScenePart part = part_of(*whole, split, transport.self());
   whole.reset();
-  split_->forget_primitives();
-  outbox_ = std::make_unique<Outbox>(transport, *split_);
-  worker_ = std::make_unique<PartWorker>(std::move(part), *split_, transport.self(), options,
-                                         *rays_, *outbox_);
+  split.forget_primitives();
+  worker.emplace(std::move(part), split, transport.self(), options, rays, outbox);
 }
 
 Bytes write_result(const PartReport& report, const PartWorker& worker) {
   Bytes bytes;
   ByteWriter writer(bytes);
-  write_report(report, writer);
+  writer.put(members(report));
   write_hits(worker.hit_samples(), worker.hits(), bytes);
   return bytes;
 }
 
 PartReport take_result(std::span<const std::byte> result, accel::HitBuffer& hits) {
   ByteReader reader(result);
-  const PartReport report = read_part_report(reader);
+  PartReport report;
+  reader.get(members(report));
   HitSink(hits).accept(reader.rest());
   return report;
 }

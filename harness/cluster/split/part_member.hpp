@@ -33,39 +33,12 @@ struct PartReport {
   double cpu_seconds = 0.0;   ///< in tracing and in receiving handoffs
   double wait_seconds = 0.0;  ///< for messages, wall time
 };
-void write_report(const PartReport& report, ByteWriter& writer);
-PartReport read_part_report(ByteReader& reader);
-
-/// Collects handoffs into messages, one open message for each process.
-class Outbox : public HandoffSink {
- public:
-  Outbox(Transport& transport, const SceneSplit& split);
-  void hand_over(const BeamHandoff& beam) override;
-  void hand_over(const RayHandoff& ray) override;
-
-  /// Sends the messages that are large enough, or all of them.
-  void send_large();
-  void send_all();
-
-  const Traffic& sent() const { return sent_; }
-  std::uint64_t beams() const { return beams_; }
-  std::uint64_t rays() const { return rays_; }
-
- private:
-  void send(std::size_t process);
-
-  Transport* transport_;
-  const SceneSplit* split_;
-  std::vector<Bytes> open_;  ///< by process
-  Traffic sent_;
-  std::uint64_t beams_ = 0;
-  std::uint64_t rays_ = 0;
-};
 
 /// Sums over all processes, each at a time when it was idle.
 struct Wave {
   std::uint64_t sent = 0;
   std::uint64_t received = 0;
+  friend bool operator==(const Wave&, const Wave&) = default;
 };
 
 /// Traces until all processes are idle and no message is on its way. Process 0 detects that by
@@ -102,7 +75,6 @@ class PartMember {
   void done(PartWork work, double cpu_seconds);
   void take_count(const Message& message);
   void wait_idle();
-  void answer();
   void begin_wave();
   void end_wave();
   void send_others(Tag tag);
@@ -139,20 +111,15 @@ class PartMember {
 };
 
 /// A process's part of a scene, ready to be traced.
-class PartState {
- public:
+struct PartState {
   /// Frees the whole scene before it builds. Throws InputError for options that do not fit the job.
   PartState(std::shared_ptr<const scenes::Scene> whole, const Job& job, Transport& transport);
 
-  const accel::PrimaryRays& rays() const { return *rays_; }
-  PartWorker& worker() { return *worker_; }
-  Outbox& outbox() { return *outbox_; }
-
- private:
-  std::optional<accel::PrimaryRays> rays_;
-  std::optional<SceneSplit> split_;
-  std::unique_ptr<Outbox> outbox_;
-  std::unique_ptr<PartWorker> worker_;
+  accel::beam::BeamOptions options;
+  accel::PrimaryRays rays;
+  SceneSplit split;
+  Outbox outbox;
+  std::optional<PartWorker> worker;
 };
 
 /// A process's report and its hits, as bytes.

@@ -1,11 +1,22 @@
 #include "harness/cluster/split/part_worker.hpp"
 
+#include <concepts>
+#include <tuple>
+#include <type_traits>
 #include <utility>
 
+#include "harness/rays/trace_input.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::cluster {
 namespace {
+
+enum class Kind : std::uint8_t { kBeam, kRay };
+
+template <class Ray>
+auto members(Ray& ray) requires std::same_as<std::remove_const_t<Ray>, RayHandoff> {
+  return std::tie(ray.cell, ray.sample, ray.t, ray.best_t, ray.best);
+}
 
 constexpr accel::Hit kNothing{accel::kInfinity, scenes::kNoPrimitive};
 
@@ -13,6 +24,12 @@ accel::octree::OctreePart own_cells(const SceneSplit& split, ProcessId self) {
   return {split.level(), [&split, self](const glm::ivec3& cell) {
             return split.owner(split.index(cell)) == self;
           }};
+}
+
+accel::octree::OctreeCursor cursor_of_cell(const accel::octree::Octree& octree,
+                                           const SceneSplit& split, std::uint32_t cell) {
+  const std::int32_t finest = octree.grid().cells.x / split.cells();
+  return accel::octree::cursor_of(octree, split.cell(cell) * finest, finest);
 }
 
 accel::beam::BeamOptions checked(const accel::beam::BeamOptions& options, const SceneSplit& split) {
@@ -30,24 +47,78 @@ accel::beam::BeamOptions checked(const accel::beam::BeamOptions& options, const 
 
 }  // namespace
 
+void write_handoff(const BeamHandoff& beam, Bytes& bytes) {
+  ByteWriter writer(bytes);
+  writer.put(Kind::kBeam);
+  writer.put(beam.cell);
+  write_crossing(beam.face, writer);
+  write_shape(beam.beam, writer);
+}
+
+void write_handoff(const RayHandoff& ray, Bytes& bytes) {
+  ByteWriter writer(bytes);
+  writer.put(Kind::kRay);
+  writer.put(members(ray));
+}
+
+Handoff read_handoff(ByteReader& reader, const accel::beam::EyeView& view) {
+  switch (reader.get<Kind>()) {
+    case Kind::kBeam: {
+      BeamHandoff beam{};
+      beam.cell = reader.get<std::uint32_t>();
+      beam.face = read_crossing(view.grid(), reader);
+      read_shape(reader, view, beam.beam);
+      return beam;
+    }
+    case Kind::kRay: {
+      RayHandoff ray{};
+      reader.get(members(ray));
+      return ray;
+    }
+  }
+  throw ProtocolError("a handoff is neither a beam nor a ray");
+}
+
 ForeignLeaves::ForeignLeaves(const accel::octree::Octree& octree, const SceneSplit& split,
                              ProcessId self)
     : cells_(octree.nodes().size(), kOwn) {
-  const std::int32_t finest = octree.grid().cells.x / split.cells();
   for (std::uint32_t cell = 0; cell < split.cell_count(); ++cell) {
     if (split.owner(cell) == self) continue;
-    cells_[accel::octree::cursor_of(octree, split.cell(cell) * finest, finest).index()] = cell;
+    cells_[cursor_of_cell(octree, split, cell).index()] = cell;
+  }
+}
+
+Outbox::Outbox(Transport& transport, const SceneSplit& split)
+    : transport_(&transport),
+      split_(&split),
+      open_(static_cast<std::size_t>(transport.processes())) {}
+
+void Outbox::hand_over(const BeamHandoff& beam) {
+  write_handoff(beam, open_[static_cast<std::size_t>(split_->owner(beam.cell))]);
+  ++beams_;
+}
+
+void Outbox::hand_over(const RayHandoff& ray) {
+  write_handoff(ray, open_[static_cast<std::size_t>(split_->owner(ray.cell))]);
+  ++rays_;
+}
+
+void Outbox::send(std::size_t least) {
+  for (std::size_t i = 0; i < open_.size(); ++i) {
+    if (open_[i].size() < least) continue;
+    sent_.add(open_[i].size());
+    transport_->send(static_cast<ProcessId>(i), Tag::kCross, std::exchange(open_[i], {}));
   }
 }
 
 PartWorker::PartWorker(ScenePart part, const SceneSplit& split, ProcessId self,
                        const accel::beam::BeamOptions& options, const accel::PrimaryRays& rays,
-                       HandoffSink& post)
+                       Outbox& outbox)
     : part_(std::move(part)),
       split_(&split),
       self_(self),
       rays_(&rays),
-      sink_(&post),
+      outbox_(&outbox),
       tracer_(part_.scene,
               accel::octree::Octree(part_.scene, checked(options, split).octree,
                                     own_cells(split, self)),
@@ -58,8 +129,7 @@ PartWorker::PartWorker(ScenePart part, const SceneSplit& split, ProcessId self,
       found_(rays.width(), rays.height(), rays.samples()),
       watch_(tracer_.octree(), foreign_),
       painter_(part_.scene, tracer_, tracer_.options(), view_, rays, sight_, found_here_, {},
-               watch_),
-      samples_(static_cast<double>(rays.count())) {
+               watch_) {
   queue_.border = this;
   accel::beam::begin_beams(tracer_.octree(), view_, view_.screen(), queue_);
   beginning_ = false;
@@ -78,24 +148,34 @@ void PartWorker::take(const RayHandoff& ray) {
 
 PartWork PartWorker::work() {
   if (!waiting_.empty()) {
-    trace_rays();
+    for (std::size_t i = 0; i < kRaysAtOnce && !waiting_.empty(); ++i) {
+      const RayHandoff ray = waiting_.front();
+      waiting_.pop_front();
+      trace_ray(ray);
+    }
     return PartWork::kTesting;
   }
   std::size_t walked = 0;
   for (; walked < kBeamsAtOnce && (!entering_.empty() || has_next()); ++walked) {
     if (!entering_.empty()) {
       const BeamHandoff& beam = entering_.front();
-      accel::beam::enter_node(view_, beam.face, cell_cursor(beam.cell), beam.beam, queue_);
+      accel::beam::enter_node(view_, beam.face,
+                              cursor_of_cell(tracer_.octree(), *split_, beam.cell), beam.beam,
+                              queue_);
       entering_.pop_front();
-    } else if (const auto end = end_of_walk(*next_)) {
-      if (walked > 0) break;
-      test(next_->beam, *end);
-      next_.reset();
-      return PartWork::kTesting;
-    } else {
-      walk(*next_);
-      next_.reset();
+      continue;
     }
+    const bool gone = next_->kind == accel::BeamKind::kLeaving || is_foreign(next_->beam);
+    const auto end = gone ? std::nullopt : end_of(*next_, tracer_, *rays_);
+    if (end && walked > 0) break;
+    if (end) {
+      paint(*end, next_->beam, painter_);
+      collect_samples();
+    } else if (!gone) {
+      accel::beam::continue_beam(tracer_.octree(), view_, next_->beam, queue_);
+    }
+    next_.reset();
+    if (end) return PartWork::kTesting;
   }
   return walked > 0 ? PartWork::kWalking : PartWork::kNone;
 }
@@ -108,47 +188,12 @@ bool PartWorker::has_next() {
   return true;
 }
 
-void PartWorker::trace_rays() {
-  for (std::size_t i = 0; i < kRaysAtOnce && !waiting_.empty(); ++i) {
-    const RayHandoff ray = waiting_.front();
-    waiting_.pop_front();
-    trace_ray(ray);
-  }
-}
-
 /// A beam that begins in a foreign leaf is begun by its owner.
 bool PartWorker::takes(std::uint32_t leaf, const accel::beam::Crossing& face,
                        const accel::beam::Beam& beam) {
   const auto cell = foreign_.cell_at(leaf);
-  if (cell && !beginning_) sink_->hand_over(BeamHandoff{*cell, face, beam});
+  if (cell && !beginning_) outbox_->hand_over(BeamHandoff{*cell, face, beam});
   return cell.has_value();
-}
-
-/// The reason for which a beam ends here; nothing where it continues.
-std::optional<PartWorker::EndOfWalk> PartWorker::end_of_walk(
-    const accel::beam::BeamStep& step) const {
-  if (step.kind == accel::BeamKind::kLeaving || is_foreign(step.beam)) return std::nullopt;
-  if (step.kind == accel::BeamKind::kOccupied) return EndOfWalk::kOccupied;
-  if (step.beam.crowded()) return EndOfWalk::kCrowded;
-  const auto handover = static_cast<double>(tracer_.options().handover);
-  if (handover > 0.0 && accel::beam::area(step.beam.outline) * samples_ < handover)
-    return EndOfWalk::kHandover;
-  return std::nullopt;
-}
-
-void PartWorker::walk(const accel::beam::BeamStep& step) {
-  if (step.kind == accel::BeamKind::kLeaving || is_foreign(step.beam)) return;
-  accel::beam::continue_beam(tracer_.octree(), view_, step.beam, queue_);
-}
-
-void PartWorker::test(const accel::beam::Beam& beam, EndOfWalk end) {
-  if (end == EndOfWalk::kOccupied) {
-    painter_.test_leaf(beam);
-  } else {
-    painter_.hand_over(beam, end == EndOfWalk::kCrowded ? accel::beam::RayReason::kCrowded
-                                                        : accel::beam::RayReason::kHandover);
-  }
-  collect_samples();
 }
 
 void PartWorker::collect_samples() {
@@ -157,7 +202,7 @@ void PartWorker::collect_samples() {
   }
   for (const BorderWatch::Crossed& each : watch_.crossed) {
     const accel::Hit best = global(found_here_.get(each.sample));
-    sink_->hand_over(RayHandoff{each.cell, each.sample, each.t, best.t, best.primitive});
+    outbox_->hand_over(RayHandoff{each.cell, each.sample, each.t, best.t, best.primitive});
   }
   watch_.decided.clear();
   watch_.crossed.clear();
@@ -166,16 +211,16 @@ void PartWorker::collect_samples() {
 /// Continues where the ray entered. Its best hit so far limits the search: nothing farther is kept,
 /// and an equal t is compared by the whole scene's ids.
 void PartWorker::trace_ray(const RayHandoff& crossing) {
-  const accel::Ray ray = ray_of(crossing.sample);
-  const accel::CellRay way(tracer_.octree().grid(), ray);
+  const accel::Ray ray = rays::ray_at(*rays_, crossing.sample);
+  const accel::CellRay cell_ray(tracer_.octree().grid(), ray);
   accel::ClosestHit closest(ray);
   closest.ray.t_max = crossing.best_t;
   accel::NoCounting none;
   std::optional<RayHandoff> next;
   double t = crossing.t;
   const accel::octree::OctreeNode* nodes = tracer_.octree().nodes().data();
-  accel::octree::LeafWalk{tracer_.octree(), tracer_.neighbors(), ray, way}.from(
-      cell_cursor(crossing.cell), t, 0, none,
+  accel::octree::LeafWalk{tracer_.octree(), tracer_.neighbors(), ray, cell_ray}.from(
+      cursor_of_cell(tracer_.octree(), *split_, crossing.cell), t, 0, none,
       [&](const accel::octree::OctreeNode& leaf, double exit_t) {
         if (const auto cell = foreign_.cell_at(static_cast<std::uint32_t>(&leaf - nodes))) {
           next = RayHandoff{*cell, crossing.sample, t, 0.0F, 0};
@@ -190,7 +235,7 @@ void PartWorker::trace_ray(const RayHandoff& crossing) {
   if (!next) return decide(crossing.sample, best);
   next->best_t = best.t;
   next->best = best.primitive;
-  sink_->hand_over(*next);
+  outbox_->hand_over(*next);
 }
 
 void PartWorker::decide(std::uint32_t sample, const accel::Hit& best) {
@@ -206,19 +251,6 @@ void PartWorker::require_own(std::uint32_t cell) const {
   if (cell >= split_->cell_count() || split_->owner(cell) != self_) {
     throw ProtocolError("a handoff for a cell of another process");
   }
-}
-
-accel::octree::OctreeCursor PartWorker::cell_cursor(std::uint32_t cell) const {
-  const std::int32_t finest = tracer_.octree().grid().cells.x / split_->cells();
-  return accel::octree::cursor_of(tracer_.octree(), split_->cell(cell) * finest, finest);
-}
-
-accel::Ray PartWorker::ray_of(std::uint32_t sample) const {
-  const auto each = static_cast<std::uint32_t>(rays_->samples());
-  const auto width = static_cast<std::uint32_t>(rays_->width());
-  const std::uint32_t pixel = sample / each;
-  return rays_->ray(static_cast<int>(pixel % width), static_cast<int>(pixel / width),
-                    static_cast<int>(sample % each));
 }
 
 std::vector<std::uint32_t> PartWorker::hit_samples() const {

@@ -1,16 +1,70 @@
 #pragma once
 // Tracing one process's part of a scene.
 
+#include <cstdint>
 #include <deque>
 #include <optional>
+#include <variant>
 #include <vector>
 
+#include "accel/beam/beam.hpp"
 #include "accel/beam/beam_painter.hpp"
 #include "accel/beam/beam_tracer.hpp"
-#include "harness/cluster/split/handoff.hpp"
+#include "harness/cluster/messages.hpp"
+#include "harness/cluster/report.hpp"
 #include "harness/cluster/split/scene_split.hpp"
+#include "harness/cluster/tasks.hpp"
 
 namespace beambench::cluster {
+
+/// A beam that enters another process's cell by a face. Its `node`, `corner` and `size` mean
+/// nothing there.
+struct BeamHandoff {
+  std::uint32_t cell;
+  accel::beam::Crossing face;
+  accel::beam::Beam beam;
+};
+
+/// A ray that enters another process's cell, with its best hit so far.
+struct RayHandoff {
+  std::uint32_t cell;
+  std::uint32_t sample;      ///< its place in the hit buffer
+  double t;                  ///< where it enters
+  float best_t;              ///< infinity: none
+  scenes::PrimitiveId best;  ///< in the whole scene
+};
+
+using Handoff = std::variant<BeamHandoff, RayHandoff>;
+
+void write_handoff(const BeamHandoff& beam, Bytes& bytes);
+void write_handoff(const RayHandoff& ray, Bytes& bytes);
+
+/// The next one in a message. Throws ProtocolError for other bytes.
+Handoff read_handoff(ByteReader& reader, const accel::beam::EyeView& view);
+
+/// Collects handoffs into messages, one open message for each process.
+class Outbox {
+ public:
+  Outbox(Transport& transport, const SceneSplit& split);
+  void hand_over(const BeamHandoff& beam);
+  void hand_over(const RayHandoff& ray);
+
+  static constexpr std::size_t kLarge = 1 << 15;  ///< makes a message worth sending early
+  /// Sends the messages of at least that many bytes, by default all that are not empty.
+  void send(std::size_t least = 1);
+
+  const Traffic& sent() const { return sent_; }
+  std::uint64_t beams() const { return beams_; }
+  std::uint64_t rays() const { return rays_; }
+
+ private:
+  Transport* transport_;
+  const SceneSplit* split_;
+  std::vector<Bytes> open_;  ///< by process
+  Traffic sent_;
+  std::uint64_t beams_ = 0;
+  std::uint64_t rays_ = 0;
+};
 
 /// Which leaves of a process's octree are other processes' cells.
 class ForeignLeaves {
@@ -79,11 +133,11 @@ enum class PartWork {
 /// scene.
 class PartWorker : private accel::beam::BeamBorder {
  public:
-  /// Begins the beams that begin in this part. Rays and sink must outlive the worker. Throws
+  /// Begins the beams that begin in this part. Rays and outbox must outlive the worker. Throws
   /// InputError for options that a divided scene does not support.
   PartWorker(ScenePart part, const SceneSplit& split, ProcessId self,
              const accel::beam::BeamOptions& options, const accel::PrimaryRays& rays,
-             HandoffSink& post);
+             Outbox& outbox);
   PartWorker(const PartWorker&) = delete;
   PartWorker& operator=(const PartWorker&) = delete;
   ~PartWorker() override = default;
@@ -108,32 +162,24 @@ class PartWorker : private accel::beam::BeamBorder {
   static constexpr std::size_t kRaysAtOnce = 256;
   static constexpr std::size_t kBeamsAtOnce = 32;
 
-  enum class EndOfWalk { kOccupied, kCrowded, kHandover };
-
   bool takes(std::uint32_t leaf, const accel::beam::Crossing& face,
              const accel::beam::Beam& beam) override;
-  void trace_rays();
   bool has_next();
-  /// The leaf of the eye may be another process's.
+  /// The leaf of the camera may be another process's.
   bool is_foreign(const accel::beam::Beam& beam) const {
     return foreign_.cell_at(beam.node).has_value();
   }
-  std::optional<EndOfWalk> end_of_walk(const accel::beam::BeamStep& step) const;
-  void walk(const accel::beam::BeamStep& step);
-  void test(const accel::beam::Beam& beam, EndOfWalk end);
   void trace_ray(const RayHandoff& ray);
   void collect_samples();
   void require_own(std::uint32_t cell) const;
   void decide(std::uint32_t sample, const accel::Hit& best);
   accel::Hit global(const std::optional<accel::Hit>& local) const;
-  accel::octree::OctreeCursor cell_cursor(std::uint32_t cell) const;
-  accel::Ray ray_of(std::uint32_t sample) const;
 
   ScenePart part_;
   const SceneSplit* split_;
   ProcessId self_;
   const accel::PrimaryRays* rays_;
-  HandoffSink* sink_;
+  Outbox* outbox_;
   accel::beam::BeamTracer tracer_;
   ForeignLeaves foreign_;
   accel::beam::EyeView view_;
@@ -142,7 +188,6 @@ class PartWorker : private accel::beam::BeamBorder {
   accel::HitBuffer found_;       ///< by the whole scene's
   BorderWatch watch_;
   accel::beam::BeamPainter<BorderWatch, accel::beam::WholeImage> painter_;
-  double samples_;
   bool beginning_ = true;
   accel::beam::BeamQueue queue_;
   std::optional<accel::beam::BeamStep> next_;  ///< popped from the queue

@@ -6,10 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "harness/bench/record/build_info.hpp"
+#include "harness/bench/record/machine.hpp"
 #include "harness/cluster/run.hpp"
 #include "harness/cluster/split/part_member.hpp"
-#include "harness/cluster/worker_state.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/render/picture/image_file.hpp"
@@ -35,10 +34,6 @@ Setup set_up(const Job& job, Transport& transport, std::vector<std::string>* war
               nullptr};
   place.state = std::make_unique<PartState>(std::move(whole), job, transport);
   return place;
-}
-
-Json to_json(const Traffic& traffic) {
-  return {{"messages", traffic.messages}, {"bytes", traffic.bytes}};
 }
 
 Json to_json(const PartReport& report) {
@@ -69,21 +64,20 @@ SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
   run.whole_primitives = place.identity.primitives;
   const double begin = transport.seconds();
   PartState& state = *place.state;
-  PartMember member(transport, state.worker(), state.outbox(), request.producer.timeout, check);
+  PartMember member(transport, *state.worker, state.outbox, request.producer.timeout, check);
   std::vector<Bytes> results = member.lead();
-  results[kProducer] = write_result(member.report(), state.worker());
-  const accel::PrimaryRays& rays = state.rays();
+  results[kProducer] = write_result(member.report(), *state.worker);
+  const accel::PrimaryRays& rays = state.rays;
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
   for (const Bytes& result : results) run.reports.push_back(take_result(result, hits));
   run.seconds = transport.seconds() - begin;
   run.result_hash = rays::fingerprint(hits);
-  run.job.width = rays.width();
-  run.job.height = rays.height();
+  run.job.resolution = {rays.width(), rays.height()};
   if (!request.picture.empty()) {
     // The ids are those of the whole scene, of which each process has a part.
     rays::HitCheck(run.whole_primitives, "structure 'beam'").require(hits, rays);
     render::write_image(request.picture,
-                        render::shade(state.worker().scene(), rays, hits, request.shading));
+                        render::shade(state.worker->scene(), rays, hits, request.shading));
   }
   if (!request.report.empty()) write_file(request.report, to_json(run).dump(2) + "\n");
   return run;
@@ -92,12 +86,10 @@ SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
 void follow_split(const Job& job, Transport& transport) {
   const auto place = set_up_consumer(transport, [&] { return set_up(job, transport, nullptr); });
   if (!place) return;
-  ReadyReport ready_report;
-  ready_report.host = host_name();
-  ready_report.identity = place->identity;
-  transport.send(kProducer, Tag::kReady, write_ready_report(ready_report));
-  PartWorker& worker = place->state->worker();
-  PartMember member(transport, worker, place->state->outbox(), 5.0 * job.heartbeat_interval,
+  transport.send(kProducer, Tag::kReady,
+                 write_ready_report({host_name(), "", place->identity, 0.0, 0}));
+  PartWorker& worker = *place->state->worker;
+  PartMember member(transport, worker, place->state->outbox, 5.0 * job.heartbeat_interval,
                     [](ProcessId, std::span<const std::byte>) {});
   member.follow([&] { return write_result(member.report(), worker); });
 }
@@ -109,8 +101,8 @@ nlohmann::ordered_json to_json(const SplitRun& run) {
             {"dirty", build.dirty},
             {"scene", run.job.scene},
             {"structure", run.job.structure},
-            {"width", run.job.width},
-            {"height", run.job.height},
+            {"width", run.job.resolution.width},
+            {"height", run.job.resolution.height},
             {"samples", run.job.samples},
             {"work", "parts"},
             {"cells_level", run.job.split_level},
@@ -131,8 +123,7 @@ std::string summary(const SplitRun& run) {
   std::uint64_t most = 0;
   std::uint64_t largest = 0;
   for (const PartReport& report : run.reports) {
-    crossings.messages += report.crossings_out.messages;
-    crossings.bytes += report.crossings_out.bytes;
+    crossings += report.crossings_out;
     beams += report.beams_out;
     rays += report.rays_out;
     most = std::max(most, report.primitives);

@@ -4,11 +4,14 @@
 #include <cmath>
 #include <cstddef>
 #include <functional>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "harness/rays/fingerprint.hpp"
 #include "harness/render/picture/color.hpp"
 
 namespace beambench::render {
@@ -36,6 +39,13 @@ Overexposure overexposure(const Image& image) {
   found.share = static_cast<double>(too_bright) / static_cast<double>(values.size());
   if (*hundredth > 1.0F) found.remedy = std::floor(-10.0 * std::log2(double{*hundredth})) / 10.0;
   return found;
+}
+
+std::uint64_t fingerprint(const Image& image) {
+  const std::span<const glm::vec3> pixels = image.pixels();
+  return rays::fingerprint(
+      std::string_view(reinterpret_cast<const char*>(pixels.data()),  // NOLINT: bytes
+                       pixels.size_bytes()));
 }
 
 double root_mean_square_error(const Image& picture, const Image& reference) {

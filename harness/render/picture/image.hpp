@@ -2,6 +2,7 @@
 // A picture in memory.
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -44,6 +45,9 @@ struct Overexposure {
 };
 /// The remedy is 0 where nothing has to be done.
 Overexposure overexposure(const Image& image);
+
+/// Of all pixels, bit for bit.
+std::uint64_t fingerprint(const Image& image);
 
 /// The RMS error of a picture against another of its size, over pixels and channels, in display
 /// values on a 0-255 scale before they are rounded.

@@ -18,45 +18,34 @@ namespace {
 
 constexpr double kThickness = 1.0;
 
-/// How near to the eye's plane an edge is followed, as a part of its farther end's depth. There
+/// How near to the camera's plane an edge is followed, as a part of its farther end's depth. There
 /// every point appears at infinity.
 constexpr double kNearest = 1e-6;
 
 /// The perspective of an image.
-class Projection {
- public:
-  explicit Projection(const accel::PrimaryRays& rays)
-      : eye_(rays.eye()),
-        forward_(rays.forward()),
-        top_left_(rays.top_left()),
-        right_(rays.right()),
-        down_(rays.down()) {}
+struct Projection {
+  explicit Projection(const accel::PrimaryRays& image) : rays(image), eye(image.eye()) {}
 
-  const glm::dvec3& eye() const { return eye_; }
-  /// Along the view direction: 0 in the eye's plane, negative behind it.
-  double depth(const glm::dvec3& point) const { return glm::dot(point - eye_, forward_); }
+  /// Along the view direction: 0 in the camera's plane, negative behind it.
+  double depth(const glm::dvec3& point) const { return glm::dot(point - eye, rays.forward()); }
   /// Where a point of depth > 0 appears, in pixels; (0, 0) is the image's top left corner.
   glm::dvec2 place(const glm::dvec3& point) const {
-    const glm::dvec3 offset = (point - eye_) / depth(point) - top_left_;
-    return {glm::dot(offset, right_) / glm::dot(right_, right_),
-            glm::dot(offset, down_) / glm::dot(down_, down_)};
+    const glm::dvec3 offset = (point - eye) / depth(point) - rays.top_left();
+    return {glm::dot(offset, rays.right()) / glm::dot(rays.right(), rays.right()),
+            glm::dot(offset, rays.down()) / glm::dot(rays.down(), rays.down())};
   }
-  /// From the eye through a place to depth 1: `t` along it is depth.
+  /// From the camera through a place to depth 1: `t` along it is depth.
   glm::dvec3 direction(const glm::dvec2& place) const {
-    return top_left_ + right_ * place.x + down_ * place.y;
+    return rays.top_left() + rays.right() * place.x + rays.down() * place.y;
   }
-  /// So many pixels wide is a unit length at depth 1.
-  double scale() const { return 1.0 / glm::length(right_); }
+  /// The width in pixels of a unit length at depth 1.
+  double scale() const { return 1.0 / glm::length(rays.right()); }
 
- private:
-  glm::dvec3 eye_;
-  glm::dvec3 forward_;
-  glm::dvec3 top_left_;
-  glm::dvec3 right_;
-  glm::dvec3 down_;
+  const accel::PrimaryRays& rays;
+  glm::dvec3 eye;
 };
 
-/// An edge on the image: of what lies in front of the eye.
+/// An edge on the image: of what lies in front of the camera.
 struct SeenEdge {
   PixelSegment line;
   double from_depth;
@@ -71,7 +60,7 @@ struct SeenEdge {
 struct BoxEdge {
   glm::dvec3 from;
   glm::dvec3 to;
-  bool turned_to_eye;  ///< belongs to a face that the eye is in front of
+  bool turned_to_eye;  ///< belongs to a face that the camera is in front of
 };
 
 bool in_front(const accel::Box& box, const glm::dvec3& eye, int axis, bool upper) {
@@ -109,7 +98,7 @@ std::array<BoxEdge, 12> box_edges(const accel::Box& box, const glm::dvec3& eye) 
   return edges;
 }
 
-/// An edge cut off at the eye's plane; nothing where all of it lies behind.
+/// An edge cut off at the camera's plane; nothing where all of it lies behind.
 std::optional<SeenEdge> project(const BoxEdge& edge, const Projection& projection) {
   const double from_depth = projection.depth(edge.from);
   const double to_depth = projection.depth(edge.to);
@@ -136,21 +125,15 @@ double enter(const accel::Box& box, const glm::dvec3& eye, const glm::dvec3& dir
   double first = 0.0;
   double last = kInfiniteDepth;
   for (int axis = 0; axis < 3; ++axis) {
-    const double low = box.lower[axis] - eye[axis];
-    const double high = box.upper[axis] - eye[axis];
-    if (direction[axis] == 0.0) {
-      if (low > 0.0 || high < 0.0) return kInfiniteDepth;
-      continue;
+    if (!clip_to_slab(box.lower[axis] - eye[axis], box.upper[axis] - eye[axis], direction[axis],
+                      first, last)) {
+      return kInfiniteDepth;
     }
-    const double a = low / direction[axis];
-    const double b = high / direction[axis];
-    first = std::max(first, std::min(a, b));
-    last = std::min(last, std::max(a, b));
   }
   return first <= last && first > 0.0 ? first : kInfiniteDepth;
 }
 
-/// The pixels that a box may appear in: around its edges, cut off at the eye's plane. Empty
+/// The pixels that a box may appear in: around its edges, cut off at the camera's plane. Empty
 /// (last < first) where there are none.
 struct PixelRange {
   glm::ivec2 first;
@@ -159,7 +142,7 @@ struct PixelRange {
 PixelRange pixels_of(const accel::Box& box, const Projection& projection, int width, int height) {
   glm::dvec2 low(kInfiniteDepth);
   glm::dvec2 high(-kInfiniteDepth);
-  for (const BoxEdge& edge : box_edges(box, projection.eye())) {
+  for (const BoxEdge& edge : box_edges(box, projection.eye)) {
     const auto seen = project(edge, projection);
     if (!seen) continue;
     low = glm::min(low, glm::min(seen->line.from, seen->line.to));
@@ -176,7 +159,7 @@ PixelRange pixels_of(const accel::Box& box, const Projection& projection, int wi
 }
 
 /// Decides what boxes hide: a box buffer (Catmull's z-buffer, 1974, that remembers the box, so that
-/// depths between the pixels' centers are known). Boxes around the eye hide nothing.
+/// depths between the pixels' centers are known). Boxes around the camera hide nothing.
 class NearestBoxes {
  public:
   /// The boxes must outlive it.
@@ -221,7 +204,7 @@ class NearestBoxes {
     for (int y = range.first.y; y <= range.last.y; ++y) {
       for (int x = range.first.x; x <= range.last.x; ++x) {
         const glm::dvec3 direction = projection_.direction(glm::dvec2(x, y) + 0.5);
-        const double depth = enter(boxes_[box], projection_.eye(), direction);
+        const double depth = enter(boxes_[box], projection_.eye, direction);
         if (!(depth < depths_[index(x, y)])) continue;
         depths_[index(x, y)] = depth;
         nearest_[index(x, y)] = box;
@@ -229,7 +212,7 @@ class NearestBoxes {
     }
   }
   bool hidden_by(std::uint32_t box, const glm::dvec2& place, double depth) const {
-    return box != kNone && enter(boxes_[box], projection_.eye(), projection_.direction(place)) <
+    return box != kNone && enter(boxes_[box], projection_.eye, projection_.direction(place)) <
                                depth * (1.0 - kRounding);
   }
   std::size_t index(int x, int y) const {
@@ -300,7 +283,7 @@ std::vector<LegendEntry> overlay_cells(Image& image, const accel::PrimaryRays& r
   LineLayer layer(image.width(), image.height());
   for (const accel::Box& cell : cells) {
     const double size = glm::length(cell.upper - cell.lower) / std::sqrt(3.0);
-    for (const BoxEdge& edge : box_edges(cell, projection.eye())) {
+    for (const BoxEdge& edge : box_edges(cell, projection.eye)) {
       const auto seen = edge.turned_to_eye ? project(edge, projection) : std::nullopt;
       if (!seen) continue;
       for_each_pixel(seen->line, kThickness, image.width(), image.height(),

@@ -1,28 +1,19 @@
 #include "harness/render/picture/raster.hpp"
 
-#include <array>
-
 #include <glm/common.hpp>
 
 namespace beambench::render {
 
 std::optional<std::pair<double, double>> part_on_image(const PixelSegment& line, int width,
                                                        int height, double margin) {
-  const glm::dvec2 way = line.to - line.from;
-  const std::array<double, 2> sizes{static_cast<double>(width), static_cast<double>(height)};
+  const glm::dvec2 span = line.to - line.from;
+  const glm::dvec2 size(width, height);
   double first = 0.0;
   double last = 1.0;
   for (int axis = 0; axis < 2; ++axis) {
     const double low = -margin - line.from[axis];
-    const double high = sizes[static_cast<std::size_t>(axis)] + margin - line.from[axis];
-    if (way[axis] == 0.0) {
-      if (low > 0.0 || high < 0.0) return std::nullopt;
-      continue;
-    }
-    const double a = low / way[axis];
-    const double b = high / way[axis];
-    first = std::max(first, std::min(a, b));
-    last = std::min(last, std::max(a, b));
+    const double high = size[axis] + margin - line.from[axis];
+    if (!clip_to_slab(low, high, span[axis], first, last)) return std::nullopt;
   }
   if (!(first <= last)) return std::nullopt;
   return std::pair(first, last);

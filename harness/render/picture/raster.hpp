@@ -24,6 +24,17 @@ struct PixelSegment {
   glm::dvec2 to;
 };
 
+/// Cuts the part [first, last] of a line to where `low` <= t * direction <= `high`; false where
+/// nothing is left for a line along the slab.
+inline bool clip_to_slab(double low, double high, double direction, double& first, double& last) {
+  if (direction == 0.0) return low <= 0.0 && high >= 0.0;
+  const double a = low / direction;
+  const double b = high / direction;
+  first = std::max(first, std::min(a, b));
+  last = std::min(last, std::max(a, b));
+  return true;
+}
+
 /// The part [first, second] of a line's [0, 1] that lies less than `margin` outside the image
 /// (Liang and Barsky, "A new concept and method for line clipping", 1984); nothing where none does.
 std::optional<std::pair<double, double>> part_on_image(const PixelSegment& line, int width,
@@ -68,8 +79,8 @@ void for_each_pixel(const PixelSegment& line, double thickness, int width, int h
   }
 }
 
-/// The strength, up to 1, of lines around something so many pixels wide: where they come to lie
-/// side by side they get fainter, or the picture would be a plain of their color.
+/// The strength, up to 1, of lines around something that many pixels wide: where they
+/// lie side by side they get fainter, or the picture would be an area of their color.
 float line_strength(double pixels);
 
 /// Lines of one color, gathered before they are drawn: where they overlap, no pixel gets more than

@@ -12,8 +12,7 @@
 #include "accel/core/registry.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
 #include "harness/verify/describe.hpp"
-#include "harness/verify/selftest/checks.hpp"
-#include "harness/verify/selftest/scene_families.hpp"
+#include "harness/verify/selftest/selftest.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
@@ -21,8 +20,8 @@
 namespace beambench::verify {
 namespace {
 
-/// What the differ finds wrong with results to a input. Rays that are aimed at edges and corners
-/// graze, however many they are.
+/// What the differ finds wrong with the results for an input. Rays that are aimed at edges and
+/// corners graze, however many they are.
 std::string wrong_by_the_differ(const scenes::Scene& scene, const rays::TraceInput& input,
                                 const rays::TraceResults& results, accel::Conformance conformance,
                                 bool may_graze) {
@@ -64,13 +63,11 @@ class HitComparison {
   }
 
   /// The closest hits of an image, as a whole. `may_graze`: more grazes than the differ's budget
-  /// are right, as they are where the eye lies on a surface.
+  /// are right, as they are where the camera lies on a surface.
   std::string image(const accel::Accelerator& structure, const accel::PrimaryRays& rays,
                     bool may_graze) const {
     const rays::TraceInput input(rays);
-    rays::TraceResults results = rays::make_results(input);
-    rays::poison(results);
-    rays::trace(structure, input, results);
+    const rays::TraceResults results = traced(structure, input);
     if (conformance_ != accel::Conformance::kBitExact) {
       return wrong_by_the_differ(*scene_, input, results, conformance_, may_graze);
     }
@@ -113,9 +110,7 @@ class HitComparison {
     for (const rays::Query query : {rays::Query::kClosestHit, rays::Query::kAnyHit}) {
       const rays::TraceInput input(
           rays::RaySet{"selftest", query, 0, std::nullopt, {rays.begin(), rays.end()}});
-      rays::TraceResults results = rays::make_results(input);
-      rays::poison(results);
-      rays::trace(structure, input, results);
+      const rays::TraceResults results = traced(structure, input);
       std::string wrong =
           wrong_by_the_differ(*scene_, input, results, conformance_, /*may_graze=*/true);
       if (!wrong.empty()) return wrong;

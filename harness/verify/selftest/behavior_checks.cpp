@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "harness/rays/trace_results.hpp"
-#include "harness/verify/selftest/checks.hpp"
+#include "harness/verify/selftest/selftest.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
 
 namespace beambench::verify {
@@ -42,15 +42,6 @@ struct Trial {
   std::unique_ptr<accel::Accelerator> structure;
   std::vector<accel::Ray> rays;
 };
-
-/// Answers that cannot be mistaken for earlier ones.
-rays::TraceResults traced(const accel::Accelerator& structure, const rays::TraceInput& input,
-                          accel::WorkCounters* counters = nullptr) {
-  rays::TraceResults results = rays::make_results(input);
-  rays::poison(results);
-  rays::trace(structure, input, results, counters);
-  return results;
-}
 
 std::string first_difference(const rays::TraceResults& a, const rays::TraceResults& b,
                              std::string_view what) {
@@ -87,6 +78,14 @@ std::string inconsistency(const accel::Ray& ray, bool hit, const accel::WorkCoun
 }
 
 }  // namespace
+
+rays::TraceResults traced(const accel::Accelerator& structure, const rays::TraceInput& input,
+                          accel::WorkCounters* counters) {
+  rays::TraceResults results = rays::make_results(input);
+  rays::poison(results);
+  rays::trace(structure, input, results, counters);
+  return results;
+}
 
 CheckOutcome check_lists(const Subject& subject, const SelftestEffort& effort) {
   const Trial trial(subject, effort.seed);

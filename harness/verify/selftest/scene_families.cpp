@@ -1,11 +1,10 @@
-#include "harness/verify/selftest/scene_families.hpp"
-
 #include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "harness/verify/selftest/test_scenes.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/random.hpp"
 #include "scenes/scene_builder.hpp"
@@ -15,12 +14,6 @@ namespace {
 
 using glm::dvec3;
 
-dvec3 in_cube(Random& random) {
-  const double x = random.uniform(-1.0, 1.0);
-  const double y = random.uniform(-1.0, 1.0);
-  return {x, y, random.uniform(-1.0, 1.0)};
-}
-
 /// Of unit length; along an axis in half of the cases.
 dvec3 direction(Random& random) {
   if (random.below(2) == 0) {
@@ -29,7 +22,7 @@ dvec3 direction(Random& random) {
     return axis;
   }
   while (true) {
-    const dvec3 vector = in_cube(random);
+    const dvec3 vector = point_in_cube(random);
     if (glm::length(vector) > 0.1) return glm::normalize(vector);
   }
 }
@@ -65,7 +58,7 @@ class FamilyMaker {
 
   scenes::Scene flat_cones() {
     const dvec3 axis = direction(random_);
-    dvec3 base = 0.3 * in_cube(random_);
+    dvec3 base = 0.3 * point_in_cube(random_);
     const bool stacked = random_.below(2) == 0;
     for (int i = 0; i < 8; ++i) {
       const double radius = random_.uniform(0.2, 2.0);
@@ -73,14 +66,14 @@ class FamilyMaker {
       const double apex = random_.below(4) == 0 ? radius : random_.uniform(0.0, 2.0);
       const dvec3 along = stacked ? axis : direction(random_);
       add_cone(base, radius, base + along * height, apex);
-      base = stacked ? base + axis * random_.uniform(0.0, 0.2) : 0.5 * in_cube(random_);
+      base = stacked ? base + axis * random_.uniform(0.0, 0.2) : 0.5 * point_in_cube(random_);
     }
     return finished(eye_around());
   }
 
   scenes::Scene eye_on_geometry() {
-    for (int i = 0; i < 6; ++i) add_any(in_cube(random_), 0.5);
-    const dvec3 eye = 0.5 * in_cube(random_);
+    for (int i = 0; i < 6; ++i) add_any(point_in_cube(random_), 0.5);
+    const dvec3 eye = 0.5 * point_in_cube(random_);
     if (kinds_.polygons && (random_.below(3) == 0 || !(kinds_.spheres || kinds_.cones))) {
       add_polygon_through(eye);
     } else if (kinds_.cones && (random_.below(2) == 0 || !kinds_.spheres)) {
@@ -94,7 +87,7 @@ class FamilyMaker {
 
   scenes::Scene touching_spheres() {
     const double radius = random_.below(2) == 0 ? 0.5 : random_.uniform(0.1, 1.0);
-    const dvec3 from = random_.below(2) == 0 ? dvec3(0.0) : in_cube(random_);
+    const dvec3 from = random_.below(2) == 0 ? dvec3(0.0) : point_in_cube(random_);
     for (int i = 0; i < 12; ++i) {
       dvec3 place;
       for (int axis = 0; axis < 3; ++axis) place[axis] = static_cast<double>(random_.below(3));
@@ -107,14 +100,14 @@ class FamilyMaker {
 
   scenes::Scene tiny_scale() {
     const double scale = magnitude(random_, -24, -10);
-    for (int i = 0; i < 15; ++i) add_any(in_cube(random_) * scale, 0.5 * scale);
+    for (int i = 0; i < 15; ++i) add_any(point_in_cube(random_) * scale, 0.5 * scale);
     return finished(eye_around() * scale, scale);
   }
 
   scenes::Scene coplanar_polygons() {
     const dvec3 normal = direction(random_);
     const auto [u, v] = across(normal);
-    const dvec3 origin = random_.below(2) == 0 ? dvec3(0.0) : in_cube(random_);
+    const dvec3 origin = random_.below(2) == 0 ? dvec3(0.0) : point_in_cube(random_);
     for (int i = 0; i < 14; ++i) {
       const double off = random_.below(3) == 0 ? magnitude(random_, -27, -13) : 0.0;
       const dvec3 center = origin + u * random_.uniform(-1.0, 1.0) + v * random_.uniform(-1.0, 1.0);
@@ -129,7 +122,7 @@ class FamilyMaker {
     for (int i = 0; i < 18; ++i) {
       const dvec3 along = direction(random_) * random_.uniform(0.5, 3.0);
       const double width = magnitude(random_, -20, -10);
-      const dvec3 base = in_cube(random_) - 0.5 * along;
+      const dvec3 base = point_in_cube(random_) - 0.5 * along;
       if (kinds_.cones && (random_.below(2) == 0 || !kinds_.polygons)) {
         add_cone(base, width, base + along, random_.below(2) == 0 ? 0.0 : width);
       } else if (kinds_.polygons) {
@@ -143,7 +136,7 @@ class FamilyMaker {
 
   scenes::Scene nested() {
     const double apart = magnitude(random_, -20, -7);
-    const dvec3 center = 0.2 * in_cube(random_);
+    const dvec3 center = 0.2 * point_in_cube(random_);
     const dvec3 axis = direction(random_);
     for (int i = 0; i < 6; ++i) {
       const double radius = 1.0 + apart * i;
@@ -152,7 +145,7 @@ class FamilyMaker {
         add_cone(center - axis * radius, 0.5 * radius, center + axis * radius, 0.5 * radius);
       }
     }
-    return finished(random_.below(2) == 0 ? center + 0.3 * in_cube(random_) : eye_around());
+    return finished(random_.below(2) == 0 ? center + 0.3 * point_in_cube(random_) : eye_around());
   }
 
  private:
@@ -196,7 +189,7 @@ class FamilyMaker {
     }
     if (kinds_.polygons) {
       return add_polygon(
-          {center, center + in_cube(random_) * size, center + in_cube(random_) * size});
+          {center, center + point_in_cube(random_) * size, center + point_in_cube(random_) * size});
     }
     kinds_.cones ? add_cone(center, radius, center + along, 0.0) : add_sphere(center, radius);
   }
@@ -247,7 +240,7 @@ class FamilyMaker {
   scenes::Scene finished(const dvec3& eye, double scale = 1.0) {
     scenes::Camera camera;
     camera.from = glm::vec3(eye);
-    dvec3 at = 0.3 * scale * in_cube(random_);
+    dvec3 at = 0.3 * scale * point_in_cube(random_);
     if (glm::length(at - eye) < 0.1 * scale) at = eye + direction(random_) * scale;
     camera.at = glm::vec3(at);
     camera.up = glm::vec3(across(glm::normalize(dvec3(camera.at) - dvec3(camera.from)))[0]);

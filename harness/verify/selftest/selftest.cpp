@@ -3,8 +3,6 @@
 #include <array>
 #include <exception>
 
-#include "harness/verify/selftest/checks.hpp"
-
 namespace beambench::verify {
 
 std::span<const Check> selftest_checks() {

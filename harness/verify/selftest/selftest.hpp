@@ -2,10 +2,12 @@
 // What must be true of every structure, checked for one.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "harness/rays/trace_results.hpp"
 #include "harness/verify/selftest/subject.hpp"
 
 namespace beambench::verify {
@@ -23,13 +25,15 @@ struct CheckOutcome {
   bool passed() const { return failure.empty(); }
 };
 
+using RunCheck = CheckOutcome(const Subject& subject, const SelftestEffort& effort);
+
 /// One property of structures.
 struct Check {
   std::string_view name;
   std::string_view claim;  ///< what must be true
   bool bit_exact_only;     ///< not for structures with arithmetic of their own
   bool of_polygons;        ///< not for structures that refuse them
-  CheckOutcome (*run)(const Subject& subject, const SelftestEffort& effort);
+  RunCheck* run;
 };
 
 /// All of them, the quick and general ones first.
@@ -40,5 +44,20 @@ bool applies(const Check& check, const Subject& subject);
 
 /// Runs a check. What the structure throws is a failure, too.
 CheckOutcome run_check(const Check& check, const Subject& subject, const SelftestEffort& effort);
+
+/// With all its bits, so that it can be traced again.
+std::string show(const accel::Ray& ray);
+std::string show(const std::optional<accel::Hit>& hit);
+
+/// The results for an input, in a buffer poisoned before: a result left unwritten is found.
+rays::TraceResults traced(const accel::Accelerator& structure, const rays::TraceInput& input,
+                          accel::WorkCounters* counters = nullptr);
+
+/// Of hits.
+RunCheck check_random_scenes, check_scene_families, check_images, check_smallest_scenes,
+    check_faces_edges_corners, check_heap, check_degenerate_rays;
+/// Of all else.
+RunCheck check_lists, check_counting, check_two_builds, check_threads, check_counters,
+    check_statistics, check_explanation;
 
 }  // namespace beambench::verify

@@ -13,10 +13,6 @@
 namespace beambench::verify {
 namespace {
 
-glm::dvec3 point_in_cube(Random& random) {
-  return {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
-}
-
 glm::dvec3 any_direction(Random& random) {
   while (true) {
     const glm::dvec3 direction = point_in_cube(random);
@@ -227,6 +223,10 @@ int digit(int number, int place) { return number / place % 3 - 1; }
 
 }  // namespace
 
+glm::dvec3 point_in_cube(Random& random) {
+  return {random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0)};
+}
+
 scenes::Scene random_scene(std::uint64_t seed, int primitives, PrimitiveKinds kinds) {
   scenes::SceneBuilder builder(fmt::format("random {}", seed));
   Sculptor sculptor(seed, kinds, builder);
@@ -254,11 +254,11 @@ SceneWithRays cubes_on_a_lattice() {
   SceneWithRays made{std::move(builder).build(), {}};
   for (int from = 0; from < 9 * 9 * 9; ++from) {
     const glm::ivec3 place(from % 9, from / 9 % 9, from / 81);
-    for (int way = 0; way < 27; ++way) {
-      if (way == 13) continue;  // no direction at all
+    for (int step = 0; step < 27; ++step) {
+      if (step == 13) continue;  // no direction at all
       accel::Ray ray;
       ray.origin = glm::vec3(place) * 0.75F - 1.5F;
-      ray.direction = {digit(way, 1), digit(way, 3), digit(way, 9)};
+      ray.direction = {digit(step, 1), digit(step, 3), digit(step, 9)};
       made.rays.push_back(ray);
     }
   }
@@ -279,16 +279,16 @@ SceneWithRays block_of_squares() {
   }
   SceneWithRays made{std::move(builder).build(), {}};
   for (int axis = 0; axis < 3; ++axis) {
-    for (const float way : {-1.0F, 1.0F}) {
+    for (const float sign : {-1.0F, 1.0F}) {
       for (int u = -1; u <= 9; ++u) {
         for (int v = -1; v <= 9; ++v) {
           accel::Ray ray;
-          ray.origin[axis] = -3.0F * way;
+          ray.origin[axis] = -3.0F * sign;
           ray.origin[(axis + 1) % 3] = 0.5F * static_cast<float>(u);
           ray.origin[(axis + 2) % 3] = 0.5F * static_cast<float>(v);
           for (const float zero : {0.0F, -0.0F}) {
             ray.direction = glm::vec3(zero);
-            ray.direction[axis] = way;
+            ray.direction[axis] = sign;
             made.rays.push_back(ray);
           }
         }

@@ -1,7 +1,9 @@
 #pragma once
 // Scenes and rays that look for trouble: ties, shared edges, boundaries, inner surfaces.
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "accel/core/ray.hpp"
@@ -10,6 +12,9 @@
 #include "scenes/scene.hpp"
 
 namespace beambench::verify {
+
+/// Uniform in [-1, 1]^3.
+glm::dvec3 point_in_cube(Random& random);
 
 /// A scene of spheres, triangles, concave polygons and cones in and around the cube [-1, 1]^3. Of
 /// every four seeds one gives coordinates that are multiples of 1/8 (coplanar polygons, shared
@@ -46,5 +51,22 @@ std::vector<scenes::Scene> smallest_scenes();
 /// Directions of all lengths, the longest 2^60 times the shortest, and nearly along an axis; rays
 /// of no length; rays that end before they begin.
 std::vector<accel::Ray> degenerate_rays(const scenes::Scene& scene, std::uint64_t seed);
+
+/// The families, in the order of the seeds: scene `seed` is of family `seed` % their number.
+inline constexpr std::array<std::string_view, 7> kSceneFamilies{
+    "flat cones",         // heights down to 1e-9 of the radii, cylinders as flat, in stacks
+    "eye on geometry",    // on a sphere, a cone, its rim or tip; on, at the edge or corner of
+                          // polygons
+    "touching spheres",   // as large as their lattice is wide, and the camera at a contact
+    "tiny scale",         // coordinates down to 1e-7: smaller scenes are soon refused
+    "coplanar polygons",  // overlapping in one plane, or nearly; now and then the camera is in it
+    "needles",            // triangles and cones 1e3 to 1e6 times as long as wide
+    "nested",             // spheres, cylinders, boxes in each other, 1e-2 to 1e-6 apart
+};
+
+/// A scene of up to 20 primitives with one camera, two lights, and matte, mirroring and transparent
+/// surfaces. `kinds` leaves some kinds of primitives out; a family that needs one that is left out
+/// makes do with another. The same seed gives the same scene everywhere.
+scenes::Scene family_scene(std::uint64_t seed, PrimitiveKinds kinds = {});
 
 }  // namespace beambench::verify
