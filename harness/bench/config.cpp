@@ -226,9 +226,14 @@ int read_threads(const JsonNode& root, const SweepConfig& config) {
 }  // namespace
 
 SweepConfig read_sweep(const std::filesystem::path& path, const accel::Registry& structures) {
+  return parse_sweep(read_json_file(path), path.string(), structures);
+}
+
+SweepConfig parse_sweep(nlohmann::json source, const std::string& name,
+                        const accel::Registry& structures) {
   SweepConfig config{};
-  config.source = read_json_file(path);
-  const JsonNode root(config.source, path.string());
+  config.source = std::move(source);
+  const JsonNode root(config.source, name);
   root.require_object({"$schema", "name", "description", "scenes", "structures", "resolutions",
                        "samples", "rays", "threads", "precision", "repetitions", "budget_seconds",
                        "warm_up_seconds", "exclude"});

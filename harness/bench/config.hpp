@@ -55,4 +55,8 @@ struct SweepConfig {
 /// `file: /structures/1/parameters/max_level: ...`.
 SweepConfig read_sweep(const std::filesystem::path& path, const accel::Registry& structures);
 
+/// The same of a configuration in memory; `name` stands for it in messages.
+SweepConfig parse_sweep(nlohmann::json source, const std::string& name,
+                        const accel::Registry& structures);
+
 }  // namespace beambench::bench

@@ -159,13 +159,14 @@ Standings of_view(const std::string& view, const ViewCells& all,
     if (rays(entry) == most) finest[entry.first] = entry.second;
   }
   const Json& first = finest.begin()->second->at("row");
-  Standings result{view,
-                   fmt::format("{}x{}", first.at("width").get<int>(), first.at("height").get<int>()),
-                   text(first, "ray_kind"),
-                   most,
-                   {},
-                   {},
-                   {}};
+  Standings result{
+      view,
+      fmt::format("{}x{}", first.at("width").get<int>(), first.at("height").get<int>()),
+      text(first, "ray_kind"),
+      most,
+      {},
+      {},
+      {}};
   std::vector<std::pair<double, std::string>> order;
   for (const auto& [contender, structure] : structures) {
     const auto cell = finest.find(contender);
@@ -226,8 +227,8 @@ std::vector<MeanStanding> means(const std::vector<const Standing*>& standings) {
   std::vector<MeanStanding> found;
   for (const auto& [contender, own] : by_contender) {
     const auto wins = std::ranges::count_if(own, &Standing::is_tied);
-    found.push_back({contender, geometric_mean(own), static_cast<int>(own.size()),
-                     static_cast<int>(wins)});
+    found.push_back(
+        {contender, geometric_mean(own), static_cast<int>(own.size()), static_cast<int>(wins)});
   }
   std::ranges::stable_sort(found, [](const MeanStanding& a, const MeanStanding& b) {
     return a.views != b.views ? a.views > b.views : a.ratio.value < b.ratio.value;
@@ -262,7 +263,8 @@ std::string table(const std::vector<std::vector<std::string>>& lines) {
   std::string out;
   for (const auto& line : lines) {
     std::string text = " ";
-    for (std::size_t i = 0; i < line.size(); ++i) text += fmt::format(" {:<{}} ", line[i], widths[i]);
+    for (std::size_t i = 0; i < line.size(); ++i)
+      text += fmt::format(" {:<{}} ", line[i], widths[i]);
     out += text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
   }
   return out;
@@ -403,7 +405,10 @@ std::string describe(std::span<const Standings> views) {
       "95% intervals.\n" +
       table(lines) + describe_left_out(views);
   if (views.size() > 1) {
-    for (const OverallStandings& one : overall(views)) out += "\n" + describe_mean(one);
+    for (const OverallStandings& one : overall(views)) {
+      out += '\n';
+      out += describe_mean(one);
+    }
   }
   return out;
 }
@@ -418,7 +423,8 @@ std::string describe_contenders(std::span<const Standings> views) {
                        fmt::format("{:.4g}", one.ns_per_ray),
                        fmt::format("{:.4g}", 1e3 / one.ns_per_ray), in_words(one.ratio)});
     };
-    for (const Standing& one : view.ranked) add(one, &one != view.ranked.data() && one.is_tied() ? " (tied)" : "");
+    for (const Standing& one : view.ranked)
+      add(one, &one != view.ranked.data() && one.is_tied() ? " (tied)" : "");
     for (const Standing& one : view.references) add(one, " (reference)");
     for (const LeftOut& one : view.left_out) lines.push_back({one.contender, one.reason});
     out += fmt::format("{} {}, {} {} rays\n{}\n", view.view, view.size, view.rays, view.ray_kind,

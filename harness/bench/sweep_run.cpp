@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "harness/base/messages.hpp"
 #include "harness/base/progress.hpp"
@@ -263,7 +264,11 @@ class SweepRun {
     }
     folder_.write_text("google-benchmark.json", google_benchmark_json(cells, benchmark_context()));
     folder_.write_json("manifest.json", to_json(manifest_));
-    SweepOutcome outcome{folder_.results(), cells.size()};
+    SweepOutcome outcome{};
+    outcome.results = folder_.results();
+    outcome.cells = cells.size();
+    outcome.doubts = doubts_about_times(manifest_, cells);
+    outcome.standings = standings(cells, config_.exclude);
     for (const Json& cell : cells) {
       const auto is = [&](verify::Verdict verdict) {
         return cell.at("row").at("verdict") == verify::to_string(verdict);
@@ -274,6 +279,8 @@ class SweepRun {
         ++outcome.failed;
       }
     }
+    folder_.write_text("summary.txt",
+                       describe(outcome.standings) + "\n" + describe_verdicts(outcome));
     return outcome;
   }
 
@@ -304,6 +311,32 @@ class SweepRun {
 SweepOutcome run_sweep(const SweepConfig& config, Plan plan, const GoogleBenchmark& benchmark,
                        const SweepOptions& options, std::FILE* messages) {
   return SweepRun(config, std::move(plan), benchmark, options, messages).run();
+}
+
+std::string describe_verdicts(const SweepOutcome& outcome) {
+  const std::size_t measured = outcome.cells - outcome.without_rays;
+  std::string out;
+  if (outcome.failed > 0) {
+    out = fmt::format("Hits:  {} of {} wrong or not built; these have no times\n", outcome.failed,
+                      base::counted(outcome.cells, "cell"));
+  } else {
+    out = fmt::format("Hits:  {}, all verified\n", base::counted(measured, "cell"));
+  }
+  if (outcome.without_rays > 0) {
+    out += fmt::format("Rays:  {} of {} have none over their scenes\n", outcome.without_rays,
+                       base::counted(outcome.cells, "cell"));
+  }
+  if (measured > outcome.failed) {
+    out += outcome.doubts.empty()
+               ? "Times: measured on a quiet machine, as precisely as wanted\n"
+               : fmt::format("Times: to be taken with care: {}\n", fmt::join(outcome.doubts, "; "));
+  }
+  return out;
+}
+
+int exit_code_of(const SweepOutcome& outcome) {
+  if (outcome.without_rays == outcome.cells) return base::kInvalidInput;  // nothing was measured
+  return outcome.failed > 0 ? base::kMismatch : base::kSuccess;
 }
 
 }  // namespace beambench::bench

@@ -1,80 +1,25 @@
 // beambench run: measures a sweep.
 
-#include <csignal>
 #include <cstdio>
-#include <cstdlib>
 #include <memory>
-#include <mutex>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <unistd.h>
 
 #include "harness/base/messages.hpp"
 #include "harness/bench/record/run_folder.hpp"
 #include "harness/bench/sweep_run.hpp"
 #include "harness/cli/commands.hpp"
+#include "harness/cli/interruption.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/shell_word.hpp"
 
 namespace beambench::cli {
 namespace {
-
-/// While it lives, SIGINT and SIGTERM end the process at once with exit code 130 and one last line
-/// on stderr. For work whose results are safe against a kill at any moment.
-///
-/// The signals are blocked and received by a thread of its own, which is not limited to what a
-/// signal handler may do. Construct it before other threads are started, which inherit the blocked
-/// signals.
-class Interruption {
- public:
-  explicit Interruption(std::string last_line) : last_line_(std::move(last_line)) {
-    ::sigemptyset(&signals_);
-    ::sigaddset(&signals_, SIGINT);
-    ::sigaddset(&signals_, SIGTERM);
-    ::pthread_sigmask(SIG_BLOCK, &signals_, &previous_);
-    waiting_ = std::jthread([this](const std::stop_token& stop) {
-      int signal = 0;
-      while (::sigwait(&signals_, &signal) != 0) {
-      }
-      if (!stop.stop_requested()) end();
-    });
-  }
-  ~Interruption() {
-    waiting_.request_stop();
-    ::pthread_kill(waiting_.native_handle(), SIGTERM);  // to that thread alone
-    waiting_.join();
-    ::pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
-  }
-  Interruption(const Interruption&) = delete;
-  Interruption& operator=(const Interruption&) = delete;
-
-  void set_last_line(std::string line) {
-    const std::lock_guard lock(mutex_);
-    last_line_ = std::move(line);
-  }
-
- private:
-  [[noreturn]] void end() {
-    const std::lock_guard lock(mutex_);
-    ::flockfile(stderr);  // for good: nothing follows the last line
-    const char* wipe = ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
-    fmt::print(stderr, "{}{}\n", wipe, last_line_);
-    std::fflush(stderr);
-    std::_Exit(base::kInterrupted);
-  }
-
-  std::mutex mutex_;
-  std::string last_line_;
-  sigset_t signals_{};
-  sigset_t previous_{};
-  std::jthread waiting_;
-};
 
 struct RunRequest {
   std::string config;
@@ -155,20 +100,10 @@ bench::Plan selected_plan(const bench::SweepConfig& config,
 }
 
 int report(const bench::SweepOutcome& outcome) {
-  if (outcome.failed > 0) {
-    fmt::print(stderr, "{} of {} have no times: their hits were not correct\n", outcome.failed,
-               base::counted(outcome.cells, "cell"));
-  } else if (outcome.without_rays < outcome.cells) {
-    fmt::print(stderr, "{}, all verified\n",
-               base::counted(outcome.cells - outcome.without_rays, "cell"));
-  }
-  if (outcome.without_rays > 0) {
-    fmt::print(stderr, "{} of {} have no rays over their scenes\n", outcome.without_rays,
-               base::counted(outcome.cells, "cell"));
-  }
+  fmt::print(stderr, "\n{}\n{}", bench::describe(outcome.standings),
+             bench::describe_verdicts(outcome));
   fmt::print("{}\n", outcome.results.string());
-  if (outcome.without_rays == outcome.cells) return base::kInvalidInput;  // nothing was measured
-  return outcome.failed > 0 ? base::kMismatch : base::kSuccess;
+  return bench::exit_code_of(outcome);
 }
 
 std::string resume_command(const std::filesystem::path& folder) {

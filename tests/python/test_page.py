@@ -14,6 +14,7 @@ from beambench_report.__main__ import main
 from beambench_report.base.records import read_run
 from beambench_report.run.all_cells import pack
 from beambench_report.run.page import render
+from beambench_report.run.standings import standings
 from synthetic_run import synthetic_rows, without_times, write_manifest, write_run
 
 VOID = {"meta", "link", "img", "input", "br", "wbr", "hr"}
@@ -60,13 +61,68 @@ def page_of(folder: Path, *options: str) -> Reader:
     return Reader((folder / "report.html").read_text("utf-8"))
 
 
+def links_of(reader: Reader) -> set[str]:
+    """The places on the page that it links to; those of single cells are opened by a script."""
+    here = {at[1:] for at in reader.addresses if at.startswith("#")}
+    return {place for place in here if not place.startswith("cell-")}
+
+
 def test_a_right_run_says_so_first(run_folder: Path) -> None:
     write_manifest(run_folder)
     text = page_of(run_folder).text
     assert "The hits of all 30 cells are correct" in text
     assert "Sweep made-up" in text
     assert "measured for 4 min 10 s" in text
-    assert text.index("cells are correct") < text.index("Comparison Total time")
+    places = [text.index(words) for words in ("cells are correct", "is fastest?", "Total time,")]
+    assert places == sorted(places)
+
+
+def test_the_fastest_is_named_with_its_margin(run_folder: Path) -> None:
+    text = page_of(run_folder).text
+    best = standings(read_run(run_folder), {})[0]
+    assert f"Fastest: {best.fastest.contender} , " in text or "Tied for the fastest" in text
+    table = text[text.index("pays off from") :]
+    assert best.fastest.contender in table[:300]
+    assert "Over all 2 views of primary rays" in text
+
+
+def test_references_never_win_and_stand_last(run_folder: Path) -> None:
+    for view in standings(read_run(run_folder), {}):
+        assert {"null", "exhaustive"}.isdisjoint(one.structure for one in view.ranked)
+    page = page_of(run_folder).text
+    table = page[page.index("escena1 2") if "escena1 2" in page else 0 :]
+    assert "reference" in table
+
+
+def test_who_was_left_out_has_a_row_with_the_reason(run_folder: Path) -> None:
+    rows = [
+        row
+        for row in synthetic_rows()
+        if not (row["structure"] == "exhaustive" and row["scene"] == "escena1")
+    ]
+    write_run(run_folder, rows)
+    exclude = [{"structure": "exhaustive", "scene": "escena1"}]
+    (run_folder / "config.json").write_text(json.dumps({"exclude": exclude}))
+    assert "exhaustive left out by the sweep (this scene)" in page_of(run_folder).text
+    (run_folder / "config.json").unlink()
+    assert "exhaustive not in the record" in page_of(run_folder).text
+
+
+def test_times_that_are_worth_little_say_why(run_folder: Path) -> None:
+    write_manifest(run_folder, measurement={"noise": 0.01}, machine={"load_average": 0.1})
+    assert "Equal work" not in page_of(run_folder).text
+    write_manifest(
+        run_folder, measurement={"noise": 0.31}, machine={"cpu": "x", "load_average": 3.5}
+    )
+    text = page_of(run_folder).text
+    assert "The times are to be taken with care" in text
+    assert "Equal work took up to 31% longer than usual" in text
+    assert "Other work was running (load 3.50)" in text
+
+
+def test_times_less_precise_than_wanted_say_so(run_folder: Path) -> None:
+    write_run(run_folder, [{**row, "stop_reason": "budget"} for row in synthetic_rows()])
+    assert re.search(r"\d+ of \d+ timed cells less precise than wanted", page_of(run_folder).text)
 
 
 def test_a_wrong_cell_is_shown_with_its_reason_and_how_to_replay_it(
@@ -91,8 +147,8 @@ def test_everything_is_on_the_page_and_nothing_is_fetched(full_run: Path) -> Non
     assert images.count("data:image/png") == 3
     assert images.count("data:image/svg+xml") == 7
     assert len(reader.ids) == len(set(reader.ids))
-    assert {at[1:] for at in reader.addresses if at.startswith("#")} <= set(reader.ids)
-    for part in ("result", "comparison", "view-escena1", "plots", "cells", "manifest"):
+    assert links_of(reader) <= set(reader.ids)
+    for part in ("result", "fastest", "comparison", "view-escena1", "cells", "manifest"):
         assert part in reader.ids
     for words in (
         "samet, traversal steps",
@@ -109,8 +165,10 @@ def test_everything_is_on_the_page_and_nothing_is_fetched(full_run: Path) -> Non
 def test_what_is_not_there_is_left_out(run_folder: Path) -> None:
     reader = page_of(run_folder)
     assert not any(at.startswith("data:image") for at in reader.addresses)
-    assert not {"plots", "manifest"} & set(reader.ids)
-    assert {at[1:] for at in reader.addresses if at.startswith("#")} <= set(reader.ids)
+    assert "manifest" not in reader.ids
+    assert links_of(reader) <= set(reader.ids)
+    for words in ("There is no manifest.json", "There are no plots", "no single repetitions"):
+        assert words in reader.text
 
 
 def test_a_run_in_which_nothing_was_right_has_a_page(tmp_path: Path) -> None:

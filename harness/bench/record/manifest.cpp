@@ -11,6 +11,7 @@
 
 #include "accel/core/instruction_set.hpp"
 #include "accel/embree/isa.hpp"
+#include "harness/base/messages.hpp"
 #include "harness/bench/measurement.hpp"
 #include "harness/bench/record/cell_record.hpp"
 #include "harness/bench/record/machine.hpp"
@@ -203,6 +204,36 @@ std::optional<std::string> noise_warning(const std::optional<double>& noise) {
       "The machine is disturbed: one slice in twenty of equal work took at least {:.0f}% longer "
       "than usual.",
       100.0 * *noise);
+}
+
+std::vector<std::string> doubts_about_times(const Manifest& manifest, std::span<const Json> cells) {
+  constexpr double kIdle = 0.5;  // as `disturbances` has it
+  constexpr double kMostArePrecise = 0.8;
+  constexpr std::size_t kLeastForInterval = 6;
+  std::size_t timed = 0, imprecise = 0, without_interval = 0;
+  for (const Json& cell : cells) {
+    if (cell.at("repetitions").empty()) continue;
+    ++timed;
+    if (cell.at("row").at("stop_reason") != to_string(StopReason::kPrecision)) ++imprecise;
+    if (cell.at("repetitions").size() < kLeastForInterval) ++without_interval;
+  }
+  std::vector<std::string> doubts;
+  if (const auto& noise = manifest.measurement.noise; noise && *noise > kNoisy) {
+    doubts.push_back(fmt::format("equal work took up to {:.0f}% longer than usual", 100 * *noise));
+  }
+  if (manifest.machine.load > kIdle) {
+    doubts.push_back(fmt::format("other work was running (load {:.2f})", manifest.machine.load));
+  }
+  if (static_cast<double>(timed - imprecise) < kMostArePrecise * static_cast<double>(timed)) {
+    doubts.push_back(fmt::format("{} of {} less precise than wanted", imprecise,
+                                 base::counted(timed, "timed cell")));
+  }
+  if (without_interval > 0) {
+    doubts.push_back(fmt::format("{} of {} repeated fewer than {} times, so without intervals",
+                                 without_interval, base::counted(timed, "timed cell"),
+                                 kLeastForInterval));
+  }
+  return doubts;
 }
 
 std::vector<std::string> preflight(const Manifest& manifest) {

@@ -57,6 +57,11 @@ nlohmann::ordered_json to_json(const Manifest& manifest);
 /// A sentence where equal work took too unequal times before the run (`noise`).
 std::optional<std::string> noise_warning(const std::optional<double>& noise);
 
+/// Why the times of finished cells (their JSON files) are worth little: noise, other work, missed
+/// precision, too few repetitions for an interval. Clauses; none where nothing speaks against them.
+std::vector<std::string> doubts_about_times(const Manifest& manifest,
+                                            std::span<const nlohmann::ordered_json> cells);
+
 /// Two lines on the machine, and a warning in plain words for each thing that could not be
 /// controlled.
 std::vector<std::string> preflight(const Manifest& manifest);

@@ -35,6 +35,10 @@ class Manifest:
     machine: str = ""
     overhead: float | None = None
     """What part of the fastest contender's trace time the harness itself takes, at most."""
+    noise: float | None = None
+    """How much longer than usual the slowest twentieth of equal work took before the run."""
+    load: float | None = None
+    """The system's load average when the run began."""
     uncontrolled: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     facts: list[Facts] = field(default_factory=list)
@@ -54,6 +58,8 @@ def read_manifest(directory: Path) -> Manifest | None:
         cut_off="finished_utc" in source and not finished,
         machine=_dictionary(source, "machine").get("cpu", ""),
         overhead=_dictionary(source, "harness_overhead").get("part"),
+        noise=_dictionary(source, "measurement").get("noise"),
+        load=_dictionary(source, "machine").get("load_average"),
         uncontrolled=source.get("uncontrolled", []),
         notes=source.get("notes", []),
         facts=_facts(source),
@@ -63,6 +69,11 @@ def read_manifest(directory: Path) -> Manifest | None:
 def read_description(directory: Path) -> str:
     """What the sweep says of itself in DIRECTORY/config.json; empty where it says nothing."""
     return str((_read_object(directory / "config.json") or {}).get("description", ""))
+
+
+def read_exclusions(directory: Path) -> list[dict]:
+    """The conditions of DIRECTORY/config.json under which the sweep leaves cells out."""
+    return list((_read_object(directory / "config.json") or {}).get("exclude", []))
 
 
 def _read_object(path: Path) -> dict | None:

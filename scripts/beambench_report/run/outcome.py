@@ -1,4 +1,4 @@
-"""What comes first on the page: was everything right, and if not, what was wrong and why."""
+"""The two verdicts at the head of a page: are the hits correct, and what are the times worth?"""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import pandas as pd
 
 from beambench_report.base.cell_files import CellFile, Example, Identity, identity
+from beambench_report.base.machine import Manifest
 from beambench_report.base.records import ERROR, FAULTLESS_VERDICTS, NO_RAYS, Run
 
 # More wrong cells than this have one cause, not many.
@@ -77,3 +78,31 @@ def _fault(row: pd.Series, file: CellFile | None) -> Fault:
         file.message if file else "",
         file.examples if file else (),
     )
+
+
+_NOISY = 0.05  # what the slowest twentieth of equal work took longer
+_IDLE = 0.5  # load average
+_MOST_ARE_PRECISE = 0.8
+_LEAST_FOR_INTERVAL = 6  # repetitions
+
+
+def doubts_about_times(run: Run, manifest: Manifest) -> list[str]:
+    """Why the times are worth little, in clauses; `beambench run` ends with the same."""
+    timed = run.rows[run.rows["timed"]]
+    doubts = []
+    if manifest.noise is not None and manifest.noise > _NOISY:
+        doubts.append(f"equal work took up to {manifest.noise:.0%} longer than usual")
+    if manifest.load is not None and manifest.load > _IDLE:
+        doubts.append(f"other work was running (load {manifest.load:.2f})")
+    if "stop_reason" in timed and len(timed):
+        precise = timed["stop_reason"] == "precision"
+        if precise.mean() < _MOST_ARE_PRECISE:
+            doubts.append(f"{(~precise).sum()} of {len(timed)} timed cells less precise than wanted")
+    if "repetitions" in timed:
+        few = int((timed["repetitions"] < _LEAST_FOR_INTERVAL).sum())
+        if few:
+            doubts.append(
+                f"{few} of {len(timed)} timed cells repeated fewer than {_LEAST_FOR_INTERVAL} "
+                "times, so without intervals"
+            )
+    return doubts

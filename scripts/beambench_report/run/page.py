@@ -1,8 +1,10 @@
 """The page of a run: one HTML file that holds everything and loads nothing from a network."""
 
 import json
+import re
+import shlex
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import log2
 from pathlib import Path
 
@@ -12,14 +14,20 @@ from beambench_report.base.cell_files import CellFile, Identity, ratio_of_totals
 from beambench_report.base.columns import COUNTER_SUFFIX, dictionary
 from beambench_report.base.figure import structure_color
 from beambench_report.base.files import Problem, write_text
-from beambench_report.base.machine import Manifest, read_description, read_manifest
+from beambench_report.base.machine import (
+    Manifest,
+    read_description,
+    read_exclusions,
+    read_manifest,
+)
 from beambench_report.base.names import PLOT_INDEX, file_stems
 from beambench_report.base.quantities import number, size_in_words
 from beambench_report.base.ratio import Ratio
 from beambench_report.base.records import BASELINE, OK, Run, read_run, size_of
 from beambench_report.run.all_cells import pack
 from beambench_report.run.html import data_uri, environment
-from beambench_report.run.outcome import summarize_verdicts
+from beambench_report.run.outcome import doubts_about_times, summarize_verdicts
+from beambench_report.run.standings import REFERENCES, Standings, in_words, overall, standings
 
 
 @dataclass(frozen=True)
@@ -49,6 +57,10 @@ class Line:
     color: str
     verdict: str
     fields: tuple[Field, ...]
+    anchor: str = ""
+    """Of its row among all cells."""
+    is_reference: bool = False
+    """Is it `null` or `exhaustive`, which stand apart?"""
     build_share: float = 0.0
     trace_share: float = 0.0
     off_the_scale: bool = False
@@ -62,6 +74,8 @@ class Table:
     headings: tuple[Heading, ...]
     lines: tuple[Line, ...]
     unshown: int = 0
+    left_out: tuple[tuple[str, str], ...] = ()
+    """Contenders without a row here, each with the reason."""
 
 
 @dataclass(frozen=True)
@@ -165,27 +179,69 @@ _FAR = 12  # a time this many times the median one would flatten the others' bar
 
 
 def view_table(
-    caption: str, rows: pd.DataFrame, counters: list[str], ratios: Mapping[str, Ratio]
+    caption: str,
+    rows: pd.DataFrame,
+    ratios: Mapping[str, Ratio],
+    left_out: tuple[tuple[str, str], ...] = (),
 ) -> Table:
-    """The quickest first; those without times last."""
-    ordered = rows.sort_values("total_ms_median", na_position="last", kind="stable")
-    counters = [name for name in counters if rows[name].notna().any() and (rows[name] != 0).any()]
+    """Times and memory, the quickest first; then those without times; references last."""
+    ordered = _in_order(rows)
     headings = (
-        Heading("total", "ms", "total_ms_median"),
-        Heading("build", "ms", "build_ms_median"),
+        Heading("trace", "ns per ray", "trace_ms_median"),
         Heading("trace", "ms", "trace_ms_median"),
+        Heading("build", "ms", "build_ms_median"),
+        Heading("total", "ms", "total_ms_median"),
+        Heading("total", "to reference"),
         Heading("trace, net", "ms", "trace_net_ms_median"),
-        Heading("ratio", "to reference"),
         Heading("speed", "Mrays/s", "mrays_per_s"),
         Heading("memory", "", "memory_bytes"),
-        *(Heading(_counter_title(name), "per ray", name) for name in counters),
     )
     scale = _scale(ordered.loc[ordered["timed"], "total_ms_median"])
     lines = tuple(
-        _line(row, counters, ratios.get(row["contender"]), scale)
+        _line(row, ratios.get(row["contender"]), scale)
         for _, row in ordered.head(_MOST_LINES).iterrows()
     )
-    return Table(caption, headings, lines, len(ordered) - len(lines))
+    present = set(rows["contender"])
+    absent = tuple(one for one in left_out if one[0] not in present)
+    return Table(caption, headings, lines, len(ordered) - len(lines), absent)
+
+
+def work_table(caption: str, rows: pd.DataFrame, counters: list[str]) -> Table | None:
+    """Counters per ray; None where nothing was counted."""
+    counters = [name for name in counters if rows[name].notna().any() and (rows[name] != 0).any()]
+    counted = rows[rows[counters].notna().any(axis=1)] if counters else rows.iloc[:0]
+    if counted.empty:
+        return None
+    headings = tuple(Heading(_counter_title(name), "", name) for name in counters)
+    lines = tuple(
+        _bare_line(row, tuple(_figure(row[name]) for name in counters))
+        for _, row in _in_order(counted).head(_MOST_LINES).iterrows()
+    )
+    return Table(caption, headings, lines)
+
+
+def _in_order(rows: pd.DataFrame) -> pd.DataFrame:
+    """The quickest trace first, references last."""
+    times = rows["trace_ms_median"].where(rows["timed"])
+    keys = pd.DataFrame({"reference": rows["structure"].isin(REFERENCES), "time": times})
+    return rows.loc[keys.sort_values(["reference", "time"], kind="stable").index]
+
+
+def _bare_line(row: pd.Series, fields: tuple[Field, ...]) -> Line:
+    return Line(
+        row["contender"],
+        structure_color(row["structure"]),
+        row["verdict"] or "no verdict",
+        fields,
+        cell_anchor(row),
+        row["structure"] in REFERENCES,
+    )
+
+
+def cell_anchor(row: Mapping[str, object]) -> str:
+    """The name by which a link opens one cell; templates/cells.js makes the same."""
+    words = f"{row['view']} {size_of(row)} {row['contender']}"
+    return "cell-" + re.sub(r"[^a-z0-9]+", "-", words.lower()).strip("-")
 
 
 def ratio_field(ratio: Ratio | None) -> Field:
@@ -199,31 +255,34 @@ def ratio_field(ratio: Ratio | None) -> Field:
     return Field(number(ratio.value), ratio.value, note)
 
 
-def _line(row: pd.Series, counters: list[str], ratio: Ratio | None, scale: float) -> Line:
+def _line(row: pd.Series, ratio: Ratio | None, scale: float) -> Line:
     timed = bool(row["timed"])
-    interval = ""
-    if timed and pd.notna(row["total_ms_ci_low"]) and pd.notna(row["total_ms_ci_high"]):
-        interval = f"{number(row['total_ms_ci_low'])} to {number(row['total_ms_ci_high'])}"
-    times = [_figure(row[f"{part}_ms_median"] if timed else None) for part in ("build", "trace")]
-    total = _figure(row["total_ms_median"] if timed else None, interval)
+
+    def time(part: str, factor: float = 1.0) -> Field:
+        if not timed:
+            return MISSING
+        low, high = (row.get(f"{part}_ms_ci_{end}", float("nan")) * factor for end in ("low", "high"))
+        note = f"{number(low)} to {number(high)}" if pd.notna(low) and pd.notna(high) else ""
+        return _figure(row[f"{part}_ms_median"] * factor, note)
+
+    build, trace = time("build"), time("trace")
     memory = row["memory_bytes"]
-    build, trace = ((field.value or 0.0) / scale for field in times)
-    return Line(
-        contender=row["contender"],
-        color=structure_color(row["structure"]),
-        verdict=row["verdict"] or "no verdict",
-        fields=(
-            total,
-            *times,
-            _figure(row.get("trace_net_ms_median") if timed else None),
-            ratio_field(ratio),
-            _figure(row.get("mrays_per_s") if timed else None),
-            MISSING if pd.isna(memory) else Field(size_in_words(memory), memory),
-            *(_figure(row[name]) for name in counters),
-        ),
-        build_share=min(build, 1.0),
-        trace_share=max(min(trace, 1.0 - build), 0.0),
-        off_the_scale=build + trace > 1.0,
+    shares = [(field.value or 0.0) / scale for field in (build, trace)]
+    fields = (
+        time("trace", 1e6 / row["rays"] if row["rays"] > 0 else float("nan")),
+        trace,
+        build,
+        time("total"),
+        ratio_field(ratio),
+        _figure(row.get("trace_net_ms_median") if timed else None),
+        _figure(row.get("mrays_per_s") if timed else None),
+        MISSING if pd.isna(memory) else Field(size_in_words(memory), memory),
+    )
+    return replace(
+        _bare_line(row, fields),
+        build_share=min(shares[0], 1.0),
+        trace_share=max(min(shares[1], 1.0 - shares[0]), 0.0),
+        off_the_scale=sum(shares) > 1.0,
     )
 
 
@@ -252,10 +311,13 @@ class View:
     pictures: tuple[Image, ...]
     plots: tuple[Image, ...]
     tables: tuple[Table, ...]
+    work: Table | None
+    standings: Standings
 
 
 def make_views(
     resolutions: Mapping[str, list[Compared]],
+    every: Mapping[str, Standings],
     counters: list[str],
     pictures: list[Image],
     plots: list[Image],
@@ -273,9 +335,13 @@ def make_views(
                 tuple(image for image in pictures if image.subject == first["scene"]),
                 tuple(image for image in plots if image.subject == title),
                 tuple(
-                    view_table(_caption(group.rows), group.rows, counters, group.ratios)
+                    view_table(
+                        _caption(group.rows), group.rows, group.ratios, every[title].left_out
+                    )
                     for group in groups
                 ),
+                work_table(f"work per ray, {_caption(groups[0].rows)}", groups[0].rows, counters),
+                every[title],
             )
         )
     return views
@@ -318,6 +384,7 @@ def compare(reference: str, finest: Mapping[str, Compared]) -> Comparison:
         for row in shown.rows.itertuples():
             structures.setdefault(row.contender, row.structure)
             verdicts[row.contender, view] = row.verdict
+    structures = dict(sorted(structures.items(), key=lambda one: one[1] in REFERENCES))
     lines = tuple(
         (
             contender,
@@ -362,6 +429,8 @@ def render(run: Run, wanted_reference: str | None = None) -> str:
     finest = {view: groups[0] for view, groups in resolutions.items()}
     plots = read_plots(run.directory)
     pictures = read_pictures(run.directory, run.rows["scene"])
+    every = standings(run, files, read_exclusions(run.directory))
+    by_view = {one.view: one for one in every}
     return (
         environment()
         .get_template("page.html.j2")
@@ -370,9 +439,16 @@ def render(run: Run, wanted_reference: str | None = None) -> str:
             description=read_description(run.directory),
             newest=run.rows.iloc[-1].to_dict(),
             outcome=summarize_verdicts(run, files),
+            doubts=doubts_about_times(run, manifest),
+            is_timed=bool(run.rows["timed"].any()),
+            means=overall(every),
+            absent=_absent(run, manifest, plots, pictures, files),
+            color=structure_color,
+            interval=ratio_field,
+            in_words=in_words,
             tiles=_tiles(run, manifest),
             comparison=compare(reference, finest) if reference else None,
-            views=make_views(resolutions, run.counters, pictures, plots),
+            views=make_views(resolutions, by_view, run.counters, pictures, plots),
             plots=[plot for plot in plots if not plot.subject],
             cells=pack(run),
             dictionary=dictionary(),
@@ -380,16 +456,41 @@ def render(run: Run, wanted_reference: str | None = None) -> str:
     )
 
 
+def _absent(
+    run: Run,
+    manifest: Manifest,
+    plots: list[Image],
+    pictures: list[Image],
+    files: Mapping[Identity, CellFile],
+) -> list[str]:
+    """What the folder lacks, and how it is made."""
+    here = shlex.quote(str(run.directory))
+    report = "python -m beambench_report"
+    return [
+        sentence
+        for is_there, sentence in (
+            (manifest.run_id, "There is no manifest.json: the machine and its state are unknown."),
+            (
+                files,
+                "There are no single repetitions: ratios are of medians and have wider intervals.",
+            ),
+            (plots, f"There are no plots; draw them: {report} plots {here}"),
+            (
+                pictures,
+                f"There are no pictures of the scenes; render them: {report} pictures {here} "
+                "--beambench build/release/bin/beambench",
+            ),
+        )
+        if not is_there
+    ]
+
+
 def _tiles(run: Run, manifest: Manifest) -> list[tuple[str, str]]:
     """A few figures that say how large the run was and how well it could measure."""
-    timed = run.rows[run.rows["timed"]]
     tiles = [
         (f"{len(run.views):,}", "views" if len(run.views) != 1 else "view"),
         (f"{run.rows['contender'].nunique():,}", "contenders"),
     ]
-    if "stop_reason" in timed and len(timed) > 0:
-        precise = (timed["stop_reason"] == "precision").mean()
-        tiles.append((f"{100 * precise:.0f}%", "of timed cells as precise as wanted"))
     if manifest.overhead is not None:
         tiles.append(
             (f"{100 * manifest.overhead:.2g}%", "of the fastest trace is the harness's, at most")

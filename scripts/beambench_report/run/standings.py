@@ -158,9 +158,7 @@ def _of_view(
     )
 
 
-def _standing(
-    row: pd.Series, base: pd.Series, files: Mapping[Identity, CellFile]
-) -> Standing:
+def _standing(row: pd.Series, base: pd.Series, files: Mapping[Identity, CellFile]) -> Standing:
     return Standing(
         row["contender"],
         row["structure"],
@@ -216,9 +214,7 @@ def _why_untimed(row: pd.Series, files: Mapping[Identity, CellFile]) -> str:
     return f"{verdict}: {file.message}" if file and file.message else verdict
 
 
-def _why_absent(
-    structure: str, row: pd.Series, exclusions: Sequence[Mapping[str, object]]
-) -> str:
+def _why_absent(structure: str, row: pd.Series, exclusions: Sequence[Mapping[str, object]]) -> str:
     """The condition of the sweep that leaves it out; without one, the record only lacks it."""
     for entry in exclusions:
         if (

@@ -29,14 +29,30 @@
 
   // Filtering
 
-  const comparison = (word) => {
-    const [, name, sign, text] = /^([a-z_]+)([<>=])(.+)$/.exec(word) ?? [];
-    const figures = byName.get(name)?.figures;
-    const bound = Number(text);
-    if (!figures || Number.isNaN(bound)) return null;
-    const holds = { "<": (a) => a < bound, ">": (a) => a > bound, "=": (a) => a === bound }[sign];
-    return (row) => figures[row] !== null && holds(figures[row]);
+  const holds = {
+    "<": (a, b) => a < b, ">": (a, b) => a > b, "<=": (a, b) => a <= b, ">=": (a, b) => a >= b,
+    "=": (a, b) => a === b,
   };
+
+  // A test of rows, or a sentence on what is wrong with the word; null where it is no comparison.
+  const comparison = (word) => {
+    const [, name, sign, text] = /^([a-z_0-9]+)(<=|>=|<|>|=)(.*)$/.exec(word) ?? [];
+    if (!name) return null;
+    const column = byName.get(name);
+    if (!column) return occurs(word) ? null : `'${word}': there is no column '${name}'`;
+    if (column.words) {
+      if (sign !== "=") return `'${word}': ${name} holds texts, which only '=' compares`;
+      const same = column.words.map((one) => one.toLowerCase() === text);
+      if (!same.includes(true)) return `'${word}': no row has this ${name}`;
+      return (row) => same[column.at[row]];
+    }
+    const bound = Number(text);
+    if (text === "" || Number.isNaN(bound)) return `'${word}': '${text}' is not a number`;
+    return (row) => column.figures[row] !== null && holds[sign](column.figures[row], bound);
+  };
+
+  const occurs = (word) =>
+    texts.some(({ words }) => words.some((text) => text.toLowerCase().includes(word)));
 
   // A text that many rows share is searched once.
   const occurrence = (word) => {
@@ -51,7 +67,12 @@
 
   const filter = () => {
     const words = form.elements.filter.value.toLowerCase().split(/\s+/).filter(Boolean);
-    const tests = words.map((word) => comparison(word) ?? occurrence(word));
+    const understood = words.map((word) => comparison(word) ?? occurrence(word));
+    const tests = understood.filter((test) => typeof test !== "string");
+    const problems = understood.filter((test) => typeof test === "string");
+    const problem = document.getElementById("filter-problem");
+    problem.hidden = problems.length === 0;
+    problem.textContent = problems.length ? `Left out of the filter: ${problems.join("; ")}.` : "";
     if (form.elements.wrong.checked) tests.push(notRight);
     const kept = [];
     for (let row = 0; row < rows; ++row) if (tests.every((test) => test(row))) kept.push(row);
@@ -118,6 +139,12 @@
     for (const column of columns.filter(isShown)) {
       const cell = document.createElement("td");
       cell.textContent = textOf(column, row);
+      if (column.name === "contender") {
+        const link = document.createElement("a");
+        link.href = `#${anchorOf(row)}`;
+        link.textContent = cell.textContent;
+        cell.replaceChildren(link);
+      }
       if (column.figures) cell.className = "figure";
       if (column.name === "verdict") {
         const pill = document.createElement("span");
@@ -145,6 +172,41 @@
         : `Rows ${whole.format(begin + 1)} to ${whole.format(end)} of ${whole.format(matching.length)}${kept}`;
   };
 
+  // One cell, opened by its link
+
+  const anchorOf = (row) =>
+    `cell-${["view", "resolution", "contender"].map((name) => textOf(byName.get(name), row)).join(" ")}`
+      .toLowerCase().replace(/[^a-z0-9]+/g, "-").replace(/-$/, "");
+
+  const open = () => {
+    const wanted = decodeURIComponent(location.hash.slice(1));
+    if (!wanted.startsWith("cell-")) return;
+    let row = 0;
+    while (row < rows && anchorOf(row) !== wanted) ++row;
+    const box = document.getElementById("one-cell");
+    box.hidden = false;
+    box.replaceChildren();
+    const title = document.createElement("h3");
+    const list = document.createElement("dl");
+    title.textContent = row === rows ? `This run has no cell '${wanted}'`
+      : ["contender", "view", "resolution"].map((name) => textOf(byName.get(name), row)).join(", ");
+    for (const column of row === rows ? [] : columns) {
+      const text = textOf(column, row);
+      if (text === "–" || text === "") continue;
+      const pair = document.createElement("div");
+      const name = document.createElement("dt");
+      const value = document.createElement("dd");
+      name.title = column.meaning;
+      name.textContent = column.name.replaceAll("_", " ");
+      value.textContent = column.unit ? `${text} ${column.unit}` : text;
+      pair.append(name, value);
+      list.append(pair);
+    }
+    box.append(title, list);
+    box.scrollIntoView();
+  };
+  addEventListener("hashchange", open);
+
   const turn = (step) => {
     page += step;
     show();
@@ -160,4 +222,5 @@
   next.addEventListener("click", () => turn(1));
   for (const control of section.querySelectorAll(".controls")) control.hidden = false;
   show();
+  open();
 })();

@@ -1,0 +1,80 @@
+#pragma once
+// What commands that measure do on SIGINT and SIGTERM.
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <mutex>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "harness/base/messages.hpp"
+
+namespace beambench::cli {
+
+/// While it lives, SIGINT and SIGTERM end the process at once with exit code 130 and one last line
+/// on stderr. For work whose results are safe against a kill at any moment.
+///
+/// The signals are blocked and received by a thread of its own, which is not limited to what a
+/// signal handler may do. Construct it before other threads are started, which inherit the blocked
+/// signals.
+class Interruption {
+ public:
+  explicit Interruption(std::string last_line) : last_line_(std::move(last_line)) {
+    ::sigemptyset(&signals_);
+    ::sigaddset(&signals_, SIGINT);
+    ::sigaddset(&signals_, SIGTERM);
+    ::pthread_sigmask(SIG_BLOCK, &signals_, &previous_);
+    waiting_ = std::jthread([this](const std::stop_token& stop) {
+      int signal = 0;
+      while (::sigwait(&signals_, &signal) != 0) {
+      }
+      if (!stop.stop_requested()) end();
+    });
+  }
+  ~Interruption() {
+    waiting_.request_stop();
+    ::pthread_kill(waiting_.native_handle(), SIGTERM);  // to that thread alone
+    waiting_.join();
+    ::pthread_sigmask(SIG_SETMASK, &previous_, nullptr);
+  }
+  Interruption(const Interruption&) = delete;
+  Interruption& operator=(const Interruption&) = delete;
+
+  void set_last_line(std::string line) {
+    const std::lock_guard lock(mutex_);
+    last_line_ = std::move(line);
+  }
+  /// Nothing in it is worth keeping when the process ends.
+  void set_folder_to_remove(std::filesystem::path folder) {
+    const std::lock_guard lock(mutex_);
+    folder_to_remove_ = std::move(folder);
+  }
+
+ private:
+  [[noreturn]] void end() {
+    const std::lock_guard lock(mutex_);
+    ::flockfile(stderr);  // for good: nothing follows the last line
+    const char* wipe = ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
+    fmt::print(stderr, "{}{}\n", wipe, last_line_);
+    std::fflush(stderr);
+    std::error_code ignored;
+    if (!folder_to_remove_.empty()) std::filesystem::remove_all(folder_to_remove_, ignored);
+    std::_Exit(base::kInterrupted);
+  }
+
+  std::mutex mutex_;
+  std::string last_line_;
+  std::filesystem::path folder_to_remove_;
+  sigset_t signals_{};
+  sigset_t previous_{};
+  std::jthread waiting_;
+};
+
+}  // namespace beambench::cli

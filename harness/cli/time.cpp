@@ -1,0 +1,151 @@
+// beambench time: times a few structures at once, without a sweep's file.
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "accel/core/registry.hpp"
+#include "harness/bench/sweep_run.hpp"
+#include "harness/cli/commands.hpp"
+#include "harness/cli/inputs.hpp"
+#include "harness/cli/interruption.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/files.hpp"
+
+namespace beambench::cli {
+namespace {
+
+struct Request {
+  std::vector<std::string> scenes;
+  std::string structures = "tile-beam,sah-bvh,embree:mode=single,embree:mode=packet16";
+  std::string camera;
+  std::string resolution = "640x480";
+  std::vector<std::string> rays{"primary"};
+  int samples = 1;
+  int threads = 1;
+  double seconds = 20.0;
+  std::string save;
+};
+
+/// The folder of a run that nobody asked to keep.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string path = (std::filesystem::temp_directory_path() / "beambench-time-XXXXXX").string();
+    if (::mkdtemp(path.data()) == nullptr) {
+      throw InputError(fmt::format("cannot make a folder in {}; set TMPDIR to one with room",
+                                   std::filesystem::temp_directory_path().string()));
+    }
+    path_ = path;
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+nlohmann::json scenes_of(const Request& request) {
+  nlohmann::json scenes = nlohmann::json::array();
+  for (const std::string& scene : request.scenes) {
+    if (request.camera.empty()) {
+      scenes.push_back(scene);
+    } else {
+      scenes.push_back({{"scene", scene}, {"cameras", {request.camera}}});
+    }
+  }
+  return scenes;
+}
+
+/// What was asked for, as `beambench run` reads it. At least six repetitions: fewer have no
+/// interval, and then nothing would be decided.
+nlohmann::json sweep_of(const Request& request) {
+  nlohmann::json structures = nlohmann::json::array();
+  for (const auto& choice : accel::registry().choose_list(request.structures)) {
+    structures.push_back(choice.short_label());
+  }
+  return {{"name", "time"},
+          {"description", "Written by beambench time --save."},
+          {"scenes", scenes_of(request)},
+          {"structures", structures},
+          {"resolutions", {request.resolution}},
+          {"samples", {request.samples}},
+          {"rays", request.rays},
+          {"threads", request.threads},
+          {"precision", 0.02},
+          {"repetitions", {{"minimum", 6}, {"maximum", 200}}},
+          {"budget_seconds", request.seconds},
+          {"exclude", {{{"structure", "exhaustive"}, {"primitives_above", kExhaustiveLimit}}}}};
+}
+
+int time_structures(const Request& request) {
+  Interruption interruption("interrupted; nothing was kept");
+  const bench::SweepConfig config =
+      bench::parse_sweep(sweep_of(request), "beambench time", accel::registry());
+  bench::Plan plan = bench::make_plan(config);
+  if (!request.save.empty()) write_file(request.save, config.source.dump(2) + "\n");
+  const TemporaryFolder folder;
+  interruption.set_folder_to_remove(folder.path());
+  bench::SweepOptions options;
+  options.folder = folder.path();
+  const bench::GoogleBenchmark benchmark(bench::parse_benchmark_flags({}));
+  const bench::SweepOutcome outcome =
+      bench::run_sweep(config, std::move(plan), benchmark, options, stderr);
+  fmt::print("{}", bench::describe_contenders(outcome.standings));
+  if (outcome.standings.size() > 1) fmt::print("{}\n", bench::describe(outcome.standings));
+  fmt::print("{}", bench::describe_verdicts(outcome));
+  return bench::exit_code_of(outcome);
+}
+
+}  // namespace
+
+void add_time_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("time", "Time a few structures at once: which is fastest, by how much");
+  const auto request = std::make_shared<Request>();
+  command->add_option("SCENE", request->scenes, kSceneHelp)->required();
+  command
+      ->add_option("--accel", request->structures,
+                   "Structures, as 'beambench list' names them, separated by commas, or 'all'")
+      ->capture_default_str();
+  command->add_option("--camera", request->camera, "By name (default: each scene's first)");
+  command->add_option("--resolution", request->resolution, "WIDTHxHEIGHT")->capture_default_str();
+  command
+      ->add_option("--rays", request->rays,
+                   "Kinds of rays, as after 'beambench rays SCENE --rays'; several are timed apart")
+      ->capture_default_str();
+  command->add_option("--samples", request->samples, "Per pixel: 1, 4, 9, ...")
+      ->capture_default_str();
+  command->add_option("--threads", request->threads, "That trace an image (1 to 1024)")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command
+      ->add_option("--seconds", request->seconds,
+                   "Time for all repetitions; six of each are made in any case")
+      ->check(CLI::Range(0.1, 1e6))
+      ->capture_default_str();
+  command->add_option("--save", request->save,
+                      "Write the sweep that this is, for 'beambench run FILE'");
+  command->footer(
+      "Contenders take turns, each repetition builds its structure anew, and every hit is "
+      "verified.\n"
+      "Examples:\n"
+      "  beambench time balls --accel samet,sah-bvh,embree\n"
+      "  beambench time model.ply --accel all --rays primary shadow --save model.json");
+  command->callback([request, &exit_code] { exit_code = time_structures(*request); });
+}
+
+}  // namespace beambench::cli
