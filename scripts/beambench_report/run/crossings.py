@@ -84,6 +84,7 @@ def _crossings(measured: Measured, kind: str, shown: dict[str, pd.DataFrame], st
         panel.set_ylim(least, most)
     hide_repeated_labels(panels, columns)
     views = list(shown)
+    scenes = ", ".join(short_title(measured.run.rows, view) for view in views)
     return Plot(
         stem,
         finish(
@@ -95,7 +96,7 @@ def _crossings(measured: Measured, kind: str, shown: dict[str, pd.DataFrame], st
             "another one; the dark one: the last of them, from which on it is ahead of all. Every "
             "pair: break-even.csv.",
         ),
-        f"ns per ray, build included, against the number of rays, {kind}",
+        f"ns per ray, build included, against the number of rays, {kind}: {scenes}",
         views[0] if len(views) == 1 else "",
     )
 

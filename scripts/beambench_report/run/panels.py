@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
+from matplotlib.transforms import blended_transform_factory
 
 from beambench_report.base.figure import DPI, PAGE_WIDTH, Look, caption
 
@@ -23,7 +24,7 @@ WIDE_RANGE = 20
 """An axis is logarithmic where its largest value is more than this many times its least."""
 
 _LEGEND_LINE = 0.165  # inches
-_LEGEND_CHARACTER = 0.063  # inches
+_LEGEND_CHARACTER = 0.066  # inches
 _Item = TypeVar("_Item")
 
 
@@ -68,6 +69,8 @@ def panels_with_legend(
             [_handle(look, with_line=with_lines) for look in legend.values()],
             list(legend),
             loc="upper left",
+            bbox_to_anchor=(0.01, 1),  # from the left end of the page, not of the panels
+            bbox_transform=blended_transform_factory(figure.transFigure, below.transAxes),
             ncols=legend_columns,
             fontsize=7.5,
             frameon=False,
@@ -99,7 +102,7 @@ def finish(
     return figure
 
 
-def set_title(panel: Axes, title: str, width: int = 40) -> None:
+def set_title(panel: Axes, title: str, width: int = 38) -> None:
     """The title of one of several panels."""
     panel.set_title(textwrap.fill(title, width, break_on_hyphens=False), fontsize=8.5)
 

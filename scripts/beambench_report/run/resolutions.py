@@ -66,6 +66,7 @@ def _resolutions(measured: Measured, kind: str, views: Sequence[str], stem: str)
     for panel in panels:
         _name_sizes(panel, sizes)
     hide_repeated_labels(panels, columns)
+    scenes = ", ".join(short_title(measured.run.rows, view) for view in views)
     return Plot(
         stem,
         finish(
@@ -74,7 +75,7 @@ def _resolutions(measured: Measured, kind: str, views: Sequence[str], stem: str)
             measured.run.rows[measured.run.rows["view"].isin(views)],
             "Median of the first trace after a build, build not included; bars: its 95% interval.",
         ),
-        f"ns per ray against resolution, {kind}",
+        f"ns per ray against resolution, {kind}: {scenes}",
         views[0] if len(views) == 1 else "",
     )
 
