@@ -13,6 +13,7 @@ _G, _USE, _TEXT = f"{{{_SVG}}}g", f"{{{_SVG}}}use", f"{{{_SVG}}}text"
 _TITLE, _DEFS = f"{{{_SVG}}}title", f"{{{_SVG}}}defs"
 _HREF = f"{{{_XLINK}}}href"
 _HOVER = "hover:"
+_MANY_CORNERS = 10
 # All texts are in one family, and lines end alike: the root says so once.
 _FAMILY = re.compile(r" *font-family: ([^;]*);")
 _ROOT_STYLE = "stroke-linejoin: round; stroke-linecap: butt; font-family: {}"
@@ -107,10 +108,11 @@ def _share_markers(root: Element) -> None:
 
 
 def _rounded(text: str) -> str:
-    """To a hundredth of a point."""
+    """To a hundredth of a point; of lines with many corners, which fill a file, to a tenth."""
+    digits = 1 if text.count("L") > _MANY_CORNERS else 2
 
     def shorter(number: re.Match[str]) -> str:
-        return f"{float(number[0]):.2f}".rstrip("0").rstrip(".")
+        return f"{float(number[0]):.{digits}f}".rstrip("0").rstrip(".")
 
     text = re.sub(r"-?\d+\.\d+(?:e-?\d+)?", shorter, text)
     return re.sub(r"([MLCz]) | (?=[MLCz])|\n", r"\1", re.sub(r"\s+", " ", text)).strip()

@@ -1,5 +1,7 @@
 """Break-even as lines that cross: what a ray costs with its share of the build."""
 
+from textwrap import fill
+
 import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
@@ -142,11 +144,16 @@ def _mark_crossings(panel: Axes, rows: pd.DataFrame) -> None:
         )
         ahead = f"{fastest['contender']} is ahead of {other} from {rays_in_words(rays)} rays on"
         hover(mark, f"{ahead}, and of all" if is_last else ahead)
-    if found:
-        text = f"{fastest['contender']} is first from {rays_in_words(found[-1][0])} rays on"
-    else:
-        text = f"{fastest['contender']} is first from the first ray on"
-    panel.text(0.98, 0.97, text, transform=panel.transAxes, ha="right", va="top", fontsize=7.5)
+    since = f"{rays_in_words(found[-1][0])} rays" if found else "the first ray"
+    panel.text(
+        0.98,
+        0.97,
+        fill(f"{fastest['contender']} is first from {since} on", 40),
+        transform=panel.transAxes,
+        ha="right",
+        va="top",
+        fontsize=7.5,
+    )
 
 
 def overtakes(rows: pd.DataFrame) -> list[tuple[float, str]]:
