@@ -145,7 +145,7 @@ def test_everything_is_on_the_page_and_nothing_is_fetched(full_run: Path) -> Non
     assert all(at.startswith(("#", "data:")) for at in reader.addresses), reader.addresses
     images = [at.split(";")[0] for at in reader.addresses if at.startswith("data:image")]
     assert images.count("data:image/png") == 3
-    assert images.count("data:image/svg+xml") == 7
+    assert images.count("data:image/svg+xml") == 9
     assert len(reader.ids) == len(set(reader.ids))
     assert links_of(reader) <= set(reader.ids)
     for part in ("result", "fastest", "comparison", "view-escena1", "cells", "manifest"):

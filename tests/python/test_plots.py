@@ -2,27 +2,37 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from xml.etree import ElementTree
 
 import matplotlib.pyplot as plt
+import numpy as np
 import pandas as pd
 import pytest
 
 from beambench_report.__main__ import main
-from beambench_report.base.figure import Look, untimed
+from beambench_report.base.figure import caption, house_style, new_figure, untimed, write_plot
 from beambench_report.base.quantities import number
 from beambench_report.base.records import read_run
-from beambench_report.run.bars import Bar, draw_bars
-from beambench_report.run.plots import time_over_rays
-from synthetic_run import synthetic_rows, without_times, write_run
+from beambench_report.run.counters import counters_in_common
+from beambench_report.run.crossings import cost_of_a_ray, overtakes
+from beambench_report.run.distributions import thinned
+from beambench_report.run.labels import place_labels
+from beambench_report.run.measured import read_measured
+from beambench_report.run.plots import KINDS
+from beambench_report.run.resolutions import resolutions
+from beambench_report.run.trade_offs import pareto_front, trade_offs
+from synthetic_run import synthetic_rows, without_times, write_run, write_trace_cell
+
+SVG = "{http://www.w3.org/2000/svg}"
 
 PLOTS = {
-    "time-escena1",
-    "time-tetra-n-6",
-    "build-and-trace",
+    "overall",
+    "trade-offs-escena1",
+    "trade-offs-tetra-n-6",
+    "resolutions",
     "break-even",
-    "memory",
     "counters-escena1",
     "counters-tetra-n-6",
 }
@@ -59,6 +69,39 @@ def test_plotting_again_replaces_and_leaves_nothing_beside(run_folder: Path) -> 
     assert {path.name: path.read_bytes() for path in (run_folder / "plots").iterdir()} == first
 
 
+def titles(path: Path) -> list[str]:
+    """What the mouse shows in a plot's SVG."""
+    return [text.text or "" for text in ElementTree.parse(path).iter(f"{SVG}title")]
+
+
+def with_cells(folder: Path, rows: list[dict[str, object]]) -> Path:
+    """A run with nine repetitions of every cell, 1% apart."""
+    write_run(folder, rows)
+    for row in rows:
+        median = float(str(row["trace_ms_median"]))
+        write_trace_cell(folder, row, [median * (0.96 + 0.01 * turn) for turn in range(9)], [])
+    return folder
+
+
+def many_rows(scenes: int, variants: int, kind: str = "primary") -> list[dict[str, object]]:
+    """Of two resolutions: views and contenders in any number."""
+    first = [row for row in synthetic_rows() if row["scene"] == "escena1" and row["width"] != 640]
+    samet = [row for row in first if row["parameters"] == "max_level=5,max_objects=0"]
+    return [
+        row
+        | {
+            "scene": f"scene-with-a-long-name:parameter={scene}",
+            "parameters": f"max_level={variant},max_objects=0",
+            "ray_kind": kind,
+            "trace_ms_median": float(str(row["trace_ms_median"])) * (1 + variant / 3),
+            "build_ms_median": 1.0 + 9 / (1 + variant),
+        }
+        for scene in range(scenes)
+        for variant in range(variants)
+        for row in samet
+    ]
+
+
 def test_a_wrong_contender_has_no_line_and_is_named_in_the_caption(tmp_path: Path) -> None:
     rows = [
         without_times(row, "mismatch")
@@ -68,24 +111,185 @@ def test_a_wrong_contender_has_no_line_and_is_named_in_the_caption(tmp_path: Pat
     ]
     run = read_run(write_run(tmp_path, rows))
     assert untimed(run.view("escena1")) == ["samet max_level=6 in escena1: mismatch"]
-    plot = next(plot for plot in time_over_rays(run) if plot.stem == "time-escena1")
-    lines = plot.figure.axes[0].get_legend_handles_labels()[1]
-    assert lines == ["exhaustive", "samet max_level=5", "embree", "null"]
     assert main(["plots", str(tmp_path)]) == 0
-    text = svg_text(tmp_path / "plots" / "time-escena1.svg")
-    assert "samet max_level=6 in escena1: mismatch" in text
-    assert "judged right" not in svg_text(tmp_path / "plots" / "time-tetra-n-6.svg")
+    wrong, right = (
+        tmp_path / "plots" / f"trade-offs-{stem}.svg" for stem in ("escena1", "tetra-n-6")
+    )
+    named = "samet max_level=6 in escena1: mismatch"
+    assert named in svg_text(wrong)
+    assert named not in svg_text(right)
+    assert not any("max_level=6" in title for title in titles(wrong))
+    assert any("max_level=6" in title for title in titles(right))
 
 
-def test_a_run_in_which_nothing_was_right_still_shows_its_counters(tmp_path: Path) -> None:
+def test_a_caption_does_not_outgrow_its_figure(tmp_path: Path) -> None:
+    rows = many_rows(12, 13)
+    rows = [*rows[:80], *(without_times(row, "mismatch") for row in rows[80:])]
+    run = read_run(write_run(tmp_path, rows))
+    figure, _ = new_figure(2.0)
+    caption(figure, run.rows, "What it shows.", times=True)
+    assert figure.get_size_inches()[1] < 4.5
+    assert "and 110 more" in figure.get_supxlabel()
+
+
+def test_a_run_in_which_nothing_was_right_shows_its_counters_and_says_what_is_missing(
+    tmp_path: Path,
+) -> None:
     rows = [without_times(row, "error") for row in synthetic_rows()]
     assert main(["plots", str(write_run(tmp_path, rows))]) == 0
-    assert plotted(tmp_path) == {"memory", "counters-escena1", "counters-tetra-n-6"}
+    assert plotted(tmp_path) == {"counters-escena1", "counters-tetra-n-6"}
+    readme = (tmp_path / "plots" / "README.md").read_text()
+    missing = readme[readme.index("Not drawn") :]
+    kinds = ("overall", "trade-offs", "resolutions", "break-even", "distributions")
+    assert all(f"- {kind}: " in missing for kind in kinds)
 
 
-def test_one_cell_is_enough(tmp_path: Path) -> None:
+def test_one_cell_makes_no_plot_of_one_point(tmp_path: Path) -> None:
     assert main(["plots", str(write_run(tmp_path, synthetic_rows()[3:4]))]) == 0
-    assert plotted(tmp_path) == {"time-escena1", "build-and-trace", "memory", "counters-escena1"}
+    assert plotted(tmp_path) == set()
+    assert json.loads((tmp_path / "plots" / "index.json").read_text()) == []
+
+
+def test_of_one_resolution_there_is_no_plot_of_resolutions(tmp_path: Path) -> None:
+    rows = [row for row in synthetic_rows() if row["width"] == 320]
+    assert main(["plots", str(write_run(tmp_path, rows))]) == 0
+    assert plotted(tmp_path) == PLOTS - {"resolutions"}
+
+
+def test_what_was_drawn_before_and_is_no_more_goes_away(tmp_path: Path) -> None:
+    assert main(["plots", str(write_run(tmp_path, synthetic_rows()))]) == 0
+    (tmp_path / "plots" / "mine.png").write_text("not ours")
+    rows = [row for row in synthetic_rows() if row["scene"] == "escena1"]
+    assert main(["plots", str(write_run(tmp_path, rows))]) == 0
+    assert plotted(tmp_path) == {stem for stem in PLOTS if "tetra" not in stem} | {"mine"}
+
+
+def test_a_run_that_was_cut_off_is_drawn_at_the_size_that_two_contenders_have(
+    tmp_path: Path,
+) -> None:
+    rows = [row for row in synthetic_rows() if row["scene"] == "escena1"]
+    rows = [row for row in rows if row["width"] == 320 or row["structure"] == "embree"]
+    measured = read_measured(write_run(tmp_path, rows))
+    assert set(measured.finest("escena1")["width"]) == {320}
+    assert main(["plots", str(tmp_path)]) == 0
+    assert {"trade-offs-escena1", "resolutions"} <= plotted(tmp_path)
+
+
+def test_repetitions_are_drawn_each(tmp_path: Path) -> None:
+    assert main(["plots", str(with_cells(tmp_path, synthetic_rows()))]) == 0
+    stems = {"distributions-escena1", "distributions-tetra-n-6"}
+    assert plotted(tmp_path) == PLOTS | stems
+    for stem in stems:
+        shown = titles(tmp_path / "plots" / f"{stem}.svg")
+        assert "samet max_level=5: 220 ns per ray (213 to 227); 9 repetitions" in " ".join(shown)
+
+
+def test_intervals_are_drawn(tmp_path: Path) -> None:
+    measured = read_measured(with_cells(tmp_path, synthetic_rows()))
+    with house_style():
+        [plot] = resolutions(measured)
+        [trade_off, _] = trade_offs(measured)
+    samet = measured.looks["samet max_level=5"].color
+    row = measured.timed.query("contender == 'samet max_level=5' and width == 1280").iloc[0]
+    assert row["ns_low"] == pytest.approx(0.97 * row["ns"])
+    assert row["ns_high"] == pytest.approx(1.03 * row["ns"])
+    ends = [row["ns_low"], row["ns_high"]]
+    lines = [line for line in plot.figure.axes[0].lines if line.get_color() == samet]
+    assert any(set(ends) <= set(line.get_ydata()) for line in lines)
+    lines = [line for line in trade_off.figure.axes[0].lines if line.get_color() == samet]
+    assert any(list(line.get_xdata()) == ends for line in lines)
+
+
+def test_no_figure_is_taller_than_a_page_or_a_large_file(tmp_path: Path) -> None:
+    measured = read_measured(with_cells(tmp_path, many_rows(12, 13)))
+    with house_style():
+        plots = [plot for kind in KINDS for plot in kind.draw(measured)]
+        stems = {plot.stem for plot in plots}
+        assert {"resolutions", "resolutions-2", "break-even", "break-even-3", "overall"} <= stems
+        for plot in plots:
+            width, height = plot.figure.get_size_inches()
+            assert height <= 1.4 * width, plot.stem
+            if "parameter" not in plot.stem or plot.stem.endswith("-0"):
+                svg = write_plot(plot, tmp_path)[1]
+                assert svg.stat().st_size < 70_000, plot.stem
+
+
+def test_points_say_contender_values_and_units(run_folder: Path) -> None:
+    assert main(["plots", str(run_folder)]) == 0
+    folder = run_folder / "plots"
+    assert "samet max_level=6: 160 ns per ray; build 4.00 ms; memory 879 KiB" in titles(
+        folder / "trade-offs-escena1.svg"
+    )
+    assert "embree: build 0.600 ms, then 60.0 ns per ray" in titles(folder / "break-even.svg")
+    assert "samet max_level=6: 17.2 per ray" in titles(folder / "counters-escena1.svg")
+    assert "exhaustive: 33.3 times the fastest, geometric mean over 2 views" in titles(
+        folder / "overall.svg"
+    )
+    assert any(
+        title.startswith("embree: 320x200 60.0 ns per ray; 640x480 60.0")
+        for title in titles(folder / "resolutions.svg")
+    )
+
+
+def test_each_kind_of_rays_has_its_own_overview(tmp_path: Path) -> None:
+    rows = [*many_rows(2, 3), *many_rows(2, 3, "whitted:shadows=cache")]
+    assert main(["plots", str(write_run(tmp_path, rows))]) == 0
+    assert {"overall-primary", "overall-whitted-shadows-cache"} <= plotted(tmp_path)
+
+
+def test_unknown_structures_and_memory_of_nothing_are_drawn(tmp_path: Path) -> None:
+    rows = [
+        row | {"structure": "newcomer", "memory_bytes": 0} if row["structure"] == "embree" else row
+        for row in synthetic_rows()
+    ]
+    assert main(["plots", str(write_run(tmp_path, rows))]) == 0
+    assert plotted(tmp_path) == PLOTS
+    shown = titles(tmp_path / "plots" / "trade-offs-escena1.svg")
+    assert "newcomer: 60.0 ns per ray; build 0.600 ms; memory 0 B" in shown
+
+
+def test_the_front_has_those_that_no_other_one_beats() -> None:
+    assert pareto_front([(3, 1), (1, 3), (2, 2), (2, 3), (4, 1), (1, 3)]) == [1, 2, 0]
+    assert pareto_front([(1, 1), (2, 2)]) == [0]
+    assert pareto_front([]) == []
+
+
+def test_the_fastest_overtakes_others_where_both_cost_the_same(run_folder: Path) -> None:
+    rows = read_measured(run_folder).finest("escena1").query("structure != 'null'")
+    [(rays, other)] = overtakes(rows)
+    assert other == "exhaustive"
+    costs = [
+        cost_of_a_ray(row["build_ms_median"], row["ns"], np.array([rays]))
+        for _, row in rows.iterrows()
+        if row["contender"] in ("embree", "exhaustive")
+    ]
+    assert costs[0] == pytest.approx(costs[1])
+
+
+def test_only_counters_that_two_contenders_have_are_shown(run_folder: Path) -> None:
+    rows = read_run(run_folder).finest("escena1").assign(alone=np.nan, nothing=0.0)
+    rows.loc[rows.index[0], "alone"] = 1.0
+    names = ["traversal_steps_per_ray", "alone", "nothing"]
+    assert counters_in_common(rows, names) == names[:1]
+
+
+def test_names_beside_points_cover_no_other_point() -> None:
+    figure, panel = plt.subplots(dpi=100)
+    spread = [(0.1, 0.1), (0.5, 0.5), (0.9, 0.9)]
+    panel.plot(*zip(*spread, strict=True))
+    assert place_labels(panel, spread, ["a name", "another", "third"])
+    assert len(panel.texts) == 3
+    crowd = [(0.5 + 0.001 * place, 0.5) for place in range(40)]
+    assert not place_labels(panel, crowd, [f"contender {place}" for place in range(40)])
+    assert len(panel.texts) == 3
+    plt.close(figure)
+
+
+def test_many_repetitions_are_thinned_with_both_ends() -> None:
+    assert thinned([1.0, 2.0, 3.0], 5) == [1.0, 2.0, 3.0]
+    few = thinned([float(value) for value in range(100)], 10)
+    assert len(few) == 10
+    assert (few[0], few[-1]) == (0, 99)
 
 
 def test_a_wrong_request_is_one_sentence_and_exit_code_2(
@@ -112,11 +316,3 @@ def test_an_unwritable_folder_is_one_sentence_and_exit_code_2(
 )
 def test_numbers_keep_three_significant_digits(value: float, text: str) -> None:
     assert number(value) == text
-
-
-def test_a_bar_beside_bars_of_no_length_is_on_the_axis() -> None:
-    figure, panel = plt.subplots()
-    bars = [Bar(name, [value], "") for name, value in (("a", 0.0), ("b", 0.0), ("c", 14.3))]
-    draw_bars(panel, bars, {name: Look("black", "o", "-") for name in "abc"}, "per ray")
-    assert panel.get_xlim()[1] > 14.3
-    plt.close(figure)

@@ -265,7 +265,7 @@ def test_a_small_sweep_leaves_records_pictures_plots_and_a_page(
     rows = pd.read_csv(run / "results.csv", keep_default_na=False)
     assert len(rows) == 6
     assert set(rows["verdict"]) == {"ok", "baseline"}
-    assert (run / "plots" / "time-stetra.png").exists()
+    assert (run / "plots" / "resolutions.png").exists()
     assert (run / "pictures" / "stetra.png").exists()
     assert (run / "pictures" / "stetra-samet-traversal_steps.png").exists()
     assert f"Look at {run}/report.html\n" in result.stdout

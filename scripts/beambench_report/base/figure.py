@@ -3,7 +3,7 @@
 One color a structure, the same in every plot of every run: those of Okabe and Ito ("Color Universal
 Design", 2008), which color-blind readers can distinguish, their yellow darkened so that it can be
 seen on white, and two grays. Variants of one structure share its color and differ in marker and
-dashes.
+dashes. Each color has a variant for dark pages (`base.palette`).
 """
 
 import textwrap
@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
-from zlib import crc32
 
 import matplotlib as mpl
 import pandas as pd
@@ -19,20 +18,34 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from beambench_report.base.files import write_whole
+from beambench_report.base.palette import GRID, INK, SOFT, structure_color
+from beambench_report.base.svg import compact
 
 PAGE_WIDTH = 7.2  # inches
+DPI = 200
+"""Of PNG files; texts are as wide as they were measured only at the same."""
 _LINE_HEIGHT = 0.16  # inches, of a caption's line
 _CAPTION_COLUMNS = 118  # characters that fit the page width
+_MOST_WRONG = 6  # contenders that a caption names
 
 _STYLE = {
     "font.size": 9,
+    "font.sans-serif": ["DejaVu Sans"],  # the list of all that matplotlib knows fills an SVG
+    "text.color": INK,
+    "axes.edgecolor": SOFT,
+    "axes.labelcolor": INK,
+    "axes.titlecolor": INK,
+    "grid.color": GRID,
+    "xtick.color": SOFT,
+    "ytick.color": SOFT,
+    "xtick.labelcolor": INK,
+    "ytick.labelcolor": INK,
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.titleweight": "bold",
     "axes.titlelocation": "left",
     "axes.axisbelow": True,
     "svg.fonttype": "none",
-    "svg.hashsalt": "beambench",
 }
 
 
@@ -72,9 +85,10 @@ def caption(figure: Figure, rows: pd.DataFrame, explanation: str, *, times: bool
     lines = [explanation, _source(rows)]
     if wrong := untimed(rows):
         start = "Left out, not verified" if times else "Shown, though not verified"
-        lines.append(f"{start}: {'; '.join(wrong)}.")
+        more = f"; and {len(wrong) - _MOST_WRONG} more" if len(wrong) > _MOST_WRONG else ""
+        lines.append(f"{start}: {'; '.join(wrong[:_MOST_WRONG])}{more}.")
     wrapped = "\n".join(textwrap.fill(line, _CAPTION_COLUMNS) for line in lines)
-    figure.supxlabel(wrapped, x=0.01, ha="left", fontsize=7.5, color="#333333")
+    figure.supxlabel(wrapped, x=0.01, ha="left", fontsize=7.5, color=SOFT)
     width, height = figure.get_size_inches()
     figure.set_size_inches(width, height + _LINE_HEIGHT * (wrapped.count("\n") + 1))
 
@@ -87,16 +101,22 @@ def untimed(rows: pd.DataFrame) -> list[str]:
 
 
 def write_plot(plot: Plot, directory: Path) -> list[Path]:
-    """Writes the figure as PNG and as SVG."""
+    """Writes the figure as PNG and as SVG; in the latter what `svg.hover` was given is shown."""
 
-    def save(ending: str) -> Path:
+    def save(path: Path, ending: str) -> None:
         metadata = {"Date": None} if ending == "svg" else None
-        return write_whole(
-            directory / f"{plot.stem}.{ending}",
-            lambda path: plot.figure.savefig(path, format=ending, dpi=200, metadata=metadata),
-        )
+        plot.figure.savefig(path, format=ending, dpi=DPI, metadata=metadata)
 
-    return [save("png"), save("svg")]
+    def save_svg(path: Path) -> None:
+        # Of its stem, so that no two plots on one page have the same ids.
+        with mpl.rc_context({"svg.hashsalt": f"beambench-{plot.stem}"}):
+            save(path, "svg")
+        path.write_text(compact(path.read_text("utf-8")), "utf-8")
+
+    return [
+        write_whole(directory / f"{plot.stem}.png", lambda path: save(path, "png")),
+        write_whole(directory / f"{plot.stem}.svg", save_svg),
+    ]
 
 
 def _source(rows: pd.DataFrame) -> str:
@@ -108,18 +128,6 @@ def _source(rows: pd.DataFrame) -> str:
     )
 
 
-_COLORS = {
-    "embree": "#000000",
-    "exhaustive": "#777777",
-    "null": "#b0b0b0",
-    "samet": "#0072b2",
-    "samet-net": "#56b4e9",
-    "voxel-grid": "#009e73",
-    "goldsmith-salmon": "#cc79a7",
-    "sah-bvh": "#e69f00",
-    "beam": "#d55e00",
-    "tile-beam": "#8a7f00",
-}
 # Of Okabe and Ito, for lines that stand for no structure.
 LINE_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 MARKERS = "osD^vP*X<>"
@@ -133,12 +141,6 @@ class Look:
     color: str
     marker: str
     dashes: str
-
-
-def structure_color(structure: str) -> str:
-    """The color of a structure; an unknown one gets one of the others', always the same."""
-    spare = list(_COLORS.values())
-    return _COLORS.get(structure, spare[crc32(structure.encode()) % len(spare)])
 
 
 def looks(rows: pd.DataFrame) -> dict[str, Look]:

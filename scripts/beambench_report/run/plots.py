@@ -1,239 +1,87 @@
-"""The plots of a run: time over rays, build and trace, memory, counters, break-even."""
+"""The plots of a run: who is fastest, at which price, from how many rays on, and how surely."""
 
 import json
+from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
-import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.patches import Patch
-from matplotlib.ticker import FuncFormatter, NullFormatter, NullLocator
-
-from beambench_report.base.columns import COUNTER_SUFFIX
-from beambench_report.base.figure import (
-    Look,
-    Plot,
-    caption,
-    house_style,
-    looks,
-    new_figure,
-    write_plot,
-)
+from beambench_report.base.figure import Plot, house_style, write_plot
 from beambench_report.base.files import write_text, write_whole
-from beambench_report.base.names import PLOT_INDEX, file_stems
-from beambench_report.base.quantities import number, size_in_words
-from beambench_report.base.records import Run, read_run
-from beambench_report.run.bars import BAR_HEIGHT, PANEL_MARGIN, Bar, draw_bars, panel_per_view
-from beambench_report.run.break_even import break_even, break_even_table
+from beambench_report.base.names import PLOT_INDEX
+from beambench_report.base.records import Run
+from beambench_report.run.break_even import break_even_table
+from beambench_report.run.counters import counters
+from beambench_report.run.crossings import crossings
+from beambench_report.run.distributions import distributions
+from beambench_report.run.measured import Measured, read_measured
+from beambench_report.run.overall_plot import overalls
+from beambench_report.run.resolutions import resolutions
+from beambench_report.run.trade_offs import trade_offs
 
 
-def time_over_rays(run: Run) -> list[Plot]:
-    """The figures of all views that have times."""
-    all_looks = looks(run.rows)
-    plots = []
-    for title, stem in file_stems(run.views).items():
-        rows = run.view(title)
-        if not rows["timed"].any():
-            continue
-        figure, (panel,) = new_figure(4.0)
-        for contender, line in rows[rows["timed"]].groupby("contender", sort=False):
-            _draw_line(panel, str(contender), line.sort_values("rays"), all_looks[contender])
-        panel.set_title(f"{title}: time against number of rays")
-        _label_axes(panel, rows)
-        figure.legend(loc="outside right center", frameon=False)
-        caption(
-            figure,
-            rows,
-            "Median of build and trace together; the bars are the median's 95% interval. "
-            "Both axes are logarithmic.",
-            times=True,
-        )
-        summary = f"{title}: time, build included, against number of rays"
-        plots.append(Plot(f"time-{stem}", figure, summary, title))
-    return plots
+@dataclass(frozen=True)
+class Kind:
+    """One kind of figure: what draws it, how it is called, and what it needs to be drawn."""
+
+    draw: Callable[[Measured], list[Plot]]
+    name: str
+    needs: str
 
 
-def _draw_line(panel: Axes, contender: str, line: pd.DataFrame, look: Look) -> None:
-    median = line["total_ms_median"]
-    # An interval that was not measured is drawn as none.
-    below = (median - line["total_ms_ci_low"]).fillna(0).clip(lower=0)
-    above = (line["total_ms_ci_high"] - median).fillna(0).clip(lower=0)
-    panel.errorbar(
-        line["rays"],
-        median,
-        yerr=[below, above],
-        label=contender,
-        color=look.color,
-        marker=look.marker,
-        linestyle=look.dashes,
-        markersize=4.5,
-        capsize=2.5,
-        linewidth=1.4,
-    )
-
-
-def _label_axes(panel: Axes, rows: pd.DataFrame) -> None:
-    panel.set_xscale("log")
-    panel.set_yscale("log")
-    sizes = rows.drop_duplicates("rays").sort_values("rays")
-    panel.set_xticks(
-        sizes["rays"],
-        [f"{row.width:.0f}x{row.height:.0f}\n{row.rays:,.0f}" for row in sizes.itertuples()],
-    )
-    panel.xaxis.set_minor_locator(NullLocator())
-    panel.xaxis.set_minor_formatter(NullFormatter())
-    panel.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
-    panel.set_xlabel("resolution, number of rays")
-    panel.set_ylabel("time in ms (build + trace)")
-    panel.grid(axis="y", which="major", color="#dddddd", linewidth=0.6)
-
-
-def build_and_trace(run: Run) -> list[Plot]:
-    """One figure, one panel per view; none when nothing was timed."""
-    all_looks = looks(run.rows)
-    plots = panel_per_view(
-        run,
-        stem="build-and-trace",
-        select=lambda title: _with_times(run.finest(title)),
-        draw=lambda panel, rows: draw_bars(panel, _time_bars(rows), all_looks, "time in ms"),
-        explanation="Medians of one build and one image of primary rays at each view's highest "
-        "resolution. The medians of the parts need not add up to the median of the whole.",
-        summary="build and trace time of each structure at the highest resolution",
-        times=True,
-    )
-    for plot in plots:
-        plot.figure.legend(
-            handles=[Patch(color="#555555", alpha=0.4), Patch(color="#555555")],
-            labels=["build", "trace"],
-            loc="outside upper right",
-            ncols=2,
-            frameon=False,
-        )
-    return plots
-
-
-def _with_times(rows: pd.DataFrame) -> pd.DataFrame:
-    return rows[rows["timed"]].dropna(subset=["build_ms_median", "trace_ms_median"])
-
-
-def _time_bars(rows: pd.DataFrame) -> list[Bar]:
-    return [
-        Bar(
-            row.contender,
-            (row.build_ms_median, row.trace_ms_median),
-            f"{number(row.build_ms_median)} + {number(row.trace_ms_median)}",
-        )
-        for row in rows.itertuples()
-    ]
-
-
-_MIB = 2.0**20
-
-
-def memory(run: Run) -> list[Plot]:
-    """One figure, one panel per view; none when no structure reported its memory."""
-    all_looks = looks(run.rows)
-    return panel_per_view(
-        run,
-        stem="memory",
-        select=lambda title: run.finest(title).dropna(subset=["memory_bytes"]),
-        draw=lambda panel, rows: draw_bars(panel, _memory_bars(rows), all_looks, "memory in MiB"),
-        explanation="What the structure holds beside the scene, as it reports it.",
-        summary="memory of each structure",
-        times=False,
-    )
-
-
-def _memory_bars(rows: pd.DataFrame) -> list[Bar]:
-    return [
-        Bar(row.contender, (row.memory_bytes / _MIB,), size_in_words(row.memory_bytes))
-        for row in rows.itertuples()
-    ]
-
-
-_COLUMNS = 2
-
-
-def counters(run: Run) -> list[Plot]:
-    """The figures of all views for which anything was counted; whole pictures have two."""
-    plots = []
-    for title, stem in file_stems(run.views).items():
-        finest = run.finest(title)
-        for names, words, prefix in (
-            (run.counters, "work per ray", "counters"),
-            (run.counters_by_kind, "work per ray by kind of rays", "counters-by-kind"),
-        ):
-            shown = _worth_showing(finest, names)
-            if not shown:
-                continue
-            figure = _draw_counters(run, finest, shown, f"{title}: {words}")
-            plots.append(Plot(f"{prefix}-{stem}", figure, f"{title}: {words}", title))
-    return plots
-
-
-def _worth_showing(finest: pd.DataFrame, names: list[str]) -> dict[str, pd.DataFrame]:
-    """The rows that have a counter, by its name."""
-    having = {name: finest.dropna(subset=[name]) for name in names}
-    return {name: rows for name, rows in having.items() if (rows[name] != 0).any()}
-
-
-def _draw_counters(
-    run: Run, finest: pd.DataFrame, shown: dict[str, pd.DataFrame], heading: str
-) -> Figure:
-    all_looks = looks(run.rows)
-    lines = -(-len(shown) // _COLUMNS)
-    bars = max(len(rows) for rows in shown.values())
-    figure, panels = new_figure(lines * (PANEL_MARGIN + BAR_HEIGHT * bars), lines, _COLUMNS)
-    for panel in panels[len(shown) :]:
-        panel.set_axis_off()
-    for panel, (name, rows) in zip(panels, shown.items(), strict=False):
-        panel.set_title(name.removesuffix(COUNTER_SUFFIX).replace("_", " "))
-        draw_bars(panel, _counter_bars(rows, name), all_looks, "per ray")
-    first = finest.iloc[0]
-    size = f"{first['width']:.0f}x{first['height']:.0f}"
-    figure.suptitle(f"{heading} at {size}", x=0.01, ha="left", weight="bold")
-    caption(
-        figure,
-        finest,
-        "Counted in a pass of its own, not in the timed code. A structure that does not count "
-        "its work is left out.",
-        times=False,
-    )
-    return figure
-
-
-def _counter_bars(rows: pd.DataFrame, name: str) -> list[Bar]:
-    return [
-        Bar(contender, (value,), number(value))
-        for contender, value in zip(rows["contender"], rows[name], strict=True)
-    ]
-
-
-FIGURES = (time_over_rays, build_and_trace, break_even, memory, counters)
+KINDS = (
+    Kind(overalls, "overall", "two contenders whose hits are correct, with times"),
+    Kind(trade_offs, "trade-offs", "two contenders with times in one view"),
+    Kind(resolutions, "resolutions", "times of a contender at two resolutions"),
+    Kind(crossings, "break-even", "two contenders with times in one view"),
+    Kind(distributions, "distributions", "repetitions: cells/*.json, or repetitions.csv"),
+    Kind(counters, "counters", "a counter that two contenders have"),
+)
 
 
 def write_plots(directory: Path) -> list[Path]:
-    """Fills DIRECTORY/plots from DIRECTORY/results.csv: PNG, SVG, a table, README and index."""
-    run = read_run(directory)
+    """Fills DIRECTORY/plots from DIRECTORY/results.csv: PNG, SVG, a table, README and index.
+
+    What an earlier call drew and this one does not goes away.
+    """
+    measured = read_measured(directory)
     folder = directory / "plots"
     folder.mkdir(exist_ok=True)
+    plots, missing, paths = [], [], []
     with house_style():
-        plots = [plot for make in FIGURES for plot in make(run)]
-        paths = [path for plot in plots for path in write_plot(plot, folder)]
-    table = break_even_table(run)
+        for kind in KINDS:
+            drawn = kind.draw(measured)
+            paths += [path for plot in drawn for path in write_plot(plot, folder)]
+            plots += drawn
+            if not drawn:
+                missing.append(kind)
+    _remove_former(folder, {plot.stem for plot in plots})
+    table = break_even_table(measured.run)
     paths.append(
         write_whole(folder / "break-even.csv", lambda path: table.to_csv(path, index=False))
     )
-    for name, text in (("README.md", _readme(run, plots)), (PLOT_INDEX, _index(plots))):
+    readme = _readme(measured.run, plots, missing)
+    for name, text in (("README.md", readme), (PLOT_INDEX, _index(plots))):
         paths.append(write_text(folder / name, text))
     return paths
 
 
-def _readme(run: Run, plots: list[Plot]) -> str:
+def _remove_former(folder: Path, stems: set[str]) -> None:
+    """The figures that the index there lists and that were not drawn again."""
+    try:
+        former = {entry["stem"] for entry in json.loads((folder / PLOT_INDEX).read_text("utf-8"))}
+    except (OSError, ValueError, TypeError, KeyError):
+        return
+    for stem in former - stems:
+        for ending in ("png", "svg"):
+            (folder / f"{Path(stem).name}.{ending}").unlink(missing_ok=True)
+
+
+def _readme(run: Run, plots: list[Plot], missing: list[Kind]) -> str:
     lines = [
         f"# Plots of run {run.rows['run_id'].iloc[0]}",
         "",
-        "Drawn by `scripts/run` from `../results.csv`; each is there as PNG and as SVG.",
+        "Drawn by `scripts/run` from `../results.csv`; each is there as PNG and as SVG, which in a",
+        "browser shows values where the mouse rests.",
         "",
         "| file | shows |",
         "|---|---|",
@@ -241,6 +89,10 @@ def _readme(run: Run, plots: list[Plot]) -> str:
         "| [break-even.csv](break-even.csv) | break-even ray count of every pair |",
         "",
     ]
+    if missing:
+        lines += ["Not drawn, for the run has not what they need:", ""]
+        lines += [f"- {kind.name}: {kind.needs}" for kind in missing]
+        lines += [""]
     return "\n".join(lines)
 
 

@@ -1,0 +1,64 @@
+"""The colors of plots, each for white and for dark pages.
+
+Plots are drawn in those for white. Within a page each is a CSS variable, which a dark page sets to
+the other one: `run.inline_svg`.
+"""
+
+from dataclasses import dataclass
+from zlib import crc32
+
+INK = "#222222"
+SOFT = "#555555"
+GRID = "#dddddd"
+PAPER = "#ffffff"
+
+
+@dataclass(frozen=True)
+class Tint:
+    """One color: the name of its CSS variable, on white and on #161616."""
+
+    name: str
+    light: str
+    dark: str
+
+
+_PAGE = (
+    Tint("ink", INK, "#e3e6e7"),
+    Tint("soft", SOFT, "#9aa4aa"),
+    Tint("grid", GRID, "#3a4145"),
+    Tint("card", PAPER, "#1c2023"),
+)
+# Embree's is not quite black: matplotlib leaves a black fill out of an SVG, where no page can then
+# replace it.
+_STRUCTURES = (
+    Tint("embree", "#0a0a0a", "#ffffff"),
+    Tint("exhaustive", "#777777", "#8f8f8f"),
+    Tint("null", "#b0b0b0", "#c4c4c4"),
+    Tint("samet", "#0072b2", "#5b8def"),
+    Tint("samet-net", "#56b4e9", "#7fd4ff"),
+    Tint("voxel-grid", "#009e73", "#1fbf8f"),
+    Tint("goldsmith-salmon", "#cc79a7", "#dd8fbb"),
+    Tint("sah-bvh", "#e69f00", "#f0a818"),
+    Tint("beam", "#d55e00", "#ec6f14"),
+    Tint("tile-beam", "#8a7f00", "#f0e442"),
+)
+# Of plug-ins, so that none is taken for a structure of the project.
+_SPARE = (
+    Tint("plug-in-1", "#6a3d9a", "#b08be0"),
+    Tint("plug-in-2", "#8c510a", "#c98f4e"),
+    Tint("plug-in-3", "#b2182b", "#f0606f"),
+    Tint("plug-in-4", "#1b5e20", "#7cc47f"),
+    Tint("plug-in-5", "#c2278f", "#ff7ad1"),
+)
+TINTS = (*_PAGE, *_STRUCTURES, *_SPARE)
+
+
+def structure_tint(structure: str) -> Tint:
+    """The color of a structure; an unknown one has a spare one, always the same."""
+    known = {tint.name: tint for tint in _STRUCTURES}
+    return known.get(structure, _SPARE[crc32(structure.encode()) % len(_SPARE)])
+
+
+def structure_color(structure: str) -> str:
+    """The color of a structure on white."""
+    return structure_tint(structure).light

@@ -1,0 +1,170 @@
+"""Break-even as lines that cross: what a ray costs with its share of the build."""
+
+from textwrap import fill
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.ticker import EngFormatter, LogLocator
+
+from beambench_report.base.figure import Look, Plot
+from beambench_report.base.names import file_stems
+from beambench_report.base.palette import INK, PAPER
+from beambench_report.base.quantities import number
+from beambench_report.base.records import size_of
+from beambench_report.base.svg import hover
+from beambench_report.run.break_even import break_even_rays, rays_in_words
+from beambench_report.run.measured import Measured, by_kind, short_title
+from beambench_report.run.panels import (
+    MOST_LINES,
+    chunks,
+    finish,
+    hide_repeated_labels,
+    numbered,
+    panels_with_legend,
+    scale_axis,
+    set_title,
+    share_limits,
+)
+
+_MOST_PANELS = 4
+_FEWEST, _MOST = 1e3, 1e10
+# Most of them where the lines bend.
+_RAYS = np.concatenate([np.logspace(3, 8, 18), [1e10]])
+
+
+def crossings(measured: Measured) -> list[Plot]:
+    """The figures of all views in which two contenders have times."""
+    found = {view: _contenders(measured, view) for view in measured.run.views}
+    several = [view for view, rows in found.items() if len(rows) > 1]
+    groups = by_kind(measured.run.rows, several)
+    stems = file_stems(groups)
+    plots = []
+    for kind, views in groups.items():
+        stem = "break-even" if len(groups) == 1 else f"break-even-{stems[kind]}"
+        for index, part in enumerate(chunks(views, _MOST_PANELS)):
+            shown = {view: found[view] for view in part}
+            plots.append(_crossings(measured, kind, shown, numbered(stem, index)))
+    return plots
+
+
+def cost_of_a_ray(build_ms: float, ns_per_ray: float, rays: np.ndarray) -> np.ndarray:
+    """In ns, with its share of the build."""
+    return 1e6 * build_ms / rays + ns_per_ray
+
+
+def _contenders(measured: Measured, view: str) -> pd.DataFrame:
+    """The fastest first; null, which finds nothing, is no contender."""
+    rows = measured.finest(view).dropna(subset=["build_ms_median"])
+    rows = rows[rows["structure"] != "null"]
+    # Exhaustive builds nothing and loses everywhere: beside others only.
+    return rows.head(MOST_LINES) if (~rows["is_reference"]).any() else rows.iloc[:0]
+
+
+def _crossings(measured: Measured, kind: str, shown: dict[str, pd.DataFrame], stem: str) -> Plot:
+    order = pd.concat(shown.values()).sort_values("ns")["contender"].drop_duplicates()
+    legend = {contender: measured.looks[contender] for contender in order}
+    columns = min(2, len(shown))
+    figure, panels = panels_with_legend(len(shown), columns, 2.6 if columns > 1 else 3.8, legend)
+    for panel, (view, rows) in zip(panels, shown.items(), strict=True):
+        title = f"{short_title(measured.run.rows, view)}, {size_of(rows.iloc[0])}"
+        set_title(panel, title)
+        for index, (_, row) in enumerate(rows.iterrows()):
+            _draw_line(panel, row, legend[row["contender"]], index, len(rows))
+        _mark_crossings(panel, rows)
+        panel.set(xscale="log", yscale="log", xlim=(_FEWEST, _MOST))
+        panel.set_xlabel("number of rays")
+        panel.set_ylabel("ns per ray, with build\n(lower is better)")
+        panel.grid(linewidth=0.6)
+        panel.minorticks_off()
+        panel.xaxis.set_major_locator(LogLocator(numticks=5))
+        panel.xaxis.set_major_formatter(EngFormatter(sep=" "))
+    share_limits(panels, "y")
+    least, most = panels[0].get_ylim()
+    for panel in panels:
+        scale_axis(panel, "y", (least, most), ticks=7)
+        panel.set_ylim(least, most)
+    hide_repeated_labels(panels, columns)
+    views = list(shown)
+    scenes = ", ".join(short_title(measured.run.rows, view) for view in views)
+    return Plot(
+        stem,
+        finish(
+            figure,
+            f"From how many rays on a build pays off, {kind}",
+            measured.run.rows[measured.run.rows["view"].isin(views)],
+            "Build time / number of rays + trace time of a ray, by the medians at the resolution "
+            "in the title. Circles: where the fastest to trace, its build included, overtakes "
+            "another one; the dark one: the last of them, from which on it is ahead of all. Every "
+            "pair: break-even.csv.",
+        ),
+        f"ns per ray, build included, against the number of rays, {kind}: {scenes}",
+        views[0] if len(views) == 1 else "",
+    )
+
+
+def _draw_line(panel: Axes, row: pd.Series, look: Look, index: int, count: int) -> None:
+    """Two markers a line, each at another place, so that lines of one color can be told apart."""
+    build = row["build_ms_median"]
+    share = (index + 0.5) / count
+    marked = [10 ** (3.2 + 1.6 * share), 10 ** (8 + 1.8 * share)]
+    rays = np.sort([*_RAYS, *marked])
+    (line,) = panel.plot(
+        rays,
+        cost_of_a_ray(build, row["ns"], rays),
+        color=look.color,
+        linestyle=look.dashes,
+        linewidth=1.2,
+        marker=look.marker,
+        markevery=[int(place) for place in np.searchsorted(rays, marked)],
+        markersize=4.5,
+        markeredgecolor=PAPER,
+        markeredgewidth=0.4,
+    )
+    words = f"build {number(build)} ms, then {number(row['ns'])} ns per ray"
+    hover(line, f"{row['contender']}: {words}")
+
+
+def _mark_crossings(panel: Axes, rows: pd.DataFrame) -> None:
+    fastest = rows.iloc[0]
+    found = overtakes(rows)
+    for index, (rays, other) in enumerate(found):
+        is_last = index == len(found) - 1
+        if not _FEWEST <= rays <= _MOST:
+            continue
+        (mark,) = panel.plot(
+            rays,
+            cost_of_a_ray(fastest["build_ms_median"], fastest["ns"], np.array([rays])),
+            "o",
+            color=INK,
+            markersize=6 if is_last else 4,
+            markerfacecolor=INK if is_last else PAPER,
+            markeredgewidth=0.8,
+            zorder=4,
+        )
+        ahead = f"{fastest['contender']} is ahead of {other} from {rays_in_words(rays)} rays on"
+        hover(mark, f"{ahead}, and of all" if is_last else ahead)
+    since = f"{rays_in_words(found[-1][0])} rays" if found else "the first ray"
+    panel.text(
+        0.98,
+        0.97,
+        fill(f"{fastest['contender']} is first from {since} on", 40),
+        transform=panel.transAxes,
+        ha="right",
+        va="top",
+        fontsize=7.5,
+    )
+
+
+def overtakes(rows: pd.DataFrame) -> list[tuple[float, str]]:
+    """From how many rays on the first of the rows is ahead of another one; the last at the end."""
+    first = rows.iloc[0]
+    found = []
+    for _, other in rows.iloc[1:].iterrows():
+        rays, _ = break_even_rays(
+            first["build_ms_median"], first["ns"] / 1e6,
+            other["build_ms_median"], other["ns"] / 1e6,
+        )  # fmt: skip
+        if rays is not None:
+            found.append((rays, other["contender"]))
+    return sorted(found)

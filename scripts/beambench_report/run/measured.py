@@ -1,0 +1,111 @@
+"""What the plots of a run show: its rows in ns per ray, its repetitions, and who is fastest."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from math import nan
+from pathlib import Path
+
+import pandas as pd
+
+from beambench_report.base.cell_files import CellFile, Identity, identity, read_cell_files
+from beambench_report.base.figure import Look, looks
+from beambench_report.base.quantities import number
+from beambench_report.base.ratio import interval_rank, median_of
+from beambench_report.base.records import Run, read_run
+from beambench_report.run.standings import REFERENCES, Standings, standings
+
+
+@dataclass(frozen=True)
+class Measured:
+    """A run and the repetitions of its cells, where they are at hand."""
+
+    run: Run
+    files: Mapping[Identity, CellFile]
+
+    @cached_property
+    def looks(self) -> dict[str, Look]:
+        """The look of every contender."""
+        return looks(self.run.rows)
+
+    @cached_property
+    def standings(self) -> list[Standings]:
+        """Of each view, in the order of the file."""
+        return standings(self.run, self.files)
+
+    @cached_property
+    def timed(self) -> pd.DataFrame:
+        """The rows whose times count, and what one ray took: ns, its 95% interval, repetitions.
+
+        Columns added: `ns`, `ns_low`, `ns_high` (nan where there is no interval), `repeated` (the
+        ns of every repetition) and `is_reference`.
+        """
+        rows = self.run.rows
+        rows = rows[rows["timed"] & (rows["trace_ms_median"] > 0) & (rows["rays"] > 0)]
+        rows = rows.drop_duplicates(["view", "contender", "rays"], keep="last")
+        cells = [self._cell(row) for _, row in rows.iterrows()]
+        added = pd.DataFrame(
+            cells, index=rows.index, columns=["ns", "ns_low", "ns_high", "repeated"]
+        )
+        return rows.join(added).assign(is_reference=rows["structure"].isin(REFERENCES))
+
+    def finest(self, view: str) -> pd.DataFrame:
+        """The timed rows of a view at its highest resolution, the fastest first.
+
+        Of a run that was cut off, at the highest that two contenders have.
+        """
+        rows = self.timed[self.timed["view"] == view]
+        others = rows[~rows["is_reference"]].groupby("rays").size()
+        rays = max(others.index[others > 1], default=rows["rays"].max())
+        return rows[rows["rays"] == rays].sort_values("ns", kind="stable")
+
+    def _cell(self, row: pd.Series) -> tuple[float, float, float, tuple[float, ...]]:
+        scale = 1e6 / row["rays"]
+        middle = median_of(row, "trace")
+        file = self.files.get(identity(row))
+        times = sorted(file.trace_ms.values()) if file else []
+        low, high = middle.low, middle.high
+        rank = interval_rank(len(times))
+        if (low is None or high is None) and rank:
+            low, high = times[rank - 1], times[-rank]
+        return (
+            scale * middle.value,
+            nan if low is None else scale * low,
+            nan if high is None else scale * high,
+            tuple(scale * time for time in times),
+        )
+
+
+def read_measured(directory: Path) -> Measured:
+    """A run's folder."""
+    return Measured(read_run(directory), read_cell_files(directory))
+
+
+def ns_in_words(row: pd.Series) -> str:
+    """One cell as hover titles say it: `35.1 ns per ray (34.9 to 35.4)`."""
+    interval = "" if pd.isna(row["ns_low"]) else between(row["ns_low"], row["ns_high"])
+    return f"{number(row['ns'])} ns per ray{interval}"
+
+
+def between(low: float, high: float) -> str:
+    """The ends of an interval, in brackets behind a value."""
+    return f" ({number(low)} to {number(high)})"
+
+
+def by_kind(rows: pd.DataFrame, views: Iterable[str]) -> dict[str, list[str]]:
+    """The views that differ only in what is looked at, by what all of them have in common."""
+    groups: dict[str, list[str]] = {}
+    for view in views:
+        first = rows[rows["view"] == view].iloc[0]
+        parts = [f"{first['ray_kind']} rays"]
+        if rows["samples"].nunique() > 1:
+            parts.append(f"{first['samples']:.0f} samples")
+        groups.setdefault(", ".join(parts), []).append(view)
+    return groups
+
+
+def short_title(rows: pd.DataFrame, view: str) -> str:
+    """A view beside others of its kind: its scene, and its camera where the scene has several."""
+    own = rows[rows["view"] == view].iloc[0]
+    cameras = rows.loc[rows["scene"] == own["scene"], "camera"].nunique()
+    return f"{own['scene']}, camera {own['camera']}" if cameras > 1 else own["scene"]

@@ -1,0 +1,122 @@
+"""How the cost of a ray changes with the number of rays: small multiples of all views."""
+
+from collections.abc import Sequence
+from math import nan
+
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.ticker import NullFormatter, NullLocator
+
+from beambench_report.base.figure import Look, Plot
+from beambench_report.base.names import file_stems
+from beambench_report.base.palette import PAPER
+from beambench_report.base.records import size_of
+from beambench_report.base.svg import hover
+from beambench_report.run.measured import Measured, by_kind, ns_in_words, short_title
+from beambench_report.run.panels import (
+    MOST_LINES,
+    chunks,
+    finish,
+    hide_repeated_labels,
+    numbered,
+    panels_with_legend,
+    scale_axis,
+    set_title,
+    share_limits,
+)
+
+_MOST_PANELS = 6
+_APART = 0.13  # of the axis, between two sizes that are named
+
+
+def resolutions(measured: Measured) -> list[Plot]:
+    """The figures of all views with times at two resolutions at least."""
+    timed = measured.timed
+    sizes = timed.groupby(["view", "contender"])["rays"].nunique()
+    several = sizes[sizes > 1].index.get_level_values("view")
+    groups = by_kind(measured.run.rows, [v for v in measured.run.views if v in several])
+    stems = file_stems(groups)
+    plots = []
+    for kind, views in groups.items():
+        stem = "resolutions" if len(groups) == 1 else f"resolutions-{stems[kind]}"
+        for index, part in enumerate(chunks(views, _MOST_PANELS)):
+            plots.append(_resolutions(measured, kind, part, numbered(stem, index)))
+    return plots
+
+
+def _resolutions(measured: Measured, kind: str, views: Sequence[str], stem: str) -> Plot:
+    rows = measured.timed[measured.timed["view"].isin(views)]
+    # The fastest first, by their last place over the views.
+    order = rows.sort_values("ns")["contender"].drop_duplicates().head(MOST_LINES)
+    rows = rows[rows["contender"].isin(order)]
+    columns = min(2, len(views))
+    legend = {contender: measured.looks[contender] for contender in order}
+    figure, panels = panels_with_legend(len(views), columns, 2.5 if columns > 1 else 3.4, legend)
+    sizes = {size_of(row): row["rays"] for _, row in rows.sort_values("rays").iterrows()}
+    for panel, view in zip(panels, views, strict=True):
+        set_title(panel, short_title(measured.run.rows, view))
+        panel.set_xscale("log")
+        scale_axis(panel, "y", rows["ns"])
+        for contender, line in rows[rows["view"] == view].groupby("contender", sort=False):
+            _draw_line(panel, line.sort_values("rays"), legend[contender])
+        panel.set_xlabel("resolution, number of rays")
+        panel.set_ylabel("ns per ray (lower is better)")
+        panel.grid(axis="y", linewidth=0.6)
+    share_limits(panels)
+    for panel in panels:
+        _name_sizes(panel, sizes)
+    hide_repeated_labels(panels, columns)
+    scenes = ", ".join(short_title(measured.run.rows, view) for view in views)
+    return Plot(
+        stem,
+        finish(
+            figure,
+            f"Trace time of a ray against resolution, {kind}",
+            measured.run.rows[measured.run.rows["view"].isin(views)],
+            "Median of the first trace after a build, build not included; bars: its 95% interval.",
+        ),
+        f"ns per ray against resolution, {kind}: {scenes}",
+        views[0] if len(views) == 1 else "",
+    )
+
+
+def _draw_line(panel: Axes, line: pd.DataFrame, look: Look) -> None:
+    strokes = [(row["rays"], end) for _, row in line.iterrows() for end in _ends(row)]
+    panel.plot(*zip(*strokes, strict=True), color=look.color, linewidth=2.2)
+    (joined,) = panel.plot(
+        line["rays"],
+        line["ns"],
+        color=look.color,
+        linestyle=look.dashes,
+        linewidth=1.2,
+        marker=look.marker,
+        markersize=4.5,
+        markeredgecolor=PAPER,
+        markeredgewidth=0.4,
+    )
+    values = [f"{size_of(row)} {ns_in_words(row)}" for _, row in line.iterrows()]
+    hover(joined, f"{line['contender'].iloc[0]}: {'; '.join(values)}")
+
+
+def _ends(row: pd.Series) -> tuple[float, float, float]:
+    """Of a stroke over the interval; what follows is no number, so that the next one is apart."""
+    return row["ns_low"], row["ns_high"], nan
+
+
+def _name_sizes(panel: Axes, sizes: dict[str, float]) -> None:
+    """Names those that do not stand too close to the last one that was named."""
+    to_axis = panel.transScale + panel.transLimits
+    named: dict[str, float] = {}
+    last = -1.0
+    for size, rays in sizes.items():
+        place = to_axis.transform((rays, panel.get_ylim()[0]))[0]
+        if place - last >= _APART:
+            named[size] = rays
+            last = place
+    panel.set_xticks(
+        list(named.values()),
+        [f"{size}\n{rays:,.0f}" for size, rays in named.items()],
+        fontsize=7,
+    )
+    panel.xaxis.set_minor_locator(NullLocator())
+    panel.xaxis.set_minor_formatter(NullFormatter())
