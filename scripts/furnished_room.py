@@ -3,7 +3,7 @@
 usage: python3 scripts/furnished_room.py FURNITURE_FOLDER OUTPUT.obj
 
 The room has a floor and two walls, so that it can be looked into. Meters, y up. The pieces have the
-sizes that their catalogues give them. Needs nothing but Python.
+sizes that their catalogs give them. Needs nothing but Python.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class Problem(Exception):  # noqa: N818 (as in beambench_report)
 class Place:
     """Where a piece stands: its middle, turned about the vertical, its bottom at an elevation."""
 
-    catalogue: str
+    catalog: str
     model: str
     x: float
     z: float
@@ -63,7 +63,7 @@ class Mesh:
     colors: dict[str, tuple[float, float, float]]
 
 
-class Catalogue:
+class Catalog:
     """One of the package's files: a ZIP with models and a list of their sizes."""
 
     def __init__(self, file: Path) -> None:
@@ -133,7 +133,7 @@ def _indices(corners: list[str], vertices: int) -> list[int]:
 def _turned_model(
     entry: dict[str, str], vertices: list[tuple[float, float, float]]
 ) -> list[tuple[float, float, float]]:
-    """The vertices by the rotation that a catalogue may give a model before it is scaled."""
+    """The vertices by the rotation that a catalog may give a model before it is scaled."""
     if "modelRotation" not in entry:
         return vertices
     m = [float(number) for number in entry["modelRotation"].split()]
@@ -148,7 +148,7 @@ def _turned_model(
 
 
 def _placed(entry: dict[str, str], mesh: Mesh, place: Place) -> list[tuple[float, float, float]]:
-    """The vertices, scaled to the catalogue's centimetres and put in their place."""
+    """The vertices, scaled to the catalog's centimeters and put in their place."""
     vertices = _turned_model(entry, mesh.vertices)
     low = [min(v[axis] for v in vertices) for axis in range(3)]
     high = [max(v[axis] for v in vertices) for axis in range(3)]
@@ -190,12 +190,12 @@ def _shell() -> list[Mesh]:
 
 def furnish(folder: Path) -> list[Mesh]:
     """The room and its furniture."""
-    catalogues: dict[str, Catalogue] = {}
+    catalogs: dict[str, Catalog] = {}
     meshes = _shell()
     for place in _PLACES:
-        if place.catalogue not in catalogues:
-            catalogues[place.catalogue] = Catalogue(folder / f"{place.catalogue}.sh3f")
-        entry, mesh = catalogues[place.catalogue].piece(place.model)
+        if place.catalog not in catalogs:
+            catalogs[place.catalog] = Catalog(folder / f"{place.catalog}.sh3f")
+        entry, mesh = catalogs[place.catalog].piece(place.model)
         meshes.append(Mesh(_placed(entry, mesh, place), mesh.faces, mesh.colors))
     return meshes
 

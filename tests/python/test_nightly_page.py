@@ -81,7 +81,7 @@ def test_it_says_first_what_is_wrong(page: Path) -> None:
     assert "9 alarms" in head
     assert "exhaustive in tetra:n=6 at 320x200: wrong hits (mismatch)" in head
     assert "samet max_level=5 in escena1 at 640x480: traversal steps per ray from 11.5 to" in head
-    assert "Times are not judged yet: this machine has 3 nights" in head
+    assert "Times are not tested yet: this machine has 3 nights" in head
     assert "6 cells have other counters" in text
 
 
@@ -103,7 +103,7 @@ def test_a_fine_night_says_so(tmp_path: Path) -> None:
     home = Home(tmp_path)
     add_all(home, write_nights(home, 1, nothing))
     text = page_of(home).read_text()
-    assert "No regression, every hit verified" in text
+    assert "No regression, all hits are correct" in text
     assert "This is the first night" in text
 
 

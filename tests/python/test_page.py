@@ -63,13 +63,15 @@ def page_of(folder: Path, *options: str) -> Reader:
 def test_a_right_run_says_so_first(run_folder: Path) -> None:
     write_manifest(run_folder)
     text = page_of(run_folder).text
-    assert "All 30 cells were verified" in text
+    assert "The hits of all 30 cells are correct" in text
     assert "Sweep made-up" in text
     assert "measured for 4 min 10 s" in text
-    assert text.index("cells were verified") < text.index("Comparison Total time")
+    assert text.index("cells are correct") < text.index("Comparison Total time")
 
 
-def test_a_wrong_cell_is_told_with_its_reason_and_the_way_to_replay_it(full_run: Path) -> None:
+def test_a_wrong_cell_is_shown_with_its_reason_and_how_to_replay_it(
+    full_run: Path,
+) -> None:
     text = page_of(full_run).text
     assert "3 of 30 cells were wrong" in text
     assert (
@@ -124,7 +126,7 @@ def test_cells_without_rays_are_not_wrong(tmp_path: Path) -> None:
     for row in rows[:3]:
         row["rays"] = 0
     text = page_of(write_run(tmp_path, rows)).text
-    assert "All 27 cells were verified" in text
+    assert "The hits of all 27 cells are correct" in text
     assert "3 cells have no rays" in text
     assert "were wrong" not in text
 
@@ -135,7 +137,10 @@ def test_a_run_without_any_rays_has_a_page(tmp_path: Path) -> None:
 
 
 def test_one_cell_is_enough(tmp_path: Path) -> None:
-    assert "The only cell was verified" in page_of(write_run(tmp_path, synthetic_rows()[3:4])).text
+    assert (
+        "The hits of the only cell are correct"
+        in page_of(write_run(tmp_path, synthetic_rows()[3:4])).text
+    )
 
 
 def test_a_run_that_was_cut_off_says_so(run_folder: Path) -> None:
@@ -217,5 +222,5 @@ def test_200_000_rows_are_read_into_the_page_in_10_seconds(tmp_path: Path) -> No
     begin = time.process_time()  # what others do on this machine does not count
     page = render(read_run(tmp_path))
     assert time.process_time() - begin < 10
-    assert "200,000 cells were verified" in page
+    assert "200,000 cells are correct" in page
     assert len(page) < 100e6

@@ -269,4 +269,4 @@ def test_a_small_sweep_leaves_records_pictures_plots_and_a_page(
     assert (run / "pictures" / "stetra.png").exists()
     assert (run / "pictures" / "stetra-samet-traversal_steps.png").exists()
     assert f"Look at {run}/report.html\n" in result.stdout
-    assert "All 6 cells were verified" in (run / "report.html").read_text()
+    assert "The hits of all 6 cells are correct" in (run / "report.html").read_text()

@@ -1,12 +1,13 @@
 """The repetitions, messages and examples of single cells, which results.csv does not have.
 
-They are in DIRECTORY/cells, a JSON file a cell. A published run has one compact file instead,
+They are in DIRECTORY/cells, one JSON file per cell. A published run has one compact file instead,
 repetitions.csv, a line for each repetition: `line` is that of its cell in results.csv, whose header
 is line 1. From it paired ratios and the noise of a calibration can be computed again.
 """
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from math import isclose
 from pathlib import Path
@@ -15,9 +16,10 @@ from statistics import median
 import pandas as pd
 
 from beambench_report.base.files import Problem, write_whole
+from beambench_report.base.ratio import Ratio, median_of, paired_ratio, unpaired_ratio
 from beambench_report.base.records import read_run
 
-# A run has some hundreds of cells. Thousands of files would be read for longer than anybody waits.
+# A run has some hundreds of cells. Thousands of files take too long to read.
 MOST_FILES = 5000
 
 IDENTITY = ("scene", "camera", "structure", "parameters", "width", "height", "samples", "ray_kind")
@@ -31,7 +33,7 @@ REPETITIONS = "repetitions.csv"
 
 @dataclass(frozen=True)
 class Example:
-    """One disputed ray in words, and the command that shows its way again."""
+    """One disputed ray in words, and the command that shows its path again."""
 
     text: str
     replay: str
@@ -106,16 +108,31 @@ def _without_gaps(repetition: Repetition) -> Repetition:
     return known | {"round": int(repetition["round"])}
 
 
-def _read(path: Path) -> tuple[Identity, CellFile]:
+@contextmanager
+def opened_cell(path: Path) -> Iterator[dict]:
+    """A file of DIRECTORY/cells. Raises Problem where it is not what the block takes it for."""
     try:
-        source = json.loads(path.read_text("utf-8"))
-        examples = tuple(_example(text) for text in source["examples"])
-        file = _cell_file(source["message"], examples, source["repetitions"])
-        return identity(source["row"]), file
+        yield json.loads(path.read_text("utf-8"))
     except (ValueError, KeyError, TypeError) as error:
         raise Problem(
             f"{path}: is not a cell of a run ({type(error).__name__}: {error}); remove it"
         ) from None
+
+
+def ratio_of_totals(
+    row: Mapping[str, object], base: Mapping[str, object], files: Mapping[Identity, CellFile]
+) -> Ratio:
+    """The total of a row over another one's: paired where the repetitions of both are known."""
+    file, base_file = files.get(identity(row)), files.get(identity(base))
+    paired = paired_ratio(file.total_ms, base_file.total_ms) if file and base_file else None
+    return paired or unpaired_ratio(median_of(row, "total"), median_of(base, "total"))
+
+
+def _read(path: Path) -> tuple[Identity, CellFile]:
+    with opened_cell(path) as source:
+        examples = tuple(_example(text) for text in source["examples"])
+        file = _cell_file(source["message"], examples, source["repetitions"])
+        return identity(source["row"]), file
 
 
 def _cell_file(
@@ -135,8 +152,8 @@ def _example(text: str) -> Example:
     """The command stands in a line of its own: `  replay beambench trace ...`."""
     lines = text.rstrip().splitlines()
     replays = [line.strip() for line in lines if line.lstrip().startswith("replay ")]
-    told = [line for line in lines if line.strip() not in replays]
-    return Example("\n".join(told), replays[0].removeprefix("replay ").strip() if replays else "")
+    words = [line for line in lines if line.strip() not in replays]
+    return Example("\n".join(words), replays[0].removeprefix("replay ").strip() if replays else "")
 
 
 def _plain(value: object) -> str:
@@ -155,16 +172,11 @@ def write_repetitions(run: Path, output: Path | None = None) -> Path:
     lines = {identity(row): place + 2 for place, row in rows.iterrows()}
     table = []
     for path in sorted(run.glob("cells/[!.]*.json")):
-        try:
-            cell = json.loads(path.read_text("utf-8"))
+        with opened_cell(path) as cell:
             line = lines[identity(cell["row"])]
             for one in cell["repetitions"]:
                 figures = {name: one[name] for name in _FIGURES if name in one}
                 table.append({"line": line, "round": one["round"], **figures})
-        except (ValueError, KeyError, TypeError) as error:
-            raise Problem(
-                f"{path}: is not a cell of this run ({type(error).__name__}: {error}); remove it"
-            ) from None
     if not table:
         raise Problem(f"{run}/cells: holds no repetitions; give the folder that a run left")
     columns = ["line", "round", *_FIGURES]

@@ -8,6 +8,8 @@ from functools import cache
 from pathlib import Path
 from typing import Literal
 
+from beambench_report.base.quantities import markdown_table
+
 _SOURCE = Path(__file__).parents[1] / "columns.json"
 COUNTER_SUFFIX = "_per_ray"
 RENAMED_COLUMNS = {  # name in older records: name today
@@ -25,7 +27,7 @@ _KINDS = "(camera|reflected|refracted|shadow)"  # of the rays of a whole picture
 
 @dataclass(frozen=True)
 class Column:
-    """One column: what stands in it, in which unit, and how it was found out."""
+    """One column: what it holds, in which unit, and how it is measured."""
 
     name: str
     group: str
@@ -141,18 +143,10 @@ def as_markdown(known: Dictionary) -> str:
         *_READING,
     ]
     for group in known.groups:
-        lines += [
-            "",
-            f"## {group.title}",
-            "",
-            "| column | type | unit | meaning | how it is measured |",
-            "|---|---|---|---|---|",
-        ]
-        lines += [
-            f"| `{column.name}` | {column.type} | {column.unit} | {column.meaning} "
-            f"| {column.measured} |"
-            for column in group.columns
-        ]
+        rows = ((f"`{c.name}`", c.type, c.unit, c.meaning, c.measured) for c in group.columns)
+        heads = ("column", "type", "unit", "meaning", "how it is measured")
+        lines += ["", f"## {group.title}", "", *markdown_table(heads, rows)]
+    counters = ((f"`{c.structure}`", f"`{c.name}`", c.meaning) for c in known.counters)
     lines += [
         "",
         "## Counters of single structures",
@@ -160,11 +154,6 @@ def as_markdown(known: Dictionary) -> str:
         "As `beambench list --counters` prints them. Each is a column, `<counter>_per_ray`; times",
         "`rays` it is the count. Those of the beams: [accel/beam](../accel/beam/README.md).",
         "",
-        "| structure | counter | meaning |",
-        "|---|---|---|",
-    ]
-    lines += [
-        f"| `{counter.structure}` | `{counter.name}` | {counter.meaning} |"
-        for counter in known.counters
+        *markdown_table(("structure", "counter", "meaning"), counters),
     ]
     return "\n".join(lines) + "\n"

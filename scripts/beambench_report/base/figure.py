@@ -120,8 +120,10 @@ _COLORS = {
     "beam": "#d55e00",
     "tile-beam": "#8a7f00",
 }
-_MARKERS = "osD^vP*X<>"
-_DASHES = ("-", "--", "-.", ":")
+# Of Okabe and Ito, for lines that stand for no structure.
+LINE_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+MARKERS = "osD^vP*X<>"
+DASHES = ("-", "--", "-.", ":")
 
 
 @dataclass(frozen=True)
@@ -134,7 +136,7 @@ class Look:
 
 
 def structure_color(structure: str) -> str:
-    """The color of a structure; a newcomer gets one of the others', always the same."""
+    """The color of a structure; an unknown one gets one of the others', always the same."""
     spare = list(_COLORS.values())
     return _COLORS.get(structure, spare[crc32(structure.encode()) % len(spare)])
 
@@ -152,6 +154,6 @@ def variant_look(structure: str, index: int) -> Look:
     """The look of one of several variants of a structure, counted from 0."""
     return Look(
         structure_color(structure),
-        _MARKERS[index % len(_MARKERS)],
-        _DASHES[index % len(_DASHES)],
+        MARKERS[index % len(MARKERS)],
+        DASHES[index % len(DASHES)],
     )

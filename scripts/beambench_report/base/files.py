@@ -1,11 +1,13 @@
 """What can go wrong, running programs, and reading and writing files.
 
-Files are written beside their place and renamed, so that none is ever half there. Symbolic links
+Files are written beside their place and renamed, so that none is ever incomplete. Symbolic links
 stay links: what they lead to is replaced. Devices and pipes are written into.
 """
 
 import json
+import signal
 import subprocess
+import sys
 from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
 
@@ -17,6 +19,11 @@ ROOT = Path(__file__).resolve().parents[3]
 
 class Problem(Exception):  # noqa: N818 (invalid arguments are no programming error)
     """One sentence for the user: what is wrong with which file, and what to do."""
+
+
+def say(text: str) -> None:
+    """Reports progress or a warning on standard error."""
+    print(text, file=sys.stderr, flush=True)
 
 
 def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
@@ -63,6 +70,29 @@ def read_json(path: Path) -> object:
         return None
     except ValueError as error:
         raise Problem(f"{path}: cannot be read as JSON: {error}") from None
+
+
+INTERRUPTED = (130, 143, -2, -15)  # as shells report SIGINT and SIGTERM, and as Python does
+
+
+def run_in_foreground(command: Sequence[str], pass_fds: Collection[int] = ()) -> int:
+    """Runs a program without its standard output; its exit code.
+
+    SIGTERM is passed on to it, a keyboard's interrupt it gets itself: it ends by either in good
+    order, and is waited for. Raises Problem where it cannot be run.
+    """
+    try:
+        child = subprocess.Popen(command, stdout=subprocess.DEVNULL, pass_fds=pass_fds)
+    except OSError as error:
+        raise Problem(f"{command[0]} cannot be run: {error.strerror}; build it first") from None
+    before = signal.signal(signal.SIGTERM, lambda *_: child.terminate())
+    try:
+        return child.wait()
+    except KeyboardInterrupt:
+        child.wait()
+        return INTERRUPTED[0]
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def output_of(

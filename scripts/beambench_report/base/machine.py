@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import dataclass, field
 from datetime import datetime
 from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.files import Problem
+from beambench_report.base.files import Problem, read_json
 from beambench_report.base.quantities import size_in_words
 
 _SENTENCES = ("uncontrolled", "notes")
@@ -67,13 +66,8 @@ def read_description(directory: Path) -> str:
 
 
 def _read_object(path: Path) -> dict | None:
-    try:
-        source = json.loads(path.read_text("utf-8"))
-    except FileNotFoundError:
-        return None
-    except ValueError as error:
-        raise Problem(f"{path}: cannot be read as JSON: {error}") from None
-    if not isinstance(source, dict):
+    source = read_json(path)
+    if not isinstance(source, dict | None):
         raise Problem(f"{path}: holds no JSON object")
     return source
 
@@ -136,7 +130,7 @@ def _seconds_between(begun: str | None, finished: str | None) -> float | None:
 
 @dataclass(frozen=True)
 class Machine:
-    """What is known of it."""
+    """A machine, as far as it is known."""
 
     ids: tuple[str, ...]
     """One, unless a file has runs of several machines."""
@@ -144,7 +138,7 @@ class Machine:
     """Empty where no manifest is beside the run."""
 
     def differs_from(self, other: Machine) -> bool:
-        """Are they two, as far as both are known?"""
+        """Are they different machines, as far as both are known?"""
         both_known = self.processor and other.processor
         return self.ids != other.ids or bool(both_known and self.processor != other.processor)
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.files import ROOT, Problem
+from beambench_report.base.files import ROOT, read_table
 
 FOLDER = ROOT / "results/thesis"
 RESOLUTIONS = ("320x200", "640x480", "800x600", "1024x768", "1280x1024")
@@ -20,11 +20,7 @@ def rays(resolution: str) -> int:
 
 def read_published(name: str, folder: Path = FOLDER) -> pd.DataFrame:
     """A table of results/thesis. Raises Problem where it is missing."""
-    path = folder / name
-    try:
-        return pd.read_csv(path, dtype={"table": str})
-    except FileNotFoundError:
-        raise Problem(f"{path}: there is no such file; restore it with git") from None
+    return read_table(folder / name, (), "restore it with git", {"table": str})
 
 
 @cache

@@ -1,4 +1,4 @@
-"""How many times one time is of another, with an interval: the one place where ratios are made.
+"""The ratio of two times, with its interval: the only place where ratios are computed.
 
 Contenders of a run take turns, so the repetitions of one round ran side by side: a slow moment of
 the machine is in both of them, and their ratio has less noise than either. Where both have their
@@ -16,10 +16,12 @@ intervals overlap decides nothing: they may, and the ratio be clearly off 1.
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from math import comb, exp, hypot, log
+from functools import cache
+from math import exp, hypot, log
 from statistics import median
 
 import pandas as pd
+from scipy.stats import binom
 
 
 @dataclass(frozen=True)
@@ -95,15 +97,10 @@ def geometric_mean(ratios: Sequence[Ratio]) -> Ratio:
     return Ratio(value, value * exp(-down), value * exp(up), paired)
 
 
+@cache
 def interval_rank(count: int) -> int:
     """The rank of the lower end of the median's 95% interval; 0 where there is none.
 
     The number of samples below the median is binomial, whatever their distribution.
     """
-    rank, below = 0, 0.0
-    while rank < count:
-        below += comb(count, rank) / 2**count
-        if below > 0.025:
-            break
-        rank += 1
-    return rank
+    return int(binom.ppf(0.025, count, 0.5)) if count else 0

@@ -20,14 +20,15 @@ NEEDED_COLUMNS = (
 ).split()
 VERSION_COLUMN = "schema_version"
 
-TIMED_VERDICTS = ("ok", "baseline")
+OK, BASELINE = TIMED_VERDICTS = ("ok", "baseline")
+ERROR = "error"  # the structure could not be built
 NO_RAYS = "no_rays"  # the scene has none of the kind: nothing was measured, and nothing is wrong
 FAULTLESS_VERDICTS = (*TIMED_VERDICTS, NO_RAYS)
 
 
 @dataclass(frozen=True)
 class Run:
-    """One run: a row a cell, as in results.csv, and what plots and pages call things.
+    """One run: one row per cell, as in results.csv, and the names that plots and pages use.
 
     Columns added to those of the file: `contender` (label of structure and parameters), `view`
     (title of what the rays see) and `timed` (do the row's times count?).
@@ -64,6 +65,11 @@ class Run:
         """The rows of one view at the highest number of rays."""
         rows = self.view(title)
         return rows[rows["rays"] == rows["rays"].max()]
+
+
+def contenders_with_times(rows: pd.DataFrame) -> pd.DataFrame:
+    """The rows that can be compared; a baseline is no contender."""
+    return rows[rows["timed"] & (rows["verdict"] != BASELINE) & (rows["total_ms_median"] > 0)]
 
 
 def size_of(row: Mapping[str, object]) -> str:

@@ -1,1 +1,1 @@
-"""Tile beams against the fastest way that Embree traces the same image, with targets."""
+"""Tile beams against Embree's fastest mode on the same image, with targets."""

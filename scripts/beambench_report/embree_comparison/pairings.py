@@ -9,7 +9,7 @@ from beambench_report.base.cell_files import CellFile, Identity, identity, read_
 from beambench_report.base.files import Problem
 from beambench_report.base.names import parameter_items
 from beambench_report.base.ratio import Median, Ratio, median_of, paired_ratio, unpaired_ratio
-from beambench_report.base.records import Run, size_of
+from beambench_report.base.records import OK, Run, size_of
 
 _STRUCTURES = ("tile-beam", "embree")
 Row = dict[str, object]
@@ -73,7 +73,7 @@ def pairings(runs: Iterable[Run]) -> list[Pairing]:
 
 def _pairings_of(run: Run) -> list[Pairing]:
     images: dict[tuple, dict[str, list[Row]]] = {}
-    right = run.rows[(run.rows["verdict"] == "ok") & (run.rows["ray_kind"] == "primary")]
+    right = run.rows[(run.rows["verdict"] == OK) & (run.rows["ray_kind"] == "primary")]
     for row in right.to_dict("records"):
         if row["structure"] in _STRUCTURES and row["trace_ms_median"] > 0:
             both = images.setdefault(_image(row), {name: [] for name in _STRUCTURES})

@@ -34,29 +34,28 @@ def plots(found: Sequence[Pairing]) -> list[Plot]:
     """Those for which the images suffice."""
     single = [pair for pair in found if pair.samples == 1]
     drawn = [_ratios(isa, single) for isa in dict.fromkeys(pair.isa for pair in single)]
-    drawn.append(
+    best = [pair for pair in single if pair.isa == "best"]
+    drawn += [
         _growth(
             "beat-embree-scaling",
-            [pair for pair in single if pair.isa == "best"],
+            best,
             line=lambda pair: (pair.scene.split(":")[0], pair.resolution),
             size=lambda pair: pair.primitives,
             axis="primitives",
-        )
-    )
-    drawn.append(
+        ),
         _growth(
             "beat-embree-resolutions",
-            [pair for pair in single if pair.isa == "best"],
+            best,
             line=lambda pair: (pair.scene,),
             size=lambda pair: pair.rays,
             axis="pixels",
-        )
-    )
+        ),
+    ]
     return [plot for plot in drawn if plot is not None]
 
 
 def _ratios(isa: str, found: Sequence[Pairing]) -> Plot | None:
-    """A panel a group, a row a scene, a marker a resolution, its target a tick of the same color.
+    """One panel per group, row per scene, marker per resolution; targets are ticks of its color.
 
     The ticks stand in the line of their marker, so that none hides another one.
     """

@@ -139,7 +139,7 @@ def series_key(pool: pd.Series) -> str:
 
 
 def reported_starts(nights: Nights, earlier: list[Alarm]) -> np.ndarray:
-    """The night from which each pool is judged: where its last reported step was."""
+    """The night from which each pool is tested: where its last reported step was."""
     place = {run_id: place for place, run_id in enumerate(nights.nights["run_id"])}
     starts: dict[str, int] = {}
     for alarm in earlier:

@@ -1,8 +1,8 @@
-"""How often does pure noise raise an alarm, and how small a slow-down is found?
+"""How often does pure noise raise a false alarm, and which slow-downs are found?
 
 Noise is taken from repeated runs of one sweep by one program: blocks of consecutive runs are put
 one after another (block bootstrap), all contenders of a scene together, since they share a
-reference. Nights are then judged one by one, each with those before it, as `scripts/nightly` does.
+reference. Nights are then tested one by one, each with those before it, as `scripts/nightly` does.
 """
 
 import json
@@ -15,8 +15,15 @@ from time import monotonic
 import numpy as np
 from scipy import stats
 
-from beambench_report.base.cell_files import REPETITIONS, Repetition, Row, published_repetitions
+from beambench_report.base.cell_files import (
+    REPETITIONS,
+    Repetition,
+    Row,
+    opened_cell,
+    published_repetitions,
+)
 from beambench_report.base.files import Problem
+from beambench_report.nightly.night import VIEW
 from beambench_report.nightly.nights import Nights
 from beambench_report.nightly.steps import Rule, find_steps
 
@@ -57,7 +64,7 @@ class Power:
 
 @dataclass(frozen=True)
 class Calibration:
-    """What a rule comes to."""
+    """The false alarms and the power of a rule."""
 
     nights: int
     series: int
@@ -109,7 +116,7 @@ class Calibration:
 
 @dataclass(frozen=True)
 class Effort:
-    """How long power is looked for."""
+    """How long power is estimated."""
 
     precision: float = 0.03
     """Enough trials when no 95% interval of a power is wider than this to either side."""
@@ -168,7 +175,7 @@ def calibrate(
     seed: int = 1999,
     report: Report | None = None,
 ) -> Calibration:
-    """Lets noise, and noise with a slow-down of one series, be judged; `report` gets progress."""
+    """Tests noise, and noise with a slow-down of one series; `report` gets progress."""
     rule = rule or Rule()
     random = np.random.default_rng(seed)
     values = synthetic_nights(noise, nights, random)
@@ -192,12 +199,8 @@ def calibrate(
 
 def share_interval(found: int, trials: int) -> tuple[float, float]:
     """The 95% interval of a share (Wilson 1927): right for shares near 0 and 1 as well."""
-    z = 1.959964
-    share = found / trials
-    center = (share + z * z / (2 * trials)) / (1 + z * z / trials)
-    half = z / (1 + z * z / trials)
-    half *= sqrt(share * (1 - share) / trials + z * z / (4 * trials * trials))
-    return max(0.0, center - half), min(1.0, center + half)
+    interval = stats.binomtest(found, trials).proportion_ci(method="wilson")
+    return float(interval.low), float(interval.high)
 
 
 def _powers(
@@ -276,7 +279,7 @@ def noise_of_samples(folders: Iterable[Path], seed: int = 1999) -> Noise:
         )
     parts = []
     for views in scenes.values():
-        # A scene's resolutions are judged together; what a process differs by is in all of them,
+        # A scene's resolutions are tested together; what a process differs by is in all of them,
         # and half of it is the reference's, which all contenders share.
         noise = np.mean([one for one in views if one.shape == views[0].shape], axis=0)
         size = PROCESS / sqrt(2)
@@ -293,7 +296,7 @@ def _views(folder: Path) -> Iterable[tuple[str, list[dict[int, float]]]]:
         try:
             if len(repetitions) < _ROUNDS or row["structure"] == "null":
                 continue
-            view = tuple(row[name] for name in "scene camera width height samples ray_kind".split())
+            view = tuple(row[name] for name in VIEW)
             logs = {one["round"]: log(_cycles(one)) for one in repetitions}
         except (ValueError, KeyError, TypeError) as error:
             raise Problem(f"{place}: is not a cell of a run ({error}); remove it") from None
@@ -310,11 +313,8 @@ def _cells(folder: Path) -> Iterable[tuple[Path, Row, list[Repetition]]]:
     """The file, row and repetitions of each cell."""
     paths = sorted(folder.glob("cells/*.json"))
     for path in paths:
-        try:
-            cell = json.loads(path.read_text("utf-8"))
+        with opened_cell(path) as cell:
             yield path, cell["row"], cell["repetitions"]
-        except (ValueError, KeyError, TypeError) as error:
-            raise Problem(f"{path}: is not a cell of a run ({error}); remove it") from None
     if not paths:
         for row, repetitions in published_repetitions(folder):
             yield folder / REPETITIONS, row, repetitions

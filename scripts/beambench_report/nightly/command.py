@@ -25,14 +25,14 @@ _PUBLISHED = ROOT / "results/published/nightly"
 
 def add_nightly_command(commands: argparse._SubParsersAction, built: Path) -> None:
     """Adds the command and its parts; `built` is where the program is if not given."""
-    parser = commands.add_parser("nightly", help="nightly runs: measure, keep, judge, show")
+    parser = commands.add_parser("nightly", help="measure, record and report nightly runs")
     parser.set_defaults(handler=nightly)
     parts = parser.add_subparsers(dest="part", required=True)
-    run = parts.add_parser("run", help="measure a night, keep and judge it, write the page")
+    run = parts.add_parser("run", help="measure and record a night, write the page")
     run.add_argument("--sweep", type=Path, default=_SWEEP, metavar="FILE")
     run.add_argument("--resume", action="store_true", help="resume what was cut off")
-    run.add_argument("--dry-run", action="store_true", help="say what would be done")
-    add = parts.add_parser("add", help="keep, judge and show a run that was measured otherwise")
+    run.add_argument("--dry-run", action="store_true", help="print what would be done")
+    add = parts.add_parser("add", help="record and report a run that was measured otherwise")
     add.add_argument("run", type=Path, metavar="RUN")
     rebuilding = parts.add_parser("rebuild", help="make the history anew from the CSVs")
     page = parts.add_parser("page", help="write the page of the newest night again")

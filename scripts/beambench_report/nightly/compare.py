@@ -8,13 +8,11 @@ machine nor the place within a turn favors one of them.
 The cells of a turn are not independent: they share a process and a moment of the machine (the same
 program against itself, twice 12 turns beside builds: a mean correlation of 0.28 and 0.23 between
 cells, and no effect of the place within a turn, -1.9% and +0.5%). Most ratios, or all, may thus lie
-on one side of 1 by chance, and some intervals exclude 1 together. Cells are therefore judged
+on one side of 1 by chance, and some intervals exclude 1 together. Cells are therefore tested
 together, by Holm's correction, and the ratio of all of them is made turn by turn.
 """
 
-import subprocess
 import sys
-from collections.abc import Callable
 from dataclasses import dataclass
 from math import inf, sqrt
 from pathlib import Path
@@ -24,11 +22,11 @@ import pandas as pd
 from scipy import stats
 
 from beambench_report.base.cell_files import IDENTITY
-from beambench_report.base.files import Problem
-from beambench_report.base.names import contender_labels
+from beambench_report.base.files import Problem, output_of
 from beambench_report.base.ratio import Ratio, paired_ratio
-from beambench_report.base.records import NO_RAYS, TIMED_VERDICTS, read_run
-from beambench_report.nightly.night import cycles, keys_of
+from beambench_report.base.records import BASELINE, NO_RAYS, TIMED_VERDICTS, read_run
+from beambench_report.nightly.night import cell_titles, cycles, keys_of
+from beambench_report.nightly.steps import holm
 
 LEVEL = 0.01
 TOLERANCE = 0.01
@@ -143,7 +141,8 @@ def measure_in_turns(
             folder = directory / f"{'ab'[which]}-{turn + 1:02d}"
             if not (folder / "results.csv").exists():
                 print(f"== turn {turn + 1} of {turns}: {'AB'[which]}", file=sys.stderr, flush=True)
-                _call([str(programs[which]), "run", str(sweep), "-o", str(folder)])
+                command = [str(programs[which]), "run", str(sweep), "-o", str(folder)]
+                output_of(command, success=(0, 1))
             folders[which].append(folder)
     return folders
 
@@ -157,50 +156,33 @@ def compare_turns(first: list[Path], second: list[Path]) -> Outcome:
         )
     times_a, rows_a = _table(first)
     times_b, rows_b = _table(second)
-    labels = _titles(rows_b)
+    titles = cell_titles(rows_b)
+    baselines = set(keys_of(rows_b[rows_b["verdict"] == BASELINE]))
     shared = [key for key in times_a.columns if key in times_b.columns]
-    cells = [key for key in shared if labels[key][1] != "baseline"]
+    cells = [key for key in shared if key not in baselines]
     compared = []
     for key in cells:
         ratio, logs = _ratio(times_b[key], times_a[key])
         if ratio and ratio.interval:
-            compared.append(Comparison(labels[key][0], len(logs), ratio, _p_value(logs)))
+            compared.append(Comparison(titles[key], len(logs), ratio, _p_value(logs)))
     if not compared:
         raise Problem("no cell has times in enough turns of both programs; were their hits right?")
     together, _ = _ratio(_mean_cell(times_b[cells]), _mean_cell(times_a[cells]))
     return Outcome(
         compared,
-        _slower(compared),
-        _differences(rows_a, rows_b, labels),
+        holm(compared, len(compared), LEVEL),  # each tests for more than TOLERANCE already
+        _differences(rows_a, rows_b, titles),
         together or Ratio(float("nan")),
     )
 
 
-def _call(command: list[str], run: Callable = subprocess.run) -> None:
-    try:
-        done = run(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, check=False)
-    except OSError as error:
-        raise Problem(f"{command[0]} cannot be run: {error.strerror}; build it first") from None
-    if done.returncode not in (0, 1):
-        lines = done.stderr.decode("utf-8", "replace").strip().splitlines()
-        raise Problem(f"{command[0]}: {lines[-1] if lines else 'failed without a message'}")
-
-
 def _table(folders: list[Path]) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Times, a row a turn and a column a cell; and the rows of the last turn."""
+    """Times, one row per turn and one column per cell; and the rows of the last turn."""
     turns, rows = [], pd.DataFrame()
     for folder in folders:
         rows = read_run(folder).rows
         turns.append(pd.Series(cycles(rows).to_numpy(), index=pd.Index(keys_of(rows))))
     return pd.DataFrame(turns), rows
-
-
-def _titles(rows: pd.DataFrame) -> dict[tuple, tuple[str, str]]:
-    labels = contender_labels(rows)
-    return {
-        key: (f"{label} in {row['view']} at {row['width']:.0f}x{row['height']:.0f}", row["verdict"])
-        for key, label, (_, row) in zip(keys_of(rows), labels, rows.iterrows(), strict=True)
-    }
 
 
 def _ratio(times_b: pd.Series, times_a: pd.Series) -> tuple[Ratio | None, np.ndarray]:
@@ -221,23 +203,13 @@ def _p_value(logs: np.ndarray) -> float:
     return float(stats.t.sf((logs.mean() - TOLERANCE) / error, len(logs) - 1))
 
 
-def _slower(compared: list[Comparison]) -> list[Comparison]:
-    """Holm's procedure; the test is of more than TOLERANCE already."""
-    kept = []
-    for rank, cell in enumerate(sorted(compared, key=lambda cell: cell.p_value)):
-        if cell.p_value > LEVEL / (len(compared) - rank):
-            break
-        kept.append(cell)
-    return kept
-
-
-def _differences(first: pd.DataFrame, second: pd.DataFrame, labels: dict) -> list[str]:
+def _differences(first: pd.DataFrame, second: pd.DataFrame, titles: dict) -> list[str]:
     """Verdicts and counters that got worse."""
     keys = [name for name in IDENTITY if name in first]
     both = first.merge(second, on=keys, suffixes=("_a", "_b"))
     sentences = []
     for row, key in zip(both.to_dict("records"), keys_of(both), strict=True):
-        title = labels[key][0]
+        title = titles[key]
         if row["verdict_b"] == NO_RAYS and row["verdict_a"] in TIMED_VERDICTS:
             sentences.append(f"{title}: there are no such rays any more")
         elif row["verdict_b"] not in TIMED_VERDICTS and row["verdict_a"] in TIMED_VERDICTS:

@@ -13,13 +13,12 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.cell_files import CellFile, Identity, identity, read_cell_files
+from beambench_report.base.cell_files import CellFile, Identity, ratio_of_totals, read_cell_files
 from beambench_report.base.files import Problem
 from beambench_report.base.machine import Machine, machine_of
-from beambench_report.base.names import contender_labels
-from beambench_report.base.ratio import Median, Ratio, median_of, paired_ratio, unpaired_ratio
-from beambench_report.base.records import NO_RAYS, read_run
-from beambench_report.nightly.night import VIEW, keys_of
+from beambench_report.base.ratio import Median, Ratio, median_of, unpaired_ratio
+from beambench_report.base.records import NO_RAYS, contenders_with_times, read_run
+from beambench_report.nightly.night import cell_titles, keys_of, views_of
 
 Key = tuple
 Contender = tuple[str, str]
@@ -99,7 +98,7 @@ def diff(first: Path, second: Path, *, relative: bool | None = None) -> Differen
         )
     reference = _reference(file_a.rows, file_b.rows) if relative else None
     known_a, known_b = _figures(file_a, reference), _figures(file_b, reference)
-    titles = _titles(file_b.rows)
+    titles = cell_titles(file_b.rows)
     pairs = []
     for key in known_a.keys() & known_b.keys():
         (a, inputs_a), (b, inputs_b) = known_a[key], known_b[key]
@@ -137,18 +136,14 @@ def _read(path: Path) -> _File:
     return _File(rows, {}, machine_of(rows, path.parent))
 
 
-def _timed(rows: pd.DataFrame) -> pd.DataFrame:
-    return rows[rows["timed"] & (rows["verdict"] != "baseline") & (rows["total_ms_median"] > 0)]
-
-
 def _reference(rows_a: pd.DataFrame, rows_b: pd.DataFrame) -> Contender:
-    """Whom both files have in the most views; Embree's single rays where they are among these.
+    """The contender that both files have in the most views; Embree's single rays if possible.
 
     Raises Problem where they have no contender in common.
     """
     views_a, views_b = (
-        {(*view, *who) for view, who in zip(_views(rows), _contenders(rows), strict=True)}
-        for rows in (_timed(rows_a), _timed(rows_b))
+        {(*view, *who) for view, who in zip(views_of(rows), _contenders(rows), strict=True)}
+        for rows in (contenders_with_times(rows_a), contenders_with_times(rows_b))
     )
     counts = Counter((key[-2], key[-1]) for key in views_a & views_b)
     if not counts:
@@ -161,8 +156,8 @@ def _reference(rows_a: pd.DataFrame, rows_b: pd.DataFrame) -> Contender:
 
 
 def _figures(file: _File, reference: Contender | None) -> dict[Key, tuple[Median, str]]:
-    """The time of each cell, or its ratio to the reference, and what was asked."""
-    timed = _timed(file.rows)
+    """The time of each cell, or its ratio to the reference, and its inputs."""
+    timed = contenders_with_times(file.rows)
     rows = [row for _, row in timed.iterrows()]
     keys = keys_of(timed)
     inputs = [f"{row.get('scene_hash', '')} {row.get('rays_hash', '')}" for row in rows]
@@ -171,7 +166,7 @@ def _figures(file: _File, reference: Contender | None) -> dict[Key, tuple[Median
             key: (median_of(row, "total"), asked)
             for key, row, asked in zip(keys, rows, inputs, strict=True)
         }
-    views, contenders = _views(timed), _contenders(timed)
+    views, contenders = views_of(timed), _contenders(timed)
     bases = {
         view: row
         for view, who, row in zip(views, contenders, rows, strict=True)
@@ -185,27 +180,12 @@ def _figures(file: _File, reference: Contender | None) -> dict[Key, tuple[Median
 
 
 def _over(row: pd.Series, base: pd.Series, cells: Mapping[Identity, CellFile]) -> Median:
-    """A cell over the reference of its run: paired by rounds where the repetitions are there."""
-    file, base_file = cells.get(identity(row)), cells.get(identity(base))
-    ratio = paired_ratio(file.total_ms, base_file.total_ms) if file and base_file else None
-    ratio = ratio or unpaired_ratio(median_of(row, "total"), median_of(base, "total"))
+    ratio = ratio_of_totals(row, base, cells)
     return Median(ratio.value, ratio.low, ratio.high)
-
-
-def _views(rows: pd.DataFrame) -> list[tuple]:
-    return [tuple(row) for row in rows[list(VIEW)].to_numpy().tolist()]
 
 
 def _contenders(rows: pd.DataFrame) -> list[Contender]:
     return list(zip(rows["structure"], rows["parameters"], strict=True))
-
-
-def _titles(rows: pd.DataFrame) -> dict[tuple, str]:
-    labels = contender_labels(rows)
-    return {
-        key: f"{label} in {row['view']} at {row['width']:.0f}x{row['height']:.0f}"
-        for key, label, (_, row) in zip(keys_of(rows), labels, rows.iterrows(), strict=True)
-    }
 
 
 def _overall(pairs: list[Pair]) -> Ratio:

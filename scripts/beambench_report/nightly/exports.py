@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.files import Problem, write_text
-from beambench_report.base.records import Run
+from beambench_report.base.cell_files import opened_cell
+from beambench_report.base.files import write_text
+from beambench_report.base.records import Run, contenders_with_times, size_of
 
 BIGGER_IS_BETTER = "benchmark-bigger-is-better.json"
 GOOGLE_BENCHMARK = "benchmark-google.json"
@@ -27,7 +28,7 @@ def write_exports(run: Run) -> list[Path]:
 def bigger_is_better(run: Run) -> str:
     """Million rays per second, build included, as customBiggerIsBetter wants them."""
     entries = []
-    for _, row in _timed(run).iterrows():
+    for _, row in contenders_with_times(run.rows).iterrows():
         total = row["total_ms_median"]
         entry = {
             "name": benchmark_name(row),
@@ -52,7 +53,7 @@ def google_benchmark(run: Run) -> str:
     """
     samples = _samples(run.directory)
     entries = []
-    for index, (_, row) in enumerate(_timed(run).iterrows()):
+    for index, (_, row) in enumerate(contenders_with_times(run.rows).iterrows()):
         name = benchmark_name(row)
         times = samples.get(name) or [
             (row["total_ms_median"], _cpu_time(row)),
@@ -87,15 +88,16 @@ def google_benchmark(run: Run) -> str:
 
 def benchmark_name(row: pd.Series) -> str:
     """The name of a cell: as Google Benchmark's, parts between slashes, no blanks."""
-    accel = f"{row['structure']}:{row['parameters']}" if row["parameters"] else row["structure"]
-    size = f"{int(row['width'])}x{int(row['height'])}"
-    parts = (row["scene"], row["camera"], size, str(int(row["samples"])), row["ray_kind"], accel)
+    accel = f"{row['structure']}:{row['parameters']}".rstrip(":")
+    parts = (
+        row["scene"],
+        row["camera"],
+        size_of(row),
+        str(int(row["samples"])),
+        row["ray_kind"],
+        accel,
+    )
     return "/".join(part.replace(" ", "_") for part in parts)
-
-
-def _timed(run: Run) -> pd.DataFrame:
-    rows = run.rows
-    return rows[rows["timed"] & (rows["verdict"] != "baseline") & (rows["total_ms_median"] > 0)]
 
 
 def _speed(rays: float, milliseconds: float) -> float:
@@ -112,8 +114,7 @@ def _cpu_time(row: pd.Series) -> float:
 def _samples(directory: Path) -> dict[str, list[tuple[float, float]]]:
     samples = {}
     for path in directory.glob("cells/[!.]*.json"):
-        try:
-            cell = json.loads(path.read_text("utf-8"))
+        with opened_cell(path) as cell:
             samples[benchmark_name(pd.Series(cell["row"]))] = [
                 (
                     one["build_ms"] + one["trace_ms"],
@@ -122,8 +123,4 @@ def _samples(directory: Path) -> dict[str, list[tuple[float, float]]]:
                 )
                 for one in cell["repetitions"]
             ]
-        except (ValueError, KeyError, TypeError) as error:
-            raise Problem(
-                f"{path}: is not a cell of a run ({type(error).__name__}: {error}); remove it"
-            ) from None
     return samples

@@ -1,4 +1,4 @@
-"""Where the nights live: a folder with the history, and a folder for each run."""
+"""Where nightly runs are stored: a folder with the history, and a folder for each run."""
 
 import fcntl
 import json
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from beambench_report.base.files import ROOT, Problem
+from beambench_report.base.files import ROOT, Problem, read_json
 from beambench_report.base.records import FAULTLESS_VERDICTS
 from beambench_report.nightly.history import recorded_folders
 
@@ -43,7 +43,7 @@ def only_one(path: Path) -> Iterator[int]:
 HOME = ROOT / "results/runs/nightly"
 
 KEEP_SAMPLES = 30
-"""So many runs keep their raw samples; CSV, manifest, sweep and pictures of mismatches stay."""
+"""How many runs keep their raw samples; CSV, manifest, sweep and pictures of mismatches stay."""
 
 
 @dataclass(frozen=True)
@@ -94,19 +94,12 @@ def adopt(home: Home, run: Path, run_id: str) -> Path:
 
 def is_finished(run: Path) -> bool:
     """Did the run come to its end?"""
-    try:
-        manifest = json.loads((run / "manifest.json").read_text("utf-8"))
-    except FileNotFoundError:
-        return False
-    except ValueError as error:
-        raise Problem(
-            f"{run / 'manifest.json'}: cannot be read as JSON: {error}; remove the folder"
-        ) from None
+    manifest = read_json(run / "manifest.json") or {}
     return bool(manifest.get("finished_utc")) and (run / "results.csv").exists()
 
 
 def abandon(run: Path) -> Path:
-    """Takes a run that was cut off out of the way; it never gets into the history."""
+    """Renames a run that was cut off, so that it never gets into the history."""
     target = run.with_name(f"abandoned-{run.name}")
     if target.exists():
         shutil.rmtree(target)

@@ -1,4 +1,4 @@
-"""One run as the history keeps it: what was asked of whom, and what came out."""
+"""One run as the history keeps it: inputs, verdicts, counters and ratios."""
 
 import hashlib
 import json
@@ -11,7 +11,7 @@ from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.columns import COUNTER_SUFFIX
 from beambench_report.base.files import Problem
 from beambench_report.base.machine import machine_of
-from beambench_report.base.records import FAULTLESS_VERDICTS, Run
+from beambench_report.base.records import FAULTLESS_VERDICTS, Run, size_of
 
 Key = tuple[str, str, str, str, int, int, int, str]
 
@@ -63,7 +63,7 @@ def night_of(run: Run) -> Night:
     work = rows[counters].to_dict("records")
     keys = keys_of(rows)
     figures = []
-    for place, (key, view) in enumerate(zip(keys, _views(rows), strict=True)):
+    for place, (key, view) in enumerate(zip(keys, views_of(rows), strict=True)):
         row = rows.iloc[place]
         base = references.get(view)
         time = times.iloc[place]
@@ -106,6 +106,17 @@ def keys_of(rows: pd.DataFrame) -> list[Key]:
     return list(zip(*(column.tolist() for column in columns), strict=True))
 
 
+def cell_titles(rows: pd.DataFrame) -> dict[Key, str]:
+    """What reports call each row, by its key."""
+    named = (f"{row['contender']} in {row['view']} at {size_of(row)}" for _, row in rows.iterrows())
+    return dict(zip(keys_of(rows), named, strict=True))
+
+
+def views_of(rows: pd.DataFrame) -> list[tuple]:
+    """The view of each row; the rays of one view are the same."""
+    return list(zip(*(rows[name].tolist() for name in VIEW), strict=True))
+
+
 def cycles(rows: pd.DataFrame) -> pd.Series:
     """What each row is compared by: the total in clock cycles during which its thread ran.
 
@@ -131,7 +142,7 @@ def _references(rows: pd.DataFrame, times: pd.Series) -> dict[tuple, int]:
     Embree is the one contender that no commit of ours changes.
     """
     best: dict[tuple, tuple[int, str, int]] = {}
-    views = _views(rows)
+    views = views_of(rows)
     for place, structure in enumerate(rows["structure"]):
         if structure != "embree" or pd.isna(times.iloc[place]):
             continue
@@ -140,10 +151,6 @@ def _references(rows: pd.DataFrame, times: pd.Series) -> dict[tuple, int]:
         candidate = (0 if "mode=single" in parameters else 1, parameters, place)
         best[views[place]] = min(best.get(views[place], candidate), candidate)
     return {view: place for view, (_, _, place) in best.items()}
-
-
-def _views(rows: pd.DataFrame) -> list[tuple]:
-    return list(zip(*(rows[name].tolist() for name in VIEW), strict=True))
 
 
 def _packed(counters: dict[str, float]) -> str:

@@ -1,6 +1,7 @@
 """The nights of one machine as arrays: a row for each night, a column for each cell."""
 
 import json
+import warnings
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -12,17 +13,18 @@ from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.columns import RENAMED_COLUMNS
 from beambench_report.base.files import Problem
 from beambench_report.base.names import contender_labels
+from beambench_report.base.records import BASELINE
 from beambench_report.nightly.history import History
 
-_TOLD_APART = {"camera": ", camera {}", "samples": ", {} samples", "ray_kind": ", {} rays"}
+_DISTINGUISHING = {"camera": ", camera {}", "samples": ", {} samples", "ray_kind": ", {} rays"}
 
 
 @dataclass(frozen=True)
 class Nights:
     """What the history knows of one machine, the oldest night first; the last one is `tonight`.
 
-    Only cells of the last night are there. `ratios` are NaN where a night has no time, or asked
-    another question (other scene, rays or reference) than the last one.
+    Only cells of the last night are there. `ratios` are NaN where a night has no time, or
+    other inputs (scene, rays or reference) than the last one.
     """
 
     nights: pd.DataFrame
@@ -31,16 +33,16 @@ class Nights:
     """IDENTITY, `contender` (its label), `verdict` tonight, `is_reference`"""
     ratios: np.ndarray
     works: np.ndarray
-    """Number of the counters of each cell in each night; -1 where it was not asked the same."""
+    """Number of the counters of each cell in each night; -1 where its inputs differ."""
     counters: dict[int, dict[str, float]]
 
     @cached_property
     def pools(self) -> pd.DataFrame:
-        """The series that are judged: a contender over a scene, its resolutions taken together."""
+        """The series that are tested: a contender over a scene, its resolutions taken together."""
         names = [name for name in IDENTITY if name not in ("width", "height")]
-        judged = self.cells[~self.cells["is_reference"] & (self.cells["verdict"] != "baseline")]
-        groups = judged.groupby(names, sort=False)
-        named = [name for name in _TOLD_APART if self.cells[name].nunique() > 1]
+        tested = self.cells[~self.cells["is_reference"] & (self.cells["verdict"] != BASELINE)]
+        groups = tested.groupby(names, sort=False)
+        named = [name for name in _DISTINGUISHING if self.cells[name].nunique() > 1]
         rows = []
         for key, group in groups:
             row = dict(zip(names, key, strict=True))
@@ -52,7 +54,7 @@ class Nights:
         """Logarithm of the ratio of each pool in each night, 0 being its usual value.
 
         The mean over resolutions of what each is above its own median; a night that lacks one
-        resolution is judged by the others.
+        resolution is tested by the others.
         """
         with np.errstate(all="ignore"):
             logs = np.log(self.ratios)
@@ -65,23 +67,19 @@ class Nights:
 def series_title(contender: str, row: Mapping[str, object], named: Iterable[str]) -> str:
     """A series as people read it: the contender, the scene, and what else distinguishes it."""
     title = f"{contender} in {row['scene']}"
-    return title + "".join(_TOLD_APART[name].format(row[name]) for name in named)
+    return title + "".join(_DISTINGUISHING[name].format(row[name]) for name in named)
 
 
 def nan_median(values: np.ndarray) -> np.ndarray:
     """The median of each column; NaN, without a warning, where a column holds nothing."""
-    result = np.full(values.shape[1], np.nan)
-    some = np.isfinite(values).any(axis=0)
-    result[some] = np.nanmedian(values[:, some], axis=0)
-    return result
+    with warnings.catch_warnings(action="ignore", category=RuntimeWarning):
+        return np.nanmedian(values, axis=0)
 
 
 def nan_mean(values: np.ndarray) -> np.ndarray:
     """The mean of each row; NaN, without a warning, where a row holds nothing."""
-    known = np.isfinite(values)
-    count = known.sum(axis=1)
-    total = np.where(known, values, 0.0).sum(axis=1)
-    return np.where(count > 0, total / np.maximum(count, 1), np.nan)
+    with warnings.catch_warnings(action="ignore", category=RuntimeWarning):
+        return np.nanmean(values, axis=1)
 
 
 def read_nights(history: History, last: int | None = None, most: int | None = None) -> Nights:

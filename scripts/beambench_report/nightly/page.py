@@ -16,7 +16,15 @@ from beambench_report.base.columns import Column
 from beambench_report.base.figure import structure_color
 from beambench_report.base.files import Problem, write_text
 from beambench_report.base.machine import Manifest, read_manifest
-from beambench_report.base.records import FAULTLESS_VERDICTS, Run, read_run
+from beambench_report.base.records import (
+    BASELINE,
+    ERROR,
+    FAULTLESS_VERDICTS,
+    OK,
+    Run,
+    read_run,
+    size_of,
+)
 from beambench_report.nightly.alarms import SHARE, doubt, sentence
 from beambench_report.nightly.history import Alarm, History
 from beambench_report.nightly.home import Home
@@ -81,7 +89,7 @@ def compare_nights(name: str, tonight: Night, other: Night, rows: pd.DataFrame) 
             )
         if then.counters != now.counters:
             more += 1
-        noise_only = now.verdict == "baseline" or now.reference == now.key
+        noise_only = now.verdict == BASELINE or now.reference == now.key
         if now.ratio and then.ratio and then.reference == now.reference and not noise_only:
             changes.append(
                 Change(row["contender"], row["view"], size_of(row), then.ratio, now.ratio)
@@ -109,11 +117,6 @@ def compare_nights(name: str, tonight: Night, other: Night, rows: pd.DataFrame) 
         len(changes),
         sentences,
     )
-
-
-def size_of(row: pd.Series) -> str:
-    """The resolution of a row."""
-    return f"{row['width']:.0f}x{row['height']:.0f}"
 
 
 def shares(tonight: Night, other: Night | None) -> list[float]:
@@ -181,7 +184,7 @@ def chart_data(nights: Nights, rows: pd.DataFrame, alarms: Sequence[Alarm]) -> s
 
 def pareto_front(rows: pd.DataFrame) -> set:
     """The rows than which none builds and traces faster: the index of each."""
-    right = rows[rows["timed"] & (rows["verdict"] == "ok")]
+    right = rows[rows["timed"] & (rows["verdict"] == OK)]
     order = right.sort_values(["build_ms_median", "trace_ms_median"])
     front, best = set(), float("inf")
     for index, trace in order["trace_ms_median"].items():
@@ -221,7 +224,7 @@ def picture_mismatches(run: Run, beambench: Path) -> list[Path]:
 
     A picture that cannot be made keeps no page from being written: the index is without it.
     """
-    wrong = run.rows[~run.rows["verdict"].isin((*FAULTLESS_VERDICTS, "error"))]
+    wrong = run.rows[~run.rows["verdict"].isin((*FAULTLESS_VERDICTS, ERROR))]
     wrong = wrong[wrong["ray_kind"] == "primary"]
     # The lowest resolution shows what the highest does, and is read faster.
     wrong = wrong.sort_values("rays", kind="stable").drop_duplicates(
@@ -244,10 +247,9 @@ def picture_mismatches(run: Run, beambench: Path) -> list[Path]:
 
 
 def _render(beambench: Path, row: pd.Series, path: Path, options: list[str]) -> bool:
-    accel = f"{row['structure']}:{row['parameters']}" if row["parameters"] else row["structure"]
-    size = f"{row['width']:.0f}x{row['height']:.0f}"
+    accel = f"{row['structure']}:{row['parameters']}".rstrip(":")
     command = [str(beambench), "render", row["scene"], "--accel", accel, "-o", str(path)]
-    command += ["--resolution", size, "--samples", f"{row['samples']:.0f}"]
+    command += ["--resolution", size_of(row), "--samples", f"{row['samples']:.0f}"]
     command += ["--camera", row["camera"], *options]
     try:
         done = subprocess.run(command, capture_output=True, timeout=_SECONDS, check=False)
@@ -296,11 +298,11 @@ def render(history: History, nights: Nights, run: Run, published: Run | None, ho
         .render(
             manifest=manifest,
             newest=run.rows.iloc[-1].to_dict(),
-            alarms=[_told(one) for one in alarms if one.night == newest],
+            alarms=[_in_words(one) for one in alarms if one.night == newest],
             doubt=doubt([one for one in alarms if one.night == newest], len(nights.pools)),
             earlier=_earlier(alarms, nights, newest),
             count=len(nights.nights),
-            judged=_judged(nights),
+            not_tested=_not_tested(nights),
             rule=Rule(),
             counter_share=SHARE,
             outcome=summarize_verdicts(run, _cell_files(run)),
@@ -359,7 +361,7 @@ def _cell_files(run: Run) -> dict[Identity, CellFile]:
     return {} if run.rows["timed"].all() else read_cell_files(run.directory)
 
 
-def _told(alarm: Alarm) -> tuple[str, str]:
+def _in_words(alarm: Alarm) -> tuple[str, str]:
     kinds = {"time": "slower", "counter": "more work", "verdict": "wrong hits"}
     return kinds[alarm.kind], sentence(alarm)
 
@@ -370,14 +372,14 @@ def _earlier(alarms: list[Alarm], nights: Nights, newest: int) -> list[tuple[str
     return [(runs[one.night], sentence(one)) for one in reversed(known)][:_NIGHTS_LISTED]
 
 
-def _judged(nights: Nights) -> str:
-    """How far the times can be judged yet."""
+def _not_tested(nights: Nights) -> str:
+    """Why times are not tested yet; nothing where they are."""
     needed = 2 * Rule().side
     if len(nights.nights) >= needed:
         return ""
     known = len(nights.nights)
     return (
-        f"Times are not judged yet: this machine has {known} {'night' if known == 1 else 'nights'}"
+        f"Times are not tested yet: this machine has {known} {'night' if known == 1 else 'nights'}"
         f", and a step needs {Rule().side} on each side. Until then use "
         "scripts/compare REV_A REV_B."
     )

@@ -1,14 +1,11 @@
-"""One night: measure, keep, judge, show."""
+"""One night: measure, record, test for regressions, report."""
 
 import json
-import signal
-import subprocess
-import sys
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
-from beambench_report.base.files import Problem
+from beambench_report.base.files import INTERRUPTED, Problem, run_in_foreground, say
 from beambench_report.base.records import read_run
 from beambench_report.nightly.alarms import doubt, find_alarms, sentence
 from beambench_report.nightly.exports import write_exports
@@ -17,8 +14,6 @@ from beambench_report.nightly.home import Home, abandon, is_finished, prune
 from beambench_report.nightly.night import night_of
 from beambench_report.nightly.nights import read_nights
 from beambench_report.nightly.page import picture_mismatches, write_night_page
-
-_INTERRUPTED = (130, 143, -2, -15)
 
 
 @dataclass(frozen=True)
@@ -41,8 +36,8 @@ def run_night(request: Request, lock: int) -> int:
     catch_up(request.home)
     folder = _folder_for(request)
     code = _measure(request, folder, lock)
-    if code in _INTERRUPTED:
-        _say("interrupted; resume with: scripts/nightly --resume (or it is abandoned next time)")
+    if code in INTERRUPTED:
+        say("interrupted; resume with: scripts/nightly --resume (or it is abandoned next time)")
         return 130
     if code not in (0, 1) or not is_finished(folder):
         raise Problem(f"{folder}: the sweep could not be run (see above); nothing was recorded")
@@ -50,7 +45,7 @@ def run_night(request: Request, lock: int) -> int:
 
 
 def record(home: Home, folder: Path, beambench: Path, published: Path | None, keep: int) -> int:
-    """Adds a finished run to the history, judges it, writes the page; returns the exit code."""
+    """Adds a finished run to the history, writes the page, prints alarms; returns the exit code."""
     run = read_run(folder)
     night = night_of(run)
     picture_mismatches(run, beambench)
@@ -77,7 +72,7 @@ def catch_up(home: Home) -> None:
             try:
                 night = night_of(read_run(folder))
             except Problem as problem:
-                _say(f"left out of the history: {problem}")
+                say(f"left out of the history: {problem}")
                 continue
             history.add(night, folder, find_alarms)
 
@@ -88,20 +83,20 @@ def rebuild_history(home: Home) -> int:
 
 
 def report_alarms(alarms: list[Alarm], series: int) -> None:
-    """Says what is wrong, one line each; nothing where nothing is."""
+    """Prints what is wrong, one line each; nothing where nothing is."""
     if doubtful := doubt(alarms, series):
-        _say(doubtful)
+        say(doubtful)
     for alarm in alarms:
-        _say(f"REGRESSION {sentence(alarm)}" if alarm.kind != "verdict" else sentence(alarm))
+        say(f"REGRESSION {sentence(alarm)}" if alarm.kind != "verdict" else sentence(alarm))
 
 
 def describe(request: Request) -> str:
     """What a night would do."""
-    budget = json.loads(request.sweep.read_text("utf-8")).get("budget_seconds", 0)
+    sweep = json.loads(request.sweep.read_text("utf-8"))
     runs = request.home.finished()
     lines = [
-        f"sweep      {request.sweep} ({budget / 60:.0f} min)",
-        f"           {read_description_of(request.sweep)}",
+        f"sweep      {request.sweep} ({sweep.get('budget_seconds', 0) / 60:.0f} min)",
+        f"           {sweep.get('description', '')}",
         f"history    {request.home.history} ({len(runs)} nights)",
         f"page       {request.home.page}",
     ]
@@ -111,20 +106,15 @@ def describe(request: Request) -> str:
     return "\n".join(lines) + "\n"
 
 
-def read_description_of(sweep: Path) -> str:
-    """What a sweep says of itself."""
-    return str(json.loads(sweep.read_text("utf-8")).get("description", ""))
-
-
 def _folder_for(request: Request) -> Path:
-    """The run to resume, or a new one; what was cut off otherwise is out of the way then."""
+    """The run to resume, or a new one; otherwise renames those that were cut off."""
     unfinished = request.home.unfinished()
     if request.resume:
         if not unfinished:
             raise Problem(f"{request.home.folder}: no run was cut off; leave out --resume")
         return unfinished[-1]
     for run in unfinished:
-        _say(f"== {run.name} was cut off: abandoned")
+        say(f"== {run.name} was cut off: abandoned")
         abandon(run)
     return _free_folder(request.home.folder, datetime.now(UTC))
 
@@ -139,19 +129,4 @@ def _measure(request: Request, folder: Path, lock: int) -> int:
     resume = request.resume and (folder / "manifest.json").exists()
     arguments = ["--resume", folder] if resume else [request.sweep, "-o", folder]
     command = [str(part) for part in (request.beambench, "run", *arguments)]
-    try:
-        child = subprocess.Popen(command, stdout=subprocess.DEVNULL, pass_fds=(lock,))
-    except OSError as error:
-        raise Problem(f"{command[0]} cannot be run: {error.strerror}; build it first") from None
-    before = signal.signal(signal.SIGTERM, lambda *_: child.terminate())
-    try:
-        return child.wait()
-    except KeyboardInterrupt:  # the child's, too: it ends by it in good order
-        child.wait()
-        return _INTERRUPTED[0]
-    finally:
-        signal.signal(signal.SIGTERM, before)
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)
+    return run_in_foreground(command, pass_fds=(lock,))

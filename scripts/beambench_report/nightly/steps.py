@@ -11,9 +11,10 @@ A step is reported when
 What this comes to in false alarms and missed slow-downs is measured, not derived: calibration.py.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from math import log, sqrt
+from typing import TypeVar
 
 import numpy as np
 import ruptures
@@ -56,6 +57,9 @@ class Step:
     """Before Holm's correction."""
 
 
+Tested = TypeVar("Tested")
+"""What has a `p_value`."""
+
 _LEAST_NOISE = 0.002  # a series may look quieter than any clock is
 _BLOCK = 3
 _RESAMPLES = 2000
@@ -83,7 +87,7 @@ def find_steps(
         if hopeful[series] and (step := _last_step(values[known, series], rule)):
             split, start = step
             candidates.append(_measure(series, values[:, series], known, start, split, rule))
-    return [step for step in _holm(candidates, tested, rule.level) if step.low > rule.tolerance]
+    return [step for step in holm(candidates, tested, rule.level) if step.low > rule.tolerance]
 
 
 def _may_have_risen(recent: np.ndarray, rule: Rule) -> np.ndarray:
@@ -157,7 +161,7 @@ def _resample(values: np.ndarray, random: np.random.Generator) -> np.ndarray:
     return values[places[:, : len(values)]]
 
 
-def _holm(candidates: list[Step], tested: int, level: float) -> list[Step]:
+def holm(candidates: Iterable[Tested], tested: int, level: float) -> list[Tested]:
     """Holm's procedure: the chance of any false one among them is at most `level`."""
     kept = []
     for rank, step in enumerate(sorted(candidates, key=lambda step: step.p_value)):

@@ -1,7 +1,7 @@
 """The rows of results.csv, packed small, for the table that the browser sorts and filters.
 
 Texts are numbers into a list of the texts there are; figures are rounded to what a table shows; a
-column that says the same in every row is said once.
+column with one value in all rows is stored once.
 """
 
 import json

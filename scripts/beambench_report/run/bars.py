@@ -70,7 +70,7 @@ def in_two_lines(label: str) -> str:
 
 
 def _axis_end(totals: np.ndarray) -> float:
-    positive = totals[totals > 0]  # who has no such work at all makes nobody's bar long
+    positive = totals[totals > 0]  # zeros would make the median too small
     near = totals[totals <= _FAR * np.median(positive)] if positive.size else totals
     longest = near.max() if near.size else 0.0
     return _ROOM_FOR_TEXT * longest if longest > 0 else 1.0

@@ -12,7 +12,7 @@ from matplotlib.patches import Rectangle
 from matplotlib.ticker import EngFormatter
 
 from beambench_report.base.figure import Plot
-from beambench_report.base.records import Run
+from beambench_report.base.records import OK, Run
 from beambench_report.run.bars import in_two_lines, panel_per_view
 
 AT_ONCE = "at once"
@@ -58,7 +58,7 @@ def break_even_table(run: Run) -> pd.DataFrame:
 
 
 def break_even(run: Run) -> list[Plot]:
-    """One figure, a panel a view: a table of each contender against each other."""
+    """One figure, one panel per view: a table of each contender against each other."""
     table = break_even_table(run)
 
     def select(title: str) -> pd.DataFrame:
@@ -104,7 +104,7 @@ def _draw_cell(panel: Axes, column: int, row: int, words: str) -> None:
 
 def _timed(rows: pd.DataFrame) -> pd.DataFrame:
     """The rows with times; `null`, which finds nothing, is no contender."""
-    rows = rows[rows["timed"] & (rows["verdict"] == "ok")]
+    rows = rows[rows["timed"] & (rows["verdict"] == OK)]
     rows = rows.dropna(subset=["build_ms_median", "trace_ms_median"])
     return rows.drop_duplicates(["contender", "rays"])
 

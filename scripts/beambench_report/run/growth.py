@@ -5,13 +5,18 @@ from pathlib import Path
 import pandas as pd
 from matplotlib.axes import Axes
 
-from beambench_report.base.figure import PAGE_WIDTH, Plot, house_style, new_figure, write_plot
-from beambench_report.base.files import Problem
+from beambench_report.base.figure import (
+    LINE_COLORS,
+    MARKERS,
+    PAGE_WIDTH,
+    Plot,
+    house_style,
+    new_figure,
+    write_plot,
+)
+from beambench_report.base.files import Problem, read_table
 
 _COLUMNS = ("generator", "parameter", "size", "primitives", "bytes", "seconds", "scene")
-# Of Okabe and Ito, as in style.py; there they stand for structures.
-_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
-_MARKERS = "osD^vP*X<>"
 _GIB = 2.0**30
 
 
@@ -28,18 +33,7 @@ def write_growth(files: list[Path], output: Path | None = None) -> list[Path]:
 
 def read_growth(file: Path) -> pd.DataFrame:
     """The rows of one file; raises Problem where it is not what beambench writes."""
-    try:
-        rows = pd.read_csv(file)
-    except FileNotFoundError:
-        raise Problem(f"{file}: there is no such file") from None
-    except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
-        raise Problem(f"{file}: it is not a CSV file ({error})") from None
-    missing = [column for column in _COLUMNS if column not in rows]
-    if missing:
-        raise Problem(
-            f"{file}: it has no column '{missing[0]}'; "
-            "write it with: beambench scene NAME --growth --csv"
-        )
+    rows = read_table(file, _COLUMNS, "write it with: beambench scene NAME --growth --csv")
     if rows.empty:
         raise Problem(f"{file}: it has no rows")
     for column in ("primitives", "bytes", "seconds"):
@@ -55,8 +49,8 @@ def growth_plot(tables: list[pd.DataFrame], stem: str) -> Plot:
     figure, (memory, seconds) = new_figure(PAGE_WIDTH * 0.95, rows=2)
     for index, rows in enumerate(tables):
         look = {
-            "color": _COLORS[index % len(_COLORS)],
-            "marker": _MARKERS[index % len(_MARKERS)],
+            "color": LINE_COLORS[index % len(LINE_COLORS)],
+            "marker": MARKERS[index % len(MARKERS)],
             "markersize": 4,
             "linewidth": 1.2,
             "label": rows["generator"].iloc[0],

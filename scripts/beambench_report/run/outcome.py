@@ -6,15 +6,15 @@ from dataclasses import dataclass, replace
 import pandas as pd
 
 from beambench_report.base.cell_files import CellFile, Example, Identity, identity
-from beambench_report.base.records import FAULTLESS_VERDICTS, NO_RAYS, Run
+from beambench_report.base.records import ERROR, FAULTLESS_VERDICTS, NO_RAYS, Run
 
-# Whoever has more wrong cells than this has one cause, not many.
+# More wrong cells than this have one cause, not many.
 _MOST_SHOWN = 40
 
 _MEANINGS = {
     "mismatch": "wrong hits",
     "grazes": "too many rays were disputed at the edges of primitives",
-    "error": "could not be built",
+    ERROR: "could not be built",
     "": "was not verified",
 }
 
@@ -47,7 +47,7 @@ class Outcome:
 
     @property
     def right(self) -> int:
-        """How many cells were verified."""
+        """How many cells have correct hits."""
         return self.cells - self.wrong - self.without_rays
 
 

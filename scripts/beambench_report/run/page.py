@@ -8,15 +8,15 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.cell_files import CellFile, Identity, identity, read_cell_files
+from beambench_report.base.cell_files import CellFile, Identity, ratio_of_totals, read_cell_files
 from beambench_report.base.columns import COUNTER_SUFFIX, dictionary
 from beambench_report.base.figure import structure_color
 from beambench_report.base.files import Problem, write_text
 from beambench_report.base.machine import Manifest, read_description, read_manifest
 from beambench_report.base.names import PLOT_INDEX, file_stems
 from beambench_report.base.quantities import number, size_in_words
-from beambench_report.base.ratio import Ratio, median_of, paired_ratio, unpaired_ratio
-from beambench_report.base.records import Run, read_run
+from beambench_report.base.ratio import Ratio
+from beambench_report.base.records import BASELINE, OK, Run, read_run, size_of
 from beambench_report.run.all_cells import pack
 from beambench_report.run.html import data_uri, environment
 from beambench_report.run.outcome import summarize_verdicts
@@ -108,11 +108,11 @@ class Compared:
 
 
 def choose_reference(run: Run, wanted: str | None = None) -> str | None:
-    """The contender others are compared with: right in the most views, Embree rather than others.
+    """The contender that others are compared with: correct in the most views, of equals Embree.
 
-    None when no contender was right anywhere. Raises Problem for a name the run does not have.
+    None where no contender has correct hits. Raises Problem for a name the run does not have.
     """
-    right = run.rows[run.rows["timed"] & (run.rows["verdict"] == "ok")]
+    right = run.rows[run.rows["timed"] & (run.rows["verdict"] == OK)]
     contenders = list(dict.fromkeys(right["contender"]))
     if wanted is not None:
         return _chosen(wanted, contenders)
@@ -150,16 +150,12 @@ def _ratios(
     if reference not in timed.index:
         return {}
     base = timed.loc[reference]
-    base_file = files.get(identity(base))
     result = {}
     for contender, row in timed.iterrows():
-        file = files.get(identity(row))
         if contender == reference:
             result[contender] = Ratio(1.0)
-        elif file and base_file and (ratio := paired_ratio(file.total_ms, base_file.total_ms)):
-            result[contender] = ratio
         elif base["total_ms_median"] > 0:
-            result[contender] = unpaired_ratio(median_of(row, "total"), median_of(base, "total"))
+            result[contender] = ratio_of_totals(row, base, files)
     return result
 
 
@@ -288,7 +284,7 @@ def make_views(
 def _caption(rows: pd.DataFrame) -> str:
     first = rows.iloc[0]
     samples = f", {first['samples']:.0f} samples per pixel" if first["samples"] > 1 else ""
-    return f"{first['width']:.0f}x{first['height']:.0f}{samples}, {first['rays']:,.0f} rays"
+    return f"{size_of(first)}{samples}, {first['rays']:,.0f} rays"
 
 
 _DEEPEST = 4.0  # doublings at which the shade is full
@@ -339,7 +335,7 @@ def compare(reference: str, finest: Mapping[str, Compared]) -> Comparison:
 def _mark(ratio: Ratio | None, verdict: str | None) -> Mark:
     if verdict is None:
         return Mark(MISSING, "", "", 0.0)
-    if ratio is None or ratio.value <= 0 or verdict == "baseline":
+    if ratio is None or ratio.value <= 0 or verdict == BASELINE:
         return Mark(ratio_field(ratio), verdict, "", 0.0)
     doublings = log2(ratio.value)
     side = "slower" if doublings > 0 else "faster"

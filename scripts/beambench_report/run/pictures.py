@@ -13,9 +13,9 @@ import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
-from beambench_report.base.files import Problem, write_whole
+from beambench_report.base.files import Problem, output_of, write_whole
 from beambench_report.base.names import file_stems
-from beambench_report.base.records import Run, read_run
+from beambench_report.base.records import OK, Run, read_run
 
 _RENDERER = "embree"
 _HEATMAP_STRUCTURE = "samet"
@@ -45,7 +45,7 @@ def _heatmap_structure(run: Run, scene: str) -> str | None:
     rows = run.rows[
         (run.rows["scene"] == scene)
         & (run.rows["structure"] == _HEATMAP_STRUCTURE)
-        & (run.rows["verdict"] == "ok")
+        & (run.rows["verdict"] == OK)
     ]
     if rows.empty:
         return None
@@ -174,16 +174,10 @@ def _render_all(beambench: Path, counts: dict[str, str], folder: Path) -> dict[s
 def _run(beambench: Path, scene: str, *arguments: str) -> str:
     """The standard output of beambench."""
     try:
-        done = subprocess.run(
-            [str(beambench), *arguments], capture_output=True, text=True, check=False
-        )
-    except OSError as error:
-        raise Problem(f"{beambench} cannot be run: {error.strerror}; build it first") from None
-    if done.returncode != 0:
-        said = done.stderr.strip().removeprefix("beambench: ").splitlines()
-        why = said[-1] if said else f"{beambench} ended with exit code {done.returncode}"
-        raise Problem(f"scene '{scene}' cannot be rendered: {why}")
-    return done.stdout
+        return output_of([str(beambench), *arguments])
+    except Problem as problem:
+        why = str(problem).removeprefix("beambench: ")
+        raise Problem(f"scene '{scene}' cannot be rendered: {why}") from None
 
 
 def _rows(group: Group, pictures: dict[str, _Picture]) -> list[_Row]:

@@ -89,7 +89,7 @@ def _label_axes(panel: Axes, rows: pd.DataFrame) -> None:
 
 
 def build_and_trace(run: Run) -> list[Plot]:
-    """One figure, a panel a view; none when nothing was timed."""
+    """One figure, one panel per view; none when nothing was timed."""
     all_looks = looks(run.rows)
     plots = panel_per_view(
         run,
@@ -131,7 +131,7 @@ _MIB = 2.0**20
 
 
 def memory(run: Run) -> list[Plot]:
-    """One figure, a panel a view; none when no structure reported its memory."""
+    """One figure, one panel per view; none when no structure reported its memory."""
     all_looks = looks(run.rows)
     return panel_per_view(
         run,

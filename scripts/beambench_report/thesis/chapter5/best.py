@@ -95,7 +95,7 @@ def choose(candidates: Sequence[Cell]) -> Choice:
 
 
 def _is_edge(best: Cell, timed: Sequence[Cell]) -> bool:
-    """Is it at an end of the levels or grids that were tried, of grids filled in the same way?"""
+    """Is it at an end of the levels or grids that were tried, of grids filled alike?"""
     fill = best.parameters.get("fill")
     alike = [cell.parameters for cell in timed if cell.parameters.get("fill") == fill]
     for name in ("max_level", "resolution"):

@@ -8,9 +8,10 @@ import json
 import math
 import re
 import tempfile
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 from beambench_report.base.files import Problem, output_of, write_text
 from beambench_report.base.published import primitives_by_scene, read_published
@@ -20,7 +21,16 @@ from beambench_report.thesis.paper.measured import ORDERS, census_file
 from beambench_report.thesis.paper.printed import scene_title
 from beambench_report.thesis.paper.section import Section, SectionTable, section_table
 
-_BROKEN = (OSError, ValueError, KeyError, TypeError)
+Read = TypeVar("Read")
+
+
+def _read(path: Path, take: Callable[[dict], Read]) -> Read | None:
+    """What is taken from a file; None where there is none, or it is not what was printed."""
+    try:
+        return take(json.loads(path.read_text("utf-8")))
+    except (OSError, ValueError, KeyError, TypeError):
+        return None
+
 
 # Table 5.1: the polygons and spheres of each scene
 
@@ -35,7 +45,7 @@ def scene_file(directory: Path, scene: str) -> Path:
 def scenes_section(directory: Path) -> Section | None:
     """Table 5.1 with our counts; None where no scene was counted."""
     printed = read_published("scenes.csv").to_dict("records")
-    counted = {row["scene"]: _counts(scene_file(directory, row["scene"])) for row in printed}
+    counted = {row["scene"]: _read(scene_file(directory, row["scene"]), _counts) for row in printed}
     if not any(counted.values()):
         return None
     rows, other = [], []
@@ -63,12 +73,8 @@ def scenes_section(directory: Path) -> Section | None:
     )
 
 
-def _counts(path: Path) -> dict[str, int] | None:
-    try:
-        source = json.loads(path.read_text("utf-8"))
-        return {kind: int(source[kind]) for kind in _KINDS}
-    except _BROKEN:
-        return None
+def _counts(source: dict) -> dict[str, int]:
+    return {kind: int(source[kind]) for kind in _KINDS}
 
 
 # How often rays and beams visit the nodes of an octree, by level: the thesis's reason for 6
@@ -109,7 +115,7 @@ def visits_file(directory: Path, scene: str) -> Path:
 
 def visits_section(directory: Path) -> Section | None:
     """A table for each scene; None where no visits were counted."""
-    read = {scene: _read_visits(visits_file(directory, scene)) for scene in VISITED_SCENES}
+    read = {scene: _read(visits_file(directory, scene), _visits) for scene in VISITED_SCENES}
     known = {scene: found for scene, found in read.items() if found is not None}
     if not known:
         return None
@@ -121,14 +127,10 @@ def visits_section(directory: Path) -> Section | None:
     )
 
 
-def _read_visits(path: Path) -> tuple[int, list[Level]] | None:
+def _visits(source: dict) -> tuple[int, list[Level]]:
     """The number of rays, and the levels that have nodes."""
-    try:
-        source = json.loads(path.read_text("utf-8"))
-        (structure,) = source["structures"]
-        return int(source["rays"]), [Level(**level) for level in structure["levels"]]
-    except _BROKEN:
-        return None
+    (structure,) = source["structures"]
+    return int(source["rays"]), [Level(**level) for level in structure["levels"]]
 
 
 def _visits_table(scene: str, rays: int, levels: list[Level]) -> SectionTable:
@@ -196,7 +198,7 @@ def view_file(directory: Path, *, turned: bool, objects: int) -> Path:
 def camera_section(directory: Path) -> Section | None:
     """Exit pixels from both cameras beside the thesis's; None where they were not counted."""
     pixels = {
-        (turned, objects): _exit_pixels(view_file(directory, turned=turned, objects=objects))
+        (turned, objects): _read(view_file(directory, turned=turned, objects=objects), _exit_pixels)
         for turned in (False, True)
         for objects in OBJECTS
     }
@@ -235,13 +237,9 @@ def camera_section(directory: Path) -> Section | None:
     )
 
 
-def _exit_pixels(path: Path) -> int | None:
-    try:
-        source = json.loads(path.read_text("utf-8"))
-        (structure,) = source["structures"]
-        return round(structure["per_ray"]["samples_leaving"] * source["rays"])
-    except _BROKEN:
-        return None
+def _exit_pixels(source: dict) -> int:
+    (structure,) = source["structures"]
+    return round(structure["per_ray"]["samples_leaving"] * source["rays"])
 
 
 # Running the commands, each once

@@ -14,12 +14,10 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
 from beambench_report.base.figure import (
     Plot,
-    house_style,
     new_figure,
     structure_color,
-    write_plot,
 )
-from beambench_report.base.files import Problem, write_text
+from beambench_report.base.files import Problem
 from beambench_report.base.quantities import DASH
 from beambench_report.thesis.paper.cells import Cell, read_cells
 from beambench_report.thesis.paper.printed import milliseconds, scene_title
@@ -31,6 +29,7 @@ from beambench_report.thesis.paper.section import (
     by_file,
     section_as_markdown,
     section_table,
+    write_section,
 )
 
 TARGET = 0.10
@@ -303,11 +302,7 @@ def levels_of_runs(runs: Sequence[Path], file: Path | None = None) -> list[Path]
         )
     if file is None:
         return section_as_markdown(replace(section, figures=()), level=1, origin=by_file)
-    paths = [write_text(file, section_as_markdown(section, level=1, folder="", origin=by_file))]
-    with house_style():
-        for figure in section.figures:
-            paths += write_plot(figure.draw(), file.parent)
-    return paths
+    return write_section(section, file, origin=by_file)
 
 
 def _summary(parts: dict[str, Losses]) -> SectionTable:

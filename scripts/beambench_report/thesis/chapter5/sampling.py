@@ -12,8 +12,8 @@ from typing import Any
 
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
-from beambench_report.base.figure import Look, Plot, house_style, new_figure, write_plot
-from beambench_report.base.files import Problem, write_text
+from beambench_report.base.figure import Look, Plot, new_figure
+from beambench_report.base.files import Problem
 from beambench_report.base.names import file_stems
 from beambench_report.base.quantities import DASH, number
 from beambench_report.thesis.paper.printed import milliseconds, scene_title
@@ -21,8 +21,8 @@ from beambench_report.thesis.paper.section import (
     Section,
     SectionFigure,
     SectionTable,
-    section_as_markdown,
     section_table,
+    write_section,
 )
 
 UNIFORM = "uniform"
@@ -30,8 +30,8 @@ _OBJECT_SPACE = "object-space"
 
 
 @dataclass(frozen=True)
-class Way:
-    """One way of sampling the image: a method and its setting."""
+class Point:
+    """One point of a figure: a method and its setting."""
 
     method: str
     setting: str
@@ -44,14 +44,14 @@ class Way:
 
 @dataclass(frozen=True)
 class Comparison:
-    """The ways of one scene."""
+    """The measurements of one scene."""
 
     path: Path
     scene: str
     structure: str
     resolution: str
     repetitions: int
-    ways: tuple[Way, ...]
+    points: tuple[Point, ...]
 
     @property
     def title(self) -> str:
@@ -64,24 +64,24 @@ class Comparison:
     @property
     def methods(self) -> list[str]:
         """Each once, in the order of the file."""
-        return list(dict.fromkeys(way.method for way in self.ways))
+        return list(dict.fromkeys(point.method for point in self.points))
 
     @property
-    def thesis(self) -> Way | None:
-        """The thesis's way, where it was tried: five samples wherever a beam does not leave."""
+    def thesis(self) -> Point | None:
+        """The thesis's setting, where it was tried: five samples wherever a beam does not leave."""
         own = (UNIFORM, "5")
-        return next((way for way in self.ways if (way.method, way.setting) == own), None)
+        return next((point for point in self.points if (point.method, point.setting) == own), None)
 
-    def of(self, method: str) -> list[Way]:
+    def of(self, method: str) -> list[Point]:
         """The settings of a method, the fastest first."""
-        ways = (way for way in self.ways if way.method == method)
-        return sorted(ways, key=lambda way: way.milliseconds)
+        points = (point for point in self.points if point.method == method)
+        return sorted(points, key=lambda point: point.milliseconds)
 
     def time_at_error(self, method: str, error: float) -> float | None:
         """Milliseconds in which a method reaches an error, between two settings as they are
         drawn, by a straight line of logarithms; None beyond what was tried.
         """
-        return _between([(way.error, way.milliseconds) for way in self.of(method)], error)
+        return _between([(point.error, point.milliseconds) for point in self.of(method)], error)
 
     def reached(self, method: str, error: float) -> tuple[float, bool] | None:
         """The least time in which a method reaches an error or a smaller one; is it that error
@@ -89,25 +89,27 @@ class Comparison:
         setting has a larger error.
         """
         crossing = self.time_at_error(method, error)
-        settings = [way.milliseconds for way in self.of(method) if way.error <= error]
+        settings = [point.milliseconds for point in self.of(method) if point.error <= error]
         if crossing is not None and (not settings or crossing <= min(settings)):
             return crossing, True
         return (min(settings), False) if settings else None
 
     def error_at_time(self, method: str, milliseconds: float) -> float | None:
         """The error that a method reaches in a time; None beyond what was tried."""
-        return _between([(way.milliseconds, way.error) for way in self.of(method)], milliseconds)
+        return _between(
+            [(point.milliseconds, point.error) for point in self.of(method)], milliseconds
+        )
 
 
 def read_comparison(path: Path) -> Comparison:
     """Raises Problem where the file is not what `beambench sampling --json` prints."""
     try:
         source = json.loads(path.read_text("utf-8"))
-        ways = tuple(_way(entry) for entry in source["results"])
-        if not ways:
+        points = tuple(_point(entry) for entry in source["results"])
+        if not points:
             raise ValueError("no results")
         names = (str(source[name]) for name in ("scene", "structure", "resolution"))
-        return Comparison(path, *names, int(source["repetitions"]), ways)
+        return Comparison(path, *names, int(source["repetitions"]), points)
     except FileNotFoundError:
         raise Problem(
             f"{path}: there is no such file; write it with `beambench sampling SCENE --json`"
@@ -134,12 +136,12 @@ def read_comparisons(files: Iterable[Path]) -> tuple[list[Comparison], list[str]
     return list(found.values()), unread
 
 
-def _way(entry: dict[str, Any]) -> Way:
+def _point(entry: dict[str, Any]) -> Point:
     texts = (str(entry[name]) for name in ("method", "setting"))
-    way = Way(*texts, *(float(entry[name]) for name in ("rays_per_pixel", "trace_ms", "error")))
-    if not (way.milliseconds > 0 and math.isfinite(way.milliseconds) and way.error >= 0):
-        raise ValueError(f"{way.method} {way.setting}: trace_ms and error must be positive")
-    return way
+    point = Point(*texts, *(float(entry[name]) for name in ("rays_per_pixel", "trace_ms", "error")))
+    if not (point.milliseconds > 0 and math.isfinite(point.milliseconds) and point.error >= 0):
+        raise ValueError(f"{point.method} {point.setting}: trace_ms and error must be positive")
+    return point
 
 
 def _between(points: Sequence[tuple[float, float]], at: float) -> float | None:
@@ -171,10 +173,10 @@ def draw_comparison(comparison: Comparison, stem: str) -> Plot:
     for method in comparison.methods:
         look = _LOOKS.get(method, _OTHER)
         is_left = method == _OBJECT_SPACE  # lines run close to each other
-        ways = [way for way in comparison.of(method) if way.error > 0]
+        points = [point for point in comparison.of(method) if point.error > 0]
         panel.plot(
-            [way.milliseconds for way in ways],
-            [way.error for way in ways],
+            [point.milliseconds for point in points],
+            [point.error for point in points],
             marker=look.marker,
             linestyle=look.dashes,
             color=look.color,
@@ -182,10 +184,12 @@ def draw_comparison(comparison: Comparison, stem: str) -> Plot:
             linewidth=1.3,
             label=method,
         )
-        for way in (ways[0], ways[-1]) if len(ways) > 1 else ways:  # all of them would collide
+        for point in (
+            (points[0], points[-1]) if len(points) > 1 else points
+        ):  # all of them would collide
             panel.annotate(
-                way.setting.replace(" ", ", "),
-                (way.milliseconds, way.error),
+                point.setting.replace(" ", ", "),
+                (point.milliseconds, point.error),
                 xytext=(-5, -10) if is_left else (5, 4),
                 ha="right" if is_left else "left",
                 textcoords="offset points",
@@ -207,7 +211,7 @@ def draw_comparison(comparison: Comparison, stem: str) -> Plot:
     panel.set_title(comparison.title)
     panel.grid(which="major", color="#dddddd", linewidth=0.6)
     panel.legend(frameon=False, fontsize=8)
-    return Plot(stem, figure, f"{comparison.title}: error over time of ways to sample")
+    return Plot(stem, figure, f"{comparison.title}: error over time of sampling methods")
 
 
 # The section of the report, also as files of its own
@@ -242,7 +246,7 @@ def sampling_section(comparisons: Sequence[Comparison]) -> Section | None:
         "sampling",
         "Samples chosen in object space",
         _WORDS,
-        (_against_thesis(comparisons), *map(_ways, comparisons)),
+        (_against_thesis(comparisons), *map(_points, comparisons)),
         tuple(figures),
         tuple(_findings(comparisons)),
     )
@@ -257,12 +261,7 @@ def write_sampling(files: Iterable[Path], directory: Path) -> list[Path]:
     if section is None:
         raise Problem("there is no file; write one with `beambench sampling SCENE --json`")
     directory.mkdir(parents=True, exist_ok=True)
-    text = section_as_markdown(section, level=1, folder="")
-    paths = [write_text(directory / "sampling.md", text)]
-    with house_style():
-        for figure in section.figures:
-            paths += write_plot(figure.draw(), directory)
-    return paths
+    return write_section(section, directory / "sampling.md")
 
 
 def _against_thesis(comparisons: Sequence[Comparison]) -> SectionTable:
@@ -291,16 +290,16 @@ def _against_thesis(comparisons: Sequence[Comparison]) -> SectionTable:
     return section_table(title, ("scene", "method"), heads, rows)
 
 
-def _ways(comparison: Comparison) -> SectionTable:
+def _points(comparison: Comparison) -> SectionTable:
     rows = (
         (
-            way.method,
-            way.setting.replace(" ", ", "),
-            f"{way.rays:.3f}",
-            _milliseconds(way.milliseconds),
-            f"{way.error:.3f}",
+            point.method,
+            point.setting.replace(" ", ", "),
+            f"{point.rays:.3f}",
+            _milliseconds(point.milliseconds),
+            f"{point.error:.3f}",
         )
-        for way in comparison.ways
+        for point in comparison.points
     )
     title = f"{comparison.title} ({comparison.path.name}, {comparison.repetitions} repetitions)"
     heads = ("rays per pixel", "trace", "error")

@@ -15,7 +15,7 @@ class Network:
     """Bytes a second are what is left for messages: 7% to 12% of the bits are headers."""
 
     name: str
-    kind: str  # shared: one medium for all; switched: a line for each machine, both ways
+    kind: str  # shared: one medium for all; switched: a line for each machine, in both directions
     bytes_per_second: float
     latency_seconds: float
 
@@ -30,7 +30,7 @@ class Network:
 
 @dataclass(frozen=True)
 class Messages:
-    """What messages take of the processor, of the sender's and of the receiver's."""
+    """Processor time that messages cost the sender and the receiver."""
 
     message_seconds: float
     byte_seconds: float
@@ -45,7 +45,7 @@ class Messages:
         ]
 
     def times(self, factor: float) -> Messages:
-        """So many times as much."""
+        """The costs multiplied by a factor."""
         return Messages(
             self.message_seconds * factor, self.byte_seconds * factor, self.look_seconds * factor
         )
@@ -79,7 +79,7 @@ class Recorded:
 
 @dataclass(frozen=True)
 class Slowness:
-    """So many times as long as on the recording machine."""
+    """Factors over the times of the recording machine."""
 
     build: float
     walk: float

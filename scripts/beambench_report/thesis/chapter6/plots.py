@@ -6,15 +6,11 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
-from beambench_report.base.figure import PAGE_WIDTH, Plot, new_figure
+from beambench_report.base.figure import DASHES, LINE_COLORS, MARKERS, PAGE_WIDTH, Plot, new_figure
 from beambench_report.thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS
 from beambench_report.thesis.chapter6.simulate import OLD, OPTIONS, STATIONS, TODAY
 from beambench_report.thesis.paper.evidence import published_evidence
 
-# Of Okabe and Ito, as in style.py; there they stand for structures.
-_COLORS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
-_MARKERS = "osD^vP*"
-_DASHES = ("-", "--", "-.", ":")
 IDEAL = {"color": "#777777", "linewidth": 0.8, "linestyle": (0, (1, 2)), "zorder": 1}
 
 
@@ -107,15 +103,15 @@ def _balance(thesis: pd.DataFrame, processes: pd.DataFrame) -> Plot | None:
         consumers = members[members["role"].eq("consumer")]
         beams, times = panels[column], panels[column + len(rows)]
         # Points and no bars: the differences are a small part of the whole.
-        beams.plot(consumers["process"], consumers["tasks"], "o", color=_COLORS[0])
+        beams.plot(consumers["process"], consumers["tasks"], "o", color=LINE_COLORS[0])
         times.plot(
-            consumers["process"], consumers["busy_seconds"], "o", color=_COLORS[0], label="busy"
+            consumers["process"], consumers["busy_seconds"], "o", color=LINE_COLORS[0], label="busy"
         )
         times.plot(
             consumers["process"],
             consumers["last_seconds"],
             "_",
-            color=_COLORS[1],
+            color=LINE_COLORS[1],
             markersize=9,
             label="end of the last beam",
         )
@@ -179,9 +175,9 @@ def _option_lines(rows: pd.DataFrame, usual: str) -> Sequence[tuple[tuple[str, s
 def line_look(index: int) -> dict[str, object]:
     """Of the line of that number: distinguished by color, marker and dashes."""
     return {
-        "color": _COLORS[index % len(_COLORS)],
-        "marker": _MARKERS[index % len(_MARKERS)],
-        "linestyle": _DASHES[index % len(_DASHES)],
+        "color": LINE_COLORS[index % len(LINE_COLORS)],
+        "marker": MARKERS[index % 7],
+        "linestyle": DASHES[index % len(DASHES)],
         "markersize": 3.5,
         "linewidth": 1.2,
     }

@@ -1,4 +1,4 @@
-"""The MPI program on this machine: what every task takes in one process, and times of several."""
+"""The MPI program on this machine: costs of each task in one process, and times of several."""
 
 import json
 import os
@@ -125,7 +125,7 @@ def measure(folder: Path, program: Path, pictures: list[Picture], repeats: int) 
             runs = [_run_mpi(program, picture, processes, options) for _ in range(repeats)]
             hashes |= {run["result_hash"] for run in runs}
             first, seconds = runs[0], [run["seconds"] for run in runs]
-            ways = {f"{way}_producer": first[f"{way}_producer"] for way in ("from", "to")}
+            traffic = {f"{end}_producer": first[f"{end}_producer"] for end in ("from", "to")}
             rows.append(
                 {
                     "scene": picture.scene,
@@ -145,8 +145,8 @@ def measure(folder: Path, program: Path, pictures: list[Picture], repeats: int) 
                     "tasks_of_producer": first["each"][0]["tasks"],
                 }
                 | {
-                    f"{what}_{way}": sent[what]
-                    for way, sent in ways.items()
+                    f"{what}_{end}": sent[what]
+                    for end, sent in traffic.items()
                     for what in ("messages", "bytes")
                 }
             )

@@ -1,6 +1,6 @@
 """The page of the simulated cluster: Markdown with its figures beside it."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import pandas as pd
@@ -41,7 +41,7 @@ def write_report(folder: Path) -> list[Path]:
         [
             "# The thesis's cluster, simulated\n",
             "The MPI program itself runs, its producer, consumers and messages; machines and "
-            "network are SimGrid's, and what a beam takes was recorded.\n",
+            "network are SimGrid's, and what a beam costs was recorded.\n",
             _of_recording(recorded, slowness_of(recorded)),
             "## Figure 6.3: time, speed-up, efficiency\n",
             shown.get("figure-6.3", ""),
@@ -55,14 +55,14 @@ def write_report(folder: Path) -> list[Path]:
             _options(simulations, TODAY),
             "## Machines that are not equal\n",
             f"{STATIONS - 1} consumers. `every other one half as fast`: seven machines of half "
-            "the speed. `five used by others`: half of the time they have half of their speed "
+            "the speed. `five used by others`: half of the time only half of their speed is "
             "left.\n",
             _machines(simulations),
             "## What was assumed\n",
             "What messages cost the processor in 1999, halved and doubled; results as our own "
-            "program sends them, 8 bytes a sample, where the thesis sends pixels; and the thesis's "
-            "seconds that do not grow with the rays taken for walking alone, or for building "
-            "alone.\n",
+            "program sends them, 8 bytes per sample, where the thesis sends pixels; and the "
+            "thesis's seconds that do not grow with the rays taken for walking alone, or for "
+            "building alone.\n",
             _assumptions(simulations),
             *([split_section(split)] if split is not None else []),
             *([measured] if measured is not None else []),
@@ -134,14 +134,26 @@ def _by_consumers(
     counts: Sequence[int],
     cell: Callable[[pd.Series], str],
 ) -> str:
-    """A column for each number of consumers, a row for each scene and what stands in `by`."""
+    """A column for each number of consumers."""
+    heads = {n: f"{n} consumers" for n in counts}
+    return _pivot(title, rows, by, "consumers", heads, cell)
+
+
+def _pivot(
+    title: str,
+    rows: pd.DataFrame,
+    by: str,
+    across: str,
+    heads: Mapping[object, str],
+    cell: Callable[[pd.Series], str],
+) -> str:
+    """A row for each scene and value of `by`, a column for each of `heads`, values of `across`."""
     lines = []
     for (scene, which), group in rows.groupby(["scene", by], sort=False):
-        runs = group.drop_duplicates("consumers").set_index("consumers")
-        cells = (cell(runs.loc[n]) if n in runs.index else "" for n in counts)
+        runs = group.drop_duplicates(across).set_index(across)
+        cells = (cell(runs.loc[value]) if value in runs.index else "" for value in heads)
         lines.append((scene, which, *cells))
-    heads = ["scene", by, *(f"{n} consumers" for n in counts)]
-    return "\n".join([f"{title}\n", *markdown_table(heads, lines), ""])
+    return "\n".join([f"{title}\n", *markdown_table(["scene", by, *heads.values()], lines), ""])
 
 
 def _machines(simulations: pd.DataFrame) -> str:
@@ -166,11 +178,6 @@ def _assumptions(simulations: pd.DataFrame) -> str:
 
 
 def _seconds(rows: pd.DataFrame, by: str, quantity: str = "seconds") -> str:
-    options = list(dict.fromkeys(rows["options"]))
-    lines = []
-    for (scene, place), group in rows.groupby(["scene", by], sort=False):
-        found = group.drop_duplicates("options").set_index("options")[quantity]
-        cells = (number(found[each]) if each in found.index else "" for each in options)
-        lines.append((scene, place, *cells))
-    heads = ["scene", by, *options]
-    return "\n".join([f"{quantity.capitalize()}:\n", *markdown_table(heads, lines), ""])
+    heads = {options: options for options in rows["options"]}
+    title = f"{quantity.capitalize()}:"
+    return _pivot(title, rows, by, "options", heads, lambda run: number(run[quantity]))

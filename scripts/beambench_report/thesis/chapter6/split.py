@@ -6,7 +6,7 @@ time: medians of several runs are kept. Machines of 1999 are those of the other 
 """
 
 import sys
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
@@ -50,37 +50,32 @@ SCENES = (
 _CLUSTERS = {OLD: (SWITCHED, MESSAGES_OF_1999), TODAY: (MODERN, MESSAGES_OF_TODAY)}
 
 
-@dataclass(frozen=True)
-class SplitRow:
-    """One simulated run, the median of several; a column of the table for each field."""
-
-    era: str
-    scene: str
-    structure: str
-    resolution: str
-    processes: int
-    traced_seconds: float
-    """Simulated: since the last process was ready, to the picture."""
-    speed_up: float
-    """Of tracing. Building is short and measured once a process: of many, the longest is chance."""
-    efficiency: float
-    balance: float
-    """What a process is busy tracing on average, of what the busiest is."""
-    build_seconds: float
-    """To divide the scene and build a part: the processes' median, of this machine's processor."""
-    walk_cpu_seconds: float
-    """This and the next are sums over all processes, of this machine's processor."""
-    test_cpu_seconds: float
-    take_cpu_seconds: float
-    messages: int
-    bytes: int
-    beams_handed: int
-    rays_handed: int
-    primitives: int
-    largest_primitives: int
-    largest_bytes: int
-    """Scene and octree of the largest part."""
-    result_hash: str
+# The table: a row for each simulated run, the median of several. Seconds of the processor are this
+# machine's, sums over all processes.
+_COLUMNS = (
+    "era",
+    "scene",
+    "structure",
+    "resolution",
+    "processes",
+    "traced_seconds",  # simulated: since the last process was ready, to the picture
+    # Of tracing. Building is short and measured once a process: of many, the longest is chance.
+    "speed_up",
+    "efficiency",
+    "balance",  # what a process is busy tracing on average, of what the busiest is
+    "build_seconds",  # to divide the scene and build a part: the processes' median
+    "walk_cpu_seconds",
+    "test_cpu_seconds",
+    "take_cpu_seconds",
+    "messages",
+    "bytes",
+    "beams_handed",
+    "rays_handed",
+    "primitives",
+    "largest_primitives",
+    "largest_bytes",  # scene and octree of the largest part
+    "result_hash",
+)
 
 
 def simulate_split(
@@ -93,7 +88,7 @@ def simulate_split(
     """
     cache = ResultCache(folder / "split-answers.jsonl")
     slow_by_era = {OLD: slowness_of(read_recorded(folder)), TODAY: NONE}
-    rows: list[SplitRow] = []
+    rows: list[dict[str, object]] = []
     for era, slow in slow_by_era.items():
         for divided in SCENES:
             results = []
@@ -111,7 +106,7 @@ def simulate_split(
             rows += [_row(era, divided, resolution, result, results[0]) for result in results]
     print(file=sys.stderr)
     _require_one_picture(rows)
-    table = pd.DataFrame(rows, columns=[each.name for each in fields(SplitRow)])
+    table = pd.DataFrame(rows, columns=list(_COLUMNS))
     return [write_rows(folder / SPLIT, table)]
 
 
@@ -122,7 +117,7 @@ def read_split(folder: Path) -> pd.DataFrame | None:
         return None
     remedy = "write it with: python -m beambench_report cluster split DIR"
     types = {"era": str, "result_hash": str}
-    return read_table(path, [each.name for each in fields(SplitRow)], remedy, types)
+    return read_table(path, _COLUMNS, remedy, types)
 
 
 def _arguments(
@@ -148,42 +143,44 @@ def _total(result: dict, quantity: str) -> float:
     return sum(process[quantity] for process in result["processes"])
 
 
-def _row(era: str, divided: Divided, resolution: str, result: dict, alone: dict) -> SplitRow:
+def _row(
+    era: str, divided: Divided, resolution: str, result: dict, alone: dict
+) -> dict[str, object]:
     processes = result["processes"]
     speed_up = alone["traced_seconds"] / result["traced_seconds"]
     busiest = max(process["busy"] for process in processes)
-    return SplitRow(
-        era=era,
-        scene=divided.scene,
-        structure=divided.structure,
-        resolution=resolution,
-        processes=len(processes),
-        traced_seconds=result["traced_seconds"],
-        speed_up=speed_up,
-        efficiency=speed_up / len(processes),
-        balance=_total(result, "busy") / len(processes) / busiest,
-        build_seconds=median(process["build_seconds"] for process in processes),
-        walk_cpu_seconds=_total(result, "walk_seconds"),
-        test_cpu_seconds=_total(result, "test_seconds"),
-        take_cpu_seconds=_total(result, "take_seconds"),
-        messages=int(_total(result, "messages_out")),
-        bytes=int(_total(result, "bytes_out")),
-        beams_handed=int(_total(result, "beams_out")),
-        rays_handed=int(_total(result, "rays_out")),
-        primitives=result["primitives"],
-        largest_primitives=max(process["primitives"] for process in processes),
-        largest_bytes=max(process["bytes"] for process in processes),
-        result_hash=result["result_hash"],
-    )
+    return {
+        "era": era,
+        "scene": divided.scene,
+        "structure": divided.structure,
+        "resolution": resolution,
+        "processes": len(processes),
+        "traced_seconds": result["traced_seconds"],
+        "speed_up": speed_up,
+        "efficiency": speed_up / len(processes),
+        "balance": _total(result, "busy") / len(processes) / busiest,
+        "build_seconds": median(process["build_seconds"] for process in processes),
+        "walk_cpu_seconds": _total(result, "walk_seconds"),
+        "test_cpu_seconds": _total(result, "test_seconds"),
+        "take_cpu_seconds": _total(result, "take_seconds"),
+        "messages": int(_total(result, "messages_out")),
+        "bytes": int(_total(result, "bytes_out")),
+        "beams_handed": int(_total(result, "beams_out")),
+        "rays_handed": int(_total(result, "rays_out")),
+        "primitives": result["primitives"],
+        "largest_primitives": max(process["primitives"] for process in processes),
+        "largest_bytes": max(process["bytes"] for process in processes),
+        "result_hash": result["result_hash"],
+    }
 
 
-def _require_one_picture(rows: list[SplitRow]) -> None:
+def _require_one_picture(rows: list[dict[str, object]]) -> None:
     pictures: dict[str, str] = {}
     for row in rows:
-        if pictures.setdefault(row.scene, row.result_hash) != row.result_hash:
+        if pictures.setdefault(row["scene"], row["result_hash"]) != row["result_hash"]:
             raise Problem(
-                f"{row.scene} in {row.processes} parts is another picture than the whole; that is "
-                "a fault of beambench"
+                f"{row['scene']} in {row['processes']} parts is another picture than the whole; "
+                "that is a fault of beambench"
             )
 
 
@@ -222,23 +219,23 @@ def split_plot(rows: pd.DataFrame) -> Plot:
 
 
 def split_section(rows: pd.DataFrame) -> str:
-    """What stands on the page, its figure among it."""
+    """Its section of the page, with the figure."""
     resolution = rows["resolution"].iloc[0]
     return "\n".join(
         [
             "## A divided scene\n",
             f"`--split {CELLS_LEVEL}`: each machine has the primitives in its share of the "
-            f"octree's {8 ** (CELLS_LEVEL - 1)} cells of that level; {resolution}, one sample a "
+            f"octree's {8 ** (CELLS_LEVEL - 1)} cells of that level; {resolution}, one sample per "
             "pixel. The scene is really traced while it is simulated, and every run gave the hits "
             "of one process, bit for bit. Times are from when all parts are "
             "built to the picture: tracing, and gathering what was found.\n",
             f"![{_SUMMARY}]({STEM}.png)\n",
             _speed_ups(rows),
             _costs(rows),
-            "Assumed: machines and messages of 1999, as above. Left out: to read the scene, the "
-            "same for all and only from the whole can parts be cut; two buffers of the image's "
-            "hits, 16 bytes per sample, which each process has beside its part; caches: here all "
-            "processes share one core's.\n",
+            "Assumed: machines and messages of 1999, as above. Left out: reading the scene, which "
+            "is the same for all, as parts can only be cut from the whole; two buffers of the "
+            "image's hits, 16 bytes per sample, which each process has beside its part; caches: "
+            "here all processes share one core's.\n",
         ]
     )
 

@@ -3,10 +3,12 @@
 Written and committed before the cluster was simulated for the first time. The thesis says of its
 network that it is an Ethernet, of its processors that there were 15, and not whether its `p` counts
 the producer's. Its efficiency rises with p at first, which it can only where the producer, who
-traces no beam of the consumers', is counted: so p is counted here. Each network that was simulated
-is judged.
+traces no beam of the consumers', is counted: so p is counted here. The rules are applied
+to each network that was simulated.
 """
 
+from collections.abc import Callable
+from functools import wraps
 from pathlib import Path
 
 import pandas as pd
@@ -18,7 +20,15 @@ from beambench_report.thesis.chapter6.results import (
     read_simulations,
 )
 from beambench_report.thesis.claims.comparisons import ratio_of
-from beambench_report.thesis.claims.verdict import Check, Claims, Outcome, aside, below, between
+from beambench_report.thesis.claims.verdict import (
+    Check,
+    Claims,
+    Outcome,
+    Rule,
+    aside,
+    below,
+    between,
+)
 from beambench_report.thesis.paper.evidence import FIGURES, ClusterEvidence, Evidence, Measured
 
 CLUSTER_CLAIMS = Claims()
@@ -26,10 +36,15 @@ CLUSTER_CLAIMS = Claims()
 _BOTH = _CAT, _TOWER = "gato-bill", "torre-eiffel"
 
 
-def _on_each_network(e: Evidence, checks: list[list[Check]]) -> list[Check]:
+def _on_each_network(rule: Callable[[Evidence, str], list[Check]]) -> Rule:
     """The checks of all networks; one that is missing where there is no network at all."""
-    nothing = Check("a cluster of 15 processors", Outcome.MISSING)
-    return [check for each in checks for check in each] if e.cluster.networks else [nothing]
+
+    @wraps(rule)
+    def on_all(e: Evidence) -> list[Check]:
+        nothing = [Check("a cluster of 15 processors", Outcome.MISSING)]
+        return [check for network in e.cluster.networks for check in rule(e, network)] or nothing
+
+    return on_all
 
 
 @CLUSTER_CLAIMS.claim(
@@ -39,38 +54,35 @@ def _on_each_network(e: Evidence, checks: list[list[Check]]) -> list[Check]:
     "torre-eiffel (above 0.6), then falls.",
     is_figures=True,
 )
-def efficiency_rises_and_falls(e: Evidence) -> list[Check]:
+@_on_each_network
+def efficiency_rises_and_falls(e: Evidence, network: str) -> list[Check]:
     """Best at 9 to 13 and at 5 to 9 processors, 0.65 to 0.85 and above 0.6, less with all 15."""
-
-    def on(network: str) -> list[Check]:
-        best = {scene: e.cluster.figure("best_efficiency", scene, network) for scene in _BOTH}
-        processors = {scene: e.cluster.figure("best_processors", scene, network) for scene in _BOTH}
-        means = {scene: e.cluster.figure("mean_efficiency", scene, network) for scene in _BOTH}
-        return [
-            between(f"{_CAT}, {network}, best with", processors[_CAT], 9, 13, " processors"),
-            between(f"{_CAT}, {network}, best efficiency", best[_CAT], 0.65, 0.85),
-            between(f"{_TOWER}, {network}, best with", processors[_TOWER], 5, 9, " processors"),
+    best = {scene: e.cluster.figure("best_efficiency", scene, network) for scene in _BOTH}
+    processors = {scene: e.cluster.figure("best_processors", scene, network) for scene in _BOTH}
+    means = {scene: e.cluster.figure("mean_efficiency", scene, network) for scene in _BOTH}
+    return [
+        between(f"{_CAT}, {network}, best with", processors[_CAT], 9, 13, " processors"),
+        between(f"{_CAT}, {network}, best efficiency", best[_CAT], 0.65, 0.85),
+        between(f"{_TOWER}, {network}, best with", processors[_TOWER], 5, 9, " processors"),
+        below(
+            f"{_TOWER}, {network}, best efficiency above 0.6",
+            Measured.exact(0.6),
+            best[_TOWER],
+        ),
+        below(f"{network}, best of {_TOWER} below that of {_CAT}", best[_TOWER], best[_CAT]),
+        *(
             below(
-                f"{_TOWER}, {network}, best efficiency above 0.6",
-                Measured.exact(0.6),
-                best[_TOWER],
-            ),
-            below(f"{network}, best of {_TOWER} below that of {_CAT}", best[_TOWER], best[_CAT]),
-            *(
-                below(
-                    f"{scene}, {network}, less with 15 processors",
-                    e.cluster.figure("last_efficiency", scene, network),
-                    best[scene],
-                )
-                for scene in _BOTH
-            ),
-            *(
-                aside(between(f"{scene}, {network}, mean", means[scene], mean - 0.1, mean + 0.1))
-                for scene, mean in ((_CAT, 0.75), (_TOWER, 0.65))
-            ),
-        ]
-
-    return _on_each_network(e, [on(network) for network in e.cluster.networks])
+                f"{scene}, {network}, less with 15 processors",
+                e.cluster.figure("last_efficiency", scene, network),
+                best[scene],
+            )
+            for scene in _BOTH
+        ),
+        *(
+            aside(between(f"{scene}, {network}, mean", means[scene], mean - 0.1, mean + 0.1))
+            for scene, mean in ((_CAT, 0.75), (_TOWER, 0.65))
+        ),
+    ]
 
 
 @CLUSTER_CLAIMS.claim(
@@ -79,28 +91,20 @@ def efficiency_rises_and_falls(e: Evidence) -> list[Check]:
     "Dynamic balancing: consumers get different numbers of beams and finish at nearly the same "
     "time.",
 )
-def balanced_by_demand(e: Evidence) -> list[Check]:
+@_on_each_network
+def balanced_by_demand(e: Evidence, network: str) -> list[Check]:
     """With 14 consumers: most beams 1.1 times the fewest; first end at 0.95 of the last."""
-
-    def on(network: str, scene: str) -> list[Check]:
-        figure = {
-            name: e.cluster.figure(name, scene, network)
+    checks = []
+    for scene in _BOTH:
+        fewest, most, first, last = (
+            e.cluster.figure(name, scene, network)
             for name in ("fewest_beams", "most_beams", "first_end", "last_end")
-        }
-        ends = ratio_of(figure["first_end"], figure["last_end"])
-        return [
-            below(
-                f"{scene}, {network}, fewest beams below most, by 1.1",
-                figure["fewest_beams"],
-                figure["most_beams"],
-                1.1,
-            ),
-            between(f"{scene}, {network}, first end over last", ends, 0.95, 1),
-        ]
-
-    return _on_each_network(
-        e, [on(network, scene) for network in e.cluster.networks for scene in _BOTH]
-    )
+        )
+        cell = f"{scene}, {network}, fewest beams below most, by 1.1"
+        checks.append(below(cell, fewest, most, 1.1))
+        cell = f"{scene}, {network}, first end over last"
+        checks.append(between(cell, ratio_of(first, last), 0.95, 1))
+    return checks
 
 
 @CLUSTER_CLAIMS.claim(
@@ -108,24 +112,22 @@ def balanced_by_demand(e: Evidence) -> list[Check]:
     "6.3",
     "The producer becomes the bottleneck first in the scene that makes more beams (torre-eiffel).",
 )
-def producer_saturates_first(e: Evidence) -> list[Check]:
+@_on_each_network
+def producer_saturates_first(e: Evidence, network: str) -> list[Check]:
     """torre-eiffel has more beams, a busier producer with 14 consumers, and needs fewer for 90%."""
 
-    def on(network: str) -> list[Check]:
-        def compared(cell: str, quantity: str, less: str, more: str) -> Check:
-            return below(
-                f"{network}, {cell}",
-                e.cluster.figure(quantity, less, network),
-                e.cluster.figure(quantity, more, network),
-            )
+    def compared(cell: str, quantity: str, less: str, more: str) -> Check:
+        return below(
+            f"{network}, {cell}",
+            e.cluster.figure(quantity, less, network),
+            e.cluster.figure(quantity, more, network),
+        )
 
-        return [
-            compared(f"beams of {_CAT} below {_TOWER}'s", "beams", _CAT, _TOWER),
-            compared("producer busy, with 14 consumers", "producer_busy", _CAT, _TOWER),
-            compared("consumers that saturate it", "consumers_that_saturate", _TOWER, _CAT),
-        ]
-
-    return _on_each_network(e, [on(network) for network in e.cluster.networks])
+    return [
+        compared(f"beams of {_CAT} below {_TOWER}'s", "beams", _CAT, _TOWER),
+        compared("producer busy, with 14 consumers", "producer_busy", _CAT, _TOWER),
+        compared("consumers that saturate it", "consumers_that_saturate", _TOWER, _CAT),
+    ]
 
 
 STATIONS = 15

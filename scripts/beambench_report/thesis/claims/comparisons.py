@@ -129,7 +129,7 @@ def difference(more: Measured | None, less: Measured | None) -> Measured | None:
 
 
 def most(cell: str, shares: dict[str, Measured | None], bound: float, of: int) -> Check:
-    """Do more than half of them exceed the bound, whichever way the undecided ones fall?"""
+    """Do more than half of them exceed the bound, whatever the undecided ones turn out to be?"""
     known = {scene: share for scene, share in shares.items() if share is not None}
     figures = ", ".join(f"{scene} {share.value:.0%}" for scene, share in known.items())
     if len(known) < of or not known:

@@ -3,13 +3,14 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
+from functools import partial
 
 from beambench_report.base.quantities import number
 from beambench_report.thesis.paper.evidence import Evidence, Measured
 
 
 class Outcome(Enum):
-    """What one cell says of the claim."""
+    """Whether one cell supports the claim."""
 
     YES = "yes"
     NO = "no"
@@ -18,7 +19,7 @@ class Outcome(Enum):
 
 
 class Verdict(Enum):
-    """What all cells say of it."""
+    """The outcome of all cells together."""
 
     HOLDS = "holds"
     IN_PART = "holds in part"
@@ -29,7 +30,7 @@ class Verdict(Enum):
 
 @dataclass(frozen=True)
 class Check:
-    """One cell of a claim: where, what it says, and the figures it says it by."""
+    """One cell of a claim: where, its outcome, and the figures behind it."""
 
     cell: str
     outcome: Outcome
@@ -78,8 +79,8 @@ def aside(check: Check) -> Check:
 def verdict_of(checks: Sequence[Check]) -> Verdict:
     """One verdict of all cells.
 
-    With a cell missing the claim is not tested. Undecided cells may fall either way: the verdict
-    stands if it is the same whichever way they fall.
+    With a cell missing the claim is not tested. Undecided cells may be yes or no: the verdict
+    stands if it is the same in either case.
     """
     outcomes = {check.outcome for check in checks if not check.aside}
     if not outcomes or Outcome.MISSING in outcomes:
@@ -132,12 +133,19 @@ class Claims(list[Claim]):
         says: str,
         *,
         is_figures: bool = False,
-        amended: Amendment | None = None,
+        former: Rule | dict[str, str] | None = None,
+        why: str = "",
     ) -> Callable[[Rule], Rule]:
-        """Decorates the rule of a claim."""
+        """Decorates the rule of a claim.
+
+        `former` is the rule before the amendment, or the arguments that make it of the present one;
+        `why` it was amended.
+        """
 
         def register(rule: Rule) -> Rule:
-            self.append(Claim(name, where, says, rule, is_figures, amended))
+            before = partial(rule, **former) if isinstance(former, dict) else former
+            amendment = Amendment(before, why) if before else None
+            self.append(Claim(name, where, says, rule, is_figures, amendment))
             return rule
 
         return register

@@ -42,9 +42,9 @@ class Cell:
     verdict: str
     repetitions: int
     setting: Setting | None
-    """What the thesis would call it; nothing where its parameters are none of the thesis's."""
+    """Its setting in the thesis; None where the thesis has no such parameters."""
     time: Measured | None
-    """Seconds, the building included; nothing where the verdict took the times away."""
+    """Seconds, building included; None where the hits are not correct."""
     build: float
     """Seconds, too."""
     trace: float
@@ -184,7 +184,7 @@ def _cell(number: int, run: str, line: int, row: dict) -> Cell:
 
 
 def _known(row: dict, name: str) -> float:
-    """What the row says; not a number where it says nothing."""
+    """A figure of the row; NaN where it is missing."""
     return float(row.get(name, float("nan")))
 
 

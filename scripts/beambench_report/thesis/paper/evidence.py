@@ -1,4 +1,4 @@
-"""The tidy tables that rules judge: the same for the thesis's figures and for a run's."""
+"""The tidy tables that rules are applied to: the same for the thesis's figures and for a run's."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ class ClusterEvidence:
 
     @property
     def networks(self) -> list[str]:
-        """Those that something is known of."""
+        """Those with figures."""
         return list(dict.fromkeys(self.figures["network"]))
 
     def figure(self, quantity: str, scene: str, network: str) -> Measured | None:
@@ -157,7 +157,11 @@ class Evidence:
         """Seconds of one cell, by the thesis's parameters if not given."""
         level, objects = (level, objects) if contender in ON_OCTREES else (0, 0)
         cells = cells if contender == "voxel-grid" else 0
-        return self._times.get((scene, contender, level, objects, cells, resolution, samples))
+        return self.at((scene, contender, level, objects, cells, resolution, samples))
+
+    def at(self, setting: tuple[str | int, ...]) -> Measured | None:
+        """Seconds of one cell by its setting, in the order of SETTING."""
+        return self._times.get(setting)
 
     def times_by(
         self, setting: str, scene: str, contender: str, resolution: str = FINEST

@@ -2,8 +2,10 @@
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 
-from beambench_report.base.figure import Plot
+from beambench_report.base.figure import Plot, house_style, write_plot
+from beambench_report.base.files import write_text
 from beambench_report.base.quantities import markdown_table
 from beambench_report.thesis.paper.cells import Cell
 
@@ -70,6 +72,16 @@ def section_table(
     columns = (*(Column(text, False) for text in words), *(Column(text) for text in figures))
     fields = (tuple(Field(x) if isinstance(x, str) else x for x in row) for row in rows)
     return SectionTable(title, columns, tuple(fields), is_long)
+
+
+def write_section(section: Section, file: Path, **options: object) -> list[Path]:
+    """Writes the section as FILE.md of its own, its plots beside it."""
+    text = section_as_markdown(section, level=1, folder="", **options)
+    paths = [write_text(file, text)]
+    with house_style():
+        for figure in section.figures:
+            paths += write_plot(figure.draw(), file.parent)
+    return paths
 
 
 Origin = Callable[[Cell], str]

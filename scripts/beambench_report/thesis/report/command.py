@@ -1,11 +1,10 @@
 """The command `python -m beambench_report thesis`, which scripts/thesis calls."""
 
 import argparse
-import sys
 from datetime import UTC, datetime
 from pathlib import Path
 
-from beambench_report.base.files import ROOT, Problem
+from beambench_report.base.files import ROOT, Problem, say
 from beambench_report.thesis.chapter5.facts import gather_facts
 from beambench_report.thesis.report.plan import Plan, add_levels, keep_plan, make_plan, read_plan
 from beambench_report.thesis.report.runner import describe, run_sweeps
@@ -62,21 +61,21 @@ def thesis(options: argparse.Namespace) -> int:
     if not options.report_only:
         outcome = run_sweeps(plan, directory, options.beambench)
         if outcome.interrupted:
-            _say(f"interrupted; resume with: scripts/thesis --resume '{directory}'")
+            say(f"interrupted; resume with: scripts/thesis --resume '{directory}'")
             return outcome.exit_code
         for name in outcome.not_made:
-            _say(f"the sweep '{name}' could not be run (see above); the report leaves it out")
+            say(f"the sweep '{name}' could not be run (see above); the report leaves it out")
         code = outcome.exit_code
         if plan.is_everything:
             for sentence in gather_facts(directory, options.beambench):
-                _say(f"{sentence}; the report leaves it out")
+                say(f"{sentence}; the report leaves it out")
     report = write_report(directory, plan, options.beambench)
     if report.wrong and not code:
         code = 1
     if report.wrong:
-        _say(f"{report.wrong} of {report.cells} cells have no times: wrong hits")
+        say(f"{report.wrong} of {report.cells} cells have no times: wrong hits")
     if report.notice:
-        _say(report.notice)
+        say(report.notice)
     for path in report.paths:
         print(path)
     return code
@@ -100,7 +99,3 @@ def _request(options: argparse.Namespace) -> tuple[Plan, Path]:
         )
     plan = read_plan(options.resume)
     return add_levels(plan) if options.levels else plan, options.resume
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)

@@ -35,7 +35,7 @@ class Side:
     lines: tuple[Points, ...]
     title: str
     nothing: str = ""
-    """What to say where there are no lines."""
+    """The text where there are no lines."""
 
 
 @dataclass(frozen=True)
@@ -73,7 +73,7 @@ class FigureData:
 
 
 def draw(data: FigureData) -> Plot:
-    """The figure; a row a panel."""
+    """The figure, one row per panel."""
     names = _names(data)
     columns = max(1, min(len(names), _LEGEND_COLUMNS // (4 + max(map(len, names), default=1))))
     legend = _LEGEND_HEIGHT * (1 + len(names) // columns)
@@ -141,29 +141,21 @@ def _draw_side(axis: Axes, side: Side) -> None:
         )
 
 
-def _ends(data: FigureData) -> tuple[float, float]:
-    """Of the horizontal axis: the same whatever was measured."""
-    first, last = data.ticks[0], data.ticks[-1]
-    if data.is_log_across:
-        return first / _MARGIN, last * _MARGIN
-    more = (_MARGIN - 1) * (last - first)
-    return first - more, last + more
-
-
 def _label(axis: Axes, data: FigureData, *, is_last: bool) -> None:
     if data.is_log:
         axis.set_yscale("log")
         axis.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
-        axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
         axis.yaxis.set_minor_formatter(NullFormatter())
-    else:
-        axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
+    axis.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
     if data.is_log_across:
         axis.set_xscale("log")
     if data.ticks:
         axis.set_xticks(data.ticks, [f"{tick:g}" for tick in data.ticks])
         axis.xaxis.set_minor_locator(NullLocator())
-        axis.set_xlim(*_ends(data))
+        first, last = data.ticks[0], data.ticks[-1]  # the same whatever was measured
+        more = (_MARGIN - 1) * (last - first)
+        log_ends = (first / _MARGIN, last * _MARGIN)
+        axis.set_xlim(*(log_ends if data.is_log_across else (first - more, last + more)))
     axis.tick_params(labelsize=8)
     axis.title.set_fontsize(8.5)
     axis.grid(axis="y", which="major", color="#dddddd", linewidth=0.6)

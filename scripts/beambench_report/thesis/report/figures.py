@@ -5,7 +5,13 @@ from collections.abc import Callable, Iterable, Sequence
 from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS, rays
 from beambench_report.base.quantities import number
 from beambench_report.thesis.paper.cells import Cell, Cells, Setting, setting
-from beambench_report.thesis.paper.evidence import CELLS, SETTING, Measured, published_evidence
+from beambench_report.thesis.paper.evidence import (
+    CELLS,
+    ON_OCTREES,
+    SETTING,
+    Measured,
+    published_evidence,
+)
 from beambench_report.thesis.paper.printed import (
     PrintedPart,
     contender_title,
@@ -30,20 +36,8 @@ def measured(cells: Cells, keys: Iterable[Setting]) -> Line:
 
 def seconds_printed(keys: Iterable[Setting]) -> Line:
     """The thesis's seconds, where some table has them."""
-    line = []
-    for scene, contender, level, objects, cells, resolution, samples in keys:
-        told = published_evidence().time(
-            scene,
-            contender,
-            resolution,
-            level=level,
-            objects=objects,
-            cells=cells,
-            samples=samples,
-        )
-        if told:
-            line.append((rays(resolution) / 1e4, told))
-    return line
+    found = ((key, published_evidence().at(key)) for key in keys)
+    return [(place(key), seconds) for key, seconds in found if seconds]
 
 
 def place(key: Setting) -> float:
@@ -56,7 +50,6 @@ def over(line: Sequence[tuple[float, Measured]], base: float) -> Line:
     return [(at, figure.times(1 / base)) for at, figure in line]
 
 
-_ON_OCTREES = ("beam", "samet", "samet-net")
 _BEST_GRIDS = {"ajedrez": 15, "flamenco": 13}
 _LEVEL, _CELLS = SETTING.index("level"), SETTING.index("cells")
 
@@ -68,7 +61,7 @@ def figure_5_14(cells: Cells) -> FigureData:
             f"({letter}) {scene_title(scene)}",
             "time (ms)",
             *(
-                Side(_over(cells, scene, _ON_OCTREES, resolution, _LEVEL), f"ours, {resolution}")
+                Side(_over(cells, scene, ON_OCTREES, resolution, _LEVEL), f"ours, {resolution}")
                 for resolution in (COARSEST, FINEST)
             ),
         )
@@ -137,23 +130,24 @@ def figure_5_18(cells: Cells) -> FigureData:
     panels = []
     for letter, scene in (("a", "ajedrez"), ("b", "flamenco")):
         beam = [setting(scene, "beam", at, level=6) for at in RESOLUTIONS]
-        told, own = seconds_printed(beam), measured(cells, beam)
+        printed, own = seconds_printed(beam), measured(cells, beam)
+        origin = printed[0][1].value
         first = cells.at(beam[0])
         base = first.time.value if first and first.time else None
         ours = []
         if base:
             ours = [Points(contender_title("beam"), "beam", 0, over(own, base))]
             ours += _grids_over_rays(cells, scene, base)
-        thesis_grid = over(seconds_printed(_grid(scene, CELLS)), told[0][1].value)
+        thesis_grid = over(seconds_printed(_grid(scene, CELLS)), origin)
         left = (
-            Points(contender_title("beam"), "beam", 0, over(told, told[0][1].value)),
+            Points(contender_title("beam"), "beam", 0, over(printed, origin)),
             Points("grid, 32 cells per axis", "voxel-grid", 0, thesis_grid),
         )
         panels.append(
             Panel(
                 f"({letter}) {scene_title(scene)}",
                 "time (1: beams, 320x200)",
-                Side(left, f"thesis (1 = {told[0][1].value:g} s)"),
+                Side(left, f"thesis (1 = {origin:g} s)"),
                 Side(tuple(ours), f"ours (1 = {number(1e3 * base)} ms)" if base else "ours"),
             )
         )
@@ -238,9 +232,9 @@ def _printed_grid(scene: str, resolution: str) -> float:
 
 
 def _printed_at_six(scene: str) -> str:
-    times = ((name, published_evidence().time(scene, name)) for name in _ON_OCTREES)
-    told = ", ".join(f"{contender_title(name)} {time.value:g} s" for name, time in times if time)
-    return f"{scene_title(scene)} {told}"
+    times = ((name, published_evidence().time(scene, name)) for name in ON_OCTREES)
+    seconds = (f"{contender_title(name)} {time.value:g} s" for name, time in times if time)
+    return f"{scene_title(scene)} {', '.join(seconds)}"
 
 
 _LOST = "the thesis's points are lost"
@@ -279,8 +273,8 @@ def _table_panel(part: PrintedPart, cells: Cells) -> Panel:
     thesis, ours, seen = [], [], {}
     for row in part.rows:
         variant = seen[row.structure] = seen.get(row.structure, -1) + 1
-        told = [(rays(at) / 1e4, Measured.exact(s / part.base)) for at, s in row.seconds.items()]
-        thesis.append(Points(row.label, row.structure, variant, told))
+        printed = [(rays(at) / 1e4, Measured.exact(s / part.base)) for at, s in row.seconds.items()]
+        thesis.append(Points(row.label, row.structure, variant, printed))
         own = measured(cells, (row.setting(part.scene, at) for at in RESOLUTIONS))
         if base and own:
             ours.append(Points(row.label, row.structure, variant, over(own, base.value)))
@@ -295,18 +289,18 @@ def _table_panel(part: PrintedPart, cells: Cells) -> Panel:
 
 def _caption_of(parts: Sequence[PrintedPart]) -> str:
     """What the thesis's table says from the coarsest to the finest resolution."""
-    told = []
+    texts = []
     for part in parts:
         rows = (
             f"{row.label} {row.seconds[COARSEST]:g} to {row.seconds[FINEST]:g} s"
             for row in part.rows
         )
-        told.append(f"{part.title} {', '.join(rows)}")
-    return f"Thesis, 320x200 to 1280x1024: {'; '.join(told)}."
+        texts.append(f"{part.title} {', '.join(rows)}")
+    return f"Thesis, 320x200 to 1280x1024: {'; '.join(texts)}."
 
 
 def _of_scenes(figure: str, title: str, scenes: tuple[str, ...]) -> Callable[[Cells], FigureData]:
-    """A figure of the beams' time (a) and of its increase over 320x200 (b), a line a scene."""
+    """A figure of the beams' time (a) and of its increase over 320x200 (b), by scene."""
 
     def make(cells: Cells) -> FigureData:
         thesis = {scene: _printed_beams(scene) for scene in scenes}
@@ -368,9 +362,7 @@ def _printed_beams(scene: str) -> list[tuple[float, Measured]]:
 
 
 def _measured_beams(cells: Cells, scene: str, samples: int) -> list[tuple[float, Measured]]:
-    keys: list[Setting] = [
-        setting(scene, "beam", at, level=6, samples=samples) for at in RESOLUTIONS
-    ]
+    keys = [setting(scene, "beam", at, level=6, samples=samples) for at in RESOLUTIONS]
     points = measured(cells, keys)
     return points if cells.at(keys[0]) and cells.at(keys[0]).time else []
 
@@ -402,16 +394,16 @@ def _lines(lines: dict) -> tuple[Points, ...]:
 
 
 def _caption_of_scenes(thesis: dict) -> str:
-    told = []
+    texts = []
     for scene, points in thesis.items():
         if points:
             low, high = points[0][1].value, points[-1][1].value
             more = f"+{100 * (high / low - 1):.0f}%"
-            told.append(f"{scene_title(scene)} {low:g} to {high:g} s ({more})")
+            texts.append(f"{scene_title(scene)} {low:g} to {high:g} s ({more})")
     lost = [scene_title(scene) for scene, points in thesis.items() if not points]
     without = f" Its points for {' and '.join(lost)} are lost." if lost else ""
     return (
-        f"The beams at level 6. Thesis, 320x200 to 1280x1024: {'; '.join(told)}.{without} Both "
+        f"The beams at level 6. Thesis, 320x200 to 1280x1024: {'; '.join(texts)}.{without} Both "
         "axes of (a) are multiples of one scene's time at 320x200; bars are intervals."
     )
 

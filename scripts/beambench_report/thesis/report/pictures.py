@@ -1,6 +1,5 @@
 """Figures 5.4, 5.5 and 5.9: octrees of several scenes and divisions, drawn by beambench."""
 
-import subprocess
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -9,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 from beambench_report.base.figure import PAGE_WIDTH
-from beambench_report.base.files import write_whole
+from beambench_report.base.files import Problem, output_of, write_whole
 from beambench_report.thesis.paper.printed import scene_title
 
 _SIZE = "480x384"
@@ -109,12 +108,10 @@ def _render(division: Division, path: Path, beambench: Path) -> str:
     options = ["--accel", accel, "--overlay", "cells", "--resolution", _SIZE]
     command = [str(beambench), "render", division.scene, *options, "-o", str(path)]
     try:
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-    except OSError as error:
-        return f"{beambench} cannot be run: {error.strerror}"
-    if done.returncode == 0:
-        return ""
-    return (done.stderr.strip().splitlines() or [f"exit code {done.returncode}"])[-1]
+        output_of(command)
+    except Problem as problem:
+        return str(problem)
+    return ""
 
 
 def _sheet(pictures: dict[Division, Path]) -> Figure:

@@ -13,7 +13,7 @@ from beambench_report.base.published import rays
 
 @dataclass(frozen=True)
 class Table:
-    """A table of the thesis; in the `best` sweeps its contenders look for their own best."""
+    """A table of the thesis; in its `best` sweeps each contender's best parameters are sought."""
 
     number: str
     title: str
@@ -26,11 +26,8 @@ class Figure:
     """A figure of the thesis and the sweeps whose cells it draws."""
 
     number: str
-    title: str
     sweeps: tuple[str, ...]
 
-
-_OTHERS = ("others-small", "others-large")
 
 TABLES = (
     Table(
@@ -78,35 +75,21 @@ TABLES = (
 )
 
 FIGURES = (
-    Figure("5.4", "Octrees of Maceta by different criteria of division", ("division",)),
-    Figure("5.5", "Octrees of Delfines by different criteria of division", ("division",)),
-    Figure("5.6", "Total time by the objects that may lie in a leaf", ("division",)),
-    Figure("5.7", "Total time by the level of the octree", ("division",)),
-    Figure("5.8", "Time of the beams in Escena 1 and Escena 2", ("synthetic",)),
-    Figure(
-        "5.9",
-        "The octrees of Bola espacial, Caracol, Tetera and Torre Eiffel",
-        ("others-small", "quality"),
-    ),
-    Figure("5.10", "Time of the beams in four real scenes", ("others-small", "quality")),
-    Figure(
-        "5.11",
-        "Increase of the time with five samples per pixel",
-        ("others-small", "quality", "samples"),
-    ),
-    Figure("5.12", "Time in the scenes of table 5.4", ("synthetic",)),
-    Figure("5.13", "Time in the scenes of table 5.5", ("octree",)),
-    Figure(
-        "5.14", "Time by the level that each contender has", ("octree", "best-octree", "shallow")
-    ),
-    Figure("5.15", "Time in the scenes of table 5.6", ("synthetic",)),
-    Figure("5.16", "Time in the scenes of table 5.7", ("others-small",)),
-    Figure("5.17", "Time of the grid by its cells per axis", ("others-large", "best-others-large")),
-    Figure(
-        "5.18",
-        "Beams beside the grid at its best",
-        ("others-large", "best-others-large", "grids"),
-    ),
+    Figure("5.4", ("division",)),
+    Figure("5.5", ("division",)),
+    Figure("5.6", ("division",)),
+    Figure("5.7", ("division",)),
+    Figure("5.8", ("synthetic",)),
+    Figure("5.9", ("others-small", "quality")),
+    Figure("5.10", ("others-small", "quality")),
+    Figure("5.11", ("others-small", "quality", "samples")),
+    Figure("5.12", ("synthetic",)),
+    Figure("5.13", ("octree",)),
+    Figure("5.14", ("octree", "best-octree", "shallow")),
+    Figure("5.15", ("synthetic",)),
+    Figure("5.16", ("others-small",)),
+    Figure("5.17", ("others-large", "best-others-large")),
+    Figure("5.18", ("others-large", "best-others-large", "grids")),
 )
 
 # In the order in which they are run: what the thesis did first.
@@ -131,7 +114,7 @@ SWEEPS = (
 FOLDER = ROOT / "harness/bench/sweeps/thesis"
 
 LEVELS = "levels"
-"""The sweep that max_level=auto is judged by; its file lies in the folder above FOLDER."""
+"""The sweep that tests max_level=auto; its file lies in the folder above FOLDER."""
 
 _QUICK_RESOLUTIONS = ("320x200", "640x480")
 _QUICK_REPETITIONS = {"minimum": 1, "maximum": 3}
@@ -140,7 +123,7 @@ _QUICK_SECONDS_PER_CELL = 0.25
 
 @dataclass(frozen=True)
 class PlannedCell:
-    """A cell as a sweep asks for it: parameters that it does not name keep their defaults."""
+    """A cell as a sweep names it: parameters that are not named keep their defaults."""
 
     scene: str
     structure: str
@@ -158,16 +141,16 @@ class Sweep:
 
     @property
     def description(self) -> str:
-        """What the sweep says of itself."""
+        """The description in the sweep file."""
         return self.source.get("description", "")
 
     @property
     def budget_seconds(self) -> float:
-        """How long it may take; slow cells that have not their least repetitions may take more."""
+        """How long it may take; cells short of their minimum of repetitions may take more."""
         return self.source["budget_seconds"]
 
     def cells(self) -> list[PlannedCell]:
-        """Every cell, in no order that means anything."""
+        """Every cell, in no particular order."""
         contenders = list(dict.fromkeys(self._contenders()))
         views = product(
             self.source["scenes"], self.source["resolutions"], self.source.get("samples", [1])
@@ -180,7 +163,7 @@ class Sweep:
         ]
 
     def _is_excluded(self, scene: str, structure: str, resolution: str, samples: int) -> bool:
-        """By the conditions that the thesis's sweeps use; `primitives_above` is none of them."""
+        """By the conditions that the thesis's sweeps use: `primitives_above` is not among them."""
         own = {"scene": scene, "structure": structure}
         return any(
             all(entry.get(name, value) == value for name, value in own.items())
@@ -214,7 +197,7 @@ def read_sweep(name: str, folder: Path = FOLDER) -> Sweep:
 
 
 def quick(sweep: Sweep) -> Sweep | None:
-    """The sweep at its low resolutions, in little time; None if it has no low one."""
+    """The sweep at its low resolutions only, with a short budget; None if it has no low one."""
     resolutions = [size for size in sweep.source["resolutions"] if size in _QUICK_RESOLUTIONS]
     if not resolutions:
         return None
@@ -255,9 +238,9 @@ def make_plan(
     *,
     with_levels: bool = False,
 ) -> Plan:
-    """The sweeps for some tables and figures, or for all. Raises Problem for one there is not.
+    """The sweeps for some tables and figures, or for all. Raises Problem for an unknown one.
 
-    `with_levels` adds the sweep that max_level=auto is judged by.
+    `with_levels` adds the sweep that tests max_level=auto.
     """
     known_tables, known_figures = [t.number for t in TABLES], [f.number for f in FIGURES]
     _require_known("table", tables, known_tables)
@@ -280,7 +263,7 @@ def make_plan(
 
 
 def add_levels(plan: Plan, folder: Path | None = None) -> Plan:
-    """The same plan with the sweep that max_level=auto is judged by, if it was without."""
+    """The same plan with the sweep that tests max_level=auto, if it lacks it."""
     if any(sweep.name == LEVELS for sweep in plan.sweeps):
         return plan
     levels = read_sweep(LEVELS, (folder or FOLDER).parent)
@@ -300,7 +283,7 @@ def keep_plan(plan: Plan, directory: Path) -> None:
 
 
 def read_plan(directory: Path) -> Plan:
-    """Reads what `keep_plan` wrote. Raises Problem where that is not to be had."""
+    """Reads what `keep_plan` wrote. Raises Problem where that cannot be read."""
     path = directory / _PLAN
     try:
         source = json.loads(path.read_text("utf-8"))
@@ -321,7 +304,7 @@ def read_plan(directory: Path) -> Plan:
 
 
 def _figures_of(sweeps: Set[str]) -> list[str]:
-    """Those that some sweeps are enough for: they cost nothing more."""
+    """Those that need no other sweeps: they cost nothing more."""
     return [figure.number for figure in FIGURES if sweeps >= set(figure.sweeps)]
 
 

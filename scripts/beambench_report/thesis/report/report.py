@@ -82,7 +82,7 @@ class Report:
 
 
 def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report:
-    """Reads the runs; what was not measured is left out and reported."""
+    """Reads the runs; what was not measured is left out and listed."""
     sweeps = [*plan.sweeps, *_extra_sweeps(directory, plan)]
     every = read_cells(directory, (sweep.name for sweep in sweeps))
     # Tables, figures and claims have one sweep for each of their cells, and none of them is LEVELS.
@@ -184,7 +184,7 @@ def headline(report: Report) -> str:
     cells, wrong = len(report.cells.cells), len(report.cells.wrong)
     if not cells:
         return "Nothing was measured yet."
-    right = f"{wrong} of them wrong, and without times" if wrong else "all of them verified"
+    right = f"{wrong} of them wrong, and without times" if wrong else "all with correct hits"
     return f"{cells:,} cells in {len(report.cells.runs)} runs, {right}."
 
 

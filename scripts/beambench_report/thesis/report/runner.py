@@ -1,18 +1,15 @@
 """Runs the sweeps of a plan one after the other, each in a folder of its own."""
 
 import json
-import subprocess
-import sys
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from beambench_report.base.files import Problem, write_text
+from beambench_report.base.files import INTERRUPTED, run_in_foreground, say, write_text
 from beambench_report.base.quantities import duration_in_words
+from beambench_report.base.records import TIMED_VERDICTS
 from beambench_report.thesis.report.plan import Plan, Sweep
 
 _NOT_RIGHT = 1
-_INTERRUPTED = (130, 143, -2, -15)  # as shells report SIGINT and SIGTERM, and as Python does
 
 
 @dataclass(frozen=True)
@@ -40,13 +37,13 @@ def run_sweeps(plan: Plan, directory: Path, beambench: Path) -> Outcome:
         where = f"run {number} of {len(plan.sweeps)}: {sweep.name}"
         state = state_of(directory / sweep.name)
         if state == "finished":
-            _say(f"== {where}: finished before")
+            say(f"== {where}: finished before")
             code = _NOT_RIGHT if _has_wrong_cells(directory / sweep.name) else 0
         else:
-            told = duration_in_words(sweep.budget_seconds)
-            _say(f"== {where}: {len(sweep.cells())} cells, {told}")
+            time = duration_in_words(sweep.budget_seconds)
+            say(f"== {where}: {len(sweep.cells())} cells, {time}")
             code = _run(sweep, directory, beambench, resume=state == "begun")
-        if code in _INTERRUPTED:
+        if code in INTERRUPTED:
             return Outcome(tuple(not_right), tuple(not_made), interrupted=True)
         if code == _NOT_RIGHT:
             not_right.append(sweep.name)
@@ -72,12 +69,12 @@ def describe(plan: Plan, directory: Path | None = None) -> str:
         if directory is not None:
             state = state_of(directory / sweep.name)
         done = len(list((directory or Path()).glob(f"{sweep.name}/cells/*.json")))
-        told = {"finished": "finished", "begun": f"{done} done"}.get(state, "")
+        progress = {"finished": "finished", "begun": f"{done} done"}.get(state, "")
         left = 0.0 if state == "finished" else sweep.budget_seconds
         if state == "begun":
             left *= max(0.0, 1 - done / count)
         lines.append(
-            f"{sweep.name:<18} {count:>4} cells {duration_in_words(left):>12}  {told}".rstrip()
+            f"{sweep.name:<18} {count:>4} cells {duration_in_words(left):>12}  {progress}".rstrip()
         )
         cells += count
         seconds += left
@@ -94,29 +91,12 @@ def _run(sweep: Sweep, directory: Path, beambench: Path, *, resume: bool) -> int
         config = directory / "sweeps" / f"{sweep.name}.json"
         write_text(config, json.dumps(sweep.source, indent=2) + "\n")
         arguments = [str(config), "-o", str(folder)]
-    return _call([str(beambench), "run", *arguments])
-
-
-def _call(command: list[str], start: Callable[..., subprocess.Popen] = subprocess.Popen) -> int:
-    """Its exit code; a keyboard's interrupt is the child's, which ends by it in good order."""
-    try:
-        child = start(command, stdout=subprocess.DEVNULL)
-    except OSError as error:
-        raise Problem(f"{command[0]} cannot be run: {error.strerror}; build it first") from None
-    try:
-        return child.wait()
-    except KeyboardInterrupt:
-        child.wait()
-        return _INTERRUPTED[0]
+    return run_in_foreground([str(beambench), "run", *arguments])
 
 
 def _has_wrong_cells(folder: Path) -> bool:
     for path in folder.glob("cells/*.json"):
         row = json.loads(path.read_text("utf-8"))["row"]
-        if row["verdict"] not in ("ok", "baseline"):
+        if row["verdict"] not in TIMED_VERDICTS:
             return True
     return False
-
-
-def _say(text: str) -> None:
-    print(text, file=sys.stderr, flush=True)

@@ -16,6 +16,7 @@ from beambench_report.thesis.paper.printed import (
     interval,
     milliseconds,
 )
+from beambench_report.thesis.paper.section import Field
 
 Reasons = Callable[[str], str]
 """Why there is nothing at a resolution, if there is nothing."""
@@ -40,7 +41,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class Line:
-    """A row of a table, one entry a resolution."""
+    """A row of a table, one entry for each resolution."""
 
     label: str
     structure: str
@@ -73,9 +74,11 @@ class PartTable:
 def fill(part: PrintedPart, cells: Cells, why: Reasons) -> PartTable:
     """Puts what was measured into a part."""
     lines = [_line(part, row, cells, why) for row in part.rows]
+    added = [(name, f"{name} (of today)", {}) for name in REFERENCES]
     if _HIERARCHY in part.structures:
-        lines.append(_everywhere(part, cells, why))
-    lines += [_reference(part, structure, cells, why) for structure in REFERENCES]
+        label = "hierarchy, insert=everywhere (Goldsmith and Salmon 1987)"
+        added.insert(0, (_HIERARCHY, label, _WITHOUT_TERMINAL))
+    lines += [_not_printed(part, *names, cells, why) for names in added]
     lines = [line for line in lines if not line.is_reference or any(e.ours for e in line.entries)]
     return PartTable(part, RESOLUTIONS, tuple(lines), _base(part, cells))
 
@@ -89,15 +92,6 @@ def _line(part: PrintedPart, row: PrintedRow, cells: Cells, why: Reasons) -> Lin
         shape = thesis / part.base if thesis and part.base else None
         entries.append(_entry(ours, base, Entry(thesis, shape, missing=why(resolution))))
     return Line(row.label, row.structure, tuple(entries), counts=_counts(part, row, ours))
-
-
-def _reference(part: PrintedPart, structure: str, cells: Cells, why: Reasons) -> Line:
-    return _not_printed(part, structure, f"{structure} (of today)", {}, cells, why)
-
-
-def _everywhere(part: PrintedPart, cells: Cells, why: Reasons) -> Line:
-    label = "hierarchy, insert=everywhere (Goldsmith and Salmon 1987)"
-    return _not_printed(part, _HIERARCHY, label, _WITHOUT_TERMINAL, cells, why)
 
 
 def _not_printed(
@@ -126,13 +120,13 @@ def _base(part: PrintedPart, cells: Cells) -> Cell | None:
     return cells.at(part.rows[0].setting(part.scene, RESOLUTIONS[0]))
 
 
-def _entry(ours: Cell | None, base: Cell | None, told: Entry) -> Entry:
+def _entry(ours: Cell | None, base: Cell | None, empty: Entry) -> Entry:
     if ours is None:
-        return told
+        return empty
     if ours.time is None:
-        return replace(told, ours=ours, missing=f"no time: {ours.verdict}")
+        return replace(empty, ours=ours, missing=f"no time: {ours.verdict}")
     shape = ours.time / base.time if base and base.time else None
-    return replace(told, ours=ours, shape=shape, missing="")
+    return replace(empty, ours=ours, shape=shape, missing="")
 
 
 def _counts(
@@ -174,20 +168,12 @@ _PER_IMAGE = {
 
 
 @dataclass(frozen=True)
-class WorkField:
-    """What is read and what it sorts by."""
-
-    text: str
-    value: float | None
-
-
-@dataclass(frozen=True)
 class WorkRow:
     """One cell's memory and work."""
 
     label: str
     cell: Cell
-    fields: tuple[WorkField, ...]
+    fields: tuple[Field, ...]
 
 
 @dataclass(frozen=True)
@@ -216,26 +202,27 @@ def _work(named: Sequence[tuple[str, Cell | None]]) -> WorkTable:
     )
 
 
-def _fields(cell: Cell, ray: Sequence[str], image: Sequence[str]) -> tuple[WorkField, ...]:
-    nothing = WorkField(DASH, None)
+def _fields(cell: Cell, ray: Sequence[str], image: Sequence[str]) -> tuple[Field, ...]:
+    nothing = Field(DASH)
     times = (nothing, nothing, nothing)
     if cell.time:
         times = (
-            WorkField(milliseconds(cell.time.value), cell.time.value),
-            WorkField(interval(cell.time), cell.time.low),
-            WorkField(milliseconds(cell.build), cell.build),
+            Field(milliseconds(cell.time.value), value=cell.time.value),
+            Field(interval(cell.time), value=cell.time.low),
+            Field(milliseconds(cell.build), value=cell.build),
         )
     memory = nothing
     if not math.isnan(cell.memory):
-        memory = WorkField(size_in_words(cell.memory), cell.memory)
-    counted = [cell.counters.get(name) for name in ray]
-    counted_image = [cell.counters.get(name) for name in image]
+        memory = Field(size_in_words(cell.memory), value=cell.memory)
+    counts = cell.counters
     return (
         *times,
         memory,
-        *(nothing if value is None else WorkField(number(value), value) for value in counted),
+        *(Field(number(counts[n]), value=counts[n]) if n in counts else nothing for n in ray),
         *(
-            nothing if value is None else WorkField(f"{value * cell.rays:,.0f}", value * cell.rays)
-            for value in counted_image
+            Field(f"{counts[n] * cell.rays:,.0f}", value=counts[n] * cell.rays)
+            if n in counts
+            else nothing
+            for n in image
         ),
     )
