@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from beambench_report.base.records import read_run
-from beambench_report.nightly.history import History
+from beambench_report.history.night import night_of
+from beambench_report.history.store import History
 from beambench_report.nightly.home import Home
-from beambench_report.nightly.night import night_of
 from beambench_report.nightly.page import (
     compare_nights,
     pack_ratios,

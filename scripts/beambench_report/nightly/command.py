@@ -6,6 +6,8 @@ from pathlib import Path
 
 from beambench_report.base.files import ROOT, Problem, write_text
 from beambench_report.base.records import read_run
+from beambench_report.history.nights import read_nights
+from beambench_report.history.store import History, rebuild
 from beambench_report.nightly.calibration import (
     Effort,
     calibrate,
@@ -13,9 +15,7 @@ from beambench_report.nightly.calibration import (
     noise_of,
     noise_of_samples,
 )
-from beambench_report.nightly.history import History, rebuild
 from beambench_report.nightly.home import HOME, KEEP_SAMPLES, Home, adopt, only_one, prune
-from beambench_report.nightly.nights import read_nights
 from beambench_report.nightly.page import write_night_page
 from beambench_report.nightly.run import Request, describe, rebuild_history, record, run_night
 

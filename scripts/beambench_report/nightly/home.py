@@ -13,7 +13,7 @@ from pathlib import Path
 
 from beambench_report.base.files import ROOT, Problem, read_json
 from beambench_report.base.records import FAULTLESS_VERDICTS
-from beambench_report.nightly.history import recorded_folders
+from beambench_report.history.store import recorded_folders
 
 
 @contextmanager

@@ -25,12 +25,12 @@ from beambench_report.base.records import (
     read_run,
     size_of,
 )
-from beambench_report.nightly.alarms import SHARE, doubt, sentence
-from beambench_report.nightly.history import Alarm, History
+from beambench_report.history.alarms import SHARE, doubt, sentence
+from beambench_report.history.night import Night, night_of
+from beambench_report.history.nights import Nights, read_nights
+from beambench_report.history.steps import Rule
+from beambench_report.history.store import Alarm, History
 from beambench_report.nightly.home import Home
-from beambench_report.nightly.night import Night, night_of
-from beambench_report.nightly.nights import Nights, read_nights
-from beambench_report.nightly.steps import Rule
 from beambench_report.run.all_cells import pack
 from beambench_report.run.html import data_uri, environment
 from beambench_report.run.outcome import summarize_verdicts

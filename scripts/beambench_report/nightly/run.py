@@ -7,12 +7,12 @@ from pathlib import Path
 
 from beambench_report.base.files import INTERRUPTED, Problem, run_in_foreground, say
 from beambench_report.base.records import read_run
-from beambench_report.nightly.alarms import doubt, find_alarms, sentence
+from beambench_report.history.alarms import doubt, find_alarms, sentence
+from beambench_report.history.night import night_of
+from beambench_report.history.nights import read_nights
+from beambench_report.history.store import Alarm, History, rebuild
 from beambench_report.nightly.exports import write_exports
-from beambench_report.nightly.history import Alarm, History, rebuild
 from beambench_report.nightly.home import Home, abandon, is_finished, prune
-from beambench_report.nightly.night import night_of
-from beambench_report.nightly.nights import read_nights
 from beambench_report.nightly.page import picture_mismatches, write_night_page
 
 
