@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shutil
 import subprocess
@@ -15,7 +16,7 @@ import pytest
 from beambench_report.__main__ import main
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
-from beambench_report.site.changes import Repository, web_address
+from beambench_report.site.changes import Repository, _output_of, web_address
 from beambench_report.site.comparison import compare
 from beambench_report.site.entry import Entry, as_script, entry_of, read_script
 from beambench_report.site.write import write_site
@@ -206,6 +207,18 @@ def test_what_did_not_change_is_not_made_again_and_what_has_gone_goes(tmp_path: 
     assert broken_links(target) == []
 
 
+def test_a_run_that_was_cut_off_has_a_page_but_no_place_in_a_history(tmp_path: Path) -> None:
+    for place in range(3):
+        folder = write_small_run(tmp_path / f"runs/{place}", place)
+    manifest = json.loads((folder / "manifest.json").read_text())
+    (folder / "manifest.json").write_text(json.dumps(manifest | {"finished_utc": None}))
+    write_site([tmp_path / "runs"], tmp_path / "site")
+    [history] = (tmp_path / "site/history").iterdir()
+    assert "· 2 runs ·" in history.read_text()
+    assert "cut off" in (tmp_path / "site/index.html").read_text()
+    assert len(list((tmp_path / "site/runs").iterdir())) == 3
+
+
 def test_wrong_requests_are_one_sentence(
     runs: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -269,6 +282,7 @@ def test_changes_are_told_by_git(tmp_path: Path) -> None:
     assert here.change(hashes[0], "0123456789") is not None, "it may be known elsewhere"
     assert here.change(hashes[0], "--output=x") is None
     git(tmp_path, "remote", "add", "origin", "git@github.com:someone/thing.git")
+    _output_of.cache_clear()
     there = Repository(tmp_path)
     assert there.subject(hashes[1]) == "Second <b>"
     assert there.commit_url(hashes[1]) == f"https://github.com/someone/thing/commit/{hashes[1]}"

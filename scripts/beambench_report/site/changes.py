@@ -3,7 +3,7 @@
 import re
 import subprocess
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from pathlib import Path
 
 from beambench_report.base.files import ROOT
@@ -76,13 +76,13 @@ class Repository:
         return self._git("cat-file", "-t", commit) == "commit"
 
     def _git(self, *arguments: str) -> str:
-        try:
-            done = subprocess.run(
-                ["git", "-C", str(self.folder), *arguments],
-                capture_output=True,
-                text=True,
-                check=False,
-            )
-        except OSError:
-            return ""
-        return done.stdout.strip() if done.returncode == 0 else ""
+        return _output_of("git", "-C", str(self.folder), *arguments)
+
+
+@cache  # many runs are of one commit
+def _output_of(*command: str) -> str:
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except OSError:
+        return ""
+    return done.stdout.strip() if done.returncode == 0 else ""

@@ -40,6 +40,8 @@ class _Run:
     name: str
     folder: Path
     entry: Entry
+    changed: bool
+    """Since the site was last written."""
     history: str = ""
     comparisons: list[tuple[str, str]] = field(default_factory=list)
 
@@ -133,7 +135,7 @@ def _write_runs(
     for run_id, folder in sorted(read):
         name = _free_name(run_id, names)
         try:
-            entry = _write_run(site, name, folder)
+            entry, changed = _write_run(site, name, folder)
         except Exception as error:
             told = "" if isinstance(error, Problem) else f"{type(error).__name__}: "
             broken.append((folder, f"{told}{error}"))
@@ -143,7 +145,7 @@ def _write_runs(
                 f"The run {run_id} is there twice: {names[first]} is {first}, {folder} is {name}."
             )
         names[name] = folder
-        runs.append(_Run(name, folder, entry))
+        runs.append(_Run(name, folder, entry, changed))
     return sorted(runs, key=lambda run: run.order), broken, doubles
 
 
@@ -159,20 +161,20 @@ def _free_name(run_id: str, taken: Iterable[str]) -> str:
     return name
 
 
-def _write_run(site: _Site, name: str, folder: Path) -> Entry:
-    """The page and the data of a run; those that are there stay where nothing changed."""
+def _write_run(site: _Site, name: str, folder: Path) -> tuple[Entry, bool]:
+    """The page and the data of a run, and whether they had to be made: else they stay."""
     page, data = f"runs/{name}/index.html", f"runs/{name}/data.js"
     stamp = stamp_of(folder)
     entry = read_script(site.target / data, name, stamp)
     if entry and (site.target / page).is_file():
         site.written |= {page, data}
-        return entry
+        return entry, False
     run = read_run(folder)
     entry = entry_of(run)
     text = _BRAND.sub(r'\1<a href="../../index.html">\2</a>\3', render(run), count=1)
     site.write(page, text)
     site.write(data, as_script(name, entry, stamp))
-    return entry
+    return entry, True
 
 
 def _write_comparisons(site: _Site, runs: Sequence[_Run], published: Path | None) -> None:
@@ -202,6 +204,9 @@ def _write_comparisons(site: _Site, runs: Sequence[_Run], published: Path | None
 
 def _write_comparison(site: _Site, before: _Run, after: _Run) -> str:
     place = f"compare/{before.name}-vs-{after.name}.html"
+    if not before.changed and not after.changed and (site.target / place).is_file():
+        site.written.add(place)
+        return place
     comparison = compare(before.entry, after.entry)
     change = site.repository.change(before.entry.commit, after.entry.commit)
     names = (before.name, after.name)
@@ -215,7 +220,7 @@ def _write_histories(
     """A page for each sweep on each machine with two runs or more; what the index says of them."""
     groups: dict[tuple[str, str], list[_Run]] = {}
     for run in runs:
-        if run.entry.sweep:
+        if run.entry.sweep and not run.entry.cut_off:
             groups.setdefault((run.entry.sweep, str(run.entry.machine)), []).append(run)
     listed = []
     for (sweep, machine), own in groups.items():

@@ -94,7 +94,7 @@
     for (let place = 0; place < count; place += every) {
       const time = data.nights[place].time;
       const text = days.size > 1 ? time.slice(0, 10) : time.slice(11, 16);
-      const anchor = place === 0 ? "start" : place === count - 1 ? "end" : "middle";
+      const anchor = place === count - 1 ? "end" : "middle";
       found.push(make("text", { x: x(place), y: height - 18, "text-anchor": anchor }, text));
     }
     return found;
