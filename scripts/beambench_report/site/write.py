@@ -11,13 +11,12 @@ import json
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from pathlib import Path
 
-from jinja2 import Environment
+import pandas as pd
 
 from beambench_report.base.files import Problem, read_json, write_text
-from beambench_report.base.quantities import DASH, number
+from beambench_report.base.quantities import DASH
 from beambench_report.base.records import read_run
 from beambench_report.run.html import environment
 from beambench_report.run.page import render
@@ -58,13 +57,6 @@ class _Site:
     repository: Repository
     written: set[str] = field(default_factory=set)
 
-    @cached_property
-    def templates(self) -> Environment:
-        made = environment(_TEMPLATES)
-        made.filters["number"] = number
-        made.globals.update(dash=DASH, repository=self.repository)
-        return made
-
     def write(self, place: str, text: str) -> None:
         path = self.target / place
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -72,8 +64,9 @@ class _Site:
         self.written.add(place)
 
     def page(self, place: str, template: str, **values: object) -> None:
-        top = "../" * place.count("/")
-        self.write(place, self.templates.get_template(template).render(top=top, **values))
+        made = environment(_TEMPLATES).get_template(template)
+        shared = {"top": "../" * place.count("/"), "repository": self.repository, "dash": DASH}
+        self.write(place, made.render(**shared, **values))
 
 
 def write_site(
@@ -122,21 +115,13 @@ def _write_runs(
     site: _Site, folders: Sequence[Path]
 ) -> tuple[list[_Run], list[tuple[Path, str]], list[str]]:
     """The runs, those that cannot be read with the reason, and a sentence for each double id."""
-    read, broken = [], []
-    for folder in folders:
-        try:
-            read.append((read_run(folder).rows.iloc[-1]["run_id"], folder))
-        except Problem as problem:
-            broken.append((folder, str(problem)))
-        except Exception as error:
-            broken.append((folder, f"{type(error).__name__}: {error}"))
-    runs, doubles = [], []
+    runs, broken, doubles = [], [], []
     names: dict[str, Path] = {}
-    for run_id, folder in sorted(read):
+    for run_id, folder in sorted((_run_id(folder), folder) for folder in folders):
         name = _free_name(run_id, names)
         try:
             entry, changed = _write_run(site, name, folder)
-        except Exception as error:
+        except Exception as error:  # whatever a record holds, the others get their pages
             told = "" if isinstance(error, Problem) else f"{type(error).__name__}: "
             broken.append((folder, f"{told}{error}"))
             continue
@@ -147,6 +132,16 @@ def _write_runs(
         names[name] = folder
         runs.append(_Run(name, folder, entry, changed))
     return sorted(runs, key=lambda run: run.order), broken, doubles
+
+
+def _run_id(folder: Path) -> str:
+    """What the run's last row says, without a look at the others; that it is one is seen later."""
+    path = folder / "results.csv"
+    try:
+        rows = pd.read_csv(path, usecols=["run_id"], dtype=str, keep_default_na=False)
+        return str(rows["run_id"].iloc[-1])
+    except (OSError, ValueError, IndexError):  # those of pandas are among them
+        return folder.name
 
 
 def _slug(text: str) -> str:
