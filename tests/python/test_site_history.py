@@ -117,6 +117,17 @@ def test_alarms_are_found_without_the_history_of_the_nights_too(tmp_path: Path) 
     assert "between the commits" in text
 
 
+def test_a_broken_history_of_nights_stops_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    home = Home(tmp_path)
+    write_nights(home, 2, nothing)
+    home.history.write_bytes(b"this is no database, " * 100)
+    write_site([home.folder], home.site)
+    assert "nightly rebuild" in capsys.readouterr().err
+    assert "2 runs" in history_of(home).read_text()
+
+
 def test_ratios_are_packed_in_two_bytes_each() -> None:
     packed = pack_ratios(np.array([1.0, 2.5, np.nan, 0.0, 1e9]))
     numbers = struct.unpack("<5h", base64.b64decode(packed))

@@ -5,7 +5,7 @@ from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 
-from beambench_report.base.files import Problem
+from beambench_report.base.files import Problem, say
 from beambench_report.base.records import read_run
 from beambench_report.history.alarms import find_alarms
 from beambench_report.history.night import Night, night_of
@@ -41,8 +41,12 @@ def history_of(runs: Sequence[tuple[str, Path]], known: Sequence[Path]) -> Machi
     with ExitStack() as stack:
         best, most = None, 0
         for path in known:
-            history = stack.enter_context(History(path))
-            shared = sum(history.number_of(run_id) is not None for run_id, _ in runs)
+            try:
+                history = stack.enter_context(History(path))
+                shared = sum(history.number_of(run_id) is not None for run_id, _ in runs)
+            except Problem as problem:  # it can be made anew, here as well
+                say(str(problem))
+                continue
             if 2 * shared >= len(runs) and shared > most:
                 best, most = history, shared
         left_out = []
