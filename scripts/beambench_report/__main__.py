@@ -20,6 +20,7 @@ from beambench_report.run.page import write_page
 from beambench_report.run.pictures import write_contact_sheet, write_pictures
 from beambench_report.run.plots import write_plots
 from beambench_report.run.repeatability import repeatability
+from beambench_report.site.write import write_site
 from beambench_report.thesis.chapter5.levels import levels_of_runs
 from beambench_report.thesis.chapter5.sampling import write_sampling
 from beambench_report.thesis.chapter6.command import add_cluster_command
@@ -70,6 +71,7 @@ def _parser() -> argparse.ArgumentParser:
     _add_of_runs(add)
     _add_of_scenes(add)
     _add_comparisons(add)
+    _add_site(add)
     add_thesis_command(commands, _BUILT)
     add_nightly_command(commands, _BUILT)
     add_cluster_command(commands, _BUILT.parent)
@@ -230,6 +232,16 @@ def _add_comparisons(add: Callable[..., Callable[..., argparse.Action]]) -> None
     compare("--sweep", type=Path, required=True, metavar="FILE")
     compare("--turns", type=int, default=12, metavar="N")
     compare("-o", "--output", type=Path, required=True, metavar="DIR")
+
+
+def _add_site(add: Callable[..., Callable[..., argparse.Action]]) -> None:
+    site = add(
+        "site",
+        lambda o: [write_site(o.folders, o.output)],
+        help="write a site of plain files over all runs: index, pages, comparisons, histories",
+    )
+    site("folders", type=Path, nargs="+", metavar="DIR", help="a run, or a folder that holds runs")
+    site("-o", "--output", type=Path, required=True, metavar="SITE", help="a new folder, or a site")
 
 
 def _compare(options: Options) -> int:

@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 
 from beambench_report.base.records import read_run
-from beambench_report.nightly.alarms import find_alarms
-from beambench_report.nightly.history import History
+from beambench_report.history.alarms import find_alarms
+from beambench_report.history.night import night_of
+from beambench_report.history.store import History
 from beambench_report.nightly.home import Home
-from beambench_report.nightly.night import night_of
 from synthetic_run import synthetic_rows, without_times, write_run
 
 SCENES = ("escena1", "tetra:n=6")

@@ -12,6 +12,8 @@ PACKAGE = "beambench_report"
 ORDER = (
     "base",
     "run",
+    "history",
+    "site",
     "nightly",
     "embree_comparison",
     "thesis.paper",

@@ -9,7 +9,9 @@ import numpy as np
 import pytest
 
 from beambench_report.base.files import Problem
-from beambench_report.nightly.alarms import doubt, find_alarms, sentence
+from beambench_report.history.alarms import doubt, find_alarms, sentence
+from beambench_report.history.steps import Rule, find_steps
+from beambench_report.history.store import Alarm, History
 from beambench_report.nightly.calibration import (
     Effort,
     Noise,
@@ -19,9 +21,7 @@ from beambench_report.nightly.calibration import (
     share_interval,
     synthetic_nights,
 )
-from beambench_report.nightly.history import Alarm, History
 from beambench_report.nightly.home import Home
-from beambench_report.nightly.steps import Rule, find_steps
 from synthetic_nights import Row, add_all, counting, nothing, slower, write_nights, wrong
 from synthetic_run import synthetic_rows, without_times, write_cell
 

@@ -119,8 +119,8 @@ def test_two_nights_in_a_row(
     (home / "20250101T000000Z").mkdir()  # as a killed run leaves it
     assert night(home, sweep) == 0
     assert not (home / "20250101T000000Z").exists()
-    page = (home / "report.html").read_text()
-    assert "Since yesterday" in page
+    [page] = (home / "site/history").glob("tiny-*.html")
+    assert "Since the run before" in page.read_text()
     [newest] = sorted(home.glob("2*T*Z"))[-1:]
     names = {path.name for path in newest.iterdir()}
     assert {"benchmark-bigger-is-better.json", "benchmark-google.json", "results.csv"} <= names

@@ -53,6 +53,8 @@ class Column:
 
     def is_that(self, name: str) -> bool:
         """Is this the entry of a column of a file?"""
+        if not self.is_pattern:
+            return name == self.name
         pattern = self.name.replace("<kind>", _KINDS).replace("<counter>", "[a-z_]+")
         return re.fullmatch(pattern, name) is not None
 

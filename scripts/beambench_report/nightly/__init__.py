@@ -1,1 +1,1 @@
-"""Nightly runs: their history, what got slower or wrong, and the page that shows it."""
+"""Nightly runs: measured, kept, reported; and two programs or files beside each other."""

@@ -23,9 +23,9 @@ from beambench_report.base.cell_files import (
     published_repetitions,
 )
 from beambench_report.base.files import Problem
-from beambench_report.nightly.night import VIEW
-from beambench_report.nightly.nights import Nights
-from beambench_report.nightly.steps import Rule, find_steps
+from beambench_report.history.night import VIEW
+from beambench_report.history.nights import Nights
+from beambench_report.history.steps import Rule, find_steps
 
 BLOCK = 5
 SCENES = 15

@@ -6,6 +6,8 @@ from pathlib import Path
 
 from beambench_report.base.files import ROOT, Problem, write_text
 from beambench_report.base.records import read_run
+from beambench_report.history.nights import read_nights
+from beambench_report.history.store import History, rebuild
 from beambench_report.nightly.calibration import (
     Effort,
     calibrate,
@@ -13,11 +15,9 @@ from beambench_report.nightly.calibration import (
     noise_of,
     noise_of_samples,
 )
-from beambench_report.nightly.history import History, rebuild
 from beambench_report.nightly.home import HOME, KEEP_SAMPLES, Home, adopt, only_one, prune
-from beambench_report.nightly.nights import read_nights
-from beambench_report.nightly.page import write_night_page
 from beambench_report.nightly.run import Request, describe, rebuild_history, record, run_night
+from beambench_report.site.write import write_site
 
 _SWEEP = ROOT / "harness/bench/sweeps/nightly.json"
 _PUBLISHED = ROOT / "results/published/nightly"
@@ -28,14 +28,14 @@ def add_nightly_command(commands: argparse._SubParsersAction, built: Path) -> No
     parser = commands.add_parser("nightly", help="measure, record and report nightly runs")
     parser.set_defaults(handler=nightly)
     parts = parser.add_subparsers(dest="part", required=True)
-    run = parts.add_parser("run", help="measure and record a night, write the page")
+    run = parts.add_parser("run", help="measure and record a night, write the site")
     run.add_argument("--sweep", type=Path, default=_SWEEP, metavar="FILE")
     run.add_argument("--resume", action="store_true", help="resume what was cut off")
     run.add_argument("--dry-run", action="store_true", help="print what would be done")
     add = parts.add_parser("add", help="record and report a run that was measured otherwise")
     add.add_argument("run", type=Path, metavar="RUN")
     rebuilding = parts.add_parser("rebuild", help="make the history anew from the CSVs")
-    page = parts.add_parser("page", help="write the page of the newest night again")
+    page = parts.add_parser("page", help="write the site again")
     pruning = parts.add_parser("prune", help="delete the raw samples of old runs")
     for command in (run, add, rebuilding, page, pruning):
         command.add_argument("--home", type=Path, default=HOME, metavar="DIR")
@@ -113,8 +113,7 @@ def nightly(options: argparse.Namespace) -> int:
         elif options.part == "prune":
             print(f"{len(prune(home, options.keep))} files deleted")
         else:
-            with History(home.history) as history:
-                print(write_night_page(home, history, published))
+            print(write_site([home.folder], home.site, published))
     return 0
 
 

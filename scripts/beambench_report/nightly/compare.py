@@ -25,8 +25,8 @@ from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.files import Problem, output_of
 from beambench_report.base.ratio import Ratio, paired_ratio
 from beambench_report.base.records import BASELINE, NO_RAYS, TIMED_VERDICTS, read_run
-from beambench_report.nightly.night import cell_titles, cycles, keys_of
-from beambench_report.nightly.steps import holm
+from beambench_report.history.night import cell_titles, cycles, keys_of
+from beambench_report.history.steps import holm
 
 LEVEL = 0.01
 TOLERANCE = 0.01

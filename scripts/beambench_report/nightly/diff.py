@@ -18,7 +18,7 @@ from beambench_report.base.files import Problem
 from beambench_report.base.machine import Machine, machine_of
 from beambench_report.base.ratio import Median, Ratio, median_of, unpaired_ratio
 from beambench_report.base.records import NO_RAYS, contenders_with_times, read_run
-from beambench_report.nightly.night import cell_titles, keys_of, views_of
+from beambench_report.history.night import cell_titles, keys_of, views_of
 
 Key = tuple
 Contender = tuple[str, str]

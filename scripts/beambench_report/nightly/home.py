@@ -13,7 +13,7 @@ from pathlib import Path
 
 from beambench_report.base.files import ROOT, Problem, read_json
 from beambench_report.base.records import FAULTLESS_VERDICTS
-from beambench_report.nightly.history import recorded_folders
+from beambench_report.history.store import recorded_folders
 
 
 @contextmanager
@@ -63,9 +63,14 @@ class Home:
         return self.folder / "nightly.lock"
 
     @property
+    def site(self) -> Path:
+        """The site over all nights."""
+        return self.folder / "site"
+
+    @property
     def page(self) -> Path:
-        """The page of the newest night."""
-        return self.folder / "report.html"
+        """The first page of the site."""
+        return self.site / "index.html"
 
     def finished(self) -> list[Path]:
         """Folders of the runs that ended, the oldest first."""

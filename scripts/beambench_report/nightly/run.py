@@ -7,13 +7,14 @@ from pathlib import Path
 
 from beambench_report.base.files import INTERRUPTED, Problem, run_in_foreground, say
 from beambench_report.base.records import read_run
-from beambench_report.nightly.alarms import doubt, find_alarms, sentence
+from beambench_report.history.alarms import doubt, find_alarms, sentence
+from beambench_report.history.night import night_of
+from beambench_report.history.nights import read_nights
+from beambench_report.history.store import Alarm, History, rebuild
 from beambench_report.nightly.exports import write_exports
-from beambench_report.nightly.history import Alarm, History, rebuild
 from beambench_report.nightly.home import Home, abandon, is_finished, prune
-from beambench_report.nightly.night import night_of
-from beambench_report.nightly.nights import read_nights
-from beambench_report.nightly.page import picture_mismatches, write_night_page
+from beambench_report.nightly.mismatches import picture_mismatches
+from beambench_report.site.write import write_site
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ def run_night(request: Request, lock: int) -> int:
 
 
 def record(home: Home, folder: Path, beambench: Path, published: Path | None, keep: int) -> int:
-    """Adds a finished run to the history, writes the page, prints alarms; returns the exit code."""
+    """Adds a finished run to the history, writes the site, prints alarms; returns the exit code."""
     run = read_run(folder)
     night = night_of(run)
     picture_mismatches(run, beambench)
@@ -55,8 +56,8 @@ def record(home: Home, folder: Path, beambench: Path, published: Path | None, ke
         number = history.number_of(night.run_id)
         alarms = [alarm for alarm in history.alarms() if alarm.night == number]
         series = len(read_nights(history, number).pools)
-        write_night_page(home, history, published)
     prune(home, keep)
+    write_site([home.folder], home.site, published)
     report_alarms(alarms, series)
     print(home.page)
     return 1 if alarms else 0

@@ -1,17 +1,19 @@
 """What all HTML pages share: templates, and images that bring their own bytes."""
 
 import base64
+from functools import cache
 from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
 
-from beambench_report.base.quantities import duration_in_words
+from beambench_report.base.quantities import duration_in_words, number
 
 TEMPLATES = Path(__file__).with_name("templates")
 _TYPES = {".png": "image/png", ".svg": "image/svg+xml"}
 
 
+@cache  # a template is compiled once for many pages
 def environment(*own: Path) -> Environment:
     """Templates of the folders `own`, before those that all pages share."""
     folders = [*own, TEMPLATES]
@@ -30,6 +32,7 @@ def environment(*own: Path) -> Environment:
 
     made.globals["raw"] = raw
     made.filters["duration"] = duration_in_words
+    made.filters["number"] = number
     made.filters["as_script_data"] = Markup  # `pack` has escaped what would end a script
     return made
 

@@ -8,7 +8,8 @@ A step is reported when
   error against Student's t, with Holm's correction over all series of the night;
 - the block bootstrap's 95% interval of the shift lies above `tolerance`.
 
-What this comes to in false alarms and missed slow-downs is measured, not derived: calibration.py.
+What this comes to in false alarms and missed slow-downs is measured, not derived, by
+nightly/calibration.py.
 """
 
 from collections.abc import Iterable, Sequence
@@ -20,7 +21,7 @@ import numpy as np
 import ruptures
 from scipy import stats
 
-from beambench_report.nightly.nights import nan_median
+from beambench_report.history.nights import nan_median
 
 
 @dataclass(frozen=True)

@@ -59,8 +59,7 @@ def night_of(run: Run) -> Night:
     _require_one_run(run)
     times = cycles(rows)
     references = _references(rows, times)
-    counters = [name for name in rows if is_work(str(name))]
-    work = rows[counters].to_dict("records")
+    work = counters_of(rows)
     keys = keys_of(rows)
     figures = []
     for place, (key, view) in enumerate(zip(keys, views_of(rows), strict=True)):
@@ -74,7 +73,7 @@ def night_of(run: Run) -> Night:
             Figure(
                 key,
                 f"{row.get('scene_hash', '')} {row.get('rays_hash', '')}",
-                _packed(work[place]),
+                work[place],
                 row["verdict"],
                 keys[base] if base is not None else None,
                 ratio,
@@ -95,6 +94,17 @@ def night_of(run: Run) -> Night:
 def is_work(column: str) -> bool:
     """Is it a count of work? Some structures add times per ray, which are no such thing."""
     return column.endswith(COUNTER_SUFFIX) and not column.endswith(f"_ns{COUNTER_SUFFIX}")
+
+
+def counters_of(rows: pd.DataFrame) -> list[str]:
+    """The counts of work of each row as JSON, sorted by name."""
+    names = sorted(str(name) for name in rows if is_work(str(name)))
+    return [
+        json.dumps(
+            {name: value for name, value in row.items() if pd.notna(value)}, separators=(",", ":")
+        )
+        for row in rows[names].to_dict("records")
+    ]
 
 
 def keys_of(rows: pd.DataFrame) -> list[Key]:
@@ -151,11 +161,6 @@ def _references(rows: pd.DataFrame, times: pd.Series) -> dict[tuple, int]:
         candidate = (0 if "mode=single" in parameters else 1, parameters, place)
         best[views[place]] = min(best.get(views[place], candidate), candidate)
     return {view: place for view, (_, _, place) in best.items()}
-
-
-def _packed(counters: dict[str, float]) -> str:
-    known = {name: value for name, value in sorted(counters.items()) if pd.notna(value)}
-    return json.dumps(known, separators=(",", ":"))
 
 
 def _require_one_run(run: Run) -> None:

@@ -25,7 +25,7 @@ from typing import Self
 from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.files import Problem, write_whole
 from beambench_report.base.records import read_run
-from beambench_report.nightly.night import Key, Night, night_of
+from beambench_report.history.night import Key, Night, night_of
 
 SCHEMA_VERSION = 1
 

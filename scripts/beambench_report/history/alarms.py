@@ -8,9 +8,9 @@ import numpy as np
 import pandas as pd
 
 from beambench_report.base.records import FAULTLESS_VERDICTS
-from beambench_report.nightly.history import Alarm, History
-from beambench_report.nightly.nights import Nights, read_nights
-from beambench_report.nightly.steps import Rule, find_steps
+from beambench_report.history.nights import Nights, read_nights
+from beambench_report.history.steps import Rule, find_steps
+from beambench_report.history.store import Alarm, History
 
 SHARE = 0.001
 """An increase by more than this part of a counter is a regression."""

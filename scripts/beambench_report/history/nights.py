@@ -14,7 +14,7 @@ from beambench_report.base.columns import RENAMED_COLUMNS
 from beambench_report.base.files import Problem
 from beambench_report.base.names import contender_labels
 from beambench_report.base.records import BASELINE
-from beambench_report.nightly.history import History
+from beambench_report.history.store import History
 
 _DISTINGUISHING = {"camera": ", camera {}", "samples": ", {} samples", "ray_kind": ", {} rays"}
 

@@ -1,0 +1,1 @@
+"""The history of runs on one machine, and what got slower or wrong in it."""

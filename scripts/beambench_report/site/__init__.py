@@ -1,0 +1,1 @@
+"""A site of plain files over all runs: index, pages, comparisons, histories."""

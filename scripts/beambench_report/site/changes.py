@@ -1,0 +1,88 @@
+"""What changed in the program between two runs, from git, where this is a repository."""
+
+import re
+import subprocess
+from dataclasses import dataclass
+from functools import cache, cached_property
+from pathlib import Path
+
+from beambench_report.base.files import ROOT
+
+_HASH = re.compile(r"[0-9a-f]{7,40}")
+# https://[user[:password]@]host/path.git, ssh://[user@]host/path.git or [user@]host:path.git
+_ADDRESS = re.compile(
+    r"(?:https://|ssh://)?(?:[^@/]+@)?(?P<host>[\w.-]+)(?::\d+/|[:/])(?P<path>[\w./~-]+?)(?:\.git)?/?"
+)
+_MOST = 20
+
+
+def web_address(origin: str) -> str:
+    """The pages of a repository on GitHub or GitLab, without names and passwords; or empty."""
+    found = _ADDRESS.fullmatch(origin.strip())
+    if not found or not {"github", "gitlab"} & set(found["host"].split(".")):
+        return ""
+    return f"https://{found['host']}/{found['path'].strip('/')}"
+
+
+@dataclass(frozen=True)
+class Change:
+    """From one commit to another."""
+
+    subjects: tuple[str, ...]
+    """Of the commits between, the newest first; the first twenty."""
+    url: str
+    """A page that shows the difference; may be empty."""
+    command: str
+    """What shows it in a clone."""
+
+
+@dataclass(frozen=True)
+class Repository:
+    """A clone; what it does not know has no subject."""
+
+    folder: Path = ROOT
+
+    @cached_property
+    def url(self) -> str:
+        """Of its origin's pages; empty where there are none."""
+        return web_address(self._git("remote", "get-url", "origin"))
+
+    def commit_url(self, commit: str) -> str:
+        """The page of a commit."""
+        return f"{self._pages}/commit/{commit}" if self.url and _HASH.fullmatch(commit) else ""
+
+    def subject(self, commit: str) -> str:
+        """The first line of a commit's message."""
+        return self._git("log", "-1", "--format=%s", commit, "--") if self._known(commit) else ""
+
+    def change(self, before: str, after: str) -> Change | None:
+        """From one commit to another; None where there is no change or no telling."""
+        if before == after or not _HASH.fullmatch(before) or not _HASH.fullmatch(after):
+            return None
+        told = ""
+        if self._known(before) and self._known(after):
+            told = self._git("log", f"-{_MOST}", "--format=%h %s", f"{before}..{after}", "--")
+        url = f"{self._pages}/compare/{before}...{after}" if self.url else ""
+        command = f"git log -p {before[:12]}..{after[:12]}"
+        return Change(tuple(told.splitlines()), url, command)
+
+    @property
+    def _pages(self) -> str:
+        return f"{self.url}/-" if "gitlab" in self.url else self.url
+
+    def _known(self, commit: str) -> bool:
+        if not _HASH.fullmatch(commit):
+            return False
+        return self._git("cat-file", "-t", commit) == "commit"
+
+    def _git(self, *arguments: str) -> str:
+        return _output_of("git", "-C", str(self.folder), *arguments)
+
+
+@cache  # many runs are of one commit
+def _output_of(*command: str) -> str:
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+    except OSError:
+        return ""
+    return done.stdout.strip() if done.returncode == 0 else ""
