@@ -62,3 +62,9 @@ def structure_tint(structure: str) -> Tint:
 def structure_color(structure: str) -> str:
     """The color of a structure on white."""
     return structure_tint(structure).light
+
+
+def css_color(structure: str) -> str:
+    """The same for pages: the CSS variable, which is another color where the page is dark."""
+    tint = structure_tint(structure)
+    return f"var(--{tint.name}, {tint.light})"

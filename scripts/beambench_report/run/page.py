@@ -12,7 +12,6 @@ import pandas as pd
 
 from beambench_report.base.cell_files import CellFile, Identity, ratio_of_totals, read_cell_files
 from beambench_report.base.columns import COUNTER_SUFFIX, dictionary
-from beambench_report.base.figure import structure_color
 from beambench_report.base.files import Problem, write_text
 from beambench_report.base.machine import (
     Manifest,
@@ -21,11 +20,13 @@ from beambench_report.base.machine import (
     read_manifest,
 )
 from beambench_report.base.names import PLOT_INDEX, file_stems
+from beambench_report.base.palette import css_color
 from beambench_report.base.quantities import number, size_in_words
 from beambench_report.base.ratio import Ratio
 from beambench_report.base.records import BASELINE, OK, Run, read_run, size_of
 from beambench_report.run.all_cells import pack
 from beambench_report.run.html import data_uri, environment
+from beambench_report.run.inline_svg import dark_variables, inline_svg
 from beambench_report.run.outcome import doubts_about_times, summarize_verdicts
 from beambench_report.run.standings import REFERENCES, Standings, in_words, overall, standings
 
@@ -80,12 +81,13 @@ class Table:
 
 @dataclass(frozen=True)
 class Image:
-    """An image that brings its own bytes."""
+    """An image that is part of the page: a picture by its address, or a plot by its element."""
 
-    uri: str
     caption: str
     subject: str
     """The scene (of a picture) or the view (of a plot) it belongs to; empty: the whole run."""
+    uri: str = ""
+    svg: str = ""
 
 
 def read_pictures(directory: Path, scenes: Iterable[str]) -> list[Image]:
@@ -97,7 +99,7 @@ def read_pictures(directory: Path, scenes: Iterable[str]) -> list[Image]:
         fitting = [s for s in stems if path.stem == s or path.stem.startswith(f"{s}-")]
         stem = max(fitting, key=len, default="")
         what = path.stem.removeprefix(stem).strip("-").replace("-", ", ").replace("_", " ")
-        images.append(Image(data_uri(path), what or "the scene", stems.get(stem, "")))
+        images.append(Image(what or "the scene", stems.get(stem, ""), data_uri(path)))
     return images
 
 
@@ -107,7 +109,7 @@ def read_plots(directory: Path) -> list[Image]:
     if not index.exists():
         return []
     return [
-        Image(data_uri(path), entry["summary"], entry["view"])
+        Image(entry["summary"], entry["view"], svg=inline_svg(path))
         for entry in json.loads(index.read_text("utf-8"))
         if (path := index.with_name(f"{entry['stem']}.svg")).exists()
     ]
@@ -230,7 +232,7 @@ def _in_order(rows: pd.DataFrame) -> pd.DataFrame:
 def _bare_line(row: pd.Series, fields: tuple[Field, ...]) -> Line:
     return Line(
         row["contender"],
-        structure_color(row["structure"]),
+        css_color(row["structure"]),
         row["verdict"] or "no verdict",
         fields,
         cell_anchor(row),
@@ -388,7 +390,7 @@ def compare(reference: str, finest: Mapping[str, Compared]) -> Comparison:
     lines = tuple(
         (
             contender,
-            structure_color(structure),
+            css_color(structure),
             tuple(
                 _mark(shown.ratios.get(contender), verdicts.get((contender, view)))
                 for view, shown in finest.items()
@@ -443,7 +445,8 @@ def render(run: Run, wanted_reference: str | None = None) -> str:
             is_timed=bool(run.rows["timed"].any()),
             means=overall(every),
             absent=_absent(run, manifest, plots, pictures, files),
-            color=structure_color,
+            color=css_color,
+            dark=dark_variables(),
             interval=ratio_field,
             in_words=in_words,
             tiles=_tiles(run, manifest),
