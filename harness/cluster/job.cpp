@@ -56,6 +56,16 @@ auto members(Report& report) requires std::same_as<std::remove_const_t<Report>, 
 
 }  // namespace
 
+accel::StructureChoice beam_choice(const Job& job) {
+  accel::StructureChoice choice = accel::registry().choose(parse_spec(job.structure));
+  if (choice.info().name != "beam") {
+    throw InputError(fmt::format(
+        "{} traces no beams to distribute; the cluster needs 'beam', with or without parameters",
+        choice.info().name));
+  }
+  return choice;
+}
+
 rays::ImageOfRays job_image(const Job& job, const scenes::Scene& scene) {
   const scenes::Camera camera =
       job.camera.empty() ? scene.cameras.front() : scenes::find_camera(scene, job.camera);

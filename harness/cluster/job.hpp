@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "accel/core/registry.hpp"
 #include "harness/cluster/messages.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/render/shadows.hpp"
@@ -25,6 +26,9 @@ struct Job {
       0;  ///< level of the cells that divide the scene; 0: every process has all of it
   double heartbeat_interval = 1.0;  ///< seconds between heartbeats in long tasks
 };
+
+/// The structure of a job with its parameters. Throws InputError where it is not `beam`.
+accel::StructureChoice beam_choice(const Job& job);
 
 /// The image of a job over its scene, which must outlive it.
 rays::ImageOfRays job_image(const Job& job, const scenes::Scene& scene);

@@ -48,16 +48,11 @@ struct WorkerState {
       : scene(scenes::load_scene(job.scene, warnings)),
         image(job_image(job, scene)),
         rays(image.rays()) {
-    const accel::StructureChoice choice = accel::registry().choose(parse_spec(job.structure));
+    const accel::StructureChoice choice = beam_choice(job);
     const base::CpuStopwatch timer;
     structure = choice.build(scene, rays::workload_of(image, rays));
     build_seconds = timer.seconds();
-    tracer = dynamic_cast<const accel::beam::BeamTracer*>(structure.get());
-    if (tracer == nullptr) {
-      throw InputError(fmt::format(
-          "{} traces no beams to distribute; the cluster needs 'beam', with or without parameters",
-          choice.info().name));
-    }
+    tracer = &dynamic_cast<const accel::beam::BeamTracer&>(*structure);
     if (job.light) light.emplace(scene, *structure, job.whitted, rays::HitCheck(scene, choice));
   }
 

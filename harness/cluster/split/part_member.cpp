@@ -235,8 +235,7 @@ void PartMember::require_heartbeats() {
 
 PartState::PartState(std::shared_ptr<const scenes::Scene> whole, const Job& job,
                      Transport& transport)
-    : options(accel::beam::BeamOptions::from(
-          accel::registry().choose(parse_spec(job.structure)).parameters())),
+    : options(accel::beam::BeamOptions::from(beam_choice(job).parameters())),
       rays(job_image(job, *whole).rays()),
       split(*whole, options.octree, job.split_level, transport.processes()),
       outbox(transport, split) {
