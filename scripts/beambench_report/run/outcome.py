@@ -97,7 +97,9 @@ def doubts_about_times(run: Run, manifest: Manifest) -> list[str]:
     if "stop_reason" in timed and len(timed):
         precise = timed["stop_reason"] == "precision"
         if precise.mean() < _MOST_ARE_PRECISE:
-            doubts.append(f"{(~precise).sum()} of {len(timed)} timed cells less precise than wanted")
+            doubts.append(
+                f"{(~precise).sum()} of {len(timed)} timed cells less precise than wanted"
+            )
     if "repetitions" in timed:
         few = int((timed["repetitions"] < _LEAST_FOR_INTERVAL).sum())
         if few:

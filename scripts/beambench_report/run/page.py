@@ -263,7 +263,9 @@ def _line(row: pd.Series, ratio: Ratio | None, scale: float) -> Line:
     def time(part: str, factor: float = 1.0) -> Field:
         if not timed:
             return MISSING
-        low, high = (row.get(f"{part}_ms_ci_{end}", float("nan")) * factor for end in ("low", "high"))
+        low, high = (
+            row.get(f"{part}_ms_ci_{end}", float("nan")) * factor for end in ("low", "high")
+        )
         note = f"{number(low)} to {number(high)}" if pd.notna(low) and pd.notna(high) else ""
         return _figure(row[f"{part}_ms_median"] * factor, note)
 
