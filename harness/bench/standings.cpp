@@ -237,7 +237,9 @@ std::vector<MeanStanding> means(const std::vector<const Standing*>& standings) {
 }
 
 std::string in_words(const TimeRatio& ratio) {
-  if (!ratio.interval) return fmt::format("{:.3g}", ratio.value);
+  if (!ratio.interval || ratio.interval->low == ratio.interval->high) {
+    return fmt::format("{:.3g}", ratio.value);
+  }
   return fmt::format("{:.3g} [{:.3g}, {:.3g}]", ratio.value, ratio.interval->low,
                      ratio.interval->high);
 }

@@ -127,7 +127,7 @@ void add_time_command(CLI::App& app, int& exit_code) {
       ->add_option("--rays", request->rays,
                    "Kinds of rays, as after 'beambench rays SCENE --rays'; several are timed apart")
       ->capture_default_str();
-  command->add_option("--samples", request->samples, "Per pixel: 1, 4, 9, ...")
+  command->add_option("--samples", request->samples, "Per pixel")
       ->capture_default_str();
   command->add_option("--threads", request->threads, "That trace an image (1 to 1024)")
       ->check(CLI::Range(1, 1024))
@@ -144,7 +144,7 @@ void add_time_command(CLI::App& app, int& exit_code) {
       "verified.\n"
       "Examples:\n"
       "  beambench time balls --accel samet,sah-bvh,embree\n"
-      "  beambench time model.ply --accel all --rays primary shadow --save model.json");
+      "  beambench time tetra balls --accel all --rays primary shadow --save two.json");
   command->callback([request, &exit_code] { exit_code = time_structures(*request); });
 }
 
