@@ -43,6 +43,7 @@ const std::map<std::string, Words>& known_values() {
       {"SHELL", {"bash", "zsh", "fish"}},
       {"--accel", names_with({"all"}, structures)},
       {"--difference", names_with({render::kOracleName}, structures)},
+      {"--exposure", {"auto"}},
       {"--heatmap", {accel::kCounterNames.begin(), accel::kCounterNames.end()}},
       {"--overlay", {render::overlay_names().begin(), render::overlay_names().end()}},
       {"--rays", names_with({}, rays::ray_kinds())},

@@ -1,10 +1,14 @@
 // beambench render: a picture of a scene, or of the work that a structure does.
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -18,6 +22,7 @@
 #include "harness/render/diagnostics.hpp"
 #include "harness/render/picture/image.hpp"
 #include "harness/render/picture/image_file.hpp"
+#include "harness/render/picture/tone.hpp"
 #include "harness/render/shading.hpp"
 #include "harness/render/whitted_picture.hpp"
 #include "scenes/core/error.hpp"
@@ -39,8 +44,41 @@ struct Request {
   std::string shading = "preview";
   std::string overlay;
   WhittedRequest whitted;
-  double exposure = 0.0;
+  std::string exposure = "0";
 };
+
+/// After --exposure: the picture chooses, not a number of stops.
+constexpr std::string_view kAuto = "auto";
+
+/// Nothing for `auto`.
+std::optional<double> parse_exposure(std::string_view text) {
+  constexpr double kMostStops = 32.0;
+  if (text == kAuto) return std::nullopt;
+  double stops = 0.0;
+  const char* const stop = text.data() + text.size();
+  const char* const start = text.starts_with('+') ? text.data() + 1 : text.data();
+  const auto [at, error] = std::from_chars(start, stop, stops);
+  if (error == std::errc() && at == stop && std::abs(stops) <= kMostStops) return stops;
+  throw InputError(fmt::format(
+      "--exposure '{}' is neither '{}' nor a number of stops from -{} to {}; write it as -0.5",
+      text, kAuto, kMostStops, kMostStops));
+}
+
+/// The shadings that show light, not numbers as colors.
+bool shows_light(render::Shading shading) {
+  return shading == render::Shading::kPreview || shading == render::Shading::kWhitted;
+}
+
+void require_exposure(const Request& request) {
+  const std::optional<double> stops = parse_exposure(request.exposure);
+  if (stops == 0.0) return;
+  if (!shows_light(render::parse_shading(request.shading))) {
+    throw InputError("--exposure is of light; give --shade preview or --shade whitted with it");
+  }
+  if (!stops && render::image_format(request.file) == render::ImageFormat::kExr) {
+    throw InputError("--exposure auto fits a picture to a display; an .exr keeps all light");
+  }
+}
 
 /// Depth and id of each pixel, those of its nearest sample.
 std::vector<render::DataChannel> hit_channels(const accel::HitBuffer& hits) {
@@ -88,24 +126,34 @@ render::Image shaded(const Request& request, const accel::StructureChoice& choic
   if (shading != render::Shading::kWhitted) return render::shade(scene, rays, hits, shading);
   const render::Whitted tracer(scene, accelerator, whitted_options(request.whitted),
                                rays::HitCheck(scene, choice));
-  render::Image image = render::whitted_picture(
-                            tracer, render::camera_rays(rays), hits,
-                            [&](double part) { progress.advance(part); }, request.whitted.threads)
-                            .image;
-  if (request.exposure != 0.0) render::expose(image, request.exposure);
-  return image;
+  return render::whitted_picture(
+             tracer, render::camera_rays(rays), hits, [&](double part) { progress.advance(part); },
+             request.whitted.threads)
+      .image;
 }
 
 /// Lights of other programs' files fall off with the distance; ours do not. An EXR keeps all light.
-std::string remark_on_light(const Request& request, const render::Image& image) {
+std::string remark_on_light(const Request& request, double stops, const render::Image& image) {
   constexpr double kWorthSaying = 0.05;
   if (render::parse_shading(request.shading) != render::Shading::kWhitted) return "";
   if (render::image_format(request.file) != render::ImageFormat::kPng) return "";
   const render::Overexposure found = render::overexposure(image);
   if (found.share <= kWorthSaying) return "";
   return fmt::format(
-      "; {:.0f}% of the pixels are brighter than white; '--exposure {:.1f}' leaves 1%",
-      100.0 * found.share, request.exposure + found.remedy);
+      "; {:.0f}% of the pixels are brighter than white; '--exposure {:.1f}' leaves 1%, "
+      "'--exposure {}' keeps the rest bright",
+      100.0 * found.share, stops + found.remedy, kAuto);
+}
+
+/// Brings the light of a picture to what --exposure asks for; returns remarks on it.
+std::string exposed(const Request& request, render::Image& image) {
+  if (const std::optional<double> stops = parse_exposure(request.exposure)) {
+    if (*stops != 0.0) render::expose(image, *stops);
+    return remark_on_light(request, *stops, image);
+  }
+  const render::ToneCurve curve = render::choose_tone(image);
+  render::apply(image, curve);
+  return fmt::format("; exposure {:+.1f}, white {:.2f}", curve.stops(), curve.white());
 }
 
 /// Shades the hits and draws the overlay, with its legend in a PNG; returns remarks on the picture.
@@ -115,7 +163,7 @@ std::string write_shaded(const Request& request, const accel::StructureChoice& c
                          const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
                          base::Progress& progress) {
   render::Image image = shaded(request, choice, accelerator, scene, rays, hits, progress);
-  const std::string remark = remark_on_light(request, image);
+  const std::string remark = exposed(request, image);
   std::vector<render::LegendEntry> legend;
   if (overlay) legend = render::draw_overlay(*overlay, image, accelerator, rays);
   if (overlay && render::image_format(request.file) == render::ImageFormat::kPng) {
@@ -187,10 +235,8 @@ accel::StructureChoice chosen_structure(const Request& request) {
 }
 
 void render(const Request& request) {
-  const render::Shading shading = render::parse_shading(request.shading);
-  if (request.exposure != 0.0 && shading != render::Shading::kWhitted) {
-    throw InputError("--exposure needs --shade whitted; give both");
-  }
+  render::parse_shading(request.shading);
+  require_exposure(request);
   whitted_options(request.whitted);
   render::image_format(request.file);
   require_writable(request.file);
@@ -249,19 +295,25 @@ void add_render_command(CLI::App& app, int&) {
                    "preview, normals, id, depth, or whitted: lights, shadows, mirrors and glass")
       ->capture_default_str();
   add_whitted_options(*command, request->whitted);
-  command
-      ->add_option("--exposure", request->exposure,
-                   "For --shade whitted, in stops: -1 halves the light, 1 doubles it")
-      ->check(CLI::Range(-32.0, 32.0))
-      ->capture_default_str();
-  CLI::Option* heatmap = command->add_option("--heatmap", request->heatmap,
-                                             "Instead of shading: a work counter as colors");
+  CLI::Option* exposure =
+      command
+          ->add_option("--exposure", request->exposure,
+                       "Of light, in stops: -1 halves it, 1 doubles it; 'auto': lifts a dark "
+                       "picture and rolls off a bright one, so that 1% of the pixels are clipped, "
+                       "at most")
+          ->type_name("STOPS|auto")
+          ->capture_default_str();
+  CLI::Option* heatmap = command
+                             ->add_option("--heatmap", request->heatmap,
+                                          "Instead of shading: a work counter as colors")
+                             ->excludes(exposure);
   CLI::Option* difference =
       command
           ->add_option("--difference", request->difference,
                        "Instead of shading: where the hits differ from those of another structure, "
                        "or of the 'oracle' of verify")
-          ->excludes(heatmap);
+          ->excludes(heatmap)
+          ->excludes(exposure);
   command
       ->add_option("--overlay", request->overlay,
                    "Over the dimmed shading: 'beams', their outlines, or 'cells', the occupied "
@@ -283,6 +335,7 @@ void add_render_command(CLI::App& app, int&) {
       "  beambench render tetra --accel embree:robust=false -o wrong.png --difference oracle\n"
       "  beambench render escena2 --accel beam:max_level=5 -o beams.png --overlay beams\n"
       "  beambench render balls --accel beam -o balls.png --shade whitted --samples 4\n"
+      "  beambench render rings -o rings.png --shade whitted --exposure auto\n"
       "  beambench render tetra --accel embree -o tetra.exr --resolution 640x480 --samples 4");
   command->callback([request] { render(*request); });
 }

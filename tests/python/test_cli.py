@@ -11,6 +11,7 @@ import subprocess
 import time
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
 
@@ -1170,10 +1171,54 @@ def test_a_picture_that_is_too_bright_names_the_exposure_that_it_needs(tmp_path:
     with Image.open(picture) as image:
         red, green, _ = image.convert("RGB").getpixel((32, 32))
         assert red > green + 40, "the surface's own colour is seen"
-    refused(
-        beambench("render", file, "--accel", "samet", "-o", picture, "--exposure", "1"),
-        ["--exposure", "--shade whitted"],
-    )
+
+
+@pytest.mark.parametrize("scene", ["gears", "habitacion", "rings"])
+@pytest.mark.parametrize("shading", ["whitted", "preview"])
+def test_automatic_exposure_clips_one_percent_at_most(
+    tmp_path: Path, scene: str, shading: str
+) -> None:
+    picture = tmp_path / "picture.png"
+    options = ["--shade", shading, "--resolution", "96x96", "--exposure", "auto"]
+    for threads in ("1", "3"):
+        done = beambench("render", scene, "-o", picture, *options, "--threads", threads)
+        assert done.returncode == 0, done.stderr
+        assert re.search(r"; exposure [+-]\d\.\d, white \d\.\d\d", done.stderr)
+        (tmp_path / threads).write_bytes(picture.read_bytes())
+    assert (tmp_path / "1").read_bytes() == (tmp_path / "3").read_bytes()
+    with Image.open(picture) as image:
+        brightest = np.asarray(image.convert("RGB")).max(axis=2)
+    assert (brightest == 255).mean() <= 0.01
+    assert np.percentile(brightest, 98) > 240, "what was bright stays bright"
+
+
+def test_no_exposure_is_that_of_zero_stops(tmp_path: Path) -> None:
+    pictures = [tmp_path / "default.png", tmp_path / "zero.png"]
+    for picture, options in zip(pictures, ([], ["--exposure", "+0"]), strict=True):
+        done = beambench("render", "gears:n=1", "-o", picture, "--resolution", "64x64", *options)
+        assert done.returncode == 0, done.stderr
+    assert pictures[0].read_bytes() == pictures[1].read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        (["--exposure", "bright"], ["--exposure 'bright'", "'auto'", "stops from -32 to 32"]),
+        (["--exposure", "33"], ["--exposure '33'", "from -32 to 32"]),
+        (["--exposure", "nan"], ["--exposure 'nan'"]),
+        (["--exposure", "1x"], ["--exposure '1x'"]),
+        (["--exposure", ""], ["--exposure ''"]),
+        (["--exposure", "1", "--shade", "id"], ["--exposure", "--shade whitted"]),
+        (["--exposure", "auto", "--shade", "normals"], ["--exposure", "--shade preview"]),
+        (["--exposure", "auto", "--accel", "samet", "--heatmap", "leaves"], ["--exposure"]),
+        (["--exposure", "1", "--accel", "samet", "--difference", "oracle"], ["--exposure"]),
+        (["--exposure", "auto", "-o", "picture.exr"], ["--exposure auto", ".exr"]),
+    ],
+)
+def test_a_wrong_exposure_is_refused(tmp_path: Path, options: list[str], words: list[str]) -> None:
+    output = [] if "-o" in options else ["-o", tmp_path / "picture.png"]
+    refused(beambench("render", "tetra:n=1", *output, *options), words)
+    assert not list(tmp_path.iterdir())
 
 
 def test_a_file_with_degenerate_primitives_is_read_without_them(tmp_path: Path) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import json
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +13,7 @@ from matplotlib.image import imread
 
 from beambench_report.__main__ import main
 from beambench_report.run.pictures import DEFAULT_GROUPS
+from beambench_report.run.sheet_layout import GAP, MARGIN, WIDTH, Picture, even_rows
 from program import BINARY, output_of
 
 WIDE = """v
@@ -63,8 +65,58 @@ def test_a_wide_picture_keeps_its_aspect(tmp_path: Path) -> None:
     output = tmp_path / "sheet.png"
     assert sheet(output, scene) == 0
     pixels = imread(output)[..., :3]
-    rows, columns = np.nonzero((pixels == (0, 0, 1)).all(axis=2))
+    rows, columns = np.nonzero((pixels[..., 2] > 0.9) & (pixels[..., 0] < 0.1))
     assert np.ptp(columns) == pytest.approx(2 * np.ptp(rows), abs=3)
+
+
+def pictures_of(aspects: list[float]) -> list[Picture]:
+    return [Picture("name", "counts", np.zeros((100, round(100 * a), 3))) for a in aspects]
+
+
+@pytest.mark.parametrize("count", range(5, 32))
+def test_rows_fill_the_width_whatever_the_number_of_pictures(count: int) -> None:
+    pictures = pictures_of([(1.0, 1.6, 0.8, 1.25)[number % 4] for number in range(count)])
+    rows = even_rows("heading", pictures)
+    assert [picture for row in rows for picture in row.pictures] == pictures
+    lengths = [len(row.pictures) for row in rows]
+    assert max(lengths) <= min(lengths) + 1
+    assert max(lengths) <= 6
+    assert [row.heading for row in rows] == ["heading"] + [""] * (len(rows) - 1)
+    for row in rows:
+        edges = row.edges()
+        assert (edges[0][0], edges[-1][1]) == (MARGIN, WIDTH - MARGIN)
+        for (_, right), (left, _) in pairwise(edges):
+            assert left - right == pytest.approx(GAP, abs=1)
+
+
+def test_few_pictures_are_not_blown_up() -> None:
+    (row,) = even_rows("", pictures_of([1.0, 1.0]))
+    assert row.picture_height == 340
+
+
+def test_the_rows_of_a_sheet_end_together(tmp_path: Path) -> None:
+    output = tmp_path / "sheet.png"
+    assert sheet(output, *[f"tetra:n={n}" for n in range(1, 8)]) == 0
+    pixels = imread(output)[..., :3]
+    blue = np.abs(pixels - (0.078, 0.361, 0.753)).max(axis=2) < 0.02
+    ends = {
+        (np.flatnonzero(line)[0], np.flatnonzero(line)[-1]) for line in blue if line.sum() > 400
+    }
+    assert ends == {(MARGIN, WIDTH - MARGIN - 1)}
+
+
+def test_misil_and_soup_have_views_of_their_own(tmp_path: Path) -> None:
+    program = tmp_path / "beambench"
+    program.write_text(f'#!/bin/sh\necho "$@" >> {tmp_path}/calls.txt\nexec {BINARY} "$@"\n')
+    program.chmod(0o755)
+    assert sheet(tmp_path / "sheet.png", "misil", "soup", "tetra:n=1", program=program) == 0
+    calls = (tmp_path / "calls.txt").read_text().splitlines()
+    misil, soup, tetra = (call for call in calls if call.startswith("render"))
+    assert all("--exposure auto" in call for call in (misil, soup, tetra))
+    assert "--depth 1" in misil
+    assert "--angle 12" in soup
+    assert "--depth" not in tetra + soup
+    assert "--angle" not in tetra + misil
 
 
 def test_a_scene_that_cannot_be_rendered_is_named_and_the_sheet_is_left(

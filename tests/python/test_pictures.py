@@ -33,7 +33,7 @@ def test_each_scene_is_rendered_and_has_a_heat_map(run_folder: Path, painter: Pa
     calls = (painter.parent / "calls.txt").read_text().splitlines()
     pictures = run_folder / "pictures"
     assert calls[:2] == [
-        f"render escena1 --accel embree -o {pictures}/escena1.png",
+        f"render escena1 --accel embree -o {pictures}/escena1.png --exposure auto",
         "render escena1 --accel samet:max_level=5,max_objects=0 "
         f"-o {pictures}/escena1-samet-traversal_steps.png --heatmap traversal_steps",
     ]

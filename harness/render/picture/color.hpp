@@ -27,6 +27,9 @@ inline glm::vec3 linear_from_srgb(const glm::vec3& c) {
   return {linear_from_srgb(c.x), linear_from_srgb(c.y), linear_from_srgb(c.z)};
 }
 
+/// The component that a display clips first.
+inline float brightest(const glm::vec3& color) { return std::max({color.x, color.y, color.z}); }
+
 /// Linear light for x in [0, 1] (clamped): from dark violet over teal to yellow. Lightness rises
 /// evenly with x, so that the order of values can be seen by everyone, the color-blind included,
 /// and survives a black-and-white print. A path in Ottosson's Oklab ("A perceptual color space for

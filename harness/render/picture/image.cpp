@@ -15,12 +15,6 @@
 #include "harness/render/picture/color.hpp"
 
 namespace beambench::render {
-namespace {
-
-/// The component that a display clips first.
-float brightest(const glm::vec3& color) { return std::max({color.x, color.y, color.z}); }
-
-}  // namespace
 
 void expose(Image& image, double stops) {
   const auto factor = static_cast<float>(std::exp2(stops));

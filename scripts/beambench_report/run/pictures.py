@@ -5,17 +5,30 @@ import math
 import subprocess
 import sys
 import tempfile
-import textwrap
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 from beambench_report.base.files import Problem, output_of, write_whole
 from beambench_report.base.names import file_stems
 from beambench_report.base.records import OK, Run, read_run
+from beambench_report.run.sheet_layout import (
+    HEADING,
+    HEADING_FONT,
+    LABEL_FONT,
+    LINE,
+    MARGIN,
+    WIDTH,
+    Picture,
+    Row,
+    even_rows,
+    label,
+)
+
+# Clips 1% of the pixels at most and lifts dark pictures.
+_EXPOSURE = ("--exposure", "auto")
 
 _RENDERER = "embree"
 _HEATMAP_STRUCTURE = "samet"
@@ -30,7 +43,7 @@ def write_pictures(directory: Path, beambench: Path) -> list[Path]:
     paths = []
     for scene, stem in file_stems(dict.fromkeys(run.rows["scene"])).items():
         picture = folder / f"{stem}.png"
-        _render(beambench, scene, _RENDERER, picture)
+        _render(beambench, scene, _RENDERER, picture, *_EXPOSURE)
         paths.append(picture)
         structure = _heatmap_structure(run, scene)
         if structure:
@@ -66,21 +79,21 @@ def _render(beambench: Path, scene: str, structure: str, output: Path, *options:
 _PAINTER = "sah-bvh"
 _SAMPLES = "4"
 _SHADING = "whitted"
-
-# All below in pixels of the sheet.
-_WIDTH = 1400
-_MARGIN = 12
-_GAP = 10
-_LINE = 20  # of a label
-_LABEL_FONT = 15
-_LETTER = 8.2  # mean width at that size
-_HEADING = 40
-_HEADING_FONT = 22
-
-_HIGHEST = 340  # of a picture
 _DPI = 100
 
-_LONGEST_ROW = 6  # pictures
+
+@dataclass(frozen=True)
+class _View:
+    """How a scene is pictured that its own camera or its mirrors do not show well."""
+
+    options: tuple[str, ...]
+    note: str = ""  # for its label
+
+
+_VIEWS = {
+    "misil": _View(("--depth", "1")),  # its surfaces are pale mirrors of the sky otherwise
+    "soup": _View(("--angle", "12"), "close up"),  # its triangles are smaller than pixels otherwise
+}
 
 
 @dataclass(frozen=True)
@@ -109,32 +122,6 @@ DEFAULT_GROUPS = (
 )
 
 
-@dataclass(frozen=True)
-class _Picture:
-    scene: str
-    counts: str
-    pixels: np.ndarray
-
-    @property
-    def aspect(self) -> float:
-        """Width over height."""
-        return self.pixels.shape[1] / self.pixels.shape[0]
-
-
-@dataclass(frozen=True)
-class _Row:
-    """Pictures of one height, under each its name and its counts."""
-
-    heading: str
-    pictures: list[_Picture]
-    picture_height: float
-
-    @property
-    def height(self) -> float:
-        lines = max(len(_label(picture, self.picture_height)) for picture in self.pictures)
-        return (_HEADING if self.heading else 0) + self.picture_height + _LINE * lines + 2 * _GAP
-
-
 def write_contact_sheet(output: Path, beambench: Path, scenes: list[str] | None = None) -> Path:
     """Renders the scenes, those of DEFAULT_GROUPS if none are given, and writes one PNG of them."""
     if output.suffix != ".png":
@@ -145,7 +132,8 @@ def write_contact_sheet(output: Path, beambench: Path, scenes: list[str] | None 
     counts = {scene: _counts(beambench, scene) for group in groups for scene in group.scenes}
     with tempfile.TemporaryDirectory() as folder:
         pictures = _render_all(beambench, counts, Path(folder))
-    figure = _draw([row for group in groups for row in _rows(group, pictures)])
+    rows = [even_rows(g.heading, [pictures[scene] for scene in g.scenes]) for g in groups]
+    figure = _draw([row for group in rows for row in group])
     return write_whole(
         output,
         lambda path: figure.savefig(path, format="png", dpi=_DPI, pil_kwargs={"optimize": True}),
@@ -160,14 +148,16 @@ def _counts(beambench: Path, scene: str) -> str:
     return ", ".join(f"{n:,}\N{NO-BREAK SPACE}{k}{'s' * (n > 1)}" for k, n in numbers.items() if n)
 
 
-def _render_all(beambench: Path, counts: dict[str, str], folder: Path) -> dict[str, _Picture]:
+def _render_all(beambench: Path, counts: dict[str, str], folder: Path) -> dict[str, Picture]:
     pictures = {}
     for number, (scene, text) in enumerate(counts.items(), 1):
         print(f"rendering {scene} ({number} of {len(counts)})", file=sys.stderr)
         file = folder / "picture.png"
-        options = ("--accel", _PAINTER, "--samples", _SAMPLES, "--shade", _SHADING)
-        _run(beambench, scene, "render", scene, *options, "-o", str(file))
-        pictures[scene] = _Picture(scene, text, imread(file)[..., :3])
+        view = _VIEWS.get(scene, _View(()))
+        options = ("--accel", _PAINTER, "--samples", _SAMPLES, "--shade", _SHADING, *_EXPOSURE)
+        _run(beambench, scene, "render", scene, *options, *view.options, "-o", str(file))
+        about = ", ".join(filter(None, (text, view.note)))
+        pictures[scene] = Picture(scene, about, imread(file)[..., :3])
     return pictures
 
 
@@ -180,60 +170,40 @@ def _run(beambench: Path, scene: str, *arguments: str) -> str:
         raise Problem(f"scene '{scene}' cannot be rendered: {why}") from None
 
 
-def _rows(group: Group, pictures: dict[str, _Picture]) -> list[_Row]:
-    """Rows of as equal lengths as can be, as high as lets the widest fill the sheet."""
-    scenes = group.scenes
-    length = math.ceil(len(scenes) / math.ceil(len(scenes) / _LONGEST_ROW))
-    starts = range(0, len(scenes), length)
-    rows = [[pictures[scene] for scene in scenes[start : start + length]] for start in starts]
-    height = min(_HIGHEST, *(_space(row) / sum(p.aspect for p in row) for row in rows))
-    return [_Row("" if index else group.heading, row, height) for index, row in enumerate(rows)]
-
-
-def _space(row: list[_Picture]) -> float:
-    return _WIDTH - 2 * _MARGIN - _GAP * (len(row) - 1)
-
-
-def _label(picture: _Picture, height: float) -> list[tuple[str, str]]:
-    """The lines under a picture that is so high, each with its weight."""
-    letters = max(12, int(height * picture.aspect / _LETTER))
-    name = [(line, "bold") for line in textwrap.wrap(picture.scene, letters - 1)]
-    return name + [(line, "normal") for line in textwrap.wrap(picture.counts, letters)]
-
-
-def _draw(rows: list[_Row]) -> Figure:
-    height = math.ceil(sum(row.height for row in rows) + 2 * _MARGIN)
-    figure = Figure(figsize=(_WIDTH / _DPI, height / _DPI), dpi=_DPI, facecolor="white")
-    top = float(_MARGIN)
+def _draw(rows: list[Row]) -> Figure:
+    height = math.ceil(sum(row.height for row in rows) + 2 * MARGIN)
+    figure = Figure(figsize=(WIDTH / _DPI, height / _DPI), dpi=_DPI, facecolor="white")
+    top = float(MARGIN)
     for row in rows:
         below = top
         if row.heading:
-            _write(figure, _MARGIN, top, row.heading, _HEADING_FONT, "bold")
-            below += _HEADING
-        left = float(_MARGIN)
-        for picture in row.pictures:
-            _draw_picture(figure, picture, left, below, row.picture_height)
-            left += picture.aspect * row.picture_height + _GAP
+            _write(figure, MARGIN, top, row.heading, HEADING_FONT, "bold")
+            below += HEADING
+        bottom = round(below + row.picture_height)
+        for picture, (left, right) in zip(row.pictures, row.edges(), strict=True):
+            _draw_picture(figure, picture, (left, right), (round(below), bottom))
+            for number, (line, weight) in enumerate(label(picture, row.picture_height)):
+                _write(figure, left, bottom + 2 + number * LINE, line, LABEL_FONT, weight)
         top += row.height
     return figure
 
 
 def _draw_picture(
-    figure: Figure, picture: _Picture, left: float, top: float, height: float
+    figure: Figure, picture: Picture, across: tuple[int, int], down: tuple[int, int]
 ) -> None:
-    width, whole = _WIDTH, figure.get_figheight() * _DPI
-    place = (left / width, 1 - (top + height) / whole, picture.aspect * height / width)
-    axes = figure.add_axes((*place, height / whole))
+    """Between the edges left and right, top and bottom, in pixels."""
+    whole = figure.get_figheight() * _DPI
+    (left, right), (top, bottom) = across, down
+    place = (left / WIDTH, 1 - bottom / whole, (right - left) / WIDTH, (bottom - top) / whole)
+    axes = figure.add_axes(place)
     axes.set_axis_off()
     axes.imshow(picture.pixels, aspect="auto")
-    for number, (line, weight) in enumerate(_label(picture, height)):
-        _write(figure, left, top + height + 2 + number * _LINE, line, _LABEL_FONT, weight)
 
 
 def _write(figure: Figure, left: float, top: float, text: str, size: float, weight: str) -> None:
     """Writes a line below and right of a point, its size in pixels."""
     figure.text(
-        left / _WIDTH,
+        left / WIDTH,
         1 - top / (figure.get_figheight() * _DPI),
         text,
         fontsize=size * 72 / _DPI,
