@@ -1,12 +1,15 @@
 """What all HTML pages share: templates, and images that bring their own bytes."""
 
 import base64
+import io
 from functools import cache
 from pathlib import Path
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from markupsafe import Markup
+from PIL import Image
 
+from beambench_report.base.files import Problem
 from beambench_report.base.quantities import duration_in_words, number
 
 TEMPLATES = Path(__file__).with_name("templates")
@@ -35,6 +38,21 @@ def environment(*own: Path) -> Environment:
     made.filters["number"] = number
     made.filters["as_script_data"] = Markup  # `pack` has escaped what would end a script
     return made
+
+
+_THUMBNAIL = (640, 480)  # pixels, at most: a page shows pictures at half of that
+
+
+def thumbnail_uri(path: Path) -> str:
+    """A picture as an address, no larger than a page shows it; the file itself is unchanged."""
+    try:
+        small = Image.open(path).convert("RGB")
+    except OSError as error:
+        raise Problem(f"{path}: cannot be read as a picture ({error}); render it again") from None
+    small.thumbnail(_THUMBNAIL)
+    coded = io.BytesIO()
+    small.save(coded, "WEBP", quality=85)
+    return f"data:image/webp;base64,{base64.b64encode(coded.getvalue()).decode('ascii')}"
 
 
 def data_uri(path: Path) -> str:

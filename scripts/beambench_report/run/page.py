@@ -25,7 +25,7 @@ from beambench_report.base.quantities import number, size_in_words
 from beambench_report.base.ratio import Ratio
 from beambench_report.base.records import BASELINE, OK, Run, read_run, size_of
 from beambench_report.run.all_cells import pack
-from beambench_report.run.html import data_uri, environment
+from beambench_report.run.html import environment, thumbnail_uri
 from beambench_report.run.inline_svg import dark_variables, inline_svg
 from beambench_report.run.outcome import doubts_about_times, summarize_verdicts
 from beambench_report.run.standings import REFERENCES, Standings, in_words, overall, standings
@@ -99,7 +99,7 @@ def read_pictures(directory: Path, scenes: Iterable[str]) -> list[Image]:
         fitting = [s for s in stems if path.stem == s or path.stem.startswith(f"{s}-")]
         stem = max(fitting, key=len, default="")
         what = path.stem.removeprefix(stem).strip("-").replace("-", ", ").replace("_", " ")
-        images.append(Image(what or "the scene", stems.get(stem, ""), data_uri(path)))
+        images.append(Image(what or "the scene", stems.get(stem, ""), thumbnail_uri(path)))
     return images
 
 
