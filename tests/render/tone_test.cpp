@@ -142,7 +142,8 @@ TEST(Tone, MakesNoNumberThatIsNone) {
   image.at(4, 3) = {0.0F, 0.0F, kLargest};
   image.at(5, 3) = {kSmallest, 0.0F, 0.0F};
   image.at(6, 3) = glm::vec3(0.0F);
-  for (const glm::vec3& pixel : toned(image).pixels()) {
+  const Image shown = toned(image);
+  for (const glm::vec3& pixel : shown.pixels()) {
     ASSERT_GE(std::min({pixel.x, pixel.y, pixel.z}), 0.0F);
     ASSERT_LE(brightest(pixel), 1.0F);
   }

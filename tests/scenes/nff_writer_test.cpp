@@ -214,7 +214,13 @@ RC_GTEST_PROP(NffWriter, AnySceneReadsBackTheSame, (std::uint64_t seed)) {
       // Numbers that give no camera or primitive; the builder refuses them, and so do we.
     }
   }
-  const Scene scene = std::move(builder).build();
+  std::optional<Scene> built;
+  try {
+    built = std::move(builder).build();
+  } catch (const InputError&) {
+    RC_DISCARD("a scene that is too small for single precision, which the builder refuses");
+  }
+  const Scene& scene = *built;
   RC_ASSERT(survives(scene));
   // The same but for the name of the first, which is in a comment.
   const Scene again = nff::parse_nff(written(scene), "random").scene;
