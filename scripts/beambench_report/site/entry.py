@@ -29,9 +29,9 @@ from beambench_report.base.records import (
     size_of,
 )
 from beambench_report.history.night import counters_of, views_of
+from beambench_report.run.outcome import doubts_about_times
 from beambench_report.run.standings import overall, standings
 
-_PRECISE = "precision"
 _BAR = " | "
 _BEGIN, _END = "beambench.add(", ");\n"
 
@@ -85,8 +85,8 @@ class Entry:
     cut_off: bool
     wrong: int
     without_rays: int
-    imprecise: int | None
-    """Timed cells that are less precise than the sweep wants; None where the record is silent."""
+    doubts: tuple[str, ...] | None
+    """Why the times are worth little; None where the record is silent."""
     timed: int
     fastest: tuple[str, ...]
     """For each kind of rays."""
@@ -130,7 +130,7 @@ def entry_of(run: Run) -> Entry:
         cut_off=manifest.cut_off,
         wrong=int((~rows["verdict"].isin(FAULTLESS_VERDICTS)).sum()),
         without_rays=int((rows["verdict"] == NO_RAYS).sum()),
-        imprecise=int((timed["stop_reason"] != _PRECISE).sum()) if "stop_reason" in timed else None,
+        doubts=tuple(doubts_about_times(run, manifest)) if "stop_reason" in timed else None,
         timed=len(timed),
         fastest=_fastest(run, files),
         reference=" ".join(reference) if reference else "",
@@ -240,9 +240,9 @@ def _code() -> str:
 
 
 def _state(folder: Path) -> str:
-    told = []
+    states = []
     for path in sorted(folder.resolve().rglob("*")):
         if path.is_file() and path.suffix != ".pyc":
             status = path.stat()
-            told.append(f"{path} {status.st_size} {status.st_mtime_ns}")
-    return "\n".join(told)
+            states.append(f"{path} {status.st_size} {status.st_mtime_ns}")
+    return "\n".join(states)
