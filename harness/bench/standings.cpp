@@ -303,13 +303,14 @@ std::string describe_left_out(std::span<const Standings> views) {
 std::string describe_mean(const OverallStandings& overall) {
   std::vector<std::vector<std::string>> lines{
       {"contender", "times the fastest of each view", "fastest or tied", "views"}};
-  const auto add = [&](const MeanStanding& mean, const char* note) {
-    lines.push_back({mean.contender + note, in_words(mean.ratio),
-                     fmt::format("{} of {}", mean.wins, overall.views),
+  const auto add = [&](const MeanStanding& mean, const char* note, const std::string& wins) {
+    lines.push_back({mean.contender + note, in_words(mean.ratio), wins,
                      fmt::format("{} of {}", mean.views, overall.views)});
   };
-  for (const MeanStanding& mean : overall.means) add(mean, "");
-  for (const MeanStanding& mean : overall.references) add(mean, " (reference)");
+  for (const MeanStanding& mean : overall.means) {
+    add(mean, "", fmt::format("{} of {}", mean.wins, overall.views));
+  }
+  for (const MeanStanding& mean : overall.references) add(mean, " (reference)", "-");
   return fmt::format("Over {} of {} rays, geometric means:\n{}",
                      base::counted(static_cast<std::size_t>(overall.views), "view"),
                      overall.ray_kind, table(lines));
@@ -408,6 +409,7 @@ std::string describe(std::span<const Standings> views) {
       table(lines) + describe_left_out(views);
   if (views.size() > 1) {
     for (const OverallStandings& one : overall(views)) {
+      if (one.views == 1) continue;
       out += '\n';
       out += describe_mean(one);
     }

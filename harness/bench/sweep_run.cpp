@@ -323,7 +323,7 @@ std::string describe_verdicts(const SweepOutcome& outcome) {
     out = fmt::format("Hits:  {}, all verified\n", base::counted(measured, "cell"));
   }
   if (outcome.without_rays > 0) {
-    out += fmt::format("Rays:  {} of {} have none over their scenes\n", outcome.without_rays,
+    out += fmt::format("Rays:  {} of {} have no rays over their scenes\n", outcome.without_rays,
                        base::counted(outcome.cells, "cell"));
   }
   if (measured > outcome.failed) {

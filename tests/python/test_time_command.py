@@ -87,7 +87,7 @@ def test_the_program_and_the_page_name_the_same_winners(tmp_path: Path) -> None:
         "rays": ["primary", "shadow"],
         "repetitions": {"minimum": 7, "maximum": 7},
         "budget_seconds": 1,
-        "exclude": [{"structure": "exhaustive", "primitives_above": 50}],
+        "exclude": [{"structure": "exhaustive", "primitives_above": 70}],
     }
     (tmp_path / "sweep.json").write_text(json.dumps(sweep))
     run = tmp_path / "run"
