@@ -93,7 +93,7 @@ def test_the_plot_lies_beside_the_first_file(
     assert capsys.readouterr().out.split() == [str(tmp_path / f"tetra.{e}") for e in ("png", "svg")]
     assert (tmp_path / "tetra.png").read_bytes().startswith(b"\x89PNG")
     svg = (tmp_path / "tetra.svg").read_text()
-    assert all(word in svg for word in ("tetra", "balls", "primitives", "GiB", "seconds"))
+    assert all(word in svg for word in ("tetra", "balls", "primitives", "KiB", "seconds"))
     assert main(["growth", str(first), "-o", str(tmp_path / "growth.png")]) == 0
     assert (tmp_path / "growth.png").exists()
     assert (tmp_path / "growth.svg").exists()

@@ -15,9 +15,9 @@ from beambench_report.base.figure import (
     write_plot,
 )
 from beambench_report.base.files import Problem, read_table
+from beambench_report.base.quantities import size_in_words
 
 _COLUMNS = ("generator", "parameter", "size", "primitives", "bytes", "seconds", "scene")
-_GIB = 2.0**30
 
 
 def write_growth(files: list[Path], output: Path | None = None) -> list[Path]:
@@ -55,10 +55,12 @@ def growth_plot(tables: list[pd.DataFrame], stem: str) -> Plot:
             "linewidth": 1.2,
             "label": rows["generator"].iloc[0],
         }
-        memory.plot(rows["primitives"], rows["bytes"] / _GIB, **look)
+        memory.plot(rows["primitives"], rows["bytes"], **look)
         timed = rows[rows["seconds"] > 0]
         seconds.plot(timed["primitives"], timed["seconds"], **look)
-    _finish(memory, "Memory of the scene's arrays", "GiB")
+    _finish(memory, "Memory of the scene's arrays", "memory")
+    memory.set_yscale("log", base=2)
+    memory.yaxis.set_major_formatter(lambda size, _: size_in_words(size))
     _finish(seconds, "Time to generate it", "seconds")
     memory.legend(fontsize=8, frameon=False, ncols=2)
     seconds.set_xlabel("primitives")

@@ -102,7 +102,7 @@ def _balance(thesis: pd.DataFrame, processes: pd.DataFrame) -> Plot | None:
         members = processes[processes["simulation"].eq(row.simulation)]
         consumers = members[members["role"].eq("consumer")]
         beams, times = panels[column], panels[column + len(rows)]
-        # Points and no bars: the differences are a small part of the whole.
+        # From 0, so that a small difference looks small.
         beams.plot(consumers["process"], consumers["tasks"], "o", color=LINE_COLORS[0])
         times.plot(
             consumers["process"], consumers["busy_seconds"], "o", color=LINE_COLORS[0], label="busy"
@@ -118,8 +118,8 @@ def _balance(thesis: pd.DataFrame, processes: pd.DataFrame) -> Plot | None:
         name_panel(beams, row.scene, "consumer", "beams")
         producer = f"{row.scene}, the producer busy {row.producer_busy:.0%}"
         name_panel(times, producer, "consumer", "seconds")
-        low, high = times.get_ylim()
-        times.set_ylim(top=high + 0.3 * (high - low))
+        times.set_ylim(0, 1.3 * times.get_ylim()[1])
+        beams.set_ylim(bottom=0)
         times.legend(fontsize=7.5, frameon=False, loc="upper right", ncols=2)
         for panel in (beams, times):
             panel.xaxis.set_major_locator(MaxNLocator(integer=True))
