@@ -249,7 +249,7 @@ def test_figures_6_3_and_6_4_name_each_panel_and_show_the_thesis(repository: Pat
         "thesis, gato-bill: best": [[11, 0.75]],
         "thesis, torre-eiffel: mean, at best": [[7, 0.65]],
     }
-    # What differs between consumers is seen: no axis of times begins at 0.
+    # A small difference looks small.
     assert all(panel.get_ylim()[0] == 0 for panel in plots["figure-6.4"].axes)
 
 

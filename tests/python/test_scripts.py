@@ -42,6 +42,7 @@ def test_help_is_given(script: str, repository: Path) -> None:
         ("run", ["--swep", "x"], "unknown argument '--swep'"),
         ("run", ["--sweep"], "--sweep needs a file"),
         ("run", ["--sweep", "no/such.json"], "no/such.json is not a file that can be read"),
+        ("run", ["--sweep", "quik"], "no sweep has that name; there are: "),
         ("run", ["--resume"], "--resume needs the folder of a run"),
         ("run", ["--resume", "no/such"], "no/such is not the folder of a run"),
         ("run", ["--resume=a", "--output=b"], "--resume excludes --sweep and --output"),
@@ -269,4 +270,7 @@ def test_a_small_sweep_leaves_records_pictures_plots_and_a_page(
     assert (run / "pictures" / "stetra.png").exists()
     assert (run / "pictures" / "stetra-samet-traversal_steps.png").exists()
     assert f"Look at {run}/report.html\n" in result.stdout
+    assert result.stdout.endswith((run / "summary.txt").read_text())
+    assert "Fastest by trace time" in result.stdout
+    assert "\nHits:  6 cells, all verified\nTimes: " in result.stdout
     assert "The hits of all 6 cells are correct" in (run / "report.html").read_text()
