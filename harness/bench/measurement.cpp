@@ -1,13 +1,3 @@
-
-
-#if defined(__SSE2__)
-#endif
-#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
-#define BEAMBENCH_HAS_MALLINFO2 1
-#else
-#define BEAMBENCH_HAS_MALLINFO2 0
-#endif
-
 #include "harness/bench/measurement.hpp"
 
 #include <algorithm>
@@ -20,12 +10,21 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <immintrin.h>
 #include <malloc.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include "harness/bench/record/robust_statistics.hpp"
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
+#define BEAMBENCH_HAS_MALLINFO2 1
+#else
+#define BEAMBENCH_HAS_MALLINFO2 0
+#endif
 
 namespace beambench::bench {
 namespace {
