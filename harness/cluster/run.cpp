@@ -147,10 +147,12 @@ ClusterRun lead(const ClusterRequest& request, Transport& transport) {
     source = make_source(request, *state);
   });
   ClusterRun run = describe(request, *state, transport.processes());
-  const auto check = [&, mine = run.ready_reports[kProducer].identity](
-                         ProcessId process, std::span<const std::byte> ready_report) {
+  const auto check = [&, mine = run.ready_reports[kProducer].identity,
+                      missing = transport.processes() - 1](
+                         ProcessId process, std::span<const std::byte> ready_report) mutable {
     run.ready_reports[static_cast<std::size_t>(process)] =
         read_ready_report(process, ready_report, mine);
+    if (--missing == 0) fmt::print(stderr, "beambench-cluster: all consumers are ready\n");
   };
   Result result(*state, request.job.light);
   ImageWorker own = state->worker();

@@ -34,8 +34,8 @@ def start(*arguments: str | Path, cwd: Path | None = None) -> subprocess.Popen[s
     )
 
 
-def finish(run: subprocess.Popen[str]) -> subprocess.CompletedProcess[str]:
-    output, errors = run.communicate(timeout=300)
+def finish(run: subprocess.Popen[str], timeout: int = 300) -> subprocess.CompletedProcess[str]:
+    output, errors = run.communicate(timeout=timeout)
     return subprocess.CompletedProcess(run.args, run.returncode, output, errors)
 
 

@@ -8,7 +8,6 @@ import json
 import os
 import signal
 import subprocess
-import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -24,6 +23,7 @@ SMALL = ["--resolution", "120x90", "--samples", "5"]
 # Long enough to be interrupted: some seconds.
 LONG = ["balls:n=2", "--accel", "beam", "--shade", "whitted", "--depth", "8",
         "--resolution", "480x360", "--samples", "5"]  # fmt: skip
+READY = "beambench-cluster: all consumers are ready"
 
 
 @pytest.fixture(scope="module")
@@ -122,27 +122,37 @@ def test_the_same_tasks_whoever_does_them(tmp_path: Path) -> None:
     assert tasks(1) == tasks(3)
 
 
-def wait_for_consumers(run: subprocess.Popen[str], count: int) -> dict[int, int]:
-    """Until all processes work: they have used the processor for a moment."""
-    for _ in range(2400):
-        pids = processes_of(run)
-        if len(pids) == count and all(cpu_seconds(pid) > 0.3 for pid in list(pids.values())[1:]):
-            return pids
-        time.sleep(0.05)
+def consumer_at_work(run: subprocess.Popen[str], process: int) -> int:
+    """The pid of a consumer, once all of them have joined and received tasks."""
+    assert run.stderr is not None
+    for line in run.stderr:
+        if line.strip() == READY:
+            return processes_of(run)[process]
     raise AssertionError(run.communicate(timeout=60))
 
 
-def cpu_seconds(pid: int) -> float:
-    fields = Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+def finish_aborted(run: subprocess.Popen[str]) -> subprocess.CompletedProcess[str]:
+    """After MPI_Abort mpirun of Open MPI 4.1 crashed in 2 of 110 runs, when all processes had
+    ended, and waited in PMIx_server_finalize for a lock for ever in another one."""
+    pids = processes_of(run).values()
+    try:
+        return finish(run, timeout=60)
+    except subprocess.TimeoutExpired:
+        states = [Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split() for pid in pids]
+        assert [state[0] for state in states] == ["Z"] * len(states)
+        run.kill()
+        return finish(run)
+
+
+MPIRUN_FAULTS = (-signal.SIGSEGV, -signal.SIGKILL)
 
 
 def test_a_killed_consumer_ends_the_run_without_a_picture(tmp_path: Path) -> None:
     file = tmp_path / "balls.png"
     file.write_text("the picture before")
     run = start("-n", 3, CLUSTER, *LONG, "-o", file)
-    os.kill(wait_for_consumers(run, 3)[2], signal.SIGKILL)
-    done = finish(run)
+    os.kill(consumer_at_work(run, 2), signal.SIGKILL)
+    done = finish_aborted(run)
     assert done.returncode != 0
     assert "rank 2" in done.stderr  # mpirun says who it was
     assert file.read_text() == "the picture before"
@@ -152,9 +162,9 @@ def test_a_killed_consumer_ends_the_run_without_a_picture(tmp_path: Path) -> Non
 def test_a_consumer_that_hangs_is_done_without(tmp_path: Path) -> None:
     one, several = tmp_path / "one.png", tmp_path / "several.png"
     run = start("-n", 3, CLUSTER, *LONG, "-o", several, "--timeout", "2")
-    os.kill(wait_for_consumers(run, 3)[2], signal.SIGSTOP)
-    done = finish(run)
-    assert done.returncode == 0, done.stderr
+    os.kill(consumer_at_work(run, 2), signal.SIGSTOP)
+    done = finish_aborted(run)
+    assert done.returncode in (0, *MPIRUN_FAULTS), done.stderr
     assert "process 2 was silent for 2 s" in done.stderr
     output_of("render", *LONG, "-o", one)
     assert one.read_bytes() == several.read_bytes()
@@ -162,7 +172,8 @@ def test_a_consumer_that_hangs_is_done_without(tmp_path: Path) -> None:
 
 def refused(done: subprocess.CompletedProcess[str], words: list[str]) -> None:
     assert done.returncode == 2, (done.returncode, done.stderr)
-    sentences = [line for line in done.stderr.splitlines() if line.startswith("beambench-cluster:")]
+    lines = [line for line in done.stderr.splitlines() if line != READY]
+    sentences = [line for line in lines if line.startswith("beambench-cluster:")]
     assert len(sentences) == 1, done.stderr
     for word in words:
         assert word in sentences[0]
