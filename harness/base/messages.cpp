@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -15,6 +16,27 @@ namespace beambench::base {
 
 std::string counted(std::size_t number, std::string_view noun) {
   return fmt::format("{} {}{}", number, noun, number == 1 ? "" : "s");
+}
+
+std::vector<std::string> aligned(std::span<const std::vector<std::string>> lines,
+                                 std::size_t left_columns) {
+  std::vector<std::size_t> widths;
+  for (const auto& line : lines) {
+    widths.resize(std::max(widths.size(), line.size()));
+    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
+  }
+  std::vector<std::string> out;
+  for (const auto& line : lines) {
+    std::string text;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+      text += i == 0 ? "" : "  ";
+      text += i < left_columns ? fmt::format("{:<{}}", line[i], widths[i])
+                               : fmt::format("{:>{}}", line[i], widths[i]);
+    }
+    text.erase(text.find_last_not_of(' ') + 1);
+    out.push_back(std::move(text));
+  }
+  return out;
 }
 
 std::size_t place_of_name(std::string_view what, std::string_view name,

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "scenes/catalogue.hpp"
 #include "scenes/scene.hpp"
@@ -23,6 +24,11 @@ enum ExitCode : int {
 
 /// "1 cell", "2 cells": the noun is given in the singular and takes an s in the plural.
 std::string counted(std::size_t number, std::string_view noun);
+
+/// Lines of as many cells each, as columns of one width with two blanks between them: the first
+/// `left_columns` flush left, the others flush right. No line ends in blanks.
+std::vector<std::string> aligned(std::span<const std::vector<std::string>> lines,
+                                 std::size_t left_columns);
 
 /// The place of a name among those of a kind, `what`. Throws InputError listing them.
 std::size_t place_of_name(std::string_view what, std::string_view name,

@@ -13,6 +13,7 @@
 
 #include "harness/base/messages.hpp"
 #include "harness/bench/plan.hpp"
+#include "scenes/core/parameters.hpp"
 
 namespace beambench::bench {
 namespace {
@@ -33,25 +34,14 @@ std::optional<double> figure(const Json& row, const std::string& column) {
                                                 : std::optional(found->get<double>());
 }
 
-bool is_timed(const Json& row) {
-  const std::string verdict = text(row, "verdict");
-  return (verdict == "ok" || verdict == "baseline") &&
-         figure(row, "trace_ms_median").value_or(0.0) > 0.0;
-}
+/// Cells without correct hits are not timed.
+bool is_timed(const Json& row) { return figure(row, "trace_ms_median").value_or(0.0) > 0.0; }
 
-/// `name=value` by name.
-std::map<std::string, std::string> parameters_of(const Json& row) {
-  std::map<std::string, std::string> found;
-  std::string_view rest = row.at("parameters").get_ref<const std::string&>();
-  while (!rest.empty()) {
-    const std::string_view item = rest.substr(0, rest.find(','));
-    rest.remove_prefix(std::min(item.size() + 1, rest.size()));
-    const std::size_t equals = item.find('=');
-    if (equals != std::string_view::npos) {
-      found.emplace(item.substr(0, equals), item.substr(equals + 1));
-    }
-  }
-  return found;
+/// In the order of the record.
+std::vector<std::pair<std::string, std::string>> parameters_of(const Json& row) {
+  const std::string parameters = text(row, "parameters");
+  const std::string structure = text(row, "structure");
+  return parse_spec(parameters.empty() ? structure : structure + ":" + parameters).parameters;
 }
 
 /// What the cells of a run are called: by what differs between them.
@@ -63,7 +53,6 @@ class Names {
       cameras_[text(row, "scene")].insert(text(row, "camera"));
       samples_.insert(row.at("samples").get<int>());
       kinds_.insert(text(row, "ray_kind"));
-      variants_[text(row, "structure")].insert(text(row, "parameters"));
       for (const auto& [name, value] : parameters_of(row)) {
         values_[text(row, "structure")][name].insert(value);
       }
@@ -73,15 +62,8 @@ class Names {
   std::string contender(const Json& row) const {
     const std::string structure = text(row, "structure");
     std::string label = structure;
-    const auto values = values_.find(structure);
-    std::string_view rest = row.at("parameters").get_ref<const std::string&>();
-    while (!rest.empty()) {  // in the order of the record
-      const std::string_view item = rest.substr(0, rest.find(','));
-      rest.remove_prefix(std::min(item.size() + 1, rest.size()));
-      const auto seen = values->second.find(std::string(item.substr(0, item.find('='))));
-      if (seen != values->second.end() && seen->second.size() > 1) {
-        label += fmt::format(" {}", item);
-      }
+    for (const auto& [name, value] : parameters_of(row)) {
+      if (values_.at(structure).at(name).size() > 1) label += fmt::format(" {}={}", name, value);
     }
     return label;
   }
@@ -99,7 +81,6 @@ class Names {
   std::map<std::string, std::set<std::string>> cameras_;
   std::set<int> samples_;
   std::set<std::string> kinds_;
-  std::map<std::string, std::set<std::string>> variants_;
   std::map<std::string, std::map<std::string, std::set<std::string>>> values_;
 };
 
@@ -256,18 +237,10 @@ std::string rays_in_words(const std::optional<double>& rays) {
   return fmt::format("{:.3g} rays", *rays);
 }
 
-/// Lines of cells, each column as wide as its longest.
 std::string table(const std::vector<std::vector<std::string>>& lines) {
-  std::vector<std::size_t> widths(lines.front().size());
-  for (const auto& line : lines) {
-    for (std::size_t i = 0; i < line.size(); ++i) widths[i] = std::max(widths[i], line[i].size());
-  }
   std::string out;
-  for (const auto& line : lines) {
-    std::string text = " ";
-    for (std::size_t i = 0; i < line.size(); ++i)
-      text += fmt::format(" {:<{}} ", line[i], widths[i]);
-    out += text.substr(0, text.find_last_not_of(' ') + 1) + "\n";
+  for (const std::string& line : base::aligned(lines, lines.front().size())) {
+    out += "  " + line + "\n";
   }
   return out;
 }

@@ -279,8 +279,8 @@ class SweepRun {
         ++outcome.failed;
       }
     }
-    folder_.write_text("summary.txt",
-                       describe(outcome.standings) + "\n" + describe_verdicts(outcome));
+    outcome.summary = describe(outcome.standings) + "\n" + describe_verdicts(outcome);
+    folder_.write_text("summary.txt", outcome.summary);
     return outcome;
   }
 

@@ -36,6 +36,7 @@ struct SweepOutcome {
   std::size_t without_rays = 0;   ///< of them, of a kind of rays that their scene has none of
   std::vector<std::string> doubts{};  ///< why the times are worth little; clauses
   std::vector<Standings> standings{};
+  std::string summary{};  ///< who is fastest, and the verdicts: the text of summary.txt
 };
 
 /// Two lines, one on the hits and one on what the times are worth; a third on rays that scenes

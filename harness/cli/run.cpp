@@ -100,8 +100,7 @@ bench::Plan selected_plan(const bench::SweepConfig& config,
 }
 
 int report(const bench::SweepOutcome& outcome) {
-  fmt::print(stderr, "\n{}\n{}", bench::describe(outcome.standings),
-             bench::describe_verdicts(outcome));
+  fmt::print(stderr, "\n{}", outcome.summary);
   fmt::print("{}\n", outcome.results.string());
   return bench::exit_code_of(outcome);
 }

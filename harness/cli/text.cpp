@@ -4,6 +4,9 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "harness/base/messages.hpp"
 
 namespace beambench::cli {
 
@@ -16,24 +19,10 @@ void TextTable::add(std::vector<std::string> row) {
 }
 
 std::string TextTable::text() const {
-  const std::size_t columns = rows_.front().size();
-  std::vector<std::size_t> widths(columns, 0);
-  for (const auto& row : rows_) {
-    for (std::size_t i = 0; i < columns; ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  std::string out;
-  for (std::size_t r = 0; r < rows_.size(); ++r) {
-    std::string line;
-    for (std::size_t i = 0; i < columns; ++i) {
-      const std::string& cell = rows_[r][i];
-      line += i == 0 ? "" : "  ";
-      line += i < left_columns_ ? fmt::format("{:<{}}", cell, widths[i])
-                                : fmt::format("{:>{}}", cell, widths[i]);
-    }
-    out += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
-    if (r == 0) out += std::string(line.size(), '-') + '\n';
-  }
-  return out;
+  std::vector<std::string> lines = base::aligned(rows_, left_columns_);
+  const std::size_t width = std::ranges::max(lines, {}, &std::string::size).size();
+  lines.insert(lines.begin() + 1, std::string(width, '-'));
+  return fmt::format("{}\n", fmt::join(lines, "\n"));
 }
 
 std::string wrap(std::string_view text, std::size_t indent, std::size_t width) {

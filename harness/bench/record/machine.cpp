@@ -157,7 +157,7 @@ std::vector<std::string> disturbances(const Machine& machine) {
   } else if (machine.turbo == "on") {
     found.emplace_back("The clock may be boosted (turbo), so it depends on temperature and load.");
   }
-  if (machine.load > 0.5) {
+  if (machine.load > kIdleLoad) {
     found.push_back(
         fmt::format("Other work was running: the load average was {:.2f}.", machine.load));
   }

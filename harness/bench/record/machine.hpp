@@ -23,6 +23,9 @@ struct BuildInfo {
 
 const BuildInfo& build_info();
 
+/// A load average above it disturbs times.
+constexpr double kIdleLoad = 0.5;
+
 struct Machine {
   std::string id;  ///< see machine_id
   std::string cpu;

@@ -207,7 +207,6 @@ std::optional<std::string> noise_warning(const std::optional<double>& noise) {
 }
 
 std::vector<std::string> doubts_about_times(const Manifest& manifest, std::span<const Json> cells) {
-  constexpr double kIdle = 0.5;  // as `disturbances` has it
   constexpr double kMostArePrecise = 0.8;
   constexpr std::size_t kLeastForInterval = 6;
   std::size_t timed = 0, imprecise = 0, without_interval = 0;
@@ -221,7 +220,7 @@ std::vector<std::string> doubts_about_times(const Manifest& manifest, std::span<
   if (const auto& noise = manifest.measurement.noise; noise && *noise > kNoisy) {
     doubts.push_back(fmt::format("equal work took up to {:.0f}% longer than usual", 100 * *noise));
   }
-  if (manifest.machine.load > kIdle) {
+  if (manifest.machine.load > kIdleLoad) {
     doubts.push_back(fmt::format("other work was running (load {:.2f})", manifest.machine.load));
   }
   if (static_cast<double>(timed - imprecise) < kMostArePrecise * static_cast<double>(timed)) {

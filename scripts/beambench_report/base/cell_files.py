@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from math import isclose
 from pathlib import Path
 from statistics import median
+from typing import Literal
 
 import pandas as pd
 
@@ -119,13 +120,20 @@ def opened_cell(path: Path) -> Iterator[dict]:
         ) from None
 
 
-def ratio_of_totals(
-    row: Mapping[str, object], base: Mapping[str, object], files: Mapping[Identity, CellFile]
+def ratio_of(
+    phase: Literal["total", "trace"],
+    row: Mapping[str, object],
+    base: Mapping[str, object],
+    files: Mapping[Identity, CellFile],
 ) -> Ratio:
-    """The total of a row over another one's: paired where the repetitions of both are known."""
-    file, base_file = files.get(identity(row)), files.get(identity(base))
-    paired = paired_ratio(file.total_ms, base_file.total_ms) if file and base_file else None
-    return paired or unpaired_ratio(median_of(row, "total"), median_of(base, "total"))
+    """A time of a row over another one's: paired where the repetitions of both are known."""
+    repeated = [
+        getattr(file, f"{phase}_ms")
+        for one in (row, base)
+        if (file := files.get(identity(one))) is not None
+    ]
+    paired = paired_ratio(*repeated) if len(repeated) == 2 else None
+    return paired or unpaired_ratio(median_of(row, phase), median_of(base, phase))
 
 
 def _read(path: Path) -> tuple[Identity, CellFile]:

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.cell_files import CellFile, Identity, ratio_of_totals, read_cell_files
+from beambench_report.base.cell_files import CellFile, Identity, ratio_of, read_cell_files
 from beambench_report.base.files import Problem
 from beambench_report.base.machine import Machine, machine_of
 from beambench_report.base.ratio import Median, Ratio, median_of, unpaired_ratio
@@ -180,7 +180,7 @@ def _figures(file: _File, reference: Contender | None) -> dict[Key, tuple[Median
 
 
 def _over(row: pd.Series, base: pd.Series, cells: Mapping[Identity, CellFile]) -> Median:
-    ratio = ratio_of_totals(row, base, cells)
+    ratio = ratio_of("total", row, base, cells)
     return Median(ratio.value, ratio.low, ratio.high)
 
 

@@ -8,20 +8,18 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import EngFormatter, LogLocator
 
 from beambench_report.base.figure import Look, Plot
-from beambench_report.base.names import file_stems
 from beambench_report.base.palette import INK, PAPER
 from beambench_report.base.quantities import number
 from beambench_report.base.records import size_of
 from beambench_report.base.svg import hover
 from beambench_report.run.break_even import break_even_rays, rays_in_words
-from beambench_report.run.measured import Measured, by_kind, short_title
+from beambench_report.run.measured import Measured, short_title
 from beambench_report.run.panels import (
     MOST_LINES,
-    chunks,
     finish,
     hide_repeated_labels,
-    numbered,
     panels_with_legend,
+    parts_by_kind,
     scale_axis,
     set_title,
     share_limits,
@@ -37,15 +35,11 @@ def crossings(measured: Measured) -> list[Plot]:
     """The figures of all views in which two contenders have times."""
     found = {view: _contenders(measured, view) for view in measured.run.views}
     several = [view for view, rows in found.items() if len(rows) > 1]
-    groups = by_kind(measured.run.rows, several)
-    stems = file_stems(groups)
-    plots = []
-    for kind, views in groups.items():
-        stem = "break-even" if len(groups) == 1 else f"break-even-{stems[kind]}"
-        for index, part in enumerate(chunks(views, _MOST_PANELS)):
-            shown = {view: found[view] for view in part}
-            plots.append(_crossings(measured, kind, shown, numbered(stem, index)))
-    return plots
+    parts = parts_by_kind(measured.run.rows, several, "break-even", _MOST_PANELS)
+    return [
+        _crossings(measured, kind, {view: found[view] for view in views}, stem)
+        for kind, views, stem in parts
+    ]
 
 
 def cost_of_a_ray(build_ms: float, ns_per_ray: float, rays: np.ndarray) -> np.ndarray:
@@ -104,7 +98,7 @@ def _crossings(measured: Measured, kind: str, shown: dict[str, pd.DataFrame], st
 
 
 def _draw_line(panel: Axes, row: pd.Series, look: Look, index: int, count: int) -> None:
-    """Two markers a line, each at another place, so that lines of one color can be told apart."""
+    """Two markers a line, each at another place, so that lines of one color differ."""
     build = row["build_ms_median"]
     share = (index + 0.5) / count
     marked = [10 ** (3.2 + 1.6 * share), 10 ** (8 + 1.8 * share)]

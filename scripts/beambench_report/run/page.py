@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.cell_files import CellFile, Identity, ratio_of_totals, read_cell_files
+from beambench_report.base.cell_files import CellFile, Identity, ratio_of, read_cell_files
 from beambench_report.base.columns import COUNTER_SUFFIX, dictionary
 from beambench_report.base.files import Problem, write_text
 from beambench_report.base.machine import (
@@ -171,7 +171,7 @@ def _ratios(
         if contender == reference:
             result[contender] = Ratio(1.0)
         elif base["total_ms_median"] > 0:
-            result[contender] = ratio_of_totals(row, base, files)
+            result[contender] = ratio_of("total", row, base, files)
     return result
 
 

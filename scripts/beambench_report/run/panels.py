@@ -1,7 +1,7 @@
 """Figures of several panels at page width, never taller than 1.4 times that."""
 
 import textwrap
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import ceil, log10
 from typing import TypeVar
 
@@ -13,6 +13,8 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormat
 from matplotlib.transforms import blended_transform_factory
 
 from beambench_report.base.figure import DPI, PAGE_WIDTH, Look, caption
+from beambench_report.base.names import file_stems
+from beambench_report.run.measured import by_kind
 
 TALLEST = 1.38 * PAGE_WIDTH
 """In inches; what is wanted is 1.4, and matplotlib rounds to pixels."""
@@ -38,6 +40,18 @@ def chunks(items: Sequence[_Item], most: int) -> list[Sequence[_Item]]:
 def numbered(stem: str, index: int) -> str:
     """The stem of one of several figures, counted from 0: memory, memory-2, memory-3."""
     return stem if index == 0 else f"{stem}-{index + 1}"
+
+
+def parts_by_kind(
+    rows: pd.DataFrame, views: Iterable[str], stem: str, most: int
+) -> Iterator[tuple[str, Sequence[str], str]]:
+    """The figures that show the views, a kind of rays after the other: kind, views, stem."""
+    groups = by_kind(rows, views)
+    kinds = file_stems(groups)
+    for kind, own in groups.items():
+        base = stem if len(groups) == 1 else f"{stem}-{kinds[kind]}"
+        for index, part in enumerate(chunks(own, most)):
+            yield kind, part, numbered(base, index)
 
 
 def panels_with_legend(
@@ -108,7 +122,7 @@ def set_title(panel: Axes, title: str, width: int = 38) -> None:
 
 
 def scale_axis(panel: Axes, which: str, values: Iterable[float], ticks: int = 9) -> bool:
-    """Makes an axis, "x" or "y", logarithmic where the values need it; tells whether it is."""
+    """Makes an axis, "x" or "y", logarithmic where the values need it; returns whether it is."""
     above = [value for value in values if value > 0]
     is_wide = bool(above) and max(above) > WIDE_RANGE * min(above)
     panel.set(**{f"{which}scale": "log" if is_wide else "linear"})

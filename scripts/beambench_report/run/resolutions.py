@@ -8,18 +8,16 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import NullFormatter, NullLocator
 
 from beambench_report.base.figure import Look, Plot
-from beambench_report.base.names import file_stems
 from beambench_report.base.palette import PAPER
 from beambench_report.base.records import size_of
 from beambench_report.base.svg import hover
-from beambench_report.run.measured import Measured, by_kind, ns_in_words, short_title
+from beambench_report.run.measured import Measured, ns_in_words, short_title
 from beambench_report.run.panels import (
     MOST_LINES,
-    chunks,
     finish,
     hide_repeated_labels,
-    numbered,
     panels_with_legend,
+    parts_by_kind,
     scale_axis,
     set_title,
     share_limits,
@@ -34,14 +32,9 @@ def resolutions(measured: Measured) -> list[Plot]:
     timed = measured.timed
     sizes = timed.groupby(["view", "contender"])["rays"].nunique()
     several = sizes[sizes > 1].index.get_level_values("view")
-    groups = by_kind(measured.run.rows, [v for v in measured.run.views if v in several])
-    stems = file_stems(groups)
-    plots = []
-    for kind, views in groups.items():
-        stem = "resolutions" if len(groups) == 1 else f"resolutions-{stems[kind]}"
-        for index, part in enumerate(chunks(views, _MOST_PANELS)):
-            plots.append(_resolutions(measured, kind, part, numbered(stem, index)))
-    return plots
+    views = [view for view in measured.run.views if view in several]
+    parts = parts_by_kind(measured.run.rows, views, "resolutions", _MOST_PANELS)
+    return [_resolutions(measured, *part) for part in parts]
 
 
 def _resolutions(measured: Measured, kind: str, views: Sequence[str], stem: str) -> Plot:

@@ -16,15 +16,10 @@ from math import inf, isfinite
 
 import pandas as pd
 
-from beambench_report.base.cell_files import CellFile, Identity, identity
-from beambench_report.base.ratio import (
-    Ratio,
-    geometric_mean,
-    median_of,
-    paired_ratio,
-    unpaired_ratio,
-)
+from beambench_report.base.cell_files import CellFile, Identity, identity, ratio_of
+from beambench_report.base.ratio import Ratio, geometric_mean
 from beambench_report.base.records import Run, size_of
+from beambench_report.run.break_even import AT_ONCE, break_even_rays
 
 REFERENCES = ("null", "exhaustive")
 EMBREE = "embree"
@@ -68,7 +63,7 @@ class Standings:
 
     @property
     def tied(self) -> tuple[Standing, ...]:
-        """Those that cannot be told from the fastest."""
+        """Those whose interval does not rule out that they are as fast."""
         return tuple(one for one in self.ranked[1:] if one.is_tied)
 
     @property
@@ -172,18 +167,17 @@ def trace_ratio(row: pd.Series, base: pd.Series, files: Mapping[Identity, CellFi
     """The trace time of a row over that of another; paired where the repetitions are at hand."""
     if row["contender"] == base["contender"]:
         return Ratio(1.0, 1.0, 1.0, paired=True)
-    file, base_file = files.get(identity(row)), files.get(identity(base))
-    paired = paired_ratio(file.trace_ms, base_file.trace_ms) if file and base_file else None
-    return paired or unpaired_ratio(median_of(row, "trace"), median_of(base, "trace"))
+    return ratio_of("trace", row, base, files)
 
 
 def _break_even(mine: Standing, other: Standing) -> float:
-    """In rays: the dearer build over what each ray saves."""
-    dearer_ns = 1e6 * (mine.build_ms - other.build_ms)
-    saved_ns = other.ns_per_ray - mine.ns_per_ray
-    if dearer_ns <= 0:
-        return 0.0
-    return dearer_ns / saved_ns if saved_ns > 0 else inf
+    """In rays. Nobody traces faster than `mine`: once ahead, it stays ahead."""
+    rays, words = break_even_rays(
+        1e6 * mine.build_ms, mine.ns_per_ray, 1e6 * other.build_ms, other.ns_per_ray
+    )
+    if rays is None:
+        return 0.0 if words == AT_ONCE else inf
+    return rays
 
 
 def _left_out(

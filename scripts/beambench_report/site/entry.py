@@ -16,7 +16,7 @@ from beambench_report.base.cell_files import (
     CellFile,
     Identity,
     identity,
-    ratio_of_totals,
+    ratio_of,
     read_cell_files,
 )
 from beambench_report.base.machine import Machine, Manifest, machine_of, read_manifest
@@ -176,7 +176,7 @@ def _cells(
     cells = []
     for row, view, counters in zip(rows, views, work, strict=True):
         timed = row["timed"] and row["total_ms_median"] > 0
-        ratio = ratio_of_totals(row, bases[view], files) if timed and view in bases else None
+        ratio = ratio_of("total", row, bases[view], files) if timed and view in bases else None
         cells.append(
             Cell(
                 _BAR.join(identity(row)),
