@@ -23,6 +23,15 @@ inline std::unique_ptr<accel::Accelerator> built(const scenes::Scene& scene,
   return accel::registry().choose(parse_spec(spec)).build(scene);
 }
 
+/// The light along one camera ray.
+inline glm::dvec3 light_along(const render::Whitted& tracer, const accel::Ray& ray,
+                              const std::optional<accel::Hit>& hit,
+                              render::Whitted::Progress& progress) {
+  glm::dvec3 color;
+  tracer.trace_light({&ray, 1}, {&hit, 1}, {&color, 1}, progress);
+  return color;
+}
+
 /// What an eye sees along one ray.
 inline glm::dvec3 seen(const scenes::Scene& scene, const glm::dvec3& origin,
                        const glm::dvec3& direction, const render::WhittedOptions& options = {}) {
@@ -32,7 +41,7 @@ inline glm::dvec3 seen(const scenes::Scene& scene, const glm::dvec3& origin,
   accel::Ray ray;
   ray.origin = glm::vec3(origin);
   ray.direction = glm::vec3(direction);
-  return tracer.camera_ray_color(ray, structure->closest_hit(ray, nullptr), progress);
+  return light_along(tracer, ray, structure->closest_hit(ray, nullptr), progress);
 }
 
 inline void expect_color(const glm::dvec3& color, const glm::dvec3& expected) {

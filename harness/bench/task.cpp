@@ -106,7 +106,7 @@ std::uint64_t hash_of(const accel::PrimaryRays& rays, const render::RecordedPict
 }
 
 /// The picture of `render --shade whitted`, on one thread: camera rays by what the structure has
-/// for images (beams), the rest ray by ray, shading included. Not the picture is verified but every
+/// for images (beams), the rest in waves, shading included. Not the picture is verified but every
 /// answer that it depends on, reflected, refracted and shadow rays too: a second drawing, with all
 /// of them recorded, must give the same bits as the timed one.
 class PictureTask : public Task {
@@ -120,16 +120,16 @@ class PictureTask : public Task {
         image_(rays_.width(), rays_.height()) {
     const accel::embree::EmbreeOracle oracle(scene(), glm::length(glm::dvec3(rays_.eye())));
     const render::RecordedPicture picture =
-        render::record_picture(scene(), render::oracle_queries(oracle), rays_, reference_.rounded(),
+        render::record_picture(scene(), render::OracleQueries(oracle), rays_, reference_.rounded(),
                                options_, rays::HitCheck(scene(), "the oracle"));
     set_facts(picture);
     // What the picture takes without a structure: its results are known.
     hits_ = picture.primary;
     const auto& [reflected, refracted, shadow] = picture.asked;
     shading_ms_ = harness_ms(core, [&] {
-      const auto mirrors = render::replayed_results(reflected);
-      const auto glass = render::replayed_results(refracted);
-      const auto lights = render::replayed_results(shadow);
+      const render::ReplayedResults mirrors(reflected);
+      const render::ReplayedResults glass(refracted);
+      const render::ReplayedResults lights(shadow);
       draw({&mirrors, &glass, &lights});
     });
   }
@@ -147,9 +147,9 @@ class PictureTask : public Task {
     accel::WorkCounters all;
     render::ByFollowingRays<accel::WorkCounters> following;
     structure.trace(rays_, hits_, &all);
-    const auto reflected = render::counted_queries(structure, following[0]);
-    const auto refracted = render::counted_queries(structure, following[1]);
-    const auto shadow = render::counted_queries(structure, following[2]);
+    const render::CountedQueries reflected(structure, following[0]);
+    const render::CountedQueries refracted(structure, following[1]);
+    const render::CountedQueries shadow(structure, following[2]);
     const render::RayCensus census = draw({&reflected, &refracted, &shadow});
 
     CountedWork work;

@@ -1,6 +1,7 @@
 #include "harness/cluster/image_worker.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "harness/rays/trace_input.hpp"
 
@@ -23,6 +24,26 @@ glm::vec3 mean(int samples, Color color) {
   glm::dvec3 sum(0.0);
   for (int sample = 0; sample < samples; ++sample) sum += color(sample);
   return {(1.0 / samples) * sum};
+}
+
+/// The light of samples, in their order.
+std::vector<glm::dvec3> colors_of(SampleList samples, const accel::HitBuffer& hits,
+                                  const accel::PrimaryRays& rays, const render::Whitted& tracer,
+                                  render::Whitted::Progress& progress, const Heartbeat& heartbeat) {
+  constexpr std::size_t kBetweenHeartbeats = 1024;
+  std::vector<glm::dvec3> colors(samples.size());
+  for (std::size_t first = 0; first < samples.size(); first += kBetweenHeartbeats) {
+    std::vector<accel::Ray> some;
+    std::vector<std::optional<accel::Hit>> found;
+    const std::size_t count = std::min(kBetweenHeartbeats, samples.size() - first);
+    for (const std::uint32_t index : samples.subspan(first, count)) {
+      some.push_back(rays::ray_at(rays, index));
+      found.push_back(hits.get(index));
+    }
+    tracer.trace_light(some, found, std::span(colors).subspan(first, count), progress);
+    heartbeat();
+  }
+  return colors;
 }
 
 template <class Vector>
@@ -72,10 +93,10 @@ std::size_t HitSink::accept(std::span<const std::byte> result) {
 void write_colors(SampleList samples, const accel::HitBuffer& hits, const accel::PrimaryRays& rays,
                   const render::Whitted& tracer, render::Whitted::Progress& progress,
                   const Heartbeat& heartbeat, Bytes& bytes) {
-  const auto color_of = [&](std::uint32_t index) {
-    return tracer.camera_ray_color(rays::ray_at(rays, index), hits.get(index), progress);
-  };
+  const std::vector<glm::dvec3> colors =
+      colors_of(samples, hits, rays, tracer, progress, heartbeat);
   const auto each = static_cast<std::uint32_t>(hits.samples());
+  auto color = colors.begin();
   ByteWriter writer(bytes);
   while (!samples.empty()) {
     const std::uint32_t first = samples[0];
@@ -83,20 +104,15 @@ void write_colors(SampleList samples, const accel::HitBuffer& hits, const accel:
     if (pixels == 0) {
       writer.put(Part::kSample);
       writer.put(first);
-      put_vector(color_of(first), writer);
+      put_vector(*color++, writer);
       samples = samples.subspan(1);
-      heartbeat();
       continue;
     }
     writer.put(Part::kPixels);
     writer.put(first / each);
     writer.put(static_cast<std::uint32_t>(pixels));
     for (std::size_t i = 0; i < pixels; ++i) {
-      const std::uint32_t sample = samples[i * each];
-      put_vector(mean(hits.samples(),
-                      [&](int k) { return color_of(sample + static_cast<std::uint32_t>(k)); }),
-                 writer);
-      heartbeat();
+      put_vector(mean(hits.samples(), [&](int) { return *color++; }), writer);
     }
     samples = samples.subspan(pixels * each);
   }

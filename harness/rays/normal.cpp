@@ -28,41 +28,38 @@ glm::dvec3 cone_normal(const scenes::Cone& cone, const glm::dvec3& point) {
   return outward / distance + axis * slope;
 }
 
-/// Where a point lies in one triangle of a polygon.
-struct Place {
-  std::array<double, 3> weights{1.0, 0.0, 0.0};  ///< barycentric
-  glm::dvec3 normal{0.0, 0.0, 1.0};              ///< not of unit length
-  const scenes::Triangle* triangle = nullptr;
+struct TriangleCorners {
+  glm::dvec3 a, b, c;
 
-  double depth() const { return *std::min_element(weights.begin(), weights.end()); }
+  TriangleCorners(const scenes::Scene& scene, const scenes::Triangle& triangle)
+      : a(scene.vertices[triangle.vertex[0]]),
+        b(scene.vertices[triangle.vertex[1]]),
+        c(scene.vertices[triangle.vertex[2]]) {}
+
+  /// Not of unit length.
+  glm::dvec3 normal() const { return glm::cross(b - a, c - a); }
 };
 
-Place place_in(const scenes::Scene& scene, const scenes::Triangle& triangle,
-               const glm::dvec3& point) {
-  const glm::dvec3 a(scene.vertices[triangle.vertex[0]]);
-  const glm::dvec3 b(scene.vertices[triangle.vertex[1]]);
-  const glm::dvec3 c(scene.vertices[triangle.vertex[2]]);
-  Place place;
-  place.triangle = &triangle;
-  place.normal = glm::cross(b - a, c - a);
-  const double area = glm::dot(place.normal, place.normal);
-  if (area == 0.0) return place;
-  const double of_b = glm::dot(glm::cross(point - a, c - a), place.normal) / area;
-  const double of_c = glm::dot(glm::cross(b - a, point - a), place.normal) / area;
-  place.weights = {1.0 - of_b - of_c, of_b, of_c};
-  return place;
+/// Where a point lies in a triangle, in barycentric coordinates.
+std::array<double, 3> weights_in(const TriangleCorners& corners, const glm::dvec3& point) {
+  const auto& [a, b, c] = corners;
+  const glm::dvec3 normal = corners.normal();
+  const double area = glm::dot(normal, normal);
+  if (area == 0.0) return {1.0, 0.0, 0.0};
+  const double of_b = glm::dot(glm::cross(point - a, c - a), normal) / area;
+  const double of_c = glm::dot(glm::cross(b - a, point - a), normal) / area;
+  return {1.0 - of_b - of_c, of_b, of_c};
 }
 
-Place place_in(const scenes::Scene& scene, const scenes::Polygon& polygon,
-               const glm::dvec3& point) {
+/// The triangle of a polygon in which a point lies deepest.
+const scenes::Triangle& deepest_triangle(const scenes::Scene& scene, const scenes::Polygon& polygon,
+                                         const glm::dvec3& point) {
   const auto triangles =
       std::span(scene.triangles).subspan(polygon.first_triangle, polygon.triangle_count);
-  Place deepest = place_in(scene, triangles.front(), point);
-  for (const scenes::Triangle& triangle : triangles.subspan(1)) {
-    const Place place = place_in(scene, triangle, point);
-    if (place.depth() > deepest.depth()) deepest = place;
-  }
-  return deepest;
+  if (triangles.size() == 1) return triangles.front();
+  return *std::ranges::max_element(triangles, {}, [&](const scenes::Triangle& triangle) {
+    return std::ranges::min(weights_in({scene, triangle}, point));
+  });
 }
 
 glm::dvec3 corner_normal(const scenes::Scene& scene, const scenes::Polygon& polygon,
@@ -73,51 +70,62 @@ glm::dvec3 corner_normal(const scenes::Scene& scene, const scenes::Polygon& poly
   return glm::normalize(glm::dvec3(normal));  // a file's normals may have any length
 }
 
-glm::dvec3 polygon_normal(const scenes::Scene& scene, const scenes::Polygon& polygon,
-                          const glm::dvec3& point, bool smooth) {
-  const Place place = place_in(scene, polygon, point);
-  if (!smooth || polygon.first_normal == scenes::Polygon::kFlat) return place.normal;
+/// Interpolated between the corners' normals; not of unit length. The geometric one where they
+/// cancel out.
+glm::dvec3 smooth_normal(const scenes::Scene& scene, const scenes::Polygon& polygon,
+                         const scenes::Triangle& triangle, const glm::dvec3& point) {
+  const TriangleCorners corners(scene, triangle);
+  const std::array<double, 3> weights = weights_in(corners, point);
   glm::dvec3 normal(0.0);
   for (std::size_t i = 0; i < 3; ++i) {
-    normal += place.weights[i] * corner_normal(scene, polygon, place.triangle->vertex[i]);
+    normal += weights[i] * corner_normal(scene, polygon, triangle.vertex[i]);
   }
-  return glm::length(normal) > 0.0 ? normal : place.normal;
+  return glm::length(normal) > 0.0 ? normal : corners.normal();
 }
 
-glm::dvec3 facing_normal(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& hit,
-                         bool smooth) {
-  const scenes::Primitive& primitive = scene.primitives[hit.primitive];
-  const glm::dvec3 point = hit_point(ray, hit);
-  glm::dvec3 normal;
-  switch (primitive.kind) {
-    case scenes::PrimitiveKind::kSphere:
-      normal = point - glm::dvec3(scene.spheres[primitive.index].center);
-      break;
-    case scenes::PrimitiveKind::kCone:
-      normal = cone_normal(scene.cones[primitive.index], point);
-      break;
-    case scenes::PrimitiveKind::kPolygon:
-      normal = polygon_normal(scene, scene.polygons[primitive.index], point, smooth);
-      break;
-  }
-  const glm::dvec3 direction(ray.direction);
+/// Of unit length, on the side that the ray comes from.
+glm::dvec3 facing(const glm::dvec3& normal, const glm::dvec3& direction) {
   const double length = glm::length(normal);
   // What is smaller than the rounding of t can be hit in its very center: it faces the ray.
   if (!(length > 0.0 && std::isfinite(length))) return -glm::normalize(direction);
-  normal = glm::normalize(normal);
-  return glm::dot(normal, direction) > 0.0 ? -normal : normal;
+  const glm::dvec3 unit = glm::normalize(normal);
+  return glm::dot(unit, direction) > 0.0 ? -unit : unit;
 }
 
 }  // namespace
 
+SurfaceNormals surface_normals(const scenes::Scene& scene, const accel::Ray& ray,
+                               const accel::Hit& hit) {
+  const scenes::Primitive& primitive = scene.primitives[hit.primitive];
+  const glm::dvec3 direction(ray.direction);
+  const glm::dvec3 point = hit_point(ray, hit);
+  glm::dvec3 normal;
+  switch (primitive.kind) {
+    case scenes::PrimitiveKind::kSphere:
+      normal = facing(point - glm::dvec3(scene.spheres[primitive.index].center), direction);
+      break;
+    case scenes::PrimitiveKind::kCone:
+      normal = facing(cone_normal(scene.cones[primitive.index], point), direction);
+      break;
+    case scenes::PrimitiveKind::kPolygon: {
+      const scenes::Polygon& polygon = scene.polygons[primitive.index];
+      const scenes::Triangle& triangle = deepest_triangle(scene, polygon, point);
+      normal = facing(TriangleCorners(scene, triangle).normal(), direction);
+      if (polygon.first_normal == scenes::Polygon::kFlat) break;
+      return {normal, facing(smooth_normal(scene, polygon, triangle, point), direction)};
+    }
+  }
+  return {normal, normal};
+}
+
 glm::dvec3 geometric_normal(const scenes::Scene& scene, const accel::Ray& ray,
                             const accel::Hit& hit) {
-  return facing_normal(scene, ray, hit, false);
+  return surface_normals(scene, ray, hit).geometric;
 }
 
 glm::dvec3 shading_normal(const scenes::Scene& scene, const accel::Ray& ray,
                           const accel::Hit& hit) {
-  return facing_normal(scene, ray, hit, true);
+  return surface_normals(scene, ray, hit).shading;
 }
 
 }  // namespace beambench::rays

@@ -17,6 +17,14 @@ glm::dvec3 geometric_normal(const scenes::Scene& scene, const accel::Ray& ray,
 /// The same, but on a smooth polygon interpolated between the corners' normals: what shading uses.
 glm::dvec3 shading_normal(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& hit);
 
+/// Both at once.
+struct SurfaceNormals {
+  glm::dvec3 geometric;
+  glm::dvec3 shading;
+};
+SurfaceNormals surface_normals(const scenes::Scene& scene, const accel::Ray& ray,
+                               const accel::Hit& hit);
+
 /// How far from a surface rays begin: 64 x 2^-24 x (largest |coordinate| of the scene + |point|),
 /// four times the length within which the differ cannot distinguish points.
 inline double lift_at(const scenes::Scene& scene, const glm::dvec3& point) {

@@ -99,12 +99,12 @@ class Shadows {
   Shadows(const scenes::Scene& scene, const accel::Accelerator& structure,
           const WhittedOptions& options, rays::HitCheck check);
 
-  /// The part of a light that comes through: 0 behind an opaque primitive, the product of the
-  /// transmittances of transparent surfaces before it, 1 where nothing is. `to_light` begins at a
-  /// point, `depth` rays from the camera (the camera ray is 1), and has the light at t = 1. Throws
-  /// InvalidHit.
-  double transmitted(const accel::Ray& to_light, std::size_t light, int depth, ShadowCache& cache,
-                     RayCensus& census) const;
+  /// The parts of a light that come through: 0 behind an opaque primitive, the product of the
+  /// transmittances of transparent surfaces before it, 1 where nothing is. Each ray of `to_light`
+  /// begins at a point, `depth` rays from the camera (the camera ray is 1), and has the light at
+  /// t = 1; the cache sees them in their order. Throws InvalidHit.
+  std::vector<double> transmitted(std::span<const accel::Ray> to_light, std::size_t light,
+                                  int depth, ShadowCache& cache, RayCensus& census) const;
 
   /// Of light buffers; 0 without.
   std::size_t memory_bytes() const;
@@ -113,8 +113,10 @@ class Shadows {
   double asked_by_cache(const accel::Ray& to_light, scenes::PrimitiveId& last,
                         RayCensus& census) const;
   double asked_by_buffer(const accel::Ray& to_light, std::size_t light, RayCensus& census) const;
-  double followed(const accel::Ray& to_light, scenes::PrimitiveId& blocker,
-                  RayCensus& census) const;
+  std::vector<double> asked_at_once(std::span<const accel::Ray> to_light, RayCensus& census) const;
+  std::vector<double> followed(std::vector<accel::Ray> rays, RayCensus& census) const;
+  double followed(accel::Ray ray, scenes::PrimitiveId& blocker, RayCensus& census) const;
+  float passed_through(accel::Ray& ray, const accel::Hit& hit) const;
 
   const scenes::Scene* scene_;
   const accel::Accelerator* structure_;

@@ -130,6 +130,11 @@ double turbulence(const glm::dvec3& point, int octaves) {
   return over_octaves(point, octaves, [](double noise) { return std::abs(noise); });
 }
 
+bool is_texture(scenes::Finish finish) {
+  using enum scenes::Finish;
+  return finish != kPlain && finish != kReflect && finish != kGlass && finish != kShiny;
+}
+
 TextureSpace::TextureSpace(const scenes::Scene& scene) {
   if (scene.primitives.empty()) return;
   const dvec3 low(scene.bounds.lower);

@@ -18,6 +18,9 @@ double fractal_noise(const glm::dvec3& point, int octaves);
 /// The same of the noise's absolute value (Perlin 1985, "turbulence"); about [0, 1].
 double turbulence(const glm::dvec3& point, int octaves);
 
+/// Is a finish a texture, so that its color depends on the place?
+bool is_texture(scenes::Finish finish);
+
 /// Textures fill space, so that every scene may have them: veins and rings are measured in parts of
 /// the scene.
 class TextureSpace {

@@ -1,6 +1,8 @@
 #include "harness/render/verified_picture.hpp"
 
+#include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 
@@ -41,25 +43,74 @@ void compare_bits(const Image& image, const std::string& first_label, const Imag
 
 }  // namespace
 
+void FollowingQueries::trace(const accel::PrimaryRays&, accel::HitBuffer&,
+                             accel::WorkCounters*) const {
+  throw std::logic_error("camera rays are traced beforehand");
+}
+
+std::optional<accel::Hit> CountedQueries::closest_hit(const accel::Ray& ray,
+                                                      accel::WorkCounters*) const {
+  return structure_->closest_hit(ray, counters_);
+}
+bool CountedQueries::any_hit(const accel::Ray& ray, accel::WorkCounters*) const {
+  return structure_->any_hit(ray, counters_);
+}
+void CountedQueries::closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
+                                  accel::WorkCounters*) const {
+  structure_->closest_hits(batch, buffer, counters_);
+}
+void CountedQueries::any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
+                              accel::WorkCounters*) const {
+  structure_->any_hits(batch, hits, counters_);
+}
+
+std::optional<accel::Hit> RecordedQueries::closest_hit(const accel::Ray& ray,
+                                                       accel::WorkCounters*) const {
+  asked_->closest.push_back(ray);
+  return asked_->hits.emplace_back(structure_->closest_hit(ray, nullptr));
+}
+bool RecordedQueries::any_hit(const accel::Ray& ray, accel::WorkCounters*) const {
+  asked_->any.push_back(ray);
+  return asked_->any_hits.emplace_back(structure_->any_hit(ray, nullptr) ? 1 : 0) != 0;
+}
+void RecordedQueries::closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
+                                   accel::WorkCounters*) const {
+  structure_->closest_hits(batch, buffer, nullptr);
+  asked_->closest.insert(asked_->closest.end(), batch.rays.begin(), batch.rays.end());
+  for (std::size_t i = 0; i < buffer.size(); ++i) asked_->hits.push_back(buffer.get(i));
+}
+void RecordedQueries::any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
+                               accel::WorkCounters*) const {
+  structure_->any_hits(batch, hits, nullptr);
+  asked_->any.insert(asked_->any.end(), batch.rays.begin(), batch.rays.end());
+  asked_->any_hits.insert(asked_->any_hits.end(), hits.begin(), hits.end());
+}
+
+std::optional<accel::Hit> ReplayedResults::closest_hit(const accel::Ray&,
+                                                       accel::WorkCounters*) const {
+  return *hit_++;
+}
+bool ReplayedResults::any_hit(const accel::Ray&, accel::WorkCounters*) const {
+  return *any_hit_++ != 0;
+}
+void ReplayedResults::closest_hits(const accel::RayBatch&, accel::HitBuffer& buffer,
+                                   accel::WorkCounters*) const {
+  for (std::size_t i = 0; i < buffer.size(); ++i) buffer.set(i, *hit_++);
+}
+void ReplayedResults::any_hits(const accel::RayBatch&, std::span<std::uint8_t> hits,
+                               accel::WorkCounters*) const {
+  std::copy_n(any_hit_, hits.size(), hits.begin());
+  any_hit_ += hits.size();
+}
+
 RecordedPicture record_picture(const scenes::Scene& scene, const accel::Accelerator& structure,
                                const accel::PrimaryRays& rays, accel::HitBuffer primary,
                                const WhittedOptions& options, rays::HitCheck check) {
   RecordedPicture picture{std::move(primary), {}, Image(rays.width(), rays.height()), {}};
   auto& [reflected_rays, refracted_rays, shadow_rays] = picture.asked;
-  const auto recorded = [&](AskedRays& asked) {
-    return AnsweredBy(
-        [&](const accel::Ray& ray) {
-          asked.closest.push_back(ray);
-          return asked.hits.emplace_back(structure.closest_hit(ray, nullptr));
-        },
-        [&](const accel::Ray& ray) {
-          asked.any.push_back(ray);
-          return asked.any_hits.emplace_back(structure.any_hit(ray, nullptr) ? 1 : 0) != 0;
-        });
-  };
-  const auto reflected = recorded(reflected_rays);
-  const auto refracted = recorded(refracted_rays);
-  const auto shadow = recorded(shadow_rays);
+  const RecordedQueries reflected(structure, reflected_rays);
+  const RecordedQueries refracted(structure, refracted_rays);
+  const RecordedQueries shadow(structure, shadow_rays);
   const Whitted tracer(scene, {&reflected, &refracted, &shadow}, options, std::move(check));
   picture.census = draw_in_order(tracer, camera_rays(rays), picture.primary, picture.image);
   return picture;

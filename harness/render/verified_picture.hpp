@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "accel/core/hit_buffer.hpp"
@@ -21,27 +21,6 @@
 
 namespace beambench::render {
 
-/// A structure whose queries are answered by two functions of a ray.
-template <class Closest, class Any>
-class AnsweredBy : public accel::TraversalAccelerator<AnsweredBy<Closest, Any>> {
- public:
-  AnsweredBy(Closest closest, Any any) : closest_(std::move(closest)), any_(std::move(any)) {}
-
-  accel::Statistics statistics() const override { return {}; }
-  template <class Counting>
-  std::optional<accel::Hit> find_closest(const accel::Ray& ray, Counting&) const {
-    return closest_(ray);
-  }
-  template <class Counting>
-  bool find_any(const accel::Ray& ray, Counting&) const {
-    return any_(ray);
-  }
-
- private:
-  mutable Closest closest_;
-  mutable Any any_;
-};
-
 /// Rays and their results, each kind of query in its order.
 struct AskedRays {
   std::vector<accel::Ray> closest;
@@ -50,25 +29,93 @@ struct AskedRays {
   std::vector<std::uint8_t> any_hits;  ///< of `any`
 };
 
+/// What stands between a picture and its structure: the queries that pictures make, single and of
+/// batches.
+class FollowingQueries : public accel::Accelerator {
+ public:
+  /// A picture is given the hits of its camera rays; never called.
+  void trace(const accel::PrimaryRays& rays, accel::HitBuffer& buffer,
+             accel::WorkCounters* counters) const override;
+  accel::Statistics statistics() const override { return {}; }
+};
+
 /// Counts the work of a structure.
-inline auto counted_queries(const accel::Accelerator& structure, accel::WorkCounters& counters) {
-  return AnsweredBy([&](const accel::Ray& ray) { return structure.closest_hit(ray, &counters); },
-                    [&](const accel::Ray& ray) { return structure.any_hit(ray, &counters); });
-}
+class CountedQueries : public FollowingQueries {
+ public:
+  /// Both must outlive this.
+  CountedQueries(const accel::Accelerator& structure, accel::WorkCounters& counters)
+      : structure_(&structure), counters_(&counters) {}
+
+  std::optional<accel::Hit> closest_hit(const accel::Ray& ray, accel::WorkCounters*) const override;
+  bool any_hit(const accel::Ray& ray, accel::WorkCounters*) const override;
+  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
+                    accel::WorkCounters*) const override;
+  void any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
+                accel::WorkCounters*) const override;
+
+ private:
+  const accel::Accelerator* structure_;
+  accel::WorkCounters* counters_;
+};
+
+/// Keeps all rays and results. Not for use from several threads.
+class RecordedQueries : public FollowingQueries {
+ public:
+  /// Both must outlive this.
+  RecordedQueries(const accel::Accelerator& structure, AskedRays& asked)
+      : structure_(&structure), asked_(&asked) {}
+
+  std::optional<accel::Hit> closest_hit(const accel::Ray& ray, accel::WorkCounters*) const override;
+  bool any_hit(const accel::Ray& ray, accel::WorkCounters*) const override;
+  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
+                    accel::WorkCounters*) const override;
+  void any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
+                accel::WorkCounters*) const override;
+
+ private:
+  const accel::Accelerator* structure_;
+  AskedRays* asked_;
+};
 
 /// Returns recorded results to the same queries in the same order: what is left of a time is all
-/// that is not the structure's.
-inline auto replayed_results(const AskedRays& asked) {
-  return AnsweredBy(
-      [next = asked.hits.data()](const accel::Ray&) mutable { return *next++; },
-      [next = asked.any_hits.data()](const accel::Ray&) mutable { return *next++ != 0; });
-}
+/// that is not the structure's. Not for use from several threads.
+class ReplayedResults : public FollowingQueries {
+ public:
+  /// `asked` must outlive this.
+  explicit ReplayedResults(const AskedRays& asked)
+      : hit_(asked.hits.data()), any_hit_(asked.any_hits.data()) {}
+
+  std::optional<accel::Hit> closest_hit(const accel::Ray&, accel::WorkCounters*) const override;
+  bool any_hit(const accel::Ray&, accel::WorkCounters*) const override;
+  void closest_hits(const accel::RayBatch&, accel::HitBuffer& buffer,
+                    accel::WorkCounters*) const override;
+  void any_hits(const accel::RayBatch&, std::span<std::uint8_t> hits,
+                accel::WorkCounters*) const override;
+
+ private:
+  mutable const std::optional<accel::Hit>* hit_;
+  mutable const std::uint8_t* any_hit_;
+};
 
 /// The oracle: its hits rounded to float.
-inline auto oracle_queries(const accel::embree::EmbreeOracle& oracle) {
-  return AnsweredBy([&](const accel::Ray& ray) { return verify::rounded(oracle.closest_hit(ray)); },
-                    [&](const accel::Ray& ray) { return oracle.any_hit(ray); });
-}
+class OracleQueries : public accel::TraversalAccelerator<OracleQueries> {
+ public:
+  /// The oracle must outlive this.
+  explicit OracleQueries(const accel::embree::EmbreeOracle& oracle) : oracle_(&oracle) {}
+
+  accel::Statistics statistics() const override { return {}; }
+  template <class Counting>
+  std::optional<accel::Hit> find_closest(const accel::Ray& ray, Counting&) const {
+    return verify::rounded(oracle_->closest_hit(ray));
+  }
+  template <class Counting>
+  bool find_any(const accel::Ray& ray, Counting&) const {
+    return oracle_->any_hit(ray);
+  }
+
+ private:
+  const accel::embree::EmbreeOracle* oracle_;
+};
 
 /// The kinds of rays that follow camera rays.
 inline constexpr std::size_t kFollowingRays = 3;

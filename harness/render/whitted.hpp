@@ -2,6 +2,7 @@
 // The whole ray tracer: light, shadow, mirrors and glass over any structure.
 
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -32,6 +33,12 @@ struct Answerers {
 /// Colors of scenes are display values, as they were in 1987, and are decoded to linear light. A
 /// light without a color of its own (white) has 1 / sqrt(lights), as NFF has it. All in double, in
 /// one order: structures that return the same hits give the same bits.
+///
+/// Rays are traced in waves (Laine, Karras and Aila, "Megakernels considered harmful", HPG 2013,
+/// for the idea on other hardware): the camera rays of a part of the picture, all shadow rays of
+/// each light from where they hit, all mirror rays, all refracted rays, and so on with these, so
+/// that a structure is given batches. What a sample receives is summed in the order of recursive
+/// ray tracing, whatever the parts and batches.
 class Whitted {
  public:
   /// Scene and structure must outlive this. `check` names the structure where it fails.
@@ -51,26 +58,35 @@ class Whitted {
   };
   Progress begin() const;
 
-  /// Linear light along a camera ray that found `hit`. Throws InvalidHit where this hit or that of
-  /// a following ray is invalid.
-  glm::dvec3 camera_ray_color(const accel::Ray& ray, const std::optional<accel::Hit>& hit,
-                              Progress& progress) const;
+  /// Linear light along camera rays that found `hits`, into `colors`; all three have one length.
+  /// Memory is that of some thousand rays for each depth, however many there are. Throws InvalidHit
+  /// where one of these hits or that of a following ray is invalid.
+  void trace_light(std::span<const accel::Ray> rays,
+                   std::span<const std::optional<accel::Hit>> hits, std::span<glm::dvec3> colors,
+                   Progress& progress) const;
 
   const Shadows& shadows() const { return shadows_; }
+  /// Does what is counted depend on the order of the rays?
+  bool remembers_shadows() const { return options_.shadows == ShadowMethod::kCache; }
 
  private:
-  struct Kind;
+  struct Part;
   struct Path;
   struct Place;
-  glm::dvec3 color_along(const accel::Ray& ray, const std::optional<accel::Hit>& hit,
-                         const Path& path, Progress& progress) const;
+  struct Spawned;
+  void trace_wave(const Part& wave, int depth, std::span<glm::dvec3> colors,
+                  Progress& progress) const;
+  void trace_part(const Part& part, int depth, std::span<glm::dvec3> colors,
+                  Progress& progress) const;
   Place place_of(const accel::Ray& ray, const accel::Hit& hit) const;
-  glm::dvec3 lit(const Place& at, const Path& path, Progress& progress) const;
-  glm::dvec3 spawned(const Place& at, const Path& path, Progress& progress) const;
-  glm::dvec3 reflected(const Place& at, const Path& path, double share, Progress& progress) const;
+  std::vector<glm::dvec3> lit(std::span<const Place> places, int depth, Progress& progress) const;
+  void add_light(std::size_t light, std::span<const Place> places,
+                 std::span<const glm::dvec3> matte, int depth, std::span<glm::dvec3> sums,
+                 Progress& progress) const;
+  glm::dvec3 matte_of(const Place& at) const;
+  Spawned spawned(std::span<const Place> places, std::span<const Path> paths,
+                  Progress& progress) const;
   bool enters(const Place& at, const Path& path) const;
-  glm::dvec3 traced(const Kind& kind, const glm::dvec3& origin, const glm::dvec3& direction,
-                    const Path& path, Progress& progress) const;
 
   const scenes::Scene* scene_;
   Answerers answerers_;
@@ -79,6 +95,7 @@ class Whitted {
   Shadows shadows_;
   TextureSpace textures_;
   std::vector<glm::dvec3> light_colors_;
+  std::vector<std::optional<glm::dvec3>> matte_;  ///< by surface; nothing where it has a texture
   glm::dvec3 background_;
 };
 

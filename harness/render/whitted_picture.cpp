@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <future>
 #include <numeric>
 #include <optional>
@@ -20,20 +21,93 @@
 namespace beambench::render {
 namespace {
 
-/// One row, left to right: the shadow cache begins anew, so that the census is the same however
-/// rows are shared among threads.
-RayCensus draw_row(const Whitted& tracer, const CameraRays& rays, const accel::HitBuffer& hits,
-                   int y, Image& image) {
-  Whitted::Progress progress = tracer.begin();
-  const double share = 1.0 / rays.samples;
-  for (int x = 0; x < rays.width; ++x) {
-    glm::dvec3 sum(0.0);
-    for (int sample = 0; sample < rays.samples; ++sample) {
-      sum += tracer.camera_ray_color(rays.ray(x, y, sample), hits.get(hits.index(x, y, sample)),
-                                     progress);
+/// Samples that are shaded at once, about.
+constexpr std::size_t kSamples = 8192;
+
+/// Pixels that are shaded together, in square blocks of `block` pixels a side: of each block one
+/// sample of all its pixels after the other.
+struct Part {
+  int left;
+  int top;
+  int right;
+  int bottom;
+  int block;
+};
+
+std::vector<Part> parts_of(const CameraRays& rays, bool in_rows) {
+  constexpr int kBlock = 4;
+  const double side = std::sqrt(static_cast<double>(kSamples) / rays.samples);
+  const int tile = kBlock * std::max(static_cast<int>(side) / kBlock, 1);
+  const int width = in_rows ? rays.width : tile;
+  const int height = in_rows ? 1 : tile;
+  std::vector<Part> parts;
+  for (int top = 0; top < rays.height; top += height) {
+    for (int left = 0; left < rays.width; left += width) {
+      parts.push_back({left, top, std::min(left + width, rays.width),
+                       std::min(top + height, rays.height), in_rows ? 1 : kBlock});
     }
-    image.at(x, y) = glm::vec3(share * sum);
   }
+  return parts;
+}
+
+/// Calls `visit(x, y, sample)` in the order in which a part is shaded.
+template <class Visit>
+void for_each_sample(const Part& part, int samples, Visit visit) {
+  for (int top = part.top; top < part.bottom; top += part.block) {
+    for (int left = part.left; left < part.right; left += part.block) {
+      for (int sample = 0; sample < samples; ++sample) {
+        for (int y = top; y < std::min(top + part.block, part.bottom); ++y) {
+          for (int x = left; x < std::min(left + part.block, part.right); ++x) visit(x, y, sample);
+        }
+      }
+    }
+  }
+}
+
+/// Camera rays, and what they found and receive.
+struct Batch {
+  std::vector<accel::Ray> rays;
+  std::vector<std::optional<accel::Hit>> hits;
+  std::vector<glm::dvec3> colors;
+
+  void add(const accel::Ray& ray, const std::optional<accel::Hit>& hit) {
+    rays.push_back(ray);
+    hits.push_back(hit);
+  }
+  void shade(const Whitted& tracer, Whitted::Progress& progress) {
+    colors.resize(rays.size());
+    tracer.trace_light(rays, hits, colors, progress);
+  }
+};
+
+void draw(const Part& part, const Whitted& tracer, const CameraRays& rays,
+          const accel::HitBuffer& hits, Whitted::Progress& progress, Image& image) {
+  Batch batch;
+  for_each_sample(part, rays.samples, [&](int x, int y, int sample) {
+    batch.add(rays.ray(x, y, sample), hits.get(hits.index(x, y, sample)));
+  });
+  batch.shade(tracer, progress);
+  const auto width = static_cast<std::size_t>(part.right - part.left);
+  std::vector<glm::dvec3> sums(width * static_cast<std::size_t>(part.bottom - part.top),
+                               glm::dvec3(0.0));
+  auto color = batch.colors.begin();
+  for_each_sample(part, rays.samples, [&](int x, int y, int) {
+    sums[static_cast<std::size_t>(y - part.top) * width +
+         static_cast<std::size_t>(x - part.left)] += *color++;
+  });
+  const double share = 1.0 / rays.samples;
+  auto sum = sums.begin();
+  for (int y = part.top; y < part.bottom; ++y) {
+    for (int x = part.left; x < part.right; ++x) image.at(x, y) = glm::vec3(share * *sum++);
+  }
+}
+
+/// In its own order, so that the shadow cache's census is the same however parts are shared among
+/// threads.
+RayCensus drawn(const Part& part, const Whitted& tracer, const CameraRays& rays,
+                const accel::HitBuffer& hits, Image& image) {
+  Whitted::Progress progress = tracer.begin();
+  draw(part, tracer, rays, hits, progress, image);
   return progress.census;
 }
 
@@ -67,45 +141,47 @@ WhittedPicture whitted_picture(const Whitted& tracer, const CameraRays& rays,
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   }
   WhittedPicture picture{Image(rays.width, rays.height), {}};
-  std::vector<RayCensus> rows(static_cast<std::size_t>(rays.height));
-  std::atomic<int> done = 0;
+  const std::vector<Part> parts = parts_of(rays, tracer.remembers_shadows());
+  std::vector<RayCensus> counts(parts.size());
+  std::atomic<std::size_t> done = 0;
   const auto draw = [&] {
-    tbb::parallel_for(0, rays.height, [&](int y) {
-      rows[static_cast<std::size_t>(y)] = draw_row(tracer, rays, hits, y, picture.image);
+    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
+      counts[i] = drawn(parts[i], tracer, rays, hits, picture.image);
       ++done;
     });
   };
   if (watch) {
-    auto drawn = std::async(std::launch::async, draw);
-    while (drawn.wait_for(std::chrono::milliseconds(100)) == std::future_status::timeout) {
-      watch(static_cast<double>(done.load()) / rays.height);
+    auto all = std::async(std::launch::async, draw);
+    while (all.wait_for(std::chrono::milliseconds(100)) == std::future_status::timeout) {
+      watch(static_cast<double>(done.load()) / static_cast<double>(parts.size()));
     }
-    drawn.get();
+    all.get();
   } else {
     draw();
   }
-  for (const RayCensus& row : rows) picture.census += row;
+  for (const RayCensus& count : counts) picture.census += count;
   return picture;
 }
 
 WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const Whitted& tracer,
                                      const CameraRays& rays, const accel::HitBuffer& hits,
                                      const PictureWatch& watch) {
-  constexpr std::size_t kBetweenLooks = 1 << 14;
   const auto samples = static_cast<std::size_t>(rays.samples);
   const auto width = static_cast<std::size_t>(rays.width);
   std::vector<glm::dvec3> sums(places.size() / samples, glm::dvec3(0.0));
   Whitted::Progress progress = tracer.begin();
-  std::size_t done = 0;
-  for (const std::size_t place : places) {
-    const std::size_t pixel = place / samples;
-    const accel::Ray ray =
-        rays.ray(static_cast<int>(pixel % width), static_cast<int>(pixel / width),
-                 static_cast<int>(place % samples));
-    sums[pixel] += tracer.camera_ray_color(ray, hits.get(place), progress);
-    if (++done % kBetweenLooks == 0 && watch) {
-      watch(static_cast<double>(done) / static_cast<double>(places.size()));
+  for (std::size_t first = 0; first < places.size(); first += kSamples) {
+    if (watch) watch(static_cast<double>(first) / static_cast<double>(places.size()));
+    const auto some = places.subspan(first, std::min(kSamples, places.size() - first));
+    Batch batch;
+    for (const std::size_t place : some) {
+      const std::size_t pixel = place / samples;
+      batch.add(rays.ray(static_cast<int>(pixel % width), static_cast<int>(pixel / width),
+                         static_cast<int>(place % samples)),
+                hits.get(place));
     }
+    batch.shade(tracer, progress);
+    for (std::size_t i = 0; i < some.size(); ++i) sums[some[i] / samples] += batch.colors[i];
   }
   WhittedPicture picture{Image(rays.width, rays.height), progress.census};
   const double share = 1.0 / rays.samples;
@@ -117,7 +193,9 @@ WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const 
 RayCensus draw_in_order(const Whitted& tracer, const CameraRays& rays, const accel::HitBuffer& hits,
                         Image& image) {
   RayCensus census;
-  for (int y = 0; y < rays.height; ++y) census += draw_row(tracer, rays, hits, y, image);
+  for (const Part& part : parts_of(rays, tracer.remembers_shadows())) {
+    census += drawn(part, tracer, rays, hits, image);
+  }
   return census;
 }
 

@@ -176,7 +176,7 @@ TEST(HitCheck, RaysFromTheSmallestThingsAreFinite) {
     const accel::exhaustive::Exhaustive structure(scene);
     const render::Whitted tracer(scene, structure, {});
     render::Whitted::Progress progress = tracer.begin();
-    EXPECT_TRUE(finite(tracer.camera_ray_color(ray, hit, progress))) << id;
+    EXPECT_TRUE(finite(light_along(tracer, ray, hit, progress))) << id;
   }
 }
 

@@ -85,7 +85,7 @@ TEST(Whitted, TwoMirrorsEndAtTheDepth) {
     accel::Ray ray;
     ray.origin = {0, 0, 1};
     ray.direction = {0.1F, 0, -1};
-    tracer.camera_ray_color(ray, structure->closest_hit(ray, nullptr), progress);
+    light_along(tracer, ray, structure->closest_hit(ray, nullptr), progress);
     EXPECT_EQ(progress.census.reflected, static_cast<std::uint64_t>(depth - 1));
   }
   // The third ray is a quarter of the pixel, the fourth an eighth.
@@ -94,7 +94,7 @@ TEST(Whitted, TwoMirrorsEndAtTheDepth) {
   accel::Ray ray;
   ray.origin = {0, 0, 1};
   ray.direction = {0.1F, 0, -1};
-  tracer.camera_ray_color(ray, structure->closest_hit(ray, nullptr), progress);
+  light_along(tracer, ray, structure->closest_hit(ray, nullptr), progress);
   EXPECT_EQ(progress.census.reflected, 2U);
   EXPECT_EQ(progress.census.too_faint, 1U);
 }
@@ -219,7 +219,7 @@ RayCensus census_at_total_reflection(double specular, const WhittedOptions& opti
   accel::Ray ray;
   ray.origin = {-3.4641016F, 0.0F, 2.0F};
   ray.direction = {0.8660254F, 0.0F, -0.5F};
-  const dvec3 color = tracer.camera_ray_color(ray, structure->closest_hit(ray, nullptr), progress);
+  const dvec3 color = light_along(tracer, ray, structure->closest_hit(ray, nullptr), progress);
   const bool followed = options.max_depth > 1;
   expect_color(color, followed ? dvec3(specular + 0.5) : dvec3(0.0));
   return progress.census;
@@ -251,7 +251,7 @@ TEST(Whitted, ByTheRulesOfSpdGlassSpawnsAMirrorRayThatThePictureTakesNothingFrom
   const auto census = [&](const WhittedOptions& options) {
     const Whitted tracer(scene, *structure, options);
     Whitted::Progress progress = tracer.begin();
-    expect_color(tracer.camera_ray_color(ray, structure->closest_hit(ray, nullptr), progress),
+    expect_color(light_along(tracer, ray, structure->closest_hit(ray, nullptr), progress),
                  0.5 * linear(0.2, 0.4, 0.8));
     return progress.census;
   };
@@ -275,7 +275,7 @@ TEST(Whitted, AShadingNormalSendsNoRefractedRayBackThroughItsSurface) {
   accel::Ray ray;
   ray.origin = {-3.8637F, 0.0F, 1.0353F};
   ray.direction = {0.9659258F, 0.0F, -0.2588190F};
-  tracer.camera_ray_color(ray, structure->closest_hit(ray, nullptr), progress);
+  light_along(tracer, ray, structure->closest_hit(ray, nullptr), progress);
   EXPECT_EQ(progress.census.refracted, 0U);
   EXPECT_EQ(progress.census.reflected, 1U);
 }
