@@ -12,7 +12,7 @@ namespace beambench::accel {
 /// hits is the harness's own share of a trace.
 enum class ImageRays : std::uint8_t {
   kSingle,  ///< one by one, from `PrimaryRays::ray`
-  kSimd,    ///< in packets made by SIMD, hits stored by SIMD
+  kSimd,    ///< in packets made (of a list: filled) by SIMD, hits stored by SIMD
   kOwn      ///< it makes samples of its own, or needs no rays: the harness has no share in it
 };
 

@@ -48,4 +48,11 @@ void intersect_stream(RTCScene scene, Context& context, Packet* packets, unsigne
                  sizeof(Packet));
 }
 
+/// The same of any hits, in packets of rays (RTCRay4, 8 or 16).
+template <class Rays>
+void intersect_any_stream(RTCScene scene, Context& context, Rays* packets, unsigned count) {
+  constexpr unsigned kLanes = sizeof(packets->tfar) / sizeof(float);
+  rtcOccludedNM(scene, &context, reinterpret_cast<RTCRayN*>(packets), kLanes, count, sizeof(Rays));
+}
+
 }  // namespace beambench::accel::embree

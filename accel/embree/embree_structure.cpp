@@ -12,48 +12,56 @@
 namespace beambench::accel::embree {
 namespace {
 
+/// Which queries are flagged as coherent.
+enum class Coherence { kAuto, kAll, kNone };
+
+Coherence parse_coherence(const std::string& name) {
+  if (name == "true") return Coherence::kAll;
+  return name == "false" ? Coherence::kNone : Coherence::kAuto;
+}
+
 /// Differs from the contract where Embree does: of hits at one place it may return any, not the one
 /// of lowest id, and without `robust` a triangle is hit at t > t_min only, not at t_min itself. It
 /// counts no work: Embree reports none.
 class EmbreeStructure : public Accelerator {
  public:
   EmbreeStructure(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
-                  const TraceMode& mode, bool coherent, const std::string& isa, int threads)
+                  const TraceMode& mode, Coherence coherence, const std::string& isa, int threads)
       : scene_(scene, quality, robust, isa, threads),
-        tracers_(image_tracers(targets_of(isa))),
-        mode_(mode),
-        coherent_(coherent),
+        trace_image_(image_tracers(targets_of(isa)).*mode.image),
+        list_(list_tracers(targets_of(isa)).*mode.list),
+        coherence_(coherence),
         isa_(isa_in_use(isa)) {}
 
   std::optional<Hit> closest_hit(const Ray& ray, WorkCounters*) const override {
-    Context context(coherent_);
+    Context context(coherence_ != Coherence::kNone);
     RTCRayHit query = to_embree_query(ray);
     intersect(scene_.get(), context, query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return Hit{query.ray.tfar, scene_.owner(query.hit.geomID, query.hit.primID)};
   }
   bool any_hit(const Ray& ray, WorkCounters*) const override {
-    Context context(coherent_);
+    Context context(coherence_ != Coherence::kNone);
     RTCRay query = to_embree(ray);
     return occluded(scene_.get(), context, query);
   }
   void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
-    Context context(coherent_);
-    (tracers_.*mode_.trace)(scene_, context, rays, {0, rays.height()}, buffer);
+    Context context(coherence_ != Coherence::kNone);
+    trace_image_(scene_, context, rays, {0, rays.height()}, buffer);
   }
   void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
     share_rows(tile_rows(rays), [&](int begin, int end) {
-      Context context(coherent_);
-      (tracers_.*mode_.trace)(scene_, context, rays, band_of(rays, begin, end), buffer);
+      Context context(coherence_ != Coherence::kNone);
+      trace_image_(scene_, context, rays, band_of(rays, begin, end), buffer);
     });
   }
   void closest_hits(const RayBatch& batch, HitBuffer& buffer, WorkCounters*) const override {
-    Context context(coherent_);
-    mode_.closest_hits(scene_, context, batch.rays, buffer);
+    Context context(coherence_ == Coherence::kAll);
+    list_.closest_hits(scene_, context, batch.rays, buffer);
   }
   void any_hits(const RayBatch& batch, std::span<std::uint8_t> hits, WorkCounters*) const override {
-    Context context(coherent_);
-    mode_.any_hits(scene_, context, batch.rays, hits);
+    Context context(coherence_ != Coherence::kNone);
+    list_.any_hits(scene_, context, batch.rays, hits);
   }
 
   Statistics statistics() const override {
@@ -70,9 +78,9 @@ class EmbreeStructure : public Accelerator {
 
  private:
   NativeScene scene_;
-  const ImageTracers& tracers_;
-  TraceMode mode_;
-  bool coherent_;
+  ImageTracers::Trace trace_image_;
+  ListMode list_;
+  Coherence coherence_;
   std::string isa_;
 };
 
@@ -110,16 +118,18 @@ void register_embree(Registry& registry) {
         flag_parameter("robust", true,
                        "watertight traversal; without it Embree loses rays at vertices and edges, "
                        "and fails verification where they matter"),
-        flag_parameter("coherent", true,
-                       "flags neighboring rays as coherent for Embree, which packets need"),
+        choice_parameter("coherent", "auto", {"auto", "true", "false"},
+                         "flags neighboring rays as coherent for Embree, which packets then do not "
+                         "give up; auto: those of images and of any-hit queries, but not the "
+                         "closest hits of lists"),
         isa_parameter()},
        [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
          const std::string& isa = parameters.choice("isa");
          require_isa(isa);
          return std::make_unique<EmbreeStructure>(
              scene, parse_quality(parameters.choice("quality")), parameters.flag("robust"),
-             find_mode(parameters.choice("mode")), parameters.flag("coherent"), isa,
-             workload.threads);
+             find_mode(parameters.choice("mode")), parse_coherence(parameters.choice("coherent")),
+             isa, workload.threads);
        }});
 }
 

@@ -12,6 +12,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "accel/embree/packet_owners-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::embree::HWY_NAMESPACE {
 
@@ -73,7 +75,7 @@ class Block {
   HWY_INLINE void write(const OwnerTable& table, const Query& query, int x,
                         HitBuffer& buffer) const {
     alignas(64) std::array<scenes::PrimitiveId, N> owners;
-    find_owners(table, query, owners.data());
+    find_owners<N>(table, query.hit, owners.data());
     if (rays_.samples() == 1 && is_on_image(x)) {
       for (int row = 0; row < kHeight; ++row) {
         const std::size_t index = buffer.index(x, y_ + row, 0);
@@ -141,27 +143,6 @@ class Block {
     const hn::CappedTag<T, kWidth> tag;
     for (std::size_t lane = 0; lane < kWidth; lane += hn::Lanes(tag)) {
       hn::StoreU(hn::Load(tag, from + lane), tag, to + lane);
-    }
-  }
-
-  static void find_owners(const OwnerTable& table, const Query& query,
-                          scenes::PrimitiveId* owners) {
-    const hn::CappedTag<scenes::PrimitiveId, N> words;
-    const hn::RebindToSigned<decltype(words)> numbers;
-    for (std::size_t lane = 0; lane < N; lane += hn::Lanes(words)) {
-      const auto geometry = hn::Load(words, query.hit.geomID + lane);
-      const auto hit = hn::Ne(geometry, hn::Set(words, RTC_INVALID_GEOMETRY_ID));
-      auto owner = hn::Load(words, query.hit.primID + lane);
-      for (unsigned id = 1; id < table.first.size(); ++id) {
-        owner = hn::Add(owner, hn::IfThenElseZero(hn::Eq(geometry, hn::Set(words, id)),
-                                                  hn::Set(words, table.first[id])));
-      }
-      if (!table.in_order && !hn::AllFalse(words, hit)) {
-        owner = hn::GatherIndex(words, table.ids.data(),
-                                hn::BitCast(numbers, hn::IfThenElseZero(hit, owner)));
-      }
-      hn::Store(hn::IfThenElse(hit, owner, hn::Set(words, scenes::kNoPrimitive)), words,
-                owners + lane);
     }
   }
 
@@ -279,7 +260,7 @@ void trace_nothing(const OwnerTable& owners, const PrimaryRays& rays, const Band
                        });
 }
 
-const ImageTracers& tracers() {
+const ImageTracers& tracers_of_images() {
   static constexpr ImageTracers kTracers{trace_single,      trace_packets<4>, trace_packets<8>,
                                          trace_packets<16>, trace_stream,     trace_nothing,
                                          HWY_TARGET};
@@ -292,7 +273,7 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace beambench::accel::embree {
 
-HWY_EXPORT(tracers);
+HWY_EXPORT(tracers_of_images);
 
 int tile_rows(const PrimaryRays& rays) { return (rays.height() + kTile - 1) / kTile; }
 
@@ -301,7 +282,7 @@ Band band_of(const PrimaryRays& rays, int begin, int end) {
 }
 
 const ImageTracers& image_tracers(std::int64_t targets) {
-  return pick_target(HWY_DISPATCH_TABLE(tracers), targets)();
+  return pick_target(HWY_DISPATCH_TABLE(tracers_of_images), targets)();
 }
 
 }  // namespace beambench::accel::embree

@@ -5,6 +5,7 @@
 #include "accel/core/trace_on.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "accel/embree/image_tracers.hpp"
+#include "accel/embree/list_tracers.hpp"
 
 namespace beambench::accel::null {
 
@@ -31,18 +32,26 @@ class Null : public TraversalAccelerator<Null> {
   static void use(const Ray& ray) { asm volatile("" : : "g"(&ray) : "memory"); }
 };
 
-/// Images in packets made by SIMD: the least share of `embree`, in any mode.
+/// Images in packets made by SIMD, lists packed by SIMD: the least share of `embree`, in any mode.
 class SimdNull : public Null {
  public:
-  explicit SimdNull(std::int64_t targets) : tracers_(&embree::image_tracers(targets)) {}
+  explicit SimdNull(std::int64_t targets)
+      : images_(&embree::image_tracers(targets)), lists_(&embree::list_tracers(targets)) {}
 
   void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
-    tracers_->untraced(owners_, rays, {0, rays.height()}, buffer);
+    images_->untraced(owners_, rays, {0, rays.height()}, buffer);
   }
   void trace_shared(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
     share_rows(embree::tile_rows(rays), [&](int begin, int end) {
-      tracers_->untraced(owners_, rays, embree::band_of(rays, begin, end), buffer);
+      images_->untraced(owners_, rays, embree::band_of(rays, begin, end), buffer);
     });
+  }
+
+  void closest_hits(const RayBatch& batch, HitBuffer& buffer, WorkCounters*) const override {
+    lists_->untraced_closest(owners_, batch.rays, buffer);
+  }
+  void any_hits(const RayBatch& batch, std::span<std::uint8_t> hits, WorkCounters*) const override {
+    lists_->untraced_any(batch.rays, hits);
   }
 
   Statistics statistics() const override {
@@ -52,7 +61,8 @@ class SimdNull : public Null {
   }
 
  private:
-  const embree::ImageTracers* tracers_;
+  const embree::ImageTracers* images_;
+  const embree::ListTracers* lists_;
   embree::OwnerTable owners_;  ///< empty
 };
 
@@ -64,8 +74,8 @@ void register_null(Registry& registry) {
        "returns a miss at once: measures the harness's own share",
        Conformance::kBaseline,
        {choice_parameter("rays", "single", {"single", "simd"},
-                         "how an image's rays are made and its hits are stored: one by one, as for "
-                         "most structures, or by SIMD, as for embree")},
+                         "how rays are made or read and hits are stored: one by one, as for most "
+                         "structures, or by SIMD, as for embree")},
        [](const scenes::Scene&, const Parameters& parameters,
           const Workload&) -> std::unique_ptr<Accelerator> {
          if (parameters.choice("rays") == "single") return std::make_unique<Null>();

@@ -72,8 +72,11 @@ class RaysTask : public Task {
 
  private:
   QueryPath path_of(const accel::Accelerator& structure) const override {
-    if (input().image() == nullptr) return QueryPath::kList;
-    switch (structure.statistics().image_rays) {
+    const accel::ImageRays made = structure.statistics().image_rays;
+    if (input().image() == nullptr) {
+      return made == accel::ImageRays::kSimd ? QueryPath::kListPacked : QueryPath::kList;
+    }
+    switch (made) {
       case accel::ImageRays::kSimd:
         return QueryPath::kImageSimd;
       case accel::ImageRays::kOwn:
@@ -84,7 +87,8 @@ class RaysTask : public Task {
     return QueryPath::kImageSingle;
   }
   double measure_harness_ms(QueryPath path) override {
-    const char* const rays = path == QueryPath::kImageSimd ? "simd" : "single";
+    const bool is_simd = path == QueryPath::kImageSimd || path == QueryPath::kListPacked;
+    const char* const rays = is_simd ? "simd" : "single";
     const auto null = accel::registry().choose({"null", {{"rays", rays}}}).build(scene());
     return harness_ms(core_, [&] { ask(*null); });
   }

@@ -27,12 +27,13 @@ enum class QueryPath {
   kImageSimd,    ///< an image, its rays made and its hits stored by SIMD
   kImageOwn,     ///< an image, by the structure's own samples: no share is the harness's
   kList,         ///< a list of rays: each is read, each answer is written
+  kListPacked,   ///< the same, by SIMD, in packets
   kPicture       ///< a whole picture, which is shaded
 };
 
 /// As records name them: "image-single", ...
-inline constexpr std::array<std::string_view, 5> kQueryPathNames{"image-single", "image-simd",
-                                                                 "image-own", "list", "picture"};
+inline constexpr std::array<std::string_view, 6> kQueryPathNames{
+    "image-single", "image-simd", "image-own", "list", "list-packed", "picture"};
 
 constexpr std::string_view to_string(QueryPath path) {
   return kQueryPathNames[static_cast<std::size_t>(path)];

@@ -162,6 +162,7 @@ std::optional<Overhead> overhead_of(const Json& cell) {
 std::string_view subject_of(const std::string& path) {
   if (path == to_string(QueryPath::kImageSingle)) return "images by single rays";
   if (path == to_string(QueryPath::kImageSimd)) return "images by SIMD rays";
+  if (path == to_string(QueryPath::kListPacked)) return "lists of rays packed by SIMD";
   return "lists of rays";
 }
 
