@@ -89,8 +89,7 @@ inline render::WhittedPicture picture(const scenes::Scene& scene, const std::str
   const accel::PrimaryRays rays(scene.cameras.front(), 40, 30, 1);
   accel::HitBuffer hits(40, 30, 1);
   structure->trace(rays, hits, nullptr);
-  return render::whitted_picture(render::Whitted(scene, *structure, options),
-                                 render::camera_rays(rays), hits);
+  return render::whitted_picture(render::Whitted(scene, *structure, options), rays, hits);
 }
 
 inline void expect_same_bits(const render::Image& a, const render::Image& b) {

@@ -64,6 +64,16 @@ PrimaryRays PrimaryRays::mirrored(const glm::dvec3& point, const glm::dvec3& nor
   return rays;
 }
 
+PrimaryRays PrimaryRays::at_corners() const {
+  PrimaryRays rays = *this;
+  rays.offsets_ = {glm::dvec2(0.0)};
+  ++rays.width_;
+  ++rays.height_;
+  rays.across_ += right_;
+  rays.all_down_ += down_;
+  return rays;
+}
+
 std::size_t PrimaryRays::count() const {
   return static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * offsets_.size();
 }

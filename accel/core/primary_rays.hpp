@@ -37,6 +37,10 @@ class PrimaryRays {
   /// mirror. The eye is rounded to float.
   PrimaryRays mirrored(const glm::dvec3& point, const glm::dvec3& normal) const;
 
+  /// The rays through the corners of these pixels, one each, as an image that is one larger in
+  /// width and height.
+  PrimaryRays at_corners() const;
+
   int width() const { return width_; }
   int height() const { return height_; }
   int samples() const { return static_cast<int>(offsets_.size()); }

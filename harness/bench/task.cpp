@@ -119,12 +119,13 @@ class PictureTask : public Task {
       : Task(group),
         rays_(group.image().rays()),
         options_(render::whitted_options(group.rays)),
+        shaded_(std::make_shared<const render::ShadedScene>(*group.scene)),
         reference_(*group.scene, rays_),
         hits_(rays_.width(), rays_.height(), rays_.samples()),
         image_(rays_.width(), rays_.height()) {
     const accel::embree::EmbreeOracle oracle(scene(), glm::length(glm::dvec3(rays_.eye())));
     const render::RecordedPicture picture =
-        render::record_picture(scene(), render::OracleQueries(oracle), rays_, reference_.rounded(),
+        render::record_picture(shaded_, render::OracleQueries(oracle), rays_, reference_.rounded(),
                                options_, rays::HitCheck(scene(), "the oracle"));
     set_facts(picture);
     // What the picture takes without a structure: its results are known.
@@ -179,7 +180,7 @@ class PictureTask : public Task {
     render::RecordedPicture picture = [&] {
       const MeasuringFloatMode mode;  // as it was timed
       structure.trace(rays_, hits_, nullptr);
-      return render::record_picture(scene(), structure, rays_, hits_, options_,
+      return render::record_picture(shaded_, structure, rays_, hits_, options_,
                                     rays::HitCheck(scene(), choice));
     }();
     image_ = picture.image;
@@ -205,12 +206,13 @@ class PictureTask : public Task {
   }
   render::RayCensus draw(const render::Answerers& answerers) {
     return render::draw_in_order(
-        render::Whitted(scene(), answerers, options_, rays::HitCheck(scene())),
-        render::camera_rays(rays_), hits_, image_);
+        render::Whitted(shaded_, answerers, options_, rays::HitCheck(scene())), rays_, hits_,
+        image_);
   }
 
   accel::PrimaryRays rays_;
   render::WhittedOptions options_;
+  std::shared_ptr<const render::ShadedScene> shaded_;
   verify::ReferenceHits reference_;
   accel::HitBuffer hits_;
   render::Image image_;

@@ -127,7 +127,7 @@ render::Image shaded(const Request& request, const accel::StructureChoice& choic
   const render::Whitted tracer(scene, accelerator, whitted_options(request.whitted),
                                rays::HitCheck(scene, choice));
   return render::whitted_picture(
-             tracer, render::camera_rays(rays), hits, [&](double part) { progress.advance(part); },
+             tracer, rays, hits, [&](double part) { progress.advance(part); },
              request.whitted.threads)
       .image;
 }

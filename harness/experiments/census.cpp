@@ -14,15 +14,15 @@ namespace beambench::experiments {
 namespace {
 
 /// Primary rays by the structure's own query for images; one by one at the corners of pixels.
-accel::HitBuffer primary_hits(const accel::Accelerator& structure, const render::CameraRays& rays,
+accel::HitBuffer primary_hits(const accel::Accelerator& structure, const accel::PrimaryRays& rays,
                               const accel::PrimaryRays* image) {
-  accel::HitBuffer hits(rays.width, rays.height, rays.samples);
+  accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
   if (image != nullptr) {
     structure.trace(*image, hits, nullptr);
     return hits;
   }
-  for (int y = 0; y < rays.height; ++y) {
-    for (int x = 0; x < rays.width; ++x) {
+  for (int y = 0; y < rays.height(); ++y) {
+    for (int x = 0; x < rays.width(); ++x) {
       hits.set(hits.index(x, y, 0), structure.closest_hit(rays.ray(x, y, 0), nullptr));
     }
   }
@@ -35,7 +35,7 @@ struct Setting {
   const accel::Accelerator& structure;
   const rays::HitCheck& check;
   const accel::PrimaryRays& primary;
-  const render::CameraRays& rays;
+  const accel::PrimaryRays& rays;
   const accel::HitBuffer& hits;
   const CensusOptions& options;
   base::Progress& progress;
@@ -83,14 +83,13 @@ CensusResult take_census(const accel::StructureChoice& choice, const scenes::Sce
   base::Stopwatch stopwatch;
   const auto structure = choice.build(scene, rays::workload_of(image, primary));
   result.build_ms = stopwatch.milliseconds();
-  const render::CameraRays rays =
-      options.spd_rules ? render::corner_rays(image.camera) : render::camera_rays(primary);
+  const accel::PrimaryRays rays = options.spd_rules ? render::corner_rays(image.camera) : primary;
   stopwatch = {};
   const accel::HitBuffer hits =
       primary_hits(*structure, rays, options.spd_rules ? nullptr : &primary);
   result.eye_ms = stopwatch.milliseconds();
   const rays::HitCheck check(scene, choice);
-  check.require(hits, rays.ray);
+  check.require(hits, rays);
   const Setting setting{scene, *structure, check, primary, rays, hits, options, progress};
   stopwatch = {};
   const render::Whitted tracer(scene, *structure, whitted_options(options), check);

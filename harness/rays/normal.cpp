@@ -40,47 +40,92 @@ struct TriangleCorners {
   glm::dvec3 normal() const { return glm::cross(b - a, c - a); }
 };
 
-/// Where a point lies in a triangle, in barycentric coordinates.
-std::array<double, 3> weights_in(const TriangleCorners& corners, const glm::dvec3& point) {
+/// Where a point lies in one triangle of a polygon.
+struct Place {
+  const scenes::Triangle* triangle;
+  glm::dvec3 normal;              ///< not of unit length
+  std::array<double, 3> weights;  ///< barycentric
+
+  double depth() const { return std::ranges::min(weights); }
+};
+
+Place place_in(const scenes::Scene& scene, const scenes::Triangle& triangle,
+               const glm::dvec3& point) {
+  const TriangleCorners corners(scene, triangle);
   const auto& [a, b, c] = corners;
   const glm::dvec3 normal = corners.normal();
   const double area = glm::dot(normal, normal);
-  if (area == 0.0) return {1.0, 0.0, 0.0};
+  if (area == 0.0) return {&triangle, normal, {1.0, 0.0, 0.0}};
   const double of_b = glm::dot(glm::cross(point - a, c - a), normal) / area;
   const double of_c = glm::dot(glm::cross(b - a, point - a), normal) / area;
-  return {1.0 - of_b - of_c, of_b, of_c};
+  return {&triangle, normal, {1.0 - of_b - of_c, of_b, of_c}};
 }
 
-/// The triangle of a polygon in which a point lies deepest.
-const scenes::Triangle& deepest_triangle(const scenes::Scene& scene, const scenes::Polygon& polygon,
-                                         const glm::dvec3& point) {
-  const auto triangles =
-      std::span(scene.triangles).subspan(polygon.first_triangle, polygon.triangle_count);
-  if (triangles.size() == 1) return triangles.front();
-  return *std::ranges::max_element(triangles, {}, [&](const scenes::Triangle& triangle) {
-    return std::ranges::min(weights_in({scene, triangle}, point));
-  });
+/// In the triangle in which the point lies deepest.
+Place place_in(const scenes::Scene& scene, std::span<const scenes::Triangle> triangles,
+               const glm::dvec3& point) {
+  Place deepest = place_in(scene, triangles.front(), point);
+  for (const scenes::Triangle& triangle : triangles.subspan(1)) {
+    const Place place = place_in(scene, triangle, point);
+    if (place.depth() > deepest.depth()) deepest = place;
+  }
+  return deepest;
 }
 
-glm::dvec3 corner_normal(const scenes::Scene& scene, const scenes::Polygon& polygon,
-                         std::uint32_t vertex) {
+/// Where in the scene's normals that of a polygon's vertex is.
+std::size_t corner_of(const scenes::Scene& scene, const scenes::Polygon& polygon,
+                      std::uint32_t vertex) {
   const auto corners = std::span(scene.corners).subspan(polygon.first_corner, polygon.corner_count);
-  const auto corner = std::find(corners.begin(), corners.end(), vertex) - corners.begin();
-  const glm::vec3& normal = scene.normals[polygon.first_normal + static_cast<std::size_t>(corner)];
-  return glm::normalize(glm::dvec3(normal));  // a file's normals may have any length
+  const auto corner = std::ranges::find(corners, vertex) - corners.begin();
+  return polygon.first_normal + static_cast<std::size_t>(corner);
 }
 
-/// Interpolated between the corners' normals; not of unit length. The geometric one where they
-/// cancel out.
+glm::dvec3 unit_normal(const glm::vec3& normal) { return glm::normalize(glm::dvec3(normal)); }
+
+/// Interpolated between the corners' normals, which `unit_normal_at(corner)` returns; the geometric
+/// one where they cancel out.
+template <class UnitNormalAt>
 glm::dvec3 smooth_normal(const scenes::Scene& scene, const scenes::Polygon& polygon,
-                         const scenes::Triangle& triangle, const glm::dvec3& point) {
-  const TriangleCorners corners(scene, triangle);
-  const std::array<double, 3> weights = weights_in(corners, point);
+                         const Place& place, UnitNormalAt unit_normal_at) {
   glm::dvec3 normal(0.0);
   for (std::size_t i = 0; i < 3; ++i) {
-    normal += weights[i] * corner_normal(scene, polygon, triangle.vertex[i]);
+    normal +=
+        place.weights[i] * unit_normal_at(corner_of(scene, polygon, place.triangle->vertex[i]));
   }
-  return glm::length(normal) > 0.0 ? normal : corners.normal();
+  return glm::length(normal) > 0.0 ? normal : place.normal;
+}
+
+template <class UnitNormalAt>
+SurfaceNormals polygon_normals(const scenes::Scene& scene, const scenes::Polygon& polygon,
+                               const glm::dvec3& point, UnitNormalAt unit_normal_at) {
+  const auto triangles =
+      std::span(scene.triangles).subspan(polygon.first_triangle, polygon.triangle_count);
+  const bool is_flat = polygon.first_normal == scenes::Polygon::kFlat;
+  if (is_flat && triangles.size() == 1) {
+    const glm::dvec3 normal = TriangleCorners(scene, triangles.front()).normal();
+    return {normal, normal};
+  }
+  const Place place = place_in(scene, triangles, point);
+  if (is_flat) return {place.normal, place.normal};
+  return {place.normal, smooth_normal(scene, polygon, place, unit_normal_at)};
+}
+
+template <class UnitNormalAt>
+SurfaceNormals normals_at(const scenes::Scene& scene, scenes::PrimitiveId id,
+                          const glm::dvec3& point, UnitNormalAt unit_normal_at) {
+  const scenes::Primitive& primitive = scene.primitives[id];
+  glm::dvec3 normal;
+  switch (primitive.kind) {
+    case scenes::PrimitiveKind::kSphere:
+      normal = point - glm::dvec3(scene.spheres[primitive.index].center);
+      break;
+    case scenes::PrimitiveKind::kCone:
+      normal = cone_normal(scene.cones[primitive.index], point);
+      break;
+    case scenes::PrimitiveKind::kPolygon:
+      return polygon_normals(scene, scene.polygons[primitive.index], point, unit_normal_at);
+  }
+  return {normal, normal};
 }
 
 /// Of unit length, on the side that the ray comes from.
@@ -94,38 +139,31 @@ glm::dvec3 facing(const glm::dvec3& normal, const glm::dvec3& direction) {
 
 }  // namespace
 
-SurfaceNormals surface_normals(const scenes::Scene& scene, const accel::Ray& ray,
-                               const accel::Hit& hit) {
-  const scenes::Primitive& primitive = scene.primitives[hit.primitive];
-  const glm::dvec3 direction(ray.direction);
-  const glm::dvec3 point = hit_point(ray, hit);
-  glm::dvec3 normal;
-  switch (primitive.kind) {
-    case scenes::PrimitiveKind::kSphere:
-      normal = facing(point - glm::dvec3(scene.spheres[primitive.index].center), direction);
-      break;
-    case scenes::PrimitiveKind::kCone:
-      normal = facing(cone_normal(scene.cones[primitive.index], point), direction);
-      break;
-    case scenes::PrimitiveKind::kPolygon: {
-      const scenes::Polygon& polygon = scene.polygons[primitive.index];
-      const scenes::Triangle& triangle = deepest_triangle(scene, polygon, point);
-      normal = facing(TriangleCorners(scene, triangle).normal(), direction);
-      if (polygon.first_normal == scenes::Polygon::kFlat) break;
-      return {normal, facing(smooth_normal(scene, polygon, triangle, point), direction)};
-    }
-  }
-  return {normal, normal};
+SurfaceNormals surface_normals(const scenes::Scene& scene, scenes::PrimitiveId primitive,
+                               const glm::dvec3& point,
+                               std::span<const glm::dvec3> corner_normals) {
+  return normals_at(scene, primitive, point,
+                    [&](std::size_t corner) { return corner_normals[corner]; });
+}
+
+std::vector<glm::dvec3> unit_normals(const scenes::Scene& scene) {
+  std::vector<glm::dvec3> normals(scene.normals.size());
+  std::ranges::transform(scene.normals, normals.begin(), unit_normal);
+  return normals;
 }
 
 glm::dvec3 geometric_normal(const scenes::Scene& scene, const accel::Ray& ray,
                             const accel::Hit& hit) {
-  return surface_normals(scene, ray, hit).geometric;
+  const auto unused = [](std::size_t) { return glm::dvec3(0.0); };
+  return facing(normals_at(scene, hit.primitive, hit_point(ray, hit), unused).geometric,
+                glm::dvec3(ray.direction));
 }
 
 glm::dvec3 shading_normal(const scenes::Scene& scene, const accel::Ray& ray,
                           const accel::Hit& hit) {
-  return surface_normals(scene, ray, hit).shading;
+  const auto corner = [&](std::size_t at) { return unit_normal(scene.normals[at]); };
+  return facing(normals_at(scene, hit.primitive, hit_point(ray, hit), corner).shading,
+                glm::dvec3(ray.direction));
 }
 
 }  // namespace beambench::rays

@@ -1,6 +1,9 @@
 #pragma once
 // The normal of a surface where a ray meets it, and where rays that start there begin.
 
+#include <span>
+#include <vector>
+
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -17,13 +20,18 @@ glm::dvec3 geometric_normal(const scenes::Scene& scene, const accel::Ray& ray,
 /// The same, but on a smooth polygon interpolated between the corners' normals: what shading uses.
 glm::dvec3 shading_normal(const scenes::Scene& scene, const accel::Ray& ray, const accel::Hit& hit);
 
-/// Both at once.
+/// Both of them, of any length and on either side of the surface.
 struct SurfaceNormals {
   glm::dvec3 geometric;
   glm::dvec3 shading;
 };
-SurfaceNormals surface_normals(const scenes::Scene& scene, const accel::Ray& ray,
-                               const accel::Hit& hit);
+
+/// At a point of a primitive. `corner_normals` are `unit_normals` of the scene.
+SurfaceNormals surface_normals(const scenes::Scene& scene, scenes::PrimitiveId primitive,
+                               const glm::dvec3& point, std::span<const glm::dvec3> corner_normals);
+
+/// The scene's normals at the corners of smooth polygons: a file's may have any length.
+std::vector<glm::dvec3> unit_normals(const scenes::Scene& scene);
 
 /// How far from a surface rays begin: 64 x 2^-24 x (largest |coordinate| of the scene + |point|),
 /// four times the length within which the differ cannot distinguish points.

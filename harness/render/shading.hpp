@@ -18,12 +18,15 @@
 
 namespace beambench::render {
 
-/// Phong's (CACM 18(6), 1975): how near the eye is to where a mirror would send the light. All
-/// directions have unit length.
+/// Phong's (CACM 18(6), 1975): how near the eye is to where a mirror would send the light, of which
+/// `cosine` is the angle's.
+inline double phong(double cosine, double shine) {
+  return cosine > 0.0 ? std::pow(cosine, std::max(shine, 1.0)) : 0.0;
+}
+/// The same from directions, which all have unit length.
 inline double phong(const glm::dvec3& normal, const glm::dvec3& to_light, const glm::dvec3& to_eye,
                     double shine) {
-  const double cosine = glm::dot(accel::mirrored(-to_light, normal), to_eye);
-  return cosine > 0.0 ? std::pow(cosine, std::max(shine, 1.0)) : 0.0;
+  return phong(glm::dot(accel::mirrored(-to_light, normal), to_eye), shine);
 }
 
 /// Where a ray goes behind a surface, by Snell's law, or nothing where all of it is reflected.

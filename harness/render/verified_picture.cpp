@@ -103,16 +103,17 @@ void ReplayedResults::any_hits(const accel::RayBatch&, std::span<std::uint8_t> h
   any_hit_ += hits.size();
 }
 
-RecordedPicture record_picture(const scenes::Scene& scene, const accel::Accelerator& structure,
-                               const accel::PrimaryRays& rays, accel::HitBuffer primary,
-                               const WhittedOptions& options, rays::HitCheck check) {
+RecordedPicture record_picture(const std::shared_ptr<const ShadedScene>& scene,
+                               const accel::Accelerator& structure, const accel::PrimaryRays& rays,
+                               accel::HitBuffer primary, const WhittedOptions& options,
+                               rays::HitCheck check) {
   RecordedPicture picture{std::move(primary), {}, Image(rays.width(), rays.height()), {}};
   auto& [reflected_rays, refracted_rays, shadow_rays] = picture.asked;
   const RecordedQueries reflected(structure, reflected_rays);
   const RecordedQueries refracted(structure, refracted_rays);
   const RecordedQueries shadow(structure, shadow_rays);
   const Whitted tracer(scene, {&reflected, &refracted, &shadow}, options, std::move(check));
-  picture.census = draw_in_order(tracer, camera_rays(rays), picture.primary, picture.image);
+  picture.census = draw_in_order(tracer, rays, picture.primary, picture.image);
   return picture;
 }
 
@@ -161,6 +162,7 @@ std::vector<verify::VerifiedCell> verify_picture(const scenes::Scene& scene,
   const accel::PrimaryRays rays = image.rays();
   const WhittedOptions options = whitted_options(choice);
   const verify::ReferenceHits camera_hits(scene, rays);
+  const auto shaded = std::make_shared<const ShadedScene>(scene);
   std::optional<std::pair<std::string, Image>> bits;  // of the first bit-exact structure
   return verify::verify_each(
       scene, choice.label, std::move(contenders), progress,
@@ -168,7 +170,7 @@ std::vector<verify::VerifiedCell> verify_picture(const scenes::Scene& scene,
         const auto structure = contender.build(scene, rays::workload_of(image, rays));
         accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
         structure->trace(rays, hits, nullptr);
-        RecordedPicture picture = record_picture(scene, *structure, rays, std::move(hits), options,
+        RecordedPicture picture = record_picture(shaded, *structure, rays, std::move(hits), options,
                                                  rays::HitCheck(scene, contender));
         const accel::Conformance conformance = contender.info().conformance;
         if (conformance == accel::Conformance::kBitExact && bits) {

@@ -134,9 +134,10 @@ struct RecordedPicture {
 
 /// Draws the picture that the hits `primary` of `rays` begin, on this thread alone; some 50 bytes a
 /// ray. Throws InvalidHit.
-RecordedPicture record_picture(const scenes::Scene& scene, const accel::Accelerator& structure,
-                               const accel::PrimaryRays& rays, accel::HitBuffer primary,
-                               const WhittedOptions& options, rays::HitCheck check);
+RecordedPicture record_picture(const std::shared_ptr<const ShadedScene>& scene,
+                               const accel::Accelerator& structure, const accel::PrimaryRays& rays,
+                               accel::HitBuffer primary, const WhittedOptions& options,
+                               rays::HitCheck check);
 
 /// The rays of one kind, and how they were answered.
 struct VerifiedRays {

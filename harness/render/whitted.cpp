@@ -8,7 +8,7 @@
 
 #include "accel/core/primary_rays.hpp"
 #include "harness/rays/normal.hpp"
-#include "harness/render/picture/color.hpp"
+#include "harness/render/places.hpp"
 #include "harness/render/shading.hpp"
 
 namespace beambench::render {
@@ -20,18 +20,6 @@ constexpr double kAmbient = 0.06;  // of white light, from everywhere
 
 /// Rays of a wave that are shaded together: what is computed of them stays in the caches.
 constexpr std::size_t kPart = 4096;
-
-std::vector<dvec3> light_colors(const scenes::Scene& scene) {
-  std::vector<dvec3> colors;
-  colors.reserve(scene.lights.size());
-  const double share =
-      1.0 / std::sqrt(static_cast<double>(std::max<std::size_t>(scene.lights.size(), 1)));
-  for (const scenes::Light& light : scene.lights) {
-    const bool unsaid = light.color == glm::vec3(1.0F);
-    colors.push_back(unsaid ? dvec3(share) : dvec3(light.color));
-  }
-  return colors;
-}
 
 /// A direction on the outer side of the surface: a smooth polygon's shading normal may send it
 /// through the polygon.
@@ -48,14 +36,9 @@ std::optional<dvec3> refracted_inward(const dvec3& incoming, const dvec3& shadin
   return outward ? refracted(incoming, geometric, ratio) : direction;
 }
 
-/// What the diffuse factor leaves of a display color, in linear light.
-dvec3 matte(const scenes::Surface& surface, const dvec3& color) {
-  const dvec3 display = glm::clamp(color, 0.0, 1.0);
-  return double{surface.diffuse} * dvec3(linear_from_srgb(glm::vec3(display)));
-}
-
-accel::Ray ray_from(const dvec3& origin, const dvec3& direction) {
-  accel::Ray ray;
+/// In place: copying a ray that was just made would wait until it is in memory.
+accel::Ray& add_ray(std::vector<accel::Ray>& rays, const dvec3& origin, const dvec3& direction) {
+  accel::Ray& ray = rays.emplace_back();
   ray.origin = glm::vec3(origin);
   ray.direction = glm::vec3(direction);
   return ray;
@@ -90,15 +73,18 @@ struct Whitted::Part {
   }
 };
 
-/// Where a ray meets a surface.
-struct Whitted::Place {
-  const scenes::Surface* surface;
-  const scenes::Primitive* primitive;
-  dvec3 point;
-  dvec3 beside;     ///< a little before the surface: where rays begin
-  dvec3 incoming;   ///< unit length
-  dvec3 geometric;  ///< unit normals on the side of the ray
-  dvec3 shading;
+/// The rays of a part that hit: where, what, and how they came about.
+struct Whitted::Found {
+  explicit Found(std::size_t count)
+      : places(count), ray(count), primitive(count), surface(count), path(count) {}
+
+  std::size_t size() const { return places.size; }
+
+  Places places;
+  std::vector<std::size_t> ray;  ///< its place in the part
+  std::vector<const scenes::Primitive*> primitive;
+  std::vector<const scenes::Surface*> surface;
+  std::vector<Path> path;
 };
 
 /// The next wave, in the order of the places that it comes from: of each the mirror ray first.
@@ -113,21 +99,14 @@ struct Whitted::Spawned {
   std::vector<Origin> origins;
 };
 
-Whitted::Whitted(const scenes::Scene& scene, const Answerers& answerers,
+Whitted::Whitted(std::shared_ptr<const ShadedScene> scene, const Answerers& answerers,
                  const WhittedOptions& options, rays::HitCheck check)
-    : scene_(&scene),
+    : shaded_(std::move(scene)),
+      scene_(&shaded_->scene()),
       answerers_(answerers),
       check_(std::move(check)),
       options_(options),
-      shadows_(scene, *answerers.shadow, options, check_),
-      textures_(scene),
-      light_colors_(light_colors(scene)),
-      background_(background_color(scene)) {
-  for (const scenes::Surface& surface : scene.surfaces) {
-    auto& known = matte_.emplace_back();
-    if (!is_texture(surface.finish)) known = matte(surface, dvec3(surface.color));
-  }
-}
+      shadows_(*scene_, *answerers.shadow, options, check_) {}
 
 Whitted::Progress Whitted::begin() const {
   return {ShadowCache(scene_->lights.size(), options_.max_depth), {}};
@@ -153,102 +132,106 @@ void Whitted::trace_wave(const Part& wave, int depth, std::span<dvec3> colors,
 
 void Whitted::trace_part(const Part& part, int depth, std::span<dvec3> colors,
                          Progress& progress) const {
-  std::vector<Place> places;
-  std::vector<Path> paths;
-  std::vector<std::size_t> hit_places;  // in the part
-  for (std::size_t i = 0; i < part.size(); ++i) {
-    if (!part.hits[i]) {
-      colors[i] = background_;
-      continue;
-    }
-    places.push_back(place_of(part.rays[i], *part.hits[i]));
-    paths.push_back(part.paths[i]);
-    hit_places.push_back(i);
-  }
-  const std::vector<dvec3> own = lit(places, depth, progress);
-  std::vector<dvec3> from_others(places.size(), dvec3(0.0));
+  std::ranges::fill(colors, shaded_->background());
+  const Found found = find_places(part);
+  const std::vector<dvec3> own = lit(found, depth, progress);
+  std::vector<dvec3> from_others(found.size(), dvec3(0.0));
   if (depth < options_.max_depth) {
-    const Spawned next = spawned(places, paths, progress);
+    const Spawned next = spawned(found, progress);
     std::vector<dvec3> next_colors(next.rays.size());
     trace_wave({next.rays, next.hits, next.paths}, depth + 1, next_colors, progress);
     for (std::size_t i = 0; i < next_colors.size(); ++i) {
       from_others[next.origins[i].place] += next.origins[i].share * next_colors[i];
     }
   }
-  for (std::size_t i = 0; i < places.size(); ++i) colors[hit_places[i]] = own[i] + from_others[i];
+  for (std::size_t i = 0; i < found.size(); ++i) colors[found.ray[i]] = own[i] + from_others[i];
 }
 
-Whitted::Place Whitted::place_of(const accel::Ray& ray, const accel::Hit& hit) const {
-  check_.require(ray, hit);
-  const scenes::Primitive& primitive = scene_->primitives[hit.primitive];
-  const dvec3 direction(ray.direction);
-  const dvec3 point = dvec3(ray.origin) + double{hit.t} * direction;
-  const rays::SurfaceNormals normals = rays::surface_normals(*scene_, ray, hit);
-  return {&scene_->surfaces[primitive.surface],
-          &primitive,
-          point,
-          rays::beside_surface(*scene_, point, normals.geometric),
-          glm::normalize(direction),
-          normals.geometric,
-          normals.shading};
-}
-
-dvec3 Whitted::matte_of(const Place& at) const {
-  const auto& known = matte_[at.primitive->surface];
-  return known ? *known : matte(*at.surface, textures_.color_at(*at.surface, at.point));
+Whitted::Found Whitted::find_places(const Part& part) const {
+  const auto is_hit = [](const auto& hit) { return hit.has_value(); };
+  Found found(static_cast<std::size_t>(std::ranges::count_if(part.hits, is_hit)));
+  Places& places = found.places;
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < part.size(); ++i) {
+    if (!part.hits[i]) continue;
+    const accel::Hit& hit = *part.hits[i];
+    const accel::Ray& ray = part.rays[i];
+    check_.require(ray, hit);
+    const dvec3 direction(ray.direction);
+    const dvec3 point = dvec3(ray.origin) + double{hit.t} * direction;
+    const rays::SurfaceNormals normals =
+        rays::surface_normals(*scene_, hit.primitive, point, shaded_->corner_normals());
+    places.point.set(place, point);
+    places.incoming.set(place, direction);
+    places.geometric.set(place, normals.geometric);
+    places.shading.set(place, normals.shading);
+    const scenes::Primitive& primitive = scene_->primitives[hit.primitive];
+    found.ray[place] = i;
+    found.primitive[place] = &primitive;
+    found.surface[place] = &scene_->surfaces[primitive.surface];
+    found.path[place] = part.paths[i];
+    ++place;
+  }
+  complete(places, scene_->bounds.largest_coordinate());
+  return found;
 }
 
 /// What the lights send to the camera from each place.
-std::vector<dvec3> Whitted::lit(std::span<const Place> places, int depth,
-                                Progress& progress) const {
-  std::vector<dvec3> matte(places.size());
-  std::ranges::transform(places, matte.begin(), [this](const Place& at) { return matte_of(at); });
-  std::vector<dvec3> sums(places.size());
-  std::ranges::transform(matte, sums.begin(), [](const dvec3& color) { return kAmbient * color; });
+std::vector<dvec3> Whitted::lit(const Found& found, int depth, Progress& progress) const {
+  std::vector<dvec3> matte(found.size());
+  std::vector<dvec3> sums(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    matte[i] = shaded_->matte_at(found.primitive[i]->surface, found.places.point[i]);
+    sums[i] = kAmbient * matte[i];
+  }
   for (std::size_t light = 0; light < scene_->lights.size(); ++light) {
-    add_light(light, places, matte, depth, sums, progress);
+    add_light(light, found, matte, depth, sums, progress);
   }
   return sums;
 }
 
 /// Lights behind the surface get no shadow ray.
-void Whitted::add_light(std::size_t light, std::span<const Place> places,
-                        std::span<const dvec3> matte, int depth, std::span<dvec3> sums,
-                        Progress& progress) const {
+void Whitted::add_light(std::size_t light, const Found& found, std::span<const dvec3> matte,
+                        int depth, std::span<dvec3> sums, Progress& progress) const {
   const dvec3 position(scene_->lights[light].position);
+  const LightAngles angles = light_angles(found.places, position);
   std::vector<accel::Ray> rays;
-  std::vector<std::size_t> facing;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Place& at = places[i];
-    const dvec3 offset = position - at.beside;
-    if (glm::dot(offset, at.geometric) <= 0.0 || glm::dot(offset, at.shading) <= 0.0) continue;
-    rays.push_back(ray_from(at.beside, offset));
-    rays.back().t_max = 1.0F;
-    facing.push_back(i);
+  std::vector<std::size_t> places;
+  rays.reserve(found.size());
+  places.reserve(found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (angles.is_before[i] == 0.0) continue;
+    const dvec3 beside = found.places.beside[i];
+    add_ray(rays, beside, position - beside).t_max = 1.0F;
+    places.push_back(i);
   }
   const std::vector<double> parts =
       shadows_.transmitted(rays, light, depth, progress.shadows, progress.census);
+  const dvec3 color = shaded_->light_colors()[light];
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts[k] == 0.0) continue;
-    const Place& at = places[facing[k]];
-    const dvec3 to_light = glm::normalize(position - at.beside);
-    dvec3 sent = glm::dot(to_light, at.shading) * matte[facing[k]];
-    if (const double specular = at.surface->specular; specular != 0.0) {
-      sent += specular * phong(at.shading, to_light, -at.incoming, at.surface->shine);
+    const std::size_t i = places[k];
+    const scenes::Surface& surface = *found.surface[i];
+    dvec3 sent = angles.cosine[i] * matte[i];
+    if (surface.specular != 0.0F) {
+      sent += double{surface.specular} * phong(angles.gleam[i], surface.shine);
     }
-    sums[facing[k]] += parts[k] * light_colors_[light] * sent;
+    sums[i] += parts[k] * color * sent;
   }
 }
 
 /// Mirror rays and refracted ones, traced. At total reflection the mirror ray carries both shares:
 /// it is one ray, even where the surface is a mirror as well (SPD, rule 9).
-Whitted::Spawned Whitted::spawned(std::span<const Place> places, std::span<const Path> paths,
-                                  Progress& progress) const {
+Whitted::Spawned Whitted::spawned(const Found& found, Progress& progress) const {
   Spawned next;
   std::vector<accel::Ray> mirror_rays, glass_rays;
   std::vector<bool> is_glass;  // of each ray of the wave
+  mirror_rays.reserve(found.size());
+  next.paths.reserve(found.size());
+  next.origins.reserve(found.size());
+  const Places& places = found.places;
   const auto spawn = [&](std::size_t place, double share, bool inside) {
-    const Path path{paths[place].weight * share, inside};
+    const Path path{found.path[place].weight * share, inside};
     if (path.weight < options_.min_weight) {
       ++progress.census.too_faint;
       return false;
@@ -258,24 +241,24 @@ Whitted::Spawned Whitted::spawned(std::span<const Place> places, std::span<const
     return true;
   };
   const auto reflect = [&](std::size_t place, double share) {
-    if (!spawn(place, share, paths[place].inside)) return;
-    const Place& at = places[place];
-    mirror_rays.push_back(
-        ray_from(at.beside, mirrored_outward(at.incoming, at.shading, at.geometric)));
+    if (!spawn(place, share, found.path[place].inside)) return;
+    add_ray(
+        mirror_rays, places.beside[place],
+        mirrored_outward(places.incoming[place], places.shading[place], places.geometric[place]));
     is_glass.push_back(false);
   };
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const Place& at = places[i];
-    const double glass = std::max(double{at.surface->transmittance}, 0.0);
-    const double mirror = std::max(double{at.surface->specular}, 0.0);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const scenes::Surface& surface = *found.surface[i];
+    const double glass = std::max(double{surface.transmittance}, 0.0);
+    const double mirror = std::max(double{surface.specular}, 0.0);
     if (glass == 0.0) {
       if (mirror > 0.0) reflect(i, mirror);
       continue;
     }
-    const bool entering = enters(at, paths[i]);
-    const double index = std::max(double{at.surface->refraction_index}, 1e-3);
-    const auto direction =
-        refracted_inward(at.incoming, at.shading, at.geometric, entering ? 1.0 / index : index);
+    const bool entering = enters(found, i);
+    const double index = std::max(double{surface.refraction_index}, 1e-3);
+    const auto direction = refracted_inward(places.incoming[i], places.shading[i],
+                                            places.geometric[i], entering ? 1.0 / index : index);
     if (!direction) {
       ++progress.census.totally_reflected;
       reflect(i, mirror + glass);
@@ -283,14 +266,16 @@ Whitted::Spawned Whitted::spawned(std::span<const Place> places, std::span<const
     }
     if (mirror > 0.0 || options_.glass_always_mirrors) reflect(i, mirror);
     if (!spawn(i, glass, entering)) continue;
-    glass_rays.push_back(
-        ray_from(rays::beside_surface(*scene_, at.point, -at.geometric), *direction));
+    add_ray(glass_rays, rays::beside_surface(*scene_, places.point[i], -places.geometric[i]),
+            *direction);
     is_glass.push_back(true);
   }
   const accel::HitBuffer mirror_hits =
       traced(*answerers_.reflected, mirror_rays, progress.census.reflected);
   const accel::HitBuffer glass_hits =
       traced(*answerers_.refracted, glass_rays, progress.census.refracted);
+  next.rays.reserve(is_glass.size());
+  next.hits.reserve(is_glass.size());
   std::size_t mirrors = 0, glasses = 0;
   for (const bool glass : is_glass) {
     std::size_t& place = glass ? glasses : mirrors;
@@ -304,10 +289,11 @@ Whitted::Spawned Whitted::spawned(std::span<const Place> places, std::span<const
 
 /// Whether a ray that meets glass goes into it: of a sphere by the place of the point, of polygons
 /// and cones by the surfaces that the ray has passed.
-bool Whitted::enters(const Place& at, const Path& path) const {
-  if (at.primitive->kind != scenes::PrimitiveKind::kSphere) return !path.inside;
-  const dvec3 center(scene_->spheres[at.primitive->index].center);
-  return glm::dot(at.point - center, at.incoming) < 0.0;
+bool Whitted::enters(const Found& found, std::size_t place) const {
+  const scenes::Primitive& primitive = *found.primitive[place];
+  if (primitive.kind != scenes::PrimitiveKind::kSphere) return !found.path[place].inside;
+  const dvec3 center(scene_->spheres[primitive.index].center);
+  return glm::dot(found.places.point[place] - center, found.places.incoming[place]) < 0.0;
 }
 
 }  // namespace beambench::render

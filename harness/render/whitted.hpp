@@ -1,6 +1,7 @@
 #pragma once
 // The whole ray tracer: light, shadow, mirrors and glass over any structure.
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -11,8 +12,8 @@
 #include "accel/core/accelerator.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/render/ray_census.hpp"
+#include "harness/render/shaded_scene.hpp"
 #include "harness/render/shadows.hpp"
-#include "harness/render/texture.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::render {
@@ -47,9 +48,10 @@ class Whitted {
       : Whitted(scene, structure, options, rays::HitCheck(scene)) {}
   Whitted(const scenes::Scene& scene, const accel::Accelerator& structure,
           const WhittedOptions& options, rays::HitCheck check)
-      : Whitted(scene, {&structure, &structure, &structure}, options, std::move(check)) {}
-  Whitted(const scenes::Scene& scene, const Answerers& answerers, const WhittedOptions& options,
-          rays::HitCheck check);
+      : Whitted(std::make_shared<const ShadedScene>(scene), {&structure, &structure, &structure},
+                options, std::move(check)) {}
+  Whitted(std::shared_ptr<const ShadedScene> scene, const Answerers& answerers,
+          const WhittedOptions& options, rays::HitCheck check);
 
   /// What a part of a picture, made by one thread in one order, remembers and counts.
   struct Progress {
@@ -72,31 +74,25 @@ class Whitted {
  private:
   struct Part;
   struct Path;
-  struct Place;
+  struct Found;
   struct Spawned;
   void trace_wave(const Part& wave, int depth, std::span<glm::dvec3> colors,
                   Progress& progress) const;
   void trace_part(const Part& part, int depth, std::span<glm::dvec3> colors,
                   Progress& progress) const;
-  Place place_of(const accel::Ray& ray, const accel::Hit& hit) const;
-  std::vector<glm::dvec3> lit(std::span<const Place> places, int depth, Progress& progress) const;
-  void add_light(std::size_t light, std::span<const Place> places,
-                 std::span<const glm::dvec3> matte, int depth, std::span<glm::dvec3> sums,
-                 Progress& progress) const;
-  glm::dvec3 matte_of(const Place& at) const;
-  Spawned spawned(std::span<const Place> places, std::span<const Path> paths,
-                  Progress& progress) const;
-  bool enters(const Place& at, const Path& path) const;
+  Found find_places(const Part& part) const;
+  std::vector<glm::dvec3> lit(const Found& found, int depth, Progress& progress) const;
+  void add_light(std::size_t light, const Found& found, std::span<const glm::dvec3> matte,
+                 int depth, std::span<glm::dvec3> sums, Progress& progress) const;
+  Spawned spawned(const Found& found, Progress& progress) const;
+  bool enters(const Found& found, std::size_t place) const;
 
+  std::shared_ptr<const ShadedScene> shaded_;
   const scenes::Scene* scene_;
   Answerers answerers_;
   rays::HitCheck check_;
   WhittedOptions options_;
   Shadows shadows_;
-  TextureSpace textures_;
-  std::vector<glm::dvec3> light_colors_;
-  std::vector<std::optional<glm::dvec3>> matte_;  ///< by surface; nothing where it has a texture
-  glm::dvec3 background_;
 };
 
 }  // namespace beambench::render

@@ -34,17 +34,17 @@ struct Part {
   int block;
 };
 
-std::vector<Part> parts_of(const CameraRays& rays, bool in_rows) {
+std::vector<Part> parts_of(const accel::PrimaryRays& rays, bool in_rows) {
   constexpr int kBlock = 4;
-  const double side = std::sqrt(static_cast<double>(kSamples) / rays.samples);
+  const double side = std::sqrt(static_cast<double>(kSamples) / rays.samples());
   const int tile = kBlock * std::max(static_cast<int>(side) / kBlock, 1);
-  const int width = in_rows ? rays.width : tile;
+  const int width = in_rows ? rays.width() : tile;
   const int height = in_rows ? 1 : tile;
   std::vector<Part> parts;
-  for (int top = 0; top < rays.height; top += height) {
-    for (int left = 0; left < rays.width; left += width) {
-      parts.push_back({left, top, std::min(left + width, rays.width),
-                       std::min(top + height, rays.height), in_rows ? 1 : kBlock});
+  for (int top = 0; top < rays.height(); top += height) {
+    for (int left = 0; left < rays.width(); left += width) {
+      parts.push_back({left, top, std::min(left + width, rays.width()),
+                       std::min(top + height, rays.height()), in_rows ? 1 : kBlock});
     }
   }
   return parts;
@@ -70,8 +70,15 @@ struct Batch {
   std::vector<std::optional<accel::Hit>> hits;
   std::vector<glm::dvec3> colors;
 
+  void reserve(std::size_t count) {
+    rays.reserve(count);
+    hits.reserve(count);
+  }
+  /// Component by component: a copy would wait until the ray that was just made is in memory.
   void add(const accel::Ray& ray, const std::optional<accel::Hit>& hit) {
-    rays.push_back(ray);
+    accel::Ray& own = rays.emplace_back();
+    own.origin = ray.origin;
+    own.direction = ray.direction;
     hits.push_back(hit);
   }
   void shade(const Whitted& tracer, Whitted::Progress& progress) {
@@ -80,10 +87,13 @@ struct Batch {
   }
 };
 
-void draw(const Part& part, const Whitted& tracer, const CameraRays& rays,
+void draw(const Part& part, const Whitted& tracer, const accel::PrimaryRays& rays,
           const accel::HitBuffer& hits, Whitted::Progress& progress, Image& image) {
   Batch batch;
-  for_each_sample(part, rays.samples, [&](int x, int y, int sample) {
+  batch.reserve(static_cast<std::size_t>(part.right - part.left) *
+                static_cast<std::size_t>(part.bottom - part.top) *
+                static_cast<std::size_t>(rays.samples()));
+  for_each_sample(part, rays.samples(), [&](int x, int y, int sample) {
     batch.add(rays.ray(x, y, sample), hits.get(hits.index(x, y, sample)));
   });
   batch.shade(tracer, progress);
@@ -91,11 +101,11 @@ void draw(const Part& part, const Whitted& tracer, const CameraRays& rays,
   std::vector<glm::dvec3> sums(width * static_cast<std::size_t>(part.bottom - part.top),
                                glm::dvec3(0.0));
   auto color = batch.colors.begin();
-  for_each_sample(part, rays.samples, [&](int x, int y, int) {
+  for_each_sample(part, rays.samples(), [&](int x, int y, int) {
     sums[static_cast<std::size_t>(y - part.top) * width +
          static_cast<std::size_t>(x - part.left)] += *color++;
   });
-  const double share = 1.0 / rays.samples;
+  const double share = 1.0 / rays.samples();
   auto sum = sums.begin();
   for (int y = part.top; y < part.bottom; ++y) {
     for (int x = part.left; x < part.right; ++x) image.at(x, y) = glm::vec3(share * *sum++);
@@ -104,7 +114,7 @@ void draw(const Part& part, const Whitted& tracer, const CameraRays& rays,
 
 /// In its own order, so that the shadow cache's census is the same however parts are shared among
 /// threads.
-RayCensus drawn(const Part& part, const Whitted& tracer, const CameraRays& rays,
+RayCensus drawn(const Part& part, const Whitted& tracer, const accel::PrimaryRays& rays,
                 const accel::HitBuffer& hits, Image& image) {
   Whitted::Progress progress = tracer.begin();
   draw(part, tracer, rays, hits, progress, image);
@@ -133,14 +143,14 @@ class PaintedPlaces : public accel::beam::NoBeamWatch {
 
 }  // namespace
 
-WhittedPicture whitted_picture(const Whitted& tracer, const CameraRays& rays,
+WhittedPicture whitted_picture(const Whitted& tracer, const accel::PrimaryRays& rays,
                                const accel::HitBuffer& hits, const PictureWatch& watch,
                                int threads) {
   std::optional<tbb::global_control> limit;
   if (threads > 0) {
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   }
-  WhittedPicture picture{Image(rays.width, rays.height), {}};
+  WhittedPicture picture{Image(rays.width(), rays.height()), {}};
   const std::vector<Part> parts = parts_of(rays, tracer.remembers_shadows());
   std::vector<RayCensus> counts(parts.size());
   std::atomic<std::size_t> done = 0;
@@ -164,16 +174,17 @@ WhittedPicture whitted_picture(const Whitted& tracer, const CameraRays& rays,
 }
 
 WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const Whitted& tracer,
-                                     const CameraRays& rays, const accel::HitBuffer& hits,
+                                     const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
                                      const PictureWatch& watch) {
-  const auto samples = static_cast<std::size_t>(rays.samples);
-  const auto width = static_cast<std::size_t>(rays.width);
+  const auto samples = static_cast<std::size_t>(rays.samples());
+  const auto width = static_cast<std::size_t>(rays.width());
   std::vector<glm::dvec3> sums(places.size() / samples, glm::dvec3(0.0));
   Whitted::Progress progress = tracer.begin();
   for (std::size_t first = 0; first < places.size(); first += kSamples) {
     if (watch) watch(static_cast<double>(first) / static_cast<double>(places.size()));
     const auto some = places.subspan(first, std::min(kSamples, places.size() - first));
     Batch batch;
+    batch.reserve(some.size());
     for (const std::size_t place : some) {
       const std::size_t pixel = place / samples;
       batch.add(rays.ray(static_cast<int>(pixel % width), static_cast<int>(pixel / width),
@@ -183,15 +194,15 @@ WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const 
     batch.shade(tracer, progress);
     for (std::size_t i = 0; i < some.size(); ++i) sums[some[i] / samples] += batch.colors[i];
   }
-  WhittedPicture picture{Image(rays.width, rays.height), progress.census};
-  const double share = 1.0 / rays.samples;
+  WhittedPicture picture{Image(rays.width(), rays.height()), progress.census};
+  const double share = 1.0 / rays.samples();
   std::ranges::transform(sums, picture.image.pixels().begin(),
                          [share](const glm::dvec3& sum) { return glm::vec3(share * sum); });
   return picture;
 }
 
-RayCensus draw_in_order(const Whitted& tracer, const CameraRays& rays, const accel::HitBuffer& hits,
-                        Image& image) {
+RayCensus draw_in_order(const Whitted& tracer, const accel::PrimaryRays& rays,
+                        const accel::HitBuffer& hits, Image& image) {
   RayCensus census;
   for (const Part& part : parts_of(rays, tracer.remembers_shadows())) {
     census += drawn(part, tracer, rays, hits, image);

@@ -1,5 +1,5 @@
 #pragma once
-// The whole picture: the rays that it begins with, and the order in which its samples are shaded.
+// The whole picture, and the order in which its samples are shaded.
 
 #include <cstddef>
 #include <functional>
@@ -17,28 +17,10 @@
 
 namespace beambench::render {
 
-/// width x height pixels of `samples` rays each; `ray(x, y, sample)`, (0, 0) being the top left.
-struct CameraRays {
-  int width;
-  int height;
-  int samples;
-  std::function<accel::Ray(int x, int y, int sample)> ray;
-};
-
-/// Those of an image. `rays` must outlive them.
-inline CameraRays camera_rays(const accel::PrimaryRays& rays) {
-  return {rays.width(), rays.height(), rays.samples(),
-          [&rays](int x, int y, int sample) { return rays.ray(x, y, sample); }};
-}
-
-/// Those of Haines's Standard Procedural Databases: through the corners of 512 x 512 pixels, one
-/// sample for each of the 513 x 513 corners.
-inline CameraRays corner_rays(const scenes::Camera& camera) {
-  constexpr int kPixels = 512;
-  return {kPixels + 1, kPixels + 1, 1,
-          [rays = accel::PrimaryRays(camera, kPixels, kPixels, 1)](int x, int y, int) {
-            return rays.ray_at(x, y);
-          }};
+/// The camera rays of Haines's Standard Procedural Databases: through the corners of 512 x 512
+/// pixels.
+inline accel::PrimaryRays corner_rays(const scenes::Camera& camera) {
+  return accel::PrimaryRays(camera, 512, 512, 1).at_corners();
 }
 
 struct WhittedPicture {
@@ -55,7 +37,7 @@ using PictureWatch = std::function<void(double part)>;
 /// many there are. A part is a square of pixels, in blocks of 4x4, so that neighbors in a batch of
 /// rays are neighbors in the picture; with the shadow cache it is a row, from left to right, in
 /// which the cache begins anew.
-WhittedPicture whitted_picture(const Whitted& tracer, const CameraRays& rays,
+WhittedPicture whitted_picture(const Whitted& tracer, const accel::PrimaryRays& rays,
                                const accel::HitBuffer& hits, const PictureWatch& watch = {},
                                int threads = 0);
 
@@ -63,12 +45,12 @@ WhittedPicture whitted_picture(const Whitted& tracer, const CameraRays& rays,
 /// order of `places` in the hit buffer, each of which is there once: on this thread alone, with one
 /// shadow cache, which all that is counted of the cache depends on.
 WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const Whitted& tracer,
-                                     const CameraRays& rays, const accel::HitBuffer& hits,
+                                     const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
                                      const PictureWatch& watch = {});
 
 /// The same picture into `image`, which has its size, on this thread alone; returns its census.
-RayCensus draw_in_order(const Whitted& tracer, const CameraRays& rays, const accel::HitBuffer& hits,
-                        Image& image);
+RayCensus draw_in_order(const Whitted& tracer, const accel::PrimaryRays& rays,
+                        const accel::HitBuffer& hits, Image& image);
 
 /// What a shadow cache remembers depends on which samples follow each other.
 enum class ShadingOrder {

@@ -50,7 +50,7 @@ class Workplace {
     return hits;
   }
   render::Image sequential_picture() const {
-    return render::whitted_picture(light_, render::camera_rays(rays_), sequential_hits()).image;
+    return render::whitted_picture(light_, rays_, sequential_hits()).image;
   }
 
   ClusterReport hits(LocalNetwork& network, int processes, const ProducerOptions& options,

@@ -102,11 +102,11 @@ std::vector<std::string> complaints(const scenes::Scene& scene, const accel::Hit
       messages.emplace_back(error.what());
     }
   };
+  note([&] { render::whitted_picture(render::Whitted(scene, structure, {}, check), rays, hits); });
   note([&] {
-    render::whitted_picture(render::Whitted(scene, structure, {}, check), render::camera_rays(rays),
-                            hits);
+    render::record_picture(std::make_shared<const render::ShadedScene>(scene), structure, rays,
+                           hits, {}, check);
   });
-  note([&] { render::record_picture(scene, structure, rays, hits, {}, check); });
   return messages;
 }
 

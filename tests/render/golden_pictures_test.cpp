@@ -16,10 +16,10 @@
 namespace beambench::render {
 namespace {
 
-accel::HitBuffer hits_of(const accel::Accelerator& structure, const CameraRays& rays) {
-  accel::HitBuffer hits(rays.width, rays.height, 1);
-  for (int y = 0; y < rays.height; ++y) {
-    for (int x = 0; x < rays.width; ++x) {
+accel::HitBuffer hits_of(const accel::Accelerator& structure, const accel::PrimaryRays& rays) {
+  accel::HitBuffer hits(rays.width(), rays.height(), 1);
+  for (int y = 0; y < rays.height(); ++y) {
+    for (int x = 0; x < rays.width(); ++x) {
       hits.set(hits.index(x, y, 0), structure.closest_hit(rays.ray(x, y, 0), nullptr));
     }
   }
@@ -29,7 +29,7 @@ accel::HitBuffer hits_of(const accel::Accelerator& structure, const CameraRays& 
 RayCensus spd_census(const std::string& name) {
   const scenes::Scene scene = scenes::load_scene(name);
   const auto structure = built(scene, "sah-bvh");
-  const CameraRays rays = corner_rays(scene.cameras.front());
+  const accel::PrimaryRays rays = corner_rays(scene.cameras.front());
   const accel::HitBuffer hits = hits_of(*structure, rays);
   const WhittedOptions rules{.glass_always_mirrors = true};
   return whitted_picture(Whitted(scene, *structure, rules), rays, hits).census;
@@ -127,7 +127,7 @@ TEST(Whitted, GoldenPictures) {
     accel::HitBuffer hits(64, 64, 1);
     structure->trace(rays, hits, nullptr);
     const OIIO::ImageBuf found =
-        as_png(whitted_picture(Whitted(scene, *structure, {}), camera_rays(rays), hits).image);
+        as_png(whitted_picture(Whitted(scene, *structure, {}), rays, hits).image);
     const std::string file =
         BEAMBENCH_TEST_FILES "/golden/whitted/" + name.substr(0, name.find(':')) + ".png";
     const OIIO::ImageBuf golden(file);

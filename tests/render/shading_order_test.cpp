@@ -46,7 +46,7 @@ TEST(ShadingOrder, KeepsTheSamplesOfABeamTogether) {
 TEST(ShadingOrder, ChangesNeitherPictureNorRays) {
   const scenes::Scene scene = scenes::load_scene("maceta");
   const accel::PrimaryRays primary(scene.cameras.front(), 80, 64, 1);
-  const CameraRays rays = camera_rays(primary);
+  const accel::PrimaryRays rays = primary;
   const auto beam = built(scene, "beam:max_level=5");
   accel::HitBuffer hits(primary.width(), primary.height(), 1);
   beam->trace(primary, hits, nullptr);
@@ -55,8 +55,8 @@ TEST(ShadingOrder, ChangesNeitherPictureNorRays) {
   std::vector<std::uint64_t> cached;
   for (const auto& places : {scan_order(primary), beam_order(*beam, primary)}) {
     const WhittedPicture found = whitted_picture_along(places, tracer, rays, hits);
-    for (int y = 0; y < rays.height; ++y) {
-      for (int x = 0; x < rays.width; ++x) EXPECT_EQ(found.image.at(x, y), rows.image.at(x, y));
+    for (int y = 0; y < rays.height(); ++y) {
+      for (int x = 0; x < rays.width(); ++x) EXPECT_EQ(found.image.at(x, y), rows.image.at(x, y));
     }
     EXPECT_EQ(found.census.eye, rows.census.eye);
     EXPECT_EQ(found.census.shadow, rows.census.shadow);

@@ -331,9 +331,9 @@ TEST(Whitted, DrawnInOrderItIsTheSamePicture) {
   accel::HitBuffer hits(40, 30, 1);
   structure->trace(rays, hits, nullptr);
   const Whitted tracer(scene, *structure, WhittedOptions{});
-  const WhittedPicture expected = whitted_picture(tracer, camera_rays(rays), hits);
+  const WhittedPicture expected = whitted_picture(tracer, rays, hits);
   Image image(40, 30);
-  EXPECT_EQ(draw_in_order(tracer, camera_rays(rays), hits, image), expected.census);
+  EXPECT_EQ(draw_in_order(tracer, rays, hits, image), expected.census);
   expect_same_bits(image, expected.image);
 }
 

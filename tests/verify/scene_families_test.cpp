@@ -133,11 +133,11 @@ class Trial {
     contender.structure->trace(rays, hits, nullptr);
     std::vector<render::VerifiedRays> verified;
     try {
-      verified =
-          render::verify_recorded_picture(eye,
-                                          render::record_picture(scene_, *contender.structure, rays,
-                                                                 hits, {}, rays::HitCheck(scene_)),
-                                          contender.conformance);
+      verified = render::verify_recorded_picture(
+          eye,
+          render::record_picture(std::make_shared<const render::ShadedScene>(scene_),
+                                 *contender.structure, rays, hits, {}, rays::HitCheck(scene_)),
+          contender.conformance);
     } catch (const rays::InvalidHit& error) {
       ADD_FAILURE() << contender.label << " over " << scene_.name << ": " << error.what();
     }

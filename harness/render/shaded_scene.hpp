@@ -1,0 +1,38 @@
+#pragma once
+// What shading needs of a scene, computed once for all its pictures.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "harness/render/texture.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::render {
+
+/// The scene must outlive it.
+class ShadedScene {
+ public:
+  explicit ShadedScene(const scenes::Scene& scene);
+
+  const scenes::Scene& scene() const { return *scene_; }
+  /// Linear light. A light without a color of its own (white) has 1 / sqrt(lights).
+  const std::vector<glm::dvec3>& light_colors() const { return light_colors_; }
+  const glm::dvec3& background() const { return background_; }
+  /// `rays::unit_normals`.
+  const std::vector<glm::dvec3>& corner_normals() const { return corner_normals_; }
+  /// What a surface's diffuse factor leaves of its color at a point of the scene, in linear light.
+  glm::dvec3 matte_at(std::uint32_t surface, const glm::dvec3& point) const;
+
+ private:
+  const scenes::Scene* scene_;
+  TextureSpace textures_;
+  std::vector<glm::dvec3> light_colors_;
+  std::vector<glm::dvec3> corner_normals_;
+  std::vector<std::optional<glm::dvec3>> matte_;  ///< by surface; nothing where it has a texture
+  glm::dvec3 background_;
+};
+
+}  // namespace beambench::render
