@@ -122,6 +122,15 @@ def test_a_wrong_contender_has_no_line_and_is_named_in_the_caption(tmp_path: Pat
     assert any("max_level=6" in title for title in titles(right))
 
 
+def test_of_a_structure_with_many_variants_only_the_fastest_have_lines(tmp_path: Path) -> None:
+    (plot,) = resolutions(read_measured(write_run(tmp_path, many_rows(2, 6))))
+    legend = next(legend for axes in plot.figure.axes if (legend := axes.get_legend()))
+    shown = [text.get_text() for text in legend.get_texts()]
+    assert shown == ["samet max_level=0", "samet max_level=1"]
+    caption = " ".join(plot.figure.get_supxlabel().split())
+    assert "Of a structure with more than 4 variants the 2 fastest." in caption
+
+
 def test_a_caption_does_not_outgrow_its_figure(tmp_path: Path) -> None:
     rows = many_rows(12, 13)
     rows = [*rows[:80], *(without_times(row, "mismatch") for row in rows[80:])]
