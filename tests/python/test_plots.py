@@ -294,6 +294,23 @@ def test_names_beside_points_cover_no_other_point() -> None:
     plt.close(figure)
 
 
+def test_names_lie_off_slanting_lines_and_have_their_colors() -> None:
+    figure, panel = plt.subplots(dpi=100)
+    points = [(0.2, 0.2), (0.8, 0.8)]
+    panel.set(xlim=(0, 1), ylim=(0, 1))
+    # The line goes on beyond the points, where a name would stand first.
+    lines = [[(0.0, 0.2), (1.0, 0.2)], [(0.0, 0.0), (1.0, 1.0)]]
+    assert place_labels(panel, points, ["lower", "upper"], lines, ["#111111", "#222222"])
+    assert [text.get_color() for text in panel.texts] == ["#222222", "#111111"]
+    renderer = figure.canvas.get_renderer()
+    for text in panel.texts:
+        box = text.get_window_extent(renderer).transformed(panel.transData.inverted())
+        assert not (box.y0 < 0.2 < box.y1)
+        corners = [(x, y) for x in (box.x0, box.x1) for y in (box.y0, box.y1)]
+        assert len({y > x for x, y in corners}) == 1, f"{text.get_text()} is crossed"
+    plt.close(figure)
+
+
 def test_many_repetitions_are_thinned_with_both_ends() -> None:
     assert thinned([1.0, 2.0, 3.0], 5) == [1.0, 2.0, 3.0]
     few = thinned([float(value) for value in range(100)], 10)
