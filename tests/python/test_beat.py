@@ -10,6 +10,7 @@ import pytest
 
 from beambench_report.__main__ import main
 from beambench_report.base.files import Problem
+from beambench_report.base.palette import PAPER, structure_color
 from beambench_report.base.ratio import Ratio
 from beambench_report.base.records import read_run
 from beambench_report.embree_comparison.pairings import Pairing, pairings
@@ -256,6 +257,54 @@ def test_plots_follow_what_was_measured(tmp_path: Path) -> None:
     )
     stems = ["beat-embree", "beat-embree-scaling", "beat-embree-resolutions"]
     assert [plot.stem for plot in plots(many)] == stems
+
+
+def bumpy(size: int, run_id: str, commit: str) -> list[Row]:
+    scene = {"scene": f"bumpy:triangles={size}", "run_id": run_id, "commit": commit}
+    return [
+        row("tile-beam", size, primitives=size) | scene,
+        row("embree", 3 * size, primitives=size, mode="single") | scene,
+    ]
+
+
+def test_growth_shows_each_image_once_and_which_commit_measured_it(tmp_path: Path) -> None:
+    older = [made for size in (10, 20, 40, 80, 160) for made in bumpy(size, "a-1", "1" * 40)]
+    newer = [made for size in (40, 80) for made in bumpy(size, "b-2", "2" * 40)]
+    runs = []
+    for name, rows in (("older", older), ("newer", newer)):
+        (tmp_path / name).mkdir()
+        runs.append(read_run(write_run(tmp_path / name, rows)))
+    (plot,) = (one for one in plots(pairings(runs)) if one.stem == "beat-embree-scaling")
+    times, ratios, *_ = plot.figure.axes
+    colors = {structure_color(name) for name in ("embree", "tile-beam")}
+    assert {line.get_color() for line in times.lines} == colors
+    points = [line for line in ratios.lines if line.get_marker() == "o"]
+    assert [line.get_xdata()[0] for line in points] == [10, 20, 40, 80, 160]
+    filled = [line.get_xdata()[0] for line in points if line.get_markerfacecolor() != PAPER]
+    assert filled == [40, 80]
+    bars = [line for line in ratios.lines if line.get_marker() == "_"]
+    assert len(bars) == 5
+    caption = " ".join(plot.figure.get_supxlabel().split())
+    assert "Filled: commit 222222222222; hollow: 111111111111." in caption
+    assert "drawn once, by the newest" in caption
+
+
+def test_no_figure_is_taller_than_a_page(tmp_path: Path) -> None:
+    rows = [
+        made | {"scene": scene}
+        for group in groups()
+        for scene in group.scenes
+        for resolution in group.targets
+        for made in (
+            row("tile-beam", 2, resolution=resolution),
+            row("embree", 12, resolution=resolution, mode="single"),
+        )
+    ]
+    drawn = plots(duels_of(tmp_path, *rows))
+    assert [plot.stem for plot in drawn] == ["beat-embree", "beat-embree-2"]
+    for plot in drawn:
+        width, height = plot.figure.get_size_inches()
+        assert height <= 1.4 * width
 
 
 def test_the_command_writes_the_report_and_its_plots(

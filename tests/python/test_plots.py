@@ -122,6 +122,15 @@ def test_a_wrong_contender_has_no_line_and_is_named_in_the_caption(tmp_path: Pat
     assert any("max_level=6" in title for title in titles(right))
 
 
+def test_of_a_structure_with_many_variants_only_the_fastest_have_lines(tmp_path: Path) -> None:
+    (plot,) = resolutions(read_measured(write_run(tmp_path, many_rows(2, 6))))
+    legend = next(legend for axes in plot.figure.axes if (legend := axes.get_legend()))
+    shown = [text.get_text() for text in legend.get_texts()]
+    assert shown == ["samet max_level=0", "samet max_level=1"]
+    caption = " ".join(plot.figure.get_supxlabel().split())
+    assert "Of a structure with more than 4 variants the 2 fastest." in caption
+
+
 def test_a_caption_does_not_outgrow_its_figure(tmp_path: Path) -> None:
     rows = many_rows(12, 13)
     rows = [*rows[:80], *(without_times(row, "mismatch") for row in rows[80:])]
@@ -282,6 +291,23 @@ def test_names_beside_points_cover_no_other_point() -> None:
     crowd = [(0.5 + 0.001 * place, 0.5) for place in range(40)]
     assert not place_labels(panel, crowd, [f"contender {place}" for place in range(40)])
     assert len(panel.texts) == 3
+    plt.close(figure)
+
+
+def test_names_lie_off_slanting_lines_and_have_their_colors() -> None:
+    figure, panel = plt.subplots(dpi=100)
+    points = [(0.2, 0.2), (0.8, 0.8)]
+    panel.set(xlim=(0, 1), ylim=(0, 1))
+    # The line goes on beyond the points, where a name would stand first.
+    lines = [[(0.0, 0.2), (1.0, 0.2)], [(0.0, 0.0), (1.0, 1.0)]]
+    assert place_labels(panel, points, ["lower", "upper"], lines, ["#111111", "#222222"])
+    assert [text.get_color() for text in panel.texts] == ["#222222", "#111111"]
+    renderer = figure.canvas.get_renderer()
+    for text in panel.texts:
+        box = text.get_window_extent(renderer).transformed(panel.transData.inverted())
+        assert not (box.y0 < 0.2 < box.y1)
+        corners = [(x, y) for x in (box.x0, box.x1) for y in (box.y0, box.y1)]
+        assert len({y > x for x, y in corners}) == 1, f"{text.get_text()} is crossed"
     plt.close(figure)
 
 

@@ -115,13 +115,14 @@ def test_a_method_whose_settings_all_have_a_smaller_error_is_better_and_no_failu
     assert "|  | image-space | – | – | at most 100 ms | at most 50% |" in text  # noqa: RUF001
 
 
-def test_the_ends_of_each_line_carry_their_settings(tmp_path: Path) -> None:
-    results = [("uniform", str(n), n, 10.0 * n, 10.0 / n) for n in (1, 5, 9, 25)]
+def test_where_settings_crowd_only_the_ends_of_a_line_are_named(tmp_path: Path) -> None:
+    results = [("uniform", str(n), n, 10.0 + 1e-3 * n, 10.0 - 1e-3 * n) for n in range(10, 70)]
+    results += [("image-space", "0.5", 1, 100.0, 1.0)]
     section = sampling_section(
         [read_comparison(write_comparison(tmp_path / "a.json", results=results))]
     )
     (axes,) = section.figures[0].draw().figure.axes
-    assert [text.get_text() for text in axes.texts] == ["1", "25"]
+    assert sorted(text.get_text() for text in axes.texts) == ["0.5", "10", "69"]
 
 
 def test_the_plot_rings_what_the_thesis_did(tmp_path: Path) -> None:
@@ -132,6 +133,17 @@ def test_the_plot_rings_what_the_thesis_did(tmp_path: Path) -> None:
     assert lines["the thesis's five samples"].get_xydata().tolist() == [[200.0, 4.0]]
     assert lines["object-space"].get_xydata().tolist() == [[40.0, 8.0], [160.0, 2.0]]
     assert (axes.get_xscale(), axes.get_yscale()) == ("log", "log")
+
+
+def test_every_setting_stands_beside_its_point_but_the_ringed_one(tmp_path: Path) -> None:
+    comparison = read_comparison(write_comparison(tmp_path / "a.json"))
+    (axes,) = sampling_section([comparison]).figures[0].draw().figure.axes
+    settings = [point.setting for point in comparison.points if point is not comparison.thesis]
+    shown = {text.get_text(): text for text in axes.texts}
+    assert sorted(shown) == sorted(setting.replace(" ", ", ") for setting in settings)
+    renderer = axes.figure.canvas.get_renderer()
+    boxes = [text.get_window_extent(renderer) for text in shown.values()]
+    assert not any(a.overlaps(b) for i, a in enumerate(boxes) for b in boxes[:i])
 
 
 def test_the_command_writes_a_table_and_a_plot_a_scene(

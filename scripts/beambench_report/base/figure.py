@@ -7,7 +7,7 @@ dashes. Each color has a variant for dark pages (`base.palette`).
 """
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
@@ -87,7 +87,12 @@ def caption(figure: Figure, rows: pd.DataFrame, explanation: str, *, times: bool
         start = "Left out, not verified" if times else "Shown, though not verified"
         more = f"; and {len(wrong) - _MOST_WRONG} more" if len(wrong) > _MOST_WRONG else ""
         lines.append(f"{start}: {'; '.join(wrong[:_MOST_WRONG])}{more}.")
-    wrapped = "\n".join(textwrap.fill(line, _CAPTION_COLUMNS) for line in lines)
+    write_below(figure, lines)
+
+
+def write_below(figure: Figure, paragraphs: Iterable[str]) -> None:
+    """Writes small text under a figure, and makes the figure so much taller."""
+    wrapped = "\n".join(textwrap.fill(text, _CAPTION_COLUMNS) for text in paragraphs)
     figure.supxlabel(wrapped, x=0.01, ha="left", fontsize=7.5, color=SOFT)
     width, height = figure.get_size_inches()
     figure.set_size_inches(width, height + _LINE_HEIGHT * (wrapped.count("\n") + 1))

@@ -17,7 +17,7 @@ def contender_labels(rows: pd.DataFrame) -> pd.Series:
     keys = list(zip(rows["structure"], rows["parameters"], strict=True))
     items = {key: parameter_items(key[1]) for key in dict.fromkeys(keys)}
     varying = {
-        structure: _varying_names(items[key] for key in items if key[0] == structure)
+        structure: varying_parameters(text for name, text in items if name == structure)
         for structure in dict.fromkeys(key[0] for key in items)
     }
     labels = {
@@ -57,9 +57,10 @@ def parameter_items(text: str) -> dict[str, str]:
     return dict(item.split("=", 1) for item in text.split(",") if "=" in item)
 
 
-def _varying_names(group: Iterable[dict[str, str]]) -> set[str]:
+def varying_parameters(texts: Iterable[str]) -> set[str]:
+    """The names of those parameters that differ between rows of one structure."""
     values: dict[str, set[str]] = {}
-    items = list(group)
+    items = [parameter_items(text) for text in texts]
     for name in {name for one in items for name in one}:
         values[name] = {one.get(name, "") for one in items}
     return {name for name, seen in values.items() if len(seen) > 1}

@@ -45,6 +45,7 @@ class Pairing:
     ratio: Ratio
     second_ratio: Ratio | None
     run_id: str
+    commit: str
     machine: str
     origin: str
     """Run, commit and machine."""
@@ -102,7 +103,7 @@ def _pairing(
         second = paired_ratio(embree_file.warm_ms, tile_file.warm_ms)
     if second is None and embree.second and tile.second:
         second = Ratio(embree.second / tile.second)
-    modified = " (modified)" if row["dirty"] == "true" else ""
+    commit = f"{row['commit'][:12]}{' (modified)' if row['dirty'] == 'true' else ''}"
     return Pairing(
         str(row["scene"]),
         str(row["camera"]),
@@ -116,9 +117,9 @@ def _pairing(
         ratio or unpaired_ratio(embree.first, tile.first),
         second,
         str(row["run_id"]),
+        commit,
         str(row["machine_id"]),
-        f"run {row['run_id']}, commit {row['commit'][:12]}{modified}, "
-        f"machine {row['machine_id'][:8]}",
+        f"run {row['run_id']}, commit {commit}, machine {row['machine_id'][:8]}",
     )
 
 

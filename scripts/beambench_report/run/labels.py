@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 from itertools import pairwise
-from math import cos, pi, sin
+from math import ceil, cos, pi, sin
 
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -12,24 +12,31 @@ from matplotlib.transforms import Bbox
 _SIZE = 6.5
 _DISTANCES = (5, 7, 9)  # points; farther away it is not clear which point is meant
 _DIRECTIONS = 12
+_STEP = 2  # points, of the boxes along a slanting line
 
 
 def place_labels(
     panel: Axes,
     points: Sequence[tuple[float, float]],
     names: Sequence[str],
-    line: Sequence[tuple[float, float]] = (),
+    lines: Sequence[Sequence[tuple[float, float]]] = (),
+    colors: Sequence[str] = (),
 ) -> bool:
-    """Writes a name beside each point, off the line if that is possible; False where they crowd.
+    """Writes a name beside each point, off the lines if that is possible; False where they crowd.
 
-    Then nothing is written. The figure's layout must be settled.
+    Then nothing is written. The figure's layout must be settled. A name has the color of its
+    place in `colors`, where those are given.
     """
     renderer = FigureCanvasAgg(panel.figure).get_renderer()
     font = FontProperties(size=_SIZE)
     scale = panel.figure.dpi / 72
     centers = [tuple(panel.transData.transform(point)) for point in points]
     taken = [_around(x, y, 3 * scale) for x, y in centers]
-    crossed = _along([tuple(panel.transData.transform(point)) for point in line], scale)
+    crossed = [
+        box
+        for line in lines
+        for box in _along([tuple(panel.transData.transform(point)) for point in line], scale)
+    ]
     placed: list[tuple[int, tuple[float, float]]] = []
     for index in sorted(range(len(points)), key=lambda i: -centers[i][1]):
         width, height, _ = renderer.get_text_width_height_descent(names[index], font, False)
@@ -43,12 +50,12 @@ def place_labels(
         ]
         if not free:
             return False
-        off_the_line = (one for one in free if not any(one[1].overlaps(c) for c in crossed))
-        offset, box = next(off_the_line, free[0])
+        off_the_lines = (one for one in free if not any(one[1].overlaps(c) for c in crossed))
+        offset, box = next(off_the_lines, free[0])
         taken.append(box)
         placed.append((index, offset))
     for index, offset in placed:
-        _write(panel, points[index], names[index], offset)
+        _write(panel, points[index], names[index], offset, colors[index] if colors else None)
     return True
 
 
@@ -87,23 +94,31 @@ def _around(x: float, y: float, reach: float) -> Bbox:
 
 
 def _along(corners: Sequence[tuple[float, float]], scale: float) -> list[Bbox]:
-    """The upright and level parts of a line as boxes."""
-    return [
-        Bbox(
-            [
-                [min(a[0], b[0]) - scale, min(a[1], b[1]) - scale],
-                [max(a[0], b[0]) + scale, max(a[1], b[1]) + scale],
-            ]
+    """Small boxes along a line; of its upright and level parts, one each."""
+    boxes = []
+    for (x0, y0), (x1, y1) in pairwise(corners):
+        steps = max(1, ceil(min(abs(x1 - x0), abs(y1 - y0)) / (_STEP * scale)))
+        xs, ys = (
+            [a + (b - a) * k / steps for k in range(steps + 1)] for a, b in ((x0, x1), (y0, y1))
         )
-        for a, b in pairwise(corners)
-    ]
+        boxes += [
+            Bbox([[min(a, b) - scale, min(c, d) - scale], [max(a, b) + scale, max(c, d) + scale]])
+            for (a, b), (c, d) in zip(pairwise(xs), pairwise(ys), strict=True)
+        ]
+    return boxes
 
 
 def _is_inside(box: Bbox, frame: Bbox) -> bool:
     return box.x0 >= frame.x0 and box.x1 <= frame.x1 and box.y0 >= frame.y0 and box.y1 <= frame.y1
 
 
-def _write(panel: Axes, point: tuple[float, float], name: str, offset: tuple[float, float]) -> None:
+def _write(
+    panel: Axes,
+    point: tuple[float, float],
+    name: str,
+    offset: tuple[float, float],
+    color: str | None,
+) -> None:
     across, upright = _alignment(offset)
     note = panel.annotate(
         name,
@@ -113,5 +128,6 @@ def _write(panel: Axes, point: tuple[float, float], name: str, offset: tuple[flo
         ha=across,
         va=upright,
         fontsize=_SIZE,
+        color=color,
     )
     note.set_in_layout(False)

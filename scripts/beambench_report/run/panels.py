@@ -136,7 +136,7 @@ def scale_axis(panel: Axes, which: str, values: Iterable[float], ticks: int = 9)
         axis.set_minor_formatter(NullFormatter())
     else:
         axis.set_major_locator(MaxNLocator(5, steps=(1, 2, 5, 10)))
-    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,.9g}"))
     return is_wide
 
 

@@ -16,6 +16,7 @@ from beambench_report.run.distributions import distributions
 from beambench_report.run.measured import Measured, read_measured
 from beambench_report.run.overall_plot import overalls
 from beambench_report.run.resolutions import resolutions
+from beambench_report.run.swept import swept
 from beambench_report.run.trade_offs import trade_offs
 
 
@@ -32,6 +33,7 @@ KINDS = (
     Kind(overalls, "overall", "two contenders whose hits are correct, with times"),
     Kind(trade_offs, "trade-offs", "two contenders with times in one view"),
     Kind(resolutions, "resolutions", "times of a contender at two resolutions"),
+    Kind(swept, "by a parameter", "a parameter that two structures sweep"),
     Kind(crossings, "break-even", "two contenders with times in one view"),
     Kind(distributions, "distributions", "repetitions: cells/*.json, or repetitions.csv"),
     Kind(counters, "counters", "a counter that two contenders have"),

@@ -24,6 +24,10 @@ from beambench_report.run.panels import (
 )
 
 _MOST_PANELS = 6
+_MANY_VARIANTS = 4
+"""Of a structure with more, only the fastest are drawn: lines of one color hide one another."""
+_SHOWN_VARIANTS = 2
+_FEWER = f" Of a structure with more than {_MANY_VARIANTS} variants the {_SHOWN_VARIANTS} fastest."
 _APART = 0.13  # of the axis, between two sizes that are named
 
 
@@ -40,7 +44,11 @@ def resolutions(measured: Measured) -> list[Plot]:
 def _resolutions(measured: Measured, kind: str, views: Sequence[str], stem: str) -> Plot:
     rows = measured.timed[measured.timed["view"].isin(views)]
     # The fastest first, by their last place over the views.
-    order = rows.sort_values("ns")["contender"].drop_duplicates().head(MOST_LINES)
+    fastest = rows.sort_values("ns").drop_duplicates("contender")
+    place = fastest.groupby("structure").cumcount()
+    variants = fastest.groupby("structure")["contender"].transform("size")
+    shown = fastest[(variants <= _MANY_VARIANTS) | (place < _SHOWN_VARIANTS)].head(MOST_LINES)
+    order = shown["contender"]
     rows = rows[rows["contender"].isin(order)]
     columns = min(2, len(views))
     legend = {contender: measured.looks[contender] for contender in order}
@@ -66,7 +74,8 @@ def _resolutions(measured: Measured, kind: str, views: Sequence[str], stem: str)
             figure,
             f"Trace time of a ray against resolution, {kind}",
             measured.run.rows[measured.run.rows["view"].isin(views)],
-            "Median of the first trace after a build, build not included; bars: its 95% interval.",
+            "Median of the first trace after a build, build not included; bars: its 95% interval."
+            + (_FEWER if len(shown) < len(fastest) else ""),
         ),
         f"ns per ray against resolution, {kind}: {scenes}",
         views[0] if len(views) == 1 else "",

@@ -74,7 +74,7 @@ def _trade_off(
                 panel,
                 list(zip(shown["ns"], shown["cost"], strict=True)),
                 [texts[contender] for contender in shown["contender"]],
-                line,
+                [line],
             )
             for panel, (shown, line) in zip(panels, drawn, strict=True)
         ]

@@ -12,12 +12,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, NullLocator
 
-from beambench_report.base.figure import (
-    Plot,
-    new_figure,
-    structure_color,
-)
+from beambench_report.base.figure import Plot, new_figure
 from beambench_report.base.files import Problem
+from beambench_report.base.palette import INK, SOFT, structure_color
 from beambench_report.base.quantities import DASH
 from beambench_report.thesis.paper.cells import Cell, read_cells
 from beambench_report.thesis.paper.printed import milliseconds, scene_title
@@ -193,17 +190,17 @@ def _draw(
     sizes: Sequence[str],
     color: str,
 ) -> None:
-    panel.axvspan(100 * TARGET, 1e6, color="#999999", alpha=0.18, linewidth=0)
-    panel.axvline(0, color="#333333", linewidth=0.8)
+    panel.axvspan(100 * TARGET, 1e6, color=SOFT, alpha=0.14, linewidth=0)
+    panel.axvline(0, color=INK, linewidth=0.8)
     for index, size in enumerate(sizes):
         marker = _MARKERS[index % len(_MARKERS)]
         shift = 0.26 * (index - (len(sizes) - 1) / 2)
         at = [choice for choice in choices if choice.auto.resolution == size]
         rows = [scenes.index(choice.auto.scene) + shift for choice in at]
         own = [float("nan") if (x := one.loss_of_level) is None else 100 * x for one in at]
-        panel.plot(own, rows, marker, markeredgecolor="#333333", **_HOLLOW)
+        panel.plot(own, rows, marker, markeredgecolor=INK, **_HOLLOW)
         panel.plot([100 * choice.loss for choice in at], rows, marker, markersize=3.5, color=color)
-    panel.set_xscale("symlog", linthresh=10, linscale=1.2)
+    panel.set_xscale("symlog", linthresh=10, linscale=0.7)
     panel.xaxis.set_major_locator(FixedLocator(_TICKS))
     panel.xaxis.set_minor_locator(NullLocator())
     panel.xaxis.set_major_formatter(
@@ -211,14 +208,14 @@ def _draw(
     )
     panel.set_yticks(range(len(scenes)), [scene_title(scene) for scene in scenes])
     panel.set_ylim(len(scenes) - 0.4, -0.6)
-    panel.grid(color="#dddddd", linewidth=0.6)
+    panel.grid(linewidth=0.6)
     panel.tick_params(labelsize=8)
-    panel.tick_params(axis="x", labelrotation=60)
-    panel.set_xlabel("loss against the best level")
+    panel.tick_params(axis="x", labelsize=6.5)
+    panel.set_xlabel("loss against the best level (lower is better)")
 
 
 def _legend(figure: Figure, sizes: Sequence[str]) -> None:
-    gray = {"color": "#333333", "linestyle": "none"}
+    gray = {"color": INK, "linestyle": "none"}
     shapes = [
         Line2D([], [], marker=_MARKERS[index % len(_MARKERS)], markersize=4, label=size, **gray)
         for index, size in enumerate(sizes)

@@ -2,7 +2,7 @@
 
 import json
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
@@ -10,12 +10,15 @@ from pathlib import Path
 from statistics import median
 from typing import Any
 
+from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from beambench_report.base.figure import Look, Plot, new_figure
 from beambench_report.base.files import Problem
 from beambench_report.base.names import file_stems
+from beambench_report.base.palette import INK, SOFT, structure_color
 from beambench_report.base.quantities import DASH, number
+from beambench_report.run.labels import place_labels
 from beambench_report.thesis.paper.printed import milliseconds, scene_title
 from beambench_report.thesis.paper.section import (
     Section,
@@ -157,23 +160,25 @@ def _between(points: Sequence[tuple[float, float]], at: float) -> float | None:
 
 # The figure
 
-_HEIGHT = 3.6  # inches
+_HEIGHT = 4.2  # inches
 # All are the beams': object space, which only they can choose in, has their color.
 _LOOKS = {
-    UNIFORM: Look("#777777", "o", "--"),
-    _OBJECT_SPACE: Look("#d55e00", "s", "-"),
-    "image-space": Look("#000000", "D", "-."),
+    UNIFORM: Look(SOFT, "o", "--"),
+    _OBJECT_SPACE: Look(structure_color("beam"), "s", "-"),
+    "image-space": Look(INK, "D", "-."),
 }
-_OTHER = Look("#0072b2", "^", ":")
+_OTHER = Look(structure_color("samet"), "^", ":")
 
 
 def draw_comparison(comparison: Comparison, stem: str) -> Plot:
     """A line for each method, a point for each setting, both axes logarithmic."""
     figure, (panel,) = new_figure(_HEIGHT)
-    for method in comparison.methods:
+    lines = {
+        method: [point for point in comparison.of(method) if point.error > 0]
+        for method in comparison.methods
+    }
+    for method, points in lines.items():
         look = _LOOKS.get(method, _OTHER)
-        is_left = method == _OBJECT_SPACE  # lines run close to each other
-        points = [point for point in comparison.of(method) if point.error > 0]
         panel.plot(
             [point.milliseconds for point in points],
             [point.error for point in points],
@@ -184,20 +189,8 @@ def draw_comparison(comparison: Comparison, stem: str) -> Plot:
             linewidth=1.3,
             label=method,
         )
-        for point in (
-            (points[0], points[-1]) if len(points) > 1 else points
-        ):  # all of them would collide
-            panel.annotate(
-                point.setting.replace(" ", ", "),
-                (point.milliseconds, point.error),
-                xytext=(-5, -10) if is_left else (5, 4),
-                ha="right" if is_left else "left",
-                textcoords="offset points",
-                fontsize=7,
-                color=look.color,
-            )
     if (thesis := comparison.thesis) and thesis.error > 0:
-        ring = {"markersize": 11, "markerfacecolor": "none", "markeredgecolor": "#333333"}
+        ring = {"markersize": 11, "markerfacecolor": "none", "markeredgecolor": INK}
         at = ([thesis.milliseconds], [thesis.error])
         panel.plot(*at, "o", linestyle="none", label="the thesis's five samples", **ring)
     panel.set(xscale="log", yscale="log")
@@ -206,12 +199,34 @@ def draw_comparison(comparison: Comparison, stem: str) -> Plot:
         axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:,g}"))
         axis.set_minor_formatter(NullFormatter())
     panel.margins(0.1)
-    panel.set_xlabel("trace / ms")
-    panel.set_ylabel("RMS error, 0-255 scale")
+    panel.set_xlabel("trace in ms (lower is better)")
+    panel.set_ylabel("RMS error, 0-255 scale (lower is better)")
     panel.set_title(comparison.title)
-    panel.grid(which="major", color="#dddddd", linewidth=0.6)
-    panel.legend(frameon=False, fontsize=8)
+    panel.grid(which="major", linewidth=0.6)
+    figure.legend(loc="outside lower center", ncols=len(lines) + 1, frameon=False, fontsize=8)
+    figure.get_layout_engine().execute(figure)
+    figure.set_layout_engine("none")
+    _name_settings(panel, lines, thesis)
     return Plot(stem, figure, f"{comparison.title}: error over time of sampling methods")
+
+
+def _name_settings(panel: Axes, lines: Mapping[str, Sequence[Point]], ringed: Point | None) -> None:
+    """Beside every point its setting, off the lines; where they crowd, at the ends of each line.
+
+    The ringed one has its name in the legend.
+    """
+    corners = [[(point.milliseconds, point.error) for point in own] for own in lines.values()]
+    for shown in (lines, {method: own[:: max(1, len(own) - 1)] for method, own in lines.items()}):
+        points = [(method, point) for method, own in shown.items() for point in own]
+        points = [(method, point) for method, point in points if point is not ringed]
+        if place_labels(
+            panel,
+            [(point.milliseconds, point.error) for _, point in points],
+            [point.setting.replace(" ", ", ") for _, point in points],
+            corners,
+            [_LOOKS.get(method, _OTHER).color for method, _ in points],
+        ):
+            return
 
 
 # The section of the report, also as files of its own
@@ -226,8 +241,8 @@ _WORDS = (
     "setting are the values from which on a pixel gets 5 and 25 samples.",
 )
 _CAPTION = (
-    "Every point is a setting; the ends of each line are labeled, the table has all. Further left "
-    "is faster, further down is better; ringed is what the thesis did."
+    "Every point is a setting, whose values stand beside it. Further left is faster, further down "
+    "is better; ringed is what the thesis did."
 )
 
 

@@ -11,6 +11,7 @@ from beambench_report.thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTI
 from beambench_report.thesis.chapter6.simulate import OLD, OPTIONS, STATIONS, TODAY
 from beambench_report.thesis.paper.evidence import published_evidence
 
+LOWER, HIGHER = "(lower is better)", "(higher is better)"
 IDEAL = {"color": "#777777", "linewidth": 0.8, "linestyle": (0, (1, 2)), "zorder": 1}
 
 
@@ -51,14 +52,20 @@ def _times(rows: pd.DataFrame) -> Plot:
         panel.axhline(1, **IDEAL)
         panel.set_ylim(0, 1.1)
     _overlay_thesis(counted, list(dict.fromkeys(rows["scene"])))
-    name_panel(seconds, "a) Time", "processors, the producer's among them", "seconds")
+    name_panel(seconds, "a) Time", "processors, the producer's among them", f"seconds {LOWER}")
     seconds.set_ylim(bottom=0)
-    name_panel(speed_up, "b) Speed-up", "processors, the producer's among them", "times")
+    name_panel(speed_up, "b) Speed-up", "processors, the producer's among them", f"times {HIGHER}")
     name_panel(
-        counted, "c) Efficiency", "processors, the producer's among them", "speed-up / processors"
+        counted,
+        "c) Efficiency",
+        "processors, the producer's among them",
+        f"speed-up / processors {HIGHER}",
     )
     name_panel(
-        uncounted, "d) Efficiency, the producer not counted", "consumers", "speed-up / consumers"
+        uncounted,
+        "d) Efficiency, the producer not counted",
+        "consumers",
+        f"speed-up / consumers {HIGHER}",
     )
     seconds.legend(fontsize=7.5, frameon=False)
     return Plot("figure-6.3", figure, "time, speed-up and efficiency of 1 to 14 consumers")
@@ -119,7 +126,7 @@ def _balance(thesis: pd.DataFrame, processes: pd.DataFrame) -> Plot | None:
         producer = f"{row.scene}, the producer busy {row.producer_busy:.0%}"
         name_panel(times, producer, "consumer", "seconds")
         times.set_ylim(0, 1.3 * times.get_ylim()[1])
-        beams.set_ylim(bottom=0)
+        beams.set_ylim(0, 1.08 * consumers["tasks"].max())
         times.legend(fontsize=7.5, frameon=False, loc="upper right", ncols=2)
         for panel in (beams, times):
             panel.xaxis.set_major_locator(MaxNLocator(integer=True))
@@ -146,10 +153,11 @@ def _scaling(rows: pd.DataFrame, era: str) -> Plot | None:
         ends = [of_scene["consumers"].min() + 1, of_scene["consumers"].max() + 1]
         speed_up.plot(ends, ends, **IDEAL)
         speed_up.set_yscale("log")
+        speed_up.yaxis.set_major_formatter("{x:,g}")
         for panel in (speed_up, busy):
             panel.set_xscale("log", base=2)
             panel.xaxis.set_major_formatter("{x:.0f}")
-        name_panel(speed_up, f"{scene}: speed-up", "processes", "times")
+        name_panel(speed_up, f"{scene}: speed-up", "processes", f"times {HIGHER}")
         name_panel(busy, f"{scene}: the producer is busy", "processes", "% of the time")
         busy.set_ylim(0, 105)
     panels[0].legend(fontsize=7, frameon=False)

@@ -24,7 +24,7 @@ from beambench_report.thesis.chapter6.machines import (
     TRACED,
     Slowness,
 )
-from beambench_report.thesis.chapter6.plots import IDEAL, line_look, name_panel
+from beambench_report.thesis.chapter6.plots import HIGHER, IDEAL, LOWER, line_look, name_panel
 from beambench_report.thesis.chapter6.record import read_recorded
 from beambench_report.thesis.chapter6.results import write_rows
 from beambench_report.thesis.chapter6.simulate import OLD, TODAY, ResultCache, slowness_of
@@ -200,17 +200,17 @@ def split_plot(rows: pd.DataFrame) -> Plot:
         panel.plot(of_era["processes"], of_era["processes"], **IDEAL)
         panel.set_yscale("log", base=2)
         panel.yaxis.set_major_formatter("{x:.0f}")
-        name_panel(panel, f"Speed-up, {_machines(era)}", "parts", "times")
+        name_panel(panel, f"Speed-up, {_machines(era)}", "parts", f"times {HIGHER}")
     last = rows[rows["era"].eq(eras[-1])]
     for index, (_, group) in enumerate(last.groupby("scene", sort=False)):
         look = line_look(index)
         memory.plot(group["processes"], 100 * _share_of_memory(group), **look)
         crossed.plot(group["processes"], 1e-6 * group["bytes"], **look)
-    name_panel(memory, "Scene and octree of the largest part", "parts", "% of the whole")
+    name_panel(memory, "Scene and octree of the largest part", "parts", f"% of the whole {LOWER}")
     memory.plot(last["processes"], 100 / last["processes"], **IDEAL)
     memory.set_yscale("log")
     memory.yaxis.set_major_formatter("{x:.0f}")
-    name_panel(crossed, "Handed over at borders", "parts", "MB")
+    name_panel(crossed, "Handed over at borders", "parts", f"MB {LOWER}")
     for panel in panels:
         panel.set_xscale("log", base=2)
         panel.xaxis.set_major_formatter("{x:.0f}")
