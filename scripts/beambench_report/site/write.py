@@ -122,8 +122,8 @@ def _write_runs(
         try:
             entry, changed = _write_run(site, name, folder)
         except Exception as error:  # whatever a record holds, the others get their pages
-            told = "" if isinstance(error, Problem) else f"{type(error).__name__}: "
-            broken.append((folder, f"{told}{error}"))
+            prefix = "" if isinstance(error, Problem) else f"{type(error).__name__}: "
+            broken.append((folder, f"{prefix}{error}"))
             continue
         if name != (first := _slug(run_id)):
             doubles.append(
@@ -228,9 +228,9 @@ def _write_histories(
         for run in own:
             run.history = href
         _write_history(site, href, sweep, machine, history, runs)
-        told = {"href": href, "sweep": sweep, "machine": machine}
+        labels = {"href": href, "sweep": sweep, "machine": machine}
         counts = {"count": len(history.nights.nights), "alarms": len(history.tonight)}
-        listed.append(told | counts)
+        listed.append(labels | counts)
     return listed
 
 
@@ -271,7 +271,7 @@ def _comparisons_of(run: _Run, runs: Sequence[_Run]) -> list[tuple[str, str, Com
 
 def _choices(runs: Sequence[_Run]) -> str:
     """JSON for any.js: the runs that can be chosen."""
-    told = [
+    choices = [
         {
             "name": run.name,
             "sweep": run.entry.sweep,
@@ -282,4 +282,4 @@ def _choices(runs: Sequence[_Run]) -> str:
         for run in runs
         if run.entry.sweep
     ]
-    return json.dumps(told, separators=(",", ":")).replace("<", "\\u003c")
+    return json.dumps(choices, separators=(",", ":")).replace("<", "\\u003c")
