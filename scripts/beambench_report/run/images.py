@@ -1,13 +1,16 @@
 """The images of a page: the pictures and the plots of a run's folder."""
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from beambench_report.base.figure import house_style, svg_of
 from beambench_report.base.names import PLOT_INDEX, file_stems
 from beambench_report.run.html import thumbnail_uri
 from beambench_report.run.inline_svg import inline_svg
+from beambench_report.run.measured import Measured
+from beambench_report.run.plots import KINDS, Kind, draw, without_figure
 
 
 @dataclass(frozen=True)
@@ -34,13 +37,43 @@ def read_pictures(directory: Path, scenes: Iterable[str]) -> list[Image]:
     return images
 
 
-def read_plots(directory: Path) -> list[Image]:
-    """The plots of DIRECTORY/plots, by the index that was written with them."""
-    index = directory / "plots" / PLOT_INDEX
-    if not index.exists():
-        return []
-    return [
-        Image(entry["summary"], entry["view"], svg=inline_svg(path))
-        for entry in json.loads(index.read_text("utf-8"))
-        if (path := index.with_name(f"{entry['stem']}.svg")).exists()
-    ]
+@dataclass(frozen=True)
+class Figures:
+    """The plots of a page."""
+
+    images: tuple[Image, ...]
+    missing: tuple[Kind, ...]
+    """The kinds that the record does not suffice for."""
+    undrawn: tuple[Kind, ...] = ()
+    """The kinds that were not wanted on this page."""
+
+
+def figures_of(measured: Measured, kinds: Sequence[Kind] = KINDS) -> Figures:
+    """The plots of the run's folder; where it has none, those of these kinds, drawn here."""
+    found = read_plots(measured.run.directory)
+    if found is not None:
+        return Figures(tuple(found.values()), tuple(without_figure(found)))
+    with house_style():
+        drawn = {
+            plot.stem: Image(plot.summary, plot.view, svg=inline_svg(svg_of(plot), plot.stem))
+            for plot in draw(measured, kinds)
+        }
+    undrawn = tuple(kind for kind in KINDS if kind not in kinds)
+    return Figures(tuple(drawn.values()), tuple(without_figure(drawn, kinds)), undrawn)
+
+
+def read_plots(directory: Path) -> dict[str, Image] | None:
+    """The plots of DIRECTORY/plots by stem; None unless all that the index lists is there."""
+    folder = directory / "plots"
+    try:
+        return {
+            stem: Image(
+                entry["summary"],
+                entry["view"],
+                svg=inline_svg((folder / f"{stem}.svg").read_text("utf-8"), stem),
+            )
+            for entry in json.loads((folder / PLOT_INDEX).read_text("utf-8"))
+            for stem in [Path(entry["stem"]).name]
+        }
+    except (OSError, ValueError, KeyError, TypeError):
+        return None  # none, some of them, or of another version

@@ -1,13 +1,13 @@
 """The page of a run: one HTML file that holds everything and loads nothing from a network."""
 
 import shlex
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.cell_files import CellFile, Identity, read_cell_files
+from beambench_report.base.cell_files import read_cell_files
 from beambench_report.base.columns import dictionary
 from beambench_report.base.files import write_text
 from beambench_report.base.machine import (
@@ -19,11 +19,14 @@ from beambench_report.base.machine import (
 from beambench_report.base.names import file_stems
 from beambench_report.base.palette import css_color
 from beambench_report.base.records import Run, read_run, size_of
+from beambench_report.run.absent import absent, command, not_begun
 from beambench_report.run.all_cells import pack
 from beambench_report.run.html import environment
-from beambench_report.run.images import Image, read_pictures, read_plots
+from beambench_report.run.images import Image, figures_of, read_pictures
 from beambench_report.run.inline_svg import dark_variables
+from beambench_report.run.measured import Measured
 from beambench_report.run.outcome import doubts_about_times, summarize_verdicts
+from beambench_report.run.plots import KINDS, Kind
 from beambench_report.run.reference import Compared, choose_reference, compared
 from beambench_report.run.standings import Standings, in_words, overall, standings
 from beambench_report.run.tables import Table, compare, ratio_field, view_table, work_table
@@ -47,8 +50,8 @@ def make_views(
     resolutions: Mapping[str, list[Compared]],
     every: Mapping[str, Standings],
     counters: list[str],
-    pictures: list[Image],
-    plots: list[Image],
+    pictures: Sequence[Image],
+    plots: Sequence[Image],
 ) -> list[View]:
     """A section for each view; `resolutions` has its rows, the finest first."""
     stems = file_stems(resolutions)
@@ -92,14 +95,16 @@ def write_page(directory: Path, reference: str | None = None) -> list[Path]:
     return [write_text(directory / PAGE, render(read_run(directory), reference))]
 
 
-def render(run: Run, wanted_reference: str | None = None) -> str:
-    """The text of the page."""
+def render(
+    run: Run, wanted_reference: str | None = None, drawn_kinds: Sequence[Kind] = KINDS
+) -> str:
+    """The text of the page; `drawn_kinds` of figures are drawn where the folder has no plots."""
     manifest = read_manifest(run.directory) or Manifest()
     files = read_cell_files(run.directory)
     reference = choose_reference(run, wanted_reference)
     resolutions = {view: compared(run, view, reference, files) for view in run.views}
     finest = {view: groups[0] for view, groups in resolutions.items()}
-    plots = read_plots(run.directory)
+    figures = figures_of(Measured(run, files), drawn_kinds)
     pictures = read_pictures(run.directory, run.rows["scene"])
     every = standings(run, files, read_exclusions(run.directory))
     by_view = {one.view: one for one in every}
@@ -111,51 +116,28 @@ def render(run: Run, wanted_reference: str | None = None) -> str:
             description=read_description(run.directory),
             newest=run.rows.iloc[-1].to_dict(),
             outcome=summarize_verdicts(run, files),
+            not_begun=not_begun(run, manifest),
+            folder=shlex.quote(str(run.directory)),
             doubts=doubts_about_times(run, manifest),
+            precision_is_known="stop_reason" in run.rows,
+            noise_is_known=manifest.noise is not None,
             is_timed=bool(run.rows["timed"].any()),
             means=overall(every),
-            absent=_absent(run, manifest, plots, pictures, files),
+            absent=absent(run, manifest, files, every, figures, pictures),
             color=css_color,
             dark=dark_variables(),
             interval=ratio_field,
             in_words=in_words,
             tiles=_tiles(run, manifest),
             comparison=compare(reference, finest) if reference else None,
-            views=make_views(resolutions, by_view, run.counters, pictures, plots),
-            plots=[plot for plot in plots if not plot.subject],
+            views=make_views(resolutions, by_view, run.counters, pictures, figures.images),
+            plots=[plot for plot in figures.images if not plot.subject],
+            undrawn=figures.undrawn,
+            draw_command=command(run, "plots"),
             cells=pack(run),
             dictionary=dictionary(),
         )
     )
-
-
-def _absent(
-    run: Run,
-    manifest: Manifest,
-    plots: list[Image],
-    pictures: list[Image],
-    files: Mapping[Identity, CellFile],
-) -> list[str]:
-    """What the folder lacks, and how it is made."""
-    here = shlex.quote(str(run.directory))
-    report = "python -m beambench_report"
-    return [
-        sentence
-        for is_there, sentence in (
-            (manifest.run_id, "There is no manifest.json: the machine and its state are unknown."),
-            (
-                files,
-                "There are no single repetitions: ratios are of medians and have wider intervals.",
-            ),
-            (plots, f"There are no plots; draw them: {report} plots {here}"),
-            (
-                pictures,
-                f"There are no pictures of the scenes; render them: {report} pictures {here} "
-                "--beambench build/release/bin/beambench",
-            ),
-        )
-        if not is_there
-    ]
 
 
 def _tiles(run: Run, manifest: Manifest) -> list[tuple[str, str]]:

@@ -8,7 +8,7 @@ import pandas as pd
 from beambench_report.base.cell_files import CellFile, Identity, ratio_of
 from beambench_report.base.files import Problem
 from beambench_report.base.ratio import Ratio
-from beambench_report.base.records import OK, Run
+from beambench_report.base.records import OK, Run, finest_rays
 
 
 @dataclass(frozen=True)
@@ -50,9 +50,12 @@ def _chosen(wanted: str, contenders: list[str]) -> str:
 def compared(
     run: Run, view: str, reference: str | None, files: Mapping[Identity, CellFile]
 ) -> list[Compared]:
-    """A view at each of its resolutions, the finest first."""
-    groups = [rows for _, rows in run.view(view).groupby(["rays", "width", "height"])]
-    return [Compared(rows, _ratios(rows, reference, files)) for rows in reversed(groups)]
+    """A view at each of its resolutions: the `finest_rays` first, then by the number of rays."""
+    rows = run.view(view)
+    finest = finest_rays(rows)
+    groups = [(key[0], own) for key, own in rows.groupby(["rays", "width", "height"])]
+    groups.sort(key=lambda group: (group[0] == finest, group[0]), reverse=True)
+    return [Compared(own, _ratios(own, reference, files)) for _, own in groups]
 
 
 def _ratios(

@@ -11,9 +11,8 @@ from beambench_report.base.columns import COUNTER_SUFFIX
 from beambench_report.base.palette import css_color
 from beambench_report.base.quantities import number, size_in_words
 from beambench_report.base.ratio import Ratio
-from beambench_report.base.records import BASELINE, size_of
+from beambench_report.base.records import BASELINE, REFERENCES, size_of
 from beambench_report.run.reference import Compared
-from beambench_report.run.standings import REFERENCES
 
 
 @dataclass(frozen=True)
@@ -140,7 +139,7 @@ def ratio_field(ratio: Ratio | None) -> Field:
     if ratio is None:
         return MISSING
     note = ""
-    if ratio.interval:
+    if ratio.interval and ratio.low != ratio.high:  # as those of the fastest to itself
         note = f"{number(ratio.low)} to {number(ratio.high)}"
         note += "" if ratio.paired else ", not paired"
     return Field(number(ratio.value), ratio.value, note)

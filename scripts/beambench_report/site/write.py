@@ -20,6 +20,7 @@ from beambench_report.base.quantities import DASH
 from beambench_report.base.records import read_run
 from beambench_report.run.html import environment
 from beambench_report.run.page import render
+from beambench_report.run.plots import KINDS
 from beambench_report.site.changes import Repository
 from beambench_report.site.comparison import Comparison, compare
 from beambench_report.site.entry import Entry, as_script, entry_of, read_script, stamp_of
@@ -28,6 +29,8 @@ from beambench_report.site.history_page import page_values, read_mismatches
 from beambench_report.site.machine_history import MachineHistory, history_of
 
 _TEMPLATES = Path(__file__).with_name("templates")
+_DRAWN = KINDS[:1]
+"""Of runs whose folder has no plots; all kinds would take a second a run."""
 _FILES = "site.json"
 _BRAND = re.compile(r'(<p class="brand">)([^<]*)(</p>)')
 
@@ -166,7 +169,9 @@ def _write_run(site: _Site, name: str, folder: Path) -> tuple[Entry, bool]:
         return entry, False
     run = read_run(folder)
     entry = entry_of(run)
-    text = _BRAND.sub(r'\1<a href="../../index.html">\2</a>\3', render(run), count=1)
+    text = _BRAND.sub(
+        r'\1<a href="../../index.html">\2</a>\3', render(run, drawn_kinds=_DRAWN), count=1
+    )
     site.write(page, text)
     site.write(data, as_script(name, entry, stamp))
     return entry, True
