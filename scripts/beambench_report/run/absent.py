@@ -7,7 +7,6 @@ from beambench_report.base.cell_files import CellFile, Identity, identity
 from beambench_report.base.machine import Manifest
 from beambench_report.base.records import FAULTLESS_VERDICTS, Run
 from beambench_report.run.images import Figures, Image
-from beambench_report.run.standings import Standings
 
 _REPORT = "python -m beambench_report"
 
@@ -27,14 +26,13 @@ def absent(
     run: Run,
     manifest: Manifest,
     files: Mapping[Identity, CellFile],
-    every: Sequence[Standings],
     figures: Figures,
     pictures: Sequence[Image],
 ) -> list[str]:
     """What is not on the page, for the folder does not hold it."""
     return [
         *_records(run, manifest),
-        *_repetitions(run, files, every),
+        *_repetitions(run, files),
         *_images(run, figures, pictures),
     ]
 
@@ -49,9 +47,7 @@ def _records(run: Run, manifest: Manifest) -> Iterator[str]:
         )
 
 
-def _repetitions(
-    run: Run, files: Mapping[Identity, CellFile], every: Sequence[Standings]
-) -> Iterator[str]:
+def _repetitions(run: Run, files: Mapping[Identity, CellFile]) -> Iterator[str]:
     timed = run.rows[run.rows["timed"]]
     without = sum(identity(row) not in files for row in timed.to_dict("records")) if files else 0
     if not files:
@@ -67,12 +63,6 @@ def _repetitions(
         yield (
             f"The repetitions of {without:,} of {len(timed):,} timed cells are not in this folder: "
             "their ratios are of medians and have wider intervals."
-        )
-    several = [one for one in every if len(one.ranked) > 1]
-    if several and not any(other.ratio.interval for one in several for other in one.ranked[1:]):
-        yield (
-            "The record has no 95% intervals of the trace times: which contenders are tied is "
-            "unknown."
         )
     wrong = ~run.rows["verdict"].isin(FAULTLESS_VERDICTS)
     if wrong.any() and not any(file.message for file in files.values()):

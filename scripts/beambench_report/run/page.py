@@ -28,7 +28,7 @@ from beambench_report.run.measured import Measured
 from beambench_report.run.outcome import doubts_about_times, summarize_verdicts
 from beambench_report.run.plots import KINDS, Kind
 from beambench_report.run.reference import Compared, choose_reference, compared
-from beambench_report.run.standings import Standings, in_words, overall, standings
+from beambench_report.run.standings import Standings, in_words, overall, standings, ties_are_known
 from beambench_report.run.tables import Table, compare, ratio_field, view_table, work_table
 
 
@@ -123,7 +123,8 @@ def render(
             noise_is_known=manifest.noise is not None,
             is_timed=bool(run.rows["timed"].any()),
             means=overall(every),
-            absent=absent(run, manifest, files, every, figures, pictures),
+            ties_are_known=ties_are_known(every),
+            absent=absent(run, manifest, files, figures, pictures),
             color=css_color,
             dark=dark_variables(),
             interval=ratio_field,

@@ -130,6 +130,12 @@ def overall(every: Sequence[Standings]) -> list[Overall]:
     return [_of_kind(kind, [s for s in every if s.ray_kind == kind and s.ranked]) for kind in kinds]
 
 
+def ties_are_known(every: Sequence[Standings]) -> bool:
+    """Has any ratio an interval, where there are ratios?"""
+    ratios = [other.ratio for one in every for other in one.ranked[1:]]
+    return not ratios or any(ratio.interval for ratio in ratios)
+
+
 def _of_view(
     run: Run,
     view: str,
