@@ -106,7 +106,7 @@ def _add_of_runs(add: Callable[..., Callable[..., argparse.Action]]) -> None:
     page = add(
         "page",
         lambda o: write_page(o.run, o.reference),
-        help="write RUN/report.html from all that RUN holds",
+        help="write RUN/report.html from all that RUN holds; it draws what RUN/plots lacks",
     )
     repeated = add(
         "repeated",

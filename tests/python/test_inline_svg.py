@@ -15,6 +15,10 @@ from beambench_report.run.inline_svg import dark_variables, inline_svg
 from synthetic_run import synthetic_rows, write_run
 
 
+def element_of(path: Path) -> str:
+    return inline_svg(path.read_text("utf-8"), path.stem)
+
+
 @pytest.fixture(scope="module")
 def plots(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
     folder = write_run(tmp_path_factory.mktemp("run"), synthetic_rows())
@@ -25,7 +29,7 @@ def plots(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 def test_all_plots_of_a_page_are_well_formed_and_share_no_id(plots: list[Path]) -> None:
     seen: list[str] = []
     for path in plots:
-        svg = inline_svg(path)
+        svg = element_of(path)
         root = ElementTree.fromstring(svg)
         assert svg.startswith("<svg ")
         assert not {"width", "height"} & set(root.keys())
@@ -41,7 +45,7 @@ def test_all_plots_of_a_page_are_well_formed_and_share_no_id(plots: list[Path]) 
 
 
 def test_colors_are_variables_of_the_page(plots: list[Path]) -> None:
-    together = "".join(inline_svg(path) for path in plots)
+    together = "".join(element_of(path) for path in plots)
     for name in ("ink", "grid", "card", "embree", "samet", "exhaustive"):
         color = next(tint.light for tint in TINTS if tint.name == name)
         assert f"var(--{name}, {color})" in together
@@ -51,7 +55,7 @@ def test_colors_are_variables_of_the_page(plots: list[Path]) -> None:
 
 
 def test_hover_titles_are_in_the_page_too(plots: list[Path]) -> None:
-    assert all("<title>" in inline_svg(path) for path in plots)
+    assert all("<title>" in element_of(path) for path in plots)
 
 
 def luminance(color: str) -> float:

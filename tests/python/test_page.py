@@ -15,7 +15,7 @@ from beambench_report.base.records import read_run
 from beambench_report.run.all_cells import pack
 from beambench_report.run.page import render
 from beambench_report.run.standings import standings
-from synthetic_run import synthetic_rows, without_times, write_manifest, write_run
+from synthetic_run import synthetic_rows, without_times, write_cell, write_manifest, write_run
 
 VOID = {"meta", "link", "img", "input", "br", "wbr", "hr"}
 # These end where the next of their kind begins.
@@ -167,8 +167,108 @@ def test_what_is_not_there_is_left_out(run_folder: Path) -> None:
     assert not any(at.startswith("data:image") for at in reader.addresses)
     assert "manifest" not in reader.ids
     assert links_of(reader) <= set(reader.ids)
-    for words in ("There is no manifest.json", "There are no plots", "no single repetitions"):
+    for words in (
+        "There is no manifest.json",
+        "There is no config.json",
+        "The repetitions of the cells are not in this folder: ratios are of medians",
+        "There is no figure 'distributions'; it needs repetitions",
+        "The record has no 95% intervals of the trace times",
+        "There are no pictures of the scenes",
+    ):
         assert words in reader.text
+
+
+def figures_of_page(folder: Path) -> list[str]:
+    """What the figures of a page are called for people who do not see them."""
+    text = (folder / "report.html").read_text("utf-8")
+    return re.findall(r'<div role="img" aria-label="([^"]*)"><svg', text)
+
+
+def test_a_folder_without_plots_has_the_same_figures_as_one_with_them(run_folder: Path) -> None:
+    reader = page_of(run_folder)
+    drawn = (run_folder / "report.html").read_text("utf-8")
+    assert len(figures_of_page(run_folder)) == 7
+    assert len(reader.ids) == len(set(reader.ids))
+    assert not (run_folder / "plots").exists()
+    assert main(["plots", str(run_folder)]) == 0
+    page_of(run_folder)
+    assert (run_folder / "report.html").read_text("utf-8") == drawn
+
+
+@pytest.mark.parametrize("left", ["no index", "no figure", "a broken index", "another index"])
+def test_plots_that_are_not_all_there_are_drawn_on_the_page(run_folder: Path, left: str) -> None:
+    assert main(["plots", str(run_folder)]) == 0
+    index = run_folder / "plots/index.json"
+    if left == "no index":
+        index.unlink()
+    elif left == "no figure":
+        (run_folder / "plots/overall.svg").unlink()
+    else:
+        index.write_text("[" if left == "a broken index" else '{"stems": 3}')
+    page_of(run_folder)
+    assert len(figures_of_page(run_folder)) == 7
+
+
+def test_of_a_folder_with_intervals_but_no_repetitions_the_page_has_intervals(
+    tmp_path: Path,
+) -> None:
+    rows = [
+        {
+            **row,
+            "trace_ms_ci_low": 0.99 * float(str(row["trace_ms_median"])),
+            "trace_ms_ci_high": 1.01 * float(str(row["trace_ms_median"])),
+        }
+        for row in synthetic_rows()
+    ]
+    text = page_of(write_run(tmp_path, rows)).text
+    assert "The repetitions of the cells are not in this folder" in text
+    assert "has no 95% intervals" not in text
+    assert "95% interval of the median trace" in text  # below the figures of what a trace costs
+    assert "geometric mean with its 95% interval" in text
+
+
+def test_repetitions_of_some_cells_only_are_counted(run_folder: Path) -> None:
+    for row in synthetic_rows()[:10]:
+        write_cell(run_folder, row, dict.fromkeys(range(7), 1.0))
+    text = page_of(run_folder).text
+    assert "The repetitions of 20 of 30 timed cells are not in this folder" in text
+
+
+def test_why_cells_were_wrong_is_missed_where_the_folder_does_not_say(tmp_path: Path) -> None:
+    rows = [without_times(row, "mismatch") for row in synthetic_rows()[:3]] + synthetic_rows()[3:]
+    assert "Why cells were wrong is not in this folder" in page_of(write_run(tmp_path, rows)).text
+
+
+def test_a_machine_that_nothing_is_known_of_was_not_quiet(run_folder: Path) -> None:
+    write_run(run_folder, [{**row, "repetitions": 9} for row in synthetic_rows()])
+    text = page_of(run_folder).text
+    assert "Whether the machine was quiet is not recorded" in text
+    assert "The machine was quiet" not in text
+    write_manifest(run_folder, measurement={"noise": 0.01}, machine={"load_average": 0.1})
+    assert "The machine was quiet" in page_of(run_folder).text
+
+
+def test_precision_that_was_not_recorded_is_not_praised(tmp_path: Path) -> None:
+    rows = [{**row, "repetitions": 9} for row in synthetic_rows()]
+    write_run(tmp_path, rows, without=("stop_reason",))
+    text = page_of(tmp_path).text
+    assert "How precise the times are is unknown" in text
+    assert "The times are precise" not in text
+
+
+def test_a_run_of_plug_ins_has_a_whole_page(tmp_path: Path) -> None:
+    rows = [
+        {**row, "structure": "my/tree", "parameters": "depth=3"}
+        if row["structure"] == "samet" and "=5" in str(row["parameters"])
+        else row
+        for row in synthetic_rows()
+    ]
+    plugins = [{"path": "/home/me/tree.so", "hash": "12ab", "structures": ["my/tree"]}]
+    write_manifest(write_run(tmp_path, rows), plugins=plugins)
+    reader = page_of(tmp_path)
+    assert len(figures_of_page(tmp_path)) == 7
+    assert "my/tree" in reader.text
+    assert "/home/me/tree.so" in reader.text
 
 
 def test_a_run_in_which_nothing_was_right_has_a_page(tmp_path: Path) -> None:
@@ -203,7 +303,41 @@ def test_one_cell_is_enough(tmp_path: Path) -> None:
 
 def test_a_run_that_was_cut_off_says_so(run_folder: Path) -> None:
     write_manifest(run_folder, finished_utc=None)
-    assert "The run was cut off" in page_of(run_folder).text
+    text = page_of(run_folder).text
+    assert "The run was cut off" in text
+    assert "Scenes without any cell" not in text
+
+
+def test_a_run_that_was_cut_off_is_compared_where_two_contenders_were_measured(
+    tmp_path: Path,
+) -> None:
+    rows = [
+        row
+        for row in synthetic_rows()
+        if row["scene"] == "escena1"
+        and (row["width"] == 320 or (row["width"] == 640 and row["structure"] == "exhaustive"))
+    ]
+    write_run(tmp_path, rows)
+    scenes = [{"name": "escena1"}, {"name": "tetra:n=6"}]
+    write_manifest(tmp_path, finished_utc=None, scenes=scenes)
+    text = page_of(tmp_path).text
+    assert "Scenes without any cell: tetra:n=6." in text
+    assert "Fastest: embree" in text
+    assert "escena1 320x200 embree" in text
+    assert "no contender has a time" not in text
+    assert "1 other resolution" in text
+    assert "contender not measured" not in text
+    missing = {**rows[0], "scene": "tetra:n=6"}
+    write_run(tmp_path, [*rows, missing])
+    assert "320x200, 4 contenders not measured" in page_of(tmp_path).text
+
+
+def test_a_run_without_a_finished_cell_is_one_sentence_and_exit_code_2(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_manifest(tmp_path, finished_utc=None)
+    assert main(["page", str(tmp_path)]) == 2
+    assert "the run was cut off before its first cell ended" in capsys.readouterr().err
 
 
 def test_names_from_a_record_cannot_become_part_of_the_page(tmp_path: Path) -> None:

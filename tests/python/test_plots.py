@@ -10,6 +10,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.figure import Figure
 
 from beambench_report.__main__ import main
 from beambench_report.base.figure import caption, house_style, new_figure, untimed, write_plot
@@ -286,10 +287,11 @@ def test_names_beside_points_cover_no_other_point() -> None:
     figure, panel = plt.subplots(dpi=100)
     spread = [(0.1, 0.1), (0.5, 0.5), (0.9, 0.9)]
     panel.plot(*zip(*spread, strict=True))
-    assert place_labels(panel, spread, ["a name", "another", "third"])
+    assert place_labels(panel, spread, ["a name", "another", "third"], ["1", "2", "3"]) == set()
     assert len(panel.texts) == 3
     crowd = [(0.5 + 0.001 * place, 0.5) for place in range(40)]
-    assert not place_labels(panel, crowd, [f"contender {place}" for place in range(40)])
+    names = [f"contender {place}" for place in range(40)]
+    assert place_labels(panel, crowd, names, [str(place) for place in range(40)]) is None
     assert len(panel.texts) == 3
     plt.close(figure)
 
@@ -300,7 +302,10 @@ def test_names_lie_off_slanting_lines_and_have_their_colors() -> None:
     panel.set(xlim=(0, 1), ylim=(0, 1))
     # The line goes on beyond the points, where a name would stand first.
     lines = [[(0.0, 0.2), (1.0, 0.2)], [(0.0, 0.0), (1.0, 1.0)]]
-    assert place_labels(panel, points, ["lower", "upper"], lines, ["#111111", "#222222"])
+    assert (
+        place_labels(panel, points, ["lower", "upper"], ["l", "u"], lines, ["#111111", "#222222"])
+        == set()
+    )
     assert [text.get_color() for text in panel.texts] == ["#222222", "#111111"]
     renderer = figure.canvas.get_renderer()
     for text in panel.texts:
@@ -309,6 +314,31 @@ def test_names_lie_off_slanting_lines_and_have_their_colors() -> None:
         corners = [(x, y) for x in (box.x0, box.x1) for y in (box.y0, box.y1)]
         assert len({y > x for x, y in corners}) == 1, f"{text.get_text()} is crossed"
     plt.close(figure)
+
+
+def test_points_without_room_for_a_name_have_a_number(tmp_path: Path) -> None:
+    figure, panel = plt.subplots(dpi=100)
+    points = [(0.2, 0.2), (0.50, 0.7), (0.52, 0.7), (0.54, 0.7)]
+    panel.plot(*zip(*points, strict=True))
+    names = ["alone", "the left one", "the one between", "the right one"]
+    assert place_labels(panel, points, names, ["1", "2", "3", "4"]) == {2}
+    assert {text.get_text() for text in panel.texts} == {"alone", names[1], "3", names[3]}
+    plt.close(figure)
+
+
+def test_the_legend_of_trade_offs_lists_the_numbered(tmp_path: Path) -> None:
+    rows = [row for row in many_rows(1, 3) if row["width"] == 1280]
+
+    def figure_of(traces: tuple[float, float, float]) -> Figure:
+        timed = [row | {"trace_ms_median": trace} for row, trace in zip(rows, traces, strict=True)]
+        with house_style():
+            [plot] = trade_offs(read_measured(write_run(tmp_path, timed)))
+        return plot.figure
+
+    spread, same = figure_of((10.0, 40.0, 70.0)), figure_of((40.0, 40.0, 40.0))
+    assert not any(axes.get_legend() for axes in spread.axes)
+    [legend] = [axes.get_legend() for axes in same.axes if axes.get_legend()]
+    assert [text.get_text()[0] for text in legend.get_texts()] == ["1", "2", "3"]
 
 
 def test_many_repetitions_are_thinned_with_both_ends() -> None:

@@ -19,7 +19,8 @@ from beambench_report.base.ratio import (
     unpaired_ratio,
 )
 from beambench_report.base.records import read_run
-from beambench_report.run.page import choose_reference, compared, ratio_field
+from beambench_report.run.reference import choose_reference, compared
+from beambench_report.run.tables import ratio_field
 from synthetic_run import synthetic_rows, without_times, write_cell, write_run
 
 

@@ -65,6 +65,21 @@ def site(runs: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     return target
 
 
+def test_of_a_run_without_plots_a_page_has_the_figure_over_all_views(tmp_path: Path) -> None:
+    folder = write_small_run(tmp_path / "run", 0)
+    name = read_run(folder).rows["run_id"].iloc[0]
+    page = write_site([folder], tmp_path / "site").parent / f"runs/{name}/index.html"
+    text = page.read_text("utf-8")
+    assert text.count("<svg ") == 1
+    command = f"python -m beambench_report plots {folder}"
+    assert f"draw them: <code>{command}</code>" in text
+    assert main(command.split()[3:]) == 0
+    write_site([folder], tmp_path / "site")
+    text = page.read_text("utf-8")
+    assert text.count("<svg ") == 4
+    assert command not in text
+
+
 def test_every_run_has_a_line_and_a_page(site: Path) -> None:
     text = (site / "index.html").read_text()
     assert "6 runs of 2 sweeps on 2 machines" in text

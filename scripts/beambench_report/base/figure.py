@@ -6,6 +6,7 @@ seen on white, and two grays. Variants of one structure share its color and diff
 dashes. Each color has a variant for dark pages (`base.palette`).
 """
 
+import io
 import textwrap
 from collections.abc import Iterable, Sequence
 from contextlib import AbstractContextManager
@@ -17,7 +18,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from beambench_report.base.files import write_whole
+from beambench_report.base.files import write_text, write_whole
 from beambench_report.base.palette import GRID, INK, SOFT, structure_color
 from beambench_report.base.svg import compact
 
@@ -108,20 +109,22 @@ def untimed(rows: pd.DataFrame) -> list[str]:
 def write_plot(plot: Plot, directory: Path) -> list[Path]:
     """Writes the figure as PNG and as SVG; in the latter what `svg.hover` was given is shown."""
 
-    def save(path: Path, ending: str) -> None:
-        metadata = {"Date": None} if ending == "svg" else None
-        plot.figure.savefig(path, format=ending, dpi=DPI, metadata=metadata)
-
-    def save_svg(path: Path) -> None:
-        # Of its stem, so that no two plots on one page have the same ids.
-        with mpl.rc_context({"svg.hashsalt": f"beambench-{plot.stem}"}):
-            save(path, "svg")
-        path.write_text(compact(path.read_text("utf-8")), "utf-8")
-
     return [
-        write_whole(directory / f"{plot.stem}.png", lambda path: save(path, "png")),
-        write_whole(directory / f"{plot.stem}.svg", save_svg),
+        write_whole(
+            directory / f"{plot.stem}.png",
+            lambda path: plot.figure.savefig(path, format="png", dpi=DPI),
+        ),
+        write_text(directory / f"{plot.stem}.svg", svg_of(plot)),
     ]
+
+
+def svg_of(plot: Plot) -> str:
+    """The text of the figure's SVG file."""
+    drawn = io.StringIO()
+    # Of its stem, so that no two plots on one page have the same ids.
+    with mpl.rc_context({"svg.hashsalt": f"beambench-{plot.stem}"}):
+        plot.figure.savefig(drawn, format="svg", dpi=DPI, metadata={"Date": None})
+    return compact(drawn.getvalue())
 
 
 def _source(rows: pd.DataFrame) -> str:

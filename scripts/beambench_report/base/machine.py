@@ -39,6 +39,8 @@ class Manifest:
     """How much longer than usual the slowest twentieth of equal work took before the run."""
     load: float | None = None
     """The system's load average when the run began."""
+    scenes: list[str] = field(default_factory=list)
+    """Of the sweep, with their parameters."""
     uncontrolled: list[str] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     facts: list[Facts] = field(default_factory=list)
@@ -60,6 +62,7 @@ def read_manifest(directory: Path) -> Manifest | None:
         overhead=_dictionary(source, "harness_overhead").get("part"),
         noise=_dictionary(source, "measurement").get("noise"),
         load=_dictionary(source, "machine").get("load_average"),
+        scenes=[one["name"] for one in source.get("scenes", []) if "name" in one],
         uncontrolled=source.get("uncontrolled", []),
         notes=source.get("notes", []),
         facts=_facts(source),

@@ -22,6 +22,8 @@ VERSION_COLUMN = "schema_version"
 
 OK, BASELINE = TIMED_VERDICTS = ("ok", "baseline")
 ERROR = "error"  # the structure could not be built
+REFERENCES = ("null", "exhaustive")
+"""Structures that do not compete: one finds nothing, one tests everything."""
 NO_RAYS = "no_rays"  # the scene has none of the kind: nothing was measured, and nothing is wrong
 FAULTLESS_VERDICTS = (*TIMED_VERDICTS, NO_RAYS)
 
@@ -62,9 +64,18 @@ class Run:
         return self.rows[self.rows["view"] == title]
 
     def finest(self, title: str) -> pd.DataFrame:
-        """The rows of one view at the highest number of rays."""
+        """The rows of one view at its `finest_rays`."""
         rows = self.view(title)
-        return rows[rows["rays"] == rows["rays"].max()]
+        return rows[rows["rays"] == finest_rays(rows)]
+
+
+def finest_rays(rows: pd.DataFrame) -> float:
+    """The highest number of rays that two contenders have; of fewer contenders, the highest.
+
+    In a run that was cut off, the last resolution may have one cell.
+    """
+    others = rows[~rows["structure"].isin(REFERENCES)].groupby("rays")["contender"].nunique()
+    return max(others.index[others > 1], default=rows["rays"].max())
 
 
 def contenders_with_times(rows: pd.DataFrame) -> pd.DataFrame:
@@ -120,11 +131,15 @@ def _read_csv(path: Path) -> pd.DataFrame:
             path, dtype=texts, keep_default_na=False, na_values=[""], low_memory=False
         ).rename(columns=RENAMED_COLUMNS)
     except FileNotFoundError:
-        raise Problem(
-            f"{path}: there is no such file; give the folder that `beambench run` wrote"
-        ) from None
+        raise Problem(f"{path}: there is no such file; {_remedy(path.parent)}") from None
     except (OSError, UnicodeDecodeError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
         raise Problem(f"{path}: cannot be read as CSV: {error}") from None
+
+
+def _remedy(directory: Path) -> str:
+    if (directory / "manifest.json").is_file():
+        return "the run was cut off before its first cell ended"
+    return "give the folder that `beambench run` wrote"
 
 
 def _require_version(rows: pd.DataFrame, path: Path) -> None:

@@ -1,7 +1,6 @@
 """A plot as part of an HTML page: in the page's colors, light or dark, and with ids of its own."""
 
 import re
-from pathlib import Path
 
 from beambench_report.base.palette import TINTS
 
@@ -9,11 +8,10 @@ _VARIABLES = {tint.light: f"var(--{tint.name}, {tint.light})" for tint in TINTS}
 _PIXELS_PER_POINT = 5 / 3
 
 
-def inline_svg(path: Path) -> str:
-    """The `<svg>` element of a plot's file, as wide as the page lets it be."""
-    text = path.read_text("utf-8")
+def inline_svg(text: str, stem: str) -> str:
+    """The `<svg>` element of an SVG, as wide as the page lets it be; its ids begin with `stem`."""
     svg = re.sub(r"<svg[^>]*>", _root, text[text.index("<svg") :], count=1)
-    prefix = f"plot-{path.stem}-"
+    prefix = f"plot-{stem}-"
     svg = svg.replace("xlink:href=", "href=")
     svg = re.sub(r'( id="|href="#|url\(#)', rf"\g<1>{prefix}", svg)
     return re.sub(r' style="[^"]*"', _in_variables, svg).strip()

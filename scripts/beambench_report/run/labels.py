@@ -1,8 +1,9 @@
-"""Names beside points, so that none covers another one, or a point."""
+"""Names or numbers beside points, so that none covers another one, or a point."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import pairwise
-from math import ceil, cos, pi, sin
+from math import ceil, cos, hypot, inf, pi, sin
 
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
@@ -13,50 +14,92 @@ _SIZE = 6.5
 _DISTANCES = (5, 7, 9)  # points; farther away it is not clear which point is meant
 _DIRECTIONS = 12
 _STEP = 2  # points, of the boxes along a slanting line
+_NEARER = 5  # points, by which a name is nearer to its point than to others, or it may seem theirs
+
+
+@dataclass
+class _Place:
+    """Where a point's label is: the offset in points, and the box in pixels."""
+
+    text: str
+    offset: tuple[float, float]
+    box: Bbox
 
 
 def place_labels(
     panel: Axes,
     points: Sequence[tuple[float, float]],
     names: Sequence[str],
+    numbers: Sequence[str],
     lines: Sequence[Sequence[tuple[float, float]]] = (),
     colors: Sequence[str] = (),
-) -> bool:
-    """Writes a name beside each point, off the lines if that is possible; False where they crowd.
+) -> set[int] | None:
+    """Writes beside each point its name, or where there is no room its number; none on another.
 
-    Then nothing is written. The figure's layout must be settled. A name has the color of its
-    place in `colors`, where those are given.
+    Returns the points that have numbers; None where even these crowd, and then nothing is written.
+    Labels are off the lines if that is possible, and have the color of their place in `colors`,
+    where those are given. The figure's layout must be settled.
     """
-    renderer = FigureCanvasAgg(panel.figure).get_renderer()
-    font = FontProperties(size=_SIZE)
-    scale = panel.figure.dpi / 72
-    centers = [tuple(panel.transData.transform(point)) for point in points]
-    taken = [_around(x, y, 3 * scale) for x, y in centers]
-    crossed = [
-        box
-        for line in lines
-        for box in _along([tuple(panel.transData.transform(point)) for point in line], scale)
-    ]
-    placed: list[tuple[int, tuple[float, float]]] = []
-    for index in sorted(range(len(points)), key=lambda i: -centers[i][1]):
-        width, height, _ = renderer.get_text_width_height_descent(names[index], font, False)
-        boxes = [
-            (offset, _box(centers[index], offset, width, height, scale)) for offset in _offsets()
+    room = _Room(panel, points, lines)
+    places: dict[int, _Place] = {}
+    for index in sorted(range(len(points)), key=lambda i: -room.centers[i][1]):
+        found = [*room.places(index, numbers[index], places)]
+        if not found:
+            return None
+        places[index] = room.best(found)
+    numbered = set(range(len(points)))
+    for index in range(len(points)):
+        others = {other: place for other, place in places.items() if other != index}
+        found = room.places(index, names[index], others)
+        if clear := [one for one in found if room.is_clear(one, index)]:
+            places[index] = room.best(clear)
+            numbered.remove(index)
+    for index, place in places.items():
+        color = colors[index] if colors else None
+        _write(panel, points[index], place.text, place.offset, color)
+    return numbered
+
+
+class _Room:
+    """The room for labels of a panel's points."""
+
+    def __init__(
+        self,
+        panel: Axes,
+        points: Sequence[tuple[float, float]],
+        lines: Sequence[Sequence[tuple[float, float]]],
+    ) -> None:
+        self._scale = panel.figure.dpi / 72
+        self._frame = panel.bbox
+        self._renderer = FigureCanvasAgg(panel.figure).get_renderer()
+        self._font = FontProperties(size=_SIZE)
+        self.centers = [tuple(panel.transData.transform(point)) for point in points]
+        self._points = [_around(x, y, 3 * self._scale) for x, y in self.centers]
+        self._crossed = [
+            box
+            for line in lines
+            for box in _along([tuple(panel.transData.transform(at)) for at in line], self._scale)
         ]
-        free = [
-            (offset, box)
-            for offset, box in boxes
-            if _is_inside(box, panel.bbox) and not any(box.overlaps(other) for other in taken)
-        ]
-        if not free:
-            return False
-        off_the_lines = (one for one in free if not any(one[1].overlaps(c) for c in crossed))
-        offset, box = next(off_the_lines, free[0])
-        taken.append(box)
-        placed.append((index, offset))
-    for index, offset in placed:
-        _write(panel, points[index], names[index], offset, colors[index] if colors else None)
-    return True
+
+    def places(self, index: int, text: str, others: Mapping[int, _Place]) -> Iterator[_Place]:
+        """Where the text has room beside its point, the other points and the labels that are."""
+        taken = [*self._points, *(other.box for other in others.values())]
+        width, height, _ = self._renderer.get_text_width_height_descent(text, self._font, False)
+        for offset in _offsets():
+            box = _box(self.centers[index], offset, width, height, self._scale)
+            if _is_inside(box, self._frame) and not any(box.overlaps(other) for other in taken):
+                yield _Place(text, offset, box)
+
+    def is_clear(self, place: _Place, index: int) -> bool:
+        """Does it seem to be the label of no other point?"""
+        away = [_distance(center, place.box) for center in self.centers]
+        own = away.pop(index) + _NEARER * self._scale
+        return min(away, default=inf) >= own
+
+    def best(self, places: Sequence[_Place]) -> _Place:
+        """The first of the places that is off the lines; the first, where none is."""
+        off = (one for one in places if not any(map(one.box.overlaps, self._crossed)))
+        return next(off, places[0])
 
 
 def _offsets() -> list[tuple[float, float]]:
@@ -91,6 +134,11 @@ def _box(
 
 def _around(x: float, y: float, reach: float) -> Bbox:
     return Bbox([[x - reach, y - reach], [x + reach, y + reach]])
+
+
+def _distance(point: tuple[float, float], box: Bbox) -> float:
+    (x, y), (left, low, right, high) = point, box.extents
+    return hypot(max(left - x, 0, x - right), max(low - y, 0, y - high))
 
 
 def _along(corners: Sequence[tuple[float, float]], scale: float) -> list[Bbox]:

@@ -12,8 +12,8 @@ from beambench_report.base.cell_files import CellFile, Identity, identity, read_
 from beambench_report.base.figure import Look, looks
 from beambench_report.base.quantities import number
 from beambench_report.base.ratio import interval_rank, median_of
-from beambench_report.base.records import Run, read_run
-from beambench_report.run.standings import REFERENCES, Standings, standings
+from beambench_report.base.records import REFERENCES, Run, finest_rays, read_run
+from beambench_report.run.standings import Standings, standings
 
 
 @dataclass(frozen=True)
@@ -50,14 +50,9 @@ class Measured:
         return rows.join(added).assign(is_reference=rows["structure"].isin(REFERENCES))
 
     def finest(self, view: str) -> pd.DataFrame:
-        """The timed rows of a view at its highest resolution, the fastest first.
-
-        Of a run that was cut off, at the highest that two contenders have.
-        """
+        """The timed rows of a view at their `finest_rays`, the fastest first."""
         rows = self.timed[self.timed["view"] == view]
-        others = rows[~rows["is_reference"]].groupby("rays").size()
-        rays = max(others.index[others > 1], default=rows["rays"].max())
-        return rows[rows["rays"] == rays].sort_values("ns", kind="stable")
+        return rows[rows["rays"] == finest_rays(rows)].sort_values("ns", kind="stable")
 
     def _cell(self, row: pd.Series) -> tuple[float, float, float, tuple[float, ...]]:
         scale = 1e6 / row["rays"]

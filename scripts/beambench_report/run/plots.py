@@ -1,7 +1,7 @@
 """The plots of a run: who is fastest, at which price, from how many rays on, and how surely."""
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -40,6 +40,18 @@ KINDS = (
 )
 
 
+def draw(measured: Measured, kinds: Sequence[Kind] = KINDS) -> Iterator[Plot]:
+    """The figures of these kinds; they must be saved within `house_style`, too."""
+    for kind in kinds:
+        yield from kind.draw(measured)
+
+
+def without_figure(stems: Iterable[str], kinds: Sequence[Kind] = KINDS) -> list[Kind]:
+    """The kinds of which there is no figure among those of these stems."""
+    known = tuple(stems)
+    return [kind for kind in kinds if not any(stem.startswith(kind.name) for stem in known)]
+
+
 def write_plots(directory: Path) -> list[Path]:
     """Fills DIRECTORY/plots from DIRECTORY/results.csv: PNG, SVG, a table, README and index.
 
@@ -48,20 +60,17 @@ def write_plots(directory: Path) -> list[Path]:
     measured = read_measured(directory)
     folder = directory / "plots"
     folder.mkdir(exist_ok=True)
-    plots, missing, paths = [], [], []
+    plots, paths = [], []
     with house_style():
-        for kind in KINDS:
-            drawn = kind.draw(measured)
-            paths += [path for plot in drawn for path in write_plot(plot, folder)]
-            plots += drawn
-            if not drawn:
-                missing.append(kind)
+        for plot in draw(measured):
+            paths += write_plot(plot, folder)
+            plots.append(plot)
     _remove_former(folder, {plot.stem for plot in plots})
     table = break_even_table(measured.run)
     paths.append(
         write_whole(folder / "break-even.csv", lambda path: table.to_csv(path, index=False))
     )
-    readme = _readme(measured.run, plots, missing)
+    readme = _readme(measured.run, plots)
     for name, text in (("README.md", readme), (PLOT_INDEX, _index(plots))):
         paths.append(write_text(folder / name, text))
     return paths
@@ -78,7 +87,7 @@ def _remove_former(folder: Path, stems: set[str]) -> None:
             (folder / f"{Path(stem).name}.{ending}").unlink(missing_ok=True)
 
 
-def _readme(run: Run, plots: list[Plot], missing: list[Kind]) -> str:
+def _readme(run: Run, plots: list[Plot]) -> str:
     lines = [
         f"# Plots of run {run.rows['run_id'].iloc[0]}",
         "",
@@ -91,7 +100,7 @@ def _readme(run: Run, plots: list[Plot], missing: list[Kind]) -> str:
         "| [break-even.csv](break-even.csv) | break-even ray count of every pair |",
         "",
     ]
-    if missing:
+    if missing := without_figure(plot.stem for plot in plots):
         lines += ["Not drawn, for the run has not what they need:", ""]
         lines += [f"- {kind.name}: {kind.needs}" for kind in missing]
         lines += [""]

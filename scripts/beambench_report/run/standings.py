@@ -18,11 +18,11 @@ import pandas as pd
 
 from beambench_report.base.cell_files import CellFile, Identity, identity, ratio_of
 from beambench_report.base.ratio import Ratio, geometric_mean
-from beambench_report.base.records import Run, size_of
+from beambench_report.base.records import REFERENCES, Run, size_of
 from beambench_report.run.break_even import AT_ONCE, break_even_rays
 
-REFERENCES = ("null", "exhaustive")
 EMBREE = "embree"
+_UNRECORDED = "not in the record"
 
 
 @dataclass(frozen=True)
@@ -55,6 +55,11 @@ class Standings:
     references: tuple[Standing, ...]
     left_out: tuple[tuple[str, str], ...]
     """Contenders of the run without a time here, each with the reason."""
+
+    @property
+    def unrecorded(self) -> int:
+        """How many contenders have no row here, and no condition of the sweep leaves them out."""
+        return sum(reason == _UNRECORDED for _, reason in self.left_out)
 
     @property
     def fastest(self) -> Standing | None:
@@ -123,6 +128,12 @@ def overall(every: Sequence[Standings]) -> list[Overall]:
     """Of each kind of rays, in the order of the views."""
     kinds = dict.fromkeys(one.ray_kind for one in every if one.ranked)
     return [_of_kind(kind, [s for s in every if s.ray_kind == kind and s.ranked]) for kind in kinds]
+
+
+def ties_are_known(every: Sequence[Standings]) -> bool:
+    """Has any ratio an interval, where there are ratios?"""
+    ratios = [other.ratio for one in every for other in one.ranked[1:]]
+    return not ratios or any(ratio.interval for ratio in ratios)
 
 
 def _of_view(
@@ -223,7 +234,7 @@ def _why_absent(structure: str, row: pd.Series, exclusions: Sequence[Mapping[str
                 if limit in entry
             ]
             return f"left out by the sweep ({' and '.join(limits) or 'this scene'})"
-    return "not in the record"
+    return _UNRECORDED
 
 
 def _of_kind(kind: str, every: Sequence[Standings]) -> Overall:

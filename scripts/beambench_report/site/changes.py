@@ -56,15 +56,15 @@ class Repository:
         return self._git("log", "-1", "--format=%s", commit, "--") if self._known(commit) else ""
 
     def change(self, before: str, after: str) -> Change | None:
-        """From one commit to another; None where there is no change or no telling."""
+        """From one commit to another; None where they are the same, or one is no hash."""
         if before == after or not _HASH.fullmatch(before) or not _HASH.fullmatch(after):
             return None
-        told = ""
+        log = ""
         if self._known(before) and self._known(after):
-            told = self._git("log", f"-{_MOST}", "--format=%h %s", f"{before}..{after}", "--")
+            log = self._git("log", f"-{_MOST}", "--format=%h %s", f"{before}..{after}", "--")
         url = f"{self._pages}/compare/{before}...{after}" if self.url else ""
         command = f"git log -p {before[:12]}..{after[:12]}"
-        return Change(tuple(told.splitlines()), url, command)
+        return Change(tuple(log.splitlines()), url, command)
 
     @property
     def _pages(self) -> str:

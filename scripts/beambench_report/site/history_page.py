@@ -89,8 +89,8 @@ def _earlier(history: MachineHistory, address: Address) -> list[tuple[str, str, 
     nights = history.nights.nights
     runs = dict(zip(nights["number"], nights["run_id"], strict=True))
     known = [one for one in history.alarms if one.night != history.newest]
-    told = [(runs[one.night], sentence(one)) for one in reversed(known)][:_MOST_EARLIER]
-    return [(run, address(run), words) for run, words in told]
+    newest_first = [(runs[one.night], sentence(one)) for one in reversed(known)][:_MOST_EARLIER]
+    return [(run, address(run), words) for run, words in newest_first]
 
 
 def _not_tested(nights: Nights) -> str:

@@ -20,6 +20,7 @@ from beambench_report.base.quantities import DASH
 from beambench_report.base.records import read_run
 from beambench_report.run.html import environment
 from beambench_report.run.page import render
+from beambench_report.run.plots import KINDS
 from beambench_report.site.changes import Repository
 from beambench_report.site.comparison import Comparison, compare
 from beambench_report.site.entry import Entry, as_script, entry_of, read_script, stamp_of
@@ -28,6 +29,8 @@ from beambench_report.site.history_page import page_values, read_mismatches
 from beambench_report.site.machine_history import MachineHistory, history_of
 
 _TEMPLATES = Path(__file__).with_name("templates")
+_DRAWN = KINDS[:1]
+"""Of runs whose folder has no plots; all kinds would take a second a run."""
 _FILES = "site.json"
 _BRAND = re.compile(r'(<p class="brand">)([^<]*)(</p>)')
 
@@ -122,8 +125,8 @@ def _write_runs(
         try:
             entry, changed = _write_run(site, name, folder)
         except Exception as error:  # whatever a record holds, the others get their pages
-            told = "" if isinstance(error, Problem) else f"{type(error).__name__}: "
-            broken.append((folder, f"{told}{error}"))
+            prefix = "" if isinstance(error, Problem) else f"{type(error).__name__}: "
+            broken.append((folder, f"{prefix}{error}"))
             continue
         if name != (first := _slug(run_id)):
             doubles.append(
@@ -166,7 +169,9 @@ def _write_run(site: _Site, name: str, folder: Path) -> tuple[Entry, bool]:
         return entry, False
     run = read_run(folder)
     entry = entry_of(run)
-    text = _BRAND.sub(r'\1<a href="../../index.html">\2</a>\3', render(run), count=1)
+    text = _BRAND.sub(
+        r'\1<a href="../../index.html">\2</a>\3', render(run, drawn_kinds=_DRAWN), count=1
+    )
     site.write(page, text)
     site.write(data, as_script(name, entry, stamp))
     return entry, True
@@ -228,9 +233,9 @@ def _write_histories(
         for run in own:
             run.history = href
         _write_history(site, href, sweep, machine, history, runs)
-        told = {"href": href, "sweep": sweep, "machine": machine}
+        labels = {"href": href, "sweep": sweep, "machine": machine}
         counts = {"count": len(history.nights.nights), "alarms": len(history.tonight)}
-        listed.append(told | counts)
+        listed.append(labels | counts)
     return listed
 
 
@@ -271,7 +276,7 @@ def _comparisons_of(run: _Run, runs: Sequence[_Run]) -> list[tuple[str, str, Com
 
 def _choices(runs: Sequence[_Run]) -> str:
     """JSON for any.js: the runs that can be chosen."""
-    told = [
+    choices = [
         {
             "name": run.name,
             "sweep": run.entry.sweep,
@@ -282,4 +287,4 @@ def _choices(runs: Sequence[_Run]) -> str:
         for run in runs
         if run.entry.sweep
     ]
-    return json.dumps(told, separators=(",", ":")).replace("<", "\\u003c")
+    return json.dumps(choices, separators=(",", ":")).replace("<", "\\u003c")

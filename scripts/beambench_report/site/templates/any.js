@@ -3,7 +3,7 @@
   const runs = JSON.parse(document.getElementById("runs-data").textContent);
   const form = document.getElementById("two");
   const table = document.getElementById("any-table");
-  const told = document.getElementById("told");
+  const status = document.getElementById("status");
   const loaded = new Map();
   const waiting = new Map();
   window.beambench = {
@@ -20,7 +20,7 @@
           waiting.set(name, resolve);
           const script = document.createElement("script");
           script.src = `../runs/${encodeURIComponent(name)}/data.js`;
-          script.onerror = () => (told.textContent = `The data of ${name} cannot be loaded.`);
+          script.onerror = () => (status.textContent = `The data of ${name} cannot be loaded.`);
           document.head.append(script);
         });
 
@@ -101,7 +101,7 @@
     const count = (wanted) => pairs.filter((pair) => side(pair.ratio) === wanted).length;
     const label = after.cells.find((cell) => who(cell) === reference)?.[CONTENDER] ?? "no common reference";
     document.getElementById("warning").hidden = !apart;
-    told.textContent =
+    status.textContent =
       `Of ${pairs.filter((pair) => pair.ratio).length} ratios to ${label}, ` +
       `${count("slower")} are higher (slower) and ${count("faster")} lower (faster) by their intervals.`;
     const heads = ["contender", "view", "ratio before", "after", "change"];
@@ -144,7 +144,7 @@
   for (const run of runs) counts.set(run.sweep, (counts.get(run.sweep) ?? 0) + 1);
   const sweeps = [...counts.keys()].filter((name) => counts.get(name) > 1);
   if (sweeps.length === 0) {
-    told.textContent = "No sweep has two runs.";
+    status.textContent = "No sweep has two runs.";
     return;
   }
   form.elements.sweep.replaceChildren(...sweeps.map((name) => new Option(name, name)));

@@ -219,13 +219,16 @@ def _name_settings(panel: Axes, lines: Mapping[str, Sequence[Point]], ringed: Po
     for shown in (lines, {method: own[:: max(1, len(own) - 1)] for method, own in lines.items()}):
         points = [(method, point) for method, own in shown.items() for point in own]
         points = [(method, point) for method, point in points if point is not ringed]
-        if place_labels(
+        names = [point.setting.replace(" ", ", ") for _, point in points]
+        placed = place_labels(
             panel,
             [(point.milliseconds, point.error) for _, point in points],
-            [point.setting.replace(" ", ", ") for _, point in points],
+            names,
+            names,
             corners,
             [_LOOKS.get(method, _OTHER).color for method, _ in points],
-        ):
+        )
+        if placed is not None:
             return
 
 

@@ -1,0 +1,77 @@
+"""What the folder of a run lacks, in sentences, and how it is made."""
+
+import shlex
+from collections.abc import Iterator, Mapping, Sequence
+
+from beambench_report.base.cell_files import CellFile, Identity, identity
+from beambench_report.base.machine import Manifest
+from beambench_report.base.records import FAULTLESS_VERDICTS, Run
+from beambench_report.run.images import Figures, Image
+
+_REPORT = "python -m beambench_report"
+
+
+def command(run: Run, name: str, *options: str) -> str:
+    """The command of this package that adds something to the folder of the run."""
+    return " ".join((_REPORT, name, shlex.quote(str(run.directory)), *options))
+
+
+def not_begun(run: Run, manifest: Manifest) -> list[str]:
+    """Of a run that was cut off, the scenes without any cell."""
+    known = set(run.rows["scene"])
+    return [scene for scene in manifest.scenes if manifest.cut_off and scene not in known]
+
+
+def absent(
+    run: Run,
+    manifest: Manifest,
+    files: Mapping[Identity, CellFile],
+    figures: Figures,
+    pictures: Sequence[Image],
+) -> list[str]:
+    """What is not on the page, for the folder does not hold it."""
+    return [
+        *_records(run, manifest),
+        *_repetitions(run, files),
+        *_images(run, figures, pictures),
+    ]
+
+
+def _records(run: Run, manifest: Manifest) -> Iterator[str]:
+    if not manifest.run_id:
+        yield "There is no manifest.json: the machine and its state are unknown."
+    if not (run.directory / "config.json").is_file():
+        yield (
+            "There is no config.json: whether the sweep left out the cells that are missing is "
+            "unknown."
+        )
+
+
+def _repetitions(run: Run, files: Mapping[Identity, CellFile]) -> Iterator[str]:
+    timed = run.rows[run.rows["timed"]]
+    without = sum(identity(row) not in files for row in timed.to_dict("records")) if files else 0
+    if not files:
+        why = (
+            "are too many to be read here"
+            if any(run.directory.glob("cells/*.json"))
+            else "are not in this folder"
+        )
+        yield (
+            f"The repetitions of the cells {why}: ratios are of medians and have wider intervals."
+        )
+    elif without:
+        yield (
+            f"The repetitions of {without:,} of {len(timed):,} timed cells are not in this folder: "
+            "their ratios are of medians and have wider intervals."
+        )
+    wrong = ~run.rows["verdict"].isin(FAULTLESS_VERDICTS)
+    if wrong.any() and not any(file.message for file in files.values()):
+        yield "Why cells were wrong is not in this folder; a run has it in cells/*.json."
+
+
+def _images(run: Run, figures: Figures, pictures: Sequence[Image]) -> Iterator[str]:
+    for kind in figures.missing:
+        yield f"There is no figure '{kind.name}'; it needs {kind.needs}."
+    if not pictures:
+        render = command(run, "pictures", "--beambench build/release/bin/beambench")
+        yield f"There are no pictures of the scenes; render them: {render}"

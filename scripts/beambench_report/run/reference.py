@@ -1,0 +1,74 @@
+"""What a page's ratios are to: the contender that others are compared with."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import pandas as pd
+
+from beambench_report.base.cell_files import CellFile, Identity, ratio_of
+from beambench_report.base.files import Problem
+from beambench_report.base.ratio import Ratio
+from beambench_report.base.records import OK, Run, finest_rays
+
+
+@dataclass(frozen=True)
+class Compared:
+    """The rows of one view at one resolution, and each contender's ratio to the reference."""
+
+    rows: pd.DataFrame
+    ratios: Mapping[str, Ratio]
+
+
+def choose_reference(run: Run, wanted: str | None = None) -> str | None:
+    """The contender that others are compared with: correct in the most views, of equals Embree.
+
+    None where no contender has correct hits. Raises Problem for a name the run does not have.
+    """
+    right = run.rows[run.rows["timed"] & (run.rows["verdict"] == OK)]
+    contenders = list(dict.fromkeys(right["contender"]))
+    if wanted is not None:
+        return _chosen(wanted, contenders)
+    views = right.groupby("contender")["view"].nunique()
+    return max(
+        contenders, key=lambda name: (views[name], name.split()[0] == "embree"), default=None
+    )
+
+
+def _chosen(wanted: str, contenders: list[str]) -> str:
+    """The contender of that name, or the only one of that structure."""
+    if wanted in contenders:
+        return wanted
+    variants = [name for name in contenders if name.split()[0] == wanted]
+    if len(variants) == 1:
+        return variants[0]
+    if variants:
+        listed = " or ".join(f"'{name}'" for name in variants)
+        raise Problem(f"'{wanted}' is the structure of {len(variants)} contenders; name {listed}")
+    raise Problem(f"no contender '{wanted}' was right; there are: {', '.join(contenders)}")
+
+
+def compared(
+    run: Run, view: str, reference: str | None, files: Mapping[Identity, CellFile]
+) -> list[Compared]:
+    """A view at each of its resolutions: the `finest_rays` first, then by the number of rays."""
+    rows = run.view(view)
+    finest = finest_rays(rows)
+    groups = [(key[0], own) for key, own in rows.groupby(["rays", "width", "height"])]
+    groups.sort(key=lambda group: (group[0] == finest, group[0]), reverse=True)
+    return [Compared(own, _ratios(own, reference, files)) for _, own in groups]
+
+
+def _ratios(
+    rows: pd.DataFrame, reference: str | None, files: Mapping[Identity, CellFile]
+) -> dict[str, Ratio]:
+    timed = rows[rows["timed"]].drop_duplicates("contender", keep="last").set_index("contender")
+    if reference not in timed.index:
+        return {}
+    base = timed.loc[reference]
+    result = {}
+    for contender, row in timed.iterrows():
+        if contender == reference:
+            result[contender] = Ratio(1.0)
+        elif base["total_ms_median"] > 0:
+            result[contender] = ratio_of("total", row, base, files)
+    return result

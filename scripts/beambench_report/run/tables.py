@@ -1,0 +1,249 @@
+"""The tables of a page: times and memory, work per ray, and all contenders over all views."""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from math import log2
+
+import pandas as pd
+
+from beambench_report.base.columns import COUNTER_SUFFIX
+from beambench_report.base.palette import css_color
+from beambench_report.base.quantities import number, size_in_words
+from beambench_report.base.ratio import Ratio
+from beambench_report.base.records import BASELINE, REFERENCES, size_of
+from beambench_report.run.reference import Compared
+
+
+@dataclass(frozen=True)
+class Heading:
+    """The head of a column; `column` names its entry in the data dictionary."""
+
+    title: str
+    unit: str = ""
+    column: str = ""
+    is_number: bool = True
+
+
+@dataclass(frozen=True)
+class Field:
+    """A field: what is read, what it sorts by, and smaller words behind it."""
+
+    text: str
+    value: float | str | None
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Line:
+    """A contender's line; the shares are those of its bar, 1 being the whole width."""
+
+    contender: str
+    color: str
+    verdict: str
+    fields: tuple[Field, ...]
+    anchor: str = ""
+    """Of its row among all cells."""
+    is_reference: bool = False
+    """Is it `null` or `exhaustive`, which stand apart?"""
+    build_share: float = 0.0
+    trace_share: float = 0.0
+    off_the_scale: bool = False
+
+
+@dataclass(frozen=True)
+class Table:
+    """Headings and lines; lines beyond what a page can show are counted only."""
+
+    caption: str
+    headings: tuple[Heading, ...]
+    lines: tuple[Line, ...]
+    unshown: int = 0
+    left_out: tuple[tuple[str, str], ...] = ()
+    """Contenders without a row here, each with the reason."""
+
+
+MISSING = Field("–", None)  # noqa: RUF001
+_MOST_LINES = 60
+_FAR = 12  # a time this many times the median one would flatten the others' bars
+
+
+def view_table(
+    caption: str,
+    rows: pd.DataFrame,
+    ratios: Mapping[str, Ratio],
+    left_out: tuple[tuple[str, str], ...] = (),
+) -> Table:
+    """Times and memory, the quickest first; then those without times; references last."""
+    ordered = _in_order(rows)
+    headings = (
+        Heading("trace", "ns per ray", "trace_ms_median"),
+        Heading("trace", "ms", "trace_ms_median"),
+        Heading("build", "ms", "build_ms_median"),
+        Heading("total", "ms", "total_ms_median"),
+        Heading("total", "to reference"),
+        Heading("trace, net", "ms", "trace_net_ms_median"),
+        Heading("speed", "Mrays/s", "mrays_per_s"),
+        Heading("memory", "", "memory_bytes"),
+    )
+    scale = _scale(ordered.loc[ordered["timed"], "total_ms_median"])
+    lines = tuple(
+        _line(row, ratios.get(row["contender"]), scale)
+        for _, row in ordered.head(_MOST_LINES).iterrows()
+    )
+    present = set(rows["contender"])
+    absent = tuple(one for one in left_out if one[0] not in present)
+    return Table(caption, headings, lines, len(ordered) - len(lines), absent)
+
+
+def work_table(caption: str, rows: pd.DataFrame, counters: list[str]) -> Table | None:
+    """Counters per ray; None where nothing was counted."""
+    counters = [name for name in counters if rows[name].notna().any() and (rows[name] != 0).any()]
+    counted = rows[rows[counters].notna().any(axis=1)] if counters else rows.iloc[:0]
+    if counted.empty:
+        return None
+    headings = tuple(Heading(_counter_title(name), "", name) for name in counters)
+    lines = tuple(
+        _bare_line(row, tuple(_figure(row[name]) for name in counters))
+        for _, row in _in_order(counted).head(_MOST_LINES).iterrows()
+    )
+    return Table(caption, headings, lines)
+
+
+def _in_order(rows: pd.DataFrame) -> pd.DataFrame:
+    """The quickest trace first, references last."""
+    times = rows["trace_ms_median"].where(rows["timed"])
+    keys = pd.DataFrame({"reference": rows["structure"].isin(REFERENCES), "time": times})
+    return rows.loc[keys.sort_values(["reference", "time"], kind="stable").index]
+
+
+def _bare_line(row: pd.Series, fields: tuple[Field, ...]) -> Line:
+    return Line(
+        row["contender"],
+        css_color(row["structure"]),
+        row["verdict"] or "no verdict",
+        fields,
+        cell_anchor(row),
+        row["structure"] in REFERENCES,
+    )
+
+
+def cell_anchor(row: Mapping[str, object]) -> str:
+    """The name by which a link opens one cell; templates/cells.js makes the same."""
+    words = f"{row['view']} {size_of(row)} {row['contender']}"
+    return "cell-" + re.sub(r"[^a-z0-9]+", "-", words.lower()).strip("-")
+
+
+def ratio_field(ratio: Ratio | None) -> Field:
+    """A ratio with its interval; one that is not paired says so."""
+    if ratio is None:
+        return MISSING
+    note = ""
+    if ratio.interval and ratio.low != ratio.high:  # as those of the fastest to itself
+        note = f"{number(ratio.low)} to {number(ratio.high)}"
+        note += "" if ratio.paired else ", not paired"
+    return Field(number(ratio.value), ratio.value, note)
+
+
+def _line(row: pd.Series, ratio: Ratio | None, scale: float) -> Line:
+    timed = bool(row["timed"])
+
+    def time(part: str, factor: float = 1.0) -> Field:
+        if not timed:
+            return MISSING
+        low, high = (
+            row.get(f"{part}_ms_ci_{end}", float("nan")) * factor for end in ("low", "high")
+        )
+        note = f"{number(low)} to {number(high)}" if pd.notna(low) and pd.notna(high) else ""
+        return _figure(row[f"{part}_ms_median"] * factor, note)
+
+    build, trace = time("build"), time("trace")
+    memory = row["memory_bytes"]
+    shares = [(field.value or 0.0) / scale for field in (build, trace)]
+    fields = (
+        time("trace", 1e6 / row["rays"] if row["rays"] > 0 else float("nan")),
+        trace,
+        build,
+        time("total"),
+        ratio_field(ratio),
+        _figure(row.get("trace_net_ms_median") if timed else None),
+        _figure(row.get("mrays_per_s") if timed else None),
+        MISSING if pd.isna(memory) else Field(size_in_words(memory), memory),
+    )
+    return replace(
+        _bare_line(row, fields),
+        build_share=min(shares[0], 1.0),
+        trace_share=max(min(shares[1], 1.0 - shares[0]), 0.0),
+        off_the_scale=sum(shares) > 1.0,
+    )
+
+
+def _figure(value: float | None, note: str = "") -> Field:
+    if value is None or pd.isna(value):
+        return MISSING
+    return Field(number(value), value, note)
+
+
+def _counter_title(name: str) -> str:
+    return name.removesuffix(COUNTER_SUFFIX).replace("_", " ")
+
+
+def _scale(totals: pd.Series) -> float:
+    near = totals[totals <= _FAR * totals.median()]
+    return near.max() if len(near) > 0 and near.max() > 0 else 1.0
+
+
+_DEEPEST = 4.0  # doublings at which the shade is full
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A field of the overview, shaded by how far it is from the reference."""
+
+    field: Field
+    verdict: str
+    side: str
+    depth: float
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Contenders down, views across."""
+
+    reference: str
+    views: tuple[str, ...]
+    lines: tuple[tuple[str, str, tuple[Mark, ...]], ...]
+    """Contender, its color, its marks in the order of the views."""
+
+
+def compare(reference: str, finest: Mapping[str, Compared]) -> Comparison:
+    """The overview of all views, each at its highest resolution."""
+    structures: dict[str, str] = {}
+    verdicts: dict[tuple[str, str], str] = {}
+    for view, shown in finest.items():
+        for row in shown.rows.itertuples():
+            structures.setdefault(row.contender, row.structure)
+            verdicts[row.contender, view] = row.verdict
+    structures = dict(sorted(structures.items(), key=lambda one: one[1] in REFERENCES))
+    lines = tuple(
+        (
+            contender,
+            css_color(structure),
+            tuple(
+                _mark(shown.ratios.get(contender), verdicts.get((contender, view)))
+                for view, shown in finest.items()
+            ),
+        )
+        for contender, structure in structures.items()
+    )
+    return Comparison(reference, tuple(finest), lines)
+
+
+def _mark(ratio: Ratio | None, verdict: str | None) -> Mark:
+    if verdict is None:
+        return Mark(MISSING, "", "", 0.0)
+    if ratio is None or ratio.value <= 0 or verdict == BASELINE:
+        return Mark(ratio_field(ratio), verdict, "", 0.0)
+    doublings = log2(ratio.value)
+    side = "slower" if doublings > 0 else "faster"
+    return Mark(ratio_field(ratio), verdict, side, min(abs(doublings) / _DEEPEST, 1.0))
