@@ -80,39 +80,62 @@ std::size_t corner_of(const scenes::Scene& scene, const scenes::Polygon& polygon
   return polygon.first_normal + static_cast<std::size_t>(corner);
 }
 
-glm::dvec3 unit_normal(const glm::vec3& normal) { return glm::normalize(glm::dvec3(normal)); }
+std::span<const scenes::Triangle> triangles_of(const scenes::Scene& scene,
+                                               const scenes::Polygon& polygon) {
+  return std::span(scene.triangles).subspan(polygon.first_triangle, polygon.triangle_count);
+}
 
-/// Interpolated between the corners' normals, which `unit_normal_at(corner)` returns; the geometric
+bool has_one_normal(const scenes::Scene& scene, const scenes::Polygon& polygon) {
+  const auto unit_normal = [&](const scenes::Triangle& triangle) {
+    return glm::normalize(TriangleCorners(scene, triangle).normal());
+  };
+  const auto triangles = triangles_of(scene, polygon);
+  const glm::dvec3 first = unit_normal(triangles.front());  // NaN, equal to nothing, without area
+  return std::ranges::all_of(
+      triangles, [&](const scenes::Triangle& triangle) { return unit_normal(triangle) == first; });
+}
+
+/// As `NormalTable`, for a few places.
+struct UntabledNormals {
+  glm::dvec3 at_corner(std::size_t normal) const {
+    return glm::normalize(glm::dvec3(scene->normals[normal]));
+  }
+  bool is_plane(std::size_t polygon) const { return scene->polygons[polygon].triangle_count == 1; }
+
+  const scenes::Scene* scene;
+};
+
+/// Interpolated between the corners' normals; the geometric
 /// one where they cancel out.
-template <class UnitNormalAt>
+template <class Table>
 glm::dvec3 smooth_normal(const scenes::Scene& scene, const scenes::Polygon& polygon,
-                         const Place& place, UnitNormalAt unit_normal_at) {
+                         const Place& place, const Table& table) {
   glm::dvec3 normal(0.0);
   for (std::size_t i = 0; i < 3; ++i) {
     normal +=
-        place.weights[i] * unit_normal_at(corner_of(scene, polygon, place.triangle->vertex[i]));
+        place.weights[i] * table.at_corner(corner_of(scene, polygon, place.triangle->vertex[i]));
   }
   return glm::length(normal) > 0.0 ? normal : place.normal;
 }
 
-template <class UnitNormalAt>
-SurfaceNormals polygon_normals(const scenes::Scene& scene, const scenes::Polygon& polygon,
-                               const glm::dvec3& point, UnitNormalAt unit_normal_at) {
-  const auto triangles =
-      std::span(scene.triangles).subspan(polygon.first_triangle, polygon.triangle_count);
+template <class Table>
+SurfaceNormals polygon_normals(const scenes::Scene& scene, std::size_t index,
+                               const glm::dvec3& point, const Table& table) {
+  const scenes::Polygon& polygon = scene.polygons[index];
+  const auto triangles = triangles_of(scene, polygon);
   const bool is_flat = polygon.first_normal == scenes::Polygon::kFlat;
-  if (is_flat && triangles.size() == 1) {
+  if (is_flat && table.is_plane(index)) {
     const glm::dvec3 normal = TriangleCorners(scene, triangles.front()).normal();
     return {normal, normal};
   }
   const Place place = place_in(scene, triangles, point);
   if (is_flat) return {place.normal, place.normal};
-  return {place.normal, smooth_normal(scene, polygon, place, unit_normal_at)};
+  return {place.normal, smooth_normal(scene, polygon, place, table)};
 }
 
-template <class UnitNormalAt>
+template <class Table>
 SurfaceNormals normals_at(const scenes::Scene& scene, scenes::PrimitiveId id,
-                          const glm::dvec3& point, UnitNormalAt unit_normal_at) {
+                          const glm::dvec3& point, const Table& table) {
   const scenes::Primitive& primitive = scene.primitives[id];
   glm::dvec3 normal;
   switch (primitive.kind) {
@@ -123,7 +146,7 @@ SurfaceNormals normals_at(const scenes::Scene& scene, scenes::PrimitiveId id,
       normal = cone_normal(scene.cones[primitive.index], point);
       break;
     case scenes::PrimitiveKind::kPolygon:
-      return polygon_normals(scene, scene.polygons[primitive.index], point, unit_normal_at);
+      return polygon_normals(scene, primitive.index, point, table);
   }
   return {normal, normal};
 }
@@ -139,30 +162,31 @@ glm::dvec3 facing(const glm::dvec3& normal, const glm::dvec3& direction) {
 
 }  // namespace
 
-SurfaceNormals surface_normals(const scenes::Scene& scene, scenes::PrimitiveId primitive,
-                               const glm::dvec3& point,
-                               std::span<const glm::dvec3> corner_normals) {
-  return normals_at(scene, primitive, point,
-                    [&](std::size_t corner) { return corner_normals[corner]; });
+NormalTable::NormalTable(const scenes::Scene& scene)
+    : corners_(scene.normals.size()), is_plane_(scene.polygons.size()) {
+  const UntabledNormals normals{&scene};
+  for (std::size_t i = 0; i < corners_.size(); ++i) corners_[i] = normals.at_corner(i);
+  for (std::size_t i = 0; i < is_plane_.size(); ++i) {
+    is_plane_[i] = has_one_normal(scene, scene.polygons[i]);
+  }
 }
 
-std::vector<glm::dvec3> unit_normals(const scenes::Scene& scene) {
-  std::vector<glm::dvec3> normals(scene.normals.size());
-  std::ranges::transform(scene.normals, normals.begin(), unit_normal);
-  return normals;
+SurfaceNormals surface_normals(const scenes::Scene& scene, scenes::PrimitiveId primitive,
+                               const glm::dvec3& point, const NormalTable& table) {
+  return normals_at(scene, primitive, point, table);
 }
 
 glm::dvec3 geometric_normal(const scenes::Scene& scene, const accel::Ray& ray,
                             const accel::Hit& hit) {
-  const auto unused = [](std::size_t) { return glm::dvec3(0.0); };
-  return facing(normals_at(scene, hit.primitive, hit_point(ray, hit), unused).geometric,
+  const UntabledNormals normals{&scene};
+  return facing(normals_at(scene, hit.primitive, hit_point(ray, hit), normals).geometric,
                 glm::dvec3(ray.direction));
 }
 
 glm::dvec3 shading_normal(const scenes::Scene& scene, const accel::Ray& ray,
                           const accel::Hit& hit) {
-  const auto corner = [&](std::size_t at) { return unit_normal(scene.normals[at]); };
-  return facing(normals_at(scene, hit.primitive, hit_point(ray, hit), corner).shading,
+  const UntabledNormals normals{&scene};
+  return facing(normals_at(scene, hit.primitive, hit_point(ray, hit), normals).shading,
                 glm::dvec3(ray.direction));
 }
 

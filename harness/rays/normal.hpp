@@ -26,12 +26,24 @@ struct SurfaceNormals {
   glm::dvec3 shading;
 };
 
-/// At a point of a primitive. `corner_normals` are `unit_normals` of the scene.
-SurfaceNormals surface_normals(const scenes::Scene& scene, scenes::PrimitiveId primitive,
-                               const glm::dvec3& point, std::span<const glm::dvec3> corner_normals);
+/// What normals of many places need of a scene, computed once.
+class NormalTable {
+ public:
+  explicit NormalTable(const scenes::Scene& scene);
 
-/// The scene's normals at the corners of smooth polygons: a file's may have any length.
-std::vector<glm::dvec3> unit_normals(const scenes::Scene& scene);
+  /// The unit normal at a corner of a smooth polygon: a file's may have any length.
+  const glm::dvec3& at_corner(std::size_t normal) const { return corners_[normal]; }
+  /// Have all triangles of a polygon the same unit normal, to the last bit?
+  bool is_plane(std::size_t polygon) const { return is_plane_[polygon]; }
+
+ private:
+  std::vector<glm::dvec3> corners_;
+  std::vector<bool> is_plane_;
+};
+
+/// At a point of a primitive; the table is the scene's.
+SurfaceNormals surface_normals(const scenes::Scene& scene, scenes::PrimitiveId primitive,
+                               const glm::dvec3& point, const NormalTable& table);
 
 /// How far from a surface rays begin: 64 x 2^-24 x (largest |coordinate| of the scene + |point|),
 /// four times the length within which the differ cannot distinguish points.

@@ -5,7 +5,6 @@
 
 #include <glm/common.hpp>
 
-#include "harness/rays/normal.hpp"
 #include "harness/render/picture/color.hpp"
 #include "harness/render/shading.hpp"
 
@@ -38,7 +37,7 @@ ShadedScene::ShadedScene(const scenes::Scene& scene)
     : scene_(&scene),
       textures_(scene),
       light_colors_(colors_of_lights(scene)),
-      corner_normals_(rays::unit_normals(scene)),
+      normals_(scene),
       background_(background_color(scene)) {
   for (const scenes::Surface& surface : scene.surfaces) {
     auto& known = matte_.emplace_back();

@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "harness/rays/normal.hpp"
 #include "harness/render/texture.hpp"
 #include "scenes/scene.hpp"
 
@@ -21,8 +22,7 @@ class ShadedScene {
   /// Linear light. A light without a color of its own (white) has 1 / sqrt(lights).
   const std::vector<glm::dvec3>& light_colors() const { return light_colors_; }
   const glm::dvec3& background() const { return background_; }
-  /// `rays::unit_normals`.
-  const std::vector<glm::dvec3>& corner_normals() const { return corner_normals_; }
+  const rays::NormalTable& normals() const { return normals_; }
   /// What a surface's diffuse factor leaves of its color at a point of the scene, in linear light.
   glm::dvec3 matte_at(std::uint32_t surface, const glm::dvec3& point) const;
 
@@ -30,7 +30,7 @@ class ShadedScene {
   const scenes::Scene* scene_;
   TextureSpace textures_;
   std::vector<glm::dvec3> light_colors_;
-  std::vector<glm::dvec3> corner_normals_;
+  rays::NormalTable normals_;
   std::vector<std::optional<glm::dvec3>> matte_;  ///< by surface; nothing where it has a texture
   glm::dvec3 background_;
 };

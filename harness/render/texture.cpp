@@ -14,11 +14,13 @@ namespace {
 
 using Lattice = glm::vec<3, std::int64_t>;
 
-/// Mixes the three coordinates (multiplications and shifts as in MurmurHash3's finalizer).
-std::uint64_t hash(const Lattice& at) {
-  std::uint64_t bits = static_cast<std::uint64_t>(at.x) * 0x9E3779B97F4A7C15ULL +
-                       static_cast<std::uint64_t>(at.y) * 0xC2B2AE3D27D4EB4FULL +
-                       static_cast<std::uint64_t>(at.z) * 0x165667B19E3779F9ULL;
+constexpr std::uint64_t kHashX = 0x9E3779B97F4A7C15ULL;
+constexpr std::uint64_t kHashY = 0xC2B2AE3D27D4EB4FULL;
+constexpr std::uint64_t kHashZ = 0x165667B19E3779F9ULL;
+
+/// Mixes three coordinates, which were multiplied before (multiplications and shifts as in
+/// MurmurHash3's finalizer).
+std::uint64_t mixed(std::uint64_t bits) {
   bits ^= bits >> 33U;
   bits *= 0xFF51AFD7ED558CCDULL;
   bits ^= bits >> 33U;
@@ -27,22 +29,18 @@ std::uint64_t hash(const Lattice& at) {
 }
 
 /// Toward the middles of a cube's edges, from its center.
-double gradient_at(const Lattice& corner, const glm::dvec3& offset) {
-  static constexpr std::array<std::array<int, 3>, 12> kDirections{{{1, 1, 0},
-                                                                   {-1, 1, 0},
-                                                                   {1, -1, 0},
-                                                                   {-1, -1, 0},
-                                                                   {1, 0, 1},
-                                                                   {-1, 0, 1},
-                                                                   {1, 0, -1},
-                                                                   {-1, 0, -1},
-                                                                   {0, 1, 1},
-                                                                   {0, -1, 1},
-                                                                   {0, 1, -1},
-                                                                   {0, -1, -1}}};
-  const auto& to = kDirections[hash(corner) % kDirections.size()];
-  return to[0] * offset.x + to[1] * offset.y + to[2] * offset.z;
-}
+constexpr std::array<glm::dvec3, 12> kGradients{{{1, 1, 0},
+                                                 {-1, 1, 0},
+                                                 {1, -1, 0},
+                                                 {-1, -1, 0},
+                                                 {1, 0, 1},
+                                                 {-1, 0, 1},
+                                                 {1, 0, -1},
+                                                 {-1, 0, -1},
+                                                 {0, 1, 1},
+                                                 {0, -1, 1},
+                                                 {0, 1, -1},
+                                                 {0, -1, -1}}};
 
 /// 6 x^5 - 15 x^4 + 10 x^3: no step in the second derivative.
 double faded(double x) { return x * x * x * (x * (x * 6.0 - 15.0) + 10.0); }
@@ -110,14 +108,19 @@ double gradient_noise(const glm::dvec3& point) {
   const glm::dvec3 floor = glm::floor(point);
   const Lattice cell(floor);
   const glm::dvec3 inside = point - floor;
+  const std::array<glm::dvec3, 2> offset{inside, inside - 1.0};  // from the lower and upper corners
   const glm::dvec3 part(faded(inside.x), faded(inside.y), faded(inside.z));
+  const std::array<glm::dvec3, 2> weight{1.0 - part, part};
+  const std::uint64_t x = static_cast<std::uint64_t>(cell.x) * kHashX;
+  const std::uint64_t y = static_cast<std::uint64_t>(cell.y) * kHashY;
+  const std::uint64_t z = static_cast<std::uint64_t>(cell.z) * kHashZ;
   double sum = 0.0;
-  for (int corner = 0; corner < 8; ++corner) {
-    const Lattice step(corner % 2, corner / 2 % 2, corner / 4);
-    const double weight = (step.x == 1 ? part.x : 1.0 - part.x) *
-                          (step.y == 1 ? part.y : 1.0 - part.y) *
-                          (step.z == 1 ? part.z : 1.0 - part.z);
-    sum += weight * gradient_at(cell + step, inside - glm::dvec3(step));
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    const unsigned i = corner % 2, j = corner / 2 % 2, k = corner / 4;
+    const std::uint64_t hash = mixed(x + i * kHashX + y + j * kHashY + z + k * kHashZ);
+    const glm::dvec3& to = kGradients[hash % kGradients.size()];
+    sum += weight[i].x * weight[j].y * weight[k].z *
+           (to.x * offset[i].x + to.y * offset[j].y + to.z * offset[k].z);
   }
   return sum;
 }

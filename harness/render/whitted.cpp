@@ -160,7 +160,7 @@ Whitted::Found Whitted::find_places(const Part& part) const {
     const dvec3 direction(ray.direction);
     const dvec3 point = dvec3(ray.origin) + double{hit.t} * direction;
     const rays::SurfaceNormals normals =
-        rays::surface_normals(*scene_, hit.primitive, point, shaded_->corner_normals());
+        rays::surface_normals(*scene_, hit.primitive, point, shaded_->normals());
     places.point.set(place, point);
     places.incoming.set(place, direction);
     places.geometric.set(place, normals.geometric);
