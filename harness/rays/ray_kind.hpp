@@ -25,7 +25,7 @@ enum class RayKind {
 enum class Query {
   kClosestHit,
   kAnyHit,  ///< is there a hit at all?
-  kPicture  ///< both, one ray at a time, as a whole picture needs them
+  kPicture  ///< both, in batches, as a whole picture needs them
 };
 std::string_view to_string(Query query);  // "closest", "any", "picture"
 
