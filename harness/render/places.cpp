@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "accel/core/instruction_set.hpp"
 #include "accel/core/pick_target.hpp"
 
 // Highway includes this file once more for each instruction set.
@@ -69,7 +68,7 @@ inline Vector facing(const Vector& normal, const Vector& direction, const Vector
   return if_then_else(is_direction, turned, opposite(incoming));
 }
 
-void complete_places(Places& places, double extent) {
+void complete(Places& places, double extent) {
   for (std::size_t i = 0; i < places.size; i += hn::Lanes(Tag())) {
     const Vector point = load(places.point, i);
     const Vector direction = load(places.incoming, i);
@@ -84,7 +83,7 @@ void complete_places(Places& places, double extent) {
   }
 }
 
-void find_light_angles(const Places& places, const glm::dvec3& light, LightAngles& angles) {
+void find_angles(const Places& places, const glm::dvec3& light, LightAngles& angles) {
   const Tag tag;
   const Vector position{set(light.x), set(light.y), set(light.z)};
   for (std::size_t i = 0; i < places.size; i += hn::Lanes(tag)) {
@@ -103,35 +102,21 @@ void find_light_angles(const Places& places, const glm::dvec3& light, LightAngle
   }
 }
 
+const PlaceKernels& kernels_of_places() {
+  static constexpr PlaceKernels kKernels{complete, find_angles};
+  return kKernels;
+}
+
 }  // namespace beambench::render::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace beambench::render {
 
-HWY_EXPORT(complete_places);
-HWY_EXPORT(find_light_angles);
+HWY_EXPORT(kernels_of_places);
 
-namespace {
-
-/// The entry for the best that this machine has. Asking it takes microseconds: once for each table.
-template <class Table>
-auto best_of(const Table& table) {
-  return accel::pick_target(table, accel::targets_of("best"));
-}
-
-}  // namespace
-
-void complete(Places& places, double extent) {
-  static const auto kernel = best_of(HWY_DISPATCH_TABLE(complete_places));
-  kernel(places, extent);
-}
-
-LightAngles light_angles(const Places& places, const glm::dvec3& light) {
-  static const auto kernel = best_of(HWY_DISPATCH_TABLE(find_light_angles));
-  LightAngles angles(places.size);
-  kernel(places, light, angles);
-  return angles;
+const PlaceKernels& place_kernels(std::int64_t targets) {
+  return accel::pick_target(HWY_DISPATCH_TABLE(kernels_of_places), targets)();
 }
 
 }  // namespace beambench::render

@@ -4,6 +4,7 @@
 // glm::dvec3, so that the results are the same bits on every instruction set.
 
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -60,11 +61,6 @@ struct Places {
   Vectors shading;
 };
 
-/// From points, directions of any length and normals of any length on either side to all that
-/// `Places` describes; a normal without a direction is turned against the ray. `extent` is the
-/// largest coordinate of the scene.
-void complete(Places& places, double extent);
-
 /// How a light shines on each place, if nothing is between.
 struct LightAngles {
   explicit LightAngles(std::size_t count) : cosine(count), gleam(count), is_before(count) {}
@@ -74,6 +70,17 @@ struct LightAngles {
   Doubles is_before;  ///< 1 where the light is before the surface, by both normals; 0 elsewhere
 };
 
-LightAngles light_angles(const Places& places, const glm::dvec3& light);
+/// The computations for one instruction set.
+struct PlaceKernels {
+  /// From points, directions of any length and normals of any length on either side to all that
+  /// `Places` describes; a normal without a direction is turned against the ray. `extent` is the
+  /// largest coordinate of the scene.
+  void (*complete)(Places& places, double extent);
+  void (*find_angles)(const Places& places, const glm::dvec3& light, LightAngles& angles);
+};
+
+/// Those for the best of Highway's `targets` that this machine has. Asking for them takes
+/// microseconds.
+const PlaceKernels& place_kernels(std::int64_t targets);
 
 }  // namespace beambench::render

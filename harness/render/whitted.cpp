@@ -6,9 +6,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "accel/core/instruction_set.hpp"
 #include "accel/core/primary_rays.hpp"
 #include "harness/rays/normal.hpp"
-#include "harness/render/places.hpp"
 #include "harness/render/shading.hpp"
 
 namespace beambench::render {
@@ -106,7 +106,8 @@ Whitted::Whitted(std::shared_ptr<const ShadedScene> scene, const Answerers& answ
       answerers_(answerers),
       check_(std::move(check)),
       options_(options),
-      shadows_(*scene_, *answerers.shadow, options, check_) {}
+      shadows_(*scene_, *answerers.shadow, options, check_),
+      kernels_(&place_kernels(accel::targets_of("best"))) {}
 
 Whitted::Progress Whitted::begin() const {
   return {ShadowCache(scene_->lights.size(), options_.max_depth), {}};
@@ -172,7 +173,7 @@ Whitted::Found Whitted::find_places(const Part& part) const {
     found.path[place] = part.paths[i];
     ++place;
   }
-  complete(places, scene_->bounds.largest_coordinate());
+  kernels_->complete(places, scene_->bounds.largest_coordinate());
   return found;
 }
 
@@ -194,7 +195,8 @@ std::vector<dvec3> Whitted::lit(const Found& found, int depth, Progress& progres
 void Whitted::add_light(std::size_t light, const Found& found, std::span<const dvec3> matte,
                         int depth, std::span<dvec3> sums, Progress& progress) const {
   const dvec3 position(scene_->lights[light].position);
-  const LightAngles angles = light_angles(found.places, position);
+  LightAngles angles(found.size());
+  kernels_->find_angles(found.places, position, angles);
   std::vector<accel::Ray> rays;
   std::vector<std::size_t> places;
   rays.reserve(found.size());

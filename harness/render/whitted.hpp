@@ -11,6 +11,7 @@
 
 #include "accel/core/accelerator.hpp"
 #include "harness/rays/hit_check.hpp"
+#include "harness/render/places.hpp"
 #include "harness/render/ray_census.hpp"
 #include "harness/render/shaded_scene.hpp"
 #include "harness/render/shadows.hpp"
@@ -93,6 +94,7 @@ class Whitted {
   rays::HitCheck check_;
   WhittedOptions options_;
   Shadows shadows_;
+  const PlaceKernels* kernels_;
 };
 
 }  // namespace beambench::render

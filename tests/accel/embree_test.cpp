@@ -216,6 +216,42 @@ TEST_P(EmbreeModes, TraceTheVeryRaysOfTheImageOnEveryInstructionSet) {
   }
 }
 
+// Packets and streams may be cut off anywhere, and rays end where they end.
+TEST_P(EmbreeModes, TraceListsOfAnyLengthOnEveryInstructionSet) {
+  Random random(11);
+  const scenes::Scene scene = user_primitives(random);
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    const testing::OnlyTarget only(target);
+    const auto structure = embree(mode(), scene);
+    std::size_t hits = 0;
+    for (const std::size_t count : {0U, 1U, 3U, 4U, 15U, 16U, 17U, 255U, 256U, 300U, 1000U}) {
+      std::vector<Ray> rays;
+      for (std::size_t i = 0; i < count; ++i) {
+        rays.push_back(random_ray(scene, random));
+        if (i % 3 == 0) rays.back().t_max = static_cast<float>(random.uniform(0.0, 2.0));
+        if (i % 5 == 0) rays.back().t_min = static_cast<float>(random.uniform(0.0, 0.5));
+      }
+      HitBuffer closest(static_cast<int>(count), 1, 1);
+      std::fill_n(closest.t(), count, -1.0F);
+      std::fill_n(closest.primitive(), count, 7U);
+      std::vector<std::uint8_t> any(count, 255);
+      structure->closest_hits({rays}, closest, nullptr);
+      structure->any_hits({rays}, any, nullptr);
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto expected = structure->closest_hit(rays[i], nullptr);
+        ASSERT_EQ(closest.get(i), expected) << i << " of " << count;
+        if (!expected) {
+          ASSERT_EQ(closest.t()[i], kInfinity) << i << " of " << count;
+        }
+        ASSERT_EQ(any[i], expected ? 1 : 0) << i << " of " << count;
+        hits += expected ? 1U : 0U;
+      }
+    }
+    EXPECT_GT(hits, 50U);
+  }
+}
+
 TEST_P(EmbreeModes, MissEverythingInAnEmptyScene) {
   const scenes::Scene scene = scenes::SceneBuilder("empty").build();
   const auto structure = embree(mode(), scene);
@@ -344,6 +380,39 @@ TEST(Embree, NullWithSimdRaysWritesAMissForEveryRayOfAnImage) {
       ASSERT_FALSE(shared.get(i)) << i;
     }
   }
+}
+
+TEST(Embree, NullWithSimdRaysWritesAMissForEveryRayOfAList) {
+  const scenes::Scene scene = scenes::load_scene("tetra:n=1");
+  const auto null = registry().choose({"null", {{"rays", "simd"}}}).build(scene);
+  for (const std::size_t count : {1U, 16U, 37U}) {
+    const std::vector<Ray> rays(count, ray({0, 0, 0}, {0, 0, 1}));
+    HitBuffer closest(static_cast<int>(count), 1, 1);
+    std::fill_n(closest.primitive(), count, 0U);
+    std::vector<std::uint8_t> any(count, 255);
+    null->closest_hits({rays}, closest, nullptr);
+    null->any_hits({rays}, any, nullptr);
+    EXPECT_EQ(closest, HitBuffer(static_cast<int>(count), 1, 1));
+    EXPECT_EQ(any, std::vector<std::uint8_t>(count, 0));
+  }
+}
+
+TEST(Embree, HitsTheSameWhateverIsFlaggedAsCoherent) {
+  const scenes::Scene scene = scenes::load_scene("tetra:n=3");
+  const PrimaryRays image(scene.cameras.front(), 40, 30, 1);
+  std::vector<Ray> rays;
+  image.for_each(0, 30, [&](std::size_t, const Ray& made) { rays.push_back(made); });
+  HitBuffer expected(1200, 1, 1);
+  embree("mode=single", scene)->closest_hits({rays}, expected, nullptr);
+  for (const char* coherent : {"auto", "true", "false"}) {
+    const auto structure = embree(fmt::format("mode=packet16,coherent={}", coherent), scene);
+    HitBuffer hits(1200, 1, 1);
+    structure->closest_hits({rays}, hits, nullptr);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      ASSERT_EQ(hits.get(i).has_value(), expected.get(i).has_value()) << coherent << " " << i;
+    }
+  }
+  EXPECT_THROW(embree("coherent=perhaps", scene), InputError);
 }
 
 TEST(Embree, RefusesAnInstructionSetThatTheMachineLacks) {
