@@ -132,7 +132,7 @@ def _add_of_runs(add: Callable[..., Callable[..., argparse.Action]]) -> None:
         "--reference",
         metavar="CONTENDER",
         help="whose times are 1 in the ratios, as the plots call it; if not given, the contender "
-        "with correct hits in the most views, Embree rather than others",
+        "with correct hits in the most views, Embree's fastest rather than others",
     )
     repetitions(
         *("-o", "--output"),

@@ -9,6 +9,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from beambench_report.__main__ import main
 from beambench_report.base.records import read_run
@@ -83,7 +84,105 @@ def test_the_fastest_is_named_with_its_margin(run_folder: Path) -> None:
     assert f"Fastest: {best.fastest.contender} , " in text or "Tied for the fastest" in text
     table = text[text.index("pays off from") :]
     assert best.fastest.contender in table[:300]
+    assert "430 primitives 1280x1024 embree 78.6 ms, 16.7 Mrays/s" in table[:300]
     assert "Over all 2 views of primary rays" in text
+
+
+def test_a_build_pays_off_over_a_contender_that_is_named(run_folder: Path) -> None:
+    rows = [{**row, "trace_ms_ci_low": 0.99 * row["trace_ms_median"]} for row in synthetic_rows()]
+    rows = [{**row, "trace_ms_ci_high": 1.01 * row["trace_ms_median"]} for row in rows]
+    for row in rows:
+        if row["structure"] == "embree":
+            row["build_ms_median"] = 2.5
+    text = page_of(write_run(run_folder, rows)).text
+    # 1 ms more than samet max_level=5 to build, 160 ns less for a ray.
+    assert "6.25 k rays (samet max_level=5)" in text
+    assert "Its build pays off from 6.25 k rays (samet max_level=5) on." in text
+    rows = [{**row, "build_ms_median": 0.0} for row in rows]
+    text = page_of(write_run(run_folder, rows)).text
+    assert "the first ray" in text
+    assert "the first ray (" not in text
+
+
+def test_an_embree_that_is_the_next_has_its_figures_once(tmp_path: Path) -> None:
+    rows = [
+        {**row, "trace_ms_median": 1e-5 * row["rays"]} if "=5" in row["parameters"] else row
+        for row in synthetic_rows()
+    ]
+    for row in rows:
+        row["trace_ms_ci_low"] = 0.99 * row["trace_ms_median"]
+        row["trace_ms_ci_high"] = 1.01 * row["trace_ms_median"]
+    text = page_of(write_run(tmp_path, rows)).text
+    assert re.search(r"embree 6\.00 \S+ to \S+ not paired the same", text)
+    assert "6 times as fast as the next (embree, Embree's best)" in text
+    assert "Embree's best (embree) takes" not in text
+
+
+def test_ratios_of_rounds_are_said_to_differ_from_those_of_medians(
+    run_folder: Path, full_run: Path
+) -> None:
+    words = "it can differ from the ratio of the medians in results.csv"
+    assert words not in page_of(run_folder).text
+    assert words in page_of(full_run).text
+
+
+def test_what_was_traced_stands_at_the_head(tmp_path: Path) -> None:
+    text = page_of(write_run(tmp_path, synthetic_rows())).text
+    line = "Primary rays · 320x200, 640x480, 1280x1024 · 1 sample per pixel · 1 thread"
+    assert text.index(line) < text.index("cells are correct")
+    rows = synthetic_rows()
+    more = [
+        {**row, "samples": 4, "ray_kind": "shadow", "width": 8 + place, "threads": 2}
+        for place, row in enumerate(rows)
+    ]
+    text = page_of(write_run(tmp_path, rows + more)).text
+    assert "Primary and shadow rays · 33 resolutions from " in text
+    assert "1 and 4 samples per pixel · 1 and 2 threads" in text
+
+
+def test_references_are_counted_apart_and_explained(tmp_path: Path) -> None:
+    paths = {"samet": "image-own", "embree": "image-simd"}
+    rows = [
+        {**row, "query_path": paths.get(row["structure"], "image-single")}
+        for row in synthetic_rows()
+    ]
+    text = page_of(write_run(tmp_path, rows)).text
+    assert "3 contenders 2 references (exhaustive, null)" in text
+    assert (
+        "References do not compete: null makes every ray one by one and finds nothing; "
+        "exhaustive tests every primitive with every ray. The time of null is no lower limit for "
+        "samet, whose own samples take the place of these rays (query path image-own), or for "
+        "embree, whose rays are made in packets by SIMD."
+    ) in text
+    alike = [{**row, "query_path": "image-single"} for row in rows]
+    assert "no lower limit" not in page_of(write_run(tmp_path, alike)).text
+    without = [row for row in alike if row["structure"] not in ("null", "exhaustive")]
+    text = page_of(write_run(tmp_path, without)).text
+    assert "References do not compete" not in text
+    assert "2 references" not in text
+
+
+def test_the_kinds_of_primitives_are_told_where_embree_tells_them(tmp_path: Path) -> None:
+    rows = [
+        {**row, "library_geometry": "triangles+points" if row["structure"] == "embree" else ""}
+        for row in synthetic_rows()
+    ]
+    (tmp_path / "pictures").mkdir()
+    Image.new("RGB", (8, 6), "teal").save(tmp_path / "pictures/escena1.png")
+    reader = page_of(write_run(tmp_path, rows))
+    assert "430 primitives: polygons and spheres · picture" in reader.text
+    assert "#pictures-view-tetra-n-6" not in reader.addresses
+    assert "#pictures-view-escena1" in reader.addresses
+
+
+def test_words_of_this_project_lead_to_what_they_mean(tmp_path: Path) -> None:
+    rows = synthetic_rows()
+    for row in rows:
+        write_cell(tmp_path, row, dict.fromkeys(range(7), 1.0))
+    reader = page_of(write_run(tmp_path, rows))
+    for word in ("cell", "contender", "oracle", "reference", "round", "view"):
+        assert f"#term-{word}" in reader.addresses
+        assert f"term-{word}" in reader.ids
 
 
 def test_references_never_win_and_stand_last(run_folder: Path) -> None:
@@ -323,7 +422,7 @@ def test_a_run_that_was_cut_off_is_compared_where_two_contenders_were_measured(
     text = page_of(tmp_path).text
     assert "Scenes without any cell: tetra:n=6." in text
     assert "Fastest: embree" in text
-    assert "escena1 320x200 embree" in text
+    assert "escena1 430 primitives 320x200 embree" in text
     assert "no contender has a time" not in text
     assert "1 other resolution" in text
     assert "contender not measured" not in text
@@ -351,9 +450,14 @@ def test_names_from_a_record_cannot_become_part_of_the_page(tmp_path: Path) -> N
 
 
 def test_the_reference_can_be_chosen(run_folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert "multiple of that of embree" in page_of(run_folder).text
+    text = page_of(run_folder).text
+    assert "Comparison with embree, build included" in text
+    assert (
+        "multiple of that of embree (Embree's fastest of those with correct hits in the most views)"
+    ) in text
     text = page_of(run_folder, "--reference", "samet max_level=5").text
-    assert "multiple of that of samet max_level=5" in text
+    assert "multiple of that of samet max_level=5 (as --reference wants it)" in text
+    assert "total times samet max_level=5" in text
     assert main(["page", str(run_folder), "--reference", "smet"]) == 2
     assert "no contender 'smet'" in capsys.readouterr().err
 
@@ -374,6 +478,20 @@ def test_a_structure_names_its_only_contender_as_the_reference(
     (tmp_path / "one").mkdir()
     folder = write_run(tmp_path / "one", only)
     assert "multiple of that of samet" in page_of(folder, "--reference", "samet").text
+
+
+def test_the_trace_of_which_the_harness_has_the_largest_part_is_named(run_folder: Path) -> None:
+    cell = "escena1/default/640x480/1/primary/samet:max_level=5,max_objects=0"
+    name = "samet max_level=5 in escena1 at 640x480"
+    write_manifest(run_folder, harness_overhead={"part": 3.71, "cell": cell})
+    words = f"371% of the time of a trace is what null takes, at most: {name}"
+    assert words in page_of(run_folder).text  # the query path is not in the record
+    write_run(run_folder, [{**row, "query_path": "image-single"} for row in synthetic_rows()])
+    write_manifest(run_folder, harness_overhead={"part": 0.071, "cell": cell})
+    words = "7.1% of a trace is the harness's, at most: {}"
+    assert words.format(name) in page_of(run_folder).text
+    write_manifest(run_folder, harness_overhead={"part": 0.071, "cell": "of/another/run"})
+    assert words.format("of/another/run") in page_of(run_folder).text
 
 
 def test_the_harness_s_own_part_is_told(run_folder: Path) -> None:
@@ -414,5 +532,5 @@ def test_200_000_rows_are_read_into_the_page_in_10_seconds(tmp_path: Path) -> No
     begin = time.process_time()  # what others do on this machine does not count
     page = render(read_run(tmp_path))
     assert time.process_time() - begin < 10
-    assert "200,000 cells are correct" in page
+    assert re.search(r"all 200,000 <a [^>]*>cells</a> are correct", page)
     assert len(page) < 100e6

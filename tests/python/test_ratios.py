@@ -85,6 +85,19 @@ def test_embree_is_the_reference_where_it_was_right(run_folder: Path) -> None:
     assert choose_reference(read_run(run_folder)) == "embree"
 
 
+def test_of_embree_s_modes_the_fastest_is_the_reference(tmp_path: Path) -> None:
+    rows = synthetic_rows()
+    embree = [row for row in rows if row["structure"] == "embree"]
+    packets = [
+        {**row, "parameters": "mode=packet16", "trace_ms_median": 0.5 * row["trace_ms_median"]}
+        for row in embree
+    ]
+    run = read_run(write_run(tmp_path, rows + packets))
+    assert choose_reference(run) == "embree mode=packet16"
+    run = read_run(write_run(tmp_path, rows + packets[:3]))  # of one view
+    assert choose_reference(run) == "embree mode=single"
+
+
 def test_the_reference_is_whoever_was_right_in_the_most_views(tmp_path: Path) -> None:
     rows = [
         without_times(row, "mismatch")

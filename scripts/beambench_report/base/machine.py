@@ -34,7 +34,9 @@ class Manifest:
     cut_off: bool = False
     machine: str = ""
     overhead: float | None = None
-    """What part of the fastest contender's trace time the harness itself takes, at most."""
+    """What part of a contender's trace time the harness itself takes, at most."""
+    overhead_cell: str = ""
+    """The cell of that trace: `tetra:n=6/default/1280x1024/1/primary/sah-bvh:max_leaf=8`."""
     noise: float | None = None
     """How much longer than usual the slowest twentieth of equal work took before the run."""
     load: float | None = None
@@ -60,6 +62,7 @@ def read_manifest(directory: Path) -> Manifest | None:
         cut_off="finished_utc" in source and not finished,
         machine=_dictionary(source, "machine").get("cpu", ""),
         overhead=_dictionary(source, "harness_overhead").get("part"),
+        overhead_cell=_dictionary(source, "harness_overhead").get("cell", ""),
         noise=_dictionary(source, "measurement").get("noise"),
         load=_dictionary(source, "machine").get("load_average"),
         scenes=[one["name"] for one in source.get("scenes", []) if "name" in one],

@@ -24,11 +24,25 @@ from beambench_report.run.all_cells import pack
 from beambench_report.run.html import environment
 from beambench_report.run.images import Image, figures_of, read_pictures
 from beambench_report.run.inline_svg import dark_variables
+from beambench_report.run.introduction import (
+    about_references,
+    kinds_of_primitives,
+    tiles,
+    traced,
+)
 from beambench_report.run.measured import Measured
 from beambench_report.run.outcome import doubts_about_times, summarize_verdicts
 from beambench_report.run.plots import KINDS, Kind
-from beambench_report.run.reference import Compared, choose_reference, compared
-from beambench_report.run.standings import Standings, in_words, overall, standings, ties_are_known
+from beambench_report.run.reference import Compared, choose_reference, compared, why_reference
+from beambench_report.run.standings import (
+    Standings,
+    in_words,
+    overall,
+    ratios_are_paired,
+    standings,
+    ties_are_known,
+    without_times,
+)
 from beambench_report.run.tables import Table, compare, ratio_field, view_table, work_table
 
 
@@ -39,6 +53,8 @@ class View:
     title: str
     anchor: str
     primitives: int
+    kinds_of_primitives: str
+    """Empty where the record does not tell."""
     pictures: tuple[Image, ...]
     plots: tuple[Image, ...]
     tables: tuple[Table, ...]
@@ -52,6 +68,7 @@ def make_views(
     counters: list[str],
     pictures: Sequence[Image],
     plots: Sequence[Image],
+    reference: str | None,
 ) -> list[View]:
     """A section for each view; `resolutions` has its rows, the finest first."""
     stems = file_stems(resolutions)
@@ -63,11 +80,16 @@ def make_views(
                 title,
                 f"view-{stems[title]}",
                 0 if pd.isna(first["primitives"]) else int(first["primitives"]),
+                kinds_of_primitives(pd.concat([group.rows for group in groups])),
                 tuple(image for image in pictures if image.subject == first["scene"]),
                 tuple(image for image in plots if image.subject == title),
                 tuple(
                     view_table(
-                        _caption(group.rows), group.rows, group.ratios, every[title].left_out
+                        _caption(group.rows),
+                        group.rows,
+                        group.ratios,
+                        reference,
+                        every[title].left_out,
                     )
                     for group in groups
                 ),
@@ -129,9 +151,16 @@ def render(
             dark=dark_variables(),
             interval=ratio_field,
             in_words=in_words,
-            tiles=_tiles(run, manifest),
+            traced=traced(run.rows),
+            tiles=tiles(run, manifest),
+            about_references=about_references(run.rows),
+            without_times=without_times(every),
+            ratios_are_paired=ratios_are_paired(every),
             comparison=compare(reference, finest) if reference else None,
-            views=make_views(resolutions, by_view, run.counters, pictures, figures.images),
+            why_reference=why_reference(reference, wanted_reference) if reference else "",
+            views=make_views(
+                resolutions, by_view, run.counters, pictures, figures.images, reference
+            ),
             plots=[plot for plot in figures.images if not plot.subject],
             undrawn=figures.undrawn,
             draw_command=command(run, "plots"),
@@ -139,16 +168,3 @@ def render(
             dictionary=dictionary(),
         )
     )
-
-
-def _tiles(run: Run, manifest: Manifest) -> list[tuple[str, str]]:
-    """A few figures that say how large the run was and how well it could measure."""
-    tiles = [
-        (f"{len(run.views):,}", "views" if len(run.views) != 1 else "view"),
-        (f"{run.rows['contender'].nunique():,}", "contenders"),
-    ]
-    if manifest.overhead is not None:
-        tiles.append(
-            (f"{100 * manifest.overhead:.2g}%", "of the fastest trace is the harness's, at most")
-        )
-    return tiles

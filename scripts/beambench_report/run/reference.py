@@ -2,7 +2,9 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import inf
 
+import numpy as np
 import pandas as pd
 
 from beambench_report.base.cell_files import CellFile, Identity, ratio_of
@@ -20,18 +22,39 @@ class Compared:
 
 
 def choose_reference(run: Run, wanted: str | None = None) -> str | None:
-    """The contender that others are compared with: correct in the most views, of equals Embree.
+    """The contender that others are compared with: correct in the most views.
 
-    None where no contender has correct hits. Raises Problem for a name the run does not have.
+    Of equals Embree's, and of these the one that traces a ray in the least time, by the geometric
+    mean; without Embree the first. None where no contender has correct hits. Raises Problem for a
+    name the run does not have.
     """
     right = run.rows[run.rows["timed"] & (run.rows["verdict"] == OK)]
     contenders = list(dict.fromkeys(right["contender"]))
     if wanted is not None:
         return _chosen(wanted, contenders)
     views = right.groupby("contender")["view"].nunique()
-    return max(
-        contenders, key=lambda name: (views[name], name.split()[0] == "embree"), default=None
+    most = [name for name in contenders if views[name] == views.max()]
+    finest = pd.concat([run.finest(view) for view in run.views])
+    finest = finest[finest["timed"] & (finest["trace_ms_median"] > 0)]
+    times = np.log(finest["trace_ms_median"] / finest["rays"]).groupby(finest["contender"]).mean()
+    return min(
+        (name for name in most if _is_embree(name)),
+        key=lambda name: times.get(name, inf),
+        default=most[0] if most else None,
     )
+
+
+def why_reference(reference: str, wanted: str | None) -> str:
+    """Why the others are compared with it, as the end of a sentence."""
+    if wanted is not None:
+        return "as --reference wants it"
+    if _is_embree(reference):
+        return "Embree's fastest of those with correct hits in the most views"
+    return "the first with correct hits in the most views"
+
+
+def _is_embree(contender: str) -> bool:
+    return contender.split()[0] == "embree"
 
 
 def _chosen(wanted: str, contenders: list[str]) -> str:

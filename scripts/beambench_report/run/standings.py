@@ -37,6 +37,11 @@ class Standing:
     """Its trace time over that of the fastest."""
 
     @property
+    def mrays_per_s(self) -> float:
+        """Millions of rays per second."""
+        return 1e3 / self.ns_per_ray
+
+    @property
     def is_tied(self) -> bool:
         """Is it the fastest, or does the interval of its ratio to the fastest hold 1?"""
         return self.ratio.low is not None and self.ratio.low <= 1
@@ -87,10 +92,18 @@ class Standings:
 
         0: from the first; infinite: never, by the medians; None: there is nobody to compare with.
         """
+        last = self.last_overtaken
+        return None if last is None else _break_even(self.ranked[0], last)
+
+    @property
+    def last_overtaken(self) -> Standing | None:
+        """The contender over which `break_even_rays` is."""
         others = [one for one in self.ranked if not one.is_tied]
-        if not others:
-            return None
-        return max(_break_even(self.ranked[0], other) for other in others)
+        return max(others, key=lambda other: _break_even(self.ranked[0], other), default=None)
+
+    def trace_ms(self, one: Standing) -> float:
+        """The median time of one trace."""
+        return 1e-6 * one.ns_per_ray * self.rays
 
 
 @dataclass(frozen=True)
@@ -128,6 +141,18 @@ def overall(every: Sequence[Standings]) -> list[Overall]:
     """Of each kind of rays, in the order of the views."""
     kinds = dict.fromkeys(one.ray_kind for one in every if one.ranked)
     return [_of_kind(kind, [s for s in every if s.ray_kind == kind and s.ranked]) for kind in kinds]
+
+
+def without_times(every: Sequence[Standings]) -> list[str]:
+    """The contenders and references that no view has a time of, in the order of the record."""
+    timed = {one.contender for view in every for one in (*view.ranked, *view.references)}
+    names = dict.fromkeys(name for view in every for name, _ in view.left_out)
+    return [name for name in names if name not in timed]
+
+
+def ratios_are_paired(every: Sequence[Standings]) -> bool:
+    """Was any ratio to the fastest made round by round?"""
+    return any(other.ratio.paired for one in every for other in one.ranked[1:])
 
 
 def ties_are_known(every: Sequence[Standings]) -> bool:

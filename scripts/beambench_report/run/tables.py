@@ -72,6 +72,7 @@ def view_table(
     caption: str,
     rows: pd.DataFrame,
     ratios: Mapping[str, Ratio],
+    reference: str | None,
     left_out: tuple[tuple[str, str], ...] = (),
 ) -> Table:
     """Times and memory, the quickest first; then those without times; references last."""
@@ -81,7 +82,7 @@ def view_table(
         Heading("trace", "ms", "trace_ms_median"),
         Heading("build", "ms", "build_ms_median"),
         Heading("total", "ms", "total_ms_median"),
-        Heading("total", "to reference"),
+        Heading("total", f"times {reference}" if reference else "ratio"),
         Heading("trace, net", "ms", "trace_net_ms_median"),
         Heading("speed", "Mrays/s", "mrays_per_s"),
         Heading("memory", "", "memory_bytes"),

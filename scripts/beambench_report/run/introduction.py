@@ -1,0 +1,150 @@
+"""What the head of a page says of a run: what was traced, how much, and what references are."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+import pandas as pd
+
+from beambench_report.base.machine import Manifest
+from beambench_report.base.records import REFERENCES, Run, size_of
+
+_MOST_SIZES = 4
+_PRIMITIVES = {
+    "triangles": "polygons",
+    "points": "spheres",
+    "callbacks": "cones or spheres seen from the inside",
+}
+"""By the types in which Embree holds them (column `library_geometry`)."""
+
+
+@dataclass(frozen=True)
+class Tile:
+    """A figure, and words for it; `term` names the glossary's entry of the first of them."""
+
+    figure: str
+    words: str
+    term: str = ""
+    note: str = ""
+
+
+def tiles(run: Run, manifest: Manifest) -> list[Tile]:
+    """A few figures that say how large the run was and how well it could measure."""
+    of_references = run.rows["structure"].isin(REFERENCES)
+    references = list(dict.fromkeys(run.rows.loc[of_references, "contender"]))
+    contenders = run.rows.loc[~of_references, "contender"].nunique()
+    made = [
+        Tile(f"{len(run.views):,}", _plural("view", len(run.views)), "view"),
+        Tile(f"{contenders:,}", _plural("contender", contenders), "contender"),
+    ]
+    if references:
+        words = _plural("reference", len(references))
+        made.append(Tile(f"{len(references):,}", words, "reference", f"({', '.join(references)})"))
+    if manifest.overhead is not None:
+        made.append(_overhead(run, manifest.overhead, manifest.overhead_cell))
+    return made
+
+
+def _overhead(run: Run, part: float, cell: str) -> Tile:
+    figure = f"{100 * part:,.0f}%" if part >= 0.1 else f"{100 * part:.2g}%"
+    if not cell:
+        return Tile(figure, "of the fastest trace is the harness's, at most")
+    row = _row_of(run, cell)
+    name = cell if row is None else f"{row['contender']} in {row['view']} at {size_of(row)}"
+    if row is not None and not row.get("query_path"):
+        # Earlier records have the time of null by single rays, whichever way the rays are made.
+        return Tile(figure, f"of the time of a trace is what null takes, at most: {name}")
+    return Tile(figure, f"of a trace is the harness's, at most: {name}")
+
+
+def _row_of(run: Run, cell: str) -> pd.Series | None:
+    """The row of a cell that the manifest names."""
+    pairs = zip(run.rows["scene"], run.rows["parameters"], strict=True)
+    near = [cell.startswith(f"{scene}/") and cell.endswith(words) for scene, words in pairs]
+    for _, row in run.rows[near].iterrows():
+        samples = f"{row['samples']:.0f}"
+        parameters = f":{row['parameters']}" if row["parameters"] else ""
+        place = (row["scene"], row["camera"], size_of(row), samples, row["ray_kind"])
+        if cell == "/".join((*place, row["structure"] + parameters)):
+            return row
+    return None
+
+
+def traced(rows: pd.DataFrame) -> str:
+    """`Primary rays · 320x200, 640x480 · 1 sample per pixel · 1 thread`."""
+    sized = rows.sort_values("rays").drop_duplicates(["width", "height"])
+    sizes = [size_of(row) for _, row in sized.iterrows()]
+    if len(sizes) > _MOST_SIZES:
+        sizes = [f"{len(sizes)} resolutions from {sizes[0]} to {sizes[-1]}"]
+    kinds = _listed(dict.fromkeys(rows["ray_kind"]))
+    return " · ".join(
+        (
+            f"{kinds[:1].upper()}{kinds[1:]} rays",
+            ", ".join(sizes),
+            _counts(rows["samples"], "sample", " per pixel"),
+            _counts(rows["threads"], "thread"),
+        )
+    )
+
+
+def kinds_of_primitives(rows: pd.DataFrame) -> str:
+    """What the primitives of a scene are, where Embree's rows tell; else empty."""
+    if "library_geometry" not in rows:
+        return ""
+    types = {one for text in rows["library_geometry"] for one in str(text).split("+")}
+    return _listed(words for name, words in _PRIMITIVES.items() if name in types)
+
+
+_NULL_DOES = {
+    "image-single": "makes every ray one by one",
+    "image-simd": "makes the rays in packets by SIMD",
+    "list": "reads the rays one by one",
+    "list-packed": "reads the rays in packets by SIMD",
+}
+_BY_SIMD = {"image-simd": "made", "list-packed": "read"}
+
+
+def about_references(rows: pd.DataFrame) -> list[str]:
+    """What the references are, in sentences, and for whom the time of `null` is no lower limit."""
+    paths = rows["query_path"] if "query_path" in rows else pd.Series("", index=rows.index)
+    is_null = rows["structure"] == "null"
+    own = set(paths[is_null])
+    clauses = []
+    if is_null.any():
+        does = [words for path, words in _NULL_DOES.items() if path in own]
+        clauses.append(f"null {' or '.join(does)}{' and ' if does else ''}finds nothing")
+    if (rows["structure"] == "exhaustive").any():
+        clauses.append("exhaustive tests every primitive with every ray")
+    if not clauses:
+        return []
+    sentences = [f"References do not compete: {'; '.join(clauses)}."]
+    others = rows["structure"][~is_null]
+    unbound = []
+    if samplers := _listed(dict.fromkeys(others[paths == "image-own"])):
+        unbound.append(
+            f"for {samplers}, whose own samples take the place of these rays (query path image-own)"
+        )
+    packers = _listed(dict.fromkeys(others[paths.isin(_BY_SIMD)]))
+    if packers and own.isdisjoint(_BY_SIMD):
+        verbs = " or ".join(verb for path, verb in _BY_SIMD.items() if (paths == path).any())
+        unbound.append(f"for {packers}, whose rays are {verbs} in packets by SIMD")
+    if unbound and is_null.any():
+        sentences.append(f"The time of null is no lower limit {', or '.join(unbound)}.")
+    return sentences
+
+
+def _counts(column: pd.Series, word: str, after: str = "") -> str:
+    values = [int(value) for value in sorted(column.dropna().unique())]
+    if not values:
+        return f"{word}s{after} not recorded"
+    figures = _listed(f"{value:,}" for value in values)
+    return f"{figures} {_plural(word, values[-1])}{after}"
+
+
+def _listed(words: Iterable[str]) -> str:
+    """`a`, `a and b`, `a, b and c`."""
+    *first, last = [*words] or [""]
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def _plural(word: str, count: int) -> str:
+    return word if count == 1 else f"{word}s"
