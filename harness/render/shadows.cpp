@@ -209,7 +209,7 @@ std::vector<double> Shadows::transmitted(std::span<const accel::Ray> to_light, s
 std::vector<double> Shadows::asked_at_once(std::span<const accel::Ray> to_light,
                                            RayCensus& census) const {
   std::vector<std::uint8_t> hidden(to_light.size());
-  structure_->any_hits({to_light}, hidden, nullptr);
+  if (!to_light.empty()) structure_->any_hits({to_light}, hidden, nullptr);
   census.shadow_queries += to_light.size();
   std::vector<double> parts(to_light.size());
   std::ranges::transform(hidden, parts.begin(), [](std::uint8_t hit) { return hit ? 0.0 : 1.0; });

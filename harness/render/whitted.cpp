@@ -48,7 +48,7 @@ accel::Ray& add_ray(std::vector<accel::Ray>& rays, const dvec3& origin, const dv
 accel::HitBuffer traced(const accel::Accelerator& structure, const std::vector<accel::Ray>& rays,
                         std::uint64_t& count) {
   accel::HitBuffer hits(static_cast<int>(rays.size()), 1, 1);
-  structure.closest_hits({rays}, hits, nullptr);
+  if (!rays.empty()) structure.closest_hits({rays}, hits, nullptr);
   count += rays.size();
   return hits;
 }

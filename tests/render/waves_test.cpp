@@ -51,6 +51,7 @@ class CountedCalls : public accel::Accelerator {
 
  private:
   void note(std::size_t rays) const {
+    EXPECT_GT(rays, 0U) << "nothing was asked for";
     ++batches;
     largest = std::max(largest, rays);
   }
