@@ -16,6 +16,7 @@
 
 #include "accel/beam/beam_tracer.hpp"
 #include "harness/base/messages.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::render {
@@ -87,8 +88,10 @@ struct Batch {
   }
 };
 
-void draw(const Part& part, const Whitted& tracer, const accel::PrimaryRays& rays,
-          const accel::HitBuffer& hits, Whitted::Progress& progress, Image& image) {
+/// Draws a part with a shadow cache of its own, so that its census is the same however parts are
+/// shared among threads.
+RayCensus draw(const Part& part, const Whitted& tracer, const accel::PrimaryRays& rays,
+               const accel::HitBuffer& hits, Image& image) {
   Batch batch;
   batch.reserve(static_cast<std::size_t>(part.right - part.left) *
                 static_cast<std::size_t>(part.bottom - part.top) *
@@ -96,6 +99,7 @@ void draw(const Part& part, const Whitted& tracer, const accel::PrimaryRays& ray
   for_each_sample(part, rays.samples(), [&](int x, int y, int sample) {
     batch.add(rays.ray(x, y, sample), hits.get(hits.index(x, y, sample)));
   });
+  Whitted::Progress progress = tracer.begin();
   batch.shade(tracer, progress);
   const auto width = static_cast<std::size_t>(part.right - part.left);
   std::vector<glm::dvec3> sums(width * static_cast<std::size_t>(part.bottom - part.top),
@@ -110,14 +114,6 @@ void draw(const Part& part, const Whitted& tracer, const accel::PrimaryRays& ray
   for (int y = part.top; y < part.bottom; ++y) {
     for (int x = part.left; x < part.right; ++x) image.at(x, y) = glm::vec3(share * *sum++);
   }
-}
-
-/// In its own order, so that the shadow cache's census is the same however parts are shared among
-/// threads.
-RayCensus drawn(const Part& part, const Whitted& tracer, const accel::PrimaryRays& rays,
-                const accel::HitBuffer& hits, Image& image) {
-  Whitted::Progress progress = tracer.begin();
-  draw(part, tracer, rays, hits, progress, image);
   return progress.census;
 }
 
@@ -154,20 +150,20 @@ WhittedPicture whitted_picture(const Whitted& tracer, const accel::PrimaryRays& 
   const std::vector<Part> parts = parts_of(rays, tracer.remembers_shadows());
   std::vector<RayCensus> counts(parts.size());
   std::atomic<std::size_t> done = 0;
-  const auto draw = [&] {
+  const auto draw_all = [&] {
     tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-      counts[i] = drawn(parts[i], tracer, rays, hits, picture.image);
+      counts[i] = draw(parts[i], tracer, rays, hits, picture.image);
       ++done;
     });
   };
   if (watch) {
-    auto all = std::async(std::launch::async, draw);
+    auto all = std::async(std::launch::async, draw_all);
     while (all.wait_for(std::chrono::milliseconds(100)) == std::future_status::timeout) {
       watch(static_cast<double>(done.load()) / static_cast<double>(parts.size()));
     }
     all.get();
   } else {
-    draw();
+    draw_all();
   }
   for (const RayCensus& count : counts) picture.census += count;
   return picture;
@@ -177,7 +173,6 @@ WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const 
                                      const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
                                      const PictureWatch& watch) {
   const auto samples = static_cast<std::size_t>(rays.samples());
-  const auto width = static_cast<std::size_t>(rays.width());
   std::vector<glm::dvec3> sums(places.size() / samples, glm::dvec3(0.0));
   Whitted::Progress progress = tracer.begin();
   for (std::size_t first = 0; first < places.size(); first += kSamples) {
@@ -185,12 +180,7 @@ WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const 
     const auto some = places.subspan(first, std::min(kSamples, places.size() - first));
     Batch batch;
     batch.reserve(some.size());
-    for (const std::size_t place : some) {
-      const std::size_t pixel = place / samples;
-      batch.add(rays.ray(static_cast<int>(pixel % width), static_cast<int>(pixel / width),
-                         static_cast<int>(place % samples)),
-                hits.get(place));
-    }
+    for (const std::size_t place : some) batch.add(rays::ray_at(rays, place), hits.get(place));
     batch.shade(tracer, progress);
     for (std::size_t i = 0; i < some.size(); ++i) sums[some[i] / samples] += batch.colors[i];
   }
@@ -205,7 +195,7 @@ RayCensus draw_in_order(const Whitted& tracer, const accel::PrimaryRays& rays,
                         const accel::HitBuffer& hits, Image& image) {
   RayCensus census;
   for (const Part& part : parts_of(rays, tracer.remembers_shadows())) {
-    census += drawn(part, tracer, rays, hits, image);
+    census += draw(part, tracer, rays, hits, image);
   }
   return census;
 }

@@ -1,7 +1,5 @@
 // Pictures in waves: structures are given batches, and nothing depends on how rays are divided.
 
-#include <atomic>
-
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

@@ -87,7 +87,7 @@ def traced(rows: pd.DataFrame) -> str:
 
 
 def kinds_of_primitives(rows: pd.DataFrame) -> str:
-    """What the primitives of a scene are, where Embree's rows tell; else empty."""
+    """What the primitives of a scene are, where Embree's rows state it; else empty."""
     if "library_geometry" not in rows:
         return ""
     types = {one for text in rows["library_geometry"] for one in str(text).split("+")}

@@ -54,7 +54,7 @@ class View:
     anchor: str
     primitives: int
     kinds_of_primitives: str
-    """Empty where the record does not tell."""
+    """Empty where the record does not state it."""
     pictures: tuple[Image, ...]
     plots: tuple[Image, ...]
     tables: tuple[Table, ...]
