@@ -1,30 +1,43 @@
 #pragma once
-// A list of rays for one call.
+// A list of rays for one call, and the pencils among them.
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include <glm/vec3.hpp>
 
+#include "accel/core/primary_rays.hpp"
 #include "accel/core/ray.hpp"
 
 namespace beambench::accel {
 
-/// The rays [first, first + count) of a batch, which pass through one common point but for the
-/// rounding of their numbers: a point light, or the virtual eye of a planar mirror.
+/// The rays [first, first + count) of a batch, whose lines pass through one common point but for
+/// the rounding of their numbers. Neighbors in the list are mostly neighbors in the picture.
 struct Pencil {
   std::size_t first;
   std::size_t count;
+  /// A point light, or the virtual eye of a planar mirror.
   glm::dvec3 apex;
-  bool toward;  ///< the rays run toward the apex, as shadow rays do; otherwise away from it
+  /// The rays run toward the apex and end there, as shadow rays do: t in [0, 1], the apex at t = 1.
+  /// Otherwise they run away from it, t in [0, infinity], and begin at some distance from it, as
+  /// reflected rays begin beside the mirror.
+  bool toward;
+  /// The rays of an image that look from the apex, as far as `RayBatch::samples` says
+  /// (`PrimaryRays::mirrored`): the same lines but for rounding, with directions of other lengths
+  /// and other origins. Null where there is no such image. Lives as long as the batch.
+  const PrimaryRays* view = nullptr;
 };
 
 /// Rays, and the pencils among them: in the order of `first`, and no ray is in two. Pencils are a
-/// hint that changes no hit, and the rays are the same bits with and without them. Reserved:
-/// nothing marks pencils yet, and every structure ignores them.
+/// hint that changes no hit beyond what `Conformance` allows, and the rays are the same bits with
+/// and without them: a structure may ignore them.
 struct RayBatch {
   std::span<const Ray> rays;
   std::span<const Pencil> pencils{};
+  /// From which sample of the image each ray came, directly or by others, as a HitBuffer of the
+  /// image numbers them; empty where rays do not come from an image.
+  std::span<const std::uint32_t> samples{};
 };
 
 }  // namespace beambench::accel
