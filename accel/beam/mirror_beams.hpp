@@ -7,19 +7,9 @@
 #include <glm/vec3.hpp>
 
 #include "accel/beam/beam_tracer.hpp"
+#include "scenes/planar_mirrors.hpp"
 
 namespace beambench::accel::beam {
-
-/// Flat polygons of one plane whose surfaces reflect.
-struct PlanarMirror {
-  glm::dvec3 point;   ///< of the plane
-  glm::dvec3 normal;  ///< of the plane, unit length
-  std::vector<scenes::PrimitiveId> polygons;
-};
-
-/// A scene's planar mirrors, by the lowest primitive id: polygons whose surface has a specular
-/// factor, those of one plane together (to 2^-20 of the scene's size).
-std::vector<PlanarMirror> planar_mirrors(const scenes::Scene& scene);
 
 /// What the eye sees in a mirror.
 struct MirrorView {
@@ -30,7 +20,7 @@ struct MirrorView {
 
 /// From the hits of an image: the virtual eye of a mirror, and a convex cover of the samples that
 /// see it. Nothing where none do.
-std::optional<MirrorView> view_in(const PlanarMirror& mirror, const scenes::Scene& scene,
+std::optional<MirrorView> view_in(const scenes::PlanarMirror& mirror, const scenes::Scene& scene,
                                   const PrimaryRays& rays, const HitBuffer& hits);
 
 /// A sample's ray behind the mirror, as the beams trace it.

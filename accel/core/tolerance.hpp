@@ -1,9 +1,11 @@
 #pragma once
-// How far a computed hit may lie from its primitive, and by how much overlaps are widened for it.
+// How far a computed hit may lie from its primitive, by how much overlaps are widened for it, and
+// how far from surfaces rays begin.
 
 #include <algorithm>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "scenes/scene.hpp"
@@ -33,6 +35,16 @@ inline double overlap_tolerance(const scenes::Scene& scene) {
   const glm::dvec3 largest = glm::max(glm::abs(lower), glm::abs(upper));
   const double coordinate = std::max({largest.x, largest.y, largest.z});
   return 0x1p-30 * glm::length(upper - lower) + 0x1p-48 * coordinate;
+}
+
+/// How far from a surface rays begin, along its unit normal: 64 x 2^-24 x (largest |coordinate| of
+/// the scene + the distance of its box's farthest corner from the origin), four times the length
+/// within which the differ cannot distinguish points. One length for all points of a scene: rays
+/// that a planar mirror reflects then still come from one point, the virtual eye moved by it.
+inline double surface_lift(const scenes::Scene& scene) {
+  if (scene.bounds.empty()) return 0.0;
+  const glm::dvec3 farthest(glm::max(glm::abs(scene.bounds.lower), glm::abs(scene.bounds.upper)));
+  return 64.0 * 0x1p-24 * (double{scene.bounds.largest_coordinate()} + glm::length(farthest));
 }
 
 }  // namespace beambench::accel

@@ -33,7 +33,7 @@ struct Request {
 /// An image's rays are saved as a list, too.
 rays::RaySet as_list(const scenes::Scene& scene, const rays::TraceInput& input) {
   if (input.list() != nullptr) return *input.list();
-  rays::RaySet set{input.label(), input.query(), input.seed(), scenes::scene_hash(scene), {}};
+  rays::RaySet set{{}, input.label(), input.query(), input.seed(), scenes::scene_hash(scene)};
   set.rays.reserve(input.size());
   for (std::size_t i = 0; i < input.size(); ++i) set.rays.push_back(input.ray(i));
   return set;
@@ -107,7 +107,7 @@ void add_rays_command(CLI::App& app, int&) {
       "Coherence is the mean cosine of the angle between the directions of a ray and the next. A\n"
       "saved file can be given wherever a kind of rays can, in --rays and in sweeps; it holds a\n"
       "line 'beambench-rays 1', a line of JSON, then eight little-endian 32-bit floats per ray:\n"
-      "origin, t_min, direction, t_max.\n"
+      "origin, t_min, direction, t_max. The pencils of shadow and mirror rays are in the JSON.\n"
       "Examples:\n"
       "  beambench rays escena1 --rays shadow --resolution 320x200\n"
       "  beambench rays balls --rays diffuse:seed=7 -o balls-diffuse.rays\n"

@@ -22,7 +22,7 @@ double median_ms(int repetitions, Work work) {
 }
 
 /// The samples of an image that see a mirror.
-std::vector<rays::PixelSample> seeing(const accel::beam::PlanarMirror& mirror,
+std::vector<rays::PixelSample> seeing(const scenes::PlanarMirror& mirror,
                                       const accel::HitBuffer& hits) {
   std::vector<rays::PixelSample> samples;
   for (int y = 0; y < hits.height(); ++y) {
@@ -48,7 +48,7 @@ void trace_singly(const accel::beam::BeamTracer& tracer, const accel::beam::Mirr
 }
 
 MirrorResult compare(const accel::beam::BeamTracer& tracer, const accel::beam::MirrorView& view,
-                     const accel::HitBuffer& hits, const accel::beam::PlanarMirror& mirror,
+                     const accel::HitBuffer& hits, const scenes::PlanarMirror& mirror,
                      int repetitions) {
   accel::HitBuffer by_rays(hits.width(), hits.height(), hits.samples());
   accel::HitBuffer by_beams = by_rays;
@@ -79,9 +79,9 @@ MirrorResult& MirrorResult::operator+=(const MirrorResult& other) {
 MirrorComparison compare_mirrors(const accel::beam::BeamTracer& tracer, const scenes::Scene& scene,
                                  const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
                                  int repetitions) {
-  const std::vector<accel::beam::PlanarMirror> mirrors = accel::beam::planar_mirrors(scene);
+  const std::vector<scenes::PlanarMirror> mirrors = scenes::planar_mirrors(scene);
   MirrorComparison comparison{mirrors.size(), {}};
-  for (const accel::beam::PlanarMirror& mirror : mirrors) {
+  for (const scenes::PlanarMirror& mirror : mirrors) {
     const auto view = accel::beam::view_in(mirror, scene, rays, hits);
     if (view) comparison.seen.push_back(compare(tracer, *view, hits, mirror, repetitions));
   }

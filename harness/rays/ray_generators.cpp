@@ -1,15 +1,19 @@
 #include "harness/rays/ray_generators.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
-#include "accel/core/primary_rays.hpp"
 #include "accel/embree/oracle.hpp"
 #include "harness/rays/normal.hpp"
+#include "harness/rays/picture_order.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "scenes/core/random.hpp"
 
 namespace beambench::rays {
@@ -18,22 +22,33 @@ namespace {
 using glm::dvec3;
 
 PrimaryHitPoint point_of(const scenes::Scene& scene, const accel::Ray& ray,
-                         const accel::embree::ExactHit& hit) {
+                         const accel::embree::ExactHit& hit, std::size_t sample) {
   const dvec3 direction(ray.direction);
   return {dvec3(ray.origin) + hit.t * direction,
           geometric_normal(scene, ray, {static_cast<float>(hit.t), hit.primitive}),
-          glm::normalize(direction)};
+          glm::normalize(direction), hit.primitive, static_cast<std::uint32_t>(sample)};
 }
 
 dvec3 above(const scenes::Scene& scene, const PrimaryHitPoint& at) {
   return beside_surface(scene, at.point, at.normal);
 }
 
-accel::Ray ray_from(const scenes::Scene& scene, const PrimaryHitPoint& at, const dvec3& direction) {
-  accel::Ray ray;
+accel::Ray& add_ray(const scenes::Scene& scene, const PrimaryHitPoint& at, const dvec3& direction,
+                    RayList& list) {
+  accel::Ray& ray = list.rays.emplace_back();
   ray.origin = glm::vec3(above(scene, at));
   ray.direction = glm::vec3(direction);
+  list.samples.push_back(at.sample);
   return ray;
+}
+
+void reserve(std::size_t rays, RayList& list) {
+  list.rays.reserve(rays);
+  list.samples.reserve(rays);
+}
+
+void add_reflected(const scenes::Scene& scene, const PrimaryHitPoint& at, RayList& list) {
+  add_ray(scene, at, accel::mirrored(at.incoming, at.normal), list);
 }
 
 /// A unit vector with density cos / pi in the hemisphere about the unit vector `normal` (Malley's
@@ -89,9 +104,9 @@ std::vector<PrimaryHitPoint> surface_points(const scenes::Scene& scene,
   const accel::embree::EmbreeOracle oracle(scene, glm::length(dvec3(rays.eye())));
   std::vector<std::vector<PrimaryHitPoint>> rows(static_cast<std::size_t>(rays.height()));
   tbb::parallel_for(0, rays.height(), [&](int y) {
-    rays.for_each(y, y + 1, [&](std::size_t, const accel::Ray& ray) {
+    rays.for_each(y, y + 1, [&](std::size_t sample, const accel::Ray& ray) {
       const std::optional<accel::embree::ExactHit> hit = oracle.closest_hit(ray);
-      if (hit) rows[static_cast<std::size_t>(y)].push_back(point_of(scene, ray, *hit));
+      if (hit) rows[static_cast<std::size_t>(y)].push_back(point_of(scene, ray, *hit, sample));
     });
   });
   std::vector<PrimaryHitPoint> points;
@@ -99,51 +114,95 @@ std::vector<PrimaryHitPoint> surface_points(const scenes::Scene& scene,
   return points;
 }
 
-std::vector<accel::Ray> shadow_rays(const scenes::Scene& scene,
-                                    const std::vector<PrimaryHitPoint>& points) {
-  std::vector<accel::Ray> rays;
-  for (const PrimaryHitPoint& at : points) {
-    for (const scenes::Light& light : scene.lights) {
-      const dvec3 to_light = dvec3(light.position) - above(scene, at);
+std::vector<PrimaryHitPoint> in_picture_order(const std::vector<PrimaryHitPoint>& points,
+                                              const accel::PrimaryRays& image) {
+  std::vector<const PrimaryHitPoint*> of_sample(image.count());
+  for (const PrimaryHitPoint& point : points) of_sample[point.sample] = &point;
+  std::vector<PrimaryHitPoint> ordered;
+  ordered.reserve(points.size());
+  for_each_sample(image, [&](int x, int y, int sample) {
+    const PrimaryHitPoint* point = of_sample[index_of(image, {x, y, sample})];
+    if (point != nullptr) ordered.push_back(*point);
+  });
+  return ordered;
+}
+
+RayList shadow_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points) {
+  RayList list;
+  for (const scenes::Light& light : scene.lights) {
+    const dvec3 position(light.position);
+    const std::size_t first = list.rays.size();
+    for (const PrimaryHitPoint& at : points) {
+      const dvec3 to_light = position - above(scene, at);
       if (glm::dot(to_light, at.normal) <= 0.0) continue;
-      rays.push_back(ray_from(scene, at, to_light));
-      rays.back().t_max = 1.0F;
+      add_ray(scene, at, to_light, list).t_max = 1.0F;
     }
+    const std::size_t count = list.rays.size() - first;
+    if (count > 0) list.pencils.push_back({first, count, position, true});
   }
-  return rays;
+  return list;
 }
 
-std::vector<accel::Ray> reflection_rays(const scenes::Scene& scene,
-                                        const std::vector<PrimaryHitPoint>& points) {
-  std::vector<accel::Ray> rays;
-  rays.reserve(points.size());
+RayList reflection_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points) {
+  RayList list;
+  reserve(points.size(), list);
+  for (const PrimaryHitPoint& at : points) add_reflected(scene, at, list);
+  return list;
+}
+
+RayList mirror_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points,
+                    const MirrorTable& mirrors, const accel::PrimaryRays& image) {
+  struct Reflected {
+    const PrimaryHitPoint* at;
+    std::uint32_t mirror;
+    bool on_normals_side;
+  };
+  std::vector<Reflected> reflected;
   for (const PrimaryHitPoint& at : points) {
-    rays.push_back(ray_from(scene, at, accel::mirrored(at.incoming, at.normal)));
+    const std::uint32_t mirror = mirrors.mirror_of(at.primitive);
+    if (mirror == MirrorTable::kNone) continue;
+    const bool side = glm::dot(at.normal, mirrors.mirrors()[mirror].normal) > 0.0;
+    reflected.push_back({&at, mirror, side});
   }
-  return rays;
+  const auto pencil_of = [](const Reflected& each) {
+    return std::pair(each.mirror, each.on_normals_side);
+  };
+  std::ranges::stable_sort(reflected, {}, pencil_of);
+  RayList list;
+  reserve(reflected.size(), list);
+  const VirtualEye eye(image);
+  for (auto first = reflected.begin(); first != reflected.end();) {
+    const auto last =
+        std::ranges::upper_bound(first, reflected.end(), pencil_of(*first), {}, pencil_of);
+    const VirtualEye behind =
+        eye.behind(mirrors.mirrors()[first->mirror], first->on_normals_side, mirrors.lift());
+    list.views.push_back(std::make_shared<const accel::PrimaryRays>(behind.view));
+    list.pencils.push_back({list.rays.size(), static_cast<std::size_t>(last - first), behind.place,
+                            false, list.views.back().get()});
+    for (; first != last; ++first) add_reflected(scene, *first->at, list);
+  }
+  return list;
 }
 
-std::vector<accel::Ray> diffuse_rays(const scenes::Scene& scene,
-                                     const std::vector<PrimaryHitPoint>& points,
-                                     std::uint64_t seed) {
+RayList diffuse_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points,
+                     std::uint64_t seed) {
   Random random(seed);
-  std::vector<accel::Ray> rays;
-  rays.reserve(points.size());
+  RayList list;
+  reserve(points.size(), list);
   for (const PrimaryHitPoint& at : points) {
-    rays.push_back(ray_from(scene, at, cosine_direction(at.normal, random)));
+    add_ray(scene, at, cosine_direction(at.normal, random), list);
   }
-  return rays;
+  return list;
 }
 
-std::vector<accel::Ray> random_rays(const scenes::Bounds& box, std::size_t count,
-                                    std::uint64_t seed) {
-  std::vector<accel::Ray> rays;
-  if (box.empty()) return rays;
+RayList random_rays(const scenes::Bounds& box, std::size_t count, std::uint64_t seed) {
+  RayList list;
+  if (box.empty()) return list;
   const Box around = widened(box);
   Random random(seed);
-  rays.reserve(count);
-  while (rays.size() < count) rays.push_back(line_through(around, random));
-  return rays;
+  list.rays.reserve(count);
+  while (list.rays.size() < count) list.rays.push_back(line_through(around, random));
+  return list;
 }
 
 }  // namespace beambench::rays

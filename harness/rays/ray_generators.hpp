@@ -8,7 +8,8 @@
 #include <glm/vec3.hpp>
 
 #include "accel/core/primary_rays.hpp"
-#include "accel/core/ray.hpp"
+#include "harness/rays/ray_set.hpp"
+#include "harness/rays/virtual_eye.hpp"
 #include "scenes/bounds.hpp"
 #include "scenes/scene.hpp"
 
@@ -19,6 +20,8 @@ struct PrimaryHitPoint {
   glm::dvec3 point;
   glm::dvec3 normal;    ///< unit length, geometric, on the side that the ray comes from
   glm::dvec3 incoming;  ///< the ray's direction, unit length
+  scenes::PrimitiveId primitive;
+  std::uint32_t sample;  ///< the ray's, as a HitBuffer of the image numbers them
 };
 
 /// Where the primary rays hit, in their order, by the oracle (on all cores): the rays that start
@@ -26,20 +29,27 @@ struct PrimaryHitPoint {
 std::vector<PrimaryHitPoint> surface_points(const scenes::Scene& scene,
                                             const accel::PrimaryRays& rays);
 
-/// All secondary rays start `beside_surface`, on the side of the primary ray.
+/// The same points in the order of `for_each_sample`.
+std::vector<PrimaryHitPoint> in_picture_order(const std::vector<PrimaryHitPoint>& points,
+                                              const accel::PrimaryRays& image);
+
+/// All secondary rays start `beside_surface`, on the side of the primary ray, and name its sample.
 ///
-/// To each light that the surface faces, point by point: t in [0, 1], the light being at 1.
-std::vector<accel::Ray> shadow_rays(const scenes::Scene& scene,
-                                    const std::vector<PrimaryHitPoint>& points);
+/// Light by light, from each point that faces the light: t in [0, 1], the light being at 1. Each
+/// light is a pencil.
+RayList shadow_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points);
 
 /// The mirror direction of the incoming ray, of unit length.
-std::vector<accel::Ray> reflection_rays(const scenes::Scene& scene,
-                                        const std::vector<PrimaryHitPoint>& points);
+RayList reflection_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points);
+
+/// The same at the points of planar mirrors alone, mirror by mirror. Each mirror is a pencil, away
+/// from the image's eye behind it; one that is seen from both sides is two.
+RayList mirror_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points,
+                    const MirrorTable& mirrors, const accel::PrimaryRays& image);
 
 /// One direction per point with density cos / pi about the normal, of unit length.
-std::vector<accel::Ray> diffuse_rays(const scenes::Scene& scene,
-                                     const std::vector<PrimaryHitPoint>& points,
-                                     std::uint64_t seed);
+RayList diffuse_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points,
+                     std::uint64_t seed);
 
 /// `count` rays that are uniform among all lines through the box, by the measure of lines that does
 /// not change when space is moved or turned (Santalo, Integral Geometry, 1976, II.12): they enter
@@ -47,7 +57,6 @@ std::vector<accel::Ray> diffuse_rays(const scenes::Scene& scene,
 /// to meet a convex body in the box is then its surface area over the box's. They start one
 /// diagonal before the box, with directions of unit length. The box is widened by 2^-10 of its
 /// diagonal, so that it has an inside. None for an empty box.
-std::vector<accel::Ray> random_rays(const scenes::Bounds& box, std::size_t count,
-                                    std::uint64_t seed);
+RayList random_rays(const scenes::Bounds& box, std::size_t count, std::uint64_t seed);
 
 }  // namespace beambench::rays

@@ -16,6 +16,7 @@ enum class RayKind {
   kPrimary,     ///< from the camera through the pixels
   kShadow,      ///< from where primary rays hit to the lights
   kReflection,  ///< mirrored where primary rays hit
+  kMirror,      ///< mirrored where primary rays hit planar mirrors
   kDiffuse,     ///< scattered where primary rays hit
   kRandom,      ///< lines through the scene's box
   kWhitted      ///< all of a whole picture's, which follow from the structure's own hits

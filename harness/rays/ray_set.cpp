@@ -1,7 +1,9 @@
 #include "harness/rays/ray_set.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -45,6 +47,55 @@ static_assert(sizeof(accel::Ray) == 8 * sizeof(float));
       fmt::format("{}: {}; 'beambench rays' writes such files", path.string(), problem));
 }
 
+/// The JSON of a pencil whose rays begin at `begin` or later, of `rays` rays in all. Throws
+/// InputError without naming the file.
+accel::Pencil read_pencil(const Json& json, std::uint64_t begin, std::uint64_t rays) {
+  const auto whole_number = [&](const char* name) {
+    const Json value = json.is_object() ? json.value(name, Json()) : Json();
+    if (value.is_number_unsigned()) return value.get<std::uint64_t>();
+    throw InputError(fmt::format("\"{}\" is not a whole number", name));
+  };
+  const std::uint64_t first = whole_number("first");
+  const std::uint64_t count = whole_number("count");
+  if (first < begin) throw InputError(fmt::format("it begins at ray {}, before {}", first, begin));
+  if (count < 1 || first >= rays || count > rays - first) {
+    throw InputError(fmt::format("{} rays from {} on are not among {} rays", count, first, rays));
+  }
+  const Json apex = json.value("apex", Json());
+  const auto is_finite = [](const Json& coordinate) {
+    return coordinate.is_number() && std::isfinite(coordinate.get<double>());
+  };
+  if (!apex.is_array() || apex.size() != 3 || !std::ranges::all_of(apex, is_finite)) {
+    throw InputError("\"apex\" is not a list of three finite numbers");
+  }
+  const Json toward = json.value("toward", Json());
+  if (!toward.is_boolean()) throw InputError("\"toward\" is neither true nor false");
+  return {first, count, {apex[0], apex[1], apex[2]}, toward.get<bool>()};
+}
+
+std::vector<accel::Pencil> read_pencils(const std::filesystem::path& path, const Json& json,
+                                        std::uint64_t rays) {
+  if (!json.is_array()) fail(path, "\"pencils\" is not a list");
+  std::vector<accel::Pencil> pencils;
+  std::uint64_t begin = 0;
+  for (const Json& each : json) {
+    try {
+      pencils.push_back(read_pencil(each, begin, rays));
+    } catch (const InputError& error) {
+      fail(path, fmt::format("pencil {}: {}", pencils.size(), error.what()));
+    }
+    begin = pencils.back().first + pencils.back().count;
+  }
+  return pencils;
+}
+
+Json json_of(const accel::Pencil& pencil) {
+  return {{"first", pencil.first},
+          {"count", pencil.count},
+          {"apex", {pencil.apex.x, pencil.apex.y, pencil.apex.z}},
+          {"toward", pencil.toward}};
+}
+
 /// The JSON of a file.
 struct Header {
   RaySet set;
@@ -78,6 +129,7 @@ Header read_header(const std::filesystem::path& path, std::string_view line) {
     fail(path, fmt::format("\"rays\" is not a whole number from 1 to {}", kMaxRays));
   }
   header.rays = rays.get<std::uint64_t>();
+  header.set.pencils = read_pencils(path, json.value("pencils", Json::array()), header.rays);
   const Json seed = json.value("seed", Json(0U));
   if (!seed.is_number_unsigned()) fail(path, "\"seed\" is not a whole number");
   header.set.seed = seed.get<std::uint64_t>();
@@ -126,6 +178,7 @@ void write_ray_file(const std::filesystem::path& path, const RaySet& set,
               {"seed", set.seed},
               {"hash", hex_digits(fingerprint(set.rays))}};
   if (set.scene_hash) header["scene_hash"] = hex_digits(*set.scene_hash);
+  for (const accel::Pencil& pencil : set.pencils) header["pencils"].push_back(json_of(pencil));
   header["note"] = note;
   write_file(path, [&](std::ostream& out) {
     out << kFirstLine << '\n' << header.dump() << '\n';

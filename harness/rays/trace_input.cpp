@@ -29,27 +29,36 @@ std::optional<int> parse_side(std::string_view text) {
   return value;
 }
 
-std::vector<accel::Ray> made_rays(const scenes::Scene& scene, const accel::PrimaryRays& primary,
-                                  const RayChoice& choice) {
-  if (choice.kind == RayKind::kRandom) {
-    return random_rays(scene.bounds, primary.count(), choice.seed);
-  }
-  if (choice.kind == RayKind::kShadow && scene.lights.empty()) {
-    throw NoRaysError(fmt::format(
-        "scene '{}' has no lights, so it has no shadow rays; add an 'l' line to its file or ask "
-        "for rays of another kind",
-        scene.name));
-  }
-  const std::vector<PrimaryHitPoint> points = surface_points(scene, primary);
+RayList made_rays(const scenes::Scene& scene, const accel::PrimaryRays& primary,
+                  const RayChoice& choice) {
   switch (choice.kind) {
     case RayKind::kShadow:
-      return shadow_rays(scene, points);
+      if (scene.lights.empty()) {
+        throw NoRaysError(fmt::format(
+            "scene '{}' has no lights, so it has no shadow rays; add an 'l' line to its file or "
+            "ask for rays of another kind",
+            scene.name));
+      }
+      return shadow_rays(scene, in_picture_order(surface_points(scene, primary), primary));
     case RayKind::kReflection:
-      return reflection_rays(scene, points);
+      return reflection_rays(scene, surface_points(scene, primary));
+    case RayKind::kMirror: {
+      const MirrorTable mirrors(scene);
+      if (mirrors.mirrors().empty()) {
+        throw NoRaysError(fmt::format(
+            "scene '{}' has no planar mirrors, so it has no mirror rays; give flat polygons of its "
+            "file a specular factor or ask for 'reflection' rays, for which all surfaces are "
+            "mirrors",
+            scene.name));
+      }
+      return mirror_rays(scene, in_picture_order(surface_points(scene, primary), primary), mirrors,
+                         primary);
+    }
     case RayKind::kDiffuse:
-      return diffuse_rays(scene, points, choice.seed);
-    case RayKind::kPrimary:
+      return diffuse_rays(scene, surface_points(scene, primary), choice.seed);
     case RayKind::kRandom:
+      return random_rays(scene.bounds, primary.count(), choice.seed);
+    case RayKind::kPrimary:
     case RayKind::kWhitted:
       break;
   }
@@ -58,13 +67,14 @@ std::vector<accel::Ray> made_rays(const scenes::Scene& scene, const accel::Prima
 
 RaySet made_set(const scenes::Scene& scene, const accel::PrimaryRays& primary,
                 const RayChoice& choice) {
-  RaySet set{choice.label, info_of(choice.kind).query, choice.seed, scenes::scene_hash(scene),
-             made_rays(scene, primary, choice)};
+  RaySet set{made_rays(scene, primary, choice), choice.label, info_of(choice.kind).query,
+             choice.seed, scenes::scene_hash(scene)};
   if (set.rays.empty()) {
     throw NoRaysError(fmt::format(
-        "there are no {} rays over scene '{}' at {}x{}: no primary ray hits a surface for them to "
-        "start from; choose another camera or resolution",
-        choice.label, scene.name, primary.width(), primary.height()));
+        "there are no {} rays over scene '{}' at {}x{}: no primary ray hits a {} for them to start "
+        "from; choose another camera or resolution",
+        choice.label, scene.name, primary.width(), primary.height(),
+        choice.kind == RayKind::kMirror ? "planar mirror" : "surface"));
   }
   return set;
 }
@@ -121,6 +131,13 @@ PixelSample place_of(const accel::PrimaryRays& image, std::size_t index) {
   const auto width = static_cast<std::size_t>(image.width());
   return {static_cast<int>(index / samples % width), static_cast<int>(index / samples / width),
           static_cast<int>(index % samples)};
+}
+
+std::size_t index_of(const accel::PrimaryRays& image, const PixelSample& at) {
+  const auto samples = static_cast<std::size_t>(image.samples());
+  const auto width = static_cast<std::size_t>(image.width());
+  return (static_cast<std::size_t>(at.y) * width + static_cast<std::size_t>(at.x)) * samples +
+         static_cast<std::size_t>(at.sample);
 }
 
 accel::Ray ray_at(const accel::PrimaryRays& image, std::size_t index) {

@@ -46,6 +46,8 @@ struct PixelSample {
 
 /// Where in its image the ray of that index is, as a hit buffer counts them.
 PixelSample place_of(const accel::PrimaryRays& image, std::size_t index);
+/// The other way round.
+std::size_t index_of(const accel::PrimaryRays& image, const PixelSample& at);
 /// The ray itself.
 accel::Ray ray_at(const accel::PrimaryRays& image, std::size_t index);
 
@@ -109,8 +111,9 @@ class NoRaysError : public InputError {
 };
 
 /// Makes the rays of a choice, or reads them. Throws NoRaysError where the scene has no lights for
-/// shadow rays, or no primary ray hits anything for rays to start from; InputError for whole
-/// pictures, and as `read_ray_file`; for a file also when it was made for another scene.
+/// shadow rays or no planar mirrors for mirror rays, or no primary ray hits anything for rays to
+/// start from; InputError for whole pictures, and as `read_ray_file`; for a file also when it was
+/// made for another scene.
 TraceInput make_trace_input(const scenes::Scene& scene, const ImageOfRays& image,
                             const RayChoice& choice);
 

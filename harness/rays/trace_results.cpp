@@ -66,12 +66,12 @@ bool is_hit_at(const TraceResults& results, std::size_t index) {
 void trace(const accel::Accelerator& structure, const TraceInput& input, TraceResults& results,
            accel::WorkCounters* counters, int threads) {
   if (auto* any = std::get_if<AnyHits>(&results)) {
-    structure.any_hits({input.list()->rays}, *any, counters);
+    structure.any_hits(input.list()->batch(), *any, counters);
   } else if (input.image() != nullptr) {
     accel::trace_on(threads, structure, *input.image(), std::get<accel::HitBuffer>(results),
                     counters);
   } else {
-    structure.closest_hits({input.list()->rays}, std::get<accel::HitBuffer>(results), counters);
+    structure.closest_hits(input.list()->batch(), std::get<accel::HitBuffer>(results), counters);
   }
 }
 

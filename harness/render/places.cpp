@@ -68,7 +68,7 @@ inline Vector facing(const Vector& normal, const Vector& direction, const Vector
   return if_then_else(is_direction, turned, opposite(incoming));
 }
 
-void complete(Places& places, double extent) {
+void complete(Places& places, double lift) {
   for (std::size_t i = 0; i < places.size; i += hn::Lanes(Tag())) {
     const Vector point = load(places.point, i);
     const Vector direction = load(places.incoming, i);
@@ -77,9 +77,7 @@ void complete(Places& places, double extent) {
     store(incoming, places.incoming, i);
     store(geometric, places.geometric, i);
     store(facing(load(places.shading, i), direction, incoming), places.shading, i);
-    const Lanes lift = hn::Mul(set(64.0 * 0x1p-24),
-                               hn::Add(set(extent), hn::Sqrt(dot(point, point))));  // rays::lift_at
-    store(sum(point, scaled(geometric, lift)), places.beside, i);
+    store(sum(point, scaled(geometric, set(lift))), places.beside, i);
   }
 }
 

@@ -73,9 +73,9 @@ struct LightAngles {
 /// The computations for one instruction set.
 struct PlaceKernels {
   /// From points, directions of any length and normals of any length on either side to all that
-  /// `Places` describes; a normal without a direction is turned against the ray. `extent` is the
-  /// largest coordinate of the scene.
-  void (*complete)(Places& places, double extent);
+  /// `Places` describes; a normal without a direction is turned against the ray. `lift` is the
+  /// scene's (`accel::surface_lift`).
+  void (*complete)(Places& places, double lift);
   void (*find_angles)(const Places& places, const glm::dvec3& light, LightAngles& angles);
 };
 

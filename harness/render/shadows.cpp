@@ -14,7 +14,6 @@
 #include "accel/core/intersect.hpp"
 #include "accel/core/tolerance.hpp"
 #include "harness/base/messages.hpp"
-#include "harness/rays/normal.hpp"
 
 namespace beambench::render {
 namespace {
@@ -173,6 +172,7 @@ Shadows::Shadows(const scenes::Scene& scene, const accel::Accelerator& structure
       structure_(&structure),
       check_(std::move(check)),
       method_(options.shadows),
+      lift_(accel::surface_lift(scene)),
       all_opaque_(std::none_of(scene.surfaces.begin(), scene.surfaces.end(),
                                [](const scenes::Surface& s) { return s.transmittance > 0.0F; })) {
   if (method_ != ShadowMethod::kLightBuffer) return;
@@ -290,9 +290,7 @@ double Shadows::followed(accel::Ray ray, scenes::PrimitiveId& blocker, RayCensus
 float Shadows::passed_through(accel::Ray& ray, const accel::Hit& hit) const {
   check_.require(ray, hit);
   const float through = std::max(transmittance_of(*scene_, hit.primitive), 0.0F);
-  const glm::dvec3 direction(ray.direction);
-  const glm::dvec3 point = glm::dvec3(ray.origin) + double{hit.t} * direction;
-  ray.t_min = static_cast<float>(hit.t + rays::lift_at(*scene_, point) / glm::length(direction));
+  ray.t_min = static_cast<float>(hit.t + lift_ / glm::length(glm::dvec3(ray.direction)));
   return through;
 }
 

@@ -19,7 +19,7 @@
 namespace beambench::render {
 
 /// How the visibility of a light is decided. All give the same picture, unless something opaque
-/// lies no farther behind glass than rays begin beside surfaces (`lift_at`).
+/// lies no farther behind glass than rays begin beside surfaces (`surface_lift`).
 enum class ShadowMethod {
   kRays,        ///< one any-hit query a light
   kCache,       ///< first the opaque primitive that hid the light last (OORT; `ShadowCache`)
@@ -122,6 +122,7 @@ class Shadows {
   const accel::Accelerator* structure_;
   rays::HitCheck check_;
   ShadowMethod method_;
+  double lift_;
   bool all_opaque_;
   std::vector<LightBuffer> buffers_;  ///< one a light, or none
 };

@@ -130,8 +130,8 @@ std::vector<VerifiedRays> verify_recorded_picture(const verify::ReferenceHits& p
                          const rays::TraceResults& results) {
       if (rays.empty()) return;
       const verify::ReferenceHits reference(
-          primary.scene(), rays::TraceInput(rays::RaySet{std::string(kind), query, 0, std::nullopt,
-                                                         std::move(rays)}));
+          primary.scene(),
+          rays::TraceInput(rays::RaySet{{std::move(rays)}, std::string(kind), query}));
       verified.push_back(
           {kind, reference.input(), verify::verify_results(reference, results, conformance)});
     };

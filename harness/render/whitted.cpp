@@ -8,6 +8,7 @@
 
 #include "accel/core/instruction_set.hpp"
 #include "accel/core/primary_rays.hpp"
+#include "accel/core/tolerance.hpp"
 #include "harness/rays/normal.hpp"
 #include "harness/render/shading.hpp"
 
@@ -173,7 +174,7 @@ Whitted::Found Whitted::find_places(const Part& part) const {
     found.path[place] = part.paths[i];
     ++place;
   }
-  kernels_->complete(places, scene_->bounds.largest_coordinate());
+  kernels_->complete(places, accel::surface_lift(*scene_));
   return found;
 }
 

@@ -32,7 +32,7 @@ void compare(const scenes::Scene& scene, const beam::BeamOptions& options, const
   HitBuffer hits(rays.width(), rays.height(), rays.samples());
   tracer.trace(rays, hits, nullptr);
   const auto exhaustive = registry().choose({"exhaustive", {}}).build(scene);
-  for (const beam::PlanarMirror& mirror : beam::planar_mirrors(scene)) {
+  for (const scenes::PlanarMirror& mirror : scenes::planar_mirrors(scene)) {
     const auto view = beam::view_in(mirror, scene, rays, hits);
     if (!view) continue;
     ++compared.mirrors;
@@ -103,7 +103,7 @@ TEST(MirrorBeams, RaysBehindAMirrorAreReflectedRays) {
   const PrimaryRays rays(scene.cameras.front(), 50, 50, 1);
   HitBuffer hits(50, 50, 1);
   registry().choose({"samet", {}}).build(scene)->trace(rays, hits, nullptr);
-  const auto mirrors = beam::planar_mirrors(scene);
+  const auto mirrors = scenes::planar_mirrors(scene);
   ASSERT_EQ(mirrors.size(), 1U);  // the checkerboard, all squares of it
   const auto view = beam::view_in(mirrors[0], scene, rays, hits);
   ASSERT_TRUE(view.has_value());
@@ -128,11 +128,6 @@ TEST(MirrorBeams, RaysBehindAMirrorAreReflectedRays) {
   }
   EXPECT_EQ(compared, view->samples);
   EXPECT_GT(compared, 200U);
-}
-
-TEST(MirrorBeams, ScenesWithoutMirrorsHaveNone) {
-  EXPECT_TRUE(beam::planar_mirrors(scenes::load_scene("tetra:n=2")).empty());
-  EXPECT_TRUE(beam::planar_mirrors(scenes::load_scene("escena1")).empty());  // spheres
 }
 
 }  // namespace

@@ -76,6 +76,7 @@ def test_list_as_json_says_all_of_each_parameter() -> None:
         "primary",
         "shadow",
         "reflection",
+        "mirror",
         "diffuse",
         "random",
         "whitted",
@@ -804,6 +805,25 @@ def test_rays_are_saved_and_asked_again(tmp_path: Path) -> None:
     verdict = beambench("verify", "escena1:spheres=40", "--accel", "samet,embree", "--rays", file)
     assert verdict.returncode == 0, verdict.stderr
     refused(beambench("rays", "tetra:n=1", "--rays", file), ["some.rays", "hash", "tetra:n=1"])
+
+
+def test_mirror_rays_are_of_planar_mirrors_and_keep_their_pencils(tmp_path: Path) -> None:
+    file = tmp_path / "mirror.rays"
+    rays = ("rays", "teapot:n=2", "--resolution", "40x30", "--json")
+    made = json.loads(output_of(*rays, "--rays", "mirror", "-o", file))
+    assert 0 < made["rays"] < json.loads(output_of(*rays, "--rays", "reflection"))["rays"]
+    with file.open("rb") as lines:
+        lines.readline()
+        (pencil,) = json.loads(lines.readline())["pencils"]
+    assert (pencil["first"], pencil["count"], pencil["toward"]) == (0, made["rays"], False)
+    for given in ("mirror", file):
+        verify = ("verify", "teapot:n=2", "--accel", "all", "--resolution", "40x30")
+        verdict = beambench(*verify, "--rays", given)
+        assert verdict.returncode == 0, verdict.stdout + verdict.stderr
+    refused(
+        beambench("rays", "balls:n=1", "--rays", "mirror"),
+        ["balls:n=1", "no planar mirrors", "specular", "reflection"],
+    )
 
 
 def test_verify_judges_every_kind_of_rays(tmp_path: Path) -> None:

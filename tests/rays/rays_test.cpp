@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -17,8 +18,10 @@
 #include "harness/verify/describe.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/planar_mirrors.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/embree_modes.hpp"
+#include "tests/pencils.hpp"
 #include "tests/scenes/thrown_message.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -54,7 +57,7 @@ TEST(ShadowRays, LeadFromFacedSurfacesToTheLight) {
   const scenes::Scene scene = lonely_sphere();
   const auto points = points_of(scene);
   ASSERT_GT(points.size(), 100U);
-  const auto rays = shadow_rays(scene, points);
+  const auto rays = shadow_rays(scene, points).rays;
   ASSERT_EQ(rays.size(), points.size());  // the light behind is faced by no point that is seen
   for (std::size_t i = 0; i < rays.size(); ++i) {
     EXPECT_NEAR(glm::length(dvec3(rays[i].origin) - points[i].point), 0.0, 1e-3);
@@ -67,7 +70,7 @@ TEST(ShadowRays, LeadFromFacedSurfacesToTheLight) {
 TEST(ReflectionRays, LeaveAsTheyCame) {
   const scenes::Scene scene = lonely_sphere();
   const auto points = points_of(scene);
-  const auto rays = reflection_rays(scene, points);
+  const auto rays = reflection_rays(scene, points).rays;
   ASSERT_EQ(rays.size(), points.size());
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const dvec3 out(rays[i].direction);
@@ -78,6 +81,48 @@ TEST(ReflectionRays, LeaveAsTheyCame) {
   }
 }
 
+/// Rays of a list in the order of their samples.
+std::vector<accel::Ray> by_sample(const RayList& list) {
+  std::vector<std::size_t> order(list.rays.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return list.samples[i]; });
+  std::vector<accel::Ray> rays;
+  for (const std::size_t i : order) rays.push_back(list.rays[i]);
+  return rays;
+}
+
+TEST(MirrorRays, AreTheReflectionRaysOfPlanarMirrors) {
+  const scenes::Scene scene = scenes::load_scene("teapot:n=3");
+  const MirrorTable mirrors(scene);
+  const accel::PrimaryRays image(scene.cameras.front(), 64, 48, 1);
+  std::vector<PrimaryHitPoint> points = surface_points(scene, image);
+  const RayList list = mirror_rays(scene, points, mirrors, image);
+  const std::size_t all = points.size();
+  std::erase_if(points, [&](const PrimaryHitPoint& at) {
+    return mirrors.mirror_of(at.primitive) == MirrorTable::kNone;
+  });
+  EXPECT_LT(points.size(), all);
+  EXPECT_EQ(fingerprint(by_sample(list)), fingerprint(reflection_rays(scene, points).rays));
+}
+
+// Each light is a pencil and so is each mirror, and all their rays pass through the apex.
+TEST(PencilsOfLists, AreLightsAndVirtualEyes) {
+  for (const char* name : {"habitacion", "teapot:n=4", "gears:n=2", "ajedrez", "closed-room",
+                           "gato-bill", "misil", "casa-de-campo"}) {
+    for (const char* kind : {"shadow", "mirror"}) {
+      SCOPED_TRACE(fmt::format("{} {}", name, kind));
+      const scenes::Scene scene = scenes::load_scene(name);
+      const accel::PrimaryRays image(scene.cameras.front(), 160, 120, 1);
+      const TraceInput input = input_over(scene, kind, {160, 120});
+      const RaySet& set = *input.list();
+      testing::CheckedPencils checked;
+      checked.add(set.batch(), scene.bounds.largest_coordinate(), image, 16.0);
+      EXPECT_EQ(checked.toward + checked.away, set.rays.size());
+      EXPECT_EQ(checked.away > 0, kind == std::string_view("mirror"));
+    }
+  }
+}
+
 TEST(DiffuseRays, FollowTheCosineAndTheSeed) {
   const scenes::Scene scene = lonely_sphere();
   const auto points = points_of(scene);
@@ -85,7 +130,7 @@ TEST(DiffuseRays, FollowTheCosineAndTheSeed) {
   double squares = 0.0;
   std::size_t count = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    const auto rays = diffuse_rays(scene, points, seed);
+    const auto rays = diffuse_rays(scene, points, seed).rays;
     ASSERT_EQ(rays.size(), points.size());
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const double cosine = glm::dot(dvec3(rays[i].direction), points[i].normal);
@@ -100,10 +145,10 @@ TEST(DiffuseRays, FollowTheCosineAndTheSeed) {
               5.0 * std::sqrt(1.0 / 18.0 / static_cast<double>(count)));
   EXPECT_NEAR(squares / static_cast<double>(count), 0.5,
               5.0 * std::sqrt(1.0 / 12.0 / static_cast<double>(count)));
-  EXPECT_EQ(fingerprint(diffuse_rays(scene, points, 1)),
-            fingerprint(diffuse_rays(scene, points, 1)));
-  EXPECT_NE(fingerprint(diffuse_rays(scene, points, 1)),
-            fingerprint(diffuse_rays(scene, points, 2)));
+  EXPECT_EQ(fingerprint(diffuse_rays(scene, points, 1).rays),
+            fingerprint(diffuse_rays(scene, points, 1).rays));
+  EXPECT_NE(fingerprint(diffuse_rays(scene, points, 1).rays),
+            fingerprint(diffuse_rays(scene, points, 2).rays));
 }
 
 TEST(SecondaryRays, DoNotMeetTheSurfaceTheyLeave) {
@@ -117,7 +162,7 @@ TEST(SecondaryRays, DoNotMeetTheSurfaceTheyLeave) {
 TEST(RandomRays, MeetAConvexBodyAsOftenAsItsSurfaceSays) {
   const scenes::Scene scene = lonely_sphere();
   constexpr std::size_t kCount = 200'000;
-  RaySet set{"random", Query::kClosestHit, 1, {}, random_rays(scene.bounds, kCount, 1)};
+  RaySet set{random_rays(scene.bounds, kCount, 1), "random", Query::kClosestHit, 1};
   ASSERT_EQ(set.rays.size(), kCount);
   const verify::ReferenceHits reference(scene, TraceInput(std::move(set)));
   const double pad = 2.0 * 0x1p-10 * std::sqrt(3.0) * 4.0;  // the box is a little wider
@@ -127,13 +172,13 @@ TEST(RandomRays, MeetAConvexBodyAsOftenAsItsSurfaceSays) {
 }
 
 TEST(RandomRays, TakeFlatAndEmptyBoxes) {
-  EXPECT_TRUE(random_rays(scenes::Bounds(), 10, 1).empty());
+  EXPECT_TRUE(random_rays(scenes::Bounds(), 10, 1).rays.empty());
   scenes::Bounds point;
   point.include(glm::vec3(5.0F, 0.0F, 0.0F));
-  for (const accel::Ray& ray : random_rays(point, 10, 1)) accel::require_valid(ray);
+  for (const accel::Ray& ray : random_rays(point, 10, 1).rays) accel::require_valid(ray);
   scenes::Bounds flat = point;
   flat.include(glm::vec3(5.0F, 3.0F, 2.0F));
-  EXPECT_EQ(random_rays(flat, 10, 1).size(), 10U);
+  EXPECT_EQ(random_rays(flat, 10, 1).rays.size(), 10U);
 }
 
 TEST(Coherence, IsTheMeanCosineOfNeighbors) {
@@ -168,13 +213,26 @@ TEST(MakeInput, ExplainsWhyThereAreNoRays) {
                            {"no diffuse rays", "another camera"}));
 }
 
+TEST(MakeInput, ExplainsWhyThereAreNoMirrorRays) {
+  const auto reason = [](const scenes::Scene& scene) {
+    return scenes::thrown_message([&] { input_over(scene, "mirror"); });
+  };
+  EXPECT_TRUE(
+      scenes::says(reason(lonely_sphere()), {"no planar mirrors", "specular", "reflection"}));
+  scenes::Scene scene = scenes::load_scene("teapot:n=2");
+  scenes::Camera& camera = scene.cameras.front();
+  camera.at = camera.from + (camera.from - camera.at);  // turned around
+  EXPECT_TRUE(scenes::says(reason(scene), {"no mirror rays", "planar mirror", "another camera"}));
+}
+
 TEST(EveryKindOfRays, FindsExhaustiveAndEmbreeRight) {
   std::vector<std::string> structures{"exhaustive", "samet"};
   for (const std::string& mode : testing::embree_modes())
     structures.push_back("embree:mode=" + mode);
-  for (const char* name : {"tetra:n=3", "escena1:spheres=60", "balls:n=1"}) {
+  for (const char* name : {"tetra:n=3", "escena1:spheres=60", "balls:n=1", "teapot:n=2"}) {
     const scenes::Scene scene = scenes::load_scene(name);
-    for (const char* kind : {"shadow", "reflection", "diffuse", "random"}) {
+    for (const char* kind : {"shadow", "reflection", "mirror", "diffuse", "random"}) {
+      if (kind == std::string_view("mirror") && scenes::planar_mirrors(scene).empty()) continue;
       const verify::ReferenceHits reference(scene, input_over(scene, kind));
       for (const std::string& structure : structures) {
         const accel::StructureChoice choice = accel::registry().choose(parse_spec(structure));
@@ -261,8 +319,8 @@ TEST(AnyHitOfAGrazingRay, MayBeEither) {
     ray.origin = {x, 0.0F, 4.0F};
     ray.direction = {0.0F, 0.0F, -1.0F};
     ray.t_max = t_max;
-    const verify::ReferenceHits reference(
-        scene, TraceInput(RaySet{"a ray", Query::kAnyHit, 0, {}, {ray}}));
+    const verify::ReferenceHits reference(scene,
+                                          TraceInput(RaySet{{{ray}}, "a ray", Query::kAnyHit}));
     return verify::verify_results(reference, AnyHits{answer}, accel::Conformance::kTolerance)
         .examples;
   };
@@ -303,6 +361,57 @@ TEST_F(RayFile, HoldsTheSameRays) {
   EXPECT_EQ(read.seed(), 9U);
   EXPECT_EQ(read.query(), Query::kClosestHit);
   EXPECT_EQ(read.label(), path_.string());
+}
+
+TEST_F(RayFile, HoldsTheSamePencils) {
+  const scenes::Scene scene = scenes::load_scene("gears:n=2");
+  for (const char* kind : {"shadow", "mirror"}) {
+    const TraceInput made = input_over(scene, kind);
+    ASSERT_FALSE(made.list()->pencils.empty());
+    write_ray_file(path_, *made.list(), {});
+    const TraceInput read = input_over(scene, path_.string());
+    EXPECT_EQ(fingerprint(read), fingerprint(made));
+    ASSERT_EQ(read.list()->pencils.size(), made.list()->pencils.size());
+    for (std::size_t i = 0; i < read.list()->pencils.size(); ++i) {
+      const accel::Pencil& pencil = read.list()->pencils[i];
+      const accel::Pencil& expected = made.list()->pencils[i];
+      EXPECT_EQ(pencil.first, expected.first);
+      EXPECT_EQ(pencil.count, expected.count);
+      EXPECT_EQ(pencil.apex, expected.apex);
+      EXPECT_EQ(pencil.toward, expected.toward);
+    }
+  }
+}
+
+TEST_F(RayFile, NamesAPencilThatIsNone) {
+  const std::string rest = read_text(path_).substr(read_text(path_).find("}\n") + 2);
+  const auto header = [&](const std::string& pencils) {
+    return fmt::format("beambench-rays 1\n{{\"query\":\"any\",\"rays\":{},\"pencils\":{}}}\n",
+                       set_.rays.size(), pencils) +
+           rest;
+  };
+  const std::string good = R"({"first":4,"count":6,"apex":[1,2,3],"toward":true})";
+  write(header("[" + good + "]"));
+  EXPECT_EQ(read_ray_file(path_).pencils.size(), 1U);
+  write(header(good));
+  EXPECT_TRUE(scenes::says(refusal(), {"some.rays", "\"pencils\" is not a list"}));
+  for (const auto& [bad, why] : std::initializer_list<std::pair<const char*, const char*>>{
+           {R"({"first":9,"count":6,"apex":[1,2,3],"toward":true})", "before 10"},
+           {R"({"first":-1,"count":6,"apex":[1,2,3],"toward":true})", "first"},
+           {R"({"first":10,"count":0,"apex":[1,2,3],"toward":true})", "not among"},
+           {R"({"first":10,"count":1000000,"apex":[1,2,3],"toward":true})", "not among"},
+           {R"({"first":10,"count":1,"apex":[1,2],"toward":true})", "apex"},
+           {R"({"first":10,"count":1,"apex":[1,2,null],"toward":true})", "apex"},
+           {R"({"first":10,"count":1,"apex":[1,2,1e999],"toward":true})", "not a JSON object"},
+           {R"({"first":10,"count":1,"apex":[1,2,3],"toward":1})", "toward"},
+           {R"({"first":10,"count":1,"apex":[1,2,3]})", "toward"},
+           {"7", "first"}}) {
+    write(header("[" + good + "," + bad + "]"));
+    EXPECT_TRUE(scenes::says(refusal(), {"some.rays", why})) << bad;
+    if (why != std::string_view("not a JSON object")) {
+      EXPECT_TRUE(scenes::says(refusal(), {"pencil 1"})) << bad;
+    }
+  }
 }
 
 TEST_F(RayFile, OfAnotherSceneIsRefused) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include "accel/core/tolerance.hpp"
 #include "harness/rays/normal.hpp"
 #include "harness/render/places.hpp"
 #include "harness/render/shading.hpp"
@@ -159,7 +160,7 @@ TEST(Places, AreThoseOfSingleRays) {
         places.geometric.set(k, normals.geometric);
         places.shading.set(k, normals.shading);
       }
-      kernels.complete(places, scene.bounds.largest_coordinate());
+      kernels.complete(places, accel::surface_lift(scene));
       const glm::dvec3 position(scene.lights.front().position);
       LightAngles angles(hit.size());
       kernels.find_angles(places, position, angles);

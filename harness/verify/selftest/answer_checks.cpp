@@ -108,8 +108,7 @@ class HitComparison {
   std::string by_the_differ(const accel::Accelerator& structure,
                             std::span<const accel::Ray> rays) const {
     for (const rays::Query query : {rays::Query::kClosestHit, rays::Query::kAnyHit}) {
-      const rays::TraceInput input(
-          rays::RaySet{"selftest", query, 0, std::nullopt, {rays.begin(), rays.end()}});
+      const rays::TraceInput input(rays::RaySet{{{rays.begin(), rays.end()}}, "selftest", query});
       const rays::TraceResults results = traced(structure, input);
       std::string wrong =
           wrong_by_the_differ(*scene_, input, results, conformance_, /*may_graze=*/true);

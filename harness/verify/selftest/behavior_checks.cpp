@@ -32,10 +32,9 @@ struct Trial {
 
   /// Every kind of query.
   std::vector<rays::TraceInput> inputs() const {
-    return {
-        rays::TraceInput(rays::RaySet{"closest", rays::Query::kClosestHit, 0, std::nullopt, rays}),
-        rays::TraceInput(rays::RaySet{"any", rays::Query::kAnyHit, 0, std::nullopt, rays}),
-        rays::TraceInput(accel::PrimaryRays(scene.cameras.front(), 37, 23, 5))};
+    return {rays::TraceInput(rays::RaySet{{rays}, "closest", rays::Query::kClosestHit}),
+            rays::TraceInput(rays::RaySet{{rays}, "any", rays::Query::kAnyHit}),
+            rays::TraceInput(accel::PrimaryRays(scene.cameras.front(), 37, 23, 5))};
   }
 
   scenes::Scene scene;

@@ -1,0 +1,49 @@
+#pragma once
+// From where rays seem to come that planar mirrors reflect.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "accel/core/primary_rays.hpp"
+#include "scenes/planar_mirrors.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::rays {
+
+/// A scene's planar mirrors by primitive, and how far from them rays begin.
+class MirrorTable {
+ public:
+  explicit MirrorTable(const scenes::Scene& scene);
+
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  /// Of a primitive; kNone where it is no planar mirror.
+  std::uint32_t mirror_of(scenes::PrimitiveId primitive) const {
+    return mirrors_.empty() ? kNone : mirror_of_[primitive];
+  }
+  const std::vector<scenes::PlanarMirror>& mirrors() const { return mirrors_; }
+  double lift() const { return lift_; }
+
+ private:
+  std::vector<scenes::PlanarMirror> mirrors_;
+  std::vector<std::uint32_t> mirror_of_;  ///< by primitive; empty without mirrors
+  double lift_;
+};
+
+/// The eye of an image, or what mirrors make of it.
+struct VirtualEye {
+  explicit VirtualEye(const accel::PrimaryRays& image) : place(image.eye()), view(image) {}
+
+  /// That of the rays which a mirror reflects to the side that its normal points to, or to the
+  /// other: they begin a little beside the mirror, so their lines pass through the eye's image
+  /// moved by as much (`accel::surface_lift`).
+  VirtualEye behind(const scenes::PlanarMirror& mirror, bool on_normals_side, double lift) const;
+
+  glm::dvec3 place;
+  /// The image seen from there, but for rounding: its eye is a float, and is not moved.
+  accel::PrimaryRays view;
+};
+
+}  // namespace beambench::rays

@@ -1,0 +1,103 @@
+#include "scenes/planar_mirrors.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace beambench::scenes {
+namespace {
+
+using glm::dvec3;
+
+double size_of(const Scene& scene) { return glm::length(dvec3(scene.bounds.extent())); }
+
+dvec3 corner_of(const Scene& scene, const Polygon& polygon, std::uint32_t corner) {
+  return {scene.vertices[scene.corners[polygon.first_corner + corner]]};
+}
+
+/// Newell's normal: twice the area of the polygon's projection along each axis.
+dvec3 unit_normal(const Scene& scene, const Polygon& polygon) {
+  dvec3 normal(0.0);
+  for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {
+    const dvec3 from = corner_of(scene, polygon, i) - corner_of(scene, polygon, 0);
+    const dvec3 to =
+        corner_of(scene, polygon, (i + 1) % polygon.corner_count) - corner_of(scene, polygon, 0);
+    normal += glm::cross(from, to);
+  }
+  return glm::normalize(normal);
+}
+
+bool reflects(const Scene& scene, const Primitive& primitive) {
+  return primitive.kind == PrimitiveKind::kPolygon &&
+         scene.polygons[primitive.index].first_normal == Polygon::kFlat &&
+         scene.surfaces[primitive.surface].specular > 0.0F;
+}
+
+/// Corners and triangles, whose own normals are those that rays are reflected by.
+bool lies_in(const Scene& scene, const Polygon& polygon, const PlanarMirror& mirror) {
+  constexpr double kTolerance = 0x1p-22;
+  const double distance = kTolerance * double{scene.bounds.largest_coordinate()};
+  const auto triangles =
+      std::span(scene.triangles).subspan(polygon.first_triangle, polygon.triangle_count);
+  return std::ranges::all_of(triangles, [&](const Triangle& triangle) {
+    std::array<dvec3, 3> away{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      away[i] = dvec3(scene.vertices[triangle.vertex[i]]) - mirror.point;
+      if (std::abs(glm::dot(away[i], mirror.normal)) > distance) return false;
+    }
+    const dvec3 across = glm::normalize(glm::cross(away[1] - away[0], away[2] - away[0]));
+    return glm::length(glm::cross(across, mirror.normal)) <= kTolerance;  // the sine between them
+  });
+}
+
+/// A cell of the space of planes: normal and distance, rounded.
+using PlaneCell = std::array<std::int64_t, 4>;
+
+/// Only planes in one cell are compared, so that a million small mirrors take little time. Two
+/// halves of a plane that fall into neighboring cells are two mirrors, which show the same.
+PlaneCell cell_of(const Scene& scene, const PlanarMirror& mirror) {
+  constexpr double kNormals = 0x1p8;
+  constexpr double kDistances = 0x1p10;
+  dvec3 normal = mirror.normal;
+  for (int axis = 0; axis < 3; ++axis) {  // a plane has two normals: the one whose first axis is up
+    if (std::abs(normal[axis]) < 0.5 / kNormals) continue;
+    normal *= normal[axis] < 0.0 ? -1.0 : 1.0;
+    break;
+  }
+  const dvec3 middle = 0.5 * (dvec3(scene.bounds.lower) + dvec3(scene.bounds.upper));
+  const double distance = glm::dot(normal, mirror.point - middle) / size_of(scene);
+  return {std::llround(kNormals * normal.x), std::llround(kNormals * normal.y),
+          std::llround(kNormals * normal.z), std::llround(kDistances * distance)};
+}
+
+}  // namespace
+
+std::vector<PlanarMirror> planar_mirrors(const Scene& scene) {
+  std::vector<PlanarMirror> mirrors;
+  std::map<PlaneCell, std::vector<std::size_t>> in_cell;  // indices of mirrors
+  for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+    if (!reflects(scene, scene.primitives[id])) continue;
+    const Polygon& polygon = scene.polygons[scene.primitives[id].index];
+    PlanarMirror own{corner_of(scene, polygon, 0), unit_normal(scene, polygon), {id}};
+    if (!lies_in(scene, polygon, own)) continue;  // it is bent
+    std::vector<std::size_t>& near = in_cell[cell_of(scene, own)];
+    const auto same = std::ranges::find_if(
+        near, [&](std::size_t i) { return lies_in(scene, polygon, mirrors[i]); });
+    if (same != near.end()) {
+      mirrors[*same].polygons.push_back(id);
+    } else {
+      near.push_back(mirrors.size());
+      mirrors.push_back(std::move(own));
+    }
+  }
+  return mirrors;
+}
+
+}  // namespace beambench::scenes
