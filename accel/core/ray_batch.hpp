@@ -35,9 +35,10 @@ struct Pencil {
 struct RayBatch {
   std::span<const Ray> rays;
   std::span<const Pencil> pencils{};
-  /// From which sample of the image each ray came, directly or by others, as a HitBuffer of the
-  /// image numbers them; empty where rays do not come from an image.
+  /// From which sample of `image` each ray came, directly or by others, as a HitBuffer of the image
+  /// numbers them; empty where rays do not come from an image.
   std::span<const std::uint32_t> samples{};
+  const PrimaryRays* image = nullptr;  ///< null where `samples` is empty
 };
 
 }  // namespace beambench::accel

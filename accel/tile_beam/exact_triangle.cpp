@@ -84,6 +84,9 @@ Eye place_of_eye(const std::array<glm::dvec3, 3>& from_eye) {
   return on ? Eye::kOnTriangle : Eye::kInPlane;
 }
 
+/// Of edges seen from an apex, relative to their numbers: those in float err by less.
+constexpr double kApexWidening = 2e-7;
+
 ExactTriangle left_to_rays(const SampleRectangle& box) { return {{}, {}, box, true}; }
 
 SampleRectangle whole(const TileView& view) {
@@ -134,6 +137,45 @@ std::optional<ExactTriangle> exact_triangle(const TileView& view,
   if (largest(plane, view) <= 0.0) return std::nullopt;
   if (!(glm::length(plane) < kNearestOfAll)) return left_to_rays(*box);
   triangle.plane = rounded(plane);
+  return triangle;
+}
+
+std::optional<ExactApexTriangle> exact_apex_triangle(const glm::vec3& apex, const CubeSide& side,
+                                                     const std::array<glm::vec3, 3>& corners) {
+  std::array<glm::dvec3, 3> from_apex;
+  std::array<glm::dvec3, 3> projected;
+  for (std::size_t i = 0; i < 3; ++i) {
+    from_apex[i] = glm::dvec3(corners[i]) - glm::dvec3(apex);
+    const auto along = [&](std::size_t axis) { return from_apex[i][static_cast<int>(axis)]; };
+    projected[i] = {along(side.x_axis()), along(side.y_axis()),
+                    along(side.z_axis()) * double{side.sign()}};
+  }
+  switch (place_of_eye(from_apex)) {
+    case Eye::kOnTriangle:
+      return ExactApexTriangle{{}, {}, 0.0, true};
+    case Eye::kInPlane:  // rays in its plane miss
+      return std::nullopt;
+    case Eye::kOff:
+      break;
+  }
+  if (std::max({projected[0].z, projected[1].z, projected[2].z}) <= 0.0) return std::nullopt;
+  const double volume = glm::dot(projected[0], glm::cross(projected[1], projected[2]));
+  if (volume == 0.0) return std::nullopt;
+  const double inward = volume > 0.0 ? 1.0 : -1.0;
+  ExactApexTriangle triangle{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    glm::dvec3 edge = glm::cross(projected[i], projected[(i + 1) % 3]) * inward;
+    const double largest = std::max({std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
+    if (largest == 0.0) return std::nullopt;
+    edge /= largest;
+    edge.z += kApexWidening * (std::abs(edge.x) + std::abs(edge.y) + std::abs(edge.z));
+    triangle.edges[i] = edge;
+  }
+  const glm::dvec3 plane =
+      glm::cross(projected[1] - projected[0], projected[2] - projected[0]) * inward;
+  const double largest = std::max({std::abs(plane.x), std::abs(plane.y), std::abs(plane.z)});
+  triangle.plane = plane / largest;
+  triangle.distance = std::abs(volume) / largest;
   return triangle;
 }
 

@@ -6,6 +6,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "accel/tile_beam/pencil_unit.hpp"
 #include "accel/tile_beam/tile_image.hpp"
 #include "accel/tile_beam/tile_view.hpp"
 
@@ -34,5 +35,19 @@ struct ExactTriangle {
 /// lies on is hit at t = 0 in whatever direction, and has no image.
 std::optional<ExactTriangle> exact_triangle(const TileView& view,
                                             const std::array<glm::vec3, 3>& corners);
+
+/// A triangle seen through a side of the cube about a pencil's apex. The condition for a place
+/// (u, v) to see it: no edge is negative, where an edge is x * u + y * v + z; its w there is the
+/// plane over `distance`, which is positive.
+struct ExactApexTriangle {
+  std::array<glm::dvec3, 3> edges;
+  glm::dvec3 plane;
+  double distance;
+  bool at_apex;  ///< edges and plane are not set, rays decide
+};
+
+/// As `exact_triangle`; edges are moved outward by more than those in float may be wrong.
+std::optional<ExactApexTriangle> exact_apex_triangle(const glm::vec3& apex, const CubeSide& side,
+                                                     const std::array<glm::vec3, 3>& corners);
 
 }  // namespace beambench::accel::tile_beam

@@ -8,8 +8,10 @@
 #endif
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include <hwy/highway.h>
 
@@ -33,10 +35,18 @@ HWY_INLINE Floats all(float value) { return hn::Set(Tag(), value); }
 HWY_INLINE Floats load(const float* from) { return hn::Load(Tag(), from); }
 HWY_INLINE void store(Floats values, float* to) { hn::Store(values, Tag(), to); }
 
+/// As large as a mask in memory, so that it goes from register to register.
+using MaskWord = std::conditional_t<(kLanes > 8), std::uint16_t, std::uint8_t>;
+static_assert(kLanes <= 8 || std::endian::native == std::endian::little);
+
 HWY_INLINE LaneBits bits_of(Mask mask) {
-  std::array<std::uint8_t, 8> stored{};
-  hn::StoreMaskBits(Tag(), mask, stored.data());
-  return stored[0] | static_cast<LaneBits>(stored[1]) << 8U;
+  MaskWord word;
+  hn::StoreMaskBits(Tag(), mask, reinterpret_cast<std::uint8_t*>(&word));
+  return word;
+}
+HWY_INLINE Mask mask_of(LaneBits bits) {
+  const auto word = static_cast<MaskWord>(bits);
+  return hn::LoadMaskBits(Tag(), reinterpret_cast<const std::uint8_t*>(&word));
 }
 
 /// 1 / values, to within two roundings; infinity for 0, and 0 for infinity.

@@ -12,6 +12,7 @@
 
 #include "accel/bvh/probe_ray.hpp"
 #include "accel/core/intersect.hpp"
+#include "accel/core/trace_step.hpp"
 #include "accel/tile_beam/lanes-inl.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 

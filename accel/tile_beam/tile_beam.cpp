@@ -1,6 +1,7 @@
 #include "accel/tile_beam/tile_beam.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -99,7 +100,70 @@ void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
   for (const ThreadState<Counting>& state : states) counting.add(state.counting);
 }
 
+/// The rays of a batch in its order: `some(rays, first)` answers the first of a pencil's rays that
+/// are left, and returns how many; `single(i)` all other rays. Pencils that do not run `toward`
+/// their apex, or do, are no pencils here.
+template <class Some, class Single>
+void for_each_pencil(const TileHierarchy& hierarchy, const scenes::Scene& scene,
+                     const RayBatch& batch, bool toward, Some some, Single single) {
+  std::size_t next = 0;
+  const auto trace_singly = [&](std::size_t end) {
+    for (; next < end; ++next) single(next);
+  };
+  const PencilSamples samples(batch);
+  for (const Pencil& pencil : batch.pencils) {
+    if (pencil.toward != toward || hierarchy.empty()) continue;
+    trace_singly(pencil.first);
+    for (const std::size_t end = pencil.first + pencil.count; next < end;) {
+      next += some(PencilRays{hierarchy, scene, batch.rays.subspan(next, end - next),
+                              samples.from(next), glm::vec3(pencil.apex)},
+                   next);
+    }
+  }
+  trace_singly(batch.rays.size());
+}
+
 }  // namespace
+
+void TileBeam::closest_hits(const RayBatch& batch, HitBuffer& buffer,
+                            WorkCounters* counters) const {
+  with_counting(counters, [&]<class Counting>(Counting& counting) {
+    const auto single = [&](std::size_t i) {
+      buffer.set(i, find_closest(batch.rays[i], counting));
+    };
+    const auto unit = std::make_unique_for_overwrite<PencilUnit>();
+    for_each_pencil(
+        hierarchy_, *scene_, batch, false,
+        [&](const PencilRays& rays, std::size_t first) {
+          const AnsweredRays answered = pencil_kernels_->queries<Counting>().closest_hits(
+              rays, *unit, buffer, first, counting);
+          for (std::size_t i = first; answered.some_undecided && i < first + answered.count; ++i) {
+            if (std::isnan(buffer.t()[i])) single(i);
+          }
+          return answered.count;
+        },
+        single);
+  });
+}
+
+void TileBeam::any_hits(const RayBatch& batch, std::span<std::uint8_t> hits,
+                        WorkCounters* counters) const {
+  with_counting(counters, [&]<class Counting>(Counting& counting) {
+    const auto single = [&](std::size_t i) { hits[i] = find_any(batch.rays[i], counting) ? 1 : 0; };
+    const auto unit = std::make_unique_for_overwrite<PencilUnit>();
+    for_each_pencil(
+        hierarchy_, *scene_, batch, true,
+        [&](const PencilRays& rays, std::size_t first) {
+          const AnsweredRays answered = pencil_kernels_->queries<Counting>().any_hits(
+              rays, *unit, hits.subspan(first, rays.rays.size()), counting);
+          for (std::size_t i = first; answered.some_undecided && i < first + answered.count; ++i) {
+            if (hits[i] == kUndecided) single(i);
+          }
+          return answered.count;
+        },
+        single);
+  });
+}
 
 void TileBeam::trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const {
   with_counting(counters, [&](auto& counting) {

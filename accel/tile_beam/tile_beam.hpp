@@ -7,6 +7,7 @@
 #include "accel/core/primary_rays.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
+#include "accel/tile_beam/pencil_kernels.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 #include "accel/tile_beam/tile_kernels.hpp"
 #include "scenes/core/parameters.hpp"
@@ -29,6 +30,7 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
       : scene_(&scene),
         hierarchy_(build_tile_hierarchy(scene, options)),
         kernels_(&tile_kernels_for(targets)),
+        pencil_kernels_(&pencil_kernels_for(targets)),
         parallel_(options.parallel) {}
 
   const TileHierarchy& hierarchy() const { return hierarchy_; }
@@ -39,6 +41,10 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const override;
   void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
                     WorkCounters* counters) const override;
+  void closest_hits(const RayBatch& batch, HitBuffer& buffer,
+                    WorkCounters* counters) const override;
+  void any_hits(const RayBatch& batch, std::span<std::uint8_t> hits,
+                WorkCounters* counters) const override;
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
@@ -60,6 +66,7 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   const scenes::Scene* scene_;
   TileHierarchy hierarchy_;
   const TileKernels* kernels_;
+  const PencilKernels* pencil_kernels_;
   bool parallel_;
 };
 

@@ -1,0 +1,128 @@
+#include "accel/tile_beam/pencil_kernels.hpp"
+
+#include "accel/core/pick_target.hpp"
+
+// Highway includes this file once more for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "accel/tile_beam/pencil_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "accel/tile_beam/pencil_walk-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
+
+/// Calls `walk(part, side)` for each side of the cube that the first rays pass, and `undecided(i)`
+/// for those that pass none.
+template <bool kToward, class Walk, class Undecided>
+HWY_INLINE AnsweredRays for_each_side(const PencilRays& pencil, PencilUnit& unit, Walk walk,
+                                      Undecided undecided) {
+  // Beyond this float errs by more than rays begin beside surfaces.
+  constexpr float kFarthest = 20.0F;
+  const float size = pencil.hierarchy.bounds.largest_coordinate();
+  list_blocks(pencil.rays, pencil.samples, unit);
+  const std::size_t count = unit.first[unit.listed];
+  const PencilPart part{pencil.rays.first(count), pencil.apex, kFarthest * size};
+  std::array<std::uint16_t, PencilUnit::kListed> decided{};
+  LaneBits done = 0;
+  LaneBits others = LaneBits{1} << unit.side.number;
+  while ((others & ~done) != 0) {
+    const CubeSide side{std::countr_zero(others & ~done)};
+    done |= LaneBits{1} << side.number;
+    others |= PencilProjection<kToward>(part, side, unit)();
+    for (std::size_t block = 0; block < unit.listed; ++block) {
+      decided[block] = static_cast<std::uint16_t>(decided[block] | unit.lanes[block]);
+    }
+    PencilGrouping(unit, !kToward)();
+    if (unit.places == 0) continue;
+    unit.side = side;
+    walk(part, side);
+  }
+  bool some_undecided = false;
+  for (std::size_t block = 0; block < unit.listed; ++block) {
+    const std::size_t first = unit.first[block];
+    const LaneBits present = (LaneBits{1} << (unit.first[block + 1] - first)) - 1;
+    for (LaneBits left = ~LaneBits{decided[block]} & present; left != 0; left &= left - 1) {
+      undecided(first + static_cast<std::size_t>(std::countr_zero(left)));
+      some_undecided = true;
+    }
+  }
+  return {count, some_undecided};
+}
+
+template <class Counting>
+AnsweredRays any_hits(const PencilRays& pencil, PencilUnit& unit, std::span<std::uint8_t> hits,
+                      Counting& counting) {
+  std::ranges::fill(hits.first(std::min(hits.size(), PencilUnit::kRays)), std::uint8_t{0});
+  return for_each_side<true>(
+      pencil, unit,
+      [&](const PencilPart& part, CubeSide side) {
+        counting.add("beams");
+        PencilWalk<AnyHitPolicy, Counting>(pencil.hierarchy, pencil.scene, part, side, unit,
+                                           counting)();
+        for (std::size_t place = 0; place < unit.places; ++place) {
+          const std::size_t block = unit.slot[place];
+          LaneBits hit = unit.lanes[block] & ~LaneBits{unit.alive[place]};
+          for (; hit != 0; hit &= hit - 1) {
+            const auto lane = static_cast<std::size_t>(std::countr_zero(hit));
+            hits[unit.ray_at(block * PencilUnit::kBlock + lane)] = 1;
+          }
+        }
+      },
+      [&](std::size_t i) { hits[i] = kUndecided; });
+}
+
+template <class Counting>
+AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, HitBuffer& buffer,
+                          std::size_t first, Counting& counting) {
+  float* const t = buffer.t() + first;
+  scenes::PrimitiveId* const primitive = buffer.primitive() + first;
+  return for_each_side<false>(
+      pencil, unit,
+      [&](const PencilPart& part, CubeSide side) {
+        counting.add("beams");
+        PencilWalk<ClosestHitPolicy, Counting>(pencil.hierarchy, pencil.scene, part, side, unit,
+                                               counting)();
+        const auto z = static_cast<int>(side.z_axis());
+        for (std::size_t place = 0; place < unit.places; ++place) {
+          const std::size_t block = unit.slot[place];
+          for (LaneBits left = unit.lanes[block]; left != 0; left &= left - 1) {
+            const std::size_t at =
+                block * PencilUnit::kBlock + static_cast<std::size_t>(std::countr_zero(left));
+            const std::size_t i = unit.ray_at(at);
+            const bool hit = unit.w[at] > 0.0F;
+            const float depth = 1.0F / unit.w[at] - 1.0F / unit.origin_w[at];
+            t[i] = hit ? depth / std::abs(pencil.rays[i].direction[z]) : kInfinity;
+            primitive[i] = hit ? unit.primitive[at] : scenes::kNoPrimitive;
+          }
+        }
+      },
+      [&](std::size_t i) { t[i] = kNaN; });
+}
+
+template <class Counting>
+constexpr PencilQueries<Counting> pencil_queries() {
+  return {any_hits<Counting>, closest_hits<Counting>};
+}
+
+const PencilKernels& pencil_kernels() {
+  static constexpr PencilKernels kKernels{pencil_queries<NoCounting>(),
+                                          pencil_queries<WorkCounters>()};
+  return kKernels;
+}
+
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace beambench::accel::tile_beam {
+
+HWY_EXPORT(pencil_kernels);
+
+const PencilKernels& pencil_kernels_for(std::int64_t targets) {
+  return pick_target(HWY_DISPATCH_TABLE(pencil_kernels), targets)();
+}
+
+}  // namespace beambench::accel::tile_beam
+#endif

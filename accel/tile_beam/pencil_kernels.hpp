@@ -1,0 +1,87 @@
+#pragma once
+// Parts of pencils through the hierarchy, compiled for several instruction sets.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include <glm/vec3.hpp>
+
+#include "accel/core/hit_buffer.hpp"
+#include "accel/core/ray.hpp"
+#include "accel/core/ray_batch.hpp"
+#include "accel/core/work_counters.hpp"
+#include "accel/tile_beam/pencil_unit.hpp"
+#include "accel/tile_beam/tile_hierarchy.hpp"
+
+namespace beambench::accel::tile_beam {
+
+/// The samples of an image that rays come from, by their numbers in a HitBuffer.
+struct PencilSamples {
+  std::span<const std::uint32_t> of_rays;  ///< empty where they are not known
+  std::uint32_t width = 1;                 ///< of the image, in pixels
+  std::uint32_t per_pixel = 1;
+  double per_width = 1.0;  ///< 1 / width
+
+  PencilSamples() = default;
+  explicit PencilSamples(const RayBatch& batch) : of_rays(batch.samples) {
+    if (batch.image == nullptr) return;
+    width = static_cast<std::uint32_t>(batch.image->width());
+    per_pixel = static_cast<std::uint32_t>(batch.image->samples());
+    per_width = 1.0 / width;
+  }
+
+  PencilSamples from(std::size_t first) const {
+    PencilSamples rest = *this;
+    if (!of_rays.empty()) rest.of_rays = of_rays.subspan(first);
+    return rest;
+  }
+  /// Without a division. Half a pixel more than the quotient is far enough from whole numbers.
+  std::uint32_t row_of(std::uint32_t pixel) const {
+    return static_cast<std::uint32_t>((pixel + 0.5) * per_width);
+  }
+};
+
+/// Rays of a pencil, at least one. The hierarchy is not empty.
+struct PencilRays {
+  const TileHierarchy& hierarchy;
+  const scenes::Scene& scene;
+  std::span<const Ray> rays;
+  PencilSamples samples;
+  glm::vec3 apex;
+};
+
+/// The result of a ray that is left to the query of single rays: its line is too long for float, or
+/// has no direction from the apex.
+inline constexpr std::uint8_t kUndecided = 2;
+
+/// How many rays were answered, and whether some of them are undecided.
+struct AnsweredRays {
+  std::size_t count;
+  bool some_undecided;
+};
+
+/// The queries under one counting policy. They answer the first rays of some, as many as go into
+/// `unit`. The unit's side of the cube is the first to be tried, and
+/// is set to the one that saw the last rays.
+template <class Counting>
+struct PencilQueries {
+  /// Rays toward the apex: 1, 0 or kUndecided for each.
+  AnsweredRays (*any_hits)(const PencilRays&, PencilUnit& unit, std::span<std::uint8_t> hits,
+                           Counting&);
+  /// Rays away from it: their hits from `first` of the buffer on; t is NaN where undecided.
+  AnsweredRays (*closest_hits)(const PencilRays&, PencilUnit& unit, HitBuffer& buffer,
+                               std::size_t first, Counting&);
+};
+
+struct PencilKernels : PencilQueries<NoCounting>, PencilQueries<WorkCounters> {
+  template <class Counting>
+  const PencilQueries<Counting>& queries() const {
+    return *this;
+  }
+};
+
+/// Those for the best instruction set that this machine has among some, as `tile_kernels_for`.
+const PencilKernels& pencil_kernels_for(std::int64_t targets);
+
+}  // namespace beambench::accel::tile_beam

@@ -1,0 +1,347 @@
+// The contents of a leaf as a pencil's apex sees them: bounds, and what the tests of rays need.
+
+#if defined(ACCEL_TILE_BEAM_PENCIL_SHAPES_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ACCEL_TILE_BEAM_PENCIL_SHAPES_INL
+#undef ACCEL_TILE_BEAM_PENCIL_SHAPES_INL
+#else
+#define ACCEL_TILE_BEAM_PENCIL_SHAPES_INL
+#endif
+
+#include <bit>
+
+#include "accel/tile_beam/exact_triangle.hpp"
+#include "accel/tile_beam/pencil_points-inl.hpp"
+#include "accel/tile_beam/sphere_raster-inl.hpp"
+#include "accel/tile_beam/tile_hierarchy.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
+
+/// Where a side of the cube is seen from.
+struct ApexView {
+  glm::vec3 apex;
+  CubeSide side;
+  float scene_size;  ///< the largest |coordinate|
+
+  /// Coordinates of the side, from the apex.
+  HWY_INLINE Points place(Floats x, Floats y, Floats z) const {
+    const Points from_apex{hn::Sub(x, all(apex.x)), hn::Sub(y, all(apex.y)),
+                           hn::Sub(z, all(apex.z))};
+    return turned(from_apex);
+  }
+  HWY_INLINE Points turned(const Points& world) const {
+    return {coordinate(world, side.x_axis()), coordinate(world, side.y_axis()),
+            hn::Mul(coordinate(world, side.z_axis()), all(side.sign()))};
+  }
+};
+
+/// Bounds on the side, and of w.
+struct SeenBounds {
+  Floats low_u, high_u, low_v, high_v, low_w, high_w;
+};
+
+/// The largest w: of what reaches to the apex or beside it.
+inline constexpr float kAtApex = 1e30F;
+
+/// The bounds of boxes, which are exact: boxes and sides have the same axes. Lanes of boxes behind
+/// the apex are not set in `seen`.
+HWY_INLINE SeenBounds bounds_of(const TileBoxes& boxes, std::size_t lane, const ApexView& view,
+                                Mask& seen) {
+  const auto plane = [&](std::size_t row, std::size_t axis) {
+    return hn::Sub(load(&boxes.planes[row + axis][lane]), all(view.apex[static_cast<int>(axis)]));
+  };
+  const std::size_t x = view.side.x_axis();
+  const std::size_t y = view.side.y_axis();
+  const std::size_t z = view.side.z_axis();
+  const bool positive = view.side.sign() > 0.0F;
+  const Floats near_z = positive ? plane(0, z) : hn::Neg(plane(3, z));
+  const Floats far_z = positive ? plane(3, z) : hn::Neg(plane(0, z));
+  const Floats high_w =
+      hn::IfThenElse(hn::Gt(near_z, all(1.0F / kAtApex)), hn::Div(all(1.0F), near_z), all(kAtApex));
+  const Floats low_w = hn::Div(all(1.0F), far_z);
+  seen = hn::Gt(far_z, hn::Zero(Tag()));
+  const auto low = [&](Floats end) { return hn::Min(hn::Mul(end, high_w), hn::Mul(end, low_w)); };
+  const auto high = [&](Floats end) { return hn::Max(hn::Mul(end, high_w), hn::Mul(end, low_w)); };
+  return {low(plane(0, x)), high(plane(3, x)), low(plane(0, y)), high(plane(3, y)), low_w, high_w};
+}
+
+/// Up to 32 shapes of a leaf, row by row of numbers.
+struct SeenShapes {
+  enum Row : std::size_t {
+    kLowU,
+    kHighU,
+    kLowV,
+    kHighV,
+    kLowW,
+    kHighW,
+    /// Triangles: three edges a u + b v + c, inside not negative; the plane, and its distance: w of
+    /// the triangle is (x u + y v + z) / distance. And the magnitudes of a, b, x and y.
+    kEdge0,
+    kPlane = kEdge0 + 9,
+    kDistance = kPlane + 3,
+    kMagnitudes,
+    kRows = kMagnitudes + 8,
+    /// Spheres: center and radius in the coordinates of the side.
+    kCenter = kEdge0,
+    kRadius = kCenter + 3
+  };
+  static constexpr std::size_t kMost = 32;
+
+  alignas(64) std::array<std::array<float, kMost>, kRows> rows;
+  LaneBits present;  ///< shapes that may be seen at all
+  LaneBits exact;    ///< triangles whose tests are `exact_triangle`'s
+  LaneBits by_rays;  ///< that the canonical test decides, ray by ray
+  LaneBits around;   ///< spheres that contain the apex
+  std::array<ExactApexTriangle, kMost> exact_triangle;
+
+  HWY_INLINE Floats at(std::size_t row, std::size_t lane) const { return load(&rows[row][lane]); }
+  HWY_INLINE void set(std::size_t row, std::size_t lane, Floats values) {
+    store(values, &rows[row][lane]);
+  }
+  HWY_INLINE void set_bounds(std::size_t lane, const SeenBounds& bounds) {
+    set(kLowU, lane, bounds.low_u);
+    set(kHighU, lane, bounds.high_u);
+    set(kLowV, lane, bounds.low_v);
+    set(kHighV, lane, bounds.high_v);
+    set(kLowW, lane, bounds.low_w);
+    set(kHighW, lane, bounds.high_w);
+  }
+  void set_seen_everywhere(std::size_t shape) {
+    for (const Row row : {kLowU, kLowV, kLowW}) rows[row][shape] = -kAtApex;
+    for (const Row row : {kHighU, kHighV, kHighW}) rows[row][shape] = kAtApex;
+  }
+};
+
+/// What all rays that may still be hit are within.
+struct PencilBounds {
+  float low_u, high_u, low_v, high_v;
+  float least_w;        ///< nothing with a smaller w matters
+  float most_origin_w;  ///< nor with a larger one
+};
+
+/// Triangles of a meshlet.
+class TriangleShapes {
+ public:
+  TriangleShapes(const Meshlet& meshlet, const ApexView& view, SeenShapes& shapes)
+      : meshlet_(&meshlet), view_(&view), shapes_(&shapes) {}
+
+  HWY_INLINE void operator()(const PencilBounds& within) {
+    project();
+    shapes_->present = shapes_->exact = shapes_->by_rays = shapes_->around = 0;
+    for (std::size_t lane = 0; lane < meshlet_->triangle_count; lane += kLanes) {
+      set_up(lane, within);
+    }
+    shapes_->present &= LaneBits{0xFFFFFFFF} >> (32U - meshlet_->triangle_count);
+    shapes_->exact &= shapes_->present;
+    for (LaneBits left = shapes_->exact; left != 0; left &= left - 1) {
+      set_up_exactly(static_cast<std::size_t>(std::countr_zero(left)));
+    }
+  }
+
+ private:
+  HWY_INLINE void project() {
+    for (std::size_t i = 0; i < meshlet_->vertex_count; i += kLanes) {
+      const Points at =
+          view_->place(load(&meshlet_->vertices[0][i]), load(&meshlet_->vertices[1][i]),
+                       load(&meshlet_->vertices[2][i]));
+      const Floats w = hn::Div(all(1.0F), at.z);
+      store(at.x, &x_[i]);
+      store(at.y, &y_[i]);
+      store(at.z, &z_[i]);
+      store(hn::Mul(at.x, w), &u_[i]);
+      store(hn::Mul(at.y, w), &v_[i]);
+      // Beside the apex or behind it a corner has no accurate place: NaN.
+      const Mask before =
+          hn::Gt(hn::Mul(at.z, all(kFarAside)), hn::Max(hn::Abs(at.x), hn::Abs(at.y)));
+      store(hn::IfThenElse(before, w, all(kNaN)), &w_[i]);
+    }
+  }
+
+  HWY_INLINE void set_up(std::size_t lane, const PencilBounds& within) {
+    const hn::Rebind<std::uint8_t, Tag> bytes;
+    std::array<Ints, 3> index;
+    for (std::size_t k = 0; k < 3; ++k) {
+      index[k] = hn::PromoteTo(IntTag(), hn::LoadU(bytes, meshlet_->corners[k].data() + lane));
+    }
+    const auto corner = [&](const std::array<float, Meshlet::kMaxVertices>& values,
+                            std::size_t which) { return Table32(values.data()).at(index[which]); };
+    const Floats w0 = corner(w_, 0), w1 = corner(w_, 1), w2 = corner(w_, 2);
+    const Floats u0 = corner(u_, 0), u1 = corner(u_, 1), u2 = corner(u_, 2);
+    const Floats v0 = corner(v_, 0), v1 = corner(v_, 1), v2 = corner(v_, 2);
+    const SeenBounds bounds{hn::Min(u0, hn::Min(u1, u2)), hn::Max(u0, hn::Max(u1, u2)),
+                            hn::Min(v0, hn::Min(v1, v2)), hn::Max(v0, hn::Max(v1, v2)),
+                            hn::Min(w0, hn::Min(w1, w2)), hn::Max(w0, hn::Max(w1, w2))};
+    const Floats sum = hn::Add(w0, hn::Add(w1, w2));
+    const Mask before = hn::Eq(sum, sum);
+    const Floats outside = either(
+        either(hn::Sub(bounds.high_u, all(within.low_u)), hn::Sub(all(within.high_u), bounds.low_u),
+               hn::Sub(bounds.high_v, all(within.low_v))),
+        hn::Sub(all(within.high_v), bounds.low_v),
+        either(hn::Sub(bounds.high_w, all(within.least_w)),
+               hn::Sub(all(within.most_origin_w), bounds.low_w), hn::Zero(Tag())));
+    const Mask present = hn::Or(hn::Not(before), hn::Not(is_negative(outside)));
+    if (hn::AllFalse(Tag(), present)) return;
+
+    const Points p0{corner(x_, 0), corner(y_, 0), corner(z_, 0)};
+    const auto side = [&](std::size_t which) -> Points {
+      return {hn::Sub(corner(x_, which), p0.x), hn::Sub(corner(y_, which), p0.y),
+              hn::Sub(corner(z_, which), p0.z)};
+    };
+    const Points side1 = side(1);
+    const Points side2 = side(2);
+    const Points normal{hn::MulSub(side1.y, side2.z, hn::Mul(side1.z, side2.y)),
+                        hn::MulSub(side1.z, side2.x, hn::Mul(side1.x, side2.z)),
+                        hn::MulSub(side1.x, side2.y, hn::Mul(side1.y, side2.x))};
+    const Floats distance = dot(normal, p0);
+    // A needle's normal is too inaccurate in float, unless the needle is small.
+    const Floats longest = hn::Max(dot(side1, side1), dot(side2, side2));
+    const Mask needle =
+        hn::Not(hn::Lt(hn::Mul(longest, hn::Sqrt(longest)),
+                       hn::Mul(all(4.0F * view_->scene_size), hn::Sqrt(dot(normal, normal)))));
+
+    // Constants in the middle of an edge are exactly opposite for the two triangles that share it
+    // (-ffp-contract=off is needed for this).
+    struct Edge {
+      Floats a, b, c;
+    };
+    const auto edge = [&](Floats ui, Floats vi, Floats uj, Floats vj) -> Edge {
+      const Floats a = hn::Sub(vi, vj);
+      const Floats b = hn::Sub(uj, ui);
+      const Floats c =
+          hn::Mul(all(-0.5F), hn::Add(hn::Mul(a, hn::Add(ui, uj)), hn::Mul(b, hn::Add(vi, vj))));
+      return {a, b, c};
+    };
+    const std::array<Edge, 3> edges{edge(u1, v1, u2, v2), edge(u2, v2, u0, v0),
+                                    edge(u0, v0, u1, v1)};
+    const Floats area = hn::Sub(hn::Mul(edges[1].a, edges[2].b), hn::Mul(edges[2].a, edges[1].b));
+    const Floats extent =
+        hn::Add(hn::Sub(bounds.high_u, bounds.low_u), hn::Sub(bounds.high_v, bounds.low_v));
+    const Mask sliver = hn::Not(hn::Gt(hn::Abs(area), hn::Mul(extent, all(kSliver))));
+
+    shapes_->set_bounds(lane, bounds);
+    const Floats turn = hn::And(area, all(-0.0F));
+    for (std::size_t k = 0; k < 3; ++k) {
+      shapes_->set(SeenShapes::kEdge0 + 3 * k, lane, hn::Xor(edges[k].a, turn));
+      shapes_->set(SeenShapes::kEdge0 + 3 * k + 1, lane, hn::Xor(edges[k].b, turn));
+      shapes_->set(SeenShapes::kEdge0 + 3 * k + 2, lane, hn::Xor(edges[k].c, turn));
+      shapes_->set(SeenShapes::kMagnitudes + 2 * k, lane, hn::Abs(edges[k].a));
+      shapes_->set(SeenShapes::kMagnitudes + 2 * k + 1, lane, hn::Abs(edges[k].b));
+    }
+    const Floats toward = hn::And(distance, all(-0.0F));
+    shapes_->set(SeenShapes::kPlane, lane, hn::Xor(normal.x, toward));
+    shapes_->set(SeenShapes::kPlane + 1, lane, hn::Xor(normal.y, toward));
+    shapes_->set(SeenShapes::kPlane + 2, lane, hn::Xor(normal.z, toward));
+    shapes_->set(SeenShapes::kMagnitudes + 6, lane, hn::Abs(normal.x));
+    shapes_->set(SeenShapes::kMagnitudes + 7, lane, hn::Abs(normal.y));
+    shapes_->set(SeenShapes::kDistance, lane, hn::Abs(distance));
+    shapes_->present |= bits_of(present) << lane;
+    shapes_->exact |= bits_of(hn::Or(hn::Not(before), hn::Or(needle, sliver))) << lane;
+  }
+
+  void set_up_exactly(std::size_t triangle) {
+    SeenShapes& shapes = *shapes_;
+    const LaneBits bit = LaneBits{1} << triangle;
+    const auto exact =
+        exact_apex_triangle(view_->apex, view_->side,
+                            {meshlet_->corner(0, triangle), meshlet_->corner(1, triangle),
+                             meshlet_->corner(2, triangle)});
+    if (!exact) {
+      shapes.present &= ~bit;
+      shapes.exact &= ~bit;
+      return;
+    }
+    shapes.set_seen_everywhere(triangle);
+    if (exact->at_apex) {
+      shapes.exact &= ~bit;
+      shapes.by_rays |= bit;
+      for (std::size_t row = SeenShapes::kEdge0; row < SeenShapes::kRows; ++row) {
+        shapes.rows[row][triangle] = 0.0F;
+      }
+      return;
+    }
+    shapes.exact_triangle[triangle] = *exact;
+    // In float for the bounds of blocks, moved outward once more.
+    const auto set_line = [&](const glm::dvec3& line, std::size_t row, std::size_t magnitudes) {
+      const glm::vec3 rounded(line);
+      const float size = std::abs(rounded.x) + std::abs(rounded.y) + std::abs(rounded.z);
+      shapes.rows[row][triangle] = rounded.x;
+      shapes.rows[row + 1][triangle] = rounded.y;
+      shapes.rows[row + 2][triangle] = rounded.z + 1e-6F * size;
+      shapes.rows[magnitudes][triangle] = std::abs(rounded.x);
+      shapes.rows[magnitudes + 1][triangle] = std::abs(rounded.y);
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+      set_line(exact->edges[k], SeenShapes::kEdge0 + 3 * k, SeenShapes::kMagnitudes + 2 * k);
+    }
+    set_line(exact->plane, SeenShapes::kPlane, SeenShapes::kMagnitudes + 6);
+    shapes.rows[SeenShapes::kDistance][triangle] =
+        static_cast<float>(exact->distance * (1.0 - 1e-6));
+  }
+
+  /// Beyond this tangent a corner's place is less accurate than blocks' bounds allow for.
+  static constexpr float kFarAside = 4.0F;
+  /// The area of a triangle, over its extent, below which its sign is uncertain: eight roundings of
+  /// places up to `kFarAside`.
+  static constexpr float kSliver = 0x1p-18F;
+
+  const Meshlet* meshlet_;
+  const ApexView* view_;
+  SeenShapes* shapes_;
+  alignas(64) std::array<float, Meshlet::kMaxVertices> x_, y_, z_, u_, v_, w_;
+};
+
+/// Spheres of a block.
+HWY_INLINE void set_up_spheres(const SphereBlock& block, const ApexView& view, float slack,
+                               SeenShapes& shapes) {
+  shapes.present = shapes.exact = shapes.by_rays = shapes.around = 0;
+  for (std::size_t lane = 0; lane < block.count; lane += kLanes) {
+    const Points center = view.place(load(&block.center[0][lane]), load(&block.center[1][lane]),
+                                     load(&block.center[2][lane]));
+    const Floats radius = load(&block.radius[lane]);
+    const Floats wider = hn::MulAdd(radius, all(1.0F + 0x1p-20F), all(slack));
+    const Floats near_z = hn::Sub(center.z, wider);
+    const Floats far_z = hn::Add(center.z, wider);
+    const Extent u = tangents(center.x, center.z, wider);
+    const Extent v = tangents(center.y, center.z, wider);
+    const Mask before = hn::Gt(near_z, hn::Mul(wider, all(0x1p-10F)));
+    const auto clip = [&](Floats value, float otherwise) {
+      return hn::IfThenElse(before, value, all(otherwise));
+    };
+    constexpr float kSlack = 0x1p-20F;
+    shapes.set_bounds(
+        lane,
+        {clip(hn::Sub(u.low, all(kSlack)), -kAtApex), clip(hn::Add(u.high, all(kSlack)), kAtApex),
+         clip(hn::Sub(v.low, all(kSlack)), -kAtApex), clip(hn::Add(v.high, all(kSlack)), kAtApex),
+         clip(hn::Div(all(1.0F), far_z), -kAtApex), clip(hn::Div(all(1.0F), near_z), kAtApex)});
+    shapes.set(SeenShapes::kCenter, lane, center.x);
+    shapes.set(SeenShapes::kCenter + 1, lane, center.y);
+    shapes.set(SeenShapes::kCenter + 2, lane, center.z);
+    shapes.set(SeenShapes::kRadius, lane, radius);
+    shapes.present |= bits_of(hn::Gt(far_z, hn::Zero(Tag()))) << lane;
+    const Floats squared = dot(center, center);
+    const Floats radius_squared = hn::Mul(radius, radius);
+    shapes.around |= bits_of(hn::Lt(squared, radius_squared)) << lane;
+    // Float cannot decide on which side of a surface so near the apex is.
+    const Mask at_apex = hn::Le(hn::Abs(hn::Sub(squared, radius_squared)),
+                                hn::Mul(all(0x1p-19F), hn::Add(squared, radius_squared)));
+    shapes.by_rays |= bits_of(at_apex) << lane;
+  }
+  shapes.present &= (LaneBits{1} << block.count) - 1;
+}
+
+/// Cones of a block: their boxes, and rays decide.
+HWY_INLINE void set_up_cones(const ConeBlock& block, const ApexView& view, SeenShapes& shapes) {
+  shapes.present = shapes.exact = shapes.around = 0;
+  for (std::size_t lane = 0; lane < block.count; lane += kLanes) {
+    Mask seen;
+    shapes.set_bounds(lane, bounds_of(block.boxes, lane, view, seen));
+    shapes.present |= bits_of(seen) << lane;
+  }
+  shapes.present &= (LaneBits{1} << block.count) - 1;
+  shapes.by_rays = shapes.present;
+}
+
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
