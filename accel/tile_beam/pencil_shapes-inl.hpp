@@ -261,6 +261,14 @@ class TriangleShapes {
     }
     shapes.exact_triangle[triangle] = *exact;
     // In float for the bounds of blocks, moved outward once more.
+    const auto set_bound = [&](SeenShapes::Row row, double bound, double more) {
+      shapes.rows[row][triangle] = static_cast<float>(std::clamp(
+          bound + more * std::max(1.0, std::abs(bound)), double{-kAtApex}, double{kAtApex}));
+    };
+    set_bound(SeenShapes::kLowU, exact->low.x, -1e-6);
+    set_bound(SeenShapes::kHighU, exact->high.x, 1e-6);
+    set_bound(SeenShapes::kLowV, exact->low.y, -1e-6);
+    set_bound(SeenShapes::kHighV, exact->high.y, 1e-6);
     const auto set_line = [&](const glm::dvec3& line, std::size_t row, std::size_t magnitudes) {
       const glm::vec3 rounded(line);
       const float size = std::abs(rounded.x) + std::abs(rounded.y) + std::abs(rounded.z);

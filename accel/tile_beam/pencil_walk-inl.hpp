@@ -480,6 +480,11 @@ class PencilWalk {
       auto hit = hn::And(
           hn::And(hn::Ge(line(triangle.edges[0]), none), hn::Ge(line(triangle.edges[1]), none)),
           hn::And(hn::Ge(line(triangle.edges[2]), none), hn::Gt(plane, hn::Mul(distance, w))));
+      const auto within = [&](auto place, double low, double high) {
+        return hn::And(hn::Ge(place, hn::Set(d, low)), hn::Le(place, hn::Set(d, high)));
+      };
+      hit = hn::And(hit, hn::And(within(u, triangle.low.x, triangle.high.x),
+                                 within(v, triangle.low.y, triangle.high.y)));
       if constexpr (kClosest) {
         const auto origin_w = hn::PromoteTo(d, hn::Load(half, &unit_->origin_w[block + lane]));
         hit = hn::And(hit, hn::Lt(plane, hn::Mul(distance, origin_w)));
