@@ -23,12 +23,17 @@ inline std::unique_ptr<accel::Accelerator> built(const scenes::Scene& scene,
   return accel::registry().choose(parse_spec(spec)).build(scene);
 }
 
-/// The light along one camera ray.
+/// The light along one camera ray, the only one of its image.
 inline glm::dvec3 light_along(const render::Whitted& tracer, const accel::Ray& ray,
                               const std::optional<accel::Hit>& hit,
                               render::Whitted::Progress& progress) {
+  scenes::Camera camera;
+  camera.from = ray.origin;
+  camera.at = ray.origin + ray.direction;
+  const accel::PrimaryRays image(camera, 1, 1, 1);
+  const std::uint32_t sample = 0;
   glm::dvec3 color;
-  tracer.trace_light({&ray, 1}, {&hit, 1}, {&color, 1}, progress);
+  tracer.trace_light({&image, {&ray, 1}, {&sample, 1}, {&hit, 1}}, {&color, 1}, progress);
   return color;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -11,6 +12,9 @@
 
 #include "accel/core/primary_rays.hpp"
 #include "accel/core/ray_batch.hpp"
+#include "accel/core/tolerance.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "scenes/scene.hpp"
 
 namespace beambench::testing {
 
@@ -23,45 +27,69 @@ inline double roundings_beside(const accel::Ray& ray, const glm::dvec3& apex, do
   return beside / (0x1p-24 * (extent + glm::length(away)));
 }
 
-/// The rays that are in pencils, and by how many roundings the worst of them passes its apex.
-struct CheckedPencils {
-  std::size_t toward = 0;
-  std::size_t away = 0;
-  double worst = 0.0;
+/// Counts the rays that are in pencils, and checks that they are what they are marked as.
+class CheckedPencils {
+ public:
+  /// `image` is that of the camera; `roundings` are allowed. Both must outlive this.
+  CheckedPencils(const scenes::Scene& scene, const accel::PrimaryRays& image, double roundings)
+      : extent_(scene.bounds.largest_coordinate()),
+        lift_(accel::surface_lift(scene)),
+        image_(&image),
+        roundings_(roundings) {}
 
-  /// Pencils are in order; shadow rays end at the apex; mirror rays come from it, and their view
-  /// shows the same at their samples. `extent` is the scene's largest coordinate; `image` that of
-  /// the camera.
-  void add(const accel::RayBatch& batch, double extent, const accel::PrimaryRays& image,
-           double roundings) {
-    ASSERT_TRUE(batch.samples.size() == batch.rays.size() || batch.pencils.empty());
-    for (const std::uint32_t sample : batch.samples) ASSERT_LT(sample, image.count());
+  /// Pencils are in order; their rays run toward the apex and end there, or away from it, and then
+  /// the view shows the same at their samples.
+  void add(const accel::RayBatch& batch) {
+    ASSERT_TRUE(batch.samples.empty() || batch.samples.size() == batch.rays.size());
+    for (const std::uint32_t sample : batch.samples) ASSERT_LT(sample, image_->count());
     std::size_t next = 0;
     for (const accel::Pencil& pencil : batch.pencils) {
       ASSERT_GE(pencil.first, next);
       ASSERT_GE(pencil.count, 1U);
       next = pencil.first + pencil.count;
       ASSERT_LE(next, batch.rays.size());
-      (pencil.toward ? toward : away) += pencil.count;
       ASSERT_EQ(pencil.view == nullptr, pencil.toward);
       for (std::size_t i = pencil.first; i < next; ++i) {
-        const accel::Ray& ray = batch.rays[i];
-        const double beside = roundings_beside(ray, pencil.apex, extent);
-        ASSERT_LE(beside, roundings) << "ray " << i;
-        worst = std::max(worst, beside);
-        const glm::dvec3 origin(ray.origin);
-        const glm::dvec3 direction(ray.direction);
-        if (pencil.toward) {
-          ASSERT_EQ(ray.t_max, 1.0F);
-          ASSERT_LE(glm::length(origin + direction - pencil.apex),
-                    0x1p-24 * roundings * (extent + glm::length(direction)));
-        } else {
-          ASSERT_GT(glm::dot(origin - pencil.apex, direction), 0.0);
-          ASSERT_EQ(ray.t_min, 0.0F);
-        }
+        pencil.toward ? add_toward(batch.rays[i], pencil)
+                      : add_away(batch.rays[i], pencil, batch.samples[i]);
       }
     }
   }
+
+  std::size_t toward = 0;
+  std::size_t away = 0;
+
+ private:
+  void add_line(const accel::Ray& ray, const accel::Pencil& pencil) {
+    EXPECT_LE(roundings_beside(ray, pencil.apex, extent_), roundings_);
+  }
+  void add_toward(const accel::Ray& ray, const accel::Pencil& pencil) {
+    add_line(ray, pencil);
+    ++toward;
+    EXPECT_EQ(ray.t_max, 1.0F);
+    const glm::dvec3 direction(ray.direction);
+    EXPECT_LE(glm::length(glm::dvec3(ray.origin) + direction - pencil.apex),
+              0x1p-24 * roundings_ * (extent_ + glm::length(direction)));
+  }
+  void add_away(const accel::Ray& ray, const accel::Pencil& pencil, std::uint32_t sample) {
+    add_line(ray, pencil);
+    ++away;
+    const glm::dvec3 from_apex = glm::dvec3(ray.origin) - pencil.apex;
+    EXPECT_GT(glm::dot(from_apex, glm::dvec3(ray.direction)), 0.0);
+    EXPECT_EQ(ray.t_min, 0.0F);
+    // The view's eye is not moved by the lift of each mirror.
+    const accel::Ray seen = rays::ray_at(*pencil.view, sample);
+    const glm::dvec3 line = glm::normalize(glm::dvec3(seen.direction));
+    const glm::dvec3 offset = glm::dvec3(ray.origin) - glm::dvec3(seen.origin);
+    EXPECT_LE(glm::length(offset - glm::dot(offset, line) * line),
+              10.0 * lift_ + 0x1p-24 * roundings_ * (extent_ + glm::length(offset)));
+    EXPECT_NEAR(glm::dot(line, glm::normalize(glm::dvec3(ray.direction))), 1.0, 1e-6);
+  }
+
+  double extent_;
+  double lift_;
+  const accel::PrimaryRays* image_;
+  double roundings_;
 };
 
 }  // namespace beambench::testing

@@ -40,7 +40,8 @@ std::vector<glm::dvec3> colors_of(SampleList samples, const accel::HitBuffer& hi
       some.push_back(rays::ray_at(rays, index));
       found.push_back(hits.get(index));
     }
-    tracer.trace_light(some, found, std::span(colors).subspan(first, count), progress);
+    tracer.trace_light({&rays, some, samples.subspan(first, count), found},
+                       std::span(colors).subspan(first, count), progress);
     heartbeat();
   }
   return colors;

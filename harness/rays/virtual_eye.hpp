@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
@@ -34,7 +35,7 @@ class MirrorTable {
 
 /// The eye of an image, or what mirrors make of it.
 struct VirtualEye {
-  explicit VirtualEye(const accel::PrimaryRays& image) : place(image.eye()), view(image) {}
+  explicit VirtualEye(accel::PrimaryRays image) : place(image.eye()), view(std::move(image)) {}
 
   /// That of the rays which a mirror reflects to the side that its normal points to, or to the
   /// other: they begin a little beside the mirror, so their lines pass through the eye's image

@@ -38,6 +38,7 @@ ShadedScene::ShadedScene(const scenes::Scene& scene)
       textures_(scene),
       light_colors_(colors_of_lights(scene)),
       normals_(scene),
+      mirrors_(scene),
       background_(background_color(scene)) {
   for (const scenes::Surface& surface : scene.surfaces) {
     auto& known = matte_.emplace_back();

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "harness/rays/normal.hpp"
+#include "harness/rays/virtual_eye.hpp"
 #include "harness/render/texture.hpp"
 #include "scenes/scene.hpp"
 
@@ -23,6 +24,7 @@ class ShadedScene {
   const std::vector<glm::dvec3>& light_colors() const { return light_colors_; }
   const glm::dvec3& background() const { return background_; }
   const rays::NormalTable& normals() const { return normals_; }
+  const rays::MirrorTable& mirrors() const { return mirrors_; }
   /// What a surface's diffuse factor leaves of its color at a point of the scene, in linear light.
   glm::dvec3 matte_at(std::uint32_t surface, const glm::dvec3& point) const;
 
@@ -31,6 +33,7 @@ class ShadedScene {
   TextureSpace textures_;
   std::vector<glm::dvec3> light_colors_;
   rays::NormalTable normals_;
+  rays::MirrorTable mirrors_;
   std::vector<std::optional<glm::dvec3>> matte_;  ///< by surface; nothing where it has a texture
   glm::dvec3 background_;
 };

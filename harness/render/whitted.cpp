@@ -10,6 +10,7 @@
 #include "accel/core/primary_rays.hpp"
 #include "accel/core/tolerance.hpp"
 #include "harness/rays/normal.hpp"
+#include "harness/render/pencils.hpp"
 #include "harness/render/shading.hpp"
 
 namespace beambench::render {
@@ -46,11 +47,11 @@ accel::Ray& add_ray(std::vector<accel::Ray>& rays, const dvec3& origin, const dv
 }
 
 /// The hits of a batch of rays, counted.
-accel::HitBuffer traced(const accel::Accelerator& structure, const std::vector<accel::Ray>& rays,
+accel::HitBuffer traced(const accel::Accelerator& structure, const accel::RayBatch& batch,
                         std::uint64_t& count) {
-  accel::HitBuffer hits(static_cast<int>(rays.size()), 1, 1);
-  if (!rays.empty()) structure.closest_hits({rays}, hits, nullptr);
-  count += rays.size();
+  accel::HitBuffer hits(static_cast<int>(batch.rays.size()), 1, 1);
+  if (!batch.rays.empty()) structure.closest_hits(batch, hits, nullptr);
+  count += batch.rays.size();
   return hits;
 }
 
@@ -59,7 +60,9 @@ accel::HitBuffer traced(const accel::Accelerator& structure, const std::vector<a
 /// How a ray came about.
 struct Whitted::Path {
   double weight = 1.0;  ///< the largest part that it can have in the pixel's color
-  bool inside = false;  ///< in something transparent
+  std::uint32_t sample = 0;
+  EyeIndex eye = kNoEye;  ///< among those of its part
+  bool inside = false;    ///< in something transparent
 };
 
 /// A part of a wave: rays of one depth, and what they found.
@@ -67,10 +70,12 @@ struct Whitted::Part {
   std::span<const accel::Ray> rays;
   std::span<const std::optional<accel::Hit>> hits;
   std::span<const Path> paths;
+  std::span<const rays::VirtualEye> eyes;  ///< of the whole wave
 
   std::size_t size() const { return rays.size(); }
   Part from(std::size_t first, std::size_t count) const {
-    return {rays.subspan(first, count), hits.subspan(first, count), paths.subspan(first, count)};
+    return {rays.subspan(first, count), hits.subspan(first, count), paths.subspan(first, count),
+            eyes};
   }
 };
 
@@ -83,8 +88,8 @@ struct Whitted::Found {
 
   Places places;
   std::vector<std::size_t> ray;  ///< its place in the part
-  std::vector<const scenes::Primitive*> primitive;
-  std::vector<const scenes::Surface*> surface;
+  std::vector<scenes::PrimitiveId> primitive;
+  std::vector<std::uint32_t> surface;
   std::vector<Path> path;
 };
 
@@ -98,6 +103,7 @@ struct Whitted::Spawned {
   std::vector<std::optional<accel::Hit>> hits;
   std::vector<Path> paths;
   std::vector<Origin> origins;
+  std::vector<rays::VirtualEye> eyes;
 };
 
 Whitted::Whitted(std::shared_ptr<const ShadedScene> scene, const Answerers& answerers,
@@ -114,13 +120,15 @@ Whitted::Progress Whitted::begin() const {
   return {ShadowCache(scene_->lights.size(), options_.max_depth), {}};
 }
 
-void Whitted::trace_light(std::span<const accel::Ray> rays,
-                          std::span<const std::optional<accel::Hit>> hits, std::span<dvec3> colors,
+void Whitted::trace_light(const CameraRays& camera, std::span<dvec3> colors,
                           Progress& progress) const {
-  progress.census.eye += rays.size();
-  for (const auto& hit : hits) progress.census.eye_hits += hit ? 1U : 0U;
-  const std::vector<Path> paths(rays.size());
-  trace_wave({rays, hits, paths}, 1, colors, progress);
+  progress.census.eye += camera.rays.size();
+  for (const auto& hit : camera.hits) progress.census.eye_hits += hit ? 1U : 0U;
+  std::vector<Path> paths;
+  paths.reserve(camera.rays.size());
+  for (const std::uint32_t sample : camera.samples) paths.push_back({1.0, sample, 0, false});
+  const rays::VirtualEye eye(*camera.image);
+  trace_wave({camera.rays, camera.hits, paths, {&eye, 1}}, 1, colors, progress);
 }
 
 /// Part by part, each with all that follows from it: what waits is a part of each depth.
@@ -139,9 +147,9 @@ void Whitted::trace_part(const Part& part, int depth, std::span<dvec3> colors,
   const std::vector<dvec3> own = lit(found, depth, progress);
   std::vector<dvec3> from_others(found.size(), dvec3(0.0));
   if (depth < options_.max_depth) {
-    const Spawned next = spawned(found, progress);
+    const Spawned next = spawned(found, part.eyes, progress);
     std::vector<dvec3> next_colors(next.rays.size());
-    trace_wave({next.rays, next.hits, next.paths}, depth + 1, next_colors, progress);
+    trace_wave({next.rays, next.hits, next.paths, next.eyes}, depth + 1, next_colors, progress);
     for (std::size_t i = 0; i < next_colors.size(); ++i) {
       from_others[next.origins[i].place] += next.origins[i].share * next_colors[i];
     }
@@ -167,10 +175,9 @@ Whitted::Found Whitted::find_places(const Part& part) const {
     places.incoming.set(place, direction);
     places.geometric.set(place, normals.geometric);
     places.shading.set(place, normals.shading);
-    const scenes::Primitive& primitive = scene_->primitives[hit.primitive];
     found.ray[place] = i;
-    found.primitive[place] = &primitive;
-    found.surface[place] = &scene_->surfaces[primitive.surface];
+    found.primitive[place] = hit.primitive;
+    found.surface[place] = scene_->primitives[hit.primitive].surface;
     found.path[place] = part.paths[i];
     ++place;
   }
@@ -183,7 +190,7 @@ std::vector<dvec3> Whitted::lit(const Found& found, int depth, Progress& progres
   std::vector<dvec3> matte(found.size());
   std::vector<dvec3> sums(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
-    matte[i] = shaded_->matte_at(found.primitive[i]->surface, found.places.point[i]);
+    matte[i] = shaded_->matte_at(found.surface[i], found.places.point[i]);
     sums[i] = kAmbient * matte[i];
   }
   for (std::size_t light = 0; light < scene_->lights.size(); ++light) {
@@ -199,22 +206,25 @@ void Whitted::add_light(std::size_t light, const Found& found, std::span<const d
   LightAngles angles(found.size());
   kernels_->find_angles(found.places, position, angles);
   std::vector<accel::Ray> rays;
+  std::vector<std::uint32_t> samples;
   std::vector<std::size_t> places;
   rays.reserve(found.size());
+  samples.reserve(found.size());
   places.reserve(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (angles.is_before[i] == 0.0) continue;
     const dvec3 beside = found.places.beside[i];
     add_ray(rays, beside, position - beside).t_max = 1.0F;
+    samples.push_back(found.path[i].sample);
     places.push_back(i);
   }
   const std::vector<double> parts =
-      shadows_.transmitted(rays, light, depth, progress.shadows, progress.census);
+      shadows_.transmitted(rays, samples, light, depth, progress.shadows, progress.census);
   const dvec3 color = shaded_->light_colors()[light];
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts[k] == 0.0) continue;
     const std::size_t i = places[k];
-    const scenes::Surface& surface = *found.surface[i];
+    const scenes::Surface& surface = scene_->surfaces[found.surface[i]];
     dvec3 sent = angles.cosine[i] * matte[i];
     if (surface.specular != 0.0F) {
       sent += double{surface.specular} * phong(angles.gleam[i], surface.shine);
@@ -225,16 +235,20 @@ void Whitted::add_light(std::size_t light, const Found& found, std::span<const d
 
 /// Mirror rays and refracted ones, traced. At total reflection the mirror ray carries both shares:
 /// it is one ray, even where the surface is a mirror as well (SPD, rule 9).
-Whitted::Spawned Whitted::spawned(const Found& found, Progress& progress) const {
+Whitted::Spawned Whitted::spawned(const Found& found, std::span<const rays::VirtualEye> eyes,
+                                  Progress& progress) const {
   Spawned next;
   std::vector<accel::Ray> mirror_rays, glass_rays;
+  std::vector<std::uint32_t> mirror_samples, glass_samples;
   std::vector<bool> is_glass;  // of each ray of the wave
+  MirrorPencils pencils(shaded_->mirrors(), eyes, found.size());
   mirror_rays.reserve(found.size());
+  mirror_samples.reserve(found.size());
   next.paths.reserve(found.size());
   next.origins.reserve(found.size());
   const Places& places = found.places;
   const auto spawn = [&](std::size_t place, double share, bool inside) {
-    const Path path{found.path[place].weight * share, inside};
+    const Path path{found.path[place].weight * share, found.path[place].sample, kNoEye, inside};
     if (path.weight < options_.min_weight) {
       ++progress.census.too_faint;
       return false;
@@ -248,10 +262,12 @@ Whitted::Spawned Whitted::spawned(const Found& found, Progress& progress) const 
     add_ray(
         mirror_rays, places.beside[place],
         mirrored_outward(places.incoming[place], places.shading[place], places.geometric[place]));
+    mirror_samples.push_back(found.path[place].sample);
+    pencils.add(found.path[place].eye, found.primitive[place], places.geometric[place]);
     is_glass.push_back(false);
   };
   for (std::size_t i = 0; i < found.size(); ++i) {
-    const scenes::Surface& surface = *found.surface[i];
+    const scenes::Surface& surface = scene_->surfaces[found.surface[i]];
     const double glass = std::max(double{surface.transmittance}, 0.0);
     const double mirror = std::max(double{surface.specular}, 0.0);
     if (glass == 0.0) {
@@ -271,29 +287,42 @@ Whitted::Spawned Whitted::spawned(const Found& found, Progress& progress) const 
     if (!spawn(i, glass, entering)) continue;
     add_ray(glass_rays, rays::beside_surface(*scene_, places.point[i], -places.geometric[i]),
             *direction);
+    glass_samples.push_back(found.path[i].sample);
     is_glass.push_back(true);
   }
+  pencils.arrange(mirror_rays, mirror_samples);
   const accel::HitBuffer mirror_hits =
-      traced(*answerers_.reflected, mirror_rays, progress.census.reflected);
+      traced(*answerers_.reflected, {mirror_rays, pencils.pencils(), mirror_samples},
+             progress.census.reflected);
   const accel::HitBuffer glass_hits =
-      traced(*answerers_.refracted, glass_rays, progress.census.refracted);
+      traced(*answerers_.refracted, {glass_rays, {}, glass_samples}, progress.census.refracted);
   next.rays.reserve(is_glass.size());
   next.hits.reserve(is_glass.size());
+  const auto follow = [&](const accel::Ray& ray, const std::optional<accel::Hit>& hit) {
+    next.rays.push_back(ray);
+    next.hits.push_back(hit);
+    progress.census.secondary_hits += hit ? 1U : 0U;
+  };
   std::size_t mirrors = 0, glasses = 0;
-  for (const bool glass : is_glass) {
-    std::size_t& place = glass ? glasses : mirrors;
-    next.rays.push_back((glass ? glass_rays : mirror_rays)[place]);
-    next.hits.push_back((glass ? glass_hits : mirror_hits).get(place));
-    progress.census.secondary_hits += next.hits.back() ? 1U : 0U;
-    ++place;
+  for (std::size_t i = 0; i < is_glass.size(); ++i) {
+    if (is_glass[i]) {
+      follow(glass_rays[glasses], glass_hits.get(glasses));
+      ++glasses;
+    } else {
+      const std::size_t place = pencils.place_of(mirrors);
+      next.paths[i].eye = pencils.eye_of(mirrors);
+      follow(mirror_rays[place], mirror_hits.get(place));
+      ++mirrors;
+    }
   }
+  next.eyes = std::move(pencils).take_eyes();
   return next;
 }
 
 /// Whether a ray that meets glass goes into it: of a sphere by the place of the point, of polygons
 /// and cones by the surfaces that the ray has passed.
 bool Whitted::enters(const Found& found, std::size_t place) const {
-  const scenes::Primitive& primitive = *found.primitive[place];
+  const scenes::Primitive& primitive = scene_->primitives[found.primitive[place]];
   if (primitive.kind != scenes::PrimitiveKind::kSphere) return !found.path[place].inside;
   const dvec3 center(scene_->spheres[primitive.index].center);
   return glm::dot(found.places.point[place] - center, found.places.incoming[place]) < 0.0;

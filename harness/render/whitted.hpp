@@ -1,6 +1,7 @@
 #pragma once
 // The whole ray tracer: light, shadow, mirrors and glass over any structure.
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -10,7 +11,9 @@
 #include <glm/vec3.hpp>
 
 #include "accel/core/accelerator.hpp"
+#include "accel/core/primary_rays.hpp"
 #include "harness/rays/hit_check.hpp"
+#include "harness/rays/virtual_eye.hpp"
 #include "harness/render/places.hpp"
 #include "harness/render/ray_census.hpp"
 #include "harness/render/shaded_scene.hpp"
@@ -26,6 +29,14 @@ struct Answerers {
   const accel::Accelerator* shadow;
 };
 
+/// Camera rays of an image, and what they found. All three lists have one length.
+struct CameraRays {
+  const accel::PrimaryRays* image;
+  std::span<const accel::Ray> rays;
+  std::span<const std::uint32_t> samples;  ///< theirs, as a HitBuffer of the image numbers them
+  std::span<const std::optional<accel::Hit>> hits;
+};
+
 /// Recursive ray tracing (Whitted, "An improved illumination model for shaded display", CACM 23(6),
 /// 1980; chapter 4 of the thesis) with NFF's surfaces: the diffuse factor times the color under
 /// ambient light and every light that is seen; the specular factor for highlights (Phong) and for
@@ -39,8 +50,10 @@ struct Answerers {
 /// Rays are traced in waves (Laine, Karras and Aila, "Megakernels considered harmful", HPG 2013,
 /// for the idea on other hardware): the camera rays of a part of the picture, all shadow rays of
 /// each light from where they hit, all mirror rays, all refracted rays, and so on with these, so
-/// that a structure is given batches. What a sample receives is summed in the order of recursive
-/// ray tracing, whatever the parts and batches.
+/// that a structure is given batches. The shadow rays of a light are a pencil, and so are mirror
+/// rays that come through one virtual eye: from the camera by planar mirrors alone, of any number.
+/// What a sample receives is summed in the order of recursive ray tracing, whatever the parts and
+/// batches.
 class Whitted {
  public:
   /// Scene and structure must outlive this. `check` names the structure where it fails.
@@ -61,11 +74,10 @@ class Whitted {
   };
   Progress begin() const;
 
-  /// Linear light along camera rays that found `hits`, into `colors`; all three have one length.
-  /// Memory is that of some thousand rays for each depth, however many there are. Throws InvalidHit
-  /// where one of these hits or that of a following ray is invalid.
-  void trace_light(std::span<const accel::Ray> rays,
-                   std::span<const std::optional<accel::Hit>> hits, std::span<glm::dvec3> colors,
+  /// Linear light along camera rays, into as many `colors`. Memory is that of some thousand rays
+  /// for each depth, however many there are. Throws InvalidHit where one of their hits or that of a
+  /// following ray is invalid.
+  void trace_light(const CameraRays& camera, std::span<glm::dvec3> colors,
                    Progress& progress) const;
 
   const Shadows& shadows() const { return shadows_; }
@@ -85,7 +97,8 @@ class Whitted {
   std::vector<glm::dvec3> lit(const Found& found, int depth, Progress& progress) const;
   void add_light(std::size_t light, const Found& found, std::span<const glm::dvec3> matte,
                  int depth, std::span<glm::dvec3> sums, Progress& progress) const;
-  Spawned spawned(const Found& found, Progress& progress) const;
+  Spawned spawned(const Found& found, std::span<const rays::VirtualEye> eyes,
+                  Progress& progress) const;
   bool enters(const Found& found, std::size_t place) const;
 
   std::shared_ptr<const ShadedScene> shaded_;

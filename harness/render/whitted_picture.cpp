@@ -4,7 +4,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
-#include <cmath>
+#include <cstdint>
 #include <future>
 #include <numeric>
 #include <optional>
@@ -16,96 +16,87 @@
 
 #include "accel/beam/beam_tracer.hpp"
 #include "harness/base/messages.hpp"
+#include "harness/rays/picture_order.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::render {
 namespace {
 
-/// Samples that are shaded at once, about.
-constexpr std::size_t kSamples = 8192;
+using rays::PixelRange;
 
-/// Pixels that are shaded together, in square blocks of `block` pixels a side: of each block one
-/// sample of all its pixels after the other.
-struct Part {
-  int left;
-  int top;
-  int right;
-  int bottom;
-  int block;
+std::vector<PixelRange> rows_of(const accel::PrimaryRays& image) {
+  std::vector<PixelRange> rows;
+  for (int y = 0; y < image.height(); ++y) rows.push_back({0, y, image.width(), y + 1});
+  return rows;
+}
+
+/// Which pixels are shaded together, and in which order their samples.
+class Parts {
+ public:
+  Parts(const accel::PrimaryRays& image, const Whitted& tracer)
+      : samples_(image.samples()),
+        are_rows_(tracer.remembers_shadows()),
+        ranges_(are_rows_ ? rows_of(image) : rays::squares_of(image)) {}
+
+  const std::vector<PixelRange>& ranges() const { return ranges_; }
+  /// Calls `visit(x, y, sample)` for the samples of a range.
+  template <class Visit>
+  void for_each_sample(const PixelRange& range, const Visit& visit) const {
+    if (!are_rows_) return rays::for_each_sample(range, samples_, visit);
+    for (int x = range.left; x < range.right; ++x) {
+      for (int sample = 0; sample < samples_; ++sample) visit(x, range.top, sample);
+    }
+  }
+
+ private:
+  int samples_;
+  bool are_rows_;
+  std::vector<PixelRange> ranges_;
 };
-
-std::vector<Part> parts_of(const accel::PrimaryRays& rays, bool in_rows) {
-  constexpr int kBlock = 4;
-  const double side = std::sqrt(static_cast<double>(kSamples) / rays.samples());
-  const int tile = kBlock * std::max(static_cast<int>(side) / kBlock, 1);
-  const int width = in_rows ? rays.width() : tile;
-  const int height = in_rows ? 1 : tile;
-  std::vector<Part> parts;
-  for (int top = 0; top < rays.height(); top += height) {
-    for (int left = 0; left < rays.width(); left += width) {
-      parts.push_back({left, top, std::min(left + width, rays.width()),
-                       std::min(top + height, rays.height()), in_rows ? 1 : kBlock});
-    }
-  }
-  return parts;
-}
-
-/// Calls `visit(x, y, sample)` in the order in which a part is shaded.
-template <class Visit>
-void for_each_sample(const Part& part, int samples, Visit visit) {
-  for (int top = part.top; top < part.bottom; top += part.block) {
-    for (int left = part.left; left < part.right; left += part.block) {
-      for (int sample = 0; sample < samples; ++sample) {
-        for (int y = top; y < std::min(top + part.block, part.bottom); ++y) {
-          for (int x = left; x < std::min(left + part.block, part.right); ++x) visit(x, y, sample);
-        }
-      }
-    }
-  }
-}
 
 /// Camera rays, and what they found and receive.
 struct Batch {
   std::vector<accel::Ray> rays;
+  std::vector<std::uint32_t> samples;
   std::vector<std::optional<accel::Hit>> hits;
   std::vector<glm::dvec3> colors;
 
   void reserve(std::size_t count) {
     rays.reserve(count);
+    samples.reserve(count);
     hits.reserve(count);
   }
   /// Component by component: a copy would wait until the ray that was just made is in memory.
-  void add(const accel::Ray& ray, const std::optional<accel::Hit>& hit) {
+  void add(const accel::Ray& ray, std::size_t sample, const accel::HitBuffer& found) {
     accel::Ray& own = rays.emplace_back();
     own.origin = ray.origin;
     own.direction = ray.direction;
-    hits.push_back(hit);
+    samples.push_back(static_cast<std::uint32_t>(sample));
+    hits.push_back(found.get(sample));
   }
-  void shade(const Whitted& tracer, Whitted::Progress& progress) {
+  void shade(const Whitted& tracer, const accel::PrimaryRays& image, Whitted::Progress& progress) {
     colors.resize(rays.size());
-    tracer.trace_light(rays, hits, colors, progress);
+    tracer.trace_light({&image, rays, samples, hits}, colors, progress);
   }
 };
 
 /// Draws a part with a shadow cache of its own, so that its census is the same however parts are
 /// shared among threads.
-RayCensus draw(const Part& part, const Whitted& tracer, const accel::PrimaryRays& rays,
-               const accel::HitBuffer& hits, Image& image) {
+RayCensus draw(const Parts& parts, const PixelRange& part, const Whitted& tracer,
+               const accel::PrimaryRays& rays, const accel::HitBuffer& hits, Image& image) {
+  const auto width = static_cast<std::size_t>(part.width());
+  const std::size_t pixels = width * static_cast<std::size_t>(part.height());
   Batch batch;
-  batch.reserve(static_cast<std::size_t>(part.right - part.left) *
-                static_cast<std::size_t>(part.bottom - part.top) *
-                static_cast<std::size_t>(rays.samples()));
-  for_each_sample(part, rays.samples(), [&](int x, int y, int sample) {
-    batch.add(rays.ray(x, y, sample), hits.get(hits.index(x, y, sample)));
+  batch.reserve(pixels * static_cast<std::size_t>(rays.samples()));
+  parts.for_each_sample(part, [&](int x, int y, int sample) {
+    batch.add(rays.ray(x, y, sample), hits.index(x, y, sample), hits);
   });
   Whitted::Progress progress = tracer.begin();
-  batch.shade(tracer, progress);
-  const auto width = static_cast<std::size_t>(part.right - part.left);
-  std::vector<glm::dvec3> sums(width * static_cast<std::size_t>(part.bottom - part.top),
-                               glm::dvec3(0.0));
+  batch.shade(tracer, rays, progress);
+  std::vector<glm::dvec3> sums(pixels, glm::dvec3(0.0));
   auto color = batch.colors.begin();
-  for_each_sample(part, rays.samples(), [&](int x, int y, int) {
+  parts.for_each_sample(part, [&](int x, int y, int) {
     sums[static_cast<std::size_t>(y - part.top) * width +
          static_cast<std::size_t>(x - part.left)] += *color++;
   });
@@ -147,19 +138,20 @@ WhittedPicture whitted_picture(const Whitted& tracer, const accel::PrimaryRays& 
     limit.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
   }
   WhittedPicture picture{Image(rays.width(), rays.height()), {}};
-  const std::vector<Part> parts = parts_of(rays, tracer.remembers_shadows());
-  std::vector<RayCensus> counts(parts.size());
+  const Parts parts(rays, tracer);
+  const std::vector<PixelRange>& ranges = parts.ranges();
+  std::vector<RayCensus> counts(ranges.size());
   std::atomic<std::size_t> done = 0;
   const auto draw_all = [&] {
-    tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t i) {
-      counts[i] = draw(parts[i], tracer, rays, hits, picture.image);
+    tbb::parallel_for(std::size_t{0}, ranges.size(), [&](std::size_t i) {
+      counts[i] = draw(parts, ranges[i], tracer, rays, hits, picture.image);
       ++done;
     });
   };
   if (watch) {
     auto all = std::async(std::launch::async, draw_all);
     while (all.wait_for(std::chrono::milliseconds(100)) == std::future_status::timeout) {
-      watch(static_cast<double>(done.load()) / static_cast<double>(parts.size()));
+      watch(static_cast<double>(done.load()) / static_cast<double>(ranges.size()));
     }
     all.get();
   } else {
@@ -172,16 +164,17 @@ WhittedPicture whitted_picture(const Whitted& tracer, const accel::PrimaryRays& 
 WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const Whitted& tracer,
                                      const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
                                      const PictureWatch& watch) {
+  constexpr std::size_t kAtOnce = 8192;
   const auto samples = static_cast<std::size_t>(rays.samples());
   std::vector<glm::dvec3> sums(places.size() / samples, glm::dvec3(0.0));
   Whitted::Progress progress = tracer.begin();
-  for (std::size_t first = 0; first < places.size(); first += kSamples) {
+  for (std::size_t first = 0; first < places.size(); first += kAtOnce) {
     if (watch) watch(static_cast<double>(first) / static_cast<double>(places.size()));
-    const auto some = places.subspan(first, std::min(kSamples, places.size() - first));
+    const auto some = places.subspan(first, std::min(kAtOnce, places.size() - first));
     Batch batch;
     batch.reserve(some.size());
-    for (const std::size_t place : some) batch.add(rays::ray_at(rays, place), hits.get(place));
-    batch.shade(tracer, progress);
+    for (const std::size_t place : some) batch.add(rays::ray_at(rays, place), place, hits);
+    batch.shade(tracer, rays, progress);
     for (std::size_t i = 0; i < some.size(); ++i) sums[some[i] / samples] += batch.colors[i];
   }
   WhittedPicture picture{Image(rays.width(), rays.height()), progress.census};
@@ -194,8 +187,9 @@ WhittedPicture whitted_picture_along(std::span<const std::size_t> places, const 
 RayCensus draw_in_order(const Whitted& tracer, const accel::PrimaryRays& rays,
                         const accel::HitBuffer& hits, Image& image) {
   RayCensus census;
-  for (const Part& part : parts_of(rays, tracer.remembers_shadows())) {
-    census += draw(part, tracer, rays, hits, image);
+  const Parts parts(rays, tracer);
+  for (const PixelRange& part : parts.ranges()) {
+    census += draw(parts, part, tracer, rays, hits, image);
   }
   return census;
 }

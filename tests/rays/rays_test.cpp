@@ -115,8 +115,8 @@ TEST(PencilsOfLists, AreLightsAndVirtualEyes) {
       const accel::PrimaryRays image(scene.cameras.front(), 160, 120, 1);
       const TraceInput input = input_over(scene, kind, {160, 120});
       const RaySet& set = *input.list();
-      testing::CheckedPencils checked;
-      checked.add(set.batch(), scene.bounds.largest_coordinate(), image, 16.0);
+      testing::CheckedPencils checked(scene, image, 16.0);
+      checked.add(set.batch());
       EXPECT_EQ(checked.toward + checked.away, set.rays.size());
       EXPECT_EQ(checked.away > 0, kind == std::string_view("mirror"));
     }

@@ -59,13 +59,21 @@ class CountedCalls : public accel::Accelerator {
 
 /// The camera rays of an image, and their hits, as a list.
 struct Listed {
-  Listed(const accel::Accelerator& structure, const accel::PrimaryRays& image) {
-    image.for_each(0, image.height(), [&](std::size_t, const accel::Ray& ray) {
+  Listed(const accel::Accelerator& structure, accel::PrimaryRays rays_of)
+      : image(std::move(rays_of)) {
+    image.for_each(0, image.height(), [&](std::size_t sample, const accel::Ray& ray) {
       rays.push_back(ray);
+      samples.push_back(static_cast<std::uint32_t>(sample));
       hits.push_back(structure.closest_hit(ray, nullptr));
     });
   }
+  CameraRays some(std::size_t first, std::size_t count) const {
+    return {&image, std::span(rays).subspan(first, count), std::span(samples).subspan(first, count),
+            std::span(hits).subspan(first, count)};
+  }
+  accel::PrimaryRays image;
   std::vector<accel::Ray> rays;
+  std::vector<std::uint32_t> samples;
   std::vector<std::optional<accel::Hit>> hits;
 };
 
@@ -75,9 +83,8 @@ std::vector<glm::dvec3> light(const Whitted& tracer, const Listed& camera, std::
   Whitted::Progress progress = tracer.begin();
   for (std::size_t first = 0; first < colors.size(); first += at_once) {
     const std::size_t count = std::min(at_once, colors.size() - first);
-    tracer.trace_light(std::span(camera.rays).subspan(first, count),
-                       std::span(camera.hits).subspan(first, count),
-                       std::span(colors).subspan(first, count), progress);
+    tracer.trace_light(camera.some(first, count), std::span(colors).subspan(first, count),
+                       progress);
   }
   census = progress.census;
   return colors;
@@ -123,12 +130,18 @@ TEST(Waves, KeepBatchesSmall) {
   accel::Ray ray;
   ray.origin = {0.0F, 0.0F, 5.0F};
   ray.direction = {0.1F, 0.0F, -1.0F};
+  scenes::Camera camera;
+  camera.from = ray.origin;
+  camera.at = ray.origin + ray.direction;
+  camera.up = {0.0F, 1.0F, 0.0F};
+  const accel::PrimaryRays image(camera, 1, 1, 1);
   const std::vector<accel::Ray> rays(5000, ray);
+  const std::vector<std::uint32_t> samples(5000, 0);
   const std::vector<std::optional<accel::Hit>> hits(5000, structure->closest_hit(ray, nullptr));
   std::vector<glm::dvec3> colors(5000);
   const Whitted tracer(scene, counted, {.max_depth = 9});
   Whitted::Progress progress = tracer.begin();
-  tracer.trace_light(rays, hits, colors, progress);
+  tracer.trace_light({&image, rays, samples, hits}, colors, progress);
   EXPECT_GT(progress.census.refracted, 50'000U);
   EXPECT_LE(counted.largest, 8192U);
   for (const glm::dvec3& color : colors) ASSERT_EQ(color, colors.front());

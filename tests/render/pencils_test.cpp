@@ -1,0 +1,216 @@
+// The pencils of whole pictures: all their rays pass through the apex, and nothing depends on them.
+
+#include "harness/render/pencils.hpp"
+
+#include <gtest/gtest.h>
+
+#include "harness/rays/fingerprint.hpp"
+#include "harness/render/verified_picture.hpp"
+#include "harness/render/whitted_picture.hpp"
+#include "scenes/catalogue.hpp"
+#include "tests/drawn.hpp"
+#include "tests/pencils.hpp"
+
+namespace beambench::render {
+namespace {
+
+using glm::dvec3;
+
+/// Forwards batches without their marks.
+class Unmarked : public FollowingQueries {
+ public:
+  explicit Unmarked(const accel::Accelerator& structure) : structure_(&structure) {}
+
+  std::optional<accel::Hit> closest_hit(const accel::Ray& ray,
+                                        accel::WorkCounters* counters) const override {
+    return structure_->closest_hit(ray, counters);
+  }
+  bool any_hit(const accel::Ray& ray, accel::WorkCounters* counters) const override {
+    return structure_->any_hit(ray, counters);
+  }
+  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
+                    accel::WorkCounters* counters) const override {
+    structure_->closest_hits({batch.rays}, buffer, counters);
+  }
+  void any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
+                accel::WorkCounters* counters) const override {
+    structure_->any_hits({batch.rays}, hits, counters);
+  }
+
+ private:
+  const accel::Accelerator* structure_;
+};
+
+/// Checks what is marked, and forwards it.
+class Checked : public Unmarked {
+ public:
+  Checked(const accel::Accelerator& structure, testing::CheckedPencils& pencils)
+      : Unmarked(structure), pencils_(&pencils) {}
+
+  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
+                    accel::WorkCounters* counters) const override {
+    add(batch);
+    Unmarked::closest_hits(batch, buffer, counters);
+  }
+  void any_hits(const accel::RayBatch& batch, std::span<std::uint8_t> hits,
+                accel::WorkCounters* counters) const override {
+    add(batch);
+    Unmarked::any_hits(batch, hits, counters);
+  }
+
+ private:
+  void add(const accel::RayBatch& batch) const {
+    EXPECT_EQ(batch.samples.size(), batch.rays.size());
+    for (const accel::Pencil& pencil : batch.pencils) EXPECT_GE(pencil.count, kMinPencil);
+    pencils_->add(batch);
+  }
+  testing::CheckedPencils* pencils_;
+};
+
+RecordedPicture recorded(const scenes::Scene& scene, const accel::Accelerator& structure,
+                         const accel::PrimaryRays& image, const WhittedOptions& options = {}) {
+  accel::HitBuffer hits(image.width(), image.height(), image.samples());
+  built(scene, "sah-bvh")->trace(image, hits, nullptr);
+  return record_picture(std::make_shared<const ShadedScene>(scene), structure, image,
+                        std::move(hits), options, rays::HitCheck(scene));
+}
+
+/// A room of planar mirrors with a ball in it, turned against the axes.
+scenes::Scene mirror_room() {
+  scenes::SceneBuilder builder = with_light({0.3, 0.2, 0.4});
+  builder.set_surface({.diffuse = 0.3F, .specular = 0.7F});
+  const dvec3 axes[] = {glm::normalize(dvec3(2.0, 1.0, 0.5)), {}, {}};
+  const dvec3 v = glm::normalize(glm::cross(axes[0], dvec3(0.0, 0.0, 1.0)));
+  const dvec3 w = glm::cross(axes[0], v);
+  const dvec3 turned[] = {axes[0], v, w};
+  for (int axis = 0; axis < 3; ++axis) {
+    const dvec3 a = turned[(axis + 1) % 3];
+    const dvec3 b = turned[(axis + 2) % 3];
+    for (const double side : {-1.0, 1.0}) {
+      const dvec3 middle = side * turned[axis];
+      const dvec3 corners[] = {middle - a - b, middle + a - b, middle + a + b, middle - a + b};
+      builder.add_polygon(std::span(corners).first(3));
+      const dvec3 others[] = {corners[0], corners[2], corners[3]};
+      builder.add_polygon(others);
+    }
+  }
+  builder.set_surface({.color = {0.9F, 0.5F, 0.2F}, .diffuse = 0.8F});
+  builder.add_sphere({0.3, -0.2, -0.3}, 0.25);
+  scenes::Camera camera;
+  camera.from = {-0.4F, 0.3F, 0.1F};
+  camera.at = {0.3F, -0.2F, -0.3F};
+  camera.angle = 60.0F;
+  builder.add_camera(camera);
+  return std::move(builder).build();
+}
+
+void expect_same(const AskedRays& a, const AskedRays& b) {
+  EXPECT_EQ(rays::fingerprint(a.closest), rays::fingerprint(b.closest));
+  EXPECT_TRUE(a.hits == b.hits);
+  EXPECT_EQ(rays::fingerprint(a.any), rays::fingerprint(b.any));
+  EXPECT_TRUE(a.any_hits == b.any_hits);
+}
+
+TEST(Pencils, PassThroughTheirApexInTheCatalogue) {
+  for (const char* name : {"teapot:n=3", "gears:n=2", "habitacion", "ajedrez", "finishes", "misil",
+                           "gato-bill", "closed-room", "casa-de-campo", "balls:n=2"}) {
+    SCOPED_TRACE(name);
+    const scenes::Scene scene = scenes::load_scene(name);
+    const accel::PrimaryRays image(scene.cameras.front(), 120, 90, 1);
+    testing::CheckedPencils pencils(scene, image, 16.0);
+    const auto structure = built(scene, "sah-bvh");
+    recorded(scene, Checked(*structure, pencils), image);
+    EXPECT_GT(pencils.toward, 0U);
+  }
+}
+
+TEST(Pencils, PassThroughTheirApexInRandomScenes) {
+  std::size_t toward = 0, away = 0;
+  for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const scenes::Scene scene = scene_of_all_surfaces(seed);
+    const accel::PrimaryRays image(scene.cameras.front(), 80, 60, seed % 3 == 0 ? 4 : 1);
+    testing::CheckedPencils pencils(scene, image, 16.0);
+    const auto structure = built(scene, "sah-bvh");
+    recorded(scene, Checked(*structure, pencils), image);
+    toward += pencils.toward;
+    away += pencils.away;
+  }
+  EXPECT_GT(toward, 10'000U);
+  EXPECT_GT(away, 1'000U);
+}
+
+// Where all mirrors are planar, almost all rays come through virtual eyes, however often reflected.
+TEST(Pencils, AreOfAnyDepth) {
+  const scenes::Scene scene = mirror_room();
+  const accel::PrimaryRays image(scene.cameras.front(), 128, 128, 1);
+  testing::CheckedPencils pencils(scene, image, 16.0);
+  const auto structure = built(scene, "sah-bvh");
+  const RecordedPicture picture = recorded(scene, Checked(*structure, pencils), image);
+  EXPECT_GT(picture.census.reflected, 3U * 128 * 128);
+  EXPECT_GT(static_cast<double>(pencils.away), 0.9 * static_cast<double>(picture.census.reflected));
+  EXPECT_GT(static_cast<double>(pencils.toward), 0.9 * static_cast<double>(picture.census.shadow));
+}
+
+TEST(Pencils, AreNotOfCurvedMirrors) {
+  const scenes::Scene scene = scenes::load_scene("balls:n=2");
+  const accel::PrimaryRays image(scene.cameras.front(), 120, 90, 1);
+  testing::CheckedPencils pencils(scene, image, 16.0);
+  const auto structure = built(scene, "sah-bvh");
+  EXPECT_GT(recorded(scene, Checked(*structure, pencils), image).census.reflected, 1000U);
+  EXPECT_EQ(pencils.away, 0U);
+}
+
+// A structure that uses marks and is bit-exact finds the same hits, so the same rays follow.
+TEST(Pencils, ChangeNothingThatAPictureDependsOn) {
+  std::vector<scenes::Scene> all;
+  all.push_back(mirror_room());
+  all.push_back(scenes::load_scene("teapot:n=3"));
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) all.push_back(scene_of_all_surfaces(seed));
+  for (const scenes::Scene& scene : all) {
+    SCOPED_TRACE(scene.name);
+    const accel::PrimaryRays image(scene.cameras.front(), 100, 70, 1);
+    for (const char* spec : {"sah-bvh", "beam"}) {
+      const auto structure = built(scene, spec);
+      const RecordedPicture marked = recorded(scene, *structure, image);
+      const RecordedPicture unmarked = recorded(scene, Unmarked(*structure), image);
+      expect_same_bits(marked.image, unmarked.image);
+      EXPECT_EQ(marked.census, unmarked.census);
+      for (std::size_t i = 0; i < kFollowingRays; ++i) {
+        expect_same(marked.asked[i], unmarked.asked[i]);
+      }
+    }
+  }
+}
+
+// Nor do they change the order in which the light of a sample is summed.
+TEST(Pencils, DoNotChangeAPictureOfManySamples) {
+  const scenes::Scene scene = mirror_room();
+  const auto structure = built(scene, "sah-bvh");
+  const accel::PrimaryRays image(scene.cameras.front(), 70, 50, 4);
+  accel::HitBuffer hits(70, 50, 4);
+  structure->trace(image, hits, nullptr);
+  const Whitted tracer(scene, *structure, {});
+  const WhittedPicture expected = whitted_picture(tracer, image, hits);
+  Whitted::Progress progress = tracer.begin();
+  Image alone(70, 50);
+  for (int y = 0; y < 50; ++y) {
+    for (int x = 0; x < 70; ++x) {
+      dvec3 sum(0.0);
+      for (int i = 0; i < 4; ++i) {
+        const accel::Ray ray = image.ray(x, y, i);
+        const auto sample = static_cast<std::uint32_t>(hits.index(x, y, i));
+        const std::optional<accel::Hit> hit = hits.get(sample);
+        dvec3 color;
+        tracer.trace_light({&image, {&ray, 1}, {&sample, 1}, {&hit, 1}}, {&color, 1}, progress);
+        sum += color;
+      }
+      alone.at(x, y) = glm::vec3(0.25 * sum);
+    }
+  }
+  expect_same_bits(alone, expected.image);
+  EXPECT_EQ(progress.census, expected.census);
+}
+
+}  // namespace
+}  // namespace beambench::render
