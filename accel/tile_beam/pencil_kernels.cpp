@@ -86,8 +86,8 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, HitBuffer&
         PencilWalk<ClosestHitPolicy, Counting>(pencil.hierarchy, pencil.scene, part, side, unit,
                                                counting)();
         const auto z = static_cast<int>(side.z_axis());
-        // The place of a hit errs by some roundings of its distance from the apex; from here on that
-        // is too much for a t that counts from elsewhere, and the canonical test decides.
+        // The place of a hit errs by some roundings of its distance from the apex; from here on
+        // that is too much for a t that counts from elsewhere, and the canonical test decides.
         const float far = 2.0F * pencil.hierarchy.bounds.largest_coordinate();
         for (std::size_t place = 0; place < unit.places; ++place) {
           const std::size_t block = unit.slot[place];
@@ -99,7 +99,8 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, HitBuffer&
             const bool hit = unit.w[at] > 0.0F;
             const Ray& ray = pencil.rays[i];
             primitive[i] = hit ? unit.primitive[at] : scenes::kNoPrimitive;
-            t[i] = hit ? (depth - 1.0F / unit.origin_w[at]) / std::abs(ray.direction[z]) : kInfinity;
+            t[i] =
+                hit ? (depth - 1.0F / unit.origin_w[at]) / std::abs(ray.direction[z]) : kInfinity;
             if (hit && depth > far) [[unlikely]] {
               const float exact = intersect(CanonicalRay(ray), pencil.scene, primitive[i]);
               t[i] = is_hit(exact) ? exact : kNaN;

@@ -195,9 +195,9 @@ class TriangleShapes {
     const Floats distance = dot(normal, p0);
     // A needle's normal is too inaccurate in float, unless the needle is small.
     const Floats longest = hn::Max(dot(side1, side1), dot(side2, side2));
-    const Mask needle =
-        hn::Not(hn::Lt(hn::Mul(longest, hn::Sqrt(longest)),
-                       hn::Mul(all(4.0F * view_->scene_size), hn::Sqrt(dot(normal, normal)))));
+    const float reach = 4.0F * view_->scene_size;
+    const Mask needle = hn::Not(hn::Lt(hn::Mul(longest, hn::Mul(longest, longest)),
+                                       hn::Mul(all(reach * reach), dot(normal, normal))));
 
     // Constants in the middle of an edge are exactly opposite for the two triangles that share it
     // (-ffp-contract=off is needed for this).
