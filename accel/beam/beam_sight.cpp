@@ -202,8 +202,8 @@ std::int64_t BehindMirror::handover(const BeamOptions& options) {
 
 SampleRay BehindMirror::ray(const SampleScan&, const SampleLattice& lattice, int x, int y) const {
   const Ray& ray = rays_[ray_at_[index_of(x, y, lattice.places.front().sample)]];
-  return {ray, glm::dot(view_->forward(), dvec3(ray.origin) - nearby_.eye),
-          glm::dot(view_->forward(), dvec3(ray.direction))};
+  return {ray, static_cast<float>(glm::dot(view_->forward(), dvec3(ray.origin) - nearby_.eye)),
+          static_cast<float>(glm::dot(view_->forward(), dvec3(ray.direction)))};
 }
 
 bool BehindMirror::has(const octree::OctreeCursor& node) const {

@@ -35,7 +35,7 @@ struct WholeImage {
   /// The samples that need no tracing; empty where all need it.
   static std::vector<std::uint8_t> finished() { return {}; }
   static SampleRay ray(const SampleScan& scan, const SampleLattice& lattice, int x, int y) {
-    return {scan.ray(lattice, x, y), 0.0, 1.0};
+    return {scan.ray(lattice, x, y), 0.0F, 1.0F};
   }
 };
 

@@ -14,8 +14,8 @@ namespace beambench::accel::beam {
 /// The ray of a sample, whose point at t has the view depth start + speed * t.
 struct SampleRay {
   Ray ray;
-  double start;
-  double speed;
+  float start;
+  float speed;
 };
 
 /// Up to `SampleBatch::kCapacity` samples with their rays and what they hit so far.
@@ -36,8 +36,8 @@ class LeafBatch {
     int y;
     Ray ray;
     ClosestHit closest;
-    double start;
-    double speed;
+    float start;
+    float speed;
   };
 
   LeafBatch() { samples_.reserve(SampleBatch::kCapacity); }
@@ -79,7 +79,7 @@ class LeafBatch {
   /// Hits that are not farther have a larger 1 / view depth than this.
   static float limit(const Sample& sample) {
     constexpr float kLess = 1.0F - 0x1p-20F;
-    return kLess / static_cast<float>(sample.start + sample.speed * sample.closest.ray.t_max);
+    return kLess / (sample.start + sample.speed * sample.closest.ray.t_max);
   }
 
   std::vector<Sample> samples_;
