@@ -122,7 +122,7 @@ void BehindMirror::take_rays() {
     if (!(course.speed > 0.0 && course.start > 0.0)) continue;
     if (!(course.turned + 5.0 * course.beside / course.start < worst)) continue;
     const glm::ivec2 at = place.pixel - corner_;
-    const std::size_t index = index_of(at.x, at.y, static_cast<int>(place.sample));
+    const std::size_t index = index_of(at.x, at.y, place.sample);
     if (ray_at_[index] != kNone) continue;
     ray_at_[index] = static_cast<std::uint32_t>(i);
     places_[i] = static_cast<std::uint32_t>(index);
@@ -201,7 +201,8 @@ std::int64_t BehindMirror::handover(const BeamOptions& options) {
 }
 
 SampleRay BehindMirror::ray(const SampleScan&, const SampleLattice& lattice, int x, int y) const {
-  const Ray& ray = rays_[ray_at_[index_of(x, y, lattice.places.front().sample)]];
+  const Ray& ray =
+      rays_[ray_at_[index_of(x, y, static_cast<std::size_t>(lattice.places.front().sample))]];
   return {ray, static_cast<float>(glm::dot(view_->forward(), dvec3(ray.origin) - nearby_.eye)),
           static_cast<float>(glm::dot(view_->forward(), dvec3(ray.direction)))};
 }

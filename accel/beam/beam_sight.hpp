@@ -57,10 +57,8 @@ class BehindMirror : public PassedNodes {
   BehindMirror(const RayBatch& batch, const Pencil& pencil, const scenes::Scene& scene,
                const octree::Octree& octree);
 
-  /// The hits of the smallest part of the image that has all samples; 1 for each that needs no
-  /// tracing.
+  /// For the hits of the smallest part of the image that has all samples.
   HitBuffer buffer() const { return {size_.x, size_.y, view_->samples()}; }
-  std::vector<std::uint8_t> finished() const;
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   /// For each ray its place in the buffer, or kNone where it is left out.
   std::span<const std::uint32_t> places() const { return places_; }
@@ -71,9 +69,13 @@ class BehindMirror : public PassedNodes {
   const ImagePolygon& part(const EyeView&) const { return part_; }
   /// Each sample has a ray of its own, those in the corners of pixels too.
   std::vector<SampleLattice> lattices(const PrimaryRays& rays, bool share_corners) const;
+  /// For each place of the buffer 1 if no ray of the pencil has it.
+  std::vector<std::uint8_t> finished() const;
+  /// Some even where the option is 0.
   static std::int64_t handover(const BeamOptions& options);
   SampleRay ray(const SampleScan&, const SampleLattice& lattice, int x, int y) const;
   const PassedNodes* passed() const { return this; }
+  /// Is everything in a node behind the plane of the rays' origins?
   bool has(const octree::OctreeCursor& node) const override;
 
  private:
@@ -93,9 +95,12 @@ class BehindMirror : public PassedNodes {
   Place place_of(std::size_t ray) const;
   Course course_of(const Ray& ray, const Place& place) const;
   /// In a buffer of the part, as `HitBuffer::index`.
-  std::size_t index_of(int x, int y, int sample) const {
-    return static_cast<std::size_t>((y * size_.x + x) * view_->samples() + sample);
+  std::size_t index_of(int x, int y, std::size_t sample) const {
+    const std::size_t pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(size_.x) +
+                              static_cast<std::size_t>(x);
+    return pixel * static_cast<std::size_t>(view_->samples()) + sample;
   }
+  /// Calls `visit(ray)` for the rays that are not left out.
   template <class Visit>
   void for_each_taken(Visit visit) const {
     for (std::size_t i = 0; i < rays_.size(); ++i) {
