@@ -20,12 +20,6 @@ struct BeamCut {
   ImageLine line;
 };
 
-/// A part narrower than this (in the units of `ImageLine`) is not made: its rays stay with the
-/// neighboring part. They deviate by at most 10 scene diagonals x 2^-39, far less than overlaps are
-/// widened by (`tolerance.hpp`), so no hit is lost, and rays that run exactly in a cell's face do
-/// not divide beams into slivers.
-inline constexpr double kSliver = 0x1p-39;
-
 /// The pyramid from the eye through a convex polygon (thesis, section 3.2), where it enters a leaf.
 ///
 /// Which samples belong to the beam is decided by the cuts alone, by one comparison of numbers

@@ -21,7 +21,7 @@ namespace beambench::accel::beam {
 template <class Sight>
 std::vector<std::uint8_t> finished_samples(const BeamOptions& options, const Sight& sight,
                                            const HitBuffer& buffer) {
-  std::vector<std::uint8_t> finished = sight.finished(buffer);
+  std::vector<std::uint8_t> finished = sight.finished();
   if (finished.empty() && !options.continue_with_rays) finished.assign(buffer.size(), 0);
   return finished;
 }
@@ -42,8 +42,8 @@ class BeamPainter {
         tracer_(&tracer),
         continue_with_rays_(options.continue_with_rays),
         scan_(view, rays),
-        lattices_(sample_lattices(rays, options.share_corners)),
-        images_(scene, rays),
+        lattices_(sight.lattices(rays, options.share_corners)),
+        images_(scene, view, rays),
         sight_(&sight),
         finished_(finished),
         buffer_(&buffer),
@@ -52,13 +52,16 @@ class BeamPainter {
 
   /// A beam leaves the root: its samples keep the background.
   void leave(const Beam& beam) {
-    if constexpr (Watch::kPaintsLeaving) {
-      for_each_batch(beam, [&] {
-        for (const LeafBatch::Sample& sample : batch_.samples()) {
-          for_each_index(sample, [&](std::size_t index) { watch_->painted(index); });
-        }
-        watch_->left(batch_.samples().size());
+    if constexpr (Watch::kPaintsLeaving || Sight::kRecordsLeaving) {
+      std::uint64_t samples = 0;
+      for_each_sample(beam, [&](const SampleLattice& lattice, int x, int y) {
+        lattice.for_each_index(*buffer_, x, y, [&](std::size_t index) {
+          if (!finished_.empty()) finished_[index] = 1;
+          watch_->painted(index);
+        });
+        ++samples;
       });
+      watch_->left(samples);
     }
   }
 
@@ -95,8 +98,9 @@ class BeamPainter {
   /// continues with its beam.
   bool settle(const octree::OctreeCursor& place, LeafBatch::Sample& sample) {
     const CellRay cell_ray(octree().grid(), sample.ray);
-    if (!(sample.closest.ray.t_max < static_cast<float>(octree::leaf_exit(cell_ray, place).t))) {
-      if (!continue_with_rays_) {
+    const double exit_t = octree::leaf_exit(cell_ray, place).t;
+    if (!(sample.closest.ray.t_max < static_cast<float>(exit_t))) {
+      if (!continue_with_rays_ || exit_t < sample.ray.t_min) {
         for_each_index(sample,
                        [&](std::size_t index) { buffer_->set(index, sample.closest.result()); });
         return false;
@@ -108,11 +112,18 @@ class BeamPainter {
     return true;
   }
 
-  /// Traces a ray behind a leaf on its own (thesis, section 3.6.2).
+  /// Traces a ray behind a leaf on its own (thesis, section 3.6.2); from where it begins, if it
+  /// begins behind that leaf.
   void follow(const octree::OctreeCursor& place, const CellRay& cell_ray,
               LeafBatch::Sample& sample) {
     ClosestHit closest = sample.closest;  // a copy can stay in registers
     double t = octree::leaf_exit(cell_ray, place).t;
+    if (t < sample.ray.t_min) {
+      if (const auto hit = tracer_->find_closest(sample.ray, counting_)) {
+        sample.closest.keep(hit->t, hit->primitive);
+      }
+      return;
+    }
     octree::LeafWalk{octree(), tracer_->neighbors(), sample.ray, cell_ray}.behind(
         place, counting_, [&](const octree::OctreeNode& leaf, double exit_t) {
           if (watch_->leaves_part(leaf, t)) return true;
@@ -130,36 +141,45 @@ class BeamPainter {
     });
   }
 
+  /// Calls `visit(lattice, x, y)` for the beam's unfinished samples.
+  template <class Visit>
+  void for_each_sample(const Beam& beam, Visit visit) const {
+    for (const SampleLattice& lattice : watch_->chosen(lattices_)) {
+      scan_.for_each_run(beam, lattice, [&](int y, int first, int last) {
+        for (int x = first; x <= last; ++x) {
+          if (finished_.empty() || !is_finished(lattice, x, y)) visit(lattice, x, y);
+        }
+      });
+    }
+  }
+
   /// Fills the batch with the beam's unfinished samples and calls `visit()`, as often as needed for
   /// all of them.
   template <class Visit>
   void for_each_batch(const Beam& beam, Visit visit) {
     batch_.clear();
-    for (const SampleLattice& lattice : watch_->chosen(lattices_)) {
-      scan_.for_each_run(beam, lattice, [&](int y, int first, int last) {
-        for (int x = first; x <= last; ++x) {
-          Ray ray = scan_.ray(lattice, x, y);
-          sight_->begin(ray);
-          LeafBatch::Sample& sample = batch_.add(lattice, x, y, ray);
-          if (!finished_.empty() && !resume(sample)) batch_.drop_last();
-          if (!batch_.full()) continue;
-          visit();
-          batch_.clear();
-        }
-      });
-    }
+    for_each_sample(beam, [&](const SampleLattice& lattice, int x, int y) {
+      LeafBatch::Sample& sample = batch_.add(lattice, x, y, sight_->ray(scan_, lattice, x, y));
+      if (!finished_.empty()) resume(sample);
+      if (!batch_.full()) return;
+      visit();
+      batch_.clear();
+    });
     if (!batch_.samples().empty()) visit();
   }
 
-  /// Restores the hit that a sample found in leaves its beam passed. Returns false when it is
-  /// finished.
-  bool resume(LeafBatch::Sample& sample) const {
-    bool open = false;
+  bool is_finished(const SampleLattice& lattice, int x, int y) const {
+    bool finished = true;
+    lattice.for_each_index(*buffer_, x, y,
+                           [&](std::size_t index) { finished = finished_[index] != 0; });
+    return finished;
+  }
+
+  /// Restores the hit that a sample found in leaves its beam passed.
+  void resume(LeafBatch::Sample& sample) const {
     for_each_index(sample, [&](std::size_t index) {
-      open = finished_[index] == 0;
       if (const auto hit = buffer_->get(index)) sample.closest.keep(hit->t, hit->primitive);
     });
-    return open;
   }
 
   /// Calls `visit(index)` for a sample's places in the hit buffer.

@@ -1,16 +1,26 @@
 #include "accel/beam/beam_paths.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <optional>
 
 namespace beambench::accel::beam {
 namespace {
 
-/// A beam that enters a leaf.
-void push_at(const octree::OctreeCursor& leaf, Beam beam, BeamQueue& queue) {
-  beam.node = leaf.index();
-  beam.corner = leaf.corner();
-  beam.size = leaf.size();
-  queue.waiting.push(leaf.node().count == 0 ? BeamKind::kNonTerminal : BeamKind::kOccupied, beam);
+/// What a beam meets in a node; nothing where it is to be divided among the node's children.
+std::optional<BeamKind> met_in(const octree::OctreeCursor& cursor, const BeamQueue& queue) {
+  if (cursor.node().count == 0) return BeamKind::kNonTerminal;
+  if (queue.passed != nullptr && queue.passed->has(cursor)) return BeamKind::kNonTerminal;
+  if (cursor.node().is_leaf()) return BeamKind::kOccupied;
+  return std::nullopt;
+}
+
+void push_at(const octree::OctreeCursor& cursor, BeamKind kind, Beam beam, BeamQueue& queue) {
+  beam.node = cursor.index();
+  beam.corner = cursor.corner();
+  beam.size = cursor.size();
+  queue.waiting.push(kind, beam);
 }
 
 /// Counts a beam that continued in that many parts.
@@ -32,8 +42,9 @@ class Entry {
   /// Divides a beam that enters the cursor's node by the face among the node's leaves there
   /// (thesis, section 3.5.2.3) and appends them.
   void divide(const octree::OctreeCursor& cursor, const Beam& beam) const {
-    if (cursor.node().is_leaf()) {
-      append(cursor, beam);
+    if (beam.outline.empty()) return;
+    if (const auto kind = met_in(cursor, *queue_)) {
+      append(cursor, *kind, beam);
       return;
     }
     const int u = (face_.axis + 1) % 3;
@@ -62,24 +73,23 @@ class Entry {
     const LineRange range = range_over(beam.outline, line);
     // Rays that cross the middle plane first are on its far side when they cross the face.
     const bool far_is_above = middle.side > 0;
-    if (range.high <= kSliver) {
+    if (view_->all_before(range)) {
       visit(beam, far_is_above);
-    } else if (range.low >= -kSliver) {
+    } else if (view_->all_behind(range)) {
       visit(beam, !far_is_above);
     } else {
       queue_->clips += 2;
       const std::array<BeamCut, 2> sides{BeamCut{middle, face_, line},
-                                         BeamCut{face_, middle, line.turned()}};
+                                         BeamCut{face_, middle, view_->other_side(line)}};
       visit(part_of(beam, {&sides[0], 1}), far_is_above);
       visit(part_of(beam, {&sides[1], 1}), !far_is_above);
     }
   }
 
-  void append(const octree::OctreeCursor& leaf, const Beam& beam) const {
-    if (beam.outline.empty()) return;
+  void append(const octree::OctreeCursor& cursor, BeamKind kind, const Beam& beam) const {
     ++queue_->appended;
-    if (queue_->border != nullptr && queue_->border->takes(leaf.index(), face_, beam)) return;
-    push_at(leaf, beam, *queue_);
+    if (queue_->border != nullptr && queue_->border->takes(cursor.index(), face_, beam)) return;
+    push_at(cursor, kind, beam, *queue_);
   }
 
   const EyeView* view_;
@@ -92,10 +102,8 @@ BeamCut cut_between(const EyeView& view, const Crossing& inner, const Crossing& 
   return {inner, outer, view.line_before(inner, outer)};
 }
 
-void enter_root(const octree::Octree& octree, const EyeView& view, const ImagePolygon& part,
+void enter_root(const octree::Octree& octree, const EyeView& view, const Beam& screen,
                 const Crossing& face, BeamQueue& queue) {
-  Beam screen;
-  screen.outline = part;
   FixedVector<BeamCut, 4> borders;
   for (int other = 1; other <= 2; ++other) {
     const int axis = (face.axis + other) % 3;
@@ -109,7 +117,7 @@ void enter_root(const octree::Octree& octree, const EyeView& view, const ImagePo
   }
   queue.clips += borders.size();
   const Beam beam = part_of(screen, {borders.begin(), borders.size()});
-  if (!beam.outline.empty()) Entry(view, face, queue).divide(octree::OctreeCursor(octree), beam);
+  Entry(view, face, queue).divide(octree::OctreeCursor(octree), beam);
 }
 
 /// The faces by which a beam leaves its leaf, and the lines on the image between them.
@@ -134,10 +142,10 @@ class Exits {
   const Crossing& face(std::size_t i) const { return faces_[i]; }
 
   /// The cuts around the part of the beam that leaves by face i.
-  FixedVector<BeamCut, 5> cuts(std::size_t i) const {
+  FixedVector<BeamCut, 5> cuts(const EyeView& view, std::size_t i) const {
     FixedVector<BeamCut, 5> cuts;
     for (std::size_t j = 0; j < faces_.size(); ++j) {
-      if (j < i) cuts.push_back({faces_[i], faces_[j], lines_[j][i].turned()});
+      if (j < i) cuts.push_back({faces_[i], faces_[j], view.other_side(lines_[j][i])});
       if (j > i) cuts.push_back({faces_[i], faces_[j], lines_[i][j]});
     }
     return cuts;
@@ -152,8 +160,8 @@ class Exits {
     for (std::size_t i = 0; i < faces_.size();) {
       lines[i] = view.line_before(faces_[i], face);
       const LineRange range = range_over(beam.outline, lines[i]);
-      if (range.high <= kSliver) return;
-      if (range.low >= -kSliver) {
+      if (view.all_before(range)) return;
+      if (view.all_behind(range)) {
         take_away(i);
       } else {
         ++i;
@@ -178,11 +186,8 @@ class Exits {
   std::array<std::array<ImageLine, 6>, 6> lines_;  ///< [i][j]: between faces i and j, i < j
 };
 
-}  // namespace
-
-void begin_beams(const octree::Octree& octree, const EyeView& view, const ImagePolygon& part,
-                 BeamQueue& queue) {
-  const std::uint64_t before = queue.appended;
+void begin_at(const octree::Octree& octree, const EyeView& view, const Beam& screen,
+              BeamQueue& queue) {
   bool inside = true;
   for (int axis = 0; axis < 3; ++axis) {
     const std::int32_t cells = octree.grid().cells[axis];
@@ -193,14 +198,12 @@ void begin_beams(const octree::Octree& octree, const EyeView& view, const ImageP
     inside = false;
     const Crossing face{below ? 0 : cells, static_cast<std::int16_t>(axis),
                         static_cast<std::int16_t>(below ? 1 : -1)};
-    enter_root(octree, view, part, face, queue);
+    enter_root(octree, view, screen, face, queue);
   }
-  if (!inside) {
-    queue.made += queue.appended - before;
-    return;
-  }
+  if (!inside) return;
   octree::OctreeCursor cursor(octree);
-  while (!cursor.node().is_leaf()) {
+  std::optional<BeamKind> kind;
+  while (!(kind = met_in(cursor, queue))) {
     glm::ivec3 corner = cursor.corner();
     for (int axis = 0; axis < 3; ++axis) {
       const std::int32_t middle = corner[axis] + cursor.size() / 2;
@@ -208,11 +211,45 @@ void begin_beams(const octree::Octree& octree, const EyeView& view, const ImageP
     }
     cursor.enter_child(corner);
   }
-  Beam beam;
-  beam.outline = part;
-  push_at(cursor, beam, queue);
+  push_at(cursor, *kind, screen, queue);
   ++queue.appended;
-  ++queue.made;
+}
+
+/// The plane of the grid nearest to the eye, crossed toward `side`.
+Crossing nearest_plane(const octree::Octree& octree, const EyeView& view, int axis, int side) {
+  const CellGrid& grid = octree.grid();
+  const double cells = (view.eye(axis) - grid.lower[axis]) / grid.cell[axis];
+  return {static_cast<std::int32_t>(
+              std::clamp(std::round(cells), 0.0, static_cast<double>(grid.cells[axis]))),
+          static_cast<std::int16_t>(axis), static_cast<std::int16_t>(side)};
+}
+
+/// Begins a beam, divided by the planes beside the eye, from this axis on: rays that run along such
+/// a plane may be on the other side of it than the eye, and are in none of the parts.
+void begin_beside_planes(const octree::Octree& octree, const EyeView& view, int axis,
+                         const Beam& screen, BeamQueue& queue) {
+  if (screen.outline.empty()) return;
+  if (axis == 3) return begin_at(octree, view, screen, queue);
+  const Crossing upward = nearest_plane(octree, view, axis, 1);
+  if (!view.eye_is_beside(upward)) {
+    return begin_beside_planes(octree, view, axis + 1, screen, queue);
+  }
+  const Crossing downward = nearest_plane(octree, view, axis, -1);
+  for (const BeamCut& side : {BeamCut{upward, downward, view.line_toward(upward)},
+                              BeamCut{downward, upward, view.line_toward(downward)}}) {
+    begin_beside_planes(octree, view, axis + 1, part_of(screen, {&side, 1}), queue);
+  }
+}
+
+}  // namespace
+
+void begin_beams(const octree::Octree& octree, const EyeView& view, const ImagePolygon& part,
+                 BeamQueue& queue) {
+  const std::uint64_t before = queue.appended;
+  Beam screen;
+  screen.outline = part;
+  begin_beside_planes(octree, view, 0, screen, queue);
+  queue.made += queue.appended - before;
 }
 
 void continue_beam(const octree::Octree& octree, const EyeView& view, const Beam& beam,
@@ -220,7 +257,7 @@ void continue_beam(const octree::Octree& octree, const EyeView& view, const Beam
   const std::uint64_t before = queue.appended;
   const Exits exits(view, beam);
   for (std::size_t i = 0; i < exits.count(); ++i) {
-    const auto cuts = exits.cuts(i);
+    const auto cuts = exits.cuts(view, i);
     queue.clips += cuts.size();
     const Beam part = part_of(beam, {cuts.begin(), cuts.size()});
     if (part.outline.empty()) continue;

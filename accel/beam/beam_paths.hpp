@@ -102,6 +102,17 @@ class BeamBorder {
   virtual bool takes(std::uint32_t leaf, const Crossing& face, const Beam& beam) = 0;
 };
 
+/// Where beams pass some nodes as if these were empty leaves, whatever their size: those that hold
+/// nothing that a ray of theirs can meet.
+class PassedNodes {
+ public:
+  PassedNodes() = default;
+  PassedNodes(const PassedNodes&) = delete;
+  PassedNodes& operator=(const PassedNodes&) = delete;
+  virtual ~PassedNodes() = default;
+  virtual bool has(const octree::OctreeCursor& node) const = 0;
+};
+
 /// Beams that wait to be traced, and the work of finding them.
 ///
 /// The thesis counts a beam when one is created: at the beginning, and for each part of a beam that
@@ -111,17 +122,19 @@ struct BeamQueue {
   BeamStack waiting;
   std::uint64_t clips = 0;
   std::uint64_t neighbor_searches = 0;
-  std::uint64_t appended = 0;      ///< to `waiting`, or taken at the border
-  std::uint64_t made = 0;          ///< those at the beginning, and the parts of divided beams
-  std::uint64_t divided = 0;       ///< beams that continued in several parts
-  std::uint64_t passed_whole = 0;  ///< beams that continued undivided: into one leaf, or out
-  BeamBorder* border = nullptr;    ///< where there is one
+  std::uint64_t appended = 0;           ///< to `waiting`, or taken at the border
+  std::uint64_t made = 0;               ///< those at the beginning, and the parts of divided beams
+  std::uint64_t divided = 0;            ///< beams that continued in several parts
+  std::uint64_t passed_whole = 0;       ///< beams that continued undivided: into one leaf, or out
+  BeamBorder* border = nullptr;         ///< where there is one
+  const PassedNodes* passed = nullptr;  ///< where there are any
 };
 
 /// Appends the beams at which tracing begins (thesis, section 3.4), through a convex `part` of the
 /// image: all of it is `view.screen()`. From outside: for each face of the root that faces the
 /// camera, the part clipped to it, divided among the leaves behind it. From inside: the part itself
-/// in the leaf that contains the camera. Samples of no beam miss the root.
+/// in the leaf that contains the camera. Samples of no beam miss the root, or run along a plane of
+/// the grid that nearby rays may pass on the eye's other side.
 void begin_beams(const octree::Octree& octree, const EyeView& view, const ImagePolygon& part,
                  BeamQueue& queue);
 

@@ -18,8 +18,8 @@ namespace beambench::accel::beam {
 /// Beams of primary rays through an octree (González López, thesis 1999, chapters 3 and 4): in
 /// empty leaves the beams continue, divided by the faces and the leaves behind them; at an occupied
 /// leaf the samples of a beam become rays; what leaves the root is background without a ray. Rays
-/// that are not of an image, and those that pass an occupied leaf, are traced one by one by Samet's
-/// traversal of the same octree.
+/// that are not of an image, direct or seen in a planar mirror, and those that pass an occupied
+/// leaf, are traced one by one by Samet's traversal of the same octree.
 class BeamTracer : public octree::Samet {
  public:
   BeamTracer(const scenes::Scene& scene, const BeamOptions& options)
@@ -39,6 +39,11 @@ class BeamTracer : public octree::Samet {
     NoBeamWatch watch;
     trace_watched(rays, buffer, watch);
   }
+
+  /// What planar mirrors show is traced in beams from their virtual eyes (`BehindMirror`), all
+  /// other rays one by one.
+  void closest_hits(const RayBatch& batch, HitBuffer& buffer,
+                    WorkCounters* counters) const override;
 
   /// The beams are shared among the threads: two have no sample in common, unless one descends from
   /// the other.
@@ -63,15 +68,15 @@ class BeamTracer : public octree::Samet {
   template <class Watch>
   void trace_watched(const PrimaryRays& rays, HitBuffer& buffer, Watch& watch) const;
 
-  /// What a mirror shows: `rays` are those of its virtual eye (`PrimaryRays::mirrored`). Samples
-  /// that do not see the mirror become misses.
-  void trace_behind(const BehindMirror& mirror, const PrimaryRays& rays, HitBuffer& buffer) const;
-
  private:
   template <class Watch, class Sight>
   class Run;
   template <class Watch>
   class SharedRun;
+
+  template <class Counting>
+  void trace_mirror(const RayBatch& batch, const Pencil& pencil, HitBuffer& buffer,
+                    Counting& counting) const;
 
   const scenes::Scene* scene_;
   BeamOptions options_;
@@ -84,13 +89,16 @@ class BeamTracer::Run {
   Run(const BeamTracer& tracer, const PrimaryRays& rays, const Sight& sight, HitBuffer& buffer,
       std::span<std::uint8_t> finished, Watch& watch)
       : tracer_(&tracer),
-        view_(tracer.octree().grid(), rays),
+        view_(sight.view(tracer.octree().grid(), rays)),
         sight_(&sight),
         painter_(*tracer.scene_, tracer, tracer.options_, view_, rays, sight, buffer, finished,
                  watch),
         samples_(static_cast<double>(rays.count())),
+        handover_(sight.handover(tracer.options_)),
         buffer_(&buffer),
-        watch_(&watch) {}
+        watch_(&watch) {
+    queue_.passed = sight.passed();
+  }
 
   /// The whole image.
   void operator()() {
@@ -121,9 +129,7 @@ class BeamTracer::Run {
           painter_.leave(step.beam);
           break;
         case BeamKind::kOccupied:
-          if (sight_->passes(octree().grid(), step.beam) || painter_.test_leaf(step.beam)) {
-            continue_with(step.beam);
-          }
+          if (painter_.test_leaf(step.beam)) continue_with(step.beam);
           break;
         case BeamKind::kNonTerminal:
           continue_with(step.beam);
@@ -144,8 +150,7 @@ class BeamTracer::Run {
   void continue_with(const Beam& beam) {
     if (beam.crowded()) {
       painter_.hand_over(beam, RayReason::kCrowded);
-    } else if (tracer_->options_.handover > 0 &&
-               area(beam.outline) * samples_ < static_cast<double>(tracer_->options_.handover)) {
+    } else if (handover_ > 0 && area(beam.outline) * samples_ < static_cast<double>(handover_)) {
       painter_.hand_over(beam, RayReason::kHandover);
     } else {
       continue_beam(octree(), view_, beam, queue_);
@@ -157,6 +162,7 @@ class BeamTracer::Run {
   const Sight* sight_;
   BeamPainter<Watch, Sight> painter_;
   double samples_;
+  std::int64_t handover_;
   HitBuffer* buffer_;
   Watch* watch_;
   BeamQueue queue_;
@@ -167,13 +173,6 @@ void BeamTracer::trace_watched(const PrimaryRays& rays, HitBuffer& buffer, Watch
   const WholeImage sight;
   auto finished = finished_samples(options_, sight, buffer);
   Run<Watch, WholeImage>(*this, rays, sight, buffer, finished, watch)();
-}
-
-inline void BeamTracer::trace_behind(const BehindMirror& mirror, const PrimaryRays& rays,
-                                     HitBuffer& buffer) const {
-  NoBeamWatch watch;
-  auto finished = finished_samples(options_, mirror, buffer);
-  Run<NoBeamWatch, BehindMirror>(*this, rays, mirror, buffer, finished, watch)();
 }
 
 }  // namespace beambench::accel::beam

@@ -30,6 +30,13 @@ EyeView::EyeView(const CellGrid& grid, const PrimaryRays& rays) : grid_(&grid) {
   border_ = 2.0 * rounding_ / glm::dvec2(glm::length(right), glm::length(down));
 }
 
+EyeView::EyeView(const CellGrid& grid, const PrimaryRays& rays, const NearbyRays& nearby)
+    : EyeView(grid, rays) {
+  eye_ = {nearby.eye.x, nearby.eye.y, nearby.eye.z};
+  beside_eye_ = nearby.beside_eye;
+  margin_ = nearby.margin;
+}
+
 ImagePolygon EyeView::screen() const {
   ImagePolygon screen;
   screen.push_back({-border_.x, -border_.y});

@@ -1,7 +1,10 @@
 #pragma once
 // Which plane of the cell grid a ray from the eye crosses first: beams are divided by this alone.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -34,19 +37,48 @@ inline bool crosses_before(const CellRay& ray, const Crossing& a, const Crossing
   return a.axis != b.axis ? a.axis < b.axis : a.side < b.side;
 }
 
+/// A part narrower than this (in the units of `ImageLine`) is not made: its rays stay with the
+/// neighboring part. They deviate by at most 10 scene diagonals x 2^-39, far less than overlaps are
+/// widened by (`tolerance.hpp`), so no hit is lost, and rays that run exactly in a cell's face do
+/// not divide beams into slivers.
+inline constexpr double kSliver = 0x1p-39;
+
 /// How far rounding a ray's direction to float may move it, in units of view depth 1.
 double direction_rounding(const PrimaryRays& rays);
+
+/// Rays that nearly are those of an image, as reflected rays nearly come from a virtual eye: their
+/// numbers are rounded at another origin, so their lines pass a little beside the eye.
+struct NearbyRays {
+  glm::dvec3 eye;
+  double beside_eye;  ///< how far beside it the lines pass, at most
+  /// A ray crosses two planes in the order in which the line through the eye and its sample's place
+  /// does, if that line passes the planes' common edge at no less than this, in units of view depth
+  /// 1. It holds for crossings behind the ray's origin, and is more than the direction from the eye
+  /// to any point of the ray deviates from that line.
+  double margin;
+};
 
 /// The planes of a grid as seen from the camera.
 class EyeView {
  public:
+  /// For the rays of the image themselves, which all pass through the eye.
   EyeView(const CellGrid& grid, const PrimaryRays& rays);
+  /// For others in their place.
+  EyeView(const CellGrid& grid, const PrimaryRays& rays, const NearbyRays& nearby);
 
   const CellGrid& grid() const { return *grid_; }
   double eye(int axis) const { return eye_[static_cast<std::size_t>(axis)]; }
+  glm::dvec3 eye() const { return {eye_[0], eye_[1], eye_[2]}; }
 
   /// `direction_rounding` of the image's rays.
   double rounding() const { return rounding_; }
+  /// How far the direction from the eye to any point of a ray may deviate from its sample's place.
+  double deviation() const { return std::max(rounding_, margin_); }
+  /// May lines pass the eye on the other side of a plane? Then its crossing at the eye is
+  /// uncertain.
+  bool eye_is_beside(const Crossing& crossing) const {
+    return std::abs(distance(crossing)) < 4.0 * beside_eye_;
+  }
   /// The whole image as a polygon, wider on all sides by what rounding may do to a border sample.
   ImagePolygon screen() const;
 
@@ -61,7 +93,8 @@ class EyeView {
   }
 
   /// The line on the image between the rays that cross `a` first (negative) and those that cross
-  /// `b` first: the image of the edge that the two planes share, as a plane through it and the eye.
+  /// `b` first: the image of the edge that the two planes share, as a plane through it and the eye,
+  /// moved inward by the margin of nearby rays.
   /// Where a ray crosses neither the sign means nothing. Distances of both are not negative.
   ImageLine line_before(const Crossing& a, const Crossing& b) const {
     const double distance_a = distance(a);
@@ -72,7 +105,22 @@ class EyeView {
     // t_a < t_b with t = distance / (side * direction), multiplied out.
     const ImageLine to_b = along(b, distance_a / size);
     const ImageLine to_a = along(a, distance_b / size);
-    return {to_b.x - to_a.x, to_b.y - to_a.y, to_b.constant - to_a.constant};
+    return {to_b.x - to_a.x, to_b.y - to_a.y, to_b.constant - to_a.constant + margin_};
+  }
+  /// `line_before(b, a)` from `line_before(a, b)`.
+  ImageLine other_side(const ImageLine& line) const {
+    return {-line.x, -line.y, 2.0 * margin_ - line.constant};
+  }
+  /// Do all rays of a polygon, given the range of `line_before(a, b)` over it, cross `a` first, but
+  /// for a sliver?
+  static bool all_before(const LineRange& range) { return range.high <= kSliver; }
+  /// Or `b`?
+  bool all_behind(const LineRange& range) const { return range.low >= 2.0 * margin_ - kSliver; }
+  /// Negative for the rays that run in the direction of the crossing, by more than the margin.
+  ImageLine line_toward(const Crossing& crossing) const {
+    ImageLine line = along(crossing, -1.0);
+    line.constant += margin_;
+    return line;
   }
 
  private:
@@ -89,6 +137,8 @@ class EyeView {
   /// Each component of the direction through a point of the image, at view depth 1.
   std::array<ImageLine, 3> direction_;
   double rounding_ = 0.0;
+  double beside_eye_ = 0.0;
+  double margin_ = 0.0;
   glm::dvec2 border_{0.0};
 };
 

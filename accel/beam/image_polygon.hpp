@@ -58,7 +58,6 @@ struct ImageLine {
   double constant;
 
   double at(const glm::dvec2& point) const { return x * point.x + y * point.y + constant; }
-  ImageLine turned() const { return {-x, -y, -constant}; }
 };
 
 /// A convex polygon on the image plane. The edges of a beam's pyramid are the directions from the

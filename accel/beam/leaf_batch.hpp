@@ -11,18 +11,33 @@
 
 namespace beambench::accel::beam {
 
+/// The ray of a sample, whose point at t has the view depth start + speed * t.
+struct SampleRay {
+  Ray ray;
+  float start;
+  float speed;
+};
+
 /// Up to `SampleBatch::kCapacity` samples with their rays and what they hit so far.
 class LeafBatch {
  public:
   struct Sample {
-    Sample(const SampleLattice& in, int at_x, int at_y, const Ray& through)
-        : lattice(&in), x(at_x), y(at_y), ray(through), closest(through) {}
+    Sample(const SampleLattice& in, int at_x, int at_y, const SampleRay& through)
+        : lattice(&in),
+          x(at_x),
+          y(at_y),
+          ray(through.ray),
+          closest(through.ray),
+          start(through.start),
+          speed(through.speed) {}
 
     const SampleLattice* lattice;
     int x;
     int y;
     Ray ray;
     ClosestHit closest;
+    float start;
+    float speed;
   };
 
   LeafBatch() { samples_.reserve(SampleBatch::kCapacity); }
@@ -31,13 +46,12 @@ class LeafBatch {
   std::span<Sample> samples() { return samples_; }
 
   /// Not when full.
-  Sample& add(const SampleLattice& lattice, int x, int y, const Ray& ray) {
+  Sample& add(const SampleLattice& lattice, int x, int y, const SampleRay& ray) {
     const std::size_t i = samples_.size();
     places_.x[i] = static_cast<float>(x + lattice.offset.x);
     places_.y[i] = static_cast<float>(y + lattice.offset.y);
     return samples_.emplace_back(lattice, x, y, ray);
   }
-  void drop_last() { samples_.pop_back(); }
   void clear() { samples_.clear(); }
 
   /// Tests all samples against the references: by the primitives' images first, which only reject,
@@ -47,7 +61,7 @@ class LeafBatch {
             PrimitiveImages& images, Counting& counting) {
     places_.size = samples_.size();
     for (std::size_t i = 0; i < places_.size; ++i) {
-      places_.inverse_t[i] = limit(samples_[i].closest);
+      places_.inverse_t[i] = limit(samples_[i]);
     }
     for (const scenes::PrimitiveId id : references) {
       for (SampleMask left = images.may_hit(id, places_); left != 0; left &= left - 1) {
@@ -56,16 +70,16 @@ class LeafBatch {
         counting.add(Counter::kPrimitiveTests);
         const float t = closest.test(scene, id);
         counting.tested(id, t);
-        if (is_hit(t)) places_.inverse_t[i] = limit(closest);
+        if (is_hit(t)) places_.inverse_t[i] = limit(samples_[i]);
       }
     }
   }
 
  private:
-  /// Hits that are not farther have a larger 1/t than this.
-  static float limit(const ClosestHit& closest) {
+  /// Hits that are not farther have a larger 1 / view depth than this.
+  static float limit(const Sample& sample) {
     constexpr float kLess = 1.0F - 0x1p-20F;
-    return kLess / closest.ray.t_max;
+    return kLess / (sample.start + sample.speed * sample.closest.ray.t_max);
   }
 
   std::vector<Sample> samples_;

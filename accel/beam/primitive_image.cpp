@@ -6,8 +6,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "accel/beam/crossing.hpp"
-
 namespace beambench::accel::beam {
 namespace {
 
@@ -15,6 +13,7 @@ namespace {
 /// and places rounded once each, three more roundings.
 constexpr double kFloatLoss = 0x1p-21;
 
+constexpr std::size_t kPage = 1024;
 constexpr std::uint32_t kNotMade = std::numeric_limits<std::uint32_t>::max();
 
 /// An image that every sample passes.
@@ -24,20 +23,27 @@ constexpr SphereImage kAnywhereRound{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 1
 
 }  // namespace
 
-PrimitiveImages::PrimitiveImages(const scenes::Scene& scene, const PrimaryRays& rays)
+PrimitiveImages::PrimitiveImages(const scenes::Scene& scene, const EyeView& view,
+                                 const PrimaryRays& rays)
     : scene_(&scene),
-      eye_(rays.eye()),
+      eye_(view.eye()),
       forward_(rays.forward()),
       top_left_(rays.top_left()),
       right_(rays.right()),
       down_(rays.down()),
       size_(rays.width(), rays.height()),
-      rounding_(direction_rounding(rays)),
-      place_(scene.primitives.size(), kNotMade) {}
+      deviation_(view.deviation()),
+      places_(scene.primitives.size() / kPage + 1) {}
+
+std::uint32_t& PrimitiveImages::place_of(scenes::PrimitiveId id) {
+  std::vector<std::uint32_t>& page = places_[id / kPage];
+  if (page.empty()) page.assign(kPage, kNotMade);
+  return page[id % kPage];
+}
 
 SampleMask PrimitiveImages::may_hit(scenes::PrimitiveId id, const SampleBatch& batch) {
   const scenes::Primitive& primitive = scene_->primitives[id];
-  std::uint32_t& place = place_[id];
+  std::uint32_t& place = place_of(id);
   switch (primitive.kind) {
     case scenes::PrimitiveKind::kPolygon: {
       const scenes::Polygon& polygon = scene_->polygons[primitive.index];
@@ -79,7 +85,7 @@ TriangleImage PrimitiveImages::image_of_triangle(
     const double y = glm::dot(normal, down_);
     const double constant = glm::dot(normal, top_left_);
     const double loss =
-        rounding_ * glm::length(normal) +
+        deviation_ * glm::length(normal) +
         kFloatLoss * (std::abs(x) * size_.x + std::abs(y) * size_.y + std::abs(constant));
     return PixelLine{static_cast<float>(x), static_cast<float>(y),
                      static_cast<float>(constant + loss)};
@@ -109,8 +115,8 @@ SphereImage PrimitiveImages::image_of_sphere(const scenes::Sphere& sphere) const
                          glm::dot(middle - top_left_, down_) / glm::dot(down_, down_));
   // A sample's place relative to the center's is rounded in float, its direction as well: enlarge
   // the sphere by both.
-  const double slip = rounding_ + 0x1p-22 * ((std::abs(place.x) + size_.x) * glm::length(right_) +
-                                             (std::abs(place.y) + size_.y) * glm::length(down_));
+  const double slip = deviation_ + 0x1p-22 * ((std::abs(place.x) + size_.x) * glm::length(right_) +
+                                              (std::abs(place.y) + size_.y) * glm::length(down_));
   const double shift = 4.0 * slip * distance;
   if (!(shift < radius)) return kAnywhereRound;
   const double wider = radius * (1.0 + 0x1p-7) + 2.0 * shift;

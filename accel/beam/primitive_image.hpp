@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "accel/beam/crossing.hpp"
 #include "accel/core/primary_rays.hpp"
 #include "scenes/scene.hpp"
 
@@ -22,9 +23,9 @@ struct PixelLine {
   float constant;
 };
 
-/// A triangle's edges, each not negative for the samples that may hit it, and 1/t of its plane,
-/// not less than that of a hit. All are widened by what float arithmetic and the rounding of
-/// directions can do to them, so that they reject no hit of the canonical test.
+/// A triangle's edges, each not negative for the samples that may hit it, and 1 / view depth of its
+/// plane, not less than that of a hit. All are widened by what float arithmetic and the deviation
+/// of rays can do to them, so that they reject no hit of the canonical test.
 struct TriangleImage {
   std::array<PixelLine, 3> edges;
   PixelLine inverse_t;
@@ -50,7 +51,7 @@ struct SampleBatch {
 
   alignas(64) std::array<float, kCapacity> x;  ///< place in pixels
   alignas(64) std::array<float, kCapacity> y;
-  /// A little less than 1/t of the closest hit; 0 before there is one.
+  /// A little less than 1 / view depth of the closest hit; 0 before there is one.
   alignas(64) std::array<float, kCapacity> inverse_t;
   std::size_t size = 0;
 };
@@ -66,7 +67,7 @@ inline SampleMask all_samples(const SampleBatch& batch) {
 /// The images of a scene's primitives for one camera and resolution, each made on first use.
 class PrimitiveImages {
  public:
-  PrimitiveImages(const scenes::Scene& scene, const PrimaryRays& rays);
+  PrimitiveImages(const scenes::Scene& scene, const EyeView& view, const PrimaryRays& rays);
 
   SampleMask may_hit(scenes::PrimitiveId id, const SampleBatch& batch);
 
@@ -81,10 +82,14 @@ class PrimitiveImages {
   glm::dvec3 top_left_;
   glm::dvec3 right_;
   glm::dvec3 down_;
-  glm::dvec2 size_;  ///< of the image, in pixels
-  double rounding_;  ///< how far a direction's rounding may move it
+  glm::dvec2 size_;   ///< of the image, in pixels
+  double deviation_;  ///< of a point of a ray from its sample's place, as seen from the eye
   /// Where a primitive's first image stands in the array of its kind; kNotMade before it is made.
-  std::vector<std::uint32_t> place_;
+  std::uint32_t& place_of(scenes::PrimitiveId id);
+
+  /// In pages of many primitives, empty before one of them is met: what a small part of an image
+  /// costs does not depend on how many there are.
+  std::vector<std::vector<std::uint32_t>> places_;
   std::vector<TriangleImage> triangles_;
   std::vector<SphereImage> spheres_;
 };

@@ -40,7 +40,9 @@ std::vector<CounterInfo> beam_counters() {
       {"samples_leaving", "samples that left the root with a beam"},
       {"samples_in_leaves", "samples that were tested in a leaf with a beam"},
       {"rays_after_leaf", "samples that found no hit in their beam's leaf and continued as rays"},
-      {"rays_by_handover", "samples that became rays because their beam had fewer than 'handover'"},
+      {"rays_by_handover",
+       "samples that became rays because their beam had fewer than 'handover', or few of a "
+       "mirror's"},
       {"rays_by_crowding", "samples that became rays because their beam had too many cuts"},
   };
 }
@@ -50,8 +52,9 @@ std::vector<CounterInfo> beam_counters() {
 void register_beam(Registry& registry) {
   registry.add(
       {"beam",
-       "the beam tracer of the thesis: primary rays in beams through samet's octree, "
-       "individual rays where a beam meets objects",
+       "the beam tracer of the thesis: primary rays, and what planar mirrors show, in beams "
+       "through "
+       "samet's octree, individual rays where a beam meets objects",
        Conformance::kBitExact, BeamOptions::parameters(),
        [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
          const BeamOptions options = BeamOptions::from(parameters);

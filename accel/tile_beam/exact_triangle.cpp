@@ -152,7 +152,7 @@ std::optional<ExactApexTriangle> exact_apex_triangle(const glm::vec3& apex, cons
   }
   switch (place_of_eye(from_apex)) {
     case Eye::kOnTriangle:
-      return ExactApexTriangle{{}, {}, 0.0, true};
+      return ExactApexTriangle{{}, {}, {}, {}, 0.0, true};
     case Eye::kInPlane:  // rays in its plane miss
       return std::nullopt;
     case Eye::kOff:
@@ -163,6 +163,11 @@ std::optional<ExactApexTriangle> exact_apex_triangle(const glm::vec3& apex, cons
   if (volume == 0.0) return std::nullopt;
   const double inward = volume > 0.0 ? 1.0 : -1.0;
   ExactApexTriangle triangle{};
+  for (int axis = 0; axis < 2; ++axis) {
+    const Range range = range_of(projected, axis);
+    triangle.low[axis] = range.low - 2.0 * kApexWidening;
+    triangle.high[axis] = range.high + 2.0 * kApexWidening;
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     glm::dvec3 edge = glm::cross(projected[i], projected[(i + 1) % 3]) * inward;
     const double largest = std::max({std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "accel/tile_beam/pencil_unit.hpp"
@@ -37,13 +38,15 @@ std::optional<ExactTriangle> exact_triangle(const TileView& view,
                                             const std::array<glm::vec3, 3>& corners);
 
 /// A triangle seen through a side of the cube about a pencil's apex. The condition for a place
-/// (u, v) to see it: no edge is negative, where an edge is x * u + y * v + z; its w there is the
-/// plane over `distance`, which is positive.
+/// (u, v) within the bounds to see it: no edge is negative, where an edge is x * u + y * v + z; its
+/// w there is the plane over `distance`, which is positive. Acute corners end at the bounds.
 struct ExactApexTriangle {
+  glm::dvec2 low;
+  glm::dvec2 high;
   std::array<glm::dvec3, 3> edges;
   glm::dvec3 plane;
   double distance;
-  bool at_apex;  ///< edges and plane are not set, rays decide
+  bool at_apex;  ///< nothing else is set, rays decide
 };
 
 /// As `exact_triangle`; edges are moved outward by more than those in float may be wrong.

@@ -78,27 +78,41 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, HitBuffer&
                           std::size_t first, Counting& counting) {
   float* const t = buffer.t() + first;
   scenes::PrimitiveId* const primitive = buffer.primitive() + first;
-  return for_each_side<false>(
+  bool some_missed = false;
+  AnsweredRays answered = for_each_side<false>(
       pencil, unit,
       [&](const PencilPart& part, CubeSide side) {
         counting.add("beams");
         PencilWalk<ClosestHitPolicy, Counting>(pencil.hierarchy, pencil.scene, part, side, unit,
                                                counting)();
         const auto z = static_cast<int>(side.z_axis());
+        // The place of a hit errs by some roundings of its distance from the apex; from here on
+        // that is too much for a t that counts from elsewhere, and the canonical test decides.
+        const float far = 2.0F * pencil.hierarchy.bounds.largest_coordinate();
         for (std::size_t place = 0; place < unit.places; ++place) {
           const std::size_t block = unit.slot[place];
           for (LaneBits left = unit.lanes[block]; left != 0; left &= left - 1) {
             const std::size_t at =
                 block * PencilUnit::kBlock + static_cast<std::size_t>(std::countr_zero(left));
             const std::size_t i = unit.ray_at(at);
+            const float depth = 1.0F / unit.w[at];
             const bool hit = unit.w[at] > 0.0F;
-            const float depth = 1.0F / unit.w[at] - 1.0F / unit.origin_w[at];
-            t[i] = hit ? depth / std::abs(pencil.rays[i].direction[z]) : kInfinity;
+            const Ray& ray = pencil.rays[i];
             primitive[i] = hit ? unit.primitive[at] : scenes::kNoPrimitive;
+            t[i] =
+                hit ? (depth - 1.0F / unit.origin_w[at]) / std::abs(ray.direction[z]) : kInfinity;
+            if (hit && depth > far) [[unlikely]] {
+              const float exact = intersect(CanonicalRay(ray), pencil.scene, primitive[i]);
+              t[i] = is_hit(exact) ? exact : kNaN;
+              some_missed = some_missed || !is_hit(exact);
+              counting.add(Counter::kPrimitiveTests);
+            }
           }
         }
       },
       [&](std::size_t i) { t[i] = kNaN; });
+  answered.some_undecided = answered.some_undecided || some_missed;
+  return answered;
 }
 
 template <class Counting>

@@ -24,8 +24,9 @@ struct PencilSamples {
   double per_width = 1.0;  ///< 1 / width
 
   PencilSamples() = default;
-  explicit PencilSamples(const RayBatch& batch) : of_rays(batch.samples) {
+  explicit PencilSamples(const RayBatch& batch) {
     if (batch.image == nullptr) return;
+    of_rays = batch.samples;
     width = static_cast<std::uint32_t>(batch.image->width());
     per_pixel = static_cast<std::uint32_t>(batch.image->samples());
     per_width = 1.0 / width;

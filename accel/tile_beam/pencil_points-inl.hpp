@@ -456,7 +456,7 @@ class PencilGrouping {
   }
 
   /// How many times the usual extent a block must have to be taken apart: depth discontinuities.
-  static constexpr float kMuchLarger = 4.0F;
+  static constexpr float kMuchLarger = 2.8F;
   /// Of the bounds of a block: more than five roundings of places |u| <= 1, which bounds and edges
   /// may be wrong by.
   static constexpr float kPad = 3e-7F;

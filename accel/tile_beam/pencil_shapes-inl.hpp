@@ -195,9 +195,9 @@ class TriangleShapes {
     const Floats distance = dot(normal, p0);
     // A needle's normal is too inaccurate in float, unless the needle is small.
     const Floats longest = hn::Max(dot(side1, side1), dot(side2, side2));
-    const Mask needle =
-        hn::Not(hn::Lt(hn::Mul(longest, hn::Sqrt(longest)),
-                       hn::Mul(all(4.0F * view_->scene_size), hn::Sqrt(dot(normal, normal)))));
+    const float reach = 4.0F * view_->scene_size;
+    const Mask needle = hn::Not(hn::Lt(hn::Mul(longest, hn::Mul(longest, longest)),
+                                       hn::Mul(all(reach * reach), dot(normal, normal))));
 
     // Constants in the middle of an edge are exactly opposite for the two triangles that share it
     // (-ffp-contract=off is needed for this).
@@ -261,6 +261,14 @@ class TriangleShapes {
     }
     shapes.exact_triangle[triangle] = *exact;
     // In float for the bounds of blocks, moved outward once more.
+    const auto set_bound = [&](SeenShapes::Row row, double bound, double more) {
+      shapes.rows[row][triangle] = static_cast<float>(std::clamp(
+          bound + more * std::max(1.0, std::abs(bound)), double{-kAtApex}, double{kAtApex}));
+    };
+    set_bound(SeenShapes::kLowU, exact->low.x, -1e-6);
+    set_bound(SeenShapes::kHighU, exact->high.x, 1e-6);
+    set_bound(SeenShapes::kLowV, exact->low.y, -1e-6);
+    set_bound(SeenShapes::kHighV, exact->high.y, 1e-6);
     const auto set_line = [&](const glm::dvec3& line, std::size_t row, std::size_t magnitudes) {
       const glm::vec3 rounded(line);
       const float size = std::abs(rounded.x) + std::abs(rounded.y) + std::abs(rounded.z);

@@ -241,8 +241,9 @@ class PencilWalk {
         for (std::size_t i = 0; i < tests_count_; ++i) {
           const scenes::PrimitiveId id = block.primitives[tests_[i] % SeenShapes::kMost];
           const scenes::Cone& cone = scene_->cones[scene_->primitives[id].index];
-          test_by_rays(tests_[i] / SeenShapes::kMost, id,
-                       [&](const CanonicalRay& ray) { return intersect_cone(ray, cone); });
+          changed_ |= test_by_rays(tests_[i] / SeenShapes::kMost, id, [&](const CanonicalRay& ray) {
+            return intersect_cone(ray, cone);
+          });
         }
         break;
       }
@@ -410,57 +411,70 @@ class PencilWalk {
   }
 
   HWY_INLINE void test_triangles(const Meshlet& meshlet) {
-    for (std::size_t i = 0; i < tests_count_; ++i) {
+    const LaneBits special = shapes_.exact | shapes_.by_rays;
+    const std::size_t count = tests_count_;
+    std::uint32_t changed = 0;  // in a register: the next test would wait for it in memory
+    for (std::size_t i = 0; i < count; ++i) {
       const std::size_t place = tests_[i] / SeenShapes::kMost;
       const std::size_t shape = tests_[i] % SeenShapes::kMost;
-      const LaneBits bit = LaneBits{1} << shape;
-      if (((shapes_.exact | shapes_.by_rays) & bit) != 0) [[unlikely]] {
-        if ((shapes_.exact & bit) != 0) {
-          test_exact_triangle(place, shapes_.exact_triangle[shape], meshlet.primitives[shape]);
-        } else {
-          test_by_rays(place, meshlet.primitives[shape], [&](const CanonicalRay& ray) {
-            return intersect_triangle(ray, meshlet.corner(0, shape), meshlet.corner(1, shape),
-                                      meshlet.corner(2, shape));
-          });
-        }
-        continue;
+      if ((special >> shape & 1U) != 0) [[unlikely]] {
+        changed |= test_specially(place, shape, meshlet);
+      } else {
+        changed |= note(place, test_triangle(place, shape, meshlet.primitives[shape]));
       }
-      const OneShape of{shapes_, shape};
-      const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
-      LaneBits hits = for_each_register([&](std::size_t lane) {
-        const Floats u = load(&unit_->u[block + lane]);
-        const Floats v = load(&unit_->v[block + lane]);
-        const Floats w = load(&unit_->w[block + lane]);
-        const auto line = [&](std::size_t row, Floats constant) {
-          return hn::MulAdd(of(row), u, hn::MulAdd(of(row + 1), v, constant));
-        };
-        const auto edge = [&](std::size_t k) {
-          return line(SeenShapes::kEdge0 + 3 * k, of(SeenShapes::kEdge0 + 3 * k + 2));
-        };
-        const Floats outside = either(edge(0), edge(1), edge(2));
-        const Floats distance = of(SeenShapes::kDistance);
-        if constexpr (kClosest) {
-          const Floats plane = line(SeenShapes::kPlane, of(SeenShapes::kPlane + 2));
-          const Floats before = hn::NegMulAdd(distance, w, plane);
-          const Floats after = hn::MulSub(distance, load(&unit_->origin_w[block + lane]), plane);
-          const Mask hit = hn::AndNot(is_negative(either(outside, before, after)),
-                                      lanes_of(unit_->alive[place], lane));
-          if (!hn::AllFalse(Tag(), hit)) {
-            keep(block + lane, hit, hn::Div(plane, distance), w, meshlet.primitives[shape]);
-          }
-          return hit;
-        } else {
-          const Floats beyond =
-              line(SeenShapes::kPlane, hn::NegMulAdd(distance, w, of(SeenShapes::kPlane + 2)));
-          return hn::Not(is_negative(hn::Or(outside, beyond)));
-        }
-      });
-      note(place, hits);
     }
+    changed_ |= changed;
   }
 
-  void test_exact_triangle(std::size_t place, const ExactApexTriangle& triangle,
-                           scenes::PrimitiveId primitive) {
+  /// The rays of a block that hit a triangle.
+  HWY_INLINE LaneBits test_triangle(std::size_t place, std::size_t shape,
+                                    scenes::PrimitiveId primitive) {
+    const OneShape of{shapes_, shape};
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    return for_each_register([&](std::size_t lane) {
+      const Floats u = load(&unit_->u[block + lane]);
+      const Floats v = load(&unit_->v[block + lane]);
+      const Floats w = load(&unit_->w[block + lane]);
+      const auto line = [&](std::size_t row, Floats constant) {
+        return hn::MulAdd(of(row), u, hn::MulAdd(of(row + 1), v, constant));
+      };
+      const auto edge = [&](std::size_t k) {
+        return line(SeenShapes::kEdge0 + 3 * k, of(SeenShapes::kEdge0 + 3 * k + 2));
+      };
+      const Floats outside = either(edge(0), edge(1), edge(2));
+      const Floats distance = of(SeenShapes::kDistance);
+      if constexpr (kClosest) {
+        const Floats plane = line(SeenShapes::kPlane, of(SeenShapes::kPlane + 2));
+        const Floats before = hn::NegMulAdd(distance, w, plane);
+        const Floats after = hn::MulSub(distance, load(&unit_->origin_w[block + lane]), plane);
+        const Mask hit = hn::AndNot(is_negative(either(outside, before, after)),
+                                    lanes_of(unit_->alive[place], lane));
+        if (!hn::AllFalse(Tag(), hit)) {
+          keep(block + lane, hit, hn::Div(plane, distance), w, primitive);
+        }
+        return hit;
+      } else {
+        const Floats beyond =
+            line(SeenShapes::kPlane, hn::NegMulAdd(distance, w, of(SeenShapes::kPlane + 2)));
+        return hn::Not(is_negative(hn::Or(outside, beyond)));
+      }
+    });
+  }
+
+  /// A triangle that float is too coarse for.
+  std::uint32_t test_specially(std::size_t place, std::size_t shape, const Meshlet& meshlet) {
+    const scenes::PrimitiveId primitive = meshlet.primitives[shape];
+    if ((shapes_.exact >> shape & 1U) != 0) {
+      return test_exact_triangle(place, shapes_.exact_triangle[shape], primitive);
+    }
+    return test_by_rays(place, primitive, [&](const CanonicalRay& ray) {
+      return intersect_triangle(ray, meshlet.corner(0, shape), meshlet.corner(1, shape),
+                                meshlet.corner(2, shape));
+    });
+  }
+
+  std::uint32_t test_exact_triangle(std::size_t place, const ExactApexTriangle& triangle,
+                                    scenes::PrimitiveId primitive) {
     const hn::CappedTag<double, 8> d;
     const hn::Rebind<float, decltype(d)> half;
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
@@ -480,6 +494,11 @@ class PencilWalk {
       auto hit = hn::And(
           hn::And(hn::Ge(line(triangle.edges[0]), none), hn::Ge(line(triangle.edges[1]), none)),
           hn::And(hn::Ge(line(triangle.edges[2]), none), hn::Gt(plane, hn::Mul(distance, w))));
+      const auto within = [&](auto place, double low, double high) {
+        return hn::And(hn::Ge(place, hn::Set(d, low)), hn::Le(place, hn::Set(d, high)));
+      };
+      hit = hn::And(hit, hn::And(within(u, triangle.low.x, triangle.high.x),
+                                 within(v, triangle.low.y, triangle.high.y)));
       if constexpr (kClosest) {
         const auto origin_w = hn::PromoteTo(d, hn::Load(half, &unit_->origin_w[block + lane]));
         hit = hn::And(hit, hn::Lt(plane, hn::Mul(distance, origin_w)));
@@ -496,7 +515,7 @@ class PencilWalk {
         keep(block + lane, lanes_of(hits >> lane, 0), load(&found_w[lane]), w, primitive);
       }
     }
-    note(place, hits);
+    return note(place, hits);
   }
 
   HWY_INLINE void test_spheres(const SphereBlock& block) {
@@ -506,12 +525,12 @@ class PencilWalk {
       const scenes::PrimitiveId id = block.primitives[shape];
       if ((shapes_.by_rays >> shape & 1U) != 0) {
         const scenes::Sphere& sphere = scene_->spheres[scene_->primitives[id].index];
-        test_by_rays(place, id,
-                     [&](const CanonicalRay& ray) { return intersect_sphere(ray, sphere); });
+        changed_ |= test_by_rays(
+            place, id, [&](const CanonicalRay& ray) { return intersect_sphere(ray, sphere); });
       } else {
         const bool around = (shapes_.around >> shape & 1U) != 0;
         const bool inside_only = (block.inside_only >> shape & 1U) != 0;
-        test_sphere(place, shape, around, inside_only, id);
+        changed_ |= test_sphere(place, shape, around, inside_only, id);
       }
     }
   }
@@ -520,8 +539,8 @@ class PencilWalk {
   /// which of the two roots are within the ray, and is known better than the roots: rays begin at
   /// some distance from surfaces. As the canonical test does, the discriminant is taken from the
   /// line's point nearest the center (Haines et al., Ray Tracing Gems, 2019).
-  HWY_INLINE void test_sphere(std::size_t place, std::size_t shape, bool around, bool inside_only,
-                              scenes::PrimitiveId primitive) {
+  HWY_INLINE std::uint32_t test_sphere(std::size_t place, std::size_t shape, bool around,
+                                       bool inside_only, scenes::PrimitiveId primitive) {
     const OneShape of{shapes_, shape};
     const Points center{of(SeenShapes::kCenter), of(SeenShapes::kCenter + 1),
                         of(SeenShapes::kCenter + 2)};
@@ -567,12 +586,13 @@ class PencilWalk {
         return hn::Or(inside, passes);
       }
     });
-    note(place, hits);
+    return note(place, hits);
   }
 
   /// `intersect(ray)` returns t or kMiss for a CanonicalRay.
   template <class Intersect>
-  void test_by_rays(std::size_t place, scenes::PrimitiveId primitive, Intersect intersect) {
+  std::uint32_t test_by_rays(std::size_t place, scenes::PrimitiveId primitive,
+                             Intersect intersect) {
     const std::size_t block = unit_->slot[place];
     LaneBits hits = 0;
     for (LaneBits left = unit_->alive[place]; left != 0; left &= left - 1) {
@@ -591,7 +611,7 @@ class PencilWalk {
       }
       hits |= LaneBits{1} << lane;
     }
-    note(place, hits);
+    return note(place, hits);
   }
 
   /// Closest hits.
@@ -604,18 +624,18 @@ class PencilWalk {
               ids, &unit_->primitive[at]);
   }
 
-  /// Hits were found in a block.
-  HWY_INLINE void note(std::size_t place, LaneBits hits) {
+  /// Notes which rays of a block were hit. Returns the bit of its group if that matters for bounds.
+  HWY_INLINE std::uint32_t note(std::size_t place, LaneBits hits) {
+    const std::size_t group = place / 16;
     if constexpr (kClosest) {
-      const std::size_t group = place / 16;
       const auto found = static_cast<std::uint32_t>(hits != 0);
-      changed_ |= found << group;
       changed_blocks_[group] =
           static_cast<std::uint16_t>(changed_blocks_[group] | found << (place % 16));
+      return found << group;
     } else {
       const LaneBits alive = unit_->alive[place] & ~hits;
       unit_->alive[place] = static_cast<std::uint16_t>(alive);
-      changed_ |= static_cast<std::uint32_t>(alive == 0) << (place / 16);
+      return static_cast<std::uint32_t>(alive == 0) << group;
     }
   }
 

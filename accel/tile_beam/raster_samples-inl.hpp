@@ -50,7 +50,7 @@ HWY_INLINE std::size_t run_in_square(const PencilSamples& samples, std::size_t f
     for (std::uint32_t k = 0; k < 4; ++k) in = in || offset - k * row < across;
     if (!in) break;
   }
-  return run;
+  return std::min(run, most);
 }
 
 }  // namespace beambench::accel::tile_beam::HWY_NAMESPACE

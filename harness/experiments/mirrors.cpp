@@ -1,11 +1,8 @@
 #include "harness/experiments/mirrors.hpp"
 
-#include <algorithm>
-
 #include "accel/beam/mirror_beams.hpp"
 #include "harness/base/stopwatch.hpp"
 #include "harness/bench/record/robust_statistics.hpp"
-#include "harness/rays/trace_input.hpp"
 
 namespace beambench::experiments {
 namespace {
@@ -21,43 +18,18 @@ double median_ms(int repetitions, Work work) {
   return bench::median(times);
 }
 
-/// The samples of an image that see a mirror.
-std::vector<rays::PixelSample> seeing(const scenes::PlanarMirror& mirror,
-                                      const accel::HitBuffer& hits) {
-  std::vector<rays::PixelSample> samples;
-  for (int y = 0; y < hits.height(); ++y) {
-    for (int x = 0; x < hits.width(); ++x) {
-      for (int sample = 0; sample < hits.samples(); ++sample) {
-        const scenes::PrimitiveId id = hits.primitive()[hits.index(x, y, sample)];
-        if (std::binary_search(mirror.polygons.begin(), mirror.polygons.end(), id)) {
-          samples.push_back({x, y, sample});
-        }
-      }
-    }
-  }
-  return samples;
-}
-
-/// By single rays through the same octree, made as they are needed.
-void trace_singly(const accel::beam::BeamTracer& tracer, const accel::beam::MirrorView& view,
-                  const std::vector<rays::PixelSample>& samples, accel::HitBuffer& found) {
-  for (const rays::PixelSample& at : samples) {
-    found.set(found.index(at.x, at.y, at.sample),
-              tracer.closest_hit(accel::beam::ray_behind(view, at.x, at.y, at.sample), nullptr));
-  }
-}
-
 MirrorResult compare(const accel::beam::BeamTracer& tracer, const accel::beam::MirrorView& view,
-                     const accel::HitBuffer& hits, const scenes::PlanarMirror& mirror,
-                     int repetitions) {
-  accel::HitBuffer by_rays(hits.width(), hits.height(), hits.samples());
+                     const scenes::PlanarMirror& mirror, int repetitions) {
+  accel::HitBuffer by_rays(static_cast<int>(view.rays.size()), 1, 1);
   accel::HitBuffer by_beams = by_rays;
-  MirrorResult result{mirror.polygons.size(), view.samples};
-  const std::vector<rays::PixelSample> samples = seeing(mirror, hits);
-  result.rays_ms = median_ms(repetitions, [&] { trace_singly(tracer, view, samples, by_rays); });
-  result.beams_ms =
-      median_ms(repetitions, [&] { tracer.trace_behind(view.sight, view.rays, by_beams); });
-  for (std::size_t i = 0; i < hits.size(); ++i) {
+  MirrorResult result{mirror.polygons.size(), view.rays.size()};
+  const accel::Pencil pencil = view.pencil();
+  result.rays_ms =
+      median_ms(repetitions, [&] { tracer.closest_hits({view.rays}, by_rays, nullptr); });
+  result.beams_ms = median_ms(repetitions, [&] {
+    tracer.closest_hits({view.rays, {&pencil, 1}, view.samples}, by_beams, nullptr);
+  });
+  for (std::size_t i = 0; i < view.rays.size(); ++i) {
     result.hits += by_rays.get(i).has_value() ? 1 : 0;
     result.different += by_rays.get(i) == by_beams.get(i) ? 0 : 1;
   }
@@ -83,7 +55,7 @@ MirrorComparison compare_mirrors(const accel::beam::BeamTracer& tracer, const sc
   MirrorComparison comparison{mirrors.size(), {}};
   for (const scenes::PlanarMirror& mirror : mirrors) {
     const auto view = accel::beam::view_in(mirror, scene, rays, hits);
-    if (view) comparison.seen.push_back(compare(tracer, *view, hits, mirror, repetitions));
+    if (view) comparison.seen.push_back(compare(tracer, *view, mirror, repetitions));
   }
   return comparison;
 }

@@ -22,10 +22,11 @@ namespace beambench::rays {
 struct RayList {
   std::vector<accel::Ray> rays{};
   std::vector<std::uint32_t> samples{};  ///< of each ray; none where they come from no image
+  std::shared_ptr<const accel::PrimaryRays> image{};  ///< that they come from
   std::vector<accel::Pencil> pencils{};
   std::vector<std::shared_ptr<const accel::PrimaryRays>> views{};  ///< of pencils that have one
 
-  accel::RayBatch batch() const { return {rays, pencils, samples}; }
+  accel::RayBatch batch() const { return {rays, pencils, samples, image.get()}; }
 };
 
 /// Rays, what is to be found for them, and where they come from.

@@ -69,6 +69,7 @@ RaySet made_set(const scenes::Scene& scene, const accel::PrimaryRays& primary,
                 const RayChoice& choice) {
   RaySet set{made_rays(scene, primary, choice), choice.label, info_of(choice.kind).query,
              choice.seed, scenes::scene_hash(scene)};
+  if (!set.samples.empty()) set.image = std::make_shared<const accel::PrimaryRays>(primary);
   if (set.rays.empty()) {
     throw NoRaysError(fmt::format(
         "there are no {} rays over scene '{}' at {}x{}: no primary ray hits a {} for them to start "

@@ -24,11 +24,15 @@ struct Measure {
     return contact(scene, ray, hit, tolerance);
   }
 
-  bool grazes(const accel::embree::ExactHit& hit) const {
+  /// Does the ray begin or end on the surface that is hit?
+  bool touches(const accel::embree::ExactHit& hit) const {
     const double cosine = contact_of(hit).cosine;
     return gap(hit.t, ray.t_min) * cosine <= tolerance ||
-           gap(hit.t, ray.t_max) * cosine <= tolerance ||
-           boundary_distance(scene, ray, hit.primitive) <= tolerance;
+           gap(hit.t, ray.t_max) * cosine <= tolerance;
+  }
+
+  bool grazes(const accel::embree::ExactHit& hit) const {
+    return touches(hit) || boundary_distance(scene, ray, hit.primitive) <= tolerance;
   }
 };
 
@@ -67,13 +71,12 @@ std::string_view why_wrong(const scenes::Scene& scene, double tolerance, const M
   return "the structure lost a nearer hit";
 }
 
-/// The same ray with K u more at both ends.
-accel::Ray lengthened(const accel::Ray& ray, double tolerance) {
-  const auto more = static_cast<float>(tolerance / glm::length(glm::dvec3(ray.direction)));
-  accel::Ray longer = ray;
-  longer.t_min = std::max(0.0F, ray.t_min - more);
-  longer.t_max = ray.t_max + more;
-  return longer;
+/// The whole line of a ray.
+accel::Ray line_of(const accel::Ray& ray) {
+  accel::Ray line = ray;
+  line.t_min = -accel::kInfinity;
+  line.t_max = accel::kInfinity;
+  return line;
 }
 
 /// Does the ray's interval reach the box of the primitive, widened by the tolerance?
@@ -99,9 +102,14 @@ bool reaches(const scenes::Scene& scene, const accel::Ray& ray, scenes::Primitiv
   return enter <= leave;
 }
 
-/// Does the ray graze some primitive, so that it might as well miss it?
+/// Does the ray, which hits nothing, graze some primitive, so that it might as well hit it? It does
+/// where a hit would graze that is found.
 bool grazes_something(const scenes::Scene& scene, const accel::Ray& ray, double tolerance) {
-  if (exact_closest_hit(scene, lengthened(ray, tolerance))) return true;
+  const Measure measure{scene, ray, tolerance};
+  if (std::ranges::any_of(exact_hits(scene, line_of(ray)),
+                          [&](const auto& hit) { return measure.touches(hit); })) {
+    return true;
+  }
   for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     if (reaches(scene, ray, id, tolerance) && boundary_distance(scene, ray, id) <= tolerance) {
       return true;
