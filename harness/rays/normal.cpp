@@ -85,6 +85,10 @@ std::span<const scenes::Triangle> triangles_of(const scenes::Scene& scene,
   return std::span(scene.triangles).subspan(polygon.first_triangle, polygon.triangle_count);
 }
 
+glm::dvec3 first_normal(const scenes::Scene& scene, const scenes::Polygon& polygon) {
+  return TriangleCorners(scene, triangles_of(scene, polygon).front()).normal();
+}
+
 bool has_one_normal(const scenes::Scene& scene, const scenes::Polygon& polygon) {
   const auto unit_normal = [&](const scenes::Triangle& triangle) {
     return glm::normalize(TriangleCorners(scene, triangle).normal());
@@ -100,7 +104,10 @@ struct UntabledNormals {
   glm::dvec3 at_corner(std::size_t normal) const {
     return glm::normalize(glm::dvec3(scene->normals[normal]));
   }
-  bool is_plane(std::size_t polygon) const { return scene->polygons[polygon].triangle_count == 1; }
+  std::optional<glm::dvec3> of_plane(std::size_t polygon) const {
+    const scenes::Polygon& one = scene->polygons[polygon];
+    return one.triangle_count == 1 ? std::optional(first_normal(*scene, one)) : std::nullopt;
+  }
 
   const scenes::Scene* scene;
 };
@@ -122,13 +129,11 @@ template <class Table>
 SurfaceNormals polygon_normals(const scenes::Scene& scene, std::size_t index,
                                const glm::dvec3& point, const Table& table) {
   const scenes::Polygon& polygon = scene.polygons[index];
-  const auto triangles = triangles_of(scene, polygon);
   const bool is_flat = polygon.first_normal == scenes::Polygon::kFlat;
-  if (is_flat && table.is_plane(index)) {
-    const glm::dvec3 normal = TriangleCorners(scene, triangles.front()).normal();
-    return {normal, normal};
+  if (is_flat) {
+    if (const auto& normal = table.of_plane(index)) return {*normal, *normal};
   }
-  const Place place = place_in(scene, triangles, point);
+  const Place place = place_in(scene, triangles_of(scene, polygon), point);
   if (is_flat) return {place.normal, place.normal};
   return {place.normal, smooth_normal(scene, polygon, place, table)};
 }
@@ -163,11 +168,12 @@ glm::dvec3 facing(const glm::dvec3& normal, const glm::dvec3& direction) {
 }  // namespace
 
 NormalTable::NormalTable(const scenes::Scene& scene)
-    : corners_(scene.normals.size()), is_plane_(scene.polygons.size()) {
+    : corners_(scene.normals.size()), planes_(scene.polygons.size()) {
   const UntabledNormals normals{&scene};
   for (std::size_t i = 0; i < corners_.size(); ++i) corners_[i] = normals.at_corner(i);
-  for (std::size_t i = 0; i < is_plane_.size(); ++i) {
-    is_plane_[i] = has_one_normal(scene, scene.polygons[i]);
+  for (std::size_t i = 0; i < planes_.size(); ++i) {
+    const scenes::Polygon& polygon = scene.polygons[i];
+    if (has_one_normal(scene, polygon)) planes_[i] = first_normal(scene, polygon);
   }
 }
 

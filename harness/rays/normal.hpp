@@ -1,6 +1,7 @@
 #pragma once
 // The normal of a surface where a ray meets it, and where rays that start there begin.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,12 +35,13 @@ class NormalTable {
 
   /// The unit normal at a corner of a smooth polygon: a file's may have any length.
   const glm::dvec3& at_corner(std::size_t normal) const { return corners_[normal]; }
-  /// Have all triangles of a polygon the same unit normal, to the last bit?
-  bool is_plane(std::size_t polygon) const { return is_plane_[polygon]; }
+  /// The normal of a polygon all of whose triangles have the same unit normal, to the last bit:
+  /// that of the first of them, not of unit length. Nothing for others.
+  const std::optional<glm::dvec3>& of_plane(std::size_t polygon) const { return planes_[polygon]; }
 
  private:
   std::vector<glm::dvec3> corners_;
-  std::vector<bool> is_plane_;
+  std::vector<std::optional<glm::dvec3>> planes_;
 };
 
 /// At a point of a primitive; the table is the scene's.

@@ -153,32 +153,26 @@ RayList reflection_rays(const scenes::Scene& scene, const std::vector<PrimaryHit
 RayList mirror_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points,
                     const MirrorTable& mirrors, const accel::PrimaryRays& image) {
   struct Reflected {
-    const PrimaryHitPoint* at;
     std::uint32_t mirror;
-    bool on_normals_side;
+    const PrimaryHitPoint* at;
   };
   std::vector<Reflected> reflected;
   for (const PrimaryHitPoint& at : points) {
     const std::uint32_t mirror = mirrors.mirror_of(at.primitive);
-    if (mirror == MirrorTable::kNone) continue;
-    const bool side = glm::dot(at.normal, mirrors.mirrors()[mirror].normal) > 0.0;
-    reflected.push_back({&at, mirror, side});
+    if (mirror != MirrorTable::kNone) reflected.push_back({mirror, &at});
   }
-  const auto pencil_of = [](const Reflected& each) {
-    return std::pair(each.mirror, each.on_normals_side);
-  };
-  std::ranges::stable_sort(reflected, {}, pencil_of);
+  std::ranges::stable_sort(reflected, {}, &Reflected::mirror);
   RayList list;
   reserve(reflected.size(), list);
   const VirtualEye eye(image);
   for (auto first = reflected.begin(); first != reflected.end();) {
     const auto last =
-        std::ranges::upper_bound(first, reflected.end(), pencil_of(*first), {}, pencil_of);
-    const VirtualEye behind =
-        eye.behind(mirrors.mirrors()[first->mirror], first->on_normals_side, mirrors.lift());
-    list.views.push_back(std::make_shared<const accel::PrimaryRays>(behind.view));
-    list.pencils.push_back({list.rays.size(), static_cast<std::size_t>(last - first), behind.place,
-                            false, list.views.back().get()});
+        std::ranges::upper_bound(first, reflected.end(), first->mirror, {}, &Reflected::mirror);
+    if (auto behind = eye.behind(mirrors.mirrors()[first->mirror], mirrors.lift())) {
+      list.views.push_back(std::make_shared<const accel::PrimaryRays>(std::move(behind->view)));
+      list.pencils.push_back({list.rays.size(), static_cast<std::size_t>(last - first),
+                              behind->place, false, list.views.back().get()});
+    }
     for (; first != last; ++first) add_reflected(scene, *first->at, list);
   }
   return list;

@@ -43,7 +43,7 @@ RayList shadow_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoin
 RayList reflection_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points);
 
 /// The same at the points of planar mirrors alone, mirror by mirror. Each mirror is a pencil, away
-/// from the image's eye behind it; one that is seen from both sides is two.
+/// from the image's eye behind it, unless it is seen from its edge (`VirtualEye::behind`).
 RayList mirror_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points,
                     const MirrorTable& mirrors, const accel::PrimaryRays& image);
 

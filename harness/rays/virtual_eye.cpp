@@ -1,5 +1,9 @@
 #include "harness/rays/virtual_eye.hpp"
 
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
 #include "accel/core/tolerance.hpp"
 
 namespace beambench::rays {
@@ -13,11 +17,14 @@ MirrorTable::MirrorTable(const scenes::Scene& scene)
   }
 }
 
-VirtualEye VirtualEye::behind(const scenes::PlanarMirror& mirror, bool on_normals_side,
-                              double lift) const {
+std::optional<VirtualEye> VirtualEye::behind(const scenes::PlanarMirror& mirror,
+                                             double lift) const {
+  const glm::dvec3 from_mirror = place - mirror.point;
+  const double distance = glm::dot(from_mirror, mirror.normal);
+  if (std::abs(distance) <= 4.0 * (lift + 0x1p-20 * glm::length(from_mirror))) return std::nullopt;
   VirtualEye eye(view.mirrored(mirror.point, mirror.normal));
-  eye.place = mirror.point + accel::mirrored(place - mirror.point, mirror.normal) +
-              (on_normals_side ? lift : -lift) * mirror.normal;
+  eye.place = mirror.point + accel::mirrored(from_mirror, mirror.normal) +
+              std::copysign(lift, distance) * mirror.normal;
   return eye;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -37,10 +38,10 @@ class MirrorTable {
 struct VirtualEye {
   explicit VirtualEye(accel::PrimaryRays image) : place(image.eye()), view(std::move(image)) {}
 
-  /// That of the rays which a mirror reflects to the side that its normal points to, or to the
-  /// other: they begin a little beside the mirror, so their lines pass through the eye's image
-  /// moved by as much (`accel::surface_lift`).
-  VirtualEye behind(const scenes::PlanarMirror& mirror, bool on_normals_side, double lift) const;
+  /// That of the rays which a mirror reflects: they begin a little beside it, so their lines pass
+  /// through the eye's image moved by as much (`accel::surface_lift`). Nothing for a mirror that is
+  /// seen from its edge, where rounding decides on which side a ray meets it.
+  std::optional<VirtualEye> behind(const scenes::PlanarMirror& mirror, double lift) const;
 
   glm::dvec3 place;
   /// The image seen from there, but for rounding: its eye is a float, and is not moved.

@@ -183,28 +183,27 @@ Shadows::Shadows(const scenes::Scene& scene, const accel::Accelerator& structure
   }
 }
 
-std::vector<double> Shadows::transmitted(std::span<const accel::Ray> to_light,
-                                         std::span<const std::uint32_t> samples, std::size_t light,
+std::vector<double> Shadows::transmitted(const accel::RayBatch& to_light, std::size_t light,
                                          int depth, ShadowCache& cache, RayCensus& census) const {
   std::vector<double> parts;
   switch (method_) {
     case ShadowMethod::kRays:
-      parts = all_opaque_ ? asked_at_once(to_light, samples, light, census)
-                          : followed({to_light.begin(), to_light.end()},
-                                     {samples.begin(), samples.end()}, light, census);
+      parts =
+          all_opaque_ ? asked_at_once(to_light, light, census) : followed(to_light, light, census);
       break;
     case ShadowMethod::kCache: {
       const std::size_t row = static_cast<std::size_t>(depth - 1) * scene_->lights.size();
-      for (const accel::Ray& ray : to_light) {
+      for (const accel::Ray& ray : to_light.rays) {
         parts.push_back(asked_by_cache(ray, cache.last[row + light], census));
       }
       break;
     }
     case ShadowMethod::kLightBuffer:
-      for (const accel::Ray& ray : to_light) parts.push_back(asked_by_buffer(ray, light, census));
+      for (const accel::Ray& ray : to_light.rays)
+        parts.push_back(asked_by_buffer(ray, light, census));
       break;
   }
-  census.shadow += to_light.size();
+  census.shadow += to_light.rays.size();
   census.shadow_hidden += static_cast<std::uint64_t>(std::ranges::count(parts, 0.0));
   return parts;
 }
@@ -214,14 +213,17 @@ std::vector<accel::Pencil> Shadows::pencil(std::size_t light, std::size_t rays) 
   return {{0, rays, dvec3(scene_->lights[light].position), true}};
 }
 
-std::vector<double> Shadows::asked_at_once(std::span<const accel::Ray> to_light,
-                                           std::span<const std::uint32_t> samples,
-                                           std::size_t light, RayCensus& census) const {
-  std::vector<std::uint8_t> hidden(to_light.size());
-  const std::vector<accel::Pencil> pencils = pencil(light, to_light.size());
-  if (!to_light.empty()) structure_->any_hits({to_light, pencils, samples}, hidden, nullptr);
-  census.shadow_queries += to_light.size();
-  std::vector<double> parts(to_light.size());
+std::vector<double> Shadows::asked_at_once(const accel::RayBatch& to_light, std::size_t light,
+                                           RayCensus& census) const {
+  const std::size_t count = to_light.rays.size();
+  std::vector<std::uint8_t> hidden(count);
+  const std::vector<accel::Pencil> pencils = pencil(light, count);
+  if (count > 0) {
+    structure_->any_hits({to_light.rays, pencils, to_light.samples, to_light.image}, hidden,
+                         nullptr);
+  }
+  census.shadow_queries += count;
+  std::vector<double> parts(count);
   std::ranges::transform(hidden, parts.begin(), [](std::uint8_t hit) { return hit ? 0.0 : 1.0; });
   return parts;
 }
@@ -256,16 +258,17 @@ double Shadows::asked_by_buffer(const accel::Ray& to_light, std::size_t light,
 /// Goes from surface to surface, each time from a little behind it, as all rays begin a little
 /// beside surfaces. With an any-hit query beforehand, pictures of `gears`, `mount` and `finishes`
 /// took 1.01 to 1.25 times as long.
-std::vector<double> Shadows::followed(std::vector<accel::Ray> rays,
-                                      std::vector<std::uint32_t> samples, std::size_t light,
+std::vector<double> Shadows::followed(const accel::RayBatch& to_light, std::size_t light,
                                       RayCensus& census) const {
+  std::vector<accel::Ray> rays(to_light.rays.begin(), to_light.rays.end());
+  std::vector<std::uint32_t> samples(to_light.samples.begin(), to_light.samples.end());
   std::vector<double> parts(rays.size(), 1.0);
   std::vector<std::size_t> places(rays.size());  // of the rays that are still followed, in `parts`
   std::iota(places.begin(), places.end(), std::size_t{0});
   while (!rays.empty()) {
     accel::HitBuffer hits(static_cast<int>(rays.size()), 1, 1);
     const std::vector<accel::Pencil> pencils = pencil(light, rays.size());
-    structure_->closest_hits({rays, pencils, samples}, hits, nullptr);
+    structure_->closest_hits({rays, pencils, samples, to_light.image}, hits, nullptr);
     census.shadow_queries += rays.size();
     std::size_t left = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {

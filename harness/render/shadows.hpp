@@ -102,11 +102,10 @@ class Shadows {
   /// The parts of a light that come through: 0 behind an opaque primitive, the product of the
   /// transmittances of transparent surfaces before it, 1 where nothing is. Each ray of `to_light`
   /// begins at a point, `depth` rays from the camera (the camera ray is 1), and has the light at
-  /// t = 1; the cache sees them in their order. `samples` are those of the rays; batches of them
-  /// are pencils. Throws InvalidHit.
-  std::vector<double> transmitted(std::span<const accel::Ray> to_light,
-                                  std::span<const std::uint32_t> samples, std::size_t light,
-                                  int depth, ShadowCache& cache, RayCensus& census) const;
+  /// t = 1; the cache sees them in their order. The rays need no marks: those that a batch holds
+  /// are a pencil. Throws InvalidHit.
+  std::vector<double> transmitted(const accel::RayBatch& to_light, std::size_t light, int depth,
+                                  ShadowCache& cache, RayCensus& census) const;
 
   /// Of light buffers; 0 without.
   std::size_t memory_bytes() const;
@@ -115,14 +114,13 @@ class Shadows {
   double asked_by_cache(const accel::Ray& to_light, scenes::PrimitiveId& last,
                         RayCensus& census) const;
   double asked_by_buffer(const accel::Ray& to_light, std::size_t light, RayCensus& census) const;
-  std::vector<double> asked_at_once(std::span<const accel::Ray> to_light,
-                                    std::span<const std::uint32_t> samples, std::size_t light,
+  std::vector<double> asked_at_once(const accel::RayBatch& to_light, std::size_t light,
                                     RayCensus& census) const;
-  std::vector<double> followed(std::vector<accel::Ray> rays, std::vector<std::uint32_t> samples,
-                               std::size_t light, RayCensus& census) const;
+  std::vector<double> followed(const accel::RayBatch& to_light, std::size_t light,
+                               RayCensus& census) const;
   double followed(accel::Ray ray, scenes::PrimitiveId& blocker, RayCensus& census) const;
   float passed_through(accel::Ray& ray, const accel::Hit& hit) const;
-  /// All rays of a batch, if there are enough of them.
+  /// Of all rays of a batch, if there are enough of them.
   std::vector<accel::Pencil> pencil(std::size_t light, std::size_t rays) const;
 
   const scenes::Scene* scene_;

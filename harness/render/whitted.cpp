@@ -55,39 +55,58 @@ accel::HitBuffer traced(const accel::Accelerator& structure, const accel::RayBat
   return hits;
 }
 
+/// Of each ray the next of the mirror rays or of the glass rays.
+template <class Value>
+std::vector<Value> merged(std::vector<Value> mirrors, const std::vector<Value>& glasses,
+                          const std::vector<bool>& is_glass) {
+  if (glasses.empty()) return mirrors;
+  std::vector<Value> all;
+  all.reserve(is_glass.size());
+  auto mirror = mirrors.begin();
+  auto glass = glasses.begin();
+  for (const bool is : is_glass) all.push_back(is ? *glass++ : *mirror++);
+  return all;
+}
+
 }  // namespace
 
 /// How a ray came about.
 struct Whitted::Path {
-  double weight = 1.0;  ///< the largest part that it can have in the pixel's color
-  std::uint32_t sample = 0;
-  EyeIndex eye = kNoEye;  ///< among those of its part
-  bool inside = false;    ///< in something transparent
+  double weight;  ///< the largest part that it can have in the pixel's color
+  EyeIndex eye;   ///< among those of its wave
+  bool inside;    ///< in something transparent
 };
 
 /// A part of a wave: rays of one depth, and what they found.
 struct Whitted::Part {
   std::span<const accel::Ray> rays;
+  std::span<const std::uint32_t> samples;
   std::span<const std::optional<accel::Hit>> hits;
   std::span<const Path> paths;
   std::span<const rays::VirtualEye> eyes;  ///< of the whole wave
+  const accel::PrimaryRays* image;
 
   std::size_t size() const { return rays.size(); }
   Part from(std::size_t first, std::size_t count) const {
-    return {rays.subspan(first, count), hits.subspan(first, count), paths.subspan(first, count),
-            eyes};
+    return {rays.subspan(first, count),
+            samples.subspan(first, count),
+            hits.subspan(first, count),
+            paths.subspan(first, count),
+            eyes,
+            image};
   }
 };
 
 /// The rays of a part that hit: where, what, and how they came about.
 struct Whitted::Found {
   explicit Found(std::size_t count)
-      : places(count), ray(count), primitive(count), surface(count), path(count) {}
+      : places(count), ray(count), sample(count), primitive(count), surface(count), path(count) {}
 
   std::size_t size() const { return places.size; }
 
   Places places;
   std::vector<std::size_t> ray;  ///< its place in the part
+  std::vector<std::uint32_t> sample;
   std::vector<scenes::PrimitiveId> primitive;
   std::vector<std::uint32_t> surface;
   std::vector<Path> path;
@@ -100,6 +119,7 @@ struct Whitted::Spawned {
     double share;  ///< of its light in that of its place
   };
   std::vector<accel::Ray> rays;
+  std::vector<std::uint32_t> samples;
   std::vector<std::optional<accel::Hit>> hits;
   std::vector<Path> paths;
   std::vector<Origin> origins;
@@ -124,11 +144,10 @@ void Whitted::trace_light(const CameraRays& camera, std::span<dvec3> colors,
                           Progress& progress) const {
   progress.census.eye += camera.rays.size();
   for (const auto& hit : camera.hits) progress.census.eye_hits += hit ? 1U : 0U;
-  std::vector<Path> paths;
-  paths.reserve(camera.rays.size());
-  for (const std::uint32_t sample : camera.samples) paths.push_back({1.0, sample, 0, false});
+  const std::vector<Path> paths(camera.rays.size(), {1.0, 0, false});
   const rays::VirtualEye eye(*camera.image);
-  trace_wave({camera.rays, camera.hits, paths, {&eye, 1}}, 1, colors, progress);
+  trace_wave({camera.rays, camera.samples, camera.hits, paths, {&eye, 1}, camera.image}, 1, colors,
+             progress);
 }
 
 /// Part by part, each with all that follows from it: what waits is a part of each depth.
@@ -144,12 +163,13 @@ void Whitted::trace_part(const Part& part, int depth, std::span<dvec3> colors,
                          Progress& progress) const {
   std::ranges::fill(colors, shaded_->background());
   const Found found = find_places(part);
-  const std::vector<dvec3> own = lit(found, depth, progress);
+  const std::vector<dvec3> own = lit(found, *part.image, depth, progress);
   std::vector<dvec3> from_others(found.size(), dvec3(0.0));
   if (depth < options_.max_depth) {
-    const Spawned next = spawned(found, part.eyes, progress);
+    const Spawned next = spawned(found, part, progress);
     std::vector<dvec3> next_colors(next.rays.size());
-    trace_wave({next.rays, next.hits, next.paths, next.eyes}, depth + 1, next_colors, progress);
+    trace_wave({next.rays, next.samples, next.hits, next.paths, next.eyes, part.image}, depth + 1,
+               next_colors, progress);
     for (std::size_t i = 0; i < next_colors.size(); ++i) {
       from_others[next.origins[i].place] += next.origins[i].share * next_colors[i];
     }
@@ -176,6 +196,7 @@ Whitted::Found Whitted::find_places(const Part& part) const {
     places.geometric.set(place, normals.geometric);
     places.shading.set(place, normals.shading);
     found.ray[place] = i;
+    found.sample[place] = part.samples[i];
     found.primitive[place] = hit.primitive;
     found.surface[place] = scene_->primitives[hit.primitive].surface;
     found.path[place] = part.paths[i];
@@ -186,7 +207,8 @@ Whitted::Found Whitted::find_places(const Part& part) const {
 }
 
 /// What the lights send to the camera from each place.
-std::vector<dvec3> Whitted::lit(const Found& found, int depth, Progress& progress) const {
+std::vector<dvec3> Whitted::lit(const Found& found, const accel::PrimaryRays& image, int depth,
+                                Progress& progress) const {
   std::vector<dvec3> matte(found.size());
   std::vector<dvec3> sums(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -194,32 +216,32 @@ std::vector<dvec3> Whitted::lit(const Found& found, int depth, Progress& progres
     sums[i] = kAmbient * matte[i];
   }
   for (std::size_t light = 0; light < scene_->lights.size(); ++light) {
-    add_light(light, found, matte, depth, sums, progress);
+    add_light(light, found, matte, image, depth, sums, progress);
   }
   return sums;
 }
 
 /// Lights behind the surface get no shadow ray.
 void Whitted::add_light(std::size_t light, const Found& found, std::span<const dvec3> matte,
-                        int depth, std::span<dvec3> sums, Progress& progress) const {
+                        const accel::PrimaryRays& image, int depth, std::span<dvec3> sums,
+                        Progress& progress) const {
   const dvec3 position(scene_->lights[light].position);
   LightAngles angles(found.size());
   kernels_->find_angles(found.places, position, angles);
   std::vector<accel::Ray> rays;
-  std::vector<std::uint32_t> samples;
   std::vector<std::size_t> places;
   rays.reserve(found.size());
-  samples.reserve(found.size());
   places.reserve(found.size());
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (angles.is_before[i] == 0.0) continue;
     const dvec3 beside = found.places.beside[i];
     add_ray(rays, beside, position - beside).t_max = 1.0F;
-    samples.push_back(found.path[i].sample);
     places.push_back(i);
   }
-  const std::vector<double> parts =
-      shadows_.transmitted(rays, samples, light, depth, progress.shadows, progress.census);
+  std::vector<std::uint32_t> samples(places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) samples[k] = found.sample[places[k]];
+  const std::vector<double> parts = shadows_.transmitted({rays, {}, samples, &image}, light, depth,
+                                                         progress.shadows, progress.census);
   const dvec3 color = shaded_->light_colors()[light];
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts[k] == 0.0) continue;
@@ -235,26 +257,25 @@ void Whitted::add_light(std::size_t light, const Found& found, std::span<const d
 
 /// Mirror rays and refracted ones, traced. At total reflection the mirror ray carries both shares:
 /// it is one ray, even where the surface is a mirror as well (SPD, rule 9).
-Whitted::Spawned Whitted::spawned(const Found& found, std::span<const rays::VirtualEye> eyes,
-                                  Progress& progress) const {
+Whitted::Spawned Whitted::spawned(const Found& found, const Part& part, Progress& progress) const {
   Spawned next;
   std::vector<accel::Ray> mirror_rays, glass_rays;
   std::vector<std::uint32_t> mirror_samples, glass_samples;
   std::vector<bool> is_glass;  // of each ray of the wave
-  MirrorPencils pencils(shaded_->mirrors(), eyes, found.size());
+  MirrorPencils pencils(shaded_->mirrors(), part.eyes);
   mirror_rays.reserve(found.size());
   mirror_samples.reserve(found.size());
   next.paths.reserve(found.size());
   next.origins.reserve(found.size());
   const Places& places = found.places;
   const auto spawn = [&](std::size_t place, double share, bool inside) {
-    const Path path{found.path[place].weight * share, found.path[place].sample, kNoEye, inside};
-    if (path.weight < options_.min_weight) {
+    const double weight = found.path[place].weight * share;
+    if (weight < options_.min_weight) {
       ++progress.census.too_faint;
       return false;
     }
-    next.paths.push_back(path);
-    next.origins.push_back({place, share});
+    next.paths.emplace_back(weight, kNoEye, inside);
+    next.origins.emplace_back(place, share);
     return true;
   };
   const auto reflect = [&](std::size_t place, double share) {
@@ -262,8 +283,8 @@ Whitted::Spawned Whitted::spawned(const Found& found, std::span<const rays::Virt
     add_ray(
         mirror_rays, places.beside[place],
         mirrored_outward(places.incoming[place], places.shading[place], places.geometric[place]));
-    mirror_samples.push_back(found.path[place].sample);
-    pencils.add(found.path[place].eye, found.primitive[place], places.geometric[place]);
+    mirror_samples.push_back(found.sample[place]);
+    pencils.add(found.path[place].eye, found.primitive[place]);
     is_glass.push_back(false);
   };
   for (std::size_t i = 0; i < found.size(); ++i) {
@@ -287,34 +308,28 @@ Whitted::Spawned Whitted::spawned(const Found& found, std::span<const rays::Virt
     if (!spawn(i, glass, entering)) continue;
     add_ray(glass_rays, rays::beside_surface(*scene_, places.point[i], -places.geometric[i]),
             *direction);
-    glass_samples.push_back(found.path[i].sample);
+    glass_samples.push_back(found.sample[i]);
     is_glass.push_back(true);
   }
-  pencils.arrange(mirror_rays, mirror_samples);
   const accel::HitBuffer mirror_hits =
-      traced(*answerers_.reflected, {mirror_rays, pencils.pencils(), mirror_samples},
+      traced(*answerers_.reflected, pencils.arranged({mirror_rays, {}, mirror_samples, part.image}),
              progress.census.reflected);
   const accel::HitBuffer glass_hits =
-      traced(*answerers_.refracted, {glass_rays, {}, glass_samples}, progress.census.refracted);
-  next.rays.reserve(is_glass.size());
+      traced(*answerers_.refracted, {glass_rays, {}, glass_samples, part.image},
+             progress.census.refracted);
   next.hits.reserve(is_glass.size());
-  const auto follow = [&](const accel::Ray& ray, const std::optional<accel::Hit>& hit) {
-    next.rays.push_back(ray);
-    next.hits.push_back(hit);
-    progress.census.secondary_hits += hit ? 1U : 0U;
-  };
   std::size_t mirrors = 0, glasses = 0;
   for (std::size_t i = 0; i < is_glass.size(); ++i) {
     if (is_glass[i]) {
-      follow(glass_rays[glasses], glass_hits.get(glasses));
-      ++glasses;
+      next.hits.push_back(glass_hits.get(glasses++));
     } else {
-      const std::size_t place = pencils.place_of(mirrors);
       next.paths[i].eye = pencils.eye_of(mirrors);
-      follow(mirror_rays[place], mirror_hits.get(place));
-      ++mirrors;
+      next.hits.push_back(mirror_hits.get(pencils.place_of(mirrors++)));
     }
+    progress.census.secondary_hits += next.hits.back() ? 1U : 0U;
   }
+  next.rays = merged(std::move(mirror_rays), glass_rays, is_glass);
+  next.samples = merged(std::move(mirror_samples), glass_samples, is_glass);
   next.eyes = std::move(pencils).take_eyes();
   return next;
 }

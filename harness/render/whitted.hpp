@@ -13,7 +13,6 @@
 #include "accel/core/accelerator.hpp"
 #include "accel/core/primary_rays.hpp"
 #include "harness/rays/hit_check.hpp"
-#include "harness/rays/virtual_eye.hpp"
 #include "harness/render/places.hpp"
 #include "harness/render/ray_census.hpp"
 #include "harness/render/shaded_scene.hpp"
@@ -94,11 +93,12 @@ class Whitted {
   void trace_part(const Part& part, int depth, std::span<glm::dvec3> colors,
                   Progress& progress) const;
   Found find_places(const Part& part) const;
-  std::vector<glm::dvec3> lit(const Found& found, int depth, Progress& progress) const;
+  std::vector<glm::dvec3> lit(const Found& found, const accel::PrimaryRays& image, int depth,
+                              Progress& progress) const;
   void add_light(std::size_t light, const Found& found, std::span<const glm::dvec3> matte,
-                 int depth, std::span<glm::dvec3> sums, Progress& progress) const;
-  Spawned spawned(const Found& found, std::span<const rays::VirtualEye> eyes,
-                  Progress& progress) const;
+                 const accel::PrimaryRays& image, int depth, std::span<glm::dvec3> sums,
+                 Progress& progress) const;
+  Spawned spawned(const Found& found, const Part& part, Progress& progress) const;
   bool enters(const Found& found, std::size_t place) const;
 
   std::shared_ptr<const ShadedScene> shaded_;

@@ -61,6 +61,7 @@ class Checked : public Unmarked {
  private:
   void add(const accel::RayBatch& batch) const {
     EXPECT_EQ(batch.samples.size(), batch.rays.size());
+    EXPECT_NE(batch.image, nullptr);
     for (const accel::Pencil& pencil : batch.pencils) EXPECT_GE(pencil.count, kMinPencil);
     pencils_->add(batch);
   }
@@ -159,6 +160,21 @@ TEST(Pencils, AreNotOfCurvedMirrors) {
   const auto structure = built(scene, "sah-bvh");
   EXPECT_GT(recorded(scene, Checked(*structure, pencils), image).census.reflected, 1000U);
   EXPECT_EQ(pencils.away, 0U);
+}
+
+// Rounding decides on which side such a mirror is seen.
+TEST(Pencils, AreNotOfMirrorsSeenFromTheirEdge) {
+  const scenes::PlanarMirror mirror{{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, {0}};
+  const auto behind = [&](float height) {
+    scenes::Camera camera;
+    camera.from = {5.0F, 0.0F, height};
+    return rays::VirtualEye(accel::PrimaryRays(camera, 1, 1, 1)).behind(mirror, 1e-4);
+  };
+  EXPECT_FALSE(behind(1.0F));
+  EXPECT_FALSE(behind(1.0001F));
+  ASSERT_TRUE(behind(1.5F));
+  EXPECT_EQ(behind(1.5F)->place, dvec3(5.0, 0.0, 0.5 + 1e-4));
+  EXPECT_EQ(behind(0.5F)->place, dvec3(5.0, 0.0, 1.5 - 1e-4));
 }
 
 // A structure that uses marks and is bit-exact finds the same hits, so the same rays follow.
