@@ -215,8 +215,8 @@ class PencilProjection {
     }
   }
 
-  /// 1 / depth remains of ordinary size.
-  static constexpr float kNearest = 1e-30F;
+  /// 1 / depth remains of ordinary size, and single rays can be probed (ProbeRay::can_probe).
+  static constexpr float kNearest = 0x1p-59F;
 
   const PencilPart* part_;
   CubeSide side_;

@@ -76,7 +76,8 @@ struct PencilUnit {
   /// The groups' bounds; a group without a ray alive has none.
   alignas(64) Array<float, kGroups> group_low_u, group_high_u, group_low_v, group_high_v, group_w,
       group_origin_w;
-  Array<std::uint16_t, kGroups> group_blocks;  ///< alive, a bit each
+  alignas(64) Array<float, kGroups> group_rays, group_area;  ///< as they were at first
+  Array<std::uint16_t, kGroups> group_blocks;                ///< alive, a bit each
   std::uint32_t groups_alive;
   std::size_t groups;
 };

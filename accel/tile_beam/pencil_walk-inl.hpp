@@ -28,6 +28,11 @@ struct ClosestHitPolicy {
   static constexpr bool kClosest = true;
 };
 
+/// Leaves for each ray from which on single rays take less time, measured.
+inline constexpr float kPencilHandoverLeaves = 0.5F;
+/// Parts of so few leaves are not worth counting rays for.
+inline constexpr std::uint32_t kFewLeaves = 2;
+
 template <class Policy, class Counting>
 class PencilWalk {
  public:
@@ -43,15 +48,24 @@ class PencilWalk {
   void operator()() {
     for (std::size_t group = 0; group < PencilUnit::kGroups; ++group) {
       if (group < unit_->groups) {
+        int rays = 0;
+        for (std::size_t i = 0; i < 16; ++i) {
+          rays += std::popcount(std::uint32_t{unit_->alive[group * 16 + i]});
+        }
+        unit_->group_rays[group] = static_cast<float>(rays);
         bound_group(group);
+        unit_->group_area[group] = (unit_->group_high_u[group] - unit_->group_low_u[group]) *
+                                   (unit_->group_high_v[group] - unit_->group_low_v[group]);
       } else {
         drop_group(group);
       }
     }
     bound_all();
     if (unit_->groups_alive == 0) return;
-    stack_[0] = {hierarchy_->root, unit_->groups_alive, 0, {}};
-    stack_[0].bounds = {-kAtApex, kAtApex, -kAtApex, kAtApex, -kAtApex, kAtApex};
+    stack_[0] = {hierarchy_->root, unit_->groups_alive,
+                 is_crowded(static_cast<std::uint32_t>(hierarchy_->leaves()), unit_->groups_alive,
+                            kEverywhere),
+                 kEverywhere};
     size_ = 1;
     while (size_ > 0) {
       const Entry entry = stack_[--size_];
@@ -61,7 +75,9 @@ class PencilWalk {
         if (entry.bounds[kHighW] < all_.least_w) continue;
       }
       counting_->add(Counter::kTraversalSteps);
-      if (entry.child.kind() == TileChild::Kind::kNode) {
+      if (entry.crowded) {
+        hand_over(entry, groups);
+      } else if (entry.child.kind() == TileChild::Kind::kNode) {
         push_children(hierarchy_->nodes[entry.child.index()], groups);
       } else {
         visit_leaf(entry, groups);
@@ -72,11 +88,13 @@ class PencilWalk {
  private:
   static constexpr bool kClosest = Policy::kClosest;
 
+  static constexpr std::array<float, 6> kEverywhere{-kAtApex, kAtApex,  -kAtApex,
+                                                    kAtApex,  -kAtApex, kAtApex};
   enum Bound : std::size_t { kLowU, kHighU, kLowV, kHighV, kLowW, kHighW };
   struct Entry {
     TileChild child;
     std::uint32_t groups;  ///< that it may be seen from, a bit each
-    std::uint32_t leaves;
+    bool crowded;          ///< more leaves than single rays would take
     std::array<float, 6> bounds;
   };
 
@@ -175,8 +193,91 @@ class PencilWalk {
           stack_[hole] = stack_[hole - 1];
         }
       }
-      stack_[hole] = {node.children[lane], seen, node.leaves[lane], bounds};
+      stack_[hole] = {node.children[lane], seen, is_crowded(node.leaves[lane], seen, bounds),
+                      bounds};
     }
+  }
+
+  /// A part of the hierarchy with more leaves than `kPencilHandoverLeaves` for each ray that may
+  /// meet it is traversed by single rays, which need a few leaves each. How many these would be is
+  /// estimated from how densely the rays of the groups lie, over all of its bounds: most leaves of
+  /// a large part may lie beyond the groups.
+  HWY_INLINE bool is_crowded(std::uint32_t leaves, std::uint32_t groups,
+                             const std::array<float, 6>& bounds) const {
+    if (leaves < kFewLeaves) return false;
+    Floats rays = hn::Zero(Tag());
+    Floats areas = hn::Zero(Tag());
+    for (std::size_t lane = 0; lane < unit_->groups; lane += kLanes) {
+      const Mask in = lanes_of(groups >> lane, 0);
+      const Floats none = hn::Zero(Tag());
+      rays = hn::Add(rays, hn::IfThenElse(in, load(&unit_->group_rays[lane]), none));
+      areas = hn::Add(areas, hn::IfThenElse(in, load(&unit_->group_area[lane]), none));
+    }
+    // The side ends at +-1.
+    const auto extent = [&](Bound low, Bound high) {
+      return std::min(bounds[high], 1.0F) - std::max(bounds[low], -1.0F);
+    };
+    const float area = extent(kLowU, kHighU) * extent(kLowV, kHighV);
+    const float all_rays = hn::GetLane(hn::SumOfLanes(Tag(), rays));
+    const float all_areas = hn::GetLane(hn::SumOfLanes(Tag(), areas));
+    return static_cast<float>(leaves) * all_areas >
+           kPencilHandoverLeaves * (all_rays * area + all_areas);
+  }
+
+  /// Single rays for those that are left.
+  void hand_over(const Entry& entry, std::uint32_t groups) {
+    changed_ = 0;
+    for (; groups != 0; groups &= groups - 1) {
+      const auto group = static_cast<std::size_t>(std::countr_zero(groups));
+      for (LaneBits blocks = blocks_in(group, entry.bounds); blocks != 0; blocks &= blocks - 1) {
+        hand_over(entry, group * 16 + static_cast<std::size_t>(std::countr_zero(blocks)));
+      }
+    }
+    if (changed_ != 0) update();
+  }
+
+  void hand_over(const Entry& entry, std::size_t place) {
+    const std::array<float, 6>& bounds = entry.bounds;
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    LaneBits inside = for_each_register([&](std::size_t lane) {
+      const std::size_t at = block + lane;
+      const auto within = [](Floats value, float low, float high) {
+        return hn::And(hn::Ge(value, all(low - kPlacePad)), hn::Le(value, all(high + kPlacePad)));
+      };
+      return hn::And(hn::And(within(load(&unit_->u[at]), bounds[kLowU], bounds[kHighU]),
+                             within(load(&unit_->v[at]), bounds[kLowV], bounds[kHighV])),
+                     hn::Le(load(&unit_->w[at]), all(bounds[kHighW])));
+    });
+    inside &= unit_->alive[place];
+    LaneBits hits = 0;
+    for (LaneBits left = inside; left != 0; left &= left - 1) {
+      counting_->add("handed_over_rays");
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      if (finds_below(entry.child, block + lane)) hits |= LaneBits{1} << lane;
+    }
+    changed_ |= note(place, hits);
+  }
+
+  /// Traces the ray of a place in the unit through a part of the hierarchy.
+  bool finds_below(TileChild from, std::size_t at) {
+    const Ray& ray = part_->rays[unit_->ray_at(at)];
+    if constexpr (kClosest) {
+      const auto hit = closest_below(*hierarchy_, *scene_, from, ray, *counting_);
+      return hit && keeps(at, ray, *hit);
+    } else {
+      return any_below(*hierarchy_, *scene_, from, ray, *counting_);
+    }
+  }
+
+  /// Closest hits: is this one the nearest so far? It is kept then.
+  bool keeps(std::size_t at, const Ray& ray, const Hit& hit) {
+    const auto z = static_cast<int>(view_.side.z_axis());
+    const float origin = (ray.origin[z] - view_.apex[z]) * view_.side.sign();
+    const float w = 1.0F / (origin + hit.t * ray.direction[z] * view_.side.sign());
+    if (!(w > unit_->w[at])) return false;
+    unit_->w[at] = w;
+    unit_->primitive[at] = hit.primitive;
+    return true;
   }
 
   /// The groups from which bounds may be seen.
@@ -255,6 +356,20 @@ class PencilWalk {
 
   float sphere_slack() const { return 0x1p-20F * view_.scene_size; }
 
+  /// The blocks of a group that something within bounds may be seen from.
+  HWY_INLINE LaneBits blocks_in(std::size_t group, const std::array<float, 6>& bounds) const {
+    const LaneBits blocks = for_each_register([&](std::size_t lane) {
+      const std::size_t at = group * 16 + lane;
+      Floats out = either(hn::Sub(load(&unit_->high_u[at]), all(bounds[kLowU])),
+                          hn::Add(load(&unit_->minus_low_u[at]), all(bounds[kHighU])),
+                          hn::Sub(load(&unit_->high_v[at]), all(bounds[kLowV])));
+      out = either(out, hn::Add(load(&unit_->minus_low_v[at]), all(bounds[kHighV])),
+                   hn::Add(load(&unit_->minus_w[at]), all(bounds[kHighW])));
+      return hn::Not(is_negative(out));
+    });
+    return blocks & unit_->group_blocks[group];
+  }
+
   using Numbers = hn::Vec<hn::RebindToUnsigned<Tag>>;
 
   /// Writes the numbers of some lanes one after the other, and returns how many. A whole register
@@ -276,16 +391,7 @@ class PencilWalk {
     for (; groups != 0; groups &= groups - 1) {
       const auto group = static_cast<std::size_t>(std::countr_zero(groups));
       const std::size_t first = group * 16;
-      LaneBits blocks = for_each_register([&](std::size_t lane) {
-        const std::size_t at = first + lane;
-        Floats out = either(hn::Sub(load(&unit_->high_u[at]), all(entry.bounds[kLowU])),
-                            hn::Add(load(&unit_->minus_low_u[at]), all(entry.bounds[kHighU])),
-                            hn::Sub(load(&unit_->high_v[at]), all(entry.bounds[kLowV])));
-        out = either(out, hn::Add(load(&unit_->minus_low_v[at]), all(entry.bounds[kHighV])),
-                     hn::Add(load(&unit_->minus_w[at]), all(entry.bounds[kHighW])));
-        return hn::Not(is_negative(out));
-      });
-      blocks &= unit_->group_blocks[group];
+      const LaneBits blocks = blocks_in(group, entry.bounds);
       const PencilBounds bounds{unit_->group_low_u[group], unit_->group_high_u[group],
                                 unit_->group_low_v[group], unit_->group_high_v[group],
                                 unit_->group_w[group],     unit_->group_origin_w[group]};
@@ -601,13 +707,7 @@ class PencilWalk {
       const float t = intersect(CanonicalRay(ray));
       if (!is_hit(t)) continue;
       if constexpr (kClosest) {
-        const std::size_t at = block * PencilUnit::kBlock + lane;
-        const auto z = static_cast<int>(view_.side.z_axis());
-        const float origin = (ray.origin[z] - view_.apex[z]) * view_.side.sign();
-        const float w = 1.0F / (origin + t * ray.direction[z] * view_.side.sign());
-        if (!(w > unit_->w[at])) continue;
-        unit_->w[at] = w;
-        unit_->primitive[at] = primitive;
+        if (!keeps(block * PencilUnit::kBlock + lane, ray, {t, primitive})) continue;
       }
       hits |= LaneBits{1} << lane;
     }
@@ -681,6 +781,9 @@ class PencilWalk {
     }
     unit_->minus_w[place] = -least_of(least);
   }
+
+  /// What bounds of boxes and places may be wrong by: a few roundings of places |u| <= 1.
+  static constexpr float kPlacePad = 3e-7F;
 
   const TileHierarchy* hierarchy_;
   const scenes::Scene* scene_;

@@ -214,18 +214,25 @@ std::optional<Hit> closest(const TileHierarchy& hierarchy, const scenes::Scene& 
   return closest_below(hierarchy, scene, hierarchy.root, ray, counting);
 }
 
+/// Is there a hit below `from`?
 template <class Counting>
-bool any(const TileHierarchy& hierarchy, const scenes::Scene& scene, const Ray& ray,
-         Counting& counting) {
+bool any_below(const TileHierarchy& hierarchy, const scenes::Scene& scene, TileChild from,
+               const Ray& ray, Counting& counting) {
   const CanonicalRay canonical(ray);
   bool found = false;
   walk_ray(
-      hierarchy, scene, hierarchy.root, ray, canonical, counting, [&] { return ray.t_max; },
+      hierarchy, scene, from, ray, canonical, counting, [&] { return ray.t_max; },
       [&](float t, scenes::PrimitiveId) {
         found = is_hit(t);
         return found;
       });
   return found;
+}
+
+template <class Counting>
+bool any(const TileHierarchy& hierarchy, const scenes::Scene& scene, const Ray& ray,
+         Counting& counting) {
+  return any_below(hierarchy, scene, hierarchy.root, ray, counting);
 }
 
 }  // namespace beambench::accel::tile_beam::HWY_NAMESPACE

@@ -100,6 +100,9 @@ void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
   for (const ThreadState<Counting>& state : states) counting.add(state.counting);
 }
 
+/// Pencils of fewer rays are traced singly: what a part costs at all is then more than is gained.
+constexpr std::size_t kLeastPencil = 128;
+
 /// The rays of a batch in its order: `some(rays, first)` answers the first of a pencil's rays that
 /// are left, and returns how many; `single(i)` all other rays. Pencils that do not run `toward`
 /// their apex, or do, are no pencils here.
@@ -112,7 +115,7 @@ void for_each_pencil(const TileHierarchy& hierarchy, const scenes::Scene& scene,
   };
   const PencilSamples samples(batch);
   for (const Pencil& pencil : batch.pencils) {
-    if (pencil.toward != toward || hierarchy.empty()) continue;
+    if (pencil.toward != toward || pencil.count < kLeastPencil || hierarchy.empty()) continue;
     trace_singly(pencil.first);
     for (const std::size_t end = pencil.first + pencil.count; next < end;) {
       next += some(PencilRays{hierarchy, scene, batch.rays.subspan(next, end - next),
@@ -221,7 +224,11 @@ void register_tile_beam(Registry& registry) {
                   return std::make_unique<TileBeam>(scene, TileBeam::options_from(parameters),
                                                     targets_of(parameters.choice("isa")));
                 }});
-  registry.describe_counters("tile-beam", {{"beams", "tiles of the image that were traced"}});
+  registry.describe_counters(
+      "tile-beam",
+      {{"beams",
+        "tiles of the image, and parts of pencils through a side of the cube, that were "
+        "traced"}});
 }
 
 }  // namespace beambench::accel::tile_beam

@@ -1,5 +1,6 @@
 #pragma once
-// Primary rays in beams the size of screen tiles, through a hierarchy over meshlets.
+// Primary rays in beams the size of screen tiles, and pencils of other rays, through a hierarchy
+// over meshlets.
 
 #include "accel/bvh/probe_ray.hpp"
 #include "accel/core/hit_buffer.hpp"
@@ -18,7 +19,9 @@ namespace beambench::accel::tile_beam {
 /// nothing is, with today's methods: a tile of the screen goes through a hierarchy of boxes front
 /// to back, skipping what its frustum, its samples or nearer hits exclude (hierarchical Z: Greene,
 /// Kass and Miller 1993), and draws what leaves hold. Images are computed in float, to within a few
-/// roundings of the distances; single rays return the hits of the classic structures, bit for bit.
+/// roundings of the distances, and so are the pencils of batches, shadow rays of a point light and
+/// rays from a planar mirror, which are seen from the point that they share (pencil_walk-inl.hpp).
+/// Single rays return the hits of the classic structures, bit for bit.
 class TileBeam : public TraversalAccelerator<TileBeam> {
  public:
   static std::vector<ParameterInfo> parameters();

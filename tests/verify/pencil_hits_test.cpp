@@ -212,7 +212,7 @@ TEST(PencilHits, RaysAroundPencilsAreTracedToo) {
   rays::RaySet some = *input.list();
   ASSERT_GT(some.rays.size(), 400U);
   const dvec3 apex = some.pencils.front().apex;
-  some.pencils = {{10, 100, apex, true}, {110, 1, apex, true}, {130, 200, apex, true}};
+  some.pencils = {{10, 150, apex, true}, {160, 1, apex, true}, {180, 200, apex, true}};
   expect_right(verified(scene, rays::TraceInput(std::move(some))));
 }
 
