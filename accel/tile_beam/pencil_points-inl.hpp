@@ -39,12 +39,14 @@ HWY_INLINE Mask lanes_of(LaneBits bits, std::size_t first) { return mask_of(bits
 struct RayLanes {
   Points origin;
   Points direction;
+  Floats t_min;
+  Floats t_max;
 };
 
 /// As many rays as a register has lanes.
 HWY_INLINE RayLanes load_rays(const Ray* rays) {
 #if HWY_TARGET == HWY_SCALAR
-  return {all_of(rays->origin), all_of(rays->direction)};
+  return {all_of(rays->origin), all_of(rays->direction), all(rays->t_min), all(rays->t_max)};
 #else
   static_assert(sizeof(Ray) == 8 * sizeof(float));
   const float* const from = &rays->origin.x;
@@ -53,7 +55,10 @@ HWY_INLINE RayLanes load_rays(const Ray* rays) {
   hn::LoadInterleaved4(Tag(), from + 4 * kLanes, x1, y1, z1, t1);
   const auto even = [](Floats low, Floats high) { return hn::ConcatEven(Tag(), high, low); };
   const auto odd = [](Floats low, Floats high) { return hn::ConcatOdd(Tag(), high, low); };
-  return {{even(x0, x1), even(y0, y1), even(z0, z1)}, {odd(x0, x1), odd(y0, y1), odd(z0, z1)}};
+  return {{even(x0, x1), even(y0, y1), even(z0, z1)},
+          {odd(x0, x1), odd(y0, y1), odd(z0, z1)},
+          even(t0, t1),
+          odd(t0, t1)};
 #endif
 }
 
@@ -167,8 +172,11 @@ class PencilProjection {
       if (!hn::AllFalse(Tag(), hn::AndNot(through, wanted))) [[unlikely]] {
         find_others(seen, size, largest, wanted);
       }
-      const Mask in = hn::And(
-          through, hn::And(hn::Gt(depth, all(kNearest)), hn::Le(depth, all(part_->farthest))));
+      const Mask whole = hn::And(hn::Eq(ray.t_min, hn::Zero(Tag())),
+                                 hn::Eq(ray.t_max, all(kToward ? 1.0F : kInfinity)));
+      const Mask in =
+          hn::And(hn::And(through, whole),
+                  hn::And(hn::Gt(depth, all(kNearest)), hn::Le(depth, all(part_->farthest))));
       const Floats inverse = hn::Div(all(1.0F), z);
       const Floats u =
           hn::IfThenElse(in, hn::Mul(coordinate(seen, side_.x_axis()), inverse), all(kNaN));

@@ -216,6 +216,21 @@ TEST(PencilHits, RaysAroundPencilsAreTracedToo) {
   expect_right(verified(scene, rays::TraceInput(std::move(some))));
 }
 
+TEST(PencilHits, OfRaysWithShorterIntervalsAreRight) {
+  const scenes::Scene scene = scenes::load_scene("teapot");
+  for (const char* kind : {"shadow", "mirror"}) {
+    const rays::TraceInput input =
+        rays::make_trace_input(scene, image_over(scene, 96, 72), rays::parse_ray_choice(kind));
+    rays::RaySet some = *input.list();
+    Random random(3);
+    for (accel::Ray& ray : some.rays) {
+      if (random.below(3) == 0) ray.t_min = static_cast<float>(random.uniform(0.0, 0.5));
+      if (random.below(3) == 0) ray.t_max = static_cast<float>(random.uniform(0.0, 1.0));
+    }
+    expect_right(verified(scene, rays::TraceInput(std::move(some))));
+  }
+}
+
 TEST(PencilHits, CountingChangesNoHit) {
   const scenes::Scene scene = scenes::load_scene("teapot");
   const TileBeam structure(scene, {});
