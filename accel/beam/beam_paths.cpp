@@ -65,9 +65,10 @@ class Entry {
 
  private:
   /// Calls `visit(part, above)` for the parts of a beam that cross the face below and above a plane
-  /// of another axis.
+  /// of another axis. Both are empty where all of the beam lies within the margin of nearby rays.
   template <class Visit>
   void halve(const Beam& beam, int axis, std::int32_t index, Visit visit) const {
+    if (beam.outline.empty()) return;
     const Crossing middle = view_->crossing_of(axis, index);
     const ImageLine line = view_->line_before(middle, face_);
     const LineRange range = range_over(beam.outline, line);

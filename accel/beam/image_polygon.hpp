@@ -80,9 +80,9 @@ inline LineRange range_over(const ImagePolygon& polygon, const ImageLine& line) 
   return range;
 }
 
-/// The part of a polygon where the line is at most `slack` (Sutherland and Hodgman, "Reentrant
-/// polygon clipping", CACM 17(1), 1974; one line per call). When there is no space for another
-/// corner the polygon is returned whole: it then covers more than necessary.
+/// The part of a polygon, which has corners, where the line is at most `slack` (Sutherland and
+/// Hodgman, "Reentrant polygon clipping", CACM 17(1), 1974; one line per call). When there is no
+/// space for another corner the polygon is returned whole: it then covers more than necessary.
 inline ImagePolygon clip(const ImagePolygon& polygon, const ImageLine& line, double slack) {
   ImagePolygon part;
   glm::dvec2 last = polygon[polygon.size() - 1];
