@@ -22,14 +22,15 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 /// Rays toward the apex: a hit ends a ray.
 struct AnyHitPolicy {
   static constexpr bool kClosest = false;
+  /// Leaves for each ray from which on single rays take less time, measured.
+  static constexpr float kHandoverLeaves = 1.0F;
 };
 /// Rays away from the apex: a hit brings the ray's end nearer.
 struct ClosestHitPolicy {
   static constexpr bool kClosest = true;
+  static constexpr float kHandoverLeaves = 3.0F;
 };
 
-/// Leaves for each ray from which on single rays take less time, measured.
-inline constexpr float kPencilHandoverLeaves = 0.5F;
 /// Parts of so few leaves are not worth counting rays for.
 inline constexpr std::uint32_t kFewLeaves = 2;
 
@@ -64,7 +65,7 @@ class PencilWalk {
     if (unit_->groups_alive == 0) return;
     stack_[0] = {hierarchy_->root, unit_->groups_alive,
                  is_crowded(static_cast<std::uint32_t>(hierarchy_->leaves()), unit_->groups_alive,
-                            kEverywhere),
+                            bounds_of_all()),
                  kEverywhere};
     size_ = 1;
     while (size_ > 0) {
@@ -198,7 +199,17 @@ class PencilWalk {
     }
   }
 
-  /// A part of the hierarchy with more leaves than `kPencilHandoverLeaves` for each ray that may
+  /// Of the whole hierarchy.
+  std::array<float, 6> bounds_of_all() const {
+    TileBoxes boxes{};
+    boxes.set(0, hierarchy_->bounds);
+    Mask seen;
+    const SeenBounds bounds = bounds_of(boxes, 0, view_, seen);
+    return {hn::GetLane(bounds.low_u),  hn::GetLane(bounds.high_u), hn::GetLane(bounds.low_v),
+            hn::GetLane(bounds.high_v), hn::GetLane(bounds.low_w),  hn::GetLane(bounds.high_w)};
+  }
+
+  /// A part of the hierarchy with more leaves than `kHandoverLeaves` for each ray that may
   /// meet it is traversed by single rays, which need a few leaves each. How many these would be is
   /// estimated from how densely the rays of the groups lie, over all of its bounds: most leaves of
   /// a large part may lie beyond the groups.
@@ -221,7 +232,7 @@ class PencilWalk {
     const float all_rays = hn::GetLane(hn::SumOfLanes(Tag(), rays));
     const float all_areas = hn::GetLane(hn::SumOfLanes(Tag(), areas));
     return static_cast<float>(leaves) * all_areas >
-           kPencilHandoverLeaves * (all_rays * area + all_areas);
+           Policy::kHandoverLeaves * (all_rays * area + all_areas);
   }
 
   /// Single rays for those that are left.

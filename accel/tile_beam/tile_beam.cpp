@@ -101,7 +101,9 @@ void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
 }
 
 /// Pencils of fewer rays are traced singly: what a part costs at all is then more than is gained.
-constexpr std::size_t kLeastPencil = 128;
+/// Rays toward an apex come from all that the picture shows; those away from one see what is in
+/// their mirror, which few leaves may hold.
+constexpr std::size_t least_pencil(bool toward) { return toward ? 512 : 32; }
 
 /// The rays of a batch in its order: `some(rays, first)` answers the first of a pencil's rays that
 /// are left, and returns how many; `single(i)` all other rays. Pencils that do not run `toward`
@@ -115,7 +117,8 @@ void for_each_pencil(const TileHierarchy& hierarchy, const scenes::Scene& scene,
   };
   const PencilSamples samples(batch);
   for (const Pencil& pencil : batch.pencils) {
-    if (pencil.toward != toward || pencil.count < kLeastPencil || hierarchy.empty()) continue;
+    if (pencil.toward != toward || pencil.count < least_pencil(toward) || hierarchy.empty())
+      continue;
     trace_singly(pencil.first);
     for (const std::size_t end = pencil.first + pencil.count; next < end;) {
       next += some(PencilRays{hierarchy, scene, batch.rays.subspan(next, end - next),
