@@ -120,9 +120,14 @@ constexpr PencilQueries<Counting> pencil_queries() {
   return {any_hits<Counting>, closest_hits<Counting>};
 }
 
+inline std::size_t count_part(const PencilRays& pencil, PencilUnit& unit) {
+  list_blocks(pencil.rays, pencil.samples, unit);
+  return unit.first[unit.listed];
+}
+
 const PencilKernels& pencil_kernels() {
   static constexpr PencilKernels kKernels{pencil_queries<NoCounting>(),
-                                          pencil_queries<WorkCounters>()};
+                                          pencil_queries<WorkCounters>(), count_part};
   return kKernels;
 }
 

@@ -76,6 +76,9 @@ struct PencilQueries {
 };
 
 struct PencilKernels : PencilQueries<NoCounting>, PencilQueries<WorkCounters> {
+  /// How many rays the queries answer at once.
+  std::size_t (*count_part)(const PencilRays&, PencilUnit& unit);
+
   template <class Counting>
   const PencilQueries<Counting>& queries() const {
     return *this;

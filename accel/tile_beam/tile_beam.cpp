@@ -105,69 +105,144 @@ void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
 /// their mirror, which few leaves may hold.
 constexpr std::size_t least_pencil(bool toward) { return toward ? 512 : 32; }
 
-/// The rays of a batch in its order: `some(rays, first)` answers the first of a pencil's rays that
-/// are left, and returns how many; `single(i)` all other rays. Pencils that do not run `toward`
-/// their apex, or do, are no pencils here.
-template <class Some, class Single>
-void for_each_pencil(const TileHierarchy& hierarchy, const scenes::Scene& scene,
-                     const RayBatch& batch, bool toward, Some some, Single single) {
+/// Rays of a batch in succession: of a pencil, or single ones.
+struct RayRange {
+  std::size_t first;
+  std::size_t count;
+  const Pencil* pencil;  ///< or null
+};
+
+/// All rays of a batch in its order. Pencils that do not run `toward` their apex, or do, are no
+/// pencils here.
+std::vector<RayRange> ranges_of(const RayBatch& batch, bool toward) {
+  std::vector<RayRange> ranges;
   std::size_t next = 0;
-  const auto trace_singly = [&](std::size_t end) {
-    for (; next < end; ++next) single(next);
+  const auto single_until = [&](std::size_t end) {
+    if (next < end) ranges.push_back({next, end - next, nullptr});
   };
-  const PencilSamples samples(batch);
   for (const Pencil& pencil : batch.pencils) {
-    if (pencil.toward != toward || pencil.count < least_pencil(toward) || hierarchy.empty())
-      continue;
-    trace_singly(pencil.first);
-    for (const std::size_t end = pencil.first + pencil.count; next < end;) {
-      next += some(PencilRays{hierarchy, scene, batch.rays.subspan(next, end - next),
-                              samples.from(next), glm::vec3(pencil.apex)},
-                   next);
-    }
+    if (pencil.toward != toward || pencil.count < least_pencil(toward)) continue;
+    single_until(pencil.first);
+    ranges.push_back({pencil.first, pencil.count, &pencil});
+    next = pencil.first + pencil.count;
   }
-  trace_singly(batch.rays.size());
+  single_until(batch.rays.size());
+  return ranges;
 }
+
+/// The rays of a batch as a query answers them.
+template <class Counting>
+class BatchQuery {
+ public:
+  BatchQuery(const TileHierarchy& hierarchy, const scenes::Scene& scene,
+             const PencilKernels& kernels, const RayBatch& batch)
+      : hierarchy_(&hierarchy),
+        scene_(&scene),
+        kernels_(&kernels),
+        batch_(&batch),
+        samples_(batch) {}
+
+  /// `some(rays, first, unit, counting)` answers the first rays of those of a pencil, and
+  /// `is_undecided(i)` tells whether it has left one to `single(i, counting)`, which answers all
+  /// other rays. `parallel`: parts are distributed among all cores; answers and counts are the
+  /// same.
+  template <class Some, class Undecided, class Single>
+  void answer(bool toward, bool parallel, Counting& counting, Some some, Undecided is_undecided,
+              Single single) const {
+    const auto answer_all = [&](const RayRange& range, State& state) {
+      for (RayRange left = range; left.count > 0;) {
+        AnsweredRays answered{left.count, true};
+        if (left.pencil != nullptr) {
+          answered = some(pencil_rays(left), left.first, *state.unit, state.counting);
+        }
+        for (std::size_t i = 0; answered.some_undecided && i < answered.count; ++i) {
+          const std::size_t ray = left.first + i;
+          if (left.pencil == nullptr || is_undecided(ray)) single(ray, state.counting);
+        }
+        left.first += answered.count;
+        left.count -= answered.count;
+      }
+    };
+    const std::vector<RayRange> ranges = ranges_of(*batch_, toward);
+    tbb::enumerable_thread_specific<State> states;
+    if (parallel) {
+      const std::vector<RayRange> parts = divide(ranges);
+      tbb::parallel_for(std::size_t{0}, parts.size(),
+                        [&](std::size_t i) { answer_all(parts[i], states.local()); });
+    } else {
+      for (const RayRange& range : ranges) answer_all(range, states.local());
+    }
+    for (const State& state : states) counting.add(state.counting);
+  }
+
+ private:
+  /// Of one thread.
+  struct State {
+    std::unique_ptr<PencilUnit> unit = std::make_unique_for_overwrite<PencilUnit>();
+    Counting counting;
+  };
+
+  PencilRays pencil_rays(const RayRange& range) const {
+    return {*hierarchy_, *scene_, batch_->rays.subspan(range.first, range.count),
+            samples_.from(range.first), glm::vec3(range.pencil->apex)};
+  }
+
+  /// Into what is answered at once.
+  std::vector<RayRange> divide(std::span<const RayRange> ranges) const {
+    constexpr std::size_t kSingleRays = 1024;
+    std::vector<RayRange> parts;
+    const auto unit = std::make_unique_for_overwrite<PencilUnit>();
+    for (RayRange left : ranges) {
+      while (left.count > 0) {
+        const std::size_t count = left.pencil == nullptr
+                                      ? std::min(left.count, kSingleRays)
+                                      : kernels_->count_part(pencil_rays(left), *unit);
+        parts.push_back({left.first, count, left.pencil});
+        left.first += count;
+        left.count -= count;
+      }
+    }
+    return parts;
+  }
+
+  const TileHierarchy* hierarchy_;
+  const scenes::Scene* scene_;
+  const PencilKernels* kernels_;
+  const RayBatch* batch_;
+  PencilSamples samples_;
+};
 
 }  // namespace
 
 void TileBeam::closest_hits(const RayBatch& batch, HitBuffer& buffer,
                             WorkCounters* counters) const {
+  if (hierarchy_.empty()) return TraversalAccelerator::closest_hits(batch, buffer, counters);
   with_counting(counters, [&]<class Counting>(Counting& counting) {
-    const auto single = [&](std::size_t i) {
-      buffer.set(i, find_closest(batch.rays[i], counting));
-    };
-    const auto unit = std::make_unique_for_overwrite<PencilUnit>();
-    for_each_pencil(
-        hierarchy_, *scene_, batch, false,
-        [&](const PencilRays& rays, std::size_t first) {
-          const AnsweredRays answered = pencil_kernels_->queries<Counting>().closest_hits(
-              rays, *unit, buffer, first, counting);
-          for (std::size_t i = first; answered.some_undecided && i < first + answered.count; ++i) {
-            if (std::isnan(buffer.t()[i])) single(i);
-          }
-          return answered.count;
-        },
-        single);
+    BatchQuery<Counting>(hierarchy_, *scene_, *pencil_kernels_, batch)
+        .answer(
+            false, parallel_, counting,
+            [&](const PencilRays& rays, std::size_t first, PencilUnit& unit, Counting& own) {
+              return pencil_kernels_->queries<Counting>().closest_hits(rays, unit, buffer, first,
+                                                                       own);
+            },
+            [&](std::size_t i) { return std::isnan(buffer.t()[i]); },
+            [&](std::size_t i, Counting& own) { buffer.set(i, find_closest(batch.rays[i], own)); });
   });
 }
 
 void TileBeam::any_hits(const RayBatch& batch, std::span<std::uint8_t> hits,
                         WorkCounters* counters) const {
+  if (hierarchy_.empty()) return TraversalAccelerator::any_hits(batch, hits, counters);
   with_counting(counters, [&]<class Counting>(Counting& counting) {
-    const auto single = [&](std::size_t i) { hits[i] = find_any(batch.rays[i], counting) ? 1 : 0; };
-    const auto unit = std::make_unique_for_overwrite<PencilUnit>();
-    for_each_pencil(
-        hierarchy_, *scene_, batch, true,
-        [&](const PencilRays& rays, std::size_t first) {
-          const AnsweredRays answered = pencil_kernels_->queries<Counting>().any_hits(
-              rays, *unit, hits.subspan(first, rays.rays.size()), counting);
-          for (std::size_t i = first; answered.some_undecided && i < first + answered.count; ++i) {
-            if (hits[i] == kUndecided) single(i);
-          }
-          return answered.count;
-        },
-        single);
+    BatchQuery<Counting>(hierarchy_, *scene_, *pencil_kernels_, batch)
+        .answer(
+            true, parallel_, counting,
+            [&](const PencilRays& rays, std::size_t first, PencilUnit& unit, Counting& own) {
+              return pencil_kernels_->queries<Counting>().any_hits(
+                  rays, unit, hits.subspan(first, rays.rays.size()), own);
+            },
+            [&](std::size_t i) { return hits[i] == kUndecided; },
+            [&](std::size_t i, Counting& own) { hits[i] = find_any(batch.rays[i], own) ? 1 : 0; });
   });
 }
 
@@ -186,10 +261,11 @@ void TileBeam::trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
 
 std::vector<ParameterInfo> TileBeam::parameters() {
   const TileHierarchyOptions defaults;
-  return {integer_parameter("max_leaf", defaults.max_leaf, 1, 32, "most primitives of a leaf"),
-          flag_parameter("parallel", defaults.parallel,
-                         "build, and trace images, on all cores; the hits are the same"),
-          isa_parameter()};
+  return {
+      integer_parameter("max_leaf", defaults.max_leaf, 1, 32, "most primitives of a leaf"),
+      flag_parameter("parallel", defaults.parallel,
+                     "build, and trace images and batches, on all cores; the hits are the same"),
+      isa_parameter()};
 }
 
 TileHierarchyOptions TileBeam::options_from(const Parameters& parameters) {
