@@ -33,6 +33,8 @@ def row(
     spread: float = 0.1,
     verdict: str = "ok",
     primitives: int = 4096,
+    kind: str = "primary",
+    shading: float = 0.0,
     **parameters: str,
 ) -> Row:
     width, height = (int(side) for side in resolution.split("x"))
@@ -52,7 +54,8 @@ def row(
         "width": width,
         "height": height,
         "samples": 1,
-        "ray_kind": "primary",
+        "ray_kind": kind,
+        "harness_ms": shading,
         "rays": width * height,
         "build_ms_median": 1,
         "trace_ms_median": trace,
@@ -140,8 +143,8 @@ def test_an_image_that_two_runs_measured_counts_once_by_the_newest(tmp_path: Pat
 
 
 def test_no_scene_is_in_two_groups() -> None:
-    named = [scene for group in groups() for scene in group.scenes]
-    assert len(named) == len(set(named))
+    scenes = [(group.kind, scene) for group in groups() for scene in group.scenes]
+    assert len(scenes) == len(set(scenes))
 
 
 def test_runs_of_two_machines_are_not_mixed(tmp_path: Path) -> None:
@@ -326,14 +329,54 @@ def test_runs_without_both_are_refused(tmp_path: Path, capsys: pytest.CaptureFix
 
 
 def test_the_aims_name_the_scenes_of_the_sweeps() -> None:
-    named = {scene for group in groups() for scene in group.scenes}
+    named = {(group.kind, scene) for group in groups() for scene in group.scenes}
     swept = set()
-    for sweep in ("beat-embree", "beat-embree-scenes", "beat-embree-soup", "beat-embree-avx2"):
-        config = json.loads((REPOSITORY / f"harness/bench/sweeps/{sweep}.json").read_text())
+    for file in (REPOSITORY / "harness/bench/sweeps").glob("beat-embree*.json"):
+        if file.stem in ("beat-embree-scaling", "beat-embree-resolutions"):
+            continue  # lines of sizes, without aims
+        config = json.loads(file.read_text())
         swept |= {
-            json.loads(output_of("scene", scene, "--json"))["name"] for scene in config["scenes"]
+            (kind, json.loads(output_of("scene", scene, "--json"))["name"])
+            for scene in config["scenes"]
+            for kind in config.get("rays", ["primary"])
         }
     assert swept == named
+
+
+def test_kinds_of_rays_have_targets_of_their_own(tmp_path: Path) -> None:
+    rows = [
+        made | {"scene": "habitacion"}
+        for kind in ("shadow", "mirror")
+        for made in (
+            row("tile-beam", 2, kind=kind),
+            row("embree", 4, kind=kind, mode="stream"),
+        )
+    ]
+    found = duels_of(tmp_path, *rows)
+    assert [one.kind for one in found] == ["shadow", "mirror"]
+    report = as_markdown(found)
+    shadows = report[report.index("### Shadow rays") : report.index("### Rays from small")]
+    assert "2.00 (1.74 to 2.31) missed" in shadows
+    mirrors = report[report.index("### Rays from small") : report.index("## All rays")]
+    assert "2.00 (1.74 to 2.31) met" in mirrors
+
+
+def test_pictures_are_compared_without_their_shading(tmp_path: Path) -> None:
+    tile, embree = (
+        row(structure, trace, scene="finishes", kind="whitted", shading=10.0)
+        for structure, trace in (("tile-beam", 14), ("embree", 22))
+    )
+    run = write_run(tmp_path, [tile, embree])
+    (pairing,) = pairings([read_run(run)])
+    assert pairing.tile.first.value == pytest.approx(4)
+    assert pairing.ratio.value == pytest.approx(3)
+    assert pairing.second_ratio is not None
+    assert pairing.second_ratio.value == pytest.approx((0.9 * 22 - 10) / (0.9 * 14 - 10))
+    for made, trace in ((tile, 14.0), (embree, 22.0)):
+        write_trace_cell(run, made, [trace + 0.1 * turn for turn in range(7)], warm=[])
+    (pairing,) = pairings([read_run(run)])
+    assert pairing.ratio.paired
+    assert pairing.ratio.value == pytest.approx(12.3 / 4.3)
 
 
 def test_the_former_name_of_the_command_works_with_a_warning(

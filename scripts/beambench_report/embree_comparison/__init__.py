@@ -1,1 +1,1 @@
-"""Tile beams against Embree's fastest mode on the same image, with targets."""
+"""Tile beams against Embree's fastest mode on the same rays, with targets."""

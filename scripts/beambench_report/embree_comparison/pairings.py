@@ -1,4 +1,4 @@
-"""The times of tile beams and of the fastest Embree mode with correct hits, for each image."""
+"""The times of tile beams and of the fastest Embree mode with correct hits, on the same rays."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,12 +12,14 @@ from beambench_report.base.ratio import Median, Ratio, median_of, paired_ratio, 
 from beambench_report.base.records import OK, Run, size_of
 
 _STRUCTURES = ("tile-beam", "embree")
+PRIMARY, SHADOW, MIRROR, PICTURE = "primary", "shadow", "mirror", "whitted"
+_KINDS = (PRIMARY, SHADOW, MIRROR, PICTURE)
 Row = dict[str, object]
 
 
 @dataclass(frozen=True)
 class Trace:
-    """A contender's times for one image, in ms, and what it ran on."""
+    """A contender's times for the same rays, in ms, and what it ran on."""
 
     contender: str
     first: Median
@@ -30,8 +32,13 @@ class Trace:
 
 @dataclass(frozen=True)
 class Pairing:
-    """Both at the same image. Ratios are Embree's time over that of tile beams, without builds."""
+    """Both at the same rays. Ratios are Embree's time over that of tile beams, without builds.
 
+    Of whole pictures, the times are without shading.
+    """
+
+    kind: str
+    """Of the rays."""
     scene: str
     camera: str
     primitives: int
@@ -52,15 +59,15 @@ class Pairing:
 
 
 def pairings(runs: Iterable[Run]) -> list[Pairing]:
-    """Every image that both traced with correct hits, once, in the order of the rows.
+    """All rays that both traced with correct hits, once, in the order of the rows.
 
-    Of an image that several runs measured the newest counts. Raises Problem for runs of several
+    Of rays that several runs measured the newest counts. Raises Problem for runs of several
     machines, whose ratios one table must not mix.
     """
     found: dict[tuple, Pairing] = {}
     for run in runs:
         for one in _pairings_of(run):
-            image = (one.scene, one.camera, one.resolution, one.samples, one.isa)
+            image = (one.kind, one.scene, one.camera, one.resolution, one.samples, one.isa)
             if image not in found or one.run_id > found[image].run_id:
                 found[image] = one
     machines = dict.fromkeys(one.machine for one in found.values())
@@ -74,7 +81,7 @@ def pairings(runs: Iterable[Run]) -> list[Pairing]:
 
 def _pairings_of(run: Run) -> list[Pairing]:
     images: dict[tuple, dict[str, list[Row]]] = {}
-    right = run.rows[(run.rows["verdict"] == OK) & (run.rows["ray_kind"] == "primary")]
+    right = run.rows[(run.rows["verdict"] == OK) & run.rows["ray_kind"].isin(_KINDS)]
     for row in right.to_dict("records"):
         if row["structure"] in _STRUCTURES and row["trace_ms_median"] > 0:
             both = images.setdefault(_image(row), {name: [] for name in _STRUCTURES})
@@ -86,7 +93,7 @@ def _pairings_of(run: Run) -> list[Pairing]:
 
 def _image(row: Row) -> tuple:
     """What both must have in common."""
-    names = ("scene", "camera", "width", "height", "samples", "machine_id", "run_id")
+    names = ("ray_kind", "scene", "camera", "width", "height", "samples", "machine_id", "run_id")
     own = parameter_items(row["parameters"])
     return (*(row[name] for name in names), own.get("isa", "best"))
 
@@ -99,12 +106,18 @@ def _pairing(
     ratio, second = None, None
     tile_file, embree_file = files.get(identity(row)), files.get(identity(mode))
     if tile_file and embree_file:
-        ratio = paired_ratio(embree_file.trace_ms, tile_file.trace_ms)
-        second = paired_ratio(embree_file.warm_ms, tile_file.warm_ms)
+        over, under = _shading(mode), _shading(row)
+        ratio = paired_ratio(
+            _without(over, embree_file.trace_ms), _without(under, tile_file.trace_ms)
+        )
+        second = paired_ratio(
+            _without(over, embree_file.warm_ms), _without(under, tile_file.warm_ms)
+        )
     if second is None and embree.second and tile.second:
         second = Ratio(embree.second / tile.second)
     commit = f"{row['commit'][:12]}{' (modified)' if row['dirty'] == 'true' else ''}"
     return Pairing(
+        str(row["ray_kind"]),
         str(row["scene"]),
         str(row["camera"]),
         int(row["primitives"]),
@@ -123,6 +136,15 @@ def _pairing(
     )
 
 
+def _shading(row: Row) -> float:
+    """What a picture's traces have in common, in ms: none of any structure's work."""
+    return float(row["harness_ms"]) if row["ray_kind"] == PICTURE else 0.0
+
+
+def _without(share: float, times: Mapping[int, float]) -> dict[int, float]:
+    return {turn: time - share for turn, time in times.items()}
+
+
 def _mode_name(row: Row) -> str:
     own = parameter_items(row["parameters"])
     mode = own.get("mode", "single")
@@ -133,10 +155,13 @@ def _mode_name(row: Row) -> str:
 
 def _trace(row: Row, contender: str) -> Trace:
     second = row.get("trace_warm_ms_median")
+    share = _shading(row)
+    first = median_of(row, "trace")
+    ends = (None if end is None else end - share for end in (first.low, first.high))
     return Trace(
         contender,
-        median_of(row, "trace"),
-        None if pd.isna(second) else float(second),
+        Median(first.value - share, *ends),
+        None if pd.isna(second) else float(second) - share,
         float(row["build_ms_median"]),
         str(row.get("structure_isa") or ""),
     )

@@ -11,7 +11,7 @@ from beambench_report.base.figure import Plot, new_figure, write_below
 from beambench_report.base.palette import INK, PAPER, structure_color
 from beambench_report.base.ratio import Ratio
 from beambench_report.embree_comparison.growth import PIXELS, PRIMITIVES, growth
-from beambench_report.embree_comparison.pairings import Pairing
+from beambench_report.embree_comparison.pairings import PRIMARY, Pairing
 from beambench_report.embree_comparison.targets import (
     LARGE,
     MIDDLE,
@@ -45,7 +45,7 @@ def plots(found: Sequence[Pairing]) -> list[Plot]:
         for isa in dict.fromkeys(pair.isa for pair in single)
         for plot in _ratios(isa, [pair for pair in single if pair.isa == isa])
     ]
-    best = [pair for pair in single if pair.isa == "best"]
+    best = [pair for pair in single if pair.isa == "best" and pair.kind == PRIMARY]
     return [*drawn, *growth(best, PRIMITIVES), *growth(best, PIXELS)]
 
 
@@ -53,11 +53,7 @@ def _ratios(isa: str, found: Sequence[Pairing]) -> list[Plot]:
     """As few figures of whole groups as fit on a page each."""
     panels = []
     for group in groups():
-        own = [
-            pair
-            for pair in found
-            if pair.scene in group.scenes and pair.resolution in group.targets
-        ]
+        own = [pair for pair in found if group.holds(pair)]
         if own:
             panels.append((group, own))
     stem = "beat-embree" if isa == "best" else f"beat-embree-{isa}"

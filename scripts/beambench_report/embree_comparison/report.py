@@ -14,11 +14,13 @@ from beambench_report.embree_comparison.plots import plots
 from beambench_report.embree_comparison.targets import Group, groups, part_of_targets
 
 _COMPARED = (
-    "`tile-beam` is a frustum rasterizer: it draws the image of one eye, and is compared with "
+    "`tile-beam` is a frustum rasterizer: it draws what one point sees, and is compared with "
     "Embree, a general ray tracer, on the one thing that both do. A ratio is the time in which "
-    "the fastest Embree mode with correct hits traces an image over the time of `tile-beam`, both "
-    "in one run, on one thread, both writing t and id of every sample into the same kind of "
-    "buffer, by the same rays. The fastest mode is the one of the smallest median."
+    "the fastest Embree mode with correct hits traces some rays over the time of `tile-beam`, both "
+    "in one run, on one thread, both writing their answers into the same kind of buffer, by the "
+    "same rays. Shadow rays and rays from mirrors are lists in which those of a light or a mirror "
+    "are marked as a pencil; both get the same list. The fastest mode is the one of the smallest "
+    "median."
 )
 _TRACES = (
     "**Which trace.** The ratios in the tables, and the targets, are of the first trace after a "
@@ -54,7 +56,7 @@ def comparison(runs: Sequence[Path], file: Path | None = None) -> list[Path] | s
     if not found:
         names = ", ".join(str(run) for run in runs)
         raise Problem(
-            f"{names}: no image has correct hits by both tile-beam and embree; measure "
+            f"{names}: no rays have correct hits by both tile-beam and embree; measure "
             "harness/bench/sweeps/beat-embree.json"
         )
     if file is None:
@@ -114,7 +116,7 @@ def _summary(found: Sequence[Pairing], part: float) -> str:
         outcome(one.ratio, part * group.targets[one.resolution])
         for group in groups()
         for one in found
-        if one.scene in group.scenes and one.resolution in group.targets
+        if group.holds(one)
     )
     return (
         f"Of {counts.total()} targets for single scenes, {counts['met']} are met, "
@@ -123,7 +125,7 @@ def _summary(found: Sequence[Pairing], part: float) -> str:
 
 
 def _group_table(group: Group, found: Sequence[Pairing], part: float) -> list[str]:
-    at = {(one.scene, one.resolution): one for one in found if one.scene in group.scenes}
+    at = {(one.scene, one.resolution): one for one in found if group.holds(one)}
     sizes = [size for size in group.targets if any(size == there for _, there in at)]
     if not sizes:
         return []
@@ -170,11 +172,12 @@ def _mean(group: Group, ratios: Sequence[Ratio], target: float | None) -> str:
 
 def _every(found: Sequence[Pairing]) -> list[str]:
     heads = (
-        "scene, resolution, samples, primitives, limited to, fastest mode, Embree ms, "
+        "rays, scene, resolution, samples, primitives, limited to, fastest mode, Embree ms, "
         "tile-beam ms, ratio, ratio of second traces, Embree's build ms, tile-beam's build ms"
     ).split(", ")
     rows = (
         (
+            one.kind,
             f"`{one.scene}`",
             one.resolution,
             f"{one.samples}",
@@ -190,7 +193,7 @@ def _every(found: Sequence[Pairing]) -> list[str]:
         )
         for one in found
     )
-    return ["## Every image", "", *markdown_table(heads, rows, (2, 3, *range(6, 12)))]
+    return ["## All rays", "", *markdown_table(heads, rows, (3, 4, *range(7, 13)))]
 
 
 def _text(ratio: Ratio, target: float | None = None) -> str:

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from beambench_report.base.published import primitives_by_scene
+from beambench_report.embree_comparison.pairings import MIRROR, PICTURE, PRIMARY, SHADOW, Pairing
 
 SMALL, MIDDLE, LARGE = "320x200", "1280x1024", "3840x2160"
 _HELD_TO_LESS = 0.5
@@ -16,7 +17,7 @@ SPHERES_ARE_WEAK = (
 
 @dataclass(frozen=True)
 class Group:
-    """Scenes that have one target at each resolution. A scene is in one group only."""
+    """Scenes that have one target at each resolution. A scene is in one group of a kind of rays."""
 
     title: str
     scenes: Mapping[str, str]
@@ -26,6 +27,12 @@ class Group:
     mean_targets: Mapping[str, float]
     """The same of the geometric mean of all scenes; empty where none is set."""
     note: str = ""
+    kind: str = PRIMARY
+    """Of the rays."""
+
+    def holds(self, one: Pairing) -> bool:
+        """Does this have a target here?"""
+        return one.kind == self.kind and one.scene in self.scenes and one.resolution in self.targets
 
 
 def part_of_targets(isa: str) -> float:
@@ -43,8 +50,8 @@ def groups() -> list[Group]:
                 "bumpy:triangles=15680": "bumpy, 16 k",
                 "bumpy:triangles=200000": "bumpy, 200 k",
                 "bumpy:triangles=1000000": "bumpy, 1 M",
-                "tessellated-balls:seed=1999,slices=16,spheres=430": "tessellated balls, 96 k",
-                "closed-room:detail=8": "closed room, 32 k",
+                _TESSELLATED: "tessellated balls, 96 k",
+                _ROOM: "closed room, 32 k",
             },
             {SMALL: 2.5, MIDDLE: 6, LARGE: 10},
             {SMALL: 7, MIDDLE: 12, LARGE: 15},
@@ -75,8 +82,71 @@ def groups() -> list[Group]:
             {"80x50": 0.7, "160x100": 0.7, SMALL: 0.7, MIDDLE: 3},
             {},
         ),
+        *_of_pencils(),
     ]
 
 
+def _of_pencils() -> list[Group]:
+    """Rays through one point that is not the eye, and pictures, which have them."""
+    return [
+        Group(
+            "Shadow rays, scenes of triangles",
+            {
+                "tetra:n=6": "tetra, 4 k",
+                _TESSELLATED: "tessellated balls, 96 k",
+                _ROOM: "closed room, 32 k",
+                "casa-de-campo": "casa-de-campo",
+                "ajedrez": "ajedrez",
+                "habitacion": "habitacion",
+                "teapot:n=12": "teapot",
+                "bumpy:triangles=200000": "bumpy, 200 k",
+            },
+            {SMALL: 1.5, MIDDLE: 2.5},
+            {SMALL: 2.5, MIDDLE: 4.5},
+            kind=SHADOW,
+        ),
+        Group(
+            "Shadow rays, scenes of spheres",
+            {_ESCENA1: "escena1", "balls:n=4": "balls", "shells:n=5": "shells"},
+            {SMALL: 3, MIDDLE: 6},
+            {},
+            SPHERES_ARE_WEAK,
+            SHADOW,
+        ),
+        Group(
+            "Rays from planar mirrors",
+            {"teapot:n=12": "teapot, 1 mirror"},
+            {SMALL: 2, MIDDLE: 4},
+            {},
+            kind=MIRROR,
+        ),
+        Group(
+            "Rays from small planar mirrors",
+            {"habitacion": "habitacion, 214 mirrors"},
+            {SMALL: 0.9, MIDDLE: 0.9},
+            {},
+            kind=MIRROR,
+        ),
+        Group(
+            "Whole pictures, without shading",
+            {
+                "finishes": "finishes",
+                "balls:n=3": "balls, 0.8 k",
+                "teapot:n=12": "teapot",
+                "habitacion": "habitacion",
+                "ajedrez": "ajedrez",
+                "casa-de-campo": "casa-de-campo",
+            },
+            {SMALL: 1.5, MIDDLE: 2.5},
+            {SMALL: 1.5, MIDDLE: 2.5},
+            "Primary, shadow, mirror and refracted rays, of which planar mirrors and lights make "
+            "pencils. The shading that is left out is measured once for each picture.",
+            PICTURE,
+        ),
+    ]
+
+
+_TESSELLATED = "tessellated-balls:seed=1999,slices=16,spheres=430"
+_ROOM = "closed-room:detail=8"
 _ESCENA1 = "escena1:seed=1999,spheres=430"
 _OF_SPHERES = {"escena2": "spheres and a polygon", "caracol": "spheres"}
