@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "accel/core/beam_place.hpp"
 #include "accel/core/hit_buffer.hpp"
 #include "accel/core/ray.hpp"
 #include "accel/core/ray_batch.hpp"
@@ -76,6 +77,10 @@ struct PencilQueries {
 };
 
 struct PencilKernels : PencilQueries<NoCounting>, PencilQueries<WorkCounters> {
+  /// Where the first rays toward the apex are when any_hits traces them (`note_places`); those that
+  /// it leaves undecided are not written.
+  AnsweredRays (*places)(const PencilRays&, PencilUnit& unit, std::span<BeamPlace> places);
+
   template <class Counting>
   const PencilQueries<Counting>& queries() const {
     return *this;

@@ -12,6 +12,8 @@
 #include <tbb/parallel_for.h>
 
 #include "accel/core/registry.hpp"
+#include "accel/tile_beam/pencil_places.hpp"
+#include "accel/tile_beam/tile_recorder.hpp"
 
 namespace beambench::accel::tile_beam {
 
@@ -100,6 +102,12 @@ void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
   for (const ThreadState<Counting>& state : states) counting.add(state.counting);
 }
 
+/// Of a sample of a tile.
+BeamPlace::Way way_of(const TileImage& image, const HandOverRecorder& recorder, std::size_t at) {
+  if (recorder.is_handed_over[at]) return BeamPlace::Way::kHandedOver;
+  return image.touched ? BeamPlace::Way::kInOrder : BeamPlace::Way::kBackground;
+}
+
 /// Pencils of fewer rays are traced singly: what a part costs at all is then more than is gained.
 constexpr std::size_t kLeastPencil = 128;
 
@@ -179,6 +187,53 @@ void TileBeam::trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
   with_counting(counters, [&](auto& counting) {
     trace_tiles(*kernels_, hierarchy_, *scene_, rays, true, buffer, counting);
   });
+}
+
+std::vector<BeamPlace> TileBeam::beam_places(const PrimaryRays& rays) const {
+  std::vector<BeamPlace> places(rays.count());
+  const HitBuffer numbers(rays.width(), rays.height(), rays.samples());
+  const TiledImage tiled(rays, hierarchy_.bounds);
+  const auto image = std::make_unique_for_overwrite<TileImage>();
+  std::uint32_t beam = 0;
+  const auto record = [&](const SampleRaster& raster, const TileView& view) {
+    HandOverRecorder recorder(TileImage::kSamples);
+    record_tile({hierarchy_, *scene_, rays, raster}, view, *image, recorder);
+    for (int y = 0; y < view.height; ++y) {
+      for (const SampleRaster::Place& place : raster.places) {
+        raster.for_each_of_row(
+            place, numbers, view.left, view.top + y, view.width, [&](int x, std::size_t index) {
+              const std::size_t at = TileImage::place(x, y);
+              const auto block = static_cast<std::uint32_t>((beam * TileImage::kSamples + at) /
+                                                            TileImage::kBlockSamples);
+              places[index] = {way_of(*image, recorder, at), 0, beam, block};
+            });
+      }
+    }
+    ++beam;
+  };
+  for (int number = 0; number < tiled.tiles(); ++number) tiled.for_each_of(number, record);
+  return places;
+}
+
+std::vector<BeamPlace> TileBeam::beam_places(const RayBatch& batch) const {
+  std::vector<BeamPlace> places(batch.rays.size());
+  const auto unit = std::make_unique_for_overwrite<PencilUnit>();
+  std::uint32_t part = 0;
+  for_each_pencil(
+      hierarchy_, *scene_, batch, true,
+      [&](const PencilRays& rays, std::size_t first) {
+        const std::span<BeamPlace> rest = std::span(places).subspan(first, rays.rays.size());
+        const AnsweredRays answered = pencil_kernels_->places(rays, *unit, rest);
+        for (BeamPlace& place : rest.first(answered.count)) {
+          if (place.way == BeamPlace::Way::kSingle) continue;
+          place.beam = part;
+          place.block += part * kBlocksOfPart;
+        }
+        ++part;
+        return answered.count;
+      },
+      [](std::size_t) {});
+  return places;
 }
 
 std::vector<ParameterInfo> TileBeam::parameters() {
