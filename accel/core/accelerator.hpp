@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "accel/core/beam_outline.hpp"
+#include "accel/core/beam_place.hpp"
 #include "accel/core/hit_buffer.hpp"
 #include "accel/core/overlap.hpp"
 #include "accel/core/primary_rays.hpp"
@@ -57,6 +58,10 @@ class [[gnu::visibility("default")]] Accelerator {
   /// The beams of an image in the order in which they are traced; empty where the structure has
   /// none.
   virtual std::vector<BeamOutline> beam_outlines(const PrimaryRays&) const { return {}; }
+  /// Where each ray of an image (as a HitBuffer numbers them) is when `trace` traces it, and each
+  /// ray of a batch when `any_hits` does; empty where the structure has no blocks of rays.
+  virtual std::vector<BeamPlace> beam_places(const PrimaryRays&) const { return {}; }
+  virtual std::vector<BeamPlace> beam_places(const RayBatch&) const { return {}; }
   /// The cells that hold references, in scene units; empty where the structure has no cells.
   virtual std::vector<Box> occupied_cells() const { return {}; }
 

@@ -1,6 +1,7 @@
 #include "accel/tile_beam/pencil_kernels.hpp"
 
 #include "accel/core/pick_target.hpp"
+#include "accel/tile_beam/pencil_places.hpp"
 
 // Highway includes this file once more for each instruction set.
 #undef HWY_TARGET_INCLUDE
@@ -115,6 +116,18 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, HitBuffer&
   return answered;
 }
 
+AnsweredRays places_of(const PencilRays& pencil, PencilUnit& unit, std::span<BeamPlace> places) {
+  return for_each_side<true>(
+      pencil, unit,
+      [&](const PencilPart& part, CubeSide side) {
+        HandOverRecorder recorder(PencilUnit::kBlocks * PencilUnit::kBlock);
+        PencilWalk<AnyHitPolicy, HandOverRecorder>(pencil.hierarchy, pencil.scene, part, side, unit,
+                                                   recorder)();
+        note_places(unit, side, recorder, places);
+      },
+      [](std::size_t) {});
+}
+
 template <class Counting>
 constexpr PencilQueries<Counting> pencil_queries() {
   return {any_hits<Counting>, closest_hits<Counting>};
@@ -127,7 +140,7 @@ inline std::size_t count_part(const PencilRays& pencil, PencilUnit& unit) {
 
 const PencilKernels& pencil_kernels() {
   static constexpr PencilKernels kKernels{pencil_queries<NoCounting>(),
-                                          pencil_queries<WorkCounters>(), count_part};
+                                          pencil_queries<WorkCounters>(), count_part, places_of};
   return kKernels;
 }
 

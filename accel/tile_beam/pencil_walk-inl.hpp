@@ -13,6 +13,7 @@
 #include <hwy/cache_control.h>
 
 #include "accel/core/intersect.hpp"
+#include "accel/tile_beam/hand_over.hpp"
 #include "accel/tile_beam/pencil_shapes-inl.hpp"
 #include "accel/tile_beam/ray_walk-inl.hpp"
 
@@ -262,8 +263,8 @@ class PencilWalk {
     inside &= unit_->alive[place];
     LaneBits hits = 0;
     for (LaneBits left = inside; left != 0; left &= left - 1) {
-      counting_->add("handed_over_rays");
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      note_handed_over(*counting_, block + lane);
       if (finds_below(entry.child, block + lane)) hits |= LaneBits{1} << lane;
     }
     changed_ |= note(place, hits);

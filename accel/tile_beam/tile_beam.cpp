@@ -12,6 +12,8 @@
 #include <tbb/parallel_for.h>
 
 #include "accel/core/registry.hpp"
+#include "accel/tile_beam/pencil_places.hpp"
+#include "accel/tile_beam/tile_recorder.hpp"
 
 namespace beambench::accel::tile_beam {
 
@@ -100,6 +102,12 @@ void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
   for (const ThreadState<Counting>& state : states) counting.add(state.counting);
 }
 
+/// Of a sample of a tile.
+BeamPlace::Way way_of(const TileImage& image, const HandOverRecorder& recorder, std::size_t at) {
+  if (recorder.is_handed_over[at]) return BeamPlace::Way::kHandedOver;
+  return image.touched ? BeamPlace::Way::kInOrder : BeamPlace::Way::kBackground;
+}
+
 /// Pencils of fewer rays are traced singly: what a part costs at all is then more than is gained.
 /// Rays toward an apex come from all that the picture shows; those away from one see what is in
 /// their mirror, which few leaves may hold.
@@ -130,17 +138,25 @@ std::vector<RayRange> ranges_of(const RayBatch& batch, bool toward) {
   return ranges;
 }
 
+/// A batch whose pencils this structure sees.
+struct SeenBatch {
+  const TileHierarchy& hierarchy;
+  const scenes::Scene& scene;
+  const RayBatch& batch;
+  PencilSamples samples{batch};
+
+  PencilRays pencil_rays(const RayRange& range) const {
+    return {hierarchy, scene, batch.rays.subspan(range.first, range.count),
+            samples.from(range.first), glm::vec3(range.pencil->apex)};
+  }
+};
+
 /// The rays of a batch as a query answers them.
 template <class Counting>
 class BatchQuery {
  public:
-  BatchQuery(const TileHierarchy& hierarchy, const scenes::Scene& scene,
-             const PencilKernels& kernels, const RayBatch& batch)
-      : hierarchy_(&hierarchy),
-        scene_(&scene),
-        kernels_(&kernels),
-        batch_(&batch),
-        samples_(batch) {}
+  BatchQuery(const SeenBatch& seen, const PencilKernels& kernels)
+      : seen_(&seen), kernels_(&kernels) {}
 
   /// `some(rays, first, unit, counting)` answers the first rays of those of a pencil, and
   /// `is_undecided(i)` tells whether it has left one to `single(i, counting)`, which answers all
@@ -153,7 +169,7 @@ class BatchQuery {
       for (RayRange left = range; left.count > 0;) {
         AnsweredRays answered{left.count, true};
         if (left.pencil != nullptr) {
-          answered = some(pencil_rays(left), left.first, *state.unit, state.counting);
+          answered = some(seen_->pencil_rays(left), left.first, *state.unit, state.counting);
         }
         for (std::size_t i = 0; answered.some_undecided && i < answered.count; ++i) {
           const std::size_t ray = left.first + i;
@@ -163,7 +179,7 @@ class BatchQuery {
         left.count -= answered.count;
       }
     };
-    const std::vector<RayRange> ranges = ranges_of(*batch_, toward);
+    const std::vector<RayRange> ranges = ranges_of(seen_->batch, toward);
     tbb::enumerable_thread_specific<State> states;
     if (parallel) {
       const std::vector<RayRange> parts = divide(ranges);
@@ -182,11 +198,6 @@ class BatchQuery {
     Counting counting;
   };
 
-  PencilRays pencil_rays(const RayRange& range) const {
-    return {*hierarchy_, *scene_, batch_->rays.subspan(range.first, range.count),
-            samples_.from(range.first), glm::vec3(range.pencil->apex)};
-  }
-
   /// Into what is answered at once.
   std::vector<RayRange> divide(std::span<const RayRange> ranges) const {
     constexpr std::size_t kSingleRays = 1024;
@@ -196,7 +207,7 @@ class BatchQuery {
       while (left.count > 0) {
         const std::size_t count = left.pencil == nullptr
                                       ? std::min(left.count, kSingleRays)
-                                      : kernels_->count_part(pencil_rays(left), *unit);
+                                      : kernels_->count_part(seen_->pencil_rays(left), *unit);
         parts.push_back({left.first, count, left.pencil});
         left.first += count;
         left.count -= count;
@@ -205,11 +216,8 @@ class BatchQuery {
     return parts;
   }
 
-  const TileHierarchy* hierarchy_;
-  const scenes::Scene* scene_;
+  const SeenBatch* seen_;
   const PencilKernels* kernels_;
-  const RayBatch* batch_;
-  PencilSamples samples_;
 };
 
 }  // namespace
@@ -217,8 +225,9 @@ class BatchQuery {
 void TileBeam::closest_hits(const RayBatch& batch, HitBuffer& buffer,
                             WorkCounters* counters) const {
   if (hierarchy_.empty()) return TraversalAccelerator::closest_hits(batch, buffer, counters);
+  const SeenBatch seen{hierarchy_, *scene_, batch};
   with_counting(counters, [&]<class Counting>(Counting& counting) {
-    BatchQuery<Counting>(hierarchy_, *scene_, *pencil_kernels_, batch)
+    BatchQuery<Counting>(seen, *pencil_kernels_)
         .answer(
             false, parallel_, counting,
             [&](const PencilRays& rays, std::size_t first, PencilUnit& unit, Counting& own) {
@@ -233,8 +242,9 @@ void TileBeam::closest_hits(const RayBatch& batch, HitBuffer& buffer,
 void TileBeam::any_hits(const RayBatch& batch, std::span<std::uint8_t> hits,
                         WorkCounters* counters) const {
   if (hierarchy_.empty()) return TraversalAccelerator::any_hits(batch, hits, counters);
+  const SeenBatch seen{hierarchy_, *scene_, batch};
   with_counting(counters, [&]<class Counting>(Counting& counting) {
-    BatchQuery<Counting>(hierarchy_, *scene_, *pencil_kernels_, batch)
+    BatchQuery<Counting>(seen, *pencil_kernels_)
         .answer(
             true, parallel_, counting,
             [&](const PencilRays& rays, std::size_t first, PencilUnit& unit, Counting& own) {
@@ -257,6 +267,55 @@ void TileBeam::trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
   with_counting(counters, [&](auto& counting) {
     trace_tiles(*kernels_, hierarchy_, *scene_, rays, true, buffer, counting);
   });
+}
+
+std::vector<BeamPlace> TileBeam::beam_places(const PrimaryRays& rays) const {
+  std::vector<BeamPlace> places(rays.count());
+  const HitBuffer numbers(rays.width(), rays.height(), rays.samples());
+  const TiledImage tiled(rays, hierarchy_.bounds);
+  const auto image = std::make_unique_for_overwrite<TileImage>();
+  std::uint32_t beam = 0;
+  const auto record = [&](const SampleRaster& raster, const TileView& view) {
+    HandOverRecorder recorder(TileImage::kSamples);
+    record_tile({hierarchy_, *scene_, rays, raster}, view, *image, recorder);
+    for (int y = 0; y < view.height; ++y) {
+      for (const SampleRaster::Place& place : raster.places) {
+        raster.for_each_of_row(
+            place, numbers, view.left, view.top + y, view.width, [&](int x, std::size_t index) {
+              const std::size_t at = TileImage::place(x, y);
+              const auto block = static_cast<std::uint32_t>((beam * TileImage::kSamples + at) /
+                                                            TileImage::kBlockSamples);
+              places[index] = {way_of(*image, recorder, at), 0, beam, block};
+            });
+      }
+    }
+    ++beam;
+  };
+  for (int number = 0; number < tiled.tiles(); ++number) tiled.for_each_of(number, record);
+  return places;
+}
+
+std::vector<BeamPlace> TileBeam::beam_places(const RayBatch& batch) const {
+  std::vector<BeamPlace> places(batch.rays.size());
+  if (hierarchy_.empty()) return places;
+  const SeenBatch seen{hierarchy_, *scene_, batch};
+  const auto unit = std::make_unique_for_overwrite<PencilUnit>();
+  std::uint32_t part = 0;
+  for (RayRange left : ranges_of(batch, true)) {
+    while (left.pencil != nullptr && left.count > 0) {
+      const std::span<BeamPlace> rest = std::span(places).subspan(left.first, left.count);
+      const std::size_t count = pencil_kernels_->places(seen.pencil_rays(left), *unit, rest).count;
+      for (BeamPlace& place : rest.first(count)) {
+        if (place.way == BeamPlace::Way::kSingle) continue;
+        place.beam = part;
+        place.block += part * kBlocksOfPart;
+      }
+      ++part;
+      left.first += count;
+      left.count -= count;
+    }
+  }
+  return places;
 }
 
 std::vector<ParameterInfo> TileBeam::parameters() {

@@ -49,6 +49,9 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
   void any_hits(const RayBatch& batch, std::span<std::uint8_t> hits,
                 WorkCounters* counters) const override;
 
+  std::vector<BeamPlace> beam_places(const PrimaryRays& rays) const override;
+  std::vector<BeamPlace> beam_places(const RayBatch& batch) const override;
+
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     if (hierarchy_.empty()) return std::nullopt;

@@ -13,6 +13,7 @@
 
 #include "accel/tile_beam/box_probe-inl.hpp"
 #include "accel/tile_beam/cone_raster-inl.hpp"
+#include "accel/tile_beam/hand_over.hpp"
 #include "accel/tile_beam/meshlet_raster-inl.hpp"
 #include "accel/tile_beam/ray_raster-inl.hpp"
 #include "accel/tile_beam/ray_walk-inl.hpp"
@@ -154,7 +155,7 @@ class TileWalk {
       for (int x = entry.where.left; x <= entry.where.right; ++x) {
         const std::size_t at = TileImage::place(x, y);
         if (image_->inverse_t[at] > entry.nearest) continue;
-        counting_->add("handed_over_rays");
+        note_handed_over(*counting_, at);
         Ray ray = rays_.at(x, y);
         ray.t_max = 1.0F / image_->inverse_t[at];
         const auto hit = closest_below(*hierarchy_, *scene_, entry.child, ray, *counting_);

@@ -17,6 +17,7 @@
 #include "harness/render/diagnostics.hpp"
 #include "harness/render/shading.hpp"
 #include "harness/render/shadows.hpp"
+#include "harness/render/structure_overlay.hpp"
 #include "scenes/catalogue.hpp"
 
 namespace beambench::cli {

@@ -24,6 +24,7 @@
 #include "harness/render/picture/image_file.hpp"
 #include "harness/render/picture/tone.hpp"
 #include "harness/render/shading.hpp"
+#include "harness/render/structure_overlay.hpp"
 #include "harness/render/whitted_picture.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
@@ -158,14 +159,14 @@ std::string exposed(const Request& request, render::Image& image) {
 
 /// Shades the hits and draws the overlay, with its legend in a PNG; returns remarks on the picture.
 std::string write_shaded(const Request& request, const accel::StructureChoice& choice,
-                         std::optional<render::Overlay> overlay,
+                         std::optional<render::OverlayChoice> overlay,
                          const accel::Accelerator& accelerator, const scenes::Scene& scene,
                          const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
                          base::Progress& progress) {
   render::Image image = shaded(request, choice, accelerator, scene, rays, hits, progress);
   const std::string remark = exposed(request, image);
   std::vector<render::LegendEntry> legend;
-  if (overlay) legend = render::draw_overlay(*overlay, image, accelerator, rays);
+  if (overlay) legend = render::draw_overlay(*overlay, image, accelerator, scene, rays);
   if (overlay && render::image_format(request.file) == render::ImageFormat::kPng) {
     const std::string title =
         fmt::format("{} of {}, {}", request.overlay, choice.short_label(), scene.name);
@@ -244,9 +245,10 @@ void render(const Request& request) {
     choose_one("--difference", request.difference);
   }
   const accel::StructureChoice choice = chosen_structure(request);
-  std::optional<render::Overlay> overlay;
+  std::optional<render::OverlayChoice> overlay;
   if (!request.overlay.empty()) overlay = render::parse_overlay(request.overlay, choice.info());
   const scenes::Scene scene = open_scene(request.scene);
+  if (overlay) render::require_light(*overlay, scene);
   const rays::ImageOfRays image = choose_image(scene, request.image);
   const accel::PrimaryRays rays = image.rays();
 
@@ -315,25 +317,29 @@ void add_render_command(CLI::App& app, int&) {
           ->excludes(heatmap)
           ->excludes(exposure);
   command
-      ->add_option("--overlay", request->overlay,
-                   "Over the dimmed shading: 'beams', their outlines, or 'cells', the occupied "
-                   "ones in perspective")
+      ->add_option(
+          "--overlay", request->overlay,
+          "Over the dimmed shading: 'beams', their outlines; 'cells', the occupied ones in "
+          "perspective; or 'pencils', the shadow rays of a light ('pencils:light=2': of "
+          "the second) as they are traced together")
       ->excludes(heatmap)
       ->excludes(difference);
   command->footer(
       "Counters for --heatmap: traversal_steps, leaves, empty_leaves, box_tests, primitive_tests,\n"
       "and a structure's own. A .png gets a legend; an .exr holds the counts beside linear float\n"
       "R, G, B, the depth Z and the primitive id (4294967295 for a miss). --difference colors\n"
-      "pixels by the classes of 'beambench verify --help'. --overlay beams colors those that end "
-      "at occupied leaves, those that\n"
-      "continue and those that leave the scene; --overlay cells leaves out what cells before them "
-      "hide.\n"
+      "pixels by the classes of 'beambench verify --help'.\n"
+      "--overlay beams colors those that end at occupied leaves, those that continue and those\n"
+      "that leave the scene; of tile-beam it draws tiles and their blocks of 4x4 samples.\n"
+      "--overlay cells leaves out what cells before them hide. --overlay pencils draws the parts\n"
+      "of a light's pencil and their blocks, in colors for the sides of a cube about the light.\n"
       "Examples:\n"
       "  beambench render escena1 -o escena1.png\n"
       "  beambench render balls -o from-above.png --from 0,0,5 --up 0,1,0 --angle 30\n"
       "  beambench render balls:n=3 --accel samet -o work.png --heatmap primitive_tests\n"
       "  beambench render tetra --accel embree:robust=false -o wrong.png --difference oracle\n"
       "  beambench render escena2 --accel beam:max_level=5 -o beams.png --overlay beams\n"
+      "  beambench render balls --accel tile-beam -o pencils.png --overlay pencils:light=2\n"
       "  beambench render balls --accel beam -o balls.png --shade whitted --samples 4\n"
       "  beambench render rings -o rings.png --shade whitted --exposure auto\n"
       "  beambench render tetra --accel embree -o tetra.exr --resolution 640x480 --samples 4");

@@ -1,5 +1,6 @@
 #include "harness/plugin/guarded_structure.hpp"
 
+#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -25,6 +26,19 @@ class GuardedStructure : public accel::Accelerator {
   std::optional<accel::Hit> checked(const std::optional<accel::Hit>& hit) const {
     if (hit) require_primitive(hit->primitive);
     return hit;
+  }
+  std::vector<accel::BeamPlace> checked(std::vector<accel::BeamPlace> places,
+                                        std::size_t rays) const {
+    const auto is_valid = [](const accel::BeamPlace& place) {
+      return place.way <= accel::BeamPlace::Way::kHandedOver &&
+             place.side < accel::BeamPlace::kSides;
+    };
+    if (!places.empty() && (places.size() != rays || !std::ranges::all_of(places, is_valid))) {
+      throw PluginError(
+          fmt::format("the plug-in {}: structure '{}' returned invalid places of rays in its beams",
+                      file_, name_));
+    }
+    return places;
   }
 
  public:
@@ -72,6 +86,12 @@ class GuardedStructure : public accel::Accelerator {
   }
   std::vector<accel::BeamOutline> beam_outlines(const accel::PrimaryRays& rays) const override {
     return call([&] { return structure_->beam_outlines(rays); });
+  }
+  std::vector<accel::BeamPlace> beam_places(const accel::PrimaryRays& rays) const override {
+    return checked(call([&] { return structure_->beam_places(rays); }), rays.count());
+  }
+  std::vector<accel::BeamPlace> beam_places(const accel::RayBatch& batch) const override {
+    return checked(call([&] { return structure_->beam_places(batch); }), batch.rays.size());
   }
   std::vector<accel::Box> occupied_cells() const override {
     return call([&] { return structure_->occupied_cells(); });

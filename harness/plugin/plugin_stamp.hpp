@@ -48,8 +48,8 @@ inline constexpr std::uint64_t kLayout = plugin_stamp::layout_of<
     scenes::Primitive, scenes::Sphere, scenes::Cone, scenes::Polygon, scenes::Triangle,
     scenes::Bounds, accel::Ray, accel::Pencil, accel::RayBatch, accel::Hit, accel::HitBuffer,
     accel::PrimaryRays, accel::WorkCounters, accel::Statistics, accel::TraceStep,
-    accel::BeamOutline, accel::Box, accel::Accelerator, accel::Workload, Parameters, ParameterInfo,
-    accel::StructureInfo, scenes::SceneInfo, scenes::SceneReader>();
+    accel::BeamOutline, accel::BeamPlace, accel::Box, accel::Accelerator, accel::Workload,
+    Parameters, ParameterInfo, accel::StructureInfo, scenes::SceneInfo, scenes::SceneReader>();
 
 #if defined(_LIBCPP_VERSION)
 inline constexpr const char* kLibrary = "libc++";

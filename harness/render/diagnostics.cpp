@@ -9,13 +9,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "harness/base/messages.hpp"
 #include "harness/render/picture/image_file.hpp"
 #include "harness/render/picture/legend.hpp"
-#include "harness/render/picture/overlay.hpp"
 #include "harness/render/shading.hpp"
 #include "harness/verify/verify_ray.hpp"
-#include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::render {
@@ -57,19 +54,6 @@ CategoryMap map_of(const std::vector<verify::DiffClass>& pixels, const ComparedN
                   {}};
   for (const verify::DiffClass diff_class : pixels) map.pixels.push_back(category_of(diff_class));
   return map;
-}
-
-constexpr std::array<std::string_view, 2> kNames{"beams", "cells"};
-
-/// Whether a structure has what the overlay draws, tried over a scene where it would show it.
-bool shows(const accel::StructureInfo& structure, Overlay overlay) {
-  const scenes::Scene scene = scenes::load_scene("tetra:n=1");
-  const accel::PrimaryRays rays(scene.cameras.front(), 8, 8, 1);
-  const auto accelerator = accel::registry().choose({structure.name, {}}).build(scene);
-  if (overlay == Overlay::kBeams) return !accelerator->beam_outlines(rays).empty();
-  accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
-  accelerator->trace(rays, hits, nullptr);  // cells may be made where rays pass
-  return !accelerator->occupied_cells().empty();
 }
 
 using Names = std::set<std::string, std::less<>>;
@@ -124,26 +108,6 @@ verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::Tra
     }
   }
   return {scene, input, std::move(hits)};
-}
-
-std::span<const std::string_view> overlay_names() { return kNames; }
-
-Overlay parse_overlay(std::string_view name, const accel::StructureInfo& structure) {
-  const auto overlay = static_cast<Overlay>(base::place_of_name("overlay", name, kNames));
-  if (shows(structure, overlay)) return overlay;
-  std::vector<std::string> able;
-  for (const accel::StructureInfo& info : accel::registry().structures()) {
-    if (shows(info, overlay)) able.push_back(info.name);
-  }
-  throw InputError(fmt::format("{} has no {} to draw with --overlay; structures that have: {}",
-                               structure.name, name, fmt::join(able, ", ")));
-}
-
-std::vector<LegendEntry> draw_overlay(Overlay overlay, Image& image,
-                                      const accel::Accelerator& accelerator,
-                                      const accel::PrimaryRays& rays) {
-  return overlay == Overlay::kBeams ? overlay_beams(image, accelerator.beam_outlines(rays))
-                                    : overlay_cells(image, rays, accelerator.occupied_cells());
 }
 
 HeatMap count_work(const accel::Accelerator& accelerator, const accel::PrimaryRays& rays,

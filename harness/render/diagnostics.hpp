@@ -1,6 +1,5 @@
 #pragma once
-// Pictures of what a structure does: where its hits differ from others, its beams or cells, its
-// work.
+// Pictures of what a structure does: where its hits differ from others, its work.
 
 #include <filesystem>
 #include <span>
@@ -33,23 +32,6 @@ void write_difference(const std::filesystem::path& file, const verify::Reference
 /// A structure's hits as reference; invalid hits count as misses.
 verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::TraceInput& input,
                                      const rays::TraceResults& results);
-
-enum class Overlay {
-  kBeams,  ///< `Accelerator::beam_outlines`
-  kCells   ///< `Accelerator::occupied_cells`
-};
-
-/// The names after --overlay, in the order of `Overlay`.
-std::span<const std::string_view> overlay_names();
-/// Throws InputError listing the valid names, or the structures that have such an overlay if this
-/// one does not. That is found by a trial over a small scene, not by the name.
-Overlay parse_overlay(std::string_view name, const accel::StructureInfo& structure);
-
-/// Draws over the picture of `rays`, once they have been traced: a grid that is filled by rays
-/// shows what they filled. Returns the legend.
-std::vector<LegendEntry> draw_overlay(Overlay overlay, Image& image,
-                                      const accel::Accelerator& accelerator,
-                                      const accel::PrimaryRays& rays);
 
 /// Traces each ray's closest hit with counters; a pixel's value is the mean of its samples. Hits go
 /// to `hits`. Throws InputError listing the counters of the structure if `counter` is none of them.

@@ -428,15 +428,21 @@ def test_a_heat_map_of_exhaustive_is_even_and_has_a_legend(tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize(
-    ("overlay", "names"),
-    [("beams", ["occupied", "non-terminal", "leaving"]), ("cells", ["occupied cells"])],
+    ("accel", "overlay", "names"),
+    [
+        ("beam:max_level=4", "beams", ["occupied", "non-terminal", "leaving"]),
+        ("beam:max_level=4", "cells", ["occupied cells"]),
+        ("tile-beam", "beams", ["tiles", "rays in blocks"]),
+        ("tile-beam", "pencils", ["parts", "rays in blocks, side [+-][xyz]"]),
+        ("tile-beam", "pencils:light=1", ["parts"]),
+    ],
 )
 @pytest.mark.parametrize("shading", ["preview", "depth"])
 def test_an_overlay_has_lines_in_colour_and_a_legend(
-    tmp_path: Path, overlay: str, names: list[str], shading: str
+    tmp_path: Path, accel: str, overlay: str, names: list[str], shading: str
 ) -> None:
     done = beambench(
-        *("render", "tetra:n=2", "--accel", "beam:max_level=4", "--overlay", overlay),
+        *("render", "tetra:n=2", "--accel", accel, "--overlay", overlay),
         *("--shade", shading, "-o", "over.png", "--resolution", "300x240"),
         cwd=tmp_path,
     )
@@ -449,6 +455,23 @@ def test_an_overlay_has_lines_in_colour_and_a_legend(
         legend = picture.crop((0, 240, 300, picture.height)).getcolors(300 * 240)
     assert any(red > blue + 100 for _, (red, _, blue) in colors)
     assert (240, 228, 66) in {color for _, color in legend}
+
+
+def test_the_overlay_of_a_pencil_has_the_shadow_rays_of_one_light(tmp_path: Path) -> None:
+    saved = output_of("rays", "teapot:n=4", "--rays", "shadow", "--json", "--resolution", "96x80")
+    rays = json.loads(saved)["rays"]
+    found = 0
+    for light in [1, 2]:
+        done = beambench(
+            *("render", "teapot:n=4", "--accel", "tile-beam", "-o", "over.png"),
+            *("--overlay", f"pencils:light={light}", "--resolution", "96x80"),
+            cwd=tmp_path,
+        )
+        assert done.returncode == 0, done.stderr
+        entries = re.findall(r"; ([^;:]+): (\d+)", done.stderr)
+        assert entries[0][0] == "parts"
+        found += sum(int(count) for _, count in entries[1:])
+    assert found == rays
 
 
 def test_an_overlay_as_exr_has_no_legend(tmp_path: Path) -> None:
@@ -924,9 +947,22 @@ WRONG_REQUESTS = [
     (["help", "rendr"], ["rendr", "render"]),
     (["list", "smet"], ["smet", "did you mean 'samet'"]),
     (["list", "samet", "--json"], ["--json"]),
-    ([*RENDER, "embree", "-o", "a.png", "--overlay", "beams"], ["embree", "beams", "beam"]),
+    (
+        [*RENDER, "embree", "-o", "a.png", "--overlay", "beams"],
+        ["embree", "beams", "beam, tile-beam"],
+    ),
     ([*RENDER, "embree", "-o", "a.png", "--overlay", "cells"], ["cells", "samet", "voxel-grid"]),
-    ([*RENDER, "beam", "-o", "a.png", "--overlay", "rays"], ["rays", "beams, cells"]),
+    ([*RENDER, "beam", "-o", "a.png", "--overlay", "rays"], ["rays", "beams, cells, pencils"]),
+    (
+        [*RENDER, "beam", "-o", "a.png", "--overlay", "pencils"],
+        ["beam has no pencils", "tile-beam"],
+    ),
+    ([*RENDER, "tile-beam", "-o", "a.png", "--overlay", "cells"], ["tile-beam", "cells", "samet"]),
+    (
+        [*RENDER, "tile-beam", "-o", "a.png", "--overlay", "pencils:light=99"],
+        ["tetra", "no light 99", "light is 1 ..."],
+    ),
+    ([*RENDER, "tile-beam", "-o", "a.png", "--overlay", "pencils:lamp=1"], ["lamp", "light"]),
     (
         [*RENDER, "beam", "-o", "a.png", "--overlay", "beams", "--heatmap", "leaves"],
         ["--heatmap", "--overlay"],

@@ -91,7 +91,11 @@ def test_bash_completes_names_and_leaves_files_to_the_shell(bash_words: str) -> 
     assert completed(bash_words, "render", "balls", "--accel", "sam")[0].startswith("samet")
     assert completed(bash_words, "scene", "tet") == ["tetera", "tetra"]
     assert completed(bash_words, "render", "balls", "--shade", "norm") == ["normals"]
-    assert completed(bash_words, "render", "balls", "--overlay", "") == ["beams", "cells"]
+    assert completed(bash_words, "render", "balls", "--overlay", "") == [
+        "beams",
+        "cells",
+        "pencils",
+    ]
     assert completed(bash_words, "render", "balls", "-o", "") == []
     assert completed(bash_words, "run", "") == []
     assert "complete -o default" in bash_words

@@ -435,6 +435,19 @@ def test_a_picture_of_it_fails_by_name(
         assert word in message
 
 
+@pytest.mark.parametrize("fault", ["places of too few rays", "a side of no cube"])
+def test_an_overlay_of_places_that_cannot_be_fails_by_name(
+    faulty: Path, tmp_path: Path, fault: str
+) -> None:
+    picture = tmp_path / "out.png"
+    done = call("--plugin", faulty, "render", "row", "--accel", "faulty", "-o", picture,
+                "--overlay", "beams", fault=fault)  # fmt: skip
+    assert done.returncode == 1, done.stderr
+    assert not picture.exists()
+    message = done.stderr.splitlines()[-1]
+    assert f"the plug-in {faulty}: structure 'faulty' returned invalid places" in message
+
+
 @pytest.mark.parametrize("fault", ["t is no number", "primitive out of range"])
 @pytest.mark.parametrize(
     "command",

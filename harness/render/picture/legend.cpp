@@ -192,6 +192,9 @@ const glm::vec3 kSkyBlue = linear_from_srgb(glm::vec3(86, 180, 233) / 255.0F);
 const glm::vec3 kYellow = linear_from_srgb(glm::vec3(240, 228, 66) / 255.0F);
 const glm::vec3 kBluishGreen = linear_from_srgb(glm::vec3(0, 158, 115) / 255.0F);
 const glm::vec3 kVermillion = linear_from_srgb(glm::vec3(213, 94, 0) / 255.0F);
+const glm::vec3 kOrange = linear_from_srgb(glm::vec3(230, 159, 0) / 255.0F);
+const glm::vec3 kBlue = linear_from_srgb(glm::vec3(0, 114, 178) / 255.0F);
+const glm::vec3 kReddishPurple = linear_from_srgb(glm::vec3(204, 121, 167) / 255.0F);
 }  // namespace okabe_ito
 
 Image with_legend(const Image& picture, const std::string& title,

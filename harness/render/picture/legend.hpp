@@ -40,13 +40,16 @@ struct LegendLayout {
 /// The picture, centered, above that many empty rows for a legend.
 Image above_legend(const Image& picture, const LegendLayout& layout, int height);
 
-/// Colors that people with any kind of color vision can distinguish: four of Okabe and
-/// Ito, "Color Universal Design", 2008. Linear light.
+/// Colors that people with any kind of color vision can distinguish: those of Okabe and
+/// Ito, "Color Universal Design", 2008, but black. Linear light.
 namespace okabe_ito {
 extern const glm::vec3 kSkyBlue;
 extern const glm::vec3 kYellow;
 extern const glm::vec3 kBluishGreen;
 extern const glm::vec3 kVermillion;
+extern const glm::vec3 kOrange;
+extern const glm::vec3 kBlue;
+extern const glm::vec3 kReddishPurple;
 }  // namespace okabe_ito
 
 /// A line of the legend.

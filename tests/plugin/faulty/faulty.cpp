@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <beambench/plugin.hpp>
 
@@ -66,6 +67,12 @@ class Faulty : public TraversalAccelerator<Faulty> {
   bool find_any(const Ray& ray, Counting& counting) const {
     return find_closest(ray, counting).has_value() != fault_is("any hit is the other way round");
   }
+  std::vector<BeamPlace> beam_places(const PrimaryRays& rays) const override {
+    if (fault_is("places of too few rays")) return std::vector<BeamPlace>(rays.count() - 1);
+    if (fault_is("a side of no cube")) return {rays.count(), BeamPlace{.side = 6}};
+    return {};
+  }
+  std::vector<BeamPlace> beam_places(const RayBatch&) const override { return {}; }
   Statistics statistics() const override {
     if (fault_is("throw in statistics")) throw std::runtime_error("never counted");
     return {};

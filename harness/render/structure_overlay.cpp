@@ -1,0 +1,129 @@
+#include "harness/render/structure_overlay.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <numeric>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "harness/base/messages.hpp"
+#include "harness/rays/ray_generators.hpp"
+#include "harness/render/picture/overlay.hpp"
+#include "harness/render/picture/place_overlay.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/core/error.hpp"
+
+namespace beambench::render {
+namespace {
+
+constexpr std::array<std::string_view, 3> kNames{"beams", "cells", "pencils"};
+
+std::vector<ParameterInfo> parameters_of(Overlay overlay) {
+  if (overlay != Overlay::kPencils) return {};
+  constexpr int kMostLights = 1'000'000;
+  return {integer_parameter("light", 1, 1, kMostLights, "whose shadow rays; the first is 1")};
+}
+
+/// Whether a structure has what the overlay draws, tried over a scene where it would show it.
+bool shows(const accel::StructureInfo& structure, Overlay overlay) {
+  const scenes::Scene scene = scenes::load_scene("tetra:n=1");
+  const accel::PrimaryRays rays(scene.cameras.front(), 8, 8, 1);
+  const auto accelerator = accel::registry().choose({structure.name, {}}).build(scene);
+  switch (overlay) {
+    case Overlay::kBeams:
+      return !accelerator->beam_outlines(rays).empty() || !accelerator->beam_places(rays).empty();
+    case Overlay::kCells: {
+      accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
+      accelerator->trace(rays, hits, nullptr);  // cells may be made where rays pass
+      return !accelerator->occupied_cells().empty();
+    }
+    case Overlay::kPencils: {
+      const accel::Ray ray = rays.ray(0, 0, 0);
+      return !accelerator->beam_places(accel::RayBatch{{&ray, 1}}).empty();
+    }
+  }
+  return false;
+}
+
+std::vector<LegendEntry> draw_beams(Image& picture, const accel::Accelerator& accelerator,
+                                    const accel::PrimaryRays& rays) {
+  const std::vector<accel::BeamPlace> places = accelerator.beam_places(rays);
+  if (places.empty()) return overlay_beams(picture, accelerator.beam_outlines(rays));
+  std::vector<std::uint32_t> samples(places.size());
+  std::iota(samples.begin(), samples.end(), 0U);
+  return overlay_tiles(picture, {places, samples, rays.samples()});
+}
+
+/// The pencil of one light among the shadow rays of a picture. It has none where no hit faces the
+/// light.
+std::vector<LegendEntry> draw_pencil(Image& picture, const accel::Accelerator& accelerator,
+                                     const scenes::Scene& scene, const accel::PrimaryRays& rays,
+                                     const scenes::Light& light) {
+  const rays::RayList shadows =
+      rays::shadow_rays(scene, rays::in_picture_order(rays::surface_points(scene, rays), rays));
+  const auto pencil =
+      std::ranges::find(shadows.pencils, glm::dvec3(light.position), &accel::Pencil::apex);
+  if (pencil == shadows.pencils.end()) return overlay_pencil(picture, {{}, {}, rays.samples()});
+  const accel::RayBatch all = shadows.batch();
+  const accel::Pencil alone{0, pencil->count, pencil->apex, pencil->toward};
+  const accel::RayBatch batch{all.rays.subspan(pencil->first, pencil->count),
+                              {&alone, 1},
+                              all.samples.subspan(pencil->first, pencil->count),
+                              &rays};
+  return overlay_pencil(picture, {accelerator.beam_places(batch), batch.samples, rays.samples()});
+}
+
+}  // namespace
+
+std::span<const std::string_view> overlay_names() { return kNames; }
+
+OverlayChoice parse_overlay(std::string_view text, const accel::StructureInfo& structure) {
+  const Spec spec = parse_spec(text);
+  const auto overlay = static_cast<Overlay>(base::place_of_name("overlay", spec.name, kNames));
+  const Parameters parameters(spec.name, parameters_of(overlay), spec.parameters);
+  if (shows(structure, overlay)) {
+    OverlayChoice choice{overlay};
+    if (overlay == Overlay::kPencils) {
+      choice.light = static_cast<std::size_t>(parameters.integer("light"));
+    }
+    return choice;
+  }
+  std::vector<std::string> able;
+  for (const accel::StructureInfo& info : accel::registry().structures()) {
+    if (shows(info, overlay)) able.push_back(info.name);
+  }
+  throw InputError(fmt::format("{} has no {} to draw with --overlay; structures that have: {}",
+                               structure.name, spec.name, fmt::join(able, ", ")));
+}
+
+void require_light(const OverlayChoice& choice, const scenes::Scene& scene) {
+  if (choice.overlay != Overlay::kPencils || choice.light <= scene.lights.size()) return;
+  if (scene.lights.empty()) {
+    throw InputError(fmt::format(
+        "scene '{}' has no lights, so it has no pencils of shadow rays to draw with --overlay; add "
+        "an 'l' line to its file",
+        scene.name));
+  }
+  throw InputError(
+      fmt::format("scene '{}' has no light {} to draw with --overlay; light is 1 ... {}",
+                  scene.name, choice.light, scene.lights.size()));
+}
+
+std::vector<LegendEntry> draw_overlay(const OverlayChoice& choice, Image& picture,
+                                      const accel::Accelerator& accelerator,
+                                      const scenes::Scene& scene, const accel::PrimaryRays& rays) {
+  switch (choice.overlay) {
+    case Overlay::kBeams:
+      return draw_beams(picture, accelerator, rays);
+    case Overlay::kCells:
+      return overlay_cells(picture, rays, accelerator.occupied_cells());
+    case Overlay::kPencils:
+      return draw_pencil(picture, accelerator, scene, rays, scene.lights[choice.light - 1]);
+  }
+  return {};
+}
+
+}  // namespace beambench::render

@@ -1,0 +1,43 @@
+#pragma once
+// What a structure is made of, or how it traces, drawn over a picture: its beams or cells.
+
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "accel/core/registry.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "harness/render/picture/image.hpp"
+#include "harness/render/picture/legend.hpp"
+
+namespace beambench::render {
+
+enum class Overlay {
+  kBeams,   ///< `Accelerator::beam_outlines`, or `beam_places` of the image's rays
+  kCells,   ///< `Accelerator::occupied_cells`
+  kPencils  ///< `Accelerator::beam_places` of a light's shadow rays
+};
+
+/// The names after --overlay, in the order of `Overlay`.
+std::span<const std::string_view> overlay_names();
+
+struct OverlayChoice {
+  Overlay overlay;
+  std::size_t light = 1;  ///< whose pencil is drawn; the scene's first is 1
+};
+
+/// `beams`, `pencils:light=2`. Throws InputError listing the valid names or parameters, or the
+/// structures that have such an overlay if this one does not. That is found by a trial over a small
+/// scene, not by the name.
+OverlayChoice parse_overlay(std::string_view text, const accel::StructureInfo& structure);
+
+/// Throws InputError where the scene has not as many lights.
+void require_light(const OverlayChoice& choice, const scenes::Scene& scene);
+
+/// Draws over the picture of an image, once it has been traced: a grid that is filled by rays
+/// shows what they filled. Returns the legend.
+std::vector<LegendEntry> draw_overlay(const OverlayChoice& choice, Image& picture,
+                                      const accel::Accelerator& accelerator,
+                                      const scenes::Scene& scene, const accel::PrimaryRays& rays);
+
+}  // namespace beambench::render
