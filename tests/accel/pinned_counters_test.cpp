@@ -10,10 +10,20 @@
 #include <gtest/gtest.h>
 
 #include "accel/core/registry.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "harness/rays/trace_results.hpp"
 #include "scenes/catalogue.hpp"
 
 namespace beambench::accel {
 namespace {
+
+std::map<std::string, std::uint64_t> work_of(const WorkCounters& counters) {
+  std::map<std::string, std::uint64_t> work;
+  for (const auto& [name, count] : counters.by_name()) {
+    if (count != 0) work[name] = count;
+  }
+  return work;
+}
 
 /// What 64x64 primary rays cost.
 struct Row {
@@ -31,18 +41,17 @@ TEST_P(PinnedWork, IsUnchanged) {
   HitBuffer buffer(64, 64, 1);
   WorkCounters counters;
   structure->trace(PrimaryRays(scene.cameras.front(), 64, 64, 1), buffer, &counters);
-  std::map<std::string, std::uint64_t> work;
-  for (const auto& [name, count] : counters.by_name()) {
-    if (count != 0) work[name] = count;
-  }
-  EXPECT_EQ(work, row.work);
+  EXPECT_EQ(work_of(counters), row.work);
 }
 
-std::string row_name(const ::testing::TestParamInfo<Row>& info) {
-  std::string name = std::string(info.param.structure) + '_' + info.param.scene;
+std::string test_name(std::string name) {
   std::replace_if(
       name.begin(), name.end(), [](char c) { return !std::isalnum(c); }, '_');
   return name;
+}
+
+std::string row_name(const ::testing::TestParamInfo<Row>& info) {
+  return test_name(std::string(info.param.structure) + '_' + info.param.scene);
 }
 
 // clang-format off
@@ -78,6 +87,42 @@ INSTANTIATE_TEST_SUITE_P(Structures, PinnedWork, ::testing::Values(
     Row{"sah-bvh", "balls:n=4", {{"box_tests", 100'175}, {"confirmed_tests", 4'263}, {"leaves", 6'586}, {"primitive_tests", 27'963}, {"traversal_steps", 20'028}}},
     Row{"sah-bvh", "escena1", {{"box_tests", 58'338}, {"confirmed_tests", 2'084}, {"leaves", 5'503}, {"primitive_tests", 42'366}, {"traversal_steps", 13'234}}}
   ), row_name);
+// clang-format on
+
+/// What tile-beam's pencils cost that 128x128 primary rays send on. With SSE4, which every machine
+/// has: others multiply and add with one rounding, which decides some bounds the other way.
+struct PencilRow {
+  const char* kind;
+  const char* scene;
+  std::map<std::string, std::uint64_t> work;  ///< counters that are not 0
+};
+
+class PinnedPencilWork : public ::testing::TestWithParam<PencilRow> {};
+
+TEST_P(PinnedPencilWork, IsUnchanged) {
+  const PencilRow& row = GetParam();
+  const scenes::Scene scene = scenes::load_scene(row.scene);
+  const auto structure = registry().choose(parse_spec("tile-beam:isa=sse4")).build(scene);
+  const auto image = rays::image_of(scene.cameras.front(), rays::Resolution{128, 128}, 1);
+  const auto input = rays::make_trace_input(scene, image, rays::parse_ray_choice(row.kind));
+  rays::TraceResults results = rays::make_results(input);
+  WorkCounters counters;
+  rays::trace(*structure, input, results, &counters);
+  EXPECT_EQ(work_of(counters), row.work);
+}
+
+std::string pencil_row_name(const ::testing::TestParamInfo<PencilRow>& info) {
+  return test_name(std::string(info.param.kind) + '_' + info.param.scene);
+}
+
+// clang-format off
+INSTANTIATE_TEST_SUITE_P(TileBeam, PinnedPencilWork, ::testing::Values(
+    PencilRow{"shadow", "teapot:n=3", {{"beams", 11}, {"box_tests", 272}, {"leaves", 115}, {"primitive_tests", 85'280}, {"traversal_steps", 161}}},
+    PencilRow{"mirror", "teapot:n=3", {{"beams", 6}, {"box_tests", 166}, {"leaves", 68}, {"primitive_tests", 24'972}, {"traversal_steps", 99}}},
+    PencilRow{"shadow", "closed-room:detail=4", {{"beams", 25}, {"box_tests", 41'173}, {"handed_over_rays", 1037}, {"leaves", 1156}, {"primitive_tests", 348'510}, {"traversal_steps", 5147}}},
+    PencilRow{"mirror", "closed-room:detail=4", {{"beams", 13}, {"box_tests", 150'579}, {"handed_over_rays", 379}, {"leaves", 8603}, {"primitive_tests", 252'787}, {"traversal_steps", 22'959}}},
+    PencilRow{"shadow", "balls:n=2", {{"beams", 22}, {"box_tests", 164}, {"leaves", 106}, {"primitive_tests", 80'896}, {"traversal_steps", 144}}}
+  ), pencil_row_name);
 // clang-format on
 
 }  // namespace

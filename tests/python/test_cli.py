@@ -400,6 +400,17 @@ def test_the_camera_says_the_size_where_nobody_else_does(tmp_path: Path) -> None
         assert picture.size == (8, 8)
 
 
+# Every wall of this room is a mirror, and so the light goes from wall to wall as often as it may.
+def test_a_whole_picture_by_beams_is_that_of_single_rays(tmp_path: Path) -> None:
+    render = ("render", "closed-room", "--shade", "whitted", "--resolution", "160x120")
+    pictures = {}
+    for structure in ("beam", "samet"):
+        picture = tmp_path / f"{structure}.exr"  # all bits of the light
+        output_of(*render, "--accel", structure, "-o", picture)
+        pictures[structure] = picture.read_bytes()
+    assert pictures["beam"] == pictures["samet"]
+
+
 @pytest.mark.parametrize("shading", ["preview", "normals", "id", "depth", "whitted"])
 def test_every_structure_draws_the_same_picture(tmp_path: Path, shading: str) -> None:
     pictures = []

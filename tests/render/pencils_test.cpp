@@ -2,6 +2,14 @@
 
 #include "harness/render/pencils.hpp"
 
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
 #include <gtest/gtest.h>
 
 #include "harness/rays/fingerprint.hpp"
@@ -197,6 +205,85 @@ TEST(Pencils, ChangeNothingThatAPictureDependsOn) {
       }
     }
   }
+}
+
+/// A picture by a structure, and the work of the rays that follow camera rays.
+struct Worked {
+  WhittedPicture picture;
+  std::map<std::string, std::uint64_t, std::less<>> work;
+};
+
+Worked drawn(const scenes::Scene& scene, const char* spec, const WhittedOptions& options) {
+  const auto structure = built(scene, spec);
+  const accel::PrimaryRays image(scene.cameras.front(), 100, 70, 1);
+  accel::HitBuffer hits(100, 70, 1);
+  structure->trace(image, hits, nullptr);
+  accel::WorkCounters counters;
+  const CountedQueries counted(*structure, counters);
+  const Whitted tracer(scene, counted, options);
+  WhittedPicture picture = whitted_picture(tracer, image, hits, {}, 1);
+  return {std::move(picture), counters.by_name()};
+}
+
+// The thesis's beams through mirrors that mirrors show: the picture of single rays, bit for bit.
+TEST(Pencils, AreBeamsOfAnyDepth) {
+  const scenes::Scene scene = mirror_room();
+  std::uint64_t beams_before = 0;
+  for (int depth = 1; depth <= 5; ++depth) {
+    SCOPED_TRACE(depth);
+    const WhittedOptions options{.max_depth = depth};
+    const Worked beams = drawn(scene, "beam", options);
+    const Worked single = drawn(scene, "samet", options);
+    expect_same_bits(beams.picture.image, single.picture.image);
+    EXPECT_EQ(beams.picture.census, single.picture.census);
+    const std::uint64_t count = beams.work.contains("beams") ? beams.work.at("beams") : 0;
+    EXPECT_EQ(count > beams_before, depth > 1) << count << " beams, before " << beams_before;
+    beams_before = count;
+    EXPECT_FALSE(single.work.contains("beams"));
+  }
+}
+
+/// How many pixels a viewer could tell apart.
+int visibly_different(const Image& a, const Image& b) {
+  int count = 0;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) {
+      const glm::vec3 apart = glm::abs(a.at(x, y) - b.at(x, y));
+      count += std::max({apart.x, apart.y, apart.z}) > 1.0F / 255.0F ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+// A structure whose pencils are right within tolerance sends other rays on, and so each of its
+// pictures is verified by its own rays. They differ where rays graze edges, here and there.
+TEST(Pencils, OfTolerantStructuresGiveTheSamePictureButForGrazes) {
+  std::vector<scenes::Scene> all;
+  all.push_back(mirror_room());
+  for (const char* name : {"teapot:n=3", "closed-room", "casa-de-campo"}) {
+    all.push_back(scenes::load_scene(name));
+  }
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) all.push_back(scene_of_all_surfaces(seed));
+  int scenes_with_beams = 0;
+  for (const scenes::Scene& scene : all) {
+    SCOPED_TRACE(scene.name);
+    const accel::PrimaryRays image(scene.cameras.front(), 100, 70, 1);
+    const auto structure = built(scene, "tile-beam");
+    accel::WorkCounters counters;
+    const RecordedPicture marked = recorded(scene, CountedQueries(*structure, counters), image);
+    const RecordedPicture unmarked = recorded(scene, Unmarked(*structure), image);
+    scenes_with_beams += counters.by_name().contains("beams") ? 1 : 0;
+    const int different = visibly_different(marked.image, unmarked.image);
+    EXPECT_LE(different, 2);  // the differ's budget for so few rays
+    const verify::ReferenceHits primary(scene, image);
+    for (const RecordedPicture& picture : {marked, unmarked}) {
+      const auto verified =
+          verify_recorded_picture(primary, picture, accel::Conformance::kTolerance);
+      for (const std::string& wrong : described_examples(scene, verified)) ADD_FAILURE() << wrong;
+      EXPECT_EQ(sum_of(verified).verdict, verify::Verdict::kOk);
+    }
+  }
+  EXPECT_GE(scenes_with_beams, 6);
 }
 
 // Nor do they change the order in which the light of a sample is summed.

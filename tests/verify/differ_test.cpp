@@ -353,6 +353,130 @@ TEST_F(Grazing, IsWithinOneToleranceOfARim) {
   EXPECT_EQ(missing(4.5, 1.0 - 2.0 * kUnit, 2), std::nullopt);
 }
 
+/// Rays that begin or end at a chosen distance from a surface's tangent plane, in units of K u.
+class EndsAtASurface : public ::testing::Test {
+ protected:
+  /// Of each kind of primitive, a place on it where its normal is +z.
+  struct Place {
+    const char* kind;
+    glm::dvec3 point;
+  };
+  static constexpr Place kPlaces[] = {
+      {"triangle", {0.25, 0.125, 0.0}}, {"sphere", {-2.0, 0.0, 1.0}}, {"cone", {4.0, 0.25, 1.0}}};
+  /// Where a ray begins or ends, and how.
+  enum class End { kOrigin, kTMin, kTMax };
+
+  static scenes::Scene make_scene() {
+    scenes::SceneBuilder builder("ends");
+    const glm::dvec3 corners[] = {{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+    builder.add_polygon(corners);
+    builder.add_sphere({-2.0, 0.0, 0.0}, 1.0);
+    builder.add_cone({4.0, -1.0, 0.0}, 1.0, {4.0, 1.0, 0.0}, 1.0);
+    const glm::dvec3 ceiling[] = {
+        {-9.0, -9.0, 3.0}, {9.0, -9.0, 3.0}, {9.0, 9.0, 3.0}, {-9.0, 9.0, 3.0}};
+    builder.add_polygon(ceiling);
+    return std::move(builder).build();
+  }
+
+  /// A ray above the surface but for one of its ends, at a plane distance (in K u, upward) from the
+  /// place, sloping so that it ends at twice the distance along its line.
+  accel::Ray ray_at(const Place& place, End end, double tolerances, double length = 0.5) const {
+    const glm::dvec3 slope(std::sqrt(0.75), 0.0, 0.5);
+    const glm::dvec3 above = place.point + length * slope;
+    const glm::dvec3 below = place.point - length * slope;
+    // The tolerance depends on the origin, so a first ray without an offset finds it.
+    double offset = 0.0;
+    accel::Ray ray;
+    for (int turn = 0; turn < 2; ++turn) {
+      const glm::dvec3 up(0.0, 0.0, offset);
+      ray.origin = glm::vec3(up + (end == End::kOrigin ? place.point
+                                   : end == End::kTMin ? below
+                                                       : above));
+      const glm::dvec3 target = up + (end == End::kTMax ? place.point : above);
+      ray.direction = glm::vec3(target - glm::dvec3(ray.origin));
+      ray.t_min = end == End::kTMin ? 0.5F : 0.0F;
+      ray.t_max = 1.0F;
+      offset = tolerances * tolerance(scene_, ray.origin);
+    }
+    return ray;
+  }
+
+  Mismatch verified(const accel::Ray& ray, bool answer) const {
+    rays::RaySet set;
+    set.rays = {ray};
+    set.query = rays::Query::kAnyHit;
+    const rays::TraceInput input(std::move(set));
+    const accel::embree::EmbreeOracle oracle(scene_, 100.0);
+    Mismatch found =
+        candidate_mismatch(input, rays::AnyHits{static_cast<std::uint8_t>(answer ? 1 : 0)}, 0,
+                           oracle.closest_hit(ray));
+    verify_ray(scene_, accel::Conformance::kTolerance, found);
+    return found;
+  }
+
+  /// At some distance, with a structure that answers wrongly.
+  void expect_class(double tolerances, DiffClass expected) const {
+    for (const Place& place : kPlaces) {
+      for (const End end : {End::kOrigin, End::kTMin, End::kTMax}) {
+        SCOPED_TRACE(std::string(place.kind) + ", end " + std::to_string(static_cast<int>(end)));
+        const accel::Ray ray = ray_at(place, end, tolerances);
+        const bool is_hit = exact_closest_hit(scene_, ray).has_value();
+        ASSERT_EQ(is_hit, tolerances < 0.0);
+        EXPECT_EQ(verified(ray, is_hit).diff_class, DiffClass::kAgree);
+        const Mismatch found = verified(ray, !is_hit);
+        EXPECT_EQ(found.diff_class, expected) << found.reason;
+      }
+    }
+  }
+
+  scenes::Scene scene_ = make_scene();
+};
+
+TEST_F(EndsAtASurface, AnyHitReportedJustBeyondAnEndIsAGraze) {
+  expect_class(0.1, DiffClass::kGraze);
+  expect_class(0.9, DiffClass::kGraze);
+}
+
+TEST_F(EndsAtASurface, AnyHitReportedFartherBeyondIsAnError) {
+  expect_class(1.1, DiffClass::kStructureError);
+  expect_class(10.0, DiffClass::kStructureError);
+}
+
+TEST_F(EndsAtASurface, AnyHitLostJustBeforeAnEndIsAGraze) {
+  expect_class(-0.1, DiffClass::kGraze);
+  expect_class(-0.9, DiffClass::kGraze);
+}
+
+TEST_F(EndsAtASurface, AnyHitLostFartherBeforeIsAnError) {
+  expect_class(-1.1, DiffClass::kStructureError);
+  expect_class(-10.0, DiffClass::kStructureError);
+}
+
+// What is beyond an end excuses no hit on the way, nor does what is beyond the other end.
+TEST_F(EndsAtASurface, AnotherHitThatIsLostIsAnError) {
+  for (const Place& place : kPlaces) {
+    SCOPED_TRACE(place.kind);
+    for (const double tolerances : {0.5, -0.5}) {
+      const accel::Ray through_ceiling = ray_at(place, End::kTMax, tolerances, 7.0);
+      ASSERT_TRUE(exact_closest_hit(scene_, through_ceiling).has_value());
+      EXPECT_EQ(verified(through_ceiling, false).diff_class, DiffClass::kStructureError);
+      EXPECT_EQ(verified(through_ceiling, true).diff_class, DiffClass::kAgree);
+    }
+  }
+}
+
+// Within K u of the plane and in the box, but beside the triangle.
+TEST_F(EndsAtASurface, AnyHitReportedBesideATriangleIsAnError) {
+  const Place beside{"beside", {0.75, 0.75, 0.0}};
+  for (const End end : {End::kOrigin, End::kTMin, End::kTMax}) {
+    for (const double tolerances : {0.5, -0.5}) {
+      const accel::Ray ray = ray_at(beside, end, tolerances);
+      ASSERT_FALSE(exact_closest_hit(scene_, ray).has_value());
+      EXPECT_EQ(verified(ray, true).diff_class, DiffClass::kStructureError);
+    }
+  }
+}
+
 TEST(GrazeBudget, IsTwoForASmallImage) {
   // The middle column of pixels looks exactly along an edge of a triangle: a structure may see it
   // there or not.

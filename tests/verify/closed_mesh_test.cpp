@@ -1,0 +1,264 @@
+// Closed meshes leak no light: each shadow ray between inside and outside is stopped, as a pencil.
+
+#include <algorithm>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include "accel/tile_beam/tile_beam.hpp"
+#include "harness/rays/ray_set.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/core/portable_math.hpp"
+#include "scenes/core/random.hpp"
+#include "scenes/modelling/add_mesh.hpp"
+#include "scenes/modelling/box.hpp"
+#include "scenes/modelling/parametric_surface.hpp"
+#include "scenes/modelling/subdivide.hpp"
+#include "scenes/scene_builder.hpp"
+#include "tests/only_target.hpp"
+#include "tests/random_scene.hpp"
+
+namespace beambench::verify {
+namespace {
+
+using accel::tile_beam::TileBeam;
+using glm::dvec3;
+using scenes::modelling::PolygonMesh;
+
+/// A closed mesh of triangles about the origin.
+struct Body {
+  std::string name;
+  PolygonMesh mesh;
+  double clearance;  ///< balls of this radius about `middles` are inside
+  std::vector<dvec3> middles{dvec3(0.0)};
+  double reach = 0.0;  ///< of the farthest vertex
+};
+
+PolygonMesh tetrahedron() {
+  return {{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}},
+          {{0, 1, 2}, {0, 3, 1}, {0, 2, 3}, {1, 3, 2}}};
+}
+
+PolygonMesh bumpy(const char* name) {
+  const scenes::Scene scene = scenes::load_scene(name);
+  PolygonMesh mesh;
+  for (const glm::vec3& vertex : scene.vertices) mesh.vertices.emplace_back(vertex);
+  for (const scenes::Triangle& triangle : scene.triangles) {
+    mesh.polygons.emplace_back(triangle.vertex.begin(), triangle.vertex.end());
+  }
+  return mesh;
+}
+
+constexpr int kTorusSlices = 24;
+
+/// On a ring about z of radius 1, itself of radius `thickness`.
+dvec3 torus_point(double u, double v, double thickness) {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double radius = 1.0 + thickness * portable_cos(kTurn * v);
+  return {radius * portable_cos(kTurn * u), radius * portable_sin(kTurn * u),
+          thickness * portable_sin(kTurn * v)};
+}
+
+std::vector<Body> bodies() {
+  std::vector<Body> all{
+      {"tetrahedron", tetrahedron(), 0.4},
+      {"box", scenes::modelling::box(dvec3(-1.0), dvec3(1.0)), 0.9},
+      {"divided box",
+       scenes::modelling::subdivided_to(scenes::modelling::box(dvec3(-1.0), dvec3(1.0)), 96), 0.9},
+      {"flat box", scenes::modelling::box({-1.0, -0.7, -0.01}, {1.0, 0.7, 0.01}), 0.005},
+      {"ball", scenes::modelling::ellipsoid(dvec3(1.0), 16, 10), 0.8},
+      {"needle", scenes::modelling::ellipsoid({0.03, 0.03, 1.0}, 12, 8), 0.02},
+      {"bumpy, coarse", bumpy("bumpy:triangles=48"), 0.3},
+      {"bumpy", bumpy("bumpy:triangles=300"), 0.3}};
+  Body torus{"torus",
+             scenes::modelling::parametric_surface(
+                 [](double u, double v) { return torus_point(u, v, 0.4); }, kTorusSlices, 10),
+             0.25,
+             {}};
+  for (int i = 0; i < kTorusSlices; ++i) {
+    torus.middles.push_back(torus_point((i + 0.5) / kTorusSlices, 0.0, 0.0));
+  }
+  all.push_back(std::move(torus));
+  for (Body& body : all) {
+    body.mesh = scenes::modelling::triangulated(body.mesh);
+    for (const dvec3& vertex : body.mesh.vertices) {
+      body.reach = std::max(body.reach, glm::length(vertex));
+    }
+  }
+  return all;
+}
+
+dvec3 direction_from(Random& random) { return glm::normalize(point_in_cube(random)); }
+
+/// Turned, scaled and moved; now and then only moved, so that faces have the world's axes.
+struct Placement {
+  explicit Placement(Random& random) {
+    if (random.below(4) == 0) return;
+    turn = glm::normalize(glm::dquat(random.uniform(-1.0, 1.0), point_in_cube(random)));
+    scale = portable_exp(random.uniform(-5.0, 5.0));
+    shift = scale * 5.0 * point_in_cube(random);
+  }
+  dvec3 operator()(const dvec3& point) const { return shift + scale * (turn * point); }
+
+  glm::dquat turn = glm::identity<glm::dquat>();
+  double scale = 1.0;
+  dvec3 shift{0.0};
+};
+
+/// Rays between a light and points: one of them is inside of a body, the other outside.
+class Sealed {
+ public:
+  Sealed(const Body& body, std::uint64_t seed)
+      : body_(&body), random_(seed), placement_(random_), scene_(placed()) {}
+
+  static constexpr std::size_t kRays = 160;
+  /// Where half of the rays to a light inside pass; all others run anywhere.
+  enum class Aim { kNearEdges, kAtEdgesAndCorners };
+
+  const scenes::Scene& scene() const { return scene_; }
+
+  rays::RayList rays(bool light_inside, Aim aim) {
+    const dvec3 light = light_inside ? inside() : outside();
+    const glm::vec3 apex(placement_(light));
+    rays::RayList list;
+    for (std::size_t i = 0; i < kRays; ++i) {
+      const dvec3 point = !light_inside ? inside()
+                          : i % 2 == 0
+                              ? outside()
+                              : beyond(aim == Aim::kNearEdges ? near_edge() : on_edge(), light);
+      accel::Ray ray;
+      ray.origin = glm::vec3(placement_(point));
+      ray.direction = apex - ray.origin;
+      ray.t_max = 1.0F;
+      list.rays.push_back(ray);
+    }
+    list.pencils.push_back({0, list.rays.size(), dvec3(apex), true});
+    return list;
+  }
+
+ private:
+  scenes::Scene placed() const {
+    PolygonMesh mesh = body_->mesh;
+    for (dvec3& vertex : mesh.vertices) vertex = placement_(vertex);
+    scenes::SceneBuilder builder(body_->name);
+    scenes::modelling::add_flat(builder, mesh);
+    return std::move(builder).build();
+  }
+
+  dvec3 inside() {
+    const dvec3& middle = body_->middles[random_.below(body_->middles.size())];
+    if (random_.below(8) == 0) return middle;
+    return middle + body_->clearance * random_.unit() * direction_from(random_);
+  }
+  dvec3 outside() { return random_.uniform(1.05, 4.0) * body_->reach * direction_from(random_); }
+
+  /// A corner of the mesh or a place between two of them.
+  dvec3 on_edge() {
+    const PolygonMesh::Corners& corners =
+        body_->mesh.polygons[random_.below(body_->mesh.polygons.size())];
+    const std::uint64_t first = random_.below(3);
+    const dvec3& a = body_->mesh.vertices[corners[first]];
+    const dvec3& b = body_->mesh.vertices[corners[(first + 1) % 3]];
+    return random_.below(3) == 0 ? a : a + random_.unit() * (b - a);
+  }
+  /// As near as a few dozen roundings.
+  dvec3 near_edge() { return on_edge() + 4e-6 * body_->reach * point_in_cube(random_); }
+  /// Outside, behind a place that hides the light inside.
+  dvec3 beyond(const dvec3& place, const dvec3& light) const {
+    return light + 2.1 * body_->reach * glm::normalize(place - light);
+  }
+
+  const Body* body_;
+  Random random_;
+  Placement placement_;
+  scenes::Scene scene_;
+};
+
+/// Of as many random placements, by turns with the light inside and outside.
+void expect_no_leak(std::uint64_t placements, Sealed::Aim aim = Sealed::Aim::kNearEdges) {
+  const std::vector<Body> all = bodies();
+  std::vector<std::uint8_t> hits(Sealed::kRays);
+  std::uint64_t most_sides = 0;
+  std::uint64_t leaking = 0;
+  for (std::uint64_t i = 0; i < placements && leaking < 10; ++i) {
+    const Body& body = all[i % all.size()];
+    const bool light_inside = i / all.size() % 2 == 0;
+    Sealed sealed(body, i);
+    const TileBeam structure(sealed.scene(), {});
+    const rays::RayList list = sealed.rays(light_inside, aim);
+    std::ranges::fill(hits, std::uint8_t{9});
+    structure.any_hits(list.batch(), hits, nullptr);
+    const auto stopped = static_cast<std::size_t>(std::ranges::count(hits, 1));
+    if (stopped != Sealed::kRays) {
+      ++leaking;
+      ADD_FAILURE() << body.name << ", placement " << i << ": " << Sealed::kRays - stopped
+                    << " rays leak, the first is "
+                    << std::ranges::find_if(hits, [](auto hit) { return hit != 1; }) - hits.begin();
+    }
+    if (i % 64 == 0) {
+      accel::WorkCounters counters;
+      structure.any_hits(list.batch(), hits, &counters);
+      const auto work = counters.by_name();
+      ASSERT_TRUE(work.contains("beams")) << "these rays are too few for a pencil";
+      most_sides = std::max(most_sides, work.at("beams"));
+    }
+  }
+  EXPECT_EQ(most_sides, 6U);
+}
+
+TEST(ClosedMeshes, LeakNoLightInTenThousandPlacements) { expect_no_leak(10'000); }
+
+TEST(ClosedMeshes, LeakNoLightOnAnyInstructionSet) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    SCOPED_TRACE(hwy::TargetName(target));
+    const testing::OnlyTarget only(target);
+    expect_no_leak(500);
+  }
+}
+
+// Fails: the three or more edges that meet in a corner, computed in float, may leave a gap there of
+// a fraction of a rounding (a ray in 600 that aims at a corner leaks); and so may an edge of which
+// one triangle is tested in float and the other, handed over, by the canonical test.
+TEST(ClosedMeshes, DISABLED_LeakNoLightAtEdgesAndCorners) {
+  expect_no_leak(10'000, Sealed::Aim::kAtEdgesAndCorners);
+}
+
+/// More rays, so that pencils have several parts, and more triangles, so that they are small.
+TEST(ClosedMeshes, LeakNoLightInLargePencils) {
+  for (const char* name : {"bumpy:triangles=3072", "bumpy:triangles=48"}) {
+    const scenes::Scene scene = scenes::load_scene(name);
+    const TileBeam structure(scene, {});
+    Random random(5);
+    for (int placement = 0; placement < 8; ++placement) {
+      // The mesh lies between these spheres about the origin.
+      constexpr double kInside = 0.3;
+      constexpr double kOutside = 2.0;
+      const bool light_inside = placement % 2 == 0;
+      const glm::vec3 light(direction_from(random) *
+                            (light_inside ? kInside * random.unit() : kOutside + random.unit()));
+      rays::RayList list;
+      for (int i = 0; i < 9000; ++i) {
+        accel::Ray ray;
+        ray.origin = glm::vec3(direction_from(random) *
+                               (light_inside ? kOutside + random.unit() : kInside * random.unit()));
+        ray.direction = light - ray.origin;
+        ray.t_max = 1.0F;
+        list.rays.push_back(ray);
+      }
+      list.pencils.push_back({0, list.rays.size(), dvec3(light), true});
+      std::vector<std::uint8_t> hits(list.rays.size(), 9);
+      structure.any_hits(list.batch(), hits, nullptr);
+      EXPECT_EQ(std::ranges::count(hits, 1), 9000) << name << " placement " << placement;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace beambench::verify
