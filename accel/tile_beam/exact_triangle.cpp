@@ -184,4 +184,13 @@ std::optional<ExactApexTriangle> exact_apex_triangle(const glm::vec3& apex, cons
   return triangle;
 }
 
+bool crosses_plane(const Ray& ray, const std::array<glm::vec3, 3>& corners) {
+  const glm::dvec3 first(corners[0]);
+  const glm::dvec3 normal =
+      glm::cross(glm::dvec3(corners[1]) - first, glm::dvec3(corners[2]) - first);
+  const double t = glm::dot(normal, first - glm::dvec3(ray.origin)) /
+                   glm::dot(normal, glm::dvec3(ray.direction));
+  return t > ray.t_min && t < ray.t_max;
+}
+
 }  // namespace beambench::accel::tile_beam

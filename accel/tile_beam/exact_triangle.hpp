@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "accel/core/ray.hpp"
 #include "accel/tile_beam/pencil_unit.hpp"
 #include "accel/tile_beam/tile_image.hpp"
 #include "accel/tile_beam/tile_view.hpp"
@@ -52,5 +53,8 @@ struct ExactApexTriangle {
 /// As `exact_triangle`; edges are moved outward by more than those in float may be wrong.
 std::optional<ExactApexTriangle> exact_apex_triangle(const glm::vec3& apex, const CubeSide& side,
                                                      const std::array<glm::vec3, 3>& corners);
+
+/// Does a ray cross the plane of a triangle between its ends?
+bool crosses_plane(const Ray& ray, const std::array<glm::vec3, 3>& corners);
 
 }  // namespace beambench::accel::tile_beam

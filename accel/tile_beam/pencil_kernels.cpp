@@ -14,17 +14,27 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
+/// The farthest from the apex at which float tells a ray's origin from the surface that it begins
+/// beside. Any hits that are unsure are confirmed (`PencilWalk`), so that they may be farther; but
+/// over a scene that is small beside its coordinates all places are rounded alike.
+template <bool kToward>
+float farthest(const scenes::Bounds& scene) {
+  const float size = scene.largest_coordinate();
+  const glm::vec3 extent = scene.extent();
+  const float more =
+      kToward ? std::min(8.0F * std::max({extent.x, extent.y, extent.z}), 16.0F * size) : 0.0F;
+  return 4.0F * size + more;
+}
+
 /// Calls `walk(part, side)` for each side of the cube that the first rays pass, and `undecided(i)`
 /// for those that pass none.
 template <bool kToward, class Walk, class Undecided>
 HWY_INLINE AnsweredRays for_each_side(const PencilRays& pencil, PencilUnit& unit, Walk walk,
                                       Undecided undecided) {
-  // Beyond this float errs by more than rays begin beside surfaces.
-  constexpr float kFarthest = 20.0F;
-  const float size = pencil.hierarchy.bounds.largest_coordinate();
   list_blocks(pencil.rays, pencil.samples, unit);
   const std::size_t count = unit.first[unit.listed];
-  const PencilPart part{pencil.rays.first(count), pencil.apex, kFarthest * size};
+  const PencilPart part{pencil.rays.first(count), pencil.apex,
+                        farthest<kToward>(pencil.hierarchy.bounds)};
   std::array<std::uint16_t, PencilUnit::kListed> decided{};
   LaneBits done = 0;
   LaneBits others = LaneBits{1} << unit.side.number;

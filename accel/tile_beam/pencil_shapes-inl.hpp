@@ -23,15 +23,18 @@ struct ApexView {
   CubeSide side;
   float scene_size;  ///< the largest |coordinate|
 
-  /// Coordinates of the side, from the apex.
-  HWY_INLINE Points place(Floats x, Floats y, Floats z) const {
-    const Points from_apex{hn::Sub(x, all(apex.x)), hn::Sub(y, all(apex.y)),
-                           hn::Sub(z, all(apex.z))};
-    return turned(from_apex);
-  }
-  HWY_INLINE Points turned(const Points& world) const {
+  /// The world's coordinates in the order of the side's.
+  HWY_INLINE Points turned(Floats x, Floats y, Floats z) const {
+    const Points world{x, y, z};
     return {coordinate(world, side.x_axis()), coordinate(world, side.y_axis()),
             hn::Mul(coordinate(world, side.z_axis()), all(side.sign()))};
+  }
+  /// Of turned places: the side's coordinates.
+  HWY_INLINE Points from_apex(const Points& at) const {
+    const auto component = [&](std::size_t axis) { return apex[static_cast<int>(axis)]; };
+    return {hn::Sub(at.x, all(component(side.x_axis()))),
+            hn::Sub(at.y, all(component(side.y_axis()))),
+            hn::Sub(at.z, all(component(side.z_axis()) * side.sign()))};
   }
 };
 
@@ -142,17 +145,18 @@ class TriangleShapes {
   HWY_INLINE void project() {
     for (std::size_t i = 0; i < meshlet_->vertex_count; i += kLanes) {
       const Points at =
-          view_->place(load(&meshlet_->vertices[0][i]), load(&meshlet_->vertices[1][i]),
-                       load(&meshlet_->vertices[2][i]));
-      const Floats w = hn::Div(all(1.0F), at.z);
+          view_->turned(load(&meshlet_->vertices[0][i]), load(&meshlet_->vertices[1][i]),
+                        load(&meshlet_->vertices[2][i]));
       store(at.x, &x_[i]);
       store(at.y, &y_[i]);
       store(at.z, &z_[i]);
-      store(hn::Mul(at.x, w), &u_[i]);
-      store(hn::Mul(at.y, w), &v_[i]);
+      const Points seen = view_->from_apex(at);
+      const Floats w = hn::Div(all(1.0F), seen.z);
+      store(hn::Mul(seen.x, w), &u_[i]);
+      store(hn::Mul(seen.y, w), &v_[i]);
       // Beside the apex or behind it a corner has no accurate place: NaN.
       const Mask before =
-          hn::Gt(hn::Mul(at.z, all(kFarAside)), hn::Max(hn::Abs(at.x), hn::Abs(at.y)));
+          hn::Gt(hn::Mul(seen.z, all(kFarAside)), hn::Max(hn::Abs(seen.x), hn::Abs(seen.y)));
       store(hn::IfThenElse(before, w, all(kNaN)), &w_[i]);
     }
   }
@@ -182,10 +186,13 @@ class TriangleShapes {
     const Mask present = hn::Or(hn::Not(before), hn::Not(is_negative(outside)));
     if (hn::AllFalse(Tag(), present)) return;
 
-    const Points p0{corner(x_, 0), corner(y_, 0), corner(z_, 0)};
+    // Sides from the corners themselves: seen from a far apex, these are rounded to more than a
+    // small triangle's normal can bear.
+    const Points first{corner(x_, 0), corner(y_, 0), corner(z_, 0)};
+    const Points p0 = view_->from_apex(first);
     const auto side = [&](std::size_t which) -> Points {
-      return {hn::Sub(corner(x_, which), p0.x), hn::Sub(corner(y_, which), p0.y),
-              hn::Sub(corner(z_, which), p0.z)};
+      return {hn::Sub(corner(x_, which), first.x), hn::Sub(corner(y_, which), first.y),
+              hn::Sub(corner(z_, which), first.z)};
     };
     const Points side1 = side(1);
     const Points side2 = side(2);
@@ -199,8 +206,8 @@ class TriangleShapes {
     const Mask needle = hn::Not(hn::Lt(hn::Mul(longest, hn::Mul(longest, longest)),
                                        hn::Mul(all(reach * reach), dot(normal, normal))));
 
-    // Constants in the middle of an edge are exactly opposite for the two triangles that share it
-    // (-ffp-contract=off is needed for this).
+    // Places of corners are those of all their triangles. So edges moved outward by what their
+    // values may be rounded by leave no gap between triangles that share an edge or a corner.
     struct Edge {
       Floats a, b, c;
     };
@@ -223,9 +230,12 @@ class TriangleShapes {
     for (std::size_t k = 0; k < 3; ++k) {
       shapes_->set(SeenShapes::kEdge0 + 3 * k, lane, hn::Xor(edges[k].a, turn));
       shapes_->set(SeenShapes::kEdge0 + 3 * k + 1, lane, hn::Xor(edges[k].b, turn));
-      shapes_->set(SeenShapes::kEdge0 + 3 * k + 2, lane, hn::Xor(edges[k].c, turn));
-      shapes_->set(SeenShapes::kMagnitudes + 2 * k, lane, hn::Abs(edges[k].a));
-      shapes_->set(SeenShapes::kMagnitudes + 2 * k + 1, lane, hn::Abs(edges[k].b));
+      const Floats size_a = hn::Abs(edges[k].a);
+      const Floats size_b = hn::Abs(edges[k].b);
+      shapes_->set(SeenShapes::kEdge0 + 3 * k + 2, lane,
+                   hn::MulAdd(all(kOutward), hn::Add(size_a, size_b), hn::Xor(edges[k].c, turn)));
+      shapes_->set(SeenShapes::kMagnitudes + 2 * k, lane, size_a);
+      shapes_->set(SeenShapes::kMagnitudes + 2 * k + 1, lane, size_b);
     }
     const Floats toward = hn::And(distance, all(-0.0F));
     shapes_->set(SeenShapes::kPlane, lane, hn::Xor(normal.x, toward));
@@ -286,6 +296,8 @@ class TriangleShapes {
         static_cast<float>(exact->distance * (1.0 - 1e-6));
   }
 
+  /// How far edges are moved, on the side of the cube: a rounding of places |u| <= 1.
+  static constexpr float kOutward = 0x1p-24F;
   /// Beyond this tangent a corner's place is less accurate than blocks' bounds allow for.
   static constexpr float kFarAside = 4.0F;
   /// The area of a triangle, over its extent, below which its sign is uncertain: eight roundings of
@@ -303,8 +315,8 @@ HWY_INLINE void set_up_spheres(const SphereBlock& block, const ApexView& view, f
                                SeenShapes& shapes) {
   shapes.present = shapes.exact = shapes.by_rays = shapes.around = 0;
   for (std::size_t lane = 0; lane < block.count; lane += kLanes) {
-    const Points center = view.place(load(&block.center[0][lane]), load(&block.center[1][lane]),
-                                     load(&block.center[2][lane]));
+    const Points center = view.from_apex(view.turned(
+        load(&block.center[0][lane]), load(&block.center[1][lane]), load(&block.center[2][lane])));
     const Floats radius = load(&block.radius[lane]);
     const Floats wider = hn::MulAdd(radius, all(1.0F + 0x1p-20F), all(slack));
     const Floats near_z = hn::Sub(center.z, wider);

@@ -64,10 +64,12 @@ class PencilWalk {
     }
     bound_all();
     if (unit_->groups_alive == 0) return;
+    is_far_ = !kClosest && all_.least_w * kFarScenes * view_.scene_size < 1.0F;
+    // Over all of the scene the estimate is coarse: only a part that is clearly crowded is handed
+    // over whole, which a look at the children would decide better but not for nothing.
+    const auto half = static_cast<std::uint32_t>(hierarchy_->leaves() / 2);
     stack_[0] = {hierarchy_->root, unit_->groups_alive,
-                 is_crowded(static_cast<std::uint32_t>(hierarchy_->leaves()), unit_->groups_alive,
-                            bounds_of_all()),
-                 kEverywhere};
+                 is_crowded(half, unit_->groups_alive, bounds_of_all()), kEverywhere};
     size_ = 1;
     while (size_ > 0) {
       const Entry entry = stack_[--size_];
@@ -538,7 +540,12 @@ class PencilWalk {
       if ((special >> shape & 1U) != 0) [[unlikely]] {
         changed |= test_specially(place, shape, meshlet);
       } else {
-        changed |= note(place, test_triangle(place, shape, meshlet.primitives[shape]));
+        LaneBits hits = test_triangle(place, shape, meshlet.primitives[shape]);
+        if (is_far_ && hits != 0) [[unlikely]] {
+          hits = confirmed(place, hits, unsure_of_triangle(place, shape),
+                           crosses_plane_of(meshlet, shape));
+        }
+        changed |= note(place, hits);
       }
     }
     changed_ |= changed;
@@ -582,17 +589,67 @@ class PencilWalk {
   /// A triangle that float is too coarse for.
   std::uint32_t test_specially(std::size_t place, std::size_t shape, const Meshlet& meshlet) {
     const scenes::PrimitiveId primitive = meshlet.primitives[shape];
-    if ((shapes_.exact >> shape & 1U) != 0) {
-      return test_exact_triangle(place, shapes_.exact_triangle[shape], primitive);
+    if ((shapes_.exact >> shape & 1U) == 0) {
+      return test_by_rays(place, primitive, [&](const CanonicalRay& ray) {
+        return intersect_triangle(ray, meshlet.corner(0, shape), meshlet.corner(1, shape),
+                                  meshlet.corner(2, shape));
+      });
     }
-    return test_by_rays(place, primitive, [&](const CanonicalRay& ray) {
-      return intersect_triangle(ray, meshlet.corner(0, shape), meshlet.corner(1, shape),
-                                meshlet.corner(2, shape));
+    LaneBits hits = test_exact_triangle(place, shapes_.exact_triangle[shape], primitive);
+    if (is_far_) hits = confirmed(place, hits, hits, crosses_plane_of(meshlet, shape));
+    return note(place, hits);
+  }
+
+  /// Of depth alone: where triangles share an edge, one must not be tested in float and the other
+  /// in double for which of them a ray passes.
+  static auto crosses_plane_of(const Meshlet& meshlet, std::size_t shape) {
+    return [&meshlet, shape](const Ray& ray) {
+      return crosses_plane(
+          ray, {meshlet.corner(0, shape), meshlet.corner(1, shape), meshlet.corner(2, shape)});
+    };
+  }
+
+  /// The hits that an apex so far away is too inaccurate to be sure of: of what lies in the plane
+  /// that a ray begins at, to within the roundings of its depth.
+  LaneBits unsure_of_triangle(std::size_t place, std::size_t shape) const {
+    const OneShape of{shapes_, shape};
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    return for_each_register([&](std::size_t lane) {
+      const Floats plane =
+          hn::MulAdd(of(SeenShapes::kPlane), load(&unit_->u[block + lane]),
+                     hn::MulAdd(of(SeenShapes::kPlane + 1), load(&unit_->v[block + lane]),
+                                of(SeenShapes::kPlane + 2)));
+      const Floats nearer = hn::Mul(load(&unit_->w[block + lane]), all(1.0F + kDepthRounding));
+      return is_negative(hn::NegMulAdd(of(SeenShapes::kDistance), nearer, plane));
+    });
+  }
+  LaneBits unsure_of_sphere(std::size_t place, std::size_t shape) const {
+    const OneShape of{shapes_, shape};
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    return for_each_register([&](std::size_t lane) {
+      const Floats depth = hn::Div(all(1.0F), load(&unit_->w[block + lane]));
+      const Points begin{
+          hn::MulSub(load(&unit_->u[block + lane]), depth, of(SeenShapes::kCenter)),
+          hn::MulSub(load(&unit_->v[block + lane]), depth, of(SeenShapes::kCenter + 1)),
+          hn::Sub(depth, of(SeenShapes::kCenter + 2))};
+      const Floats reach = hn::MulAdd(depth, all(kDepthRounding), of(SeenShapes::kRadius));
+      return hn::Lt(dot(begin, begin), hn::Mul(reach, reach));
     });
   }
 
-  std::uint32_t test_exact_triangle(std::size_t place, const ExactApexTriangle& triangle,
-                                    scenes::PrimitiveId primitive) {
+  /// Any hits, of which `is_hit_by(ray)` decides some.
+  template <class IsHit>
+  LaneBits confirmed(std::size_t place, LaneBits hits, LaneBits unsure, IsHit is_hit_by) const {
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    for (LaneBits left = hits & unsure & unit_->alive[place]; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      if (!is_hit_by(part_->rays[unit_->ray_at(block + lane)])) hits &= ~(LaneBits{1} << lane);
+    }
+    return hits;
+  }
+
+  LaneBits test_exact_triangle(std::size_t place, const ExactApexTriangle& triangle,
+                               scenes::PrimitiveId primitive) {
     const hn::CappedTag<double, 8> d;
     const hn::Rebind<float, decltype(d)> half;
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
@@ -633,7 +690,7 @@ class PencilWalk {
         keep(block + lane, lanes_of(hits >> lane, 0), load(&found_w[lane]), w, primitive);
       }
     }
-    return note(place, hits);
+    return hits;
   }
 
   HWY_INLINE void test_spheres(const SphereBlock& block) {
@@ -641,14 +698,20 @@ class PencilWalk {
       const std::size_t place = tests_[i] / SeenShapes::kMost;
       const std::size_t shape = tests_[i] % SeenShapes::kMost;
       const scenes::PrimitiveId id = block.primitives[shape];
+      const auto intersect = [&](const CanonicalRay& ray) {
+        return intersect_sphere(ray, scene_->spheres[scene_->primitives[id].index]);
+      };
       if ((shapes_.by_rays >> shape & 1U) != 0) {
-        const scenes::Sphere& sphere = scene_->spheres[scene_->primitives[id].index];
-        changed_ |= test_by_rays(
-            place, id, [&](const CanonicalRay& ray) { return intersect_sphere(ray, sphere); });
+        changed_ |= test_by_rays(place, id, intersect);
       } else {
         const bool around = (shapes_.around >> shape & 1U) != 0;
         const bool inside_only = (block.inside_only >> shape & 1U) != 0;
-        changed_ |= test_sphere(place, shape, around, inside_only, id);
+        LaneBits hits = test_sphere(place, shape, around, inside_only, id);
+        if (is_far_ && hits != 0) {
+          hits = confirmed(place, hits, unsure_of_sphere(place, shape),
+                           [&](const Ray& ray) { return is_hit(intersect(CanonicalRay(ray))); });
+        }
+        changed_ |= note(place, hits);
       }
     }
   }
@@ -657,8 +720,8 @@ class PencilWalk {
   /// which of the two roots are within the ray, and is known better than the roots: rays begin at
   /// some distance from surfaces. As the canonical test does, the discriminant is taken from the
   /// line's point nearest the center (Haines et al., Ray Tracing Gems, 2019).
-  HWY_INLINE std::uint32_t test_sphere(std::size_t place, std::size_t shape, bool around,
-                                       bool inside_only, scenes::PrimitiveId primitive) {
+  HWY_INLINE LaneBits test_sphere(std::size_t place, std::size_t shape, bool around,
+                                  bool inside_only, scenes::PrimitiveId primitive) {
     const OneShape of{shapes_, shape};
     const Points center{of(SeenShapes::kCenter), of(SeenShapes::kCenter + 1),
                         of(SeenShapes::kCenter + 2)};
@@ -668,7 +731,7 @@ class PencilWalk {
     const auto only = [](bool condition) {
       return hn::Gt(all(condition ? 1.0F : 0.0F), hn::Zero(Tag()));
     };
-    LaneBits hits = for_each_register([&](std::size_t lane) {
+    return for_each_register([&](std::size_t lane) {
       const std::size_t at = block + lane;
       const Points direction{load(&unit_->u[at]), load(&unit_->v[at]), all(1.0F)};
       const Floats per_square = hn::Div(all(1.0F), dot(direction, direction));
@@ -704,7 +767,6 @@ class PencilWalk {
         return hn::Or(inside, passes);
       }
     });
-    return note(place, hits);
   }
 
   /// `intersect(ray)` returns t or kMiss for a CanonicalRay.
@@ -794,6 +856,10 @@ class PencilWalk {
     unit_->minus_w[place] = -least_of(least);
   }
 
+  /// From so many times the scene's largest coordinate on, depths are rounded by as much as rays
+  /// begin beside surfaces; `kDepthRounding` is sixteen roundings of a depth.
+  static constexpr float kFarScenes = 2.0F;
+  static constexpr float kDepthRounding = 0x1p-20F;
   /// What bounds of boxes and places may be wrong by: a few roundings of places |u| <= 1.
   static constexpr float kPlacePad = 3e-7F;
 
@@ -804,6 +870,7 @@ class PencilWalk {
   PencilUnit* unit_;
   Counting* counting_;
   PencilBounds all_{};
+  bool is_far_ = false;  ///< any hits: does the canonical test confirm some?
   std::size_t size_ = 0;
   std::size_t by_shape_count_ = 0;
   std::size_t by_block_count_ = 0;

@@ -108,11 +108,6 @@ BeamPlace::Way way_of(const TileImage& image, const HandOverRecorder& recorder, 
   return image.touched ? BeamPlace::Way::kInOrder : BeamPlace::Way::kBackground;
 }
 
-/// Pencils of fewer rays are traced singly: what a part costs at all is then more than is gained.
-/// Rays toward an apex come from all that the picture shows; those away from one see what is in
-/// their mirror, which few leaves may hold.
-constexpr std::size_t least_pencil(bool toward) { return toward ? 512 : 32; }
-
 /// Rays of a batch in succession: of a pencil, or single ones.
 struct RayRange {
   std::size_t first;
@@ -129,7 +124,7 @@ std::vector<RayRange> ranges_of(const RayBatch& batch, bool toward) {
     if (next < end) ranges.push_back({next, end - next, nullptr});
   };
   for (const Pencil& pencil : batch.pencils) {
-    if (pencil.toward != toward || pencil.count < least_pencil(toward)) continue;
+    if (pencil.toward != toward || pencil.count < TileBeam::least_pencil(toward)) continue;
     single_until(pencil.first);
     ranges.push_back({pencil.first, pencil.count, &pencil});
     next = pencil.first + pencil.count;

@@ -36,6 +36,11 @@ class TileBeam : public TraversalAccelerator<TileBeam> {
         pencil_kernels_(&pencil_kernels_for(targets)),
         parallel_(options.parallel) {}
 
+  /// Pencils of fewer rays are traced singly: what a part costs at all is then more than is gained.
+  /// Rays toward an apex come from all that the picture shows; those away from one see what is in
+  /// their mirror, which few leaves may hold.
+  static constexpr std::size_t least_pencil(bool toward) { return toward ? 512 : 32; }
+
   const TileHierarchy& hierarchy() const { return hierarchy_; }
   /// The instruction set in use, as Highway calls it: "AVX3".
   const char* instruction_set() const;

@@ -119,8 +119,8 @@ std::string pencil_row_name(const ::testing::TestParamInfo<PencilRow>& info) {
 INSTANTIATE_TEST_SUITE_P(TileBeam, PinnedPencilWork, ::testing::Values(
     PencilRow{"shadow", "teapot:n=3", {{"beams", 11}, {"box_tests", 272}, {"leaves", 115}, {"primitive_tests", 85'280}, {"traversal_steps", 161}}},
     PencilRow{"mirror", "teapot:n=3", {{"beams", 6}, {"box_tests", 166}, {"leaves", 68}, {"primitive_tests", 24'972}, {"traversal_steps", 99}}},
-    PencilRow{"shadow", "closed-room:detail=4", {{"beams", 25}, {"box_tests", 41'173}, {"handed_over_rays", 1037}, {"leaves", 1156}, {"primitive_tests", 348'510}, {"traversal_steps", 5147}}},
-    PencilRow{"mirror", "closed-room:detail=4", {{"beams", 13}, {"box_tests", 150'579}, {"handed_over_rays", 379}, {"leaves", 8603}, {"primitive_tests", 252'787}, {"traversal_steps", 22'959}}},
+    PencilRow{"shadow", "closed-room:detail=4", {{"beams", 25}, {"box_tests", 8193}, {"handed_over_rays", 219}, {"leaves", 901}, {"primitive_tests", 434'890}, {"traversal_steps", 1816}}},
+    PencilRow{"mirror", "closed-room:detail=4", {{"beams", 22}, {"box_tests", 136'646}, {"handed_over_rays", 63}, {"leaves", 8153}, {"primitive_tests", 311'166}, {"traversal_steps", 21'252}}},
     PencilRow{"shadow", "balls:n=2", {{"beams", 22}, {"box_tests", 164}, {"leaves", 106}, {"primitive_tests", 80'896}, {"traversal_steps", 144}}}
   ), pencil_row_name);
 // clang-format on
