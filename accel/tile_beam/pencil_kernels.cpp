@@ -62,6 +62,12 @@ HWY_INLINE AnsweredRays for_each_side(const PencilRays& pencil, PencilUnit& unit
   return {count, some_undecided};
 }
 
+template <class Policy, class Counting>
+void walk_part(const PencilRays& pencil, const PencilPart& part, CubeSide side, PencilUnit& unit,
+               Counting& counting) {
+  PencilWalk<Policy, Counting>(pencil.hierarchy, pencil.scene, part, side, unit, counting)();
+}
+
 template <class Counting>
 AnsweredRays any_hits(const PencilRays& pencil, PencilUnit& unit, std::span<std::uint8_t> hits,
                       Counting& counting) {
@@ -70,8 +76,14 @@ AnsweredRays any_hits(const PencilRays& pencil, PencilUnit& unit, std::span<std:
       pencil, unit,
       [&](const PencilPart& part, CubeSide side) {
         counting.add("beams");
-        PencilWalk<AnyHitPolicy, Counting>(pencil.hierarchy, pencil.scene, part, side, unit,
-                                           counting)();
+        // From two scene sizes on, roundings of depths come near to how far rays begin from
+        // surfaces.
+        const float close = 2.0F * pencil.hierarchy.bounds.largest_coordinate();
+        if (unit.least_w * close >= 1.0F) {
+          walk_part<AnyHitPolicy>(pencil, part, side, unit, counting);
+        } else {
+          walk_part<FarAnyHitPolicy>(pencil, part, side, unit, counting);
+        }
         for (std::size_t place = 0; place < unit.places; ++place) {
           const std::size_t block = unit.slot[place];
           LaneBits hit = unit.lanes[block] & ~LaneBits{unit.alive[place]};
@@ -94,8 +106,7 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, HitBuffer&
       pencil, unit,
       [&](const PencilPart& part, CubeSide side) {
         counting.add("beams");
-        PencilWalk<ClosestHitPolicy, Counting>(pencil.hierarchy, pencil.scene, part, side, unit,
-                                               counting)();
+        walk_part<ClosestHitPolicy>(pencil, part, side, unit, counting);
         const auto z = static_cast<int>(side.z_axis());
         // The place of a hit errs by some roundings of its distance from the apex; from here on
         // that is too much for a t that counts from elsewhere, and the canonical test decides.

@@ -268,6 +268,7 @@ class PencilGrouping {
     const PencilUnit::Bounds& bounds = unit_->block;
     std::int64_t bits = 0;
     std::int64_t extended = 0;
+    unit_->least_w = kInfinity;
     for (std::size_t block = 0; block < unit_->listed; ++block) {
       if (unit_->lanes[block] == 0) continue;
       ++occupied_;
@@ -275,6 +276,7 @@ class PencilGrouping {
       high_u_ = std::max(high_u_, bounds.high_u[block]);
       low_v_ = std::min(low_v_, bounds.low_v[block]);
       high_v_ = std::max(high_v_, bounds.high_v[block]);
+      unit_->least_w = std::min(unit_->least_w, bounds.least_w[block]);
       const float size = extent(block);
       if (size <= 0.0F) continue;
       bits += std::bit_cast<std::int32_t>(size);

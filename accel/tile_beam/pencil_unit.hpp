@@ -40,6 +40,7 @@ struct PencilUnit {
 
   Array<std::uint16_t, kListed + 1> first;  ///< ray of each listed block, and behind the last
   std::size_t listed;
+  float least_w;  ///< of all blocks
 
   /// The ray of a place in the arrays below.
   std::size_t ray_at(std::size_t at) const {

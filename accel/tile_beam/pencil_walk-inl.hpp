@@ -23,12 +23,19 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 /// Rays toward the apex: a hit ends a ray.
 struct AnyHitPolicy {
   static constexpr bool kClosest = false;
+  static constexpr bool kFar = false;
   /// Leaves for each ray from which on single rays take less time, measured.
   static constexpr float kHandoverLeaves = 1.0F;
+};
+/// The same from an apex so far away that float is not sure of a hit close to a ray's origin:
+/// these are confirmed.
+struct FarAnyHitPolicy : AnyHitPolicy {
+  static constexpr bool kFar = true;
 };
 /// Rays away from the apex: a hit brings the ray's end nearer.
 struct ClosestHitPolicy {
   static constexpr bool kClosest = true;
+  static constexpr bool kFar = false;
   static constexpr float kHandoverLeaves = 3.0F;
 };
 
@@ -64,7 +71,6 @@ class PencilWalk {
     }
     bound_all();
     if (unit_->groups_alive == 0) return;
-    is_far_ = !kClosest && all_.least_w * kFarScenes * view_.scene_size < 1.0F;
     // Over all of the scene the estimate is coarse: only a part that is clearly crowded is handed
     // over whole, which a look at the children would decide better but not for nothing.
     const auto half = static_cast<std::uint32_t>(hierarchy_->leaves() / 2);
@@ -540,10 +546,10 @@ class PencilWalk {
       if ((special >> shape & 1U) != 0) [[unlikely]] {
         changed |= test_specially(place, shape, meshlet);
       } else {
-        LaneBits hits = test_triangle(place, shape, meshlet.primitives[shape]);
-        if (is_far_ && hits != 0) [[unlikely]] {
-          hits = confirmed(place, hits, unsure_of_triangle(place, shape),
-                           crosses_plane_of(meshlet, shape));
+        LaneBits unsure = 0;
+        LaneBits hits = test_triangle(place, shape, meshlet.primitives[shape], unsure);
+        if (Policy::kFar && unsure != 0) [[unlikely]] {
+          hits = confirmed(place, hits, unsure, crosses_plane_of(meshlet, shape));
         }
         changed |= note(place, hits);
       }
@@ -551,9 +557,9 @@ class PencilWalk {
     changed_ |= changed;
   }
 
-  /// The rays of a block that hit a triangle.
+  /// The rays of a block that hit a triangle, and which of these hits are to be confirmed.
   HWY_INLINE LaneBits test_triangle(std::size_t place, std::size_t shape,
-                                    scenes::PrimitiveId primitive) {
+                                    scenes::PrimitiveId primitive, LaneBits& unsure) {
     const OneShape of{shapes_, shape};
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
     return for_each_register([&](std::size_t lane) {
@@ -581,7 +587,13 @@ class PencilWalk {
       } else {
         const Floats beyond =
             line(SeenShapes::kPlane, hn::NegMulAdd(distance, w, of(SeenShapes::kPlane + 2)));
-        return hn::Not(is_negative(hn::Or(outside, beyond)));
+        const Mask hit = hn::Not(is_negative(hn::Or(outside, beyond)));
+        if constexpr (Policy::kFar) {
+          const Floats clearly = hn::NegMulAdd(hn::Mul(distance, w), all(kDepthRounding), beyond);
+          const Mask close = hn::And(hit, is_negative(clearly));
+          unsure |= (bits_of(close) << lane) & unit_->alive[place];
+        }
+        return hit;
       }
     });
   }
@@ -596,7 +608,7 @@ class PencilWalk {
       });
     }
     LaneBits hits = test_exact_triangle(place, shapes_.exact_triangle[shape], primitive);
-    if (is_far_) hits = confirmed(place, hits, hits, crosses_plane_of(meshlet, shape));
+    if (Policy::kFar) hits = confirmed(place, hits, hits, crosses_plane_of(meshlet, shape));
     return note(place, hits);
   }
 
@@ -609,20 +621,8 @@ class PencilWalk {
     };
   }
 
-  /// The hits that an apex so far away is too inaccurate to be sure of: of what lies in the plane
-  /// that a ray begins at, to within the roundings of its depth.
-  LaneBits unsure_of_triangle(std::size_t place, std::size_t shape) const {
-    const OneShape of{shapes_, shape};
-    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
-    return for_each_register([&](std::size_t lane) {
-      const Floats plane =
-          hn::MulAdd(of(SeenShapes::kPlane), load(&unit_->u[block + lane]),
-                     hn::MulAdd(of(SeenShapes::kPlane + 1), load(&unit_->v[block + lane]),
-                                of(SeenShapes::kPlane + 2)));
-      const Floats nearer = hn::Mul(load(&unit_->w[block + lane]), all(1.0F + kDepthRounding));
-      return is_negative(hn::NegMulAdd(of(SeenShapes::kDistance), nearer, plane));
-    });
-  }
+  /// The hits to be confirmed: where the ray begins within the roundings of its depth of the
+  /// surface.
   LaneBits unsure_of_sphere(std::size_t place, std::size_t shape) const {
     const OneShape of{shapes_, shape};
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
@@ -707,7 +707,7 @@ class PencilWalk {
         const bool around = (shapes_.around >> shape & 1U) != 0;
         const bool inside_only = (block.inside_only >> shape & 1U) != 0;
         LaneBits hits = test_sphere(place, shape, around, inside_only, id);
-        if (is_far_ && hits != 0) {
+        if (Policy::kFar && hits != 0) {
           hits = confirmed(place, hits, unsure_of_sphere(place, shape),
                            [&](const Ray& ray) { return is_hit(intersect(CanonicalRay(ray))); });
         }
@@ -856,9 +856,7 @@ class PencilWalk {
     unit_->minus_w[place] = -least_of(least);
   }
 
-  /// From so many times the scene's largest coordinate on, depths are rounded by as much as rays
-  /// begin beside surfaces; `kDepthRounding` is sixteen roundings of a depth.
-  static constexpr float kFarScenes = 2.0F;
+  /// Sixteen roundings of a depth.
   static constexpr float kDepthRounding = 0x1p-20F;
   /// What bounds of boxes and places may be wrong by: a few roundings of places |u| <= 1.
   static constexpr float kPlacePad = 3e-7F;
@@ -870,7 +868,6 @@ class PencilWalk {
   PencilUnit* unit_;
   Counting* counting_;
   PencilBounds all_{};
-  bool is_far_ = false;  ///< any hits: does the canonical test confirm some?
   std::size_t size_ = 0;
   std::size_t by_shape_count_ = 0;
   std::size_t by_block_count_ = 0;

@@ -17,6 +17,7 @@ from beambench_report.thesis.chapter5.facts import (
     visits_section,
 )
 from beambench_report.thesis.chapter5.levels import levels_section
+from beambench_report.thesis.chapter5.mirrors import mirrors_section, read_mirrors
 from beambench_report.thesis.chapter5.sampling import read_comparisons, sampling_section
 from beambench_report.thesis.claims.register import SWEPT_CLAIMS, JudgedClaim, judge_claims
 from beambench_report.thesis.claims.verdict import Verdict
@@ -33,6 +34,8 @@ from beambench_report.thesis.report.tables import PartTable, WorkTable, fill, wo
 
 SAMPLING = "sampling"
 """The folder of what `beambench sampling SCENE --json` printed."""
+MIRRORS = "mirrors"
+"""The folder of what `beambench mirrors SCENE --json` printed."""
 
 
 @dataclass(frozen=True)
@@ -112,6 +115,7 @@ def gather(directory: Path, plan: Plan, beambench: Path | None = None) -> Report
 def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]]:
     """Those that were measured, and a sentence for each file that could not be read."""
     comparisons, unread = read_comparisons(sorted((directory / SAMPLING).glob("*.json")))
+    mirrors, unread_mirrors = read_mirrors(sorted((directory / MIRRORS).glob("*.json")))
     sections = (
         scenes_section(directory),
         visits_section(directory),
@@ -119,8 +123,10 @@ def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]
         cost_section(cells.cells),
         levels_section(cells.cells),
         sampling_section(comparisons),
+        mirrors_section(mirrors),
     )
-    return [section for section in sections if section is not None], unread
+    shown = [section for section in sections if section is not None]
+    return shown, [*unread, *unread_mirrors]
 
 
 def _extra_sweeps(directory: Path, plan: Plan) -> list[Sweep]:
