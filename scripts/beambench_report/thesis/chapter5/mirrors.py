@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from beambench_report.base.quantities import number
-from beambench_report.thesis.paper.printed import milliseconds, scene_title
+from beambench_report.thesis.paper.printed import scene_title
 from beambench_report.thesis.paper.section import Section, section_table
 
 
@@ -62,8 +62,8 @@ def mirrors_section(runs: Sequence[MirrorRun]) -> Section | None:
             f"`{run.structure}`",
             f"{run.mirrors}",
             f"{run.samples:,}",
-            milliseconds(run.rays_ms),
-            milliseconds(run.beams_ms),
+            number(run.rays_ms),
+            number(run.beams_ms),
             number(run.ratio),
         )
         for run in ordered
