@@ -169,7 +169,7 @@ TEST(MirrorBeams, FindWhatSingleRaysFindInScenes) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
     Compared compared;
-    const PrimaryRays image(scene.cameras.front(), 80, 80, 1);
+    const PrimaryRays image(scene.cameras.front(), 56, 56, 1);
     compare(scene, beam::BeamTracer(scene, {}), seen_directly(image), 1, 0.0, compared);
     if (::testing::Test::HasFatalFailure()) return;
     EXPECT_GT(compared.pencils, 0U);
