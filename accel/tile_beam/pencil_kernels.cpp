@@ -14,9 +14,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// The farthest from the apex at which float tells a ray's origin from the surface that it begins
-/// beside. Any hits that are unsure are confirmed (`PencilWalk`), so that they may be farther; but
-/// over a scene that is small beside its coordinates all places are rounded alike.
+/// The largest distance from the apex at which float can distinguish a ray's origin from the
+/// surface that it begins beside. Any hits that are unsure are confirmed (`PencilWalk`), so that
+/// they may be farther; but over a scene that is small beside its coordinates all places are
+/// rounded alike.
 template <bool kToward>
 float farthest(const scenes::Bounds& scene) {
   const float size = scene.largest_coordinate();
@@ -68,6 +69,19 @@ void walk_part(const PencilRays& pencil, const PencilPart& part, CubeSide side, 
   PencilWalk<Policy, Counting>(pencil.hierarchy, pencil.scene, part, side, unit, counting)();
 }
 
+/// Rays toward the apex.
+template <class Counting>
+void walk_toward(const PencilRays& pencil, const PencilPart& part, CubeSide side, PencilUnit& unit,
+                 Counting& counting) {
+  // From two scene sizes on, roundings of depths come near to how far rays begin from surfaces.
+  const float close = 2.0F * pencil.hierarchy.bounds.largest_coordinate();
+  if (unit.least_w * close >= 1.0F) {
+    walk_part<AnyHitPolicy>(pencil, part, side, unit, counting);
+  } else {
+    walk_part<FarAnyHitPolicy>(pencil, part, side, unit, counting);
+  }
+}
+
 template <class Counting>
 AnsweredRays any_hits(const PencilRays& pencil, PencilUnit& unit, std::span<std::uint8_t> hits,
                       Counting& counting) {
@@ -76,14 +90,7 @@ AnsweredRays any_hits(const PencilRays& pencil, PencilUnit& unit, std::span<std:
       pencil, unit,
       [&](const PencilPart& part, CubeSide side) {
         counting.add("beams");
-        // From two scene sizes on, roundings of depths come near to how far rays begin from
-        // surfaces.
-        const float close = 2.0F * pencil.hierarchy.bounds.largest_coordinate();
-        if (unit.least_w * close >= 1.0F) {
-          walk_part<AnyHitPolicy>(pencil, part, side, unit, counting);
-        } else {
-          walk_part<FarAnyHitPolicy>(pencil, part, side, unit, counting);
-        }
+        walk_toward(pencil, part, side, unit, counting);
         for (std::size_t place = 0; place < unit.places; ++place) {
           const std::size_t block = unit.slot[place];
           LaneBits hit = unit.lanes[block] & ~LaneBits{unit.alive[place]};
@@ -137,13 +144,12 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, HitBuffer&
   return answered;
 }
 
-AnsweredRays places_of(const PencilRays& pencil, PencilUnit& unit, std::span<BeamPlace> places) {
-  return for_each_side<true>(
+void places_of(const PencilRays& pencil, PencilUnit& unit, std::span<BeamPlace> places) {
+  for_each_side<true>(
       pencil, unit,
       [&](const PencilPart& part, CubeSide side) {
         HandOverRecorder recorder(PencilUnit::kBlocks * PencilUnit::kBlock);
-        PencilWalk<AnyHitPolicy, HandOverRecorder>(pencil.hierarchy, pencil.scene, part, side, unit,
-                                                   recorder)();
+        walk_toward(pencil, part, side, unit, recorder);
         note_places(unit, side, recorder, places);
       },
       [](std::size_t) {});

@@ -79,9 +79,9 @@ struct PencilQueries {
 struct PencilKernels : PencilQueries<NoCounting>, PencilQueries<WorkCounters> {
   /// How many rays the queries answer at once.
   std::size_t (*count_part)(const PencilRays&, PencilUnit& unit);
-  /// Where the first rays toward the apex are when any_hits traces them (`note_places`); those that
-  /// it leaves undecided are not written.
-  AnsweredRays (*places)(const PencilRays&, PencilUnit& unit, std::span<BeamPlace> places);
+  /// Where the rays of a part toward the apex are when any_hits traces them (`note_places`); those
+  /// that it leaves undecided are not written.
+  void (*places)(const PencilRays&, PencilUnit& unit, std::span<BeamPlace> places);
 
   template <class Counting>
   const PencilQueries<Counting>& queries() const {

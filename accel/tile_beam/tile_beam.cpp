@@ -137,6 +137,7 @@ std::vector<RayRange> ranges_of(const RayBatch& batch, bool toward) {
 struct SeenBatch {
   const TileHierarchy& hierarchy;
   const scenes::Scene& scene;
+  const PencilKernels& kernels;
   const RayBatch& batch;
   PencilSamples samples{batch};
 
@@ -144,57 +145,9 @@ struct SeenBatch {
     return {hierarchy, scene, batch.rays.subspan(range.first, range.count),
             samples.from(range.first), glm::vec3(range.pencil->apex)};
   }
-};
 
-/// The rays of a batch as a query answers them.
-template <class Counting>
-class BatchQuery {
- public:
-  BatchQuery(const SeenBatch& seen, const PencilKernels& kernels)
-      : seen_(&seen), kernels_(&kernels) {}
-
-  /// `some(rays, first, unit, counting)` answers the first rays of those of a pencil, and
-  /// `is_undecided(i)` tells whether it has left one to `single(i, counting)`, which answers all
-  /// other rays. `parallel`: parts are distributed among all cores; answers and counts are the
-  /// same.
-  template <class Some, class Undecided, class Single>
-  void answer(bool toward, bool parallel, Counting& counting, Some some, Undecided is_undecided,
-              Single single) const {
-    const auto answer_all = [&](const RayRange& range, State& state) {
-      for (RayRange left = range; left.count > 0;) {
-        AnsweredRays answered{left.count, true};
-        if (left.pencil != nullptr) {
-          answered = some(seen_->pencil_rays(left), left.first, *state.unit, state.counting);
-        }
-        for (std::size_t i = 0; answered.some_undecided && i < answered.count; ++i) {
-          const std::size_t ray = left.first + i;
-          if (left.pencil == nullptr || is_undecided(ray)) single(ray, state.counting);
-        }
-        left.first += answered.count;
-        left.count -= answered.count;
-      }
-    };
-    const std::vector<RayRange> ranges = ranges_of(seen_->batch, toward);
-    tbb::enumerable_thread_specific<State> states;
-    if (parallel) {
-      const std::vector<RayRange> parts = divide(ranges);
-      tbb::parallel_for(std::size_t{0}, parts.size(),
-                        [&](std::size_t i) { answer_all(parts[i], states.local()); });
-    } else {
-      for (const RayRange& range : ranges) answer_all(range, states.local());
-    }
-    for (const State& state : states) counting.add(state.counting);
-  }
-
- private:
-  /// Of one thread.
-  struct State {
-    std::unique_ptr<PencilUnit> unit = std::make_unique_for_overwrite<PencilUnit>();
-    Counting counting;
-  };
-
-  /// Into what is answered at once.
-  std::vector<RayRange> divide(std::span<const RayRange> ranges) const {
+  /// Ranges of rays, divided into what is answered at once.
+  std::vector<RayRange> parts_of(std::span<const RayRange> ranges) const {
     constexpr std::size_t kSingleRays = 1024;
     std::vector<RayRange> parts;
     const auto unit = std::make_unique_for_overwrite<PencilUnit>();
@@ -202,7 +155,7 @@ class BatchQuery {
       while (left.count > 0) {
         const std::size_t count = left.pencil == nullptr
                                       ? std::min(left.count, kSingleRays)
-                                      : kernels_->count_part(seen_->pencil_rays(left), *unit);
+                                      : kernels.count_part(pencil_rays(left), *unit);
         parts.push_back({left.first, count, left.pencil});
         left.first += count;
         left.count -= count;
@@ -210,44 +163,81 @@ class BatchQuery {
     }
     return parts;
   }
-
-  const SeenBatch* seen_;
-  const PencilKernels* kernels_;
 };
+
+/// Of one thread.
+template <class Counting>
+struct QueryState {
+  std::unique_ptr<PencilUnit> unit;  ///< from the first pencil on: most batches have none
+  Counting counting;
+};
+
+/// Answers the rays of a batch. `some(rays, first, unit, counting)` answers the first rays of those
+/// of a pencil; `single(i, counting)` all other rays, and those of which `is_undecided(i)` holds
+/// then. `parallel`: parts are distributed among all cores; answers and counts are the same.
+template <class Counting, class Some, class Undecided, class Single>
+void answer(const SeenBatch& seen, bool toward, bool parallel, Counting& counting, Some some,
+            Undecided is_undecided, Single single) {
+  using State = QueryState<Counting>;
+  const auto answer_pencil = [&](RayRange left, State& state) {
+    if (!state.unit) state.unit = std::make_unique_for_overwrite<PencilUnit>();
+    while (left.count > 0) {
+      const AnsweredRays answered =
+          some(seen.pencil_rays(left), left.first, *state.unit, state.counting);
+      const std::size_t end = left.first + answered.count;
+      for (std::size_t i = left.first; answered.some_undecided && i < end; ++i) {
+        if (is_undecided(i)) single(i, state.counting);
+      }
+      left.first = end;
+      left.count -= answered.count;
+    }
+  };
+  const auto answer_range = [&](const RayRange& range, State& state) {
+    if (range.pencil != nullptr) return answer_pencil(range, state);
+    for (std::size_t i = 0; i < range.count; ++i) single(range.first + i, state.counting);
+  };
+  const std::vector<RayRange> ranges = ranges_of(seen.batch, toward);
+  tbb::enumerable_thread_specific<State> states;
+  if (parallel) {
+    const std::vector<RayRange> parts = seen.parts_of(ranges);
+    tbb::parallel_for(std::size_t{0}, parts.size(),
+                      [&](std::size_t i) { answer_range(parts[i], states.local()); });
+  } else {
+    for (const RayRange& range : ranges) answer_range(range, states.local());
+  }
+  for (const State& state : states) counting.add(state.counting);
+}
 
 }  // namespace
 
 void TileBeam::closest_hits(const RayBatch& batch, HitBuffer& buffer,
                             WorkCounters* counters) const {
   if (hierarchy_.empty()) return TraversalAccelerator::closest_hits(batch, buffer, counters);
-  const SeenBatch seen{hierarchy_, *scene_, batch};
+  const SeenBatch seen{hierarchy_, *scene_, *pencil_kernels_, batch};
   with_counting(counters, [&]<class Counting>(Counting& counting) {
-    BatchQuery<Counting>(seen, *pencil_kernels_)
-        .answer(
-            false, parallel_, counting,
-            [&](const PencilRays& rays, std::size_t first, PencilUnit& unit, Counting& own) {
-              return pencil_kernels_->queries<Counting>().closest_hits(rays, unit, buffer, first,
-                                                                       own);
-            },
-            [&](std::size_t i) { return std::isnan(buffer.t()[i]); },
-            [&](std::size_t i, Counting& own) { buffer.set(i, find_closest(batch.rays[i], own)); });
+    answer(
+        seen, false, parallel_, counting,
+        [&](const PencilRays& rays, std::size_t first, PencilUnit& unit, Counting& own) {
+          return pencil_kernels_->queries<Counting>().closest_hits(rays, unit, buffer, first, own);
+        },
+        [&](std::size_t i) { return std::isnan(buffer.t()[i]); },
+        [&](std::size_t i, Counting& own) { buffer.set(i, find_closest(batch.rays[i], own)); });
   });
 }
 
 void TileBeam::any_hits(const RayBatch& batch, std::span<std::uint8_t> hits,
                         WorkCounters* counters) const {
   if (hierarchy_.empty()) return TraversalAccelerator::any_hits(batch, hits, counters);
-  const SeenBatch seen{hierarchy_, *scene_, batch};
+  const SeenBatch seen{hierarchy_, *scene_, *pencil_kernels_, batch};
   with_counting(counters, [&]<class Counting>(Counting& counting) {
-    BatchQuery<Counting>(seen, *pencil_kernels_)
-        .answer(
-            true, parallel_, counting,
-            [&](const PencilRays& rays, std::size_t first, PencilUnit& unit, Counting& own) {
-              return pencil_kernels_->queries<Counting>().any_hits(
-                  rays, unit, hits.subspan(first, rays.rays.size()), own);
-            },
-            [&](std::size_t i) { return hits[i] == kUndecided; },
-            [&](std::size_t i, Counting& own) { hits[i] = find_any(batch.rays[i], own) ? 1 : 0; });
+    answer(
+        seen, true, parallel_, counting,
+        [&](const PencilRays& rays, std::size_t first, PencilUnit& unit, Counting& own) {
+          return pencil_kernels_->queries<Counting>().any_hits(
+              rays, unit, hits.subspan(first, rays.rays.size()), own);
+        },
+        [&](std::size_t i) { return hits[i] == kUndecided; },
+        [&](std::size_t i, Counting& own) { hits[i] = find_any(batch.rays[i], own) ? 1 : 0; });
   });
 }
 
@@ -293,22 +283,19 @@ std::vector<BeamPlace> TileBeam::beam_places(const PrimaryRays& rays) const {
 std::vector<BeamPlace> TileBeam::beam_places(const RayBatch& batch) const {
   std::vector<BeamPlace> places(batch.rays.size());
   if (hierarchy_.empty()) return places;
-  const SeenBatch seen{hierarchy_, *scene_, batch};
+  const SeenBatch seen{hierarchy_, *scene_, *pencil_kernels_, batch};
   const auto unit = std::make_unique_for_overwrite<PencilUnit>();
-  std::uint32_t part = 0;
-  for (RayRange left : ranges_of(batch, true)) {
-    while (left.pencil != nullptr && left.count > 0) {
-      const std::span<BeamPlace> rest = std::span(places).subspan(left.first, left.count);
-      const std::size_t count = pencil_kernels_->places(seen.pencil_rays(left), *unit, rest).count;
-      for (BeamPlace& place : rest.first(count)) {
-        if (place.way == BeamPlace::Way::kSingle) continue;
-        place.beam = part;
-        place.block += part * kBlocksOfPart;
-      }
-      ++part;
-      left.first += count;
-      left.count -= count;
+  std::uint32_t number = 0;
+  for (const RayRange& part : seen.parts_of(ranges_of(batch, true))) {
+    if (part.pencil == nullptr) continue;
+    const std::span<BeamPlace> own = std::span(places).subspan(part.first, part.count);
+    pencil_kernels_->places(seen.pencil_rays(part), *unit, own);
+    for (BeamPlace& place : own) {
+      if (place.way == BeamPlace::Way::kSingle) continue;
+      place.beam = number;
+      place.block += number * kBlocksOfPart;
     }
+    ++number;
   }
   return places;
 }

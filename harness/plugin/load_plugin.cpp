@@ -98,9 +98,8 @@ constexpr std::string_view kBuildAgain =
 constexpr auto kInterfaceChanges = std::to_array<std::string_view>({
     "statistics() reports how a structure gets the rays of an image",
     "each query exists once, with a pointer to counters, and a list of rays is a RayBatch",
-    "a RayBatch has the sample of each ray, its pencils the virtual eye's image, and structures "
-    "say "
-    "where rays are in their beams",
+    "a RayBatch has the sample of each ray, its pencils the virtual eye's image, and "
+    "structures say where rays are in their beams",
 });
 static_assert(kInterfaceChanges.size() == kPluginInterface - 1);
 

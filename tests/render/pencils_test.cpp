@@ -243,7 +243,7 @@ TEST(Pencils, AreBeamsOfAnyDepth) {
   }
 }
 
-/// How many pixels a viewer could tell apart.
+/// How many pixels a viewer could distinguish.
 int visibly_different(const Image& a, const Image& b) {
   int count = 0;
   for (int y = 0; y < a.height(); ++y) {
