@@ -405,6 +405,16 @@ def test_other_commands_end_by_name_when_it_crashes(faulty: Path, command: list[
     assert "none of its results were kept" in message
 
 
+def failure_of_picture(faulty: Path, tmp_path: Path, fault: str, *options: str) -> str:
+    """The last line of the error output of a picture that is not written."""
+    picture = tmp_path / "out.png"
+    done = call("--plugin", faulty, "render", "row", "--accel", "faulty", "-o", picture,
+                *options, fault=fault)  # fmt: skip
+    assert done.returncode == 1, done.stderr
+    assert not picture.exists()
+    return done.stderr.splitlines()[-1]
+
+
 @pytest.mark.parametrize(
     ("fault", "words"),
     [
@@ -424,12 +434,7 @@ def test_other_commands_end_by_name_when_it_crashes(faulty: Path, command: list[
 def test_a_picture_of_it_fails_by_name(
     faulty: Path, tmp_path: Path, fault: str, words: list[str]
 ) -> None:
-    picture = tmp_path / "out.png"
-    done = call("--plugin", faulty, "render", "row", "--accel", "faulty", "-o", picture,
-                "--shade", "whitted", fault=fault)  # fmt: skip
-    assert done.returncode == 1, done.stderr
-    assert not picture.exists()
-    message = done.stderr.splitlines()[-1]
+    message = failure_of_picture(faulty, tmp_path, fault, "--shade", "whitted")
     assert message.startswith(f"beambench: the plug-in {faulty}")
     for word in words:
         assert word in message
@@ -439,12 +444,7 @@ def test_a_picture_of_it_fails_by_name(
 def test_an_overlay_of_places_that_cannot_be_fails_by_name(
     faulty: Path, tmp_path: Path, fault: str
 ) -> None:
-    picture = tmp_path / "out.png"
-    done = call("--plugin", faulty, "render", "row", "--accel", "faulty", "-o", picture,
-                "--overlay", "beams", fault=fault)  # fmt: skip
-    assert done.returncode == 1, done.stderr
-    assert not picture.exists()
-    message = done.stderr.splitlines()[-1]
+    message = failure_of_picture(faulty, tmp_path, fault, "--overlay", "beams")
     assert f"the plug-in {faulty}: structure 'faulty' returned invalid places" in message
 
 

@@ -312,16 +312,21 @@ TEST_F(FaultyBuffer, BaselineMustBeSilent) {
   EXPECT_EQ(silent.count(DiffClass::kStructureError), 0U);
 }
 
+/// One of each kind, numbered 0, 1 and 2.
+void add_triangle_sphere_and_cone(scenes::SceneBuilder& builder) {
+  const glm::dvec3 corners[] = {{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
+  builder.add_polygon(corners);
+  builder.add_sphere({-2.0, 0.0, 0.0}, 1.0);
+  builder.add_cone({4.0, -1.0, 0.0}, 1.0, {4.0, 1.0, 0.0}, 1.0);
+}
+
 /// Rays that pass a triangle's edge and a sphere's silhouette at a chosen distance, in units of K
 /// u.
 class Grazing : public ::testing::Test {
  protected:
   static scenes::Scene make_scene() {
     scenes::SceneBuilder builder("grazing");
-    const glm::dvec3 corners[] = {{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
-    builder.add_polygon(corners);
-    builder.add_sphere({-2.0, 0.0, 0.0}, 1.0);
-    builder.add_cone({4.0, -1.0, 0.0}, 1.0, {4.0, 1.0, 0.0}, 1.0);
+    add_triangle_sphere_and_cone(builder);
     return std::move(builder).build();
   }
   std::optional<DiffClass> missing(double x, double y, scenes::PrimitiveId id) const {
@@ -368,10 +373,7 @@ class EndsAtASurface : public ::testing::Test {
 
   static scenes::Scene make_scene() {
     scenes::SceneBuilder builder("ends");
-    const glm::dvec3 corners[] = {{0.0, -1.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}};
-    builder.add_polygon(corners);
-    builder.add_sphere({-2.0, 0.0, 0.0}, 1.0);
-    builder.add_cone({4.0, -1.0, 0.0}, 1.0, {4.0, 1.0, 0.0}, 1.0);
+    add_triangle_sphere_and_cone(builder);
     const glm::dvec3 ceiling[] = {
         {-9.0, -9.0, 3.0}, {9.0, -9.0, 3.0}, {9.0, 9.0, 3.0}, {-9.0, 9.0, 3.0}};
     builder.add_polygon(ceiling);
