@@ -21,25 +21,73 @@ constexpr std::size_t kBatch = 64;                    // rays searched at once, 
 
 double graze_budget(std::uint64_t rays) { return std::max(2.0, 1e-4 * static_cast<double>(rays)); }
 
-/// The verification of one structure's results.
-class Verifier {
+std::array<std::size_t, 3> shape_of(const rays::TraceResults& results) {
+  if (const auto* any = std::get_if<rays::AnyHits>(&results)) return {any->size(), 1, 0};
+  const auto& hits = std::get<accel::HitBuffer>(results);
+  return {static_cast<std::size_t>(hits.width()), static_cast<std::size_t>(hits.height()),
+          static_cast<std::size_t>(hits.samples())};
+}
+
+std::array<std::size_t, 3> shape_of(const rays::TraceInput& input) {
+  if (input.query() == rays::Query::kAnyHit) return {input.size(), 1, 0};
+  const accel::PrimaryRays* image = input.image();
+  if (image == nullptr) return {input.size(), 1, 1};
+  return {static_cast<std::size_t>(image->width()), static_cast<std::size_t>(image->height()),
+          static_cast<std::size_t>(image->samples())};
+}
+
+void require_shape(const rays::TraceInput& input, const rays::TraceResults& results) {
+  const auto given = shape_of(results);
+  const auto expected = shape_of(input);
+  if (given == expected) return;
+  throw std::logic_error(fmt::format("results of {}x{}x{} are verified by rays of {}x{}x{}",
+                                     given[0], given[1], given[2], expected[0], expected[1],
+                                     expected[2]));
+}
+
+Verdict verdict_of(const DiffReport& report) {
+  if (report.count(DiffClass::kStructureError) > 0) return Verdict::kMismatch;
+  const auto grazes = static_cast<double>(report.count(DiffClass::kGraze));
+  return grazes > graze_budget(report.rays) ? Verdict::kGrazes : Verdict::kOk;
+}
+
+/// Errors of the structure first, then the oracle's, grazes and ties.
+int rank(const Mismatch& mismatch) {
+  return mismatch.diff_class == DiffClass::kStructureError ? -10
+                                                           : -static_cast<int>(mismatch.diff_class);
+}
+
+}  // namespace
+
+/// The comparison of one part.
+class Differ::Part {
  public:
-  Verifier(const ReferenceHits& reference, const rays::TraceResults& results,
-           std::span<DiffClass> classes)
-      : scene_(reference.scene()),
+  Part(Differ& differ, const ReferenceHits& reference, const rays::TraceResults& results,
+       std::span<DiffClass> classes, std::span<const std::string_view> faults)
+      : differ_(differ),
+        scene_(reference.scene()),
         input_(reference.input()),
         hits_(reference.hits()),
         results_(results),
-        classes_(classes) {
-    report_.rays = input_.size();
-    report_.hits = reference.hit_count();
+        classes_(classes),
+        faults_(faults),
+        first_(differ.report_.rays) {
+    differ.report_.rays += input_.size();
+    differ.report_.hits += reference.hit_count();
     std::fill(classes_.begin(), classes_.end(), DiffClass::kAgree);
   }
 
-  DiffReport against_oracle() {
+  void against_oracle() {
     std::vector<std::size_t> disputed;
     for (std::size_t i = 0; i < input_.size(); ++i) {
-      if (agrees_at_once(i)) continue;
+      if (!faults_.empty() && !faults_[i].empty()) {
+        record(mismatch_for(i, faults_[i]));
+        continue;
+      }
+      if (agrees_at_once(i)) {
+        ++count_of(DiffClass::kAgree);
+        continue;
+      }
       Mismatch found = mismatch(i);
       if (classify_by_rules(scene_, tolerance_of(found), found)) {
         record(found);
@@ -47,20 +95,16 @@ class Verifier {
         disputed.push_back(i);
       }
     }
-    agree_with_the_rest(disputed.size());
     search(disputed);
-    return finish(verdict_of_counts());
   }
 
-  DiffReport as_baseline() {
+  void as_baseline() {
     for (std::size_t i = 0; i < input_.size(); ++i) {
       if (is_miss_of(i)) continue;
       Mismatch found = mismatch(i);
       classify_as_baseline(found);
       record(found);
     }
-    const bool all_miss = report_.count(DiffClass::kStructureError) == 0;
-    return finish(all_miss ? Verdict::kBaseline : Verdict::kMismatch);
   }
 
  private:
@@ -96,28 +140,31 @@ class Verifier {
   }
 
   Mismatch mismatch(std::size_t i) const {
-    return candidate_mismatch(input_, results_, i, hits_[i]);
+    Mismatch found = candidate_mismatch(input_, results_, i, hits_[i]);
+    found.index = first_ + i;
+    return found;
   }
-
-  void agree_with_the_rest(std::size_t disputed) {
-    std::uint64_t others = disputed;
-    for (const std::uint64_t count : report_.counts) others += count;
-    report_.counts[static_cast<std::size_t>(DiffClass::kAgree)] += report_.rays - others;
+  Mismatch mismatch_for(std::size_t i, std::string_view fault) const {
+    Mismatch found = mismatch(i);
+    found.diff_class = DiffClass::kStructureError;
+    found.reason = fault;
+    return found;
   }
 
   /// Rule 4, batch by batch, so that the outcome does not depend on the number of threads.
   void search(const std::vector<std::size_t>& disputed) {
-    std::uint64_t tests = 0;
     std::vector<Mismatch> batch;
     for (std::size_t first = 0; first < disputed.size(); first += kBatch) {
       const std::size_t last = std::min(first + kBatch, disputed.size());
       batch.clear();
       for (std::size_t i = first; i < last; ++i) batch.push_back(mismatch(disputed[i]));
-      if (report_.count(DiffClass::kStructureError) < kEnoughErrors && tests < kSearchBudget) {
+      if (count_of(DiffClass::kStructureError) < kEnoughErrors &&
+          differ_.search_tests_ < kSearchBudget) {
         tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
           beambench::verify::classify_by_search(scene_, tolerance_of(batch[i]), batch[i]);
         });
-        tests += batch.size() * (scene_.triangles.size() + scene_.primitives.size());
+        differ_.search_tests_ +=
+            batch.size() * (scene_.triangles.size() + scene_.primitives.size());
       } else {
         for (Mismatch& found : batch) presume_error(found);
       }
@@ -130,65 +177,29 @@ class Verifier {
     found.reason = "disputed, and not searched since enough errors or tests were counted before";
   }
 
+  std::uint64_t& count_of(DiffClass diff_class) {
+    return differ_.report_.counts[static_cast<std::size_t>(diff_class)];
+  }
+
   void record(const Mismatch& found) {
-    std::uint64_t& count = report_.counts[static_cast<std::size_t>(found.diff_class)];
-    if (found.diff_class != DiffClass::kAgree && count < DiffReport::kMaxExamples) {
-      report_.examples.push_back(found);
+    std::uint64_t& count = count_of(found.diff_class);
+    if (found.diff_class != DiffClass::kAgree) {
+      if (count < DiffReport::kMaxExamples) differ_.report_.examples.push_back(found);
+      if (differ_.on_mismatch_) differ_.on_mismatch_(found);
     }
     ++count;
-    if (!classes_.empty()) classes_[found.index] = found.diff_class;
+    if (!classes_.empty()) classes_[found.index - first_] = found.diff_class;
   }
 
-  Verdict verdict_of_counts() const {
-    if (report_.count(DiffClass::kStructureError) > 0) return Verdict::kMismatch;
-    const auto grazes = static_cast<double>(report_.count(DiffClass::kGraze));
-    return grazes > graze_budget(report_.rays) ? Verdict::kGrazes : Verdict::kOk;
-  }
-
-  DiffReport finish(Verdict verdict) {
-    // Errors of the structure first, then the oracle's, grazes and ties; by pixel within a class.
-    const auto rank = [](const Mismatch& m) {
-      return m.diff_class == DiffClass::kStructureError ? -10 : -static_cast<int>(m.diff_class);
-    };
-    std::stable_sort(report_.examples.begin(), report_.examples.end(),
-                     [&](const Mismatch& a, const Mismatch& b) { return rank(a) < rank(b); });
-    report_.verdict = verdict;
-    return std::move(report_);
-  }
-
+  Differ& differ_;
   const scenes::Scene& scene_;
   const rays::TraceInput& input_;
   std::span<const std::optional<accel::embree::ExactHit>> hits_;
   const rays::TraceResults& results_;
   std::span<DiffClass> classes_;
-  DiffReport report_;
+  std::span<const std::string_view> faults_;
+  std::size_t first_;
 };
-
-std::array<std::size_t, 3> shape_of(const rays::TraceResults& results) {
-  if (const auto* any = std::get_if<rays::AnyHits>(&results)) return {any->size(), 1, 0};
-  const auto& hits = std::get<accel::HitBuffer>(results);
-  return {static_cast<std::size_t>(hits.width()), static_cast<std::size_t>(hits.height()),
-          static_cast<std::size_t>(hits.samples())};
-}
-
-std::array<std::size_t, 3> shape_of(const rays::TraceInput& input) {
-  if (input.query() == rays::Query::kAnyHit) return {input.size(), 1, 0};
-  const accel::PrimaryRays* image = input.image();
-  if (image == nullptr) return {input.size(), 1, 1};
-  return {static_cast<std::size_t>(image->width()), static_cast<std::size_t>(image->height()),
-          static_cast<std::size_t>(image->samples())};
-}
-
-void require_shape(const rays::TraceInput& input, const rays::TraceResults& results) {
-  const auto given = shape_of(results);
-  const auto expected = shape_of(input);
-  if (given == expected) return;
-  throw std::logic_error(fmt::format("results of {}x{}x{} are verified by rays of {}x{}x{}",
-                                     given[0], given[1], given[2], expected[0], expected[1],
-                                     expected[2]));
-}
-
-}  // namespace
 
 std::string_view to_string(Verdict verdict) {
   static constexpr std::array<std::string_view, 6> kNames{"ok",       "mismatch", "grazes",
@@ -196,27 +207,53 @@ std::string_view to_string(Verdict verdict) {
   return kNames[static_cast<std::size_t>(verdict)];
 }
 
+void Differ::compare(const ReferenceHits& reference, const rays::TraceResults& results,
+                     std::span<DiffClass> classes, std::span<const std::string_view> faults) {
+  require_shape(reference.input(), results);
+  for (const std::size_t size : {classes.size(), faults.size()}) {
+    if (size == 0 || size == reference.input().size()) continue;
+    throw std::logic_error("classes and faults need one place for each ray");
+  }
+  Part part(*this, reference, results, classes, faults);
+  if (conformance_ == accel::Conformance::kBaseline) {
+    part.as_baseline();
+  } else {
+    part.against_oracle();
+  }
+}
+
+DiffReport Differ::finish() {
+  std::ranges::stable_sort(report_.examples, {}, rank);  // within a class as they were found
+  report_.verdict = verdict_of(report_);
+  if (conformance_ == accel::Conformance::kBaseline && report_.verdict == Verdict::kOk) {
+    report_.verdict = Verdict::kBaseline;
+  }
+  return std::move(report_);
+}
+
 DiffReport verify_results(const ReferenceHits& reference, const rays::TraceResults& results,
                           accel::Conformance conformance, std::span<DiffClass> classes) {
-  require_shape(reference.input(), results);
-  if (!classes.empty() && classes.size() != reference.input().size()) {
-    throw std::logic_error("the classes need one place for each ray");
-  }
-  Verifier verifier(reference, results, classes);
-  return conformance == accel::Conformance::kBaseline ? verifier.as_baseline()
-                                                      : verifier.against_oracle();
+  Differ differ(conformance);
+  differ.compare(reference, results, classes);
+  return differ.finish();
+}
+
+std::vector<std::optional<accel::embree::ExactHit>> oracle_hits(
+    const accel::embree::EmbreeOracle& oracle, const rays::TraceInput& input) {
+  std::vector<std::optional<accel::embree::ExactHit>> hits(input.size());
+  tbb::parallel_for(tbb::blocked_range(std::size_t{0}, hits.size(), 1024),
+                    [&](const tbb::blocked_range<std::size_t>& range) {
+                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
+                        hits[i] = oracle.closest_hit(input.ray(i));
+                      }
+                    });
+  return hits;
 }
 
 ReferenceHits::ReferenceHits(const scenes::Scene& scene, rays::TraceInput input)
-    : scene_(&scene), input_(std::move(input)), hits_(input_.size()) {
-  const accel::embree::EmbreeOracle oracle(scene, input_.reach());
-  tbb::parallel_for(tbb::blocked_range(std::size_t{0}, hits_.size(), 1024),
-                    [&](const tbb::blocked_range<std::size_t>& range) {
-                      for (std::size_t i = range.begin(); i < range.end(); ++i) {
-                        hits_[i] = oracle.closest_hit(input_.ray(i));
-                      }
-                    });
-}
+    : scene_(&scene),
+      input_(std::move(input)),
+      hits_(oracle_hits(accel::embree::EmbreeOracle(scene, input_.reach()), input_)) {}
 
 ReferenceHits::ReferenceHits(const scenes::Scene& scene, rays::TraceInput input,
                              std::vector<std::optional<accel::embree::ExactHit>> hits)

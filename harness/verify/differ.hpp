@@ -4,10 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "accel/core/registry.hpp"
@@ -52,7 +54,7 @@ inline bool is_right(Verdict verdict) {
 
 /// One ray that did not agree, with all that is needed to look at it.
 struct Mismatch {
-  std::size_t index;  ///< of the ray
+  std::size_t index;  ///< of the ray, counted over all parts
   accel::Ray ray;
   rays::Query query;
   DiffClass diff_class;
@@ -84,6 +86,11 @@ inline std::optional<accel::Hit> rounded(const std::optional<accel::embree::Exac
   return accel::Hit{static_cast<float>(hit->t), hit->primitive};
 }
 
+/// The oracle's closest hit of each ray, computed on all cores. The oracle must reach as far as the
+/// input (`TraceInput::reach`).
+std::vector<std::optional<accel::embree::ExactHit>> oracle_hits(
+    const accel::embree::EmbreeOracle& oracle, const rays::TraceInput& input);
+
 /// The oracle's closest hit of each ray of an input, computed once (on all cores) and used for
 /// every contender. The scene must outlive it.
 class ReferenceHits {
@@ -107,11 +114,38 @@ class ReferenceHits {
   std::vector<std::optional<accel::embree::ExactHit>> hits_;
 };
 
-/// Verifies a structure's results. Disputed rays are searched in long double until 64 errors are
-/// proven or the search has made 4e8 primitive tests; what is disputed beyond that counts as
-/// structure error, unproven. For Conformance::kBaseline only misses are right; others are
-/// structure errors. `classes`, unless empty, gets that of each ray. Throws std::logic_error when
-/// the results are not of the shape of the input.
+/// Compares results with the oracle's hits, part by part where there are too many to be in memory
+/// at once. Disputed rays are searched in long double until 64 errors are proven or the search has
+/// made 4e8 primitive tests; what is disputed beyond that counts as structure error, unproven.
+class Differ {
+ public:
+  /// Gets every ray whose class is not kAgree.
+  using OnMismatch = std::function<void(const Mismatch&)>;
+
+  /// For Conformance::kBaseline only misses are right; others are structure errors.
+  explicit Differ(accel::Conformance conformance, OnMismatch on_mismatch = {})
+      : conformance_(conformance), on_mismatch_(std::move(on_mismatch)) {}
+
+  /// Compares the next rays; all parts are over one scene. `classes`, unless empty, gets that of
+  /// each ray. `faults`, unless empty, has for each ray why its answer is wrong, as far as that is
+  /// known before, or nothing. Throws std::logic_error when the results, classes or faults are not
+  /// of the shape of the input.
+  void compare(const ReferenceHits& reference, const rays::TraceResults& results,
+               std::span<DiffClass> classes = {}, std::span<const std::string_view> faults = {});
+
+  /// What was found in all parts. Call it once.
+  DiffReport finish();
+
+ private:
+  class Part;
+
+  accel::Conformance conformance_;
+  OnMismatch on_mismatch_;
+  DiffReport report_;
+  std::uint64_t search_tests_ = 0;
+};
+
+/// A `Differ` of one part.
 DiffReport verify_results(const ReferenceHits& reference, const rays::TraceResults& results,
                           accel::Conformance conformance, std::span<DiffClass> classes = {});
 

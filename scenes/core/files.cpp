@@ -47,6 +47,8 @@ class Descriptor {
 
 constexpr std::size_t kFirstBlock = std::size_t{1} << 16U;   // of what has no length of its own
 constexpr std::size_t kLargestRead = std::size_t{1} << 30U;  // one call reads no more than 2 GiB
+constexpr std::size_t kStreamBlock = std::size_t{1} << 18U;
+constexpr std::size_t kLongestLine = std::size_t{1} << 28U;
 
 [[noreturn]] void refuse_input(const std::string& name, std::string_view why,
                                std::string_view remedy) {
@@ -63,6 +65,34 @@ constexpr std::size_t kLargestRead = std::size_t{1} << 30U;  // one call reads n
   refuse_input(name, fmt::format("it holds more than {} bytes", max_bytes),
                "divide it or reduce it");
 }
+
+[[noreturn]] void refuse_short_input(const std::string& name, std::uint64_t bytes,
+                                     std::uint64_t length) {
+  refuse_input(name, fmt::format("it ended after {} of its {} bytes", bytes, length),
+               "wait until it is no longer being written");
+}
+
+[[noreturn]] void refuse_empty_pipe(const std::string& name) {
+  refuse_input(name, "it is a pipe into which nothing is written",
+               "start the program that writes into it first");
+}
+
+/// A path opened for reading. Without O_NONBLOCK, opening a named pipe would wait for a writer.
+/// Reads may wait for one that is there.
+struct OpenInput {
+  explicit OpenInput(const fs::path& path)
+      : descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
+    struct stat status {};
+    if (descriptor.number() < 0 || ::fstat(descriptor.number(), &status) != 0 ||
+        ::fcntl(descriptor.number(), F_SETFL, 0) != 0) {
+      refuse_input_error(path.string(), errno);
+    }
+    is_pipe = S_ISFIFO(status.st_mode);
+  }
+
+  Descriptor descriptor;
+  bool is_pipe = false;
+};
 
 /// How many bytes are left of a regular file; 0 of whatever has no length (a pipe, a file of
 /// /proc).
@@ -92,10 +122,7 @@ std::string read_whole(int descriptor, const std::string& name, std::uint64_t ma
     used += static_cast<std::size_t>(count);
     if (used > max_bytes) refuse_size(name, max_bytes);
   }
-  if (used < length) {
-    refuse_input(name, fmt::format("it ended after {} of its {} bytes", used, length),
-                 "wait until it is no longer being written");
-  }
+  if (used < length) refuse_short_input(name, used, length);
   bytes.resize(used);
   return bytes;
 }
@@ -316,20 +343,99 @@ std::string read_input(int descriptor, const std::string& name, std::uint64_t ma
 }
 
 std::string read_input(const fs::path& path, std::uint64_t max_bytes) {
-  // Without O_NONBLOCK, opening a named pipe would wait for a writer. Reads may wait for one that
-  // is there.
-  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  struct stat status {};
-  if (file.number() < 0 || ::fstat(file.number(), &status) != 0 ||
-      ::fcntl(file.number(), F_SETFL, 0) != 0) {
-    refuse_input_error(path.string(), errno);
-  }
-  std::string bytes = read_input(file.number(), path.string(), max_bytes);
-  if (bytes.empty() && S_ISFIFO(status.st_mode)) {
-    refuse_input(path.string(), "it is a pipe into which nothing is written",
-                 "start the program that writes into it first");
-  }
+  const OpenInput file(path);
+  std::string bytes = read_input(file.descriptor.number(), path.string(), max_bytes);
+  if (bytes.empty() && file.is_pipe) refuse_empty_pipe(path.string());
   return bytes;
+}
+
+struct InputStream::State {
+  explicit State(const fs::path& path)
+      : file(path), name(path.string()), length(known_length(file.descriptor.number(), name)) {}
+
+  /// Appends to what is buffered; false at the end of the input.
+  bool fill() {
+    buffer.erase(0, begin);
+    begin = 0;
+    const std::size_t used = buffer.size();
+    buffer.resize(used + kStreamBlock);
+    const std::size_t count = read_some({buffer.data() + used, kStreamBlock});
+    buffer.resize(used + count);
+    return count > 0;
+  }
+
+  std::size_t read_some(std::span<char> into) {
+    ssize_t count = 0;
+    do {
+      count = ::read(file.descriptor.number(), into.data(), std::min(into.size(), kLargestRead));
+    } while (count < 0 && errno == EINTR);
+    if (count < 0) refuse_input_error(name, errno);
+    if (count == 0) require_whole();
+    taken += static_cast<std::uint64_t>(count);
+    return static_cast<std::size_t>(count);
+  }
+
+  void require_whole() const {
+    if (taken < length) refuse_short_input(name, taken, length);
+    if (taken == 0 && file.is_pipe) refuse_empty_pipe(name);
+  }
+
+  OpenInput file;
+  std::string name;
+  std::uint64_t length;     ///< 0 where it is not known
+  std::uint64_t taken = 0;  ///< from the file
+  std::string buffer{};
+  std::size_t begin = 0;  ///< of what was not returned yet, in `buffer`
+};
+
+InputStream::InputStream(const fs::path& path) : state_(std::make_unique<State>(path)) {}
+InputStream::~InputStream() = default;
+InputStream::InputStream(InputStream&&) noexcept = default;
+
+std::optional<std::string_view> InputStream::line() {
+  State& state = *state_;
+  for (std::size_t searched = 0;;) {
+    const std::string_view rest = std::string_view(state.buffer).substr(state.begin);
+    const std::size_t end = rest.find('\n', searched);
+    searched = rest.size();
+    const bool ended = end == std::string_view::npos && !state.fill();
+    if (ended && rest.empty()) return std::nullopt;
+    if (!ended && end == std::string_view::npos) {
+      if (searched > kLongestLine) {
+        refuse_input(state.name, fmt::format("it has a line of more than {} bytes", kLongestLine),
+                     "write one record a line");
+      }
+      continue;
+    }
+    // At the end of the input `fill` has moved what is left to the front.
+    std::string_view line = std::string_view(state.buffer).substr(state.begin);
+    line = line.substr(0, end);
+    state.begin += line.size() + (ended ? 0 : 1);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    return line;
+  }
+}
+
+std::size_t InputStream::read(std::span<char> buffer) {
+  State& state = *state_;
+  std::size_t used = std::min(buffer.size(), state.buffer.size() - state.begin);
+  std::memcpy(buffer.data(), state.buffer.data() + state.begin, used);
+  state.begin += used;
+  while (used < buffer.size()) {
+    const std::size_t count = state.read_some(buffer.subspan(used));
+    if (count == 0) break;
+    used += count;
+  }
+  return used;
+}
+
+std::optional<std::uint64_t> InputStream::remaining() const {
+  if (state_->length == 0) return std::nullopt;
+  return state_->length - std::min(state_->length, position());
+}
+
+std::uint64_t InputStream::position() const {
+  return state_->taken - (state_->buffer.size() - state_->begin);
 }
 
 void require_writable(const fs::path& target) {

@@ -1,11 +1,15 @@
 #pragma once
 // The one function that opens input, the one that writes output, and locks of folders.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -25,6 +29,30 @@ std::string read_input(const std::filesystem::path& path, std::uint64_t max_byte
 /// messages. It stays open.
 std::string read_input(int descriptor, const std::string& name,
                        std::uint64_t max_bytes = kNoByteLimit);
+
+/// An input that is read part by part, for what may be larger than memory. Opened, read and refused
+/// by the rules of `read_input`; a file that ends early is found when its end is reached.
+class InputStream {
+ public:
+  explicit InputStream(const std::filesystem::path& path);
+  ~InputStream();
+  InputStream(InputStream&&) noexcept;
+  InputStream& operator=(InputStream&&) = delete;
+
+  /// The next line without its end, "\n" or "\r\n"; nothing at the end of the input. It stays until
+  /// the next call. Throws InputError for a line of more than 256 MiB.
+  std::optional<std::string_view> line();
+  /// Fills the buffer and returns how many bytes it got: fewer only at the end of the input.
+  std::size_t read(std::span<char> buffer);
+  /// How many bytes follow; nothing for a pipe or a device.
+  std::optional<std::uint64_t> remaining() const;
+  /// How many bytes came before: of lines and of `read`.
+  std::uint64_t position() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
 
 /// Throws InputError when output cannot go there: the folder is missing or not writable, a folder
 /// stands in the file's place, a device is not writable, symbolic links lead nowhere. For refusing

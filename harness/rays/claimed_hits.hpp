@@ -1,0 +1,41 @@
+#pragma once
+// Hits that any program reports for a list of rays.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "scenes/primitive.hpp"
+
+namespace beambench::rays {
+
+/// Arrays with one element for each ray, in the order of the rays; those that are not given are
+/// empty. For the closest hits: `t` or `points`, and, where the program knows them, `primitives` or
+/// `triangles`. For any hits: `occluded` alone.
+struct ClaimedHits {
+  std::span<const float> t{};           ///< origin + t * direction is hit; infinity: nothing is
+  std::span<const glm::vec3> points{};  ///< the point that is hit; infinite: none is
+  std::span<const std::uint32_t> primitives{};  ///< `Scene::primitives`; kNoPrimitive: no hit
+  std::span<const std::uint32_t> triangles{};   ///< `Scene::triangles`; kNoPrimitive: no hit
+  std::span<const std::uint8_t> occluded{};     ///< 1: the ray hits something; 0: nothing
+
+  /// The number of rays. Throws std::logic_error where the arrays differ in length, or are not
+  /// those of one of the forms above.
+  std::size_t size() const;
+};
+
+/// The arrays themselves.
+struct HitTable {
+  std::vector<float> t{};
+  std::vector<glm::vec3> points{};
+  std::vector<std::uint32_t> primitives{};
+  std::vector<std::uint32_t> triangles{};
+  std::vector<std::uint8_t> occluded{};
+
+  ClaimedHits view() const { return {t, points, primitives, triangles, occluded}; }
+};
+
+}  // namespace beambench::rays
