@@ -1,4 +1,4 @@
-// beambench export: a scene as an NFF file.
+// beambench export: a scene as an NFF file, or its triangles as OBJ.
 
 #include <cstdio>
 #include <memory>
@@ -11,6 +11,7 @@
 #include "harness/cli/inputs.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/formats/mesh/obj_writer.hpp"
 #include "scenes/formats/nff/nff_writer.hpp"
 
 namespace beambench::cli {
@@ -23,32 +24,40 @@ struct Request {
 };
 
 void export_scene(const Request& request) {
-  if (!request.file.ends_with(".nff")) {
+  const bool obj = request.file.ends_with(".obj");
+  if (!obj && !request.file.ends_with(".nff")) {
     throw InputError(
-        fmt::format("'{}': scenes are written as NFF; end the name with .nff, by which "
-                    "they are known when they are read",
+        fmt::format("'{}': scenes are written as NFF, triangles also as OBJ; end the name with "
+                    ".nff or .obj, by which they are known when they are read",
                     request.file));
   }
   require_writable(request.file);
   const scenes::Scene scene = open_scene(request.scene, request.options);
-  write_file(request.file, [&](std::ostream& file) { scenes::nff::write_nff(scene, file); });
+  write_file(request.file, [&](std::ostream& file) {
+    obj ? scenes::mesh::write_obj(scene, file) : scenes::nff::write_nff(scene, file);
+  });
   fmt::print(stderr, "{}: {}, {} primitives\n", request.file, scene.name, scene.primitives.size());
 }
 
 }  // namespace
 
 void add_export_command(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("export", "Write a scene as an NFF file");
+  CLI::App* command = app.add_subcommand("export", "Write a scene as an NFF or OBJ file");
   const auto request = std::make_shared<Request>();
   add_scene_option(*command, request->scene);
-  command->add_option("-o", request->file, "File to write, .nff")->required();
+  command->add_option("-o", request->file, "File to write, .nff or .obj")->required();
   command->add_flag("--strict", request->options.strict,
                     "Reject a file with unknown words, ignored fields, degenerate primitives or "
                     "polygons to repair");
   command->footer(
-      "The file reads back as the same scene, bit for bit.\n"
+      "An NFF file reads back as the same scene, bit for bit. An OBJ file is for programs that "
+      "trace\n"
+      "triangles alone: it has those of all polygons, numbered from 0 as hits name them in "
+      "'beambench\n"
+      "verify --hits'; a scene with spheres or cones has none.\n"
       "Examples:\n"
       "  beambench export balls:n=3 -o balls.nff\n"
+      "  beambench export tetra:n=5 -o tetra.obj\n"
       "  beambench scene balls.nff");
   command->callback([request] { export_scene(*request); });
 }

@@ -11,7 +11,7 @@
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/rays/fingerprint.hpp"
-#include "harness/rays/ray_set.hpp"
+#include "harness/rays/ray_file.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/differ.hpp"
 #include "scenes/core/error.hpp"
@@ -77,9 +77,10 @@ void print_facts(const Request& request, const scenes::Scene& scene, const rays:
 void show_rays(const Request& request) {
   const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
   if (!request.file.empty()) {
-    if (!request.file.ends_with(rays::kRayFileEnding)) {
-      throw InputError(fmt::format("'{}' does not end in {}, the ending of ray files", request.file,
-                                   rays::kRayFileEnding));
+    if (!rays::is_ray_file(request.file)) {
+      throw InputError(
+          fmt::format("'{}' ends neither in {} nor in {}, the endings of files of rays",
+                      request.file, rays::kRayFileEnding, rays::kCsvEnding));
     }
     require_writable(request.file);
   }
@@ -98,16 +99,19 @@ void add_rays_command(CLI::App& app, int&) {
   const auto request = std::make_shared<Request>();
   add_scene_option(*command, request->scene);
   command
-      ->add_option("--rays", request->rays, "Kind of rays (see 'beambench list') or a .rays file")
+      ->add_option("--rays", request->rays,
+                   "Kind of rays (see 'beambench list') or a .rays or .csv file")
       ->capture_default_str();
   add_image_options(*command, request->image);
-  command->add_option("-o", request->file, "File to save them to, ending in .rays");
+  command->add_option("-o", request->file, "File to save them to, ending in .rays or .csv");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "Coherence is the mean cosine of the angle between the directions of a ray and the next. A\n"
       "saved file can be given wherever a kind of rays can, in --rays and in sweeps; it holds a\n"
       "line 'beambench-rays 1', a line of JSON, then eight little-endian 32-bit floats per ray:\n"
-      "origin, t_min, direction, t_max. The pencils of shadow and mirror rays are in the JSON.\n"
+      "origin, t_min, direction, t_max. The pencils of shadow and mirror rays are in the JSON. A "
+      "CSV\n"
+      "file has the columns ox,oy,oz,t_min,dx,dy,dz,t_max, and no query: it is read as 'closest'.\n"
       "Examples:\n"
       "  beambench rays escena1 --rays shadow --resolution 320x200\n"
       "  beambench rays balls --rays diffuse:seed=7 -o balls-diffuse.rays\n"

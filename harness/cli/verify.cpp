@@ -1,4 +1,4 @@
-// beambench verify: compares the hits of structures with an exact oracle.
+// beambench verify: compares the hits of structures, or of any program, with an exact oracle.
 
 #include <algorithm>
 #include <cstdio>
@@ -15,6 +15,7 @@
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
+#include "harness/cli/verify_hits.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "harness/rays/ray_kind.hpp"
 #include "harness/rays/trace_input.hpp"
@@ -23,6 +24,7 @@
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/shell_word.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -31,6 +33,7 @@ constexpr std::size_t kPrintedDisputes = 3;  // of each cell; the JSON has them 
 
 struct Request {
   std::vector<std::string> scenes;
+  std::string hits;
   std::string structures = "all";
   std::string resolution = "320x200";
   ViewRequest view;
@@ -101,6 +104,22 @@ void write_json(const Request& request, const std::vector<verify::VerifiedCell>&
                              {"cells", nlohmann::ordered_json::array()}};
   for (const verify::VerifiedCell& cell : cells) out["cells"].push_back(to_json(cell));
   write_file(request.json, out.dump(2) + '\n');
+}
+
+/// The request as one about files of hits. Throws InputError for what does not go with --hits.
+VerifyHitsRequest hits_request(const Request& request) {
+  if (request.scenes.size() != 1) {
+    throw InputError("with --hits, name one scene: that over which the rays were traced");
+  }
+  if (!rays::is_ray_file(request.rays)) {
+    throw InputError(
+        fmt::format("with --hits, --rays is the file of the rays that were traced, not '{}'; "
+                    "'beambench rays {} "
+                    "-o FILE.rays' writes one",
+                    request.rays, shell_quoted(request.scenes.front())));
+  }
+  return {request.scenes.front(), request.rays, request.hits,    request.view,
+          request.resolution,     request.json, request.pictures};
 }
 
 /// All of them before any work is done, so that a wrong name fails early.
@@ -187,26 +206,38 @@ int verify_structures(const Request& request) {
 
 void add_verify_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
-      app.add_subcommand("verify", "Verify structures, ray by ray, against an exact oracle");
+      app.add_subcommand("verify", "Verify hits, ray by ray, against an exact oracle");
   const auto request = std::make_shared<Request>();
   command->add_option("SCENE", request->scenes,
                       fmt::format("{}; several may be given (default: the whole catalogue, which "
                                   "takes some minutes)",
                                   kSceneHelp));
-  command->add_option("--accel", request->structures, "Structures: NAME:parameter=value,... or all")
-      ->capture_default_str();
+  CLI::Option* accel = command
+                           ->add_option("--accel", request->structures,
+                                        "Structures: NAME:parameter=value,... or all")
+                           ->capture_default_str();
   command->add_option("--resolution", request->resolution, "WxH")->capture_default_str();
   command
-      ->add_option("--rays", request->rays, "Kinds of rays (see 'beambench list'), or .rays files")
+      ->add_option("--rays", request->rays,
+                   "Kinds of rays (see 'beambench list'), or .rays and .csv files")
       ->capture_default_str();
-  command->add_option("--samples", request->samples, "Rays per pixel: 1, 4, 5, 9, 16, ...")
-      ->capture_default_str();
+  CLI::Option* hits =
+      command
+          ->add_option("--hits", request->hits,
+                       "Verify the hits that a program wrote to this .hits or .csv file for the "
+                       "rays of the file --rays")
+          ->type_name("FILE");
+  CLI::Option* samples =
+      command->add_option("--samples", request->samples, "Rays per pixel: 1, 4, 5, 9, 16, ...")
+          ->capture_default_str();
   add_view_options(*command, request->view);
-  command
-      ->add_option("--threads", request->threads,
-                   "Threads for images of primary rays; 0: one for each core")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 1024));
+  CLI::Option* threads =
+      command
+          ->add_option("--threads", request->threads,
+                       "Threads for images of primary rays; 0: one for each core")
+          ->capture_default_str()
+          ->check(CLI::Range(0, 1024));
+  for (CLI::Option* option : {accel, samples, threads}) hits->excludes(option);
   command->add_option("--json", request->json, "Also write the results to this file");
   command
       ->add_option("--pictures", request->pictures,
@@ -224,14 +255,20 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       "only\n"
       "if no kind has any). Each error is printed with the command that replays it, a 'beambench\n"
       "trace'.\n"
+      "With --hits, the hits are those of any program; their picture marks where they are. The\n"
+      "formats are in harness/verify/README.md, and 'beambench hits' writes an example.\n"
       "Examples:\n"
       "  beambench verify tetera\n"
       "  beambench verify escena1 tetra:n=4 --accel all\n"
       "  beambench verify balls --rays shadow,reflection,diffuse,random\n"
       "  beambench verify finishes --accel all --rays whitted\n"
+      "  beambench verify tetera --rays tetera.rays --hits mine.csv --pictures .\n"
       "  beambench verify balls --accel samet:max_level=5,embree --resolution 640x480 --json "
       "v.json");
-  command->callback([request, &exit_code] { exit_code = verify_structures(*request); });
+  command->callback([request, &exit_code] {
+    exit_code =
+        request->hits.empty() ? verify_structures(*request) : verify_hits(hits_request(*request));
+  });
 }
 
 }  // namespace beambench::cli

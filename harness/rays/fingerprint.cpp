@@ -17,6 +17,24 @@ std::uint64_t fingerprint(std::span<const accel::Ray> rays) {
   return XXH3_64bits(rays.data(), rays.size_bytes());
 }
 
+struct RayFingerprint::State {
+  struct Free {
+    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+  };
+  std::unique_ptr<XXH3_state_t, Free> hash{XXH3_createState()};
+};
+
+RayFingerprint::RayFingerprint() : state_(std::make_unique<State>()) {
+  XXH3_64bits_reset(state_->hash.get());
+}
+RayFingerprint::~RayFingerprint() = default;
+
+void RayFingerprint::add(std::span<const accel::Ray> rays) {
+  XXH3_64bits_update(state_->hash.get(), rays.data(), rays.size_bytes());
+}
+
+std::uint64_t RayFingerprint::value() const { return XXH3_64bits_digest(state_->hash.get()); }
+
 std::uint64_t fingerprint(const accel::PrimaryRays& rays) {
   std::uint64_t hash = 0;
   std::vector<accel::Ray> row;

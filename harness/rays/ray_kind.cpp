@@ -75,8 +75,8 @@ RayChoice choose(const Spec& spec) {
     std::vector<std::string> names;
     for (const RayKindInfo& known : kinds) names.push_back(known.name);
     throw InputError(
-        fmt::format("unknown ray kind '{}'; choose from: {}, or a file of saved rays (*{})",
-                    spec.name, fmt::join(names, ", "), kRayFileEnding));
+        fmt::format("unknown ray kind '{}'; choose from: {}, or a file of saved rays (*{}, *{})",
+                    spec.name, fmt::join(names, ", "), kRayFileEnding, kCsvEnding));
   }
   const Parameters parameters(info->name, info->parameters, spec.parameters);
   RayChoice choice{info->kind, 0, {}, parameters.short_label()};
@@ -111,7 +111,7 @@ const RayKindInfo& info_of(RayKind kind) { return all_kinds()[static_cast<std::s
 std::string_view to_string(RayKind kind) { return info_of(kind).name; }
 
 RayChoice parse_ray_choice(std::string_view text) {
-  return text.ends_with(kRayFileEnding) ? choose_file(text) : choose(parse_spec(text));
+  return is_ray_file(text) ? choose_file(text) : choose(parse_spec(text));
 }
 
 std::vector<RayChoice> parse_ray_choices(std::string_view list) {

@@ -45,8 +45,14 @@ std::span<const RayKindInfo> ray_kinds();
 const RayKindInfo& info_of(RayKind kind);
 std::string_view to_string(RayKind kind);
 
-/// The ending by which a file of rays is distinguished from the name of a kind.
+/// The endings by which a file of rays is distinguished from the name of a kind.
 inline constexpr std::string_view kRayFileEnding = ".rays";
+inline constexpr std::string_view kCsvEnding = ".csv";
+
+/// Whether a text names a file of rays, by its ending.
+inline bool is_ray_file(std::string_view text) {
+  return text.ends_with(kRayFileEnding) || text.ends_with(kCsvEnding);
+}
 
 /// Rays as a user names them: a kind with its parameters, or a file.
 struct RayChoice {

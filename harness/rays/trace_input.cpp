@@ -10,8 +10,8 @@
 #include <glm/geometric.hpp>
 
 #include "harness/rays/fingerprint.hpp"
+#include "harness/rays/ray_file.hpp"
 #include "harness/rays/ray_generators.hpp"
-#include "harness/rays/ray_set.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::rays {
@@ -76,18 +76,6 @@ RaySet made_set(const scenes::Scene& scene, const accel::PrimaryRays& primary,
         "from; choose another camera or resolution",
         choice.label, scene.name, primary.width(), primary.height(),
         choice.kind == RayKind::kMirror ? "planar mirror" : "surface"));
-  }
-  return set;
-}
-
-RaySet read_for(const scenes::Scene& scene, const RayChoice& choice) {
-  RaySet set = read_ray_file(choice.file);
-  if (set.scene_hash && *set.scene_hash != scenes::scene_hash(scene)) {
-    throw InputError(fmt::format(
-        "{}: these rays were made for a scene with hash {}, but '{}' has {}; make them again with "
-        "'beambench rays'",
-        choice.label, hex_digits(*set.scene_hash), scene.name,
-        hex_digits(scenes::scene_hash(scene))));
   }
   return set;
 }
@@ -198,9 +186,21 @@ accel::Workload workload_of(const ImageOfRays& image, const TraceInput& input, i
   return {image.camera, input.size(), threads};
 }
 
+void require_made_for(const scenes::Scene& scene, const RaySet& set) {
+  if (!set.scene_hash || *set.scene_hash == scenes::scene_hash(scene)) return;
+  throw InputError(fmt::format(
+      "{}: these rays were made for a scene with hash {}, but '{}' has {}; make them again with "
+      "'beambench rays'",
+      set.label, hex_digits(*set.scene_hash), scene.name, hex_digits(scenes::scene_hash(scene))));
+}
+
 TraceInput make_trace_input(const scenes::Scene& scene, const ImageOfRays& image,
                             const RayChoice& choice) {
-  if (!choice.file.empty()) return TraceInput(read_for(scene, choice));
+  if (!choice.file.empty()) {
+    RaySet set = read_ray_file(choice.file);
+    require_made_for(scene, set);
+    return TraceInput(std::move(set));
+  }
   if (choice.kind == RayKind::kWhitted) {
     throw InputError(
         "the rays of a whole picture follow from a structure's own hits, so they are no list; "

@@ -110,6 +110,9 @@ class NoRaysError : public InputError {
   using InputError::InputError;
 };
 
+/// Throws InputError for rays of a file that states that they were made for another scene.
+void require_made_for(const scenes::Scene& scene, const RaySet& set);
+
 /// Makes the rays of a choice, or reads them. Throws NoRaysError where the scene has no lights for
 /// shadow rays or no planar mirrors for mirror rays, or no primary ray hits anything for rays to
 /// start from; InputError for whole pictures, and as `read_ray_file`; for a file also when it was

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <set>
 #include <vector>
@@ -11,6 +12,7 @@
 
 #include "harness/render/picture/image_file.hpp"
 #include "harness/render/picture/legend.hpp"
+#include "harness/render/picture/point_marks.hpp"
 #include "harness/render/shading.hpp"
 #include "harness/verify/verify_ray.hpp"
 #include "scenes/core/error.hpp"
@@ -96,6 +98,39 @@ void write_difference(const std::filesystem::path& file, const verify::Reference
   for (const verify::DiffClass each : pixels) numbers.push_back(static_cast<std::uint32_t>(each));
   const DataChannel channel{"class", std::move(numbers)};
   write_image(file, ground, {&channel, 1});
+}
+
+void DisputedPlaces::add(const verify::Mismatch& mismatch) {
+  auto& points = points_[static_cast<std::size_t>(mismatch.diff_class)];
+  if (points.size() == kMaxPoints) return;
+  double t =
+      0.0;  // of an any-hit query that claims an occluder where there is none: where it begins
+  if (mismatch.oracle) {
+    t = mismatch.oracle->t;
+  } else if (mismatch.answer && std::isfinite(mismatch.answer->t)) {
+    t = mismatch.answer->t;
+  }
+  points.push_back(glm::dvec3(mismatch.ray.origin) + t * glm::dvec3(mismatch.ray.direction));
+}
+
+bool DisputedPlaces::empty() const {
+  return std::ranges::all_of(points_, [](const auto& points) { return points.empty(); });
+}
+
+void write_disputed_places(const std::filesystem::path& file, const scenes::Scene& scene,
+                           const accel::PrimaryRays& rays, const DisputedPlaces& places) {
+  const verify::ReferenceHits reference(scene, rays);
+  Image picture = shade(scene, rays, reference.rounded(), Shading::kPreview);
+  std::vector<PointGroup> groups;
+  const auto add = [&](const char* name, const glm::vec3& color, verify::DiffClass diff_class) {
+    if (!places.of(diff_class).empty()) groups.push_back({{name, color}, places.of(diff_class)});
+  };
+  add("tie", okabe_ito::kSkyBlue, verify::DiffClass::kTie);
+  add("graze", okabe_ito::kYellow, verify::DiffClass::kGraze);
+  add("the oracle is wrong", okabe_ito::kBluishGreen, verify::DiffClass::kEmbreeError);
+  add("wrong", okabe_ito::kVermillion, verify::DiffClass::kStructureError);
+  const std::vector<LegendEntry> legend = mark_points(picture, rays, groups);
+  write_image(file, with_legend(picture, "hits by class", legend));
 }
 
 verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::TraceInput& input,

@@ -1,10 +1,15 @@
 #pragma once
 // Pictures of what a structure does: where its hits differ from others, its work.
 
+#include <array>
+#include <cstddef>
 #include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "accel/core/registry.hpp"
 #include "harness/base/progress.hpp"
@@ -28,6 +33,29 @@ inline constexpr const char* kOracleName = "oracle";
 /// the verified structure is wrong, 4 the reference is).
 void write_difference(const std::filesystem::path& file, const verify::ReferenceHits& reference,
                       std::span<const verify::DiffClass> classes, const ComparedNames& comparison);
+
+/// Where rays were found to be wrong, grazing or tied: the point of the oracle's hit, or of the
+/// claimed one where the oracle finds none. Bounded in memory.
+class DisputedPlaces {
+ public:
+  void add(const verify::Mismatch& mismatch);
+  bool empty() const;
+
+  /// Of each class, in the order of `verify::DiffClass`; at most kMaxPoints each.
+  const std::vector<glm::dvec3>& of(verify::DiffClass diff_class) const {
+    return points_[static_cast<std::size_t>(diff_class)];
+  }
+
+  static constexpr std::size_t kMaxPoints = 100'000;
+
+ private:
+  std::array<std::vector<glm::dvec3>, static_cast<std::size_t>(verify::DiffClass::kCount)>
+      points_{};
+};
+
+/// Writes a preview of the scene with the places marked; a .png with a legend.
+void write_disputed_places(const std::filesystem::path& file, const scenes::Scene& scene,
+                           const accel::PrimaryRays& rays, const DisputedPlaces& places);
 
 /// A structure's hits as reference; invalid hits count as misses.
 verify::ReferenceHits reference_from(const scenes::Scene& scene, const rays::TraceInput& input,

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "harness/verify/differ.hpp"
+#include "harness/verify/hit_json.hpp"
 #include "scenes/core/shell_word.hpp"
 
 namespace beambench::verify {
@@ -79,26 +80,46 @@ std::string ReplayCommand::of(std::size_t index) const {
   return fmt::format("{} --pixel {},{} {}{}", subject_, pixel->x, pixel->y, image_, which);
 }
 
-std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
-                     const Mismatch& mismatch) {
+std::string describe(const scenes::Scene& scene, std::string_view place, const Mismatch& mismatch,
+                     std::string_view subject) {
   return fmt::format(
       "{}: {}{}{}\n"
       "  ray       from {} along {}, t in [{}, {}]\n"
-      "  structure {}\n"
+      "  {:9} {}\n"
       "  oracle    {}\n"
       "  exact     {}\n",
-      rays::place_text(input, mismatch.index),
-      kDiffClassNames[static_cast<std::size_t>(mismatch.diff_class)],
+      place, kDiffClassNames[static_cast<std::size_t>(mismatch.diff_class)],
       mismatch.reason.empty() ? "" : ", ", mismatch.reason, text(mismatch.ray.origin),
-      text(mismatch.ray.direction), mismatch.ray.t_min, mismatch.ray.t_max,
+      text(mismatch.ray.direction), mismatch.ray.t_min, mismatch.ray.t_max, subject,
       answer_text(scene, mismatch), text(scene, mismatch.oracle),
       mismatch.searched ? text(scene, mismatch.exact) : "not searched");
+}
+
+std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
+                     const Mismatch& mismatch) {
+  return describe(scene, rays::place_text(input, mismatch.index), mismatch, "structure");
 }
 
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch, const ReplayCommand& replay) {
   return fmt::format("{}  replay {}\n", describe(scene, input, mismatch),
                      replay.of(mismatch.index));
+}
+
+nlohmann::ordered_json to_json(const Mismatch& mismatch) {
+  nlohmann::ordered_json out{
+      {"index", mismatch.index},
+      {"class", kDiffClassNames[static_cast<std::size_t>(mismatch.diff_class)]},
+      {"reason", mismatch.reason},
+      {"ray", ray_json(mismatch.ray)}};
+  if (mismatch.query == rays::Query::kAnyHit) {
+    out["claim"] = mismatch.any_hit_answer;
+  } else {
+    out["claim"] = hit_json(mismatch.answer);
+  }
+  out["oracle"] = hit_json(mismatch.oracle);
+  if (mismatch.searched) out["exact"] = hit_json(mismatch.exact);
+  return out;
 }
 
 }  // namespace beambench::verify

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "accel/core/registry.hpp"
 #include "harness/verify/differ.hpp"
 
@@ -28,12 +30,18 @@ class ReplayCommand {
   std::string image_;    ///< resolution, samples, camera
 };
 
-/// One mismatch as text: its place in the input, ray, both results, the exact one, and why it is
-/// of its class.
+/// One mismatch as text: its place, ray, both results, the exact one, and why it is of its class.
+/// `subject` is what gave the answer, in at most nine letters.
+std::string describe(const scenes::Scene& scene, std::string_view place, const Mismatch& mismatch,
+                     std::string_view subject);
+/// The same of a structure's answer, with the place in the input.
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch);
 /// The same, and the command that shows the ray's traversal path.
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch, const ReplayCommand& replay);
+
+/// The same as JSON: index, class, reason, ray, and the hits, `claim` being the answer.
+nlohmann::ordered_json to_json(const Mismatch& mismatch);
 
 }  // namespace beambench::verify

@@ -13,6 +13,7 @@
 #include "accel/core/intersect.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/describe.hpp"
+#include "harness/verify/hit_json.hpp"
 #include "harness/verify/verify_ray.hpp"
 
 namespace beambench::verify {
@@ -178,20 +179,6 @@ std::string alone_text(const RayPath& path) {
                  : "miss");
 }
 
-template <class AnyHit>
-Json hit_json(const std::optional<AnyHit>& hit) {
-  if (!hit) return nullptr;
-  return {{"primitive", hit->primitive}, {"t", hit->t}};
-}
-
-template <class Vector>
-Json vector_json(const Vector& v) {
-  return Json::array({v.x, v.y, v.z});
-}
-
-/// What is infinite has no number in JSON.
-Json number_json(float value) { return std::isinf(value) ? Json() : Json(value); }
-
 Json plane_json(const accel::beam::CrossedPlane& plane) {
   return {{"axis", std::string(1, "xyz"[plane.axis])}, {"at", plane.at}};
 }
@@ -319,10 +306,7 @@ nlohmann::ordered_json to_json(const scenes::Scene& scene, const RayPath& path) 
     out["pixel"] = {pixel->x, pixel->y};
     out["sample"] = pixel->sample;
   }
-  out["ray"] = {{"origin", vector_json(ray.origin)},
-                {"direction", vector_json(ray.direction)},
-                {"t_min", ray.t_min},
-                {"t_max", number_json(ray.t_max)}};
+  out["ray"] = ray_json(ray);
   if (!path.beams.empty()) {
     out["beams"] = Json::array();
     for (const accel::beam::BeamPassage& beam : path.beams)

@@ -62,13 +62,13 @@ void classify_as(DiffClass diff_class, std::string_view reason, Mismatch& found)
 }
 
 std::string_view why_wrong(const scenes::Scene& scene, double tolerance, const Mismatch& found) {
-  if (!found.answer) return "the structure lost a hit";
+  if (!found.answer) return "a hit was lost";
   const accel::embree::ExactHit claim{found.answer->t, found.answer->primitive};
   if (!(contact(scene, found.ray, claim, tolerance).offset <= tolerance)) {
-    return "the ray does not meet the structure's primitive at its t";
+    return "the ray does not meet that primitive at that t";
   }
-  if (!found.exact || claim.t < found.exact->t) return "the structure reports a hit too many";
-  return "the structure lost a nearer hit";
+  if (!found.exact || claim.t < found.exact->t) return "a hit too many is reported";
+  return "a nearer hit was lost";
 }
 
 /// The whole line of a ray.
@@ -125,8 +125,7 @@ void classify_any_hit_by_search(const scenes::Scene& scene, double tolerance, Mi
   const bool answer = found.any_hit_answer == 1;
   if (answer == found.exact.has_value()) {
     return classify_as(DiffClass::kEmbreeError,
-                       answer ? "there is a hit, as the structure reports"
-                              : "there is no hit, as the structure reports",
+                       answer ? "there is a hit, as reported" : "there is no hit, as reported",
                        found);
   }
   if (answer) {
@@ -134,8 +133,7 @@ void classify_any_hit_by_search(const scenes::Scene& scene, double tolerance, Mi
       return classify_as(DiffClass::kGraze,
                          "a primitive is just missed, or just beyond the ray's end", found);
     }
-    return classify_as(DiffClass::kStructureError,
-                       "the structure reports a hit where there is none", found);
+    return classify_as(DiffClass::kStructureError, "a hit is reported where there is none", found);
   }
   const Measure measure{scene, found.ray, tolerance};
   if (std::ranges::all_of(exact_hits(scene, found.ray),
@@ -143,7 +141,7 @@ void classify_any_hit_by_search(const scenes::Scene& scene, double tolerance, Mi
     return classify_as(DiffClass::kGraze,
                        "all that is hit is only grazed, or touched at the ray's end", found);
   }
-  classify_as(DiffClass::kStructureError, "the structure lost a hit", found);
+  classify_as(DiffClass::kStructureError, "a hit was lost", found);
 }
 
 }  // namespace
@@ -229,7 +227,7 @@ void classify_by_search(const scenes::Scene& scene, double tolerance, Mismatch& 
   }
   if (classify(scene, found.ray, found.answer, found.exact, tolerance)) {
     return classify_as(DiffClass::kEmbreeError,
-                       "the structure returns the exact answer and the oracle does not", found);
+                       "the answer is the exact one and the oracle's is not", found);
   }
   classify_as(DiffClass::kStructureError, why_wrong(scene, tolerance, found), found);
 }

@@ -12,7 +12,7 @@
 
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/ray_generators.hpp"
-#include "harness/rays/ray_set.hpp"
+#include "harness/rays/ray_file.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/describe.hpp"
@@ -286,7 +286,7 @@ TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsWrong) {
     EXPECT_EQ(report.examples[0].index, at);
     EXPECT_TRUE(scenes::says(
         verify::describe(scene_, reference_.input(), report.examples[0]),
-        {fmt::format("ray {}: structure_error", at), value == 1 ? "lost a hit" : "there is none"}));
+        {fmt::format("ray {}: structure_error", at), value == 1 ? "a hit was lost" : "there is none"}));
     answer(at) = value;
   }
 }

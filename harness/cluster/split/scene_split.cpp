@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_map>
+#include <utility>
+#include <vector>
 
 #include "accel/core/tolerance.hpp"
+#include "scenes/subset.hpp"
 
 namespace beambench::cluster {
 namespace {
@@ -29,69 +31,6 @@ std::uint32_t morton(const glm::ivec3& cell) {
   }
   return code;
 }
-
-/// Copies primitives with all that they refer to, each vertex once.
-class PartBuilder {
- public:
-  PartBuilder(const scenes::Scene& whole, ScenePart& part) : whole_(&whole), part_(&part) {}
-
-  void add(scenes::PrimitiveId id) {
-    scenes::Scene& scene = part_->scene;
-    scenes::Primitive primitive = whole_->primitives[id];
-    switch (primitive.kind) {
-      case scenes::PrimitiveKind::kSphere:
-        scene.spheres.push_back(whole_->spheres[primitive.index]);
-        primitive.index = static_cast<std::uint32_t>(scene.spheres.size() - 1);
-        break;
-      case scenes::PrimitiveKind::kCone:
-        scene.cones.push_back(whole_->cones[primitive.index]);
-        primitive.index = static_cast<std::uint32_t>(scene.cones.size() - 1);
-        break;
-      case scenes::PrimitiveKind::kPolygon:
-        add_polygon(whole_->polygons[primitive.index]);
-        primitive.index = static_cast<std::uint32_t>(scene.polygons.size() - 1);
-        break;
-    }
-    scene.primitives.push_back(primitive);
-    part_->global.push_back(id);
-  }
-
- private:
-  void add_polygon(scenes::Polygon polygon) {
-    scenes::Scene& scene = part_->scene;
-    const auto first_corner = static_cast<std::uint32_t>(scene.corners.size());
-    const auto first_triangle = static_cast<std::uint32_t>(scene.triangles.size());
-    for (std::uint32_t i = 0; i < polygon.corner_count; ++i) {
-      scene.corners.push_back(vertex(whole_->corners[polygon.first_corner + i]));
-    }
-    for (std::uint32_t i = 0; i < polygon.triangle_count; ++i) {
-      scenes::Triangle triangle = whole_->triangles[polygon.first_triangle + i];
-      for (std::uint32_t& each : triangle.vertex) each = vertex(each);
-      triangle.primitive = static_cast<scenes::PrimitiveId>(scene.primitives.size());
-      scene.triangles.push_back(triangle);
-    }
-    if (polygon.first_normal != scenes::Polygon::kFlat) {
-      const auto first = whole_->normals.begin() + polygon.first_normal;
-      polygon.first_normal = static_cast<std::uint32_t>(scene.normals.size());
-      scene.normals.insert(scene.normals.end(), first, first + polygon.corner_count);
-    }
-    polygon.first_corner = first_corner;
-    polygon.first_triangle = first_triangle;
-    scene.polygons.push_back(polygon);
-  }
-
-  std::uint32_t vertex(std::uint32_t index) {
-    auto& vertices = part_->scene.vertices;
-    const auto [found, is_new] =
-        places_.emplace(index, static_cast<std::uint32_t>(vertices.size()));
-    if (is_new) vertices.push_back(whole_->vertices[index]);
-    return found->second;
-  }
-
-  const scenes::Scene* whole_;
-  ScenePart* part_;
-  std::unordered_map<std::uint32_t, std::uint32_t> places_;  ///< of vertices
-};
 
 }  // namespace
 
@@ -133,21 +72,12 @@ bool SceneSplit::reaches(ProcessId process, scenes::PrimitiveId id) const {
 }
 
 ScenePart part_of(const scenes::Scene& scene, const SceneSplit& split, ProcessId process) {
-  ScenePart part;
-  part.scene.name = scene.name;
-  part.scene.cameras = scene.cameras;
-  part.scene.background = scene.background;
-  part.scene.lights = scene.lights;
-  part.scene.surfaces = scene.surfaces;
-  part.scene.bounds = scene.bounds;
-  PartBuilder builder(scene, part);
+  std::vector<scenes::PrimitiveId> kept;
   for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-    if (split.reaches(process, id)) builder.add(id);
+    if (split.reaches(process, id)) kept.push_back(id);
   }
-  scenes::Scene& kept = part.scene;
-  const auto shrink = [](auto&... lists) { (lists.shrink_to_fit(), ...); };
-  shrink(kept.primitives, kept.spheres, kept.cones, kept.polygons, kept.triangles, kept.vertices,
-         kept.corners, kept.normals, part.global);
+  ScenePart part{scenes::subset(scene, kept), std::move(kept)};
+  part.scene.bounds = scene.bounds;
   return part;
 }
 

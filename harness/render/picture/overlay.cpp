@@ -11,6 +11,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "harness/render/picture/projection.hpp"
 #include "harness/render/picture/raster.hpp"
 
 namespace beambench::render {
@@ -21,29 +22,6 @@ constexpr double kThickness = 1.0;
 /// How near to the camera's plane an edge is followed, as a part of its farther end's depth. There
 /// every point appears at infinity.
 constexpr double kNearest = 1e-6;
-
-/// The perspective of an image.
-struct Projection {
-  explicit Projection(const accel::PrimaryRays& image) : rays(image), eye(image.eye()) {}
-
-  /// Along the view direction: 0 in the camera's plane, negative behind it.
-  double depth(const glm::dvec3& point) const { return glm::dot(point - eye, rays.forward()); }
-  /// Where a point of depth > 0 appears, in pixels; (0, 0) is the image's top left corner.
-  glm::dvec2 place(const glm::dvec3& point) const {
-    const glm::dvec3 offset = (point - eye) / depth(point) - rays.top_left();
-    return {glm::dot(offset, rays.right()) / glm::dot(rays.right(), rays.right()),
-            glm::dot(offset, rays.down()) / glm::dot(rays.down(), rays.down())};
-  }
-  /// From the camera through a place to depth 1: `t` along it is depth.
-  glm::dvec3 direction(const glm::dvec2& place) const {
-    return rays.top_left() + rays.right() * place.x + rays.down() * place.y;
-  }
-  /// The width in pixels of a unit length at depth 1.
-  double scale() const { return 1.0 / glm::length(rays.right()); }
-
-  const accel::PrimaryRays& rays;
-  glm::dvec3 eye;
-};
 
 /// An edge on the image: of what lies in front of the camera.
 struct SeenEdge {

@@ -1,0 +1,41 @@
+#pragma once
+// CSV files of numbers: a line with the names of the columns, then one line for each record.
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/core/files.hpp"
+
+namespace beambench::rays {
+
+/// Reads the records in their order. Blanks around cells, a byte order mark, "\r\n" and a "# "
+/// before the names (which NumPy writes) are skipped; numbers may be `inf` and `nan`. Blank lines
+/// may stand at the end alone.
+class CsvNumbers {
+ public:
+  /// `first_line` was read from the input already, and is the line of the names.
+  CsvNumbers(std::filesystem::path path, InputStream input, std::string_view first_line);
+
+  std::span<const std::string> columns() const { return columns_; }
+  /// Fills a row, with `when_empty` where a cell is empty; NaN there means that it must not be.
+  /// False at the end. Throws InputError naming file, line and column.
+  bool next(std::span<double> row, std::span<const double> when_empty);
+  /// `hits.csv:18`, the place of the record with that index.
+  std::string place_of(std::size_t index) const;
+
+  const InputStream& input() const { return input_; }
+
+ private:
+  double number(std::string_view cell, std::size_t column, double when_empty) const;
+
+  std::filesystem::path path_;
+  InputStream input_;
+  std::vector<std::string> columns_;
+  std::size_t records_ = 0;
+};
+
+}  // namespace beambench::rays

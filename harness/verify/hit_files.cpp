@@ -1,0 +1,81 @@
+#include "harness/verify/hit_files.hpp"
+
+#include <span>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "harness/rays/hit_file.hpp"
+#include "harness/rays/ray_file.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "scenes/core/error.hpp"
+
+namespace beambench::verify {
+namespace {
+
+constexpr std::size_t kBlock = std::size_t{1} << 18U;  // rays in memory at once
+
+[[noreturn]] void refuse_counts(const std::filesystem::path& rays, std::uint64_t ray_count,
+                                const std::filesystem::path& hits, const std::string& hit_count) {
+  throw InputError(
+      fmt::format("{}: there are {} hits for the {} rays of {}; write one for each ray, "
+                  "in their order",
+                  hits.string(), hit_count, ray_count, rays.string()));
+}
+
+}  // namespace
+
+HitFilesReport verify_hit_files(const scenes::Scene& scene, const std::filesystem::path& rays,
+                                const std::filesystem::path& hits,
+                                ClaimVerifier::OnMismatch on_mismatch, base::Progress& progress) {
+  rays::RayReader ray_reader(rays);
+  rays::require_made_for(scene, ray_reader.header());
+  rays::HitReader hit_reader(hits);
+  const auto known_rays = ray_reader.count();
+  const auto known_hits = hit_reader.count();
+  if (known_rays && known_hits && *known_rays != *known_hits) {
+    refuse_counts(rays, *known_rays, hits, fmt::format("{}", *known_hits));
+  }
+
+  progress.start(fmt::format("{} over {}", hits.string(), scene.name));
+  ClaimVerifier verifier(scene, std::move(on_mismatch));
+  std::vector<accel::Ray> block(kBlock);
+  rays::HitTable table;
+  std::uint64_t verified = 0;
+  for (;;) {
+    const std::size_t ray_count = ray_reader.read(block);
+    // One more than there are rays, to find hits that are too many.
+    const std::size_t hit_count =
+        hit_reader.read(ray_count < kBlock ? ray_count + 1 : ray_count, table);
+    if (hit_count < ray_count) {
+      // The rays are counted to their end for the message.
+      std::uint64_t all = verified + ray_count;
+      while (const std::size_t more = ray_reader.read(block)) all += more;
+      refuse_counts(rays, all, hits, fmt::format("{}", verified + hit_count));
+    }
+    if (hit_count > ray_count) {
+      refuse_counts(rays, verified + ray_count, hits,
+                    fmt::format("more than {}", verified + ray_count));
+    }
+    if (ray_count == 0) break;
+    try {
+      verifier.add(std::span(block).first(ray_count), table.view());
+    } catch (const InvalidClaim& error) {
+      throw InputError(fmt::format("{}: hit {}: {}", hit_reader.place_of(error.index), error.index,
+                                   error.what()));
+    }
+    verified += ray_count;
+    progress.advance(ray_reader.part());
+    if (ray_count < kBlock) break;
+  }
+
+  HitFilesReport found{hit_reader.query(), verifier.finish(), {}};
+  for (const Mismatch& example : found.report.examples) {
+    found.places.push_back(
+        fmt::format("ray {} ({})", example.index, hit_reader.place_of(example.index)));
+  }
+  progress.finish(std::string(to_string(found.report.verdict)));
+  return found;
+}
+
+}  // namespace beambench::verify

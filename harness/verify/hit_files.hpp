@@ -1,0 +1,28 @@
+#pragma once
+// Verifies files of hits that any program wrote.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "harness/base/progress.hpp"
+#include "harness/verify/claim_verifier.hpp"
+#include "harness/verify/differ.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::verify {
+
+struct HitFilesReport {
+  rays::Query query;  ///< that the hits answer
+  DiffReport report;
+  std::vector<std::string> places;  ///< of the report's examples: "ray 17 (hits.csv:18)"
+};
+
+/// Reads both files part by part and verifies the hits: any number of them in the same memory.
+/// `progress` gets one cell. Throws InputError naming file and line or byte for what the files may
+/// not hold, for rays of another scene, and where there are not as many hits as rays.
+HitFilesReport verify_hit_files(const scenes::Scene& scene, const std::filesystem::path& rays,
+                                const std::filesystem::path& hits,
+                                ClaimVerifier::OnMismatch on_mismatch, base::Progress& progress);
+
+}  // namespace beambench::verify
