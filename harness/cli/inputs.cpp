@@ -193,12 +193,14 @@ void make_picture_folder(const std::filesystem::path& folder) {
                                folder.string(), error.message()));
 }
 
-std::string picture_name(std::string title) {
+std::string file_stem(std::string title) {
   for (char& c : title) {
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '_' && c != '.') c = '-';
   }
-  return title + ".png";
+  return title;
 }
+
+std::string picture_name(std::string title) { return file_stem(std::move(title)) + ".png"; }
 
 void replace_renamed_options(std::string_view program, std::vector<std::string>& arguments) {
   constexpr std::array<std::array<std::string_view, 2>, 1> kRenamed{{

@@ -94,8 +94,10 @@ render::WhittedOptions whitted_options(const WhittedRequest& request);
 
 /// Makes the folder of --pictures and its parents. Throws InputError.
 void make_picture_folder(const std::filesystem::path& folder);
-/// `tetra-n-4-default-samet-max_level-5.png` of `tetra:n=4-default-samet:max_level=5`: a name that
+/// `tetra-n-4-default-samet-max_level-5` of `tetra:n=4-default-samet:max_level=5`: a name that
 /// file systems and shells take.
+std::string file_stem(std::string title);
+/// The same with the ending .png.
 std::string picture_name(std::string title);
 
 /// Replaces options by their new names where they were renamed, with a warning by `program` on

@@ -3,9 +3,11 @@
 #include "harness/verify/selftest/selftest.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,6 +19,7 @@
 #include "harness/bench/record/machine.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/text.hpp"
+#include "harness/verify/selftest/kit.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
 
@@ -27,6 +30,8 @@ struct Request {
   std::string structures = "all";
   std::string json;
   verify::SelftestEffort effort;
+  std::string kit;  ///< folder; empty: none is written
+  std::string primitives = "polygons";
 };
 
 /// A check that was made of a structure.
@@ -130,7 +135,30 @@ void write_json(const Request& request, const std::vector<CheckedProperty>& chec
   write_file(request.json, out.dump(2) + '\n');
 }
 
+/// `spheres,polygons`, `all`. Throws InputError listing the kinds.
+verify::PrimitiveKinds parse_kinds(const std::string& list) {
+  if (list == "all") return {};
+  constexpr std::array<std::string_view, 3> kNames{"spheres", "cones", "polygons"};
+  verify::PrimitiveKinds kinds = verify::PrimitiveKinds{}.without();
+  for (const std::string& name : CLI::detail::split(list, ',')) {
+    const std::size_t place = base::place_of_name("kind of primitives", name, kNames);
+    (place == 0 ? kinds.spheres : place == 1 ? kinds.cones : kinds.polygons) = true;
+  }
+  return kinds;
+}
+
+int write_kit(const Request& request) {
+  const verify::PrimitiveKinds kinds = parse_kinds(request.primitives);
+  base::Progress progress(verify::kit_size(request.effort, kinds));
+  const std::size_t scenes = verify::write_kit(request.kit, request.effort, kinds, progress);
+  progress.clear();
+  fmt::print("{}: {} scenes of {}, each with closest and any hits to be found\n", request.kit,
+             scenes, fmt::join(kinds.names(), ", "));
+  return base::kSuccess;
+}
+
 int selftest(const Request& request) {
+  if (!request.kit.empty()) return write_kit(request);
   if (!request.json.empty()) require_writable(request.json);
   std::vector<verify::Subject> subjects;
   for (accel::StructureChoice& choice : accel::registry().choose_list(request.structures)) {
@@ -151,14 +179,28 @@ void add_selftest_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("selftest", "Check a structure's contract over scenes made to break it");
   const auto request = std::make_shared<Request>();
-  command->add_option("--accel", request->structures, "Structures: NAME:parameter=value,... or all")
-      ->capture_default_str();
+  CLI::Option* accel = command
+                           ->add_option("--accel", request->structures,
+                                        "Structures: NAME:parameter=value,... or all")
+                           ->capture_default_str();
   command->add_option("--scenes", request->effort.scenes, "Number of random scenes")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
   command->add_option("--seed", request->effort.seed, "Seed of the first random scene")
       ->capture_default_str();
-  command->add_option("--json", request->json, "Also write the results to this file");
+  CLI::Option* json =
+      command->add_option("--json", request->json, "Also write the results to this file");
+  CLI::Option* kit = command
+                         ->add_option("--export", request->kit,
+                                      "Write the scenes and rays to this folder instead, for "
+                                      "'beambench verify --kit'")
+                         ->type_name("DIR");
+  command
+      ->add_option("--primitives", request->primitives,
+                   "What the scenes of --export are made of: spheres, cones, polygons, or all")
+      ->capture_default_str()
+      ->needs(kit);
+  for (CLI::Option* option : {accel, json}) kit->excludes(option);
   command->footer(
       "Hits are compared with those of exhaustive search, bit for bit; those of a structure with\n"
       "arithmetic of its own by the differ's classes. A structure without parameters after its "
@@ -167,7 +209,8 @@ void add_selftest_command(CLI::App& app, int& exit_code) {
       "checked over the others. Exits with 1 if a check failed.\n"
       "Examples:\n"
       "  beambench selftest --accel samet --scenes 10\n"
-      "  beambench selftest --accel samet:max_level=4,voxel-grid --scenes 5 --json selftest.json");
+      "  beambench selftest --accel samet:max_level=4,voxel-grid --scenes 5 --json selftest.json\n"
+      "  beambench selftest --export kit --scenes 20");
   command->callback([request, &exit_code] { exit_code = selftest(*request); });
 }
 

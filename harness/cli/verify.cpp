@@ -34,6 +34,9 @@ constexpr std::size_t kPrintedDisputes = 3;  // of each cell; the JSON has them 
 struct Request {
   std::vector<std::string> scenes;
   std::string hits;
+  std::string command;
+  std::string kit;
+  std::string minimize;
   std::string structures = "all";
   std::string resolution = "320x200";
   ViewRequest view;
@@ -106,20 +109,38 @@ void write_json(const Request& request, const std::vector<verify::VerifiedCell>&
   write_file(request.json, out.dump(2) + '\n');
 }
 
-/// The request as one about files of hits. Throws InputError for what does not go with --hits.
-VerifyHitsRequest hits_request(const Request& request) {
+/// The request as one about the hits of a program. Throws InputError for what does not go together.
+VerifyHitsRequest hits_request(const Request& request, bool structure_given) {
+  VerifyHitsRequest out{.scene = {},
+                        .kit = request.kit,
+                        .rays = {},
+                        .hits = request.hits,
+                        .command = request.command,
+                        .view = request.view,
+                        .resolution = request.resolution,
+                        .json = request.json,
+                        .pictures = request.pictures,
+                        .minimize = request.minimize};
+  if (!request.kit.empty()) {
+    if (!request.scenes.empty() || !request.hits.empty()) {
+      throw InputError("--kit has its own scenes, rays and hits; leave SCENE and --hits out");
+    }
+    if (structure_given) out.structure = choose_one("--accel", request.structures);
+    return out;
+  }
+  const std::string_view option = request.hits.empty() ? "--command" : "--hits";
   if (request.scenes.size() != 1) {
-    throw InputError("with --hits, name one scene: that over which the rays were traced");
+    throw InputError(
+        fmt::format("with {}, name one scene: that over which the rays are traced", option));
   }
   if (!rays::is_ray_file(request.rays)) {
-    throw InputError(
-        fmt::format("with --hits, --rays is the file of the rays that were traced, not '{}'; "
-                    "'beambench rays {} "
-                    "-o FILE.rays' writes one",
-                    request.rays, shell_quoted(request.scenes.front())));
+    throw InputError(fmt::format(
+        "with {}, --rays is a file of rays, not '{}'; 'beambench rays {} -o FILE.rays' writes one",
+        option, request.rays, shell_quoted(request.scenes.front())));
   }
-  return {request.scenes.front(), request.rays, request.hits,    request.view,
-          request.resolution,     request.json, request.pictures};
+  out.scene = request.scenes.front();
+  out.rays = request.rays;
+  return out;
 }
 
 /// All of them before any work is done, so that a wrong name fails early.
@@ -130,6 +151,22 @@ std::vector<scenes::Scene> open_scenes(const Request& request) {
   for (const scenes::SceneInfo& info : scenes::scene_catalogue())
     scenes.push_back(open_scene(info.name));
   return scenes;
+}
+
+/// Reduces the first error of each cell, and adds what came of it to the cell's disputes.
+void minimize_errors(const Request& request, const verify::VerifiedView& view,
+                     const Contenders& contenders, std::vector<verify::VerifiedCell>& cells,
+                     base::Progress& progress) {
+  for (verify::VerifiedCell& cell : cells) {
+    if (!cell.report || cell.report->count(verify::DiffClass::kStructureError) == 0) continue;
+    const auto choice =
+        std::ranges::find(contenders.choices, cell.label, &accel::StructureChoice::short_label);
+    cell.disputes.push_back(
+        minimized_text(request.minimize, fmt::format("{}-{}-{}", cell.scene, cell.rays, cell.label),
+                       view.scene, view.input, *cell.report, verify::tracer_of(*choice), cell.label,
+                       progress) +
+        '\n');
+  }
 }
 
 std::vector<verify::VerifiedCell> verify_kind(const scenes::Scene& scene,
@@ -153,7 +190,10 @@ std::vector<verify::VerifiedCell> verify_kind(const scenes::Scene& scene,
         render::write_difference(file, reference, classes, {cell.label, render::kOracleName});
         return file.string();
       };
-    return verify::verify_scene(view, contenders.choices, progress, draw);
+    std::vector<verify::VerifiedCell> cells =
+        verify::verify_scene(view, contenders.choices, progress, draw);
+    if (!request.minimize.empty()) minimize_errors(request, view, contenders, cells, progress);
+    return cells;
   } catch (const rays::NoRaysError& error) {  // the other kinds continue
     return verify::cells_without_rays(scene, kind.label, contenders.choices, progress,
                                       error.what());
@@ -237,7 +277,24 @@ void add_verify_command(CLI::App& app, int& exit_code) {
                        "Threads for images of primary rays; 0: one for each core")
           ->capture_default_str()
           ->check(CLI::Range(0, 1024));
+  CLI::Option* run =
+      command
+          ->add_option("--command", request->command,
+                       "Verify the hits that this command writes to {hits} for {nff} or {obj} and "
+                       "{rays} or {rays_csv}")
+          ->type_name("COMMAND");
+  command
+      ->add_option("--kit", request->kit,
+                   "Verify the hits beside the rays of a kit of 'beambench selftest --export', or, "
+                   "with --command or --accel, those of a program or structure")
+      ->type_name("DIR");
+  command
+      ->add_option("--minimize", request->minimize,
+                   "Reduce an error to the fewest primitives and one ray, and write them to this "
+                   "folder")
+      ->type_name("DIR");
   for (CLI::Option* option : {accel, samples, threads}) hits->excludes(option);
+  for (CLI::Option* option : {accel, samples, threads, hits}) run->excludes(option);
   command->add_option("--json", request->json, "Also write the results to this file");
   command
       ->add_option("--pictures", request->pictures,
@@ -255,19 +312,26 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       "only\n"
       "if no kind has any). Each error is printed with the command that replays it, a 'beambench\n"
       "trace'.\n"
-      "With --hits, the hits are those of any program; their picture marks where they are. The\n"
-      "formats are in harness/verify/README.md, and 'beambench hits' writes an example.\n"
+      "With --hits or --command, the hits are those of any program; their picture marks where "
+      "they\n"
+      "are. The formats are in harness/verify/README.md, and 'beambench hits' writes an example.\n"
       "Examples:\n"
       "  beambench verify tetera\n"
       "  beambench verify escena1 tetra:n=4 --accel all\n"
       "  beambench verify balls --rays shadow,reflection,diffuse,random\n"
       "  beambench verify finishes --accel all --rays whitted\n"
       "  beambench verify tetera --rays tetera.rays --hits mine.csv --pictures .\n"
+      "  beambench verify tetera --rays tetera.rays --command 'mine {obj} {rays} {hits}'\n"
+      "  beambench verify --kit kit --command 'mine {obj} {rays} {hits}' --minimize failures\n"
       "  beambench verify balls --accel samet:max_level=5,embree --resolution 640x480 --json "
       "v.json");
-  command->callback([request, &exit_code] {
-    exit_code =
-        request->hits.empty() ? verify_structures(*request) : verify_hits(hits_request(*request));
+  command->callback([request, accel, &exit_code] {
+    if (request->hits.empty() && request->command.empty() && request->kit.empty()) {
+      exit_code = verify_structures(*request);
+      return;
+    }
+    const VerifyHitsRequest hits = hits_request(*request, accel->count() > 0);
+    exit_code = hits.kit.empty() ? verify_hits(hits) : verify_kit(hits);
   });
 }
 

@@ -1,24 +1,41 @@
 #pragma once
-// `beambench verify SCENE --rays FILE --hits FILE`.
+// `beambench verify SCENE --rays FILE --hits FILE`, `--command COMMAND`, and `--kit DIR`.
 
+#include <optional>
 #include <string>
 
+#include "accel/core/registry.hpp"
 #include "harness/cli/inputs.hpp"
+#include "harness/verify/differ.hpp"
+#include "harness/verify/minimize.hpp"
 
 namespace beambench::cli {
 
-/// Files of hits and what to write about them.
+/// Where hits come from: files, a command, or a structure.
 struct VerifyHitsRequest {
-  std::string scene;
-  std::string rays;
-  std::string hits;
-  ViewRequest view;        ///< of the picture
-  std::string resolution;  ///< of the picture
-  std::string json;        ///< empty: none
-  std::string pictures;    ///< folder; empty: none
+  std::string scene;                                  ///< empty for a kit
+  std::string kit;                                    ///< its folder; empty: none
+  std::string rays;                                   ///< empty for a kit
+  std::string hits;                                   ///< empty: a command, or those of the kit
+  std::string command;                                ///< empty: none
+  std::optional<accel::StructureChoice> structure{};  ///< that traces a kit
+  ViewRequest view;                                   ///< of the picture
+  std::string resolution;                             ///< of the picture
+  std::string json;                                   ///< empty: none
+  std::string pictures;                               ///< folder; empty: none
+  std::string minimize;                               ///< folder; empty: none
 };
 
-/// Verifies the hits, prints what was found and returns the exit code.
+/// Verifies the hits of one scene, prints what was found and returns the exit code.
 int verify_hits(const VerifyHitsRequest& request);
+/// The same of all scenes of a kit.
+int verify_kit(const VerifyHitsRequest& request);
+
+/// Reduces a structure's first error and writes the case below `folder`; returns what to print of
+/// it.
+std::string minimized_text(const std::string& folder, const std::string& name,
+                           const scenes::Scene& scene, const rays::TraceInput& input,
+                           const verify::DiffReport& report, const verify::Tracer& tracer,
+                           const std::string& subject, base::Progress& progress);
 
 }  // namespace beambench::cli

@@ -180,6 +180,9 @@ class BinaryRays : public RayReader::Format {
     const Json seed = json.value("seed", Json(0U));
     if (!seed.is_number_unsigned()) fail(path_, "\"seed\" is not a whole number");
     header.seed = seed.get<std::uint64_t>();
+    const Json may_graze = json.value("may_graze", Json(false));
+    if (!may_graze.is_boolean()) fail(path_, "\"may_graze\" is neither true nor false");
+    header.may_graze = may_graze.get<bool>();
     header.scene_hash = read_hash(path_, json, "scene_hash");
     hash_ = read_hash(path_, json, "hash");
   }
@@ -281,6 +284,7 @@ void write_binary(std::ostream& out, const RaySet& set, const Json& note) {
               {"hash", hex_digits(fingerprint(set.rays))}};
   if (set.scene_hash) header["scene_hash"] = hex_digits(*set.scene_hash);
   for (const accel::Pencil& pencil : set.pencils) header["pencils"].push_back(json_of(pencil));
+  if (set.may_graze) header["may_graze"] = true;
   header["note"] = note;
   out << kFirstLine << '\n' << header.dump() << '\n';
   out.write(reinterpret_cast<const char*>(set.rays.data()),

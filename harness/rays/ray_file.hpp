@@ -17,8 +17,8 @@ namespace beambench::rays {
 /// A `.rays` file has three parts: the line `beambench-rays 1`; one line of JSON; then the rays,
 /// each as eight 32-bit IEEE floats in little-endian order: origin, t_min, direction, t_max. The
 /// JSON must have `query` ("closest" or "any") and `rays` (how many). `seed`, `scene_hash` (a file
-/// of another scene is refused), `hash` (of the rays' bytes, XXH3; a damaged file is refused) and
-/// `pencils` may be missing; other members, such as those of `note`, are for people. `pencils` is a
+/// of another scene is refused), `hash` (of the rays' bytes, XXH3; a damaged file is refused),
+/// `may_graze` (true: `RaySet::may_graze`) and `pencils` may be missing; other members, such as those of `note`, are for people. `pencils` is a
 /// list of `{"first": 0, "count": 16, "apex": [x, y, z], "toward": true}`, in the order of `first`:
 /// see `accel::Pencil`. Samples of an image and views are not saved. In Python:
 ///

@@ -32,6 +32,7 @@ struct RaySet : RayList {
   Query query = Query::kClosestHit;
   std::uint64_t seed = 0;                     ///< 0 where nothing is random
   std::optional<std::uint64_t> scene_hash{};  ///< of the scene they were made for, where known
+  bool may_graze = false;  ///< aimed at edges and corners: grazes are no fault, however many
 };
 
 /// The coherence of a list: the mean cosine of the angle between the directions of a ray

@@ -23,11 +23,15 @@ constexpr std::size_t kBlock = std::size_t{1} << 18U;  // rays in memory at once
                   hits.string(), hit_count, ray_count, rays.string()));
 }
 
+void pardon_grazes(const rays::RaySet& rays, DiffReport& report) {
+  if (rays.may_graze && report.verdict == Verdict::kGrazes) report.verdict = Verdict::kOk;
+}
+
 }  // namespace
 
-HitFilesReport verify_hit_files(const scenes::Scene& scene, const std::filesystem::path& rays,
-                                const std::filesystem::path& hits,
-                                ClaimVerifier::OnMismatch on_mismatch, base::Progress& progress) {
+ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem::path& rays,
+                              const std::filesystem::path& hits,
+                              ClaimVerifier::OnMismatch on_mismatch, base::Progress& progress) {
   rays::RayReader ray_reader(rays);
   rays::require_made_for(scene, ray_reader.header());
   rays::HitReader hit_reader(hits);
@@ -69,10 +73,35 @@ HitFilesReport verify_hit_files(const scenes::Scene& scene, const std::filesyste
     if (ray_count < kBlock) break;
   }
 
-  HitFilesReport found{hit_reader.query(), verifier.finish(), {}};
+  ClaimsReport found{hit_reader.query(), verifier.finish(), {}};
+  pardon_grazes(ray_reader.header(), found.report);
   for (const Mismatch& example : found.report.examples) {
     found.places.push_back(
         fmt::format("ray {} ({})", example.index, hit_reader.place_of(example.index)));
+  }
+  progress.finish(std::string(to_string(found.report.verdict)));
+  return found;
+}
+
+ClaimsReport verify_traced_file(const scenes::Scene& scene, const std::filesystem::path& rays,
+                                const Tracer& tracer, ClaimVerifier::OnMismatch on_mismatch,
+                                base::Progress& progress) {
+  const rays::RaySet set = rays::read_ray_file(rays);
+  rays::require_made_for(scene, set);
+  progress.start(rays.string());
+  const rays::HitTable hits = tracer(scene, rays::TraceInput(set));
+  ClaimVerifier verifier(scene, std::move(on_mismatch));
+  try {
+    verifier.add(set.rays, hits.view());
+  } catch (const InvalidClaim& error) {
+    throw InputError(
+        fmt::format("{}: the hit of ray {}: {}", rays.string(), error.index, error.what()));
+  }
+  const bool any = !hits.occluded.empty();
+  ClaimsReport found{any ? rays::Query::kAnyHit : rays::Query::kClosestHit, verifier.finish(), {}};
+  pardon_grazes(set, found.report);
+  for (const Mismatch& example : found.report.examples) {
+    found.places.push_back(fmt::format("ray {}", example.index));
   }
   progress.finish(std::string(to_string(found.report.verdict)));
   return found;

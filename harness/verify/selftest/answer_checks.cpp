@@ -123,29 +123,6 @@ class HitComparison {
 };
 
 constexpr std::uint64_t kMaxPrimitives = 60;
-constexpr int kRays = 300;
-
-std::vector<accel::Ray> random_rays(const scenes::Scene& scene, Random& random) {
-  std::vector<accel::Ray> rays;
-  rays.reserve(kRays);
-  for (int i = 0; i < kRays; ++i) rays.push_back(random_ray(scene, random));
-  return rays;
-}
-
-/// Does the ray lie in the plane of a polygon, as far as float knows? Where it meets that polygon
-/// is then decided by rounding alone.
-bool is_edge_on(const scenes::Scene& scene, const accel::Ray& ray) {
-  constexpr double kMinSine = 1e-5;
-  const glm::dvec3 direction(ray.direction);
-  return std::ranges::any_of(scene.triangles, [&](const scenes::Triangle& triangle) {
-    const glm::dvec3 first(scene.vertices[triangle.vertex[0]]);
-    const glm::dvec3 normal = glm::cross(glm::dvec3(scene.vertices[triangle.vertex[1]]) - first,
-                                         glm::dvec3(scene.vertices[triangle.vertex[2]]) - first);
-    return std::abs(glm::dot(normal, direction)) <=
-           kMinSine * glm::length(normal) * glm::length(direction);
-  });
-}
-
 /// Null where the structure refuses the scene, as it may do with what it cannot do.
 std::unique_ptr<accel::Accelerator> build(const accel::StructureChoice& choice,
                                           const scenes::Scene& scene) {

@@ -1,5 +1,6 @@
 #include "harness/verify/selftest/test_scenes.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -244,6 +245,26 @@ accel::Ray random_ray(const scenes::Scene& scene, Random& random) {
     ray.t_max = static_cast<float>(random.uniform(0.0, 3.0));
   }
   return ray;
+}
+
+std::vector<accel::Ray> random_rays(const scenes::Scene& scene, Random& random) {
+  constexpr int kRays = 300;
+  std::vector<accel::Ray> rays;
+  rays.reserve(kRays);
+  for (int i = 0; i < kRays; ++i) rays.push_back(random_ray(scene, random));
+  return rays;
+}
+
+bool is_edge_on(const scenes::Scene& scene, const accel::Ray& ray) {
+  constexpr double kMinSine = 1e-5;
+  const glm::dvec3 direction(ray.direction);
+  return std::ranges::any_of(scene.triangles, [&](const scenes::Triangle& triangle) {
+    const glm::dvec3 first(scene.vertices[triangle.vertex[0]]);
+    const glm::dvec3 normal = glm::cross(glm::dvec3(scene.vertices[triangle.vertex[1]]) - first,
+                                         glm::dvec3(scene.vertices[triangle.vertex[2]]) - first);
+    return std::abs(glm::dot(normal, direction)) <=
+           kMinSine * glm::length(normal) * glm::length(direction);
+  });
 }
 
 SceneWithRays cubes_on_a_lattice() {

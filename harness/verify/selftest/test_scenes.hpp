@@ -28,6 +28,13 @@ scenes::Scene random_scene(std::uint64_t seed, int primitives, PrimitiveKinds ki
 /// interval.
 accel::Ray random_ray(const scenes::Scene& scene, Random& random);
 
+/// Three hundred of them.
+std::vector<accel::Ray> random_rays(const scenes::Scene& scene, Random& random);
+
+/// Does the ray lie in the plane of a polygon, as far as float knows? Where it meets that polygon
+/// is then decided by rounding alone.
+bool is_edge_on(const scenes::Scene& scene, const accel::Ray& ray);
+
 struct SceneWithRays {
   scenes::Scene scene;
   std::vector<accel::Ray> rays;

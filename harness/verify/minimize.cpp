@@ -1,0 +1,235 @@
+#include "harness/verify/minimize.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <ostream>
+#include <system_error>
+#include <utility>
+#include <variant>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/rays/ray_file.hpp"
+#include "harness/rays/trace_results.hpp"
+#include "harness/verify/claim_verifier.hpp"
+#include "harness/verify/describe.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/files.hpp"
+#include "scenes/formats/mesh/obj_writer.hpp"
+#include "scenes/formats/nff/nff_writer.hpp"
+#include "scenes/subset.hpp"
+
+namespace beambench::verify {
+namespace {
+
+constexpr std::size_t kMaxRuns = 2000;
+
+rays::TraceInput list_of(std::vector<accel::Ray> rays, const rays::TraceInput& like) {
+  rays::RaySet set;
+  set.rays = std::move(rays);
+  set.label = like.label();
+  set.query = like.query();
+  return rays::TraceInput(std::move(set));
+}
+
+std::vector<accel::Ray> rays_of(const rays::TraceInput& input) {
+  if (input.list() != nullptr) return input.list()->rays;
+  std::vector<accel::Ray> rays(input.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) rays[i] = input.ray(i);
+  return rays;
+}
+
+/// Asks the tracer over parts of a scene and of an input.
+class Trial {
+ public:
+  Trial(const scenes::Scene& scene, const Tracer& tracer, base::Progress& progress)
+      : scene_(scene), tracer_(tracer), progress_(progress) {}
+
+  /// A wrong answer over these primitives; nothing where all are right, the tracer refuses, or it
+  /// was asked too often.
+  std::optional<Mismatch> wrong(std::span<const scenes::PrimitiveId> ids,
+                                const rays::TraceInput& input) {
+    if (runs_ == kMaxRuns) return std::nullopt;
+    ++runs_;
+    progress_.advance(static_cast<double>(runs_) / kMaxRuns);
+    const scenes::Scene part = scenes::subset(scene_, ids);
+    try {
+      const DiffReport report = verify_tracer(part, input, tracer_);
+      if (report.count(DiffClass::kStructureError) == 0) return std::nullopt;
+      return report.examples.front();
+    } catch (const InvalidClaim& error) {
+      Mismatch found{};
+      found.index = error.index;
+      found.ray = input.ray(error.index);
+      found.query = input.query();
+      found.diff_class = DiffClass::kStructureError;
+      found.reason = "invalid hit: it has a number that no hit has";
+      return found;
+    } catch (const InputError&) {  // over this part it fails in another way
+      return std::nullopt;
+    } catch (const PluginError&) {
+      return std::nullopt;
+    }
+  }
+  std::size_t runs() const { return runs_; }
+
+ private:
+  const scenes::Scene& scene_;
+  const Tracer& tracer_;
+  base::Progress& progress_;
+  std::size_t runs_ = 0;
+};
+
+/// Takes away ever smaller parts of a list as long as `fails` holds of the rest.
+template <class T, class Fails>
+std::vector<T> reduced(std::vector<T> items, Fails fails) {
+  for (std::size_t part = (items.size() + 1) / 2; part >= 1; part /= 2) {
+    bool removed = true;
+    while (removed) {
+      removed = false;
+      for (std::size_t first = 0; first < items.size();) {
+        const std::size_t last = std::min(first + part, items.size());
+        std::vector<T> rest(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(first));
+        rest.insert(rest.end(), items.begin() + static_cast<std::ptrdiff_t>(last), items.end());
+        if (!rest.empty() && fails(rest)) {
+          items = std::move(rest);
+          removed = true;
+        } else {
+          first = last;
+        }
+      }
+      if (part > 1) break;  // single ones are tried until none can be left out
+    }
+  }
+  return items;
+}
+
+/// The primitives that the answers name, ascending.
+std::vector<scenes::PrimitiveId> named(const scenes::Scene& scene, const Mismatch& wrong) {
+  std::vector<scenes::PrimitiveId> ids;
+  const auto add = [&](const auto& hit) {
+    if (hit && hit->primitive < scene.primitives.size()) ids.push_back(hit->primitive);
+  };
+  add(wrong.answer);
+  add(wrong.oracle);
+  add(wrong.exact);
+  std::ranges::sort(ids);
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+}  // namespace
+
+Tracer tracer_of(const accel::StructureChoice& structure) {
+  return [structure](const scenes::Scene& scene, const rays::TraceInput& input) {
+    const auto accelerator = structure.build(scene);
+    rays::TraceResults results = rays::make_results(input);
+    rays::poison(results);
+    rays::trace(*accelerator, input, results);
+    rays::HitTable table;
+    if (auto* any = std::get_if<rays::AnyHits>(&results)) {
+      table.occluded = std::move(*any);
+    } else {
+      const auto& hits = std::get<accel::HitBuffer>(results);
+      table.t.assign(hits.t(), hits.t() + hits.size());
+      table.primitives.assign(hits.primitive(), hits.primitive() + hits.size());
+    }
+    return table;
+  };
+}
+
+DiffReport verify_tracer(const scenes::Scene& scene, const rays::TraceInput& input,
+                         const Tracer& tracer) {
+  const rays::HitTable table = tracer(scene, input);
+  ClaimVerifier verifier(scene);
+  verifier.add(rays_of(input), table.view());
+  return verifier.finish();
+}
+
+std::optional<MinimalCase> minimize(const scenes::Scene& scene, const rays::TraceInput& input,
+                                    const Mismatch& wrong, const Tracer& tracer,
+                                    base::Progress& progress) {
+  progress.start(fmt::format("reducing ray {} over {}", wrong.index, scene.name));
+  Trial trial(scene, tracer, progress);
+  std::vector<scenes::PrimitiveId> all(scene.primitives.size());
+  std::iota(all.begin(), all.end(), 0U);
+
+  // Fewer primitives make all that follows quick, so those that are named go first.
+  std::vector<scenes::PrimitiveId> ids = named(scene, wrong);
+  rays::TraceInput kept = list_of({wrong.ray}, input);
+  std::optional<Mismatch> found = ids.empty() ? std::nullopt : trial.wrong(ids, kept);
+  if (!found) {
+    ids = all;
+    found = trial.wrong(ids, kept);
+  }
+  if (!found && input.list() != nullptr) {  // it takes more than this ray
+    kept = list_of(reduced(input.list()->rays,
+                           [&](const std::vector<accel::Ray>& rays) {
+                             return trial.wrong(all, list_of(rays, input)).has_value();
+                           }),
+                   input);
+    found = trial.wrong(ids, kept);
+  }
+  if (!found) {  // it takes the pencils of the list, or the image
+    kept = input;
+    found = trial.wrong(ids, kept);
+  }
+  if (!found) {
+    progress.finish("right when it is traced again");
+    return std::nullopt;
+  }
+  ids = reduced(std::move(ids), [&](const std::vector<scenes::PrimitiveId>& rest) {
+    const auto still = trial.wrong(rest, kept);
+    if (still) found = still;
+    return still.has_value();
+  });
+  progress.finish(fmt::format("{} primitives, {} rays", ids.size(), kept.size()));
+  return MinimalCase{scenes::subset(scene, ids), std::move(ids), std::move(kept), *found,
+                     trial.runs()};
+}
+
+MinimalCase named_case(const scenes::Scene& scene, const Mismatch& wrong) {
+  rays::RaySet set;
+  set.rays = {wrong.ray};
+  set.query = wrong.query;
+  std::vector<scenes::PrimitiveId> ids = named(scene, wrong);
+  scenes::Scene part = scenes::subset(scene, ids);
+  return {std::move(part), std::move(ids), rays::TraceInput(std::move(set)), wrong, 0, false};
+}
+
+void write_case(const std::filesystem::path& folder, const MinimalCase& minimal,
+                const std::string& whole, const std::string& subject) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) {
+    throw InputError(fmt::format("cannot make the folder '{}': {}; choose another place",
+                                 folder.string(), error.message()));
+  }
+  const scenes::Scene& scene = minimal.scene;
+  write_file(folder / "scene.nff",
+             [&](std::ostream& file) { scenes::nff::write_nff(scene, file); });
+  if (scene.spheres.empty() && scene.cones.empty() && !scene.triangles.empty()) {
+    write_file(folder / "scene.obj",
+               [&](std::ostream& file) { scenes::mesh::write_obj(scene, file); });
+  }
+  nlohmann::ordered_json out{{"scene", whole},
+                             {"subject", subject},
+                             {"query", rays::to_string(minimal.input.query())},
+                             {"primitives", minimal.primitives},
+                             {"rays", minimal.input.size()},
+                             {"repeated", minimal.repeated},
+                             {"runs", minimal.runs}};
+  if (const rays::RaySet* list = minimal.input.list()) {
+    rays::write_ray_file(folder / "ray.rays", *list, {{"scene", "scene.nff"}});
+    rays::write_ray_file(folder / "ray.csv", *list, {});
+  } else {
+    const accel::PrimaryRays& image = *minimal.input.image();
+    out["image"] = {
+        {"width", image.width()}, {"height", image.height()}, {"samples", image.samples()}};
+  }
+  out["wrong"] = to_json(minimal.mismatch);
+  write_file(folder / "case.json", out.dump(2) + '\n');
+}
+
+}  // namespace beambench::verify

@@ -1,0 +1,136 @@
+#include "harness/verify/outside_program.hpp"
+
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <ostream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "harness/rays/hit_file.hpp"
+#include "harness/rays/ray_file.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/files.hpp"
+#include "scenes/core/shell_word.hpp"
+#include "scenes/formats/mesh/obj_writer.hpp"
+#include "scenes/formats/nff/nff_writer.hpp"
+
+namespace beambench::verify {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A folder of this process, removed with all that is in it.
+class WorkFolder {
+ public:
+  WorkFolder() : path_((fs::temp_directory_path() / "beambench-XXXXXX").string()) {
+    if (::mkdtemp(path_.data()) == nullptr) {
+      throw InputError(
+          fmt::format("cannot make a folder in '{}' for the program's files; set TMPDIR",
+                      fs::temp_directory_path().string()));
+    }
+  }
+  ~WorkFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+
+  fs::path file(const char* name) const { return fs::path(path_) / name; }
+
+ private:
+  std::string path_;
+};
+
+bool replace_word(std::string& text, std::string_view word, const fs::path& path) {
+  const std::string quoted = shell_quoted(path.string());
+  bool found = false;
+  for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos; at += quoted.size()) {
+    text.replace(at, word.size(), quoted);
+    found = true;
+  }
+  return found;
+}
+
+class OutsideProgram {
+ public:
+  explicit OutsideProgram(std::string command) : command_(std::move(command)) {}
+
+  rays::HitTable trace(const scenes::Scene& scene, const rays::TraceInput& input) {
+    const WorkFolder folder;
+    const fs::path hits = folder.file("answer.hits");
+    std::string command = command_;
+    if (const fs::path nff = folder.file("scene.nff"); replace_word(command, "{nff}", nff)) {
+      write_file(nff, [&](std::ostream& file) { scenes::nff::write_nff(scene, file); });
+    }
+    if (const fs::path obj = folder.file("scene.obj"); replace_word(command, "{obj}", obj)) {
+      write_file(obj, [&](std::ostream& file) { scenes::mesh::write_obj(scene, file); });
+    }
+    for (const auto& [word, name] :
+         {std::pair("{rays}", "trace.rays"), {"{rays_csv}", "trace.csv"}}) {
+      if (const fs::path file = folder.file(name); replace_word(command, word, file)) {
+        rays::write_ray_file(file, list_of(scene, input), {});
+      }
+    }
+    replace_word(command, "{hits}", hits);
+    run(command);
+    return read(hits, input.size());
+  }
+
+ private:
+  static rays::RaySet list_of(const scenes::Scene& scene, const rays::TraceInput& input) {
+    rays::RaySet set;
+    set.query = input.query();
+    set.scene_hash = scenes::scene_hash(scene);
+    for (std::size_t i = 0; i < input.size(); ++i) set.rays.push_back(input.ray(i));
+    return set;
+  }
+
+  void run(const std::string& command) {
+    const char* where = std::exchange(quiet_, true) ? "( {} ) >/dev/null 2>&1" : "( {} ) >&2";
+    const int status = std::system(fmt::format(fmt::runtime(where), command).c_str());
+    if (status == 0) return;
+    const std::string how = WIFEXITED(status)
+                                ? fmt::format("ended with exit code {}", WEXITSTATUS(status))
+                                : fmt::format("was ended by signal {}", WTERMSIG(status));
+    throw InputError(fmt::format("the command '{}' {}; try it in a shell", command_, how));
+  }
+
+  rays::HitTable read(const fs::path& file, std::size_t rays) const {
+    if (!fs::exists(file)) {
+      throw InputError(fmt::format("the command '{}' wrote no hits to {{hits}}", command_));
+    }
+    rays::HitReader reader(file);
+    rays::HitTable hits;
+    const std::size_t count = reader.read(rays + 1, hits);
+    if (count == rays) return hits;
+    throw InputError(fmt::format(
+        "the command '{}' wrote {} hits for {} rays", command_,
+        count > rays ? fmt::format("more than {}", rays) : fmt::format("{}", count), rays));
+  }
+
+  std::string command_;
+  bool quiet_ = false;
+};
+
+}  // namespace
+
+Tracer program_of(const std::string& command) {
+  if (command.find("{hits}") == std::string::npos) {
+    throw InputError(
+        fmt::format("the command '{}' has no {{hits}}, the file that it is to write", command));
+  }
+  const auto program = std::make_shared<OutsideProgram>(command);
+  return [program](const scenes::Scene& scene, const rays::TraceInput& input) {
+    return program->trace(scene, input);
+  };
+}
+
+}  // namespace beambench::verify

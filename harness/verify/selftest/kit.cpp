@@ -1,0 +1,177 @@
+#include "harness/verify/selftest/kit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <functional>
+#include <ostream>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/rays/ray_file.hpp"
+#include "harness/verify/selftest/test_scenes.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/core/files.hpp"
+#include "scenes/formats/mesh/obj_writer.hpp"
+#include "scenes/formats/nff/nff_writer.hpp"
+
+namespace beambench::verify {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kIndex = "kit.json";
+constexpr std::string_view kReadme =
+    R"(# A kit of awkward scenes
+Each folder has a scene and rays that are hard to trace correctly. `scene.nff` has all primitives,
+`scene.obj`, where there is one, the same surfaces as triangles: the face on the n-th line that begins
+with f, counted from 0, is triangle n. For the rays of `closest.rays` find the closest hit in the closed
+interval from t_min to t_max, for those of `any.rays` whether there is one; `rays.csv` has the same rays.
+
+Write `closest.hits` or `closest-hits.csv`, and `any.hits` or `any-hits.csv`, beside the rays, then run
+
+    beambench verify --kit FOLDER
+
+or leave the loop to it:
+
+    beambench verify --kit FOLDER --command 'my-tracer {obj} {rays} {hits}'
+
+The formats are described in harness/verify/README.md of beambench.
+)";
+
+/// Calls `visit_made` for each scene; what a family cannot make of these kinds is left out, and
+/// scenes all of whose rays are edge-on.
+void for_each_scene(const SelftestEffort& effort, PrimitiveKinds kinds,
+                    const std::function<void(SceneWithRays)>& visit_made) {
+  const auto visit = [&](SceneWithRays made) {
+    std::erase_if(made.rays, [&](const accel::Ray& ray) { return is_edge_on(made.scene, ray); });
+    if (!made.rays.empty()) visit_made(std::move(made));
+  };
+  const auto with_rays = [&](scenes::Scene scene, std::uint64_t seed) {
+    if (scene.primitives.empty()) return;
+    Random random(seed);
+    SceneWithRays made{std::move(scene), {}};
+    const accel::PrimaryRays image(made.scene.cameras.front(), 24, 20, 1);
+    image.for_each(0, image.height(),
+                   [&](std::size_t, const accel::Ray& ray) { made.rays.push_back(ray); });
+    const std::vector<accel::Ray> more = random_rays(made.scene, random);
+    made.rays.insert(made.rays.end(), more.begin(), more.end());
+    visit(std::move(made));
+  };
+  for (std::uint64_t i = 0; i < effort.scenes; ++i) {
+    with_rays(family_scene(effort.seed + i, kinds), effort.seed + i);
+  }
+  for (std::uint64_t i = 0; i < effort.scenes; ++i) {
+    const auto primitives = static_cast<int>(1 + i * 60 / effort.scenes);
+    with_rays(random_scene(effort.seed + i, primitives, kinds), effort.seed + i);
+  }
+  if (kinds.polygons) visit(cubes_on_a_lattice());
+  visit(heap(kinds));
+  for (scenes::Scene& scene : smallest_scenes()) {
+    if (kinds.include(scene)) with_rays(std::move(scene), effort.seed);
+  }
+}
+
+std::string folder_name(std::size_t number, std::string name) {
+  std::ranges::replace(name, ' ', '-');
+  return fmt::format("{:03}-{}", number, name);
+}
+
+void write_scene(const fs::path& folder, SceneWithRays made) {
+  fs::create_directory(folder);
+  const scenes::Scene& scene = made.scene;
+  write_file(folder / "scene.nff",
+             [&](std::ostream& file) { scenes::nff::write_nff(scene, file); });
+  if (scene.spheres.empty() && scene.cones.empty()) {
+    write_file(folder / "scene.obj",
+               [&](std::ostream& file) { scenes::mesh::write_obj(scene, file); });
+  }
+  rays::RaySet set;
+  set.rays = std::move(made.rays);
+  set.scene_hash = scenes::scene_hash(scene);
+  set.may_graze = true;
+  rays::write_ray_file(folder / "rays.csv", set, {});
+  for (const rays::Query query : {rays::Query::kClosestHit, rays::Query::kAnyHit}) {
+    set.query = query;
+    rays::write_ray_file(folder / fmt::format("{}.rays", rays::to_string(query)), set,
+                         {{"scene", scene.name}});
+  }
+}
+
+void make_empty_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) {
+    throw InputError(fmt::format("cannot make the folder '{}': {}; choose another place",
+                                 folder.string(), error.message()));
+  }
+  if (!fs::is_empty(folder)) {
+    throw InputError(fmt::format("the folder '{}' is not empty; choose one that is, or a new one",
+                                 folder.string()));
+  }
+}
+
+}  // namespace
+
+std::size_t kit_size(const SelftestEffort& effort, PrimitiveKinds kinds) {
+  std::size_t count = 0;
+  for_each_scene(effort, kinds, [&](const SceneWithRays&) { ++count; });
+  return count;
+}
+
+std::size_t write_kit(const fs::path& folder, const SelftestEffort& effort, PrimitiveKinds kinds,
+                      base::Progress& progress) {
+  make_empty_folder(folder);
+  nlohmann::ordered_json cases = nlohmann::ordered_json::array();
+  for_each_scene(effort, kinds, [&](SceneWithRays made) {
+    const std::string name = folder_name(cases.size(), made.scene.name);
+    progress.start(name);
+    cases.push_back({{"folder", name},
+                     {"scene", made.scene.name},
+                     {"spheres", made.scene.spheres.size()},
+                     {"cones", made.scene.cones.size()},
+                     {"polygons", made.scene.polygons.size()},
+                     {"triangles", made.scene.triangles.size()}});
+    write_scene(folder / name, std::move(made));
+    progress.finish("written");
+  });
+  write_file(folder / "README.md", kReadme);
+  const nlohmann::ordered_json index{{"seed", effort.seed}, {"cases", cases}};
+  write_file(folder / kIndex, index.dump(2) + '\n');  // last: a kit that has it is complete
+  return cases.size();
+}
+
+std::vector<KitCase> read_kit(const fs::path& folder) {
+  const fs::path file = folder / kIndex;
+  const auto fail = [&](const std::string& problem) {
+    throw InputError(fmt::format("{}: {}; 'beambench selftest --export DIR' writes a kit",
+                                 file.string(), problem));
+  };
+  if (!fs::exists(file)) fail("there is no such file, so the folder holds no kit");
+  const auto json = nlohmann::ordered_json::parse(read_input(file), nullptr, false);
+  if (!json.is_object() || !json.contains("cases") || !json["cases"].is_array()) {
+    fail("it is no list of cases");
+  }
+  std::vector<KitCase> cases;
+  for (const auto& each : json["cases"]) {
+    const bool named = each.is_object() && each.contains("folder") && each["folder"].is_string();
+    if (!named) fail(fmt::format("case {} names no folder", cases.size() / 2));
+    const std::string name = each["folder"].get<std::string>();
+    if (name.find('/') != std::string::npos || name.starts_with('.')) {
+      fail(fmt::format("'{}' is no folder of the kit", name));
+    }
+    for (const std::string_view query : {"closest", "any"}) {
+      KitCase found{fmt::format("{}, {}", name, query), folder / name / "scene.nff",
+                    folder / name / fmt::format("{}.rays", query),
+                    folder / name / fmt::format("{}.hits", query)};
+      const fs::path csv = folder / name / fmt::format("{}-hits.csv", query);
+      if (!fs::exists(found.hits) && fs::exists(csv)) found.hits = csv;
+      cases.push_back(std::move(found));
+    }
+  }
+  return cases;
+}
+
+}  // namespace beambench::verify
