@@ -1,0 +1,194 @@
+// Reducing wrong answers, and parts of scenes.
+
+#include "harness/verify/minimize.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <sstream>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "harness/rays/ray_file.hpp"
+#include "harness/verify/outside_program.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/formats/nff/nff_writer.hpp"
+#include "scenes/subset.hpp"
+#include "tests/scenes/thrown_message.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace beambench::verify {
+namespace {
+
+Tracer exhaustive() { return tracer_of(accel::registry().choose(parse_spec("exhaustive"))); }
+
+rays::TraceInput primary_rays(const scenes::Scene& scene) {
+  return accel::PrimaryRays(scene.cameras.front(), 24, 20, 1);
+}
+
+rays::TraceInput as_list(const rays::TraceInput& input) {
+  rays::RaySet set;
+  for (std::size_t i = 0; i < input.size(); ++i) set.rays.push_back(input.ray(i));
+  return rays::TraceInput(std::move(set));
+}
+
+/// Right, but it loses the hits for which `loses` holds.
+template <class Loses>
+Tracer losing(Loses loses) {
+  return [loses](const scenes::Scene& scene, const rays::TraceInput& input) {
+    rays::HitTable hits = exhaustive()(scene, input);
+    for (std::size_t i = 0; i < hits.t.size(); ++i) {
+      if (hits.primitives[i] == scenes::kNoPrimitive || !loses(scene, input, hits, i)) continue;
+      hits.t[i] = accel::kInfinity;
+      hits.primitives[i] = scenes::kNoPrimitive;
+    }
+    return hits;
+  };
+}
+
+MinimalCase reduced(const scenes::Scene& scene, const rays::TraceInput& input,
+                    const Tracer& tracer) {
+  const DiffReport report = verify_tracer(scene, input, tracer);
+  EXPECT_GT(report.count(DiffClass::kStructureError), 0U);
+  base::Progress progress(1, nullptr, false);
+  auto found = minimize(scene, input, report.examples.front(), tracer, progress);
+  EXPECT_TRUE(found.has_value());
+  return std::move(*found);
+}
+
+class Minimize : public ::testing::Test {
+ protected:
+  scenes::Scene scene_ = scenes::load_scene("tetra:n=3");
+  rays::TraceInput list_ = as_list(primary_rays(scene_));
+};
+
+TEST_F(Minimize, OnePrimitiveAndOneRayAreLeft) {
+  const MinimalCase found =
+      reduced(scene_, list_, losing([](auto&, auto&, auto&, std::size_t) { return true; }));
+  EXPECT_EQ(found.primitives.size(), 1U);
+  EXPECT_EQ(found.scene.primitives.size(), 1U);
+  EXPECT_EQ(found.input.size(), 1U);
+  EXPECT_EQ(found.mismatch.diff_class, DiffClass::kStructureError);
+}
+
+TEST_F(Minimize, AsManyPrimitivesAreLeftAsTheFaultTakes) {
+  const MinimalCase found =
+      reduced(scene_, list_, losing([](const scenes::Scene& scene, auto&, auto&, std::size_t) {
+                return scene.primitives.size() >= 5;
+              }));
+  EXPECT_EQ(found.primitives.size(), 5U);
+  EXPECT_TRUE(std::ranges::is_sorted(found.primitives));
+  EXPECT_EQ(found.input.size(), 1U);
+}
+
+TEST_F(Minimize, AsManyRaysAreLeftAsTheFaultTakes) {
+  const MinimalCase found =
+      reduced(scene_, list_, losing([](auto&, const rays::TraceInput& input, auto&, std::size_t) {
+                return input.size() >= 3;
+              }));
+  EXPECT_EQ(found.input.size(), 3U);
+  EXPECT_EQ(found.primitives.size(), 1U);
+}
+
+TEST_F(Minimize, AnImageStaysWholeWhereItTakesTheImage) {
+  const MinimalCase found = reduced(scene_, primary_rays(scene_),
+                                    losing([](auto&, const rays::TraceInput& input, auto&,
+                                              std::size_t) { return input.image() != nullptr; }));
+  EXPECT_EQ(found.input.size(), 480U);
+  EXPECT_NE(found.input.image(), nullptr);
+  EXPECT_EQ(found.primitives.size(), 1U);
+}
+
+TEST_F(Minimize, NothingIsReducedThatIsRightTheNextTime) {
+  const Tracer wrong = losing([](auto&, auto&, auto&, std::size_t) { return true; });
+  const DiffReport report = verify_tracer(scene_, list_, wrong);
+  base::Progress progress(1, nullptr, false);
+  EXPECT_FALSE(minimize(scene_, list_, report.examples.front(), exhaustive(), progress));
+}
+
+TEST_F(Minimize, NumbersThatNoHitHasAreFaultsToo) {
+  const Tracer wrong = [](const scenes::Scene& scene, const rays::TraceInput& input) {
+    rays::HitTable hits = exhaustive()(scene, input);
+    for (auto& id : hits.primitives) {
+      if (id != scenes::kNoPrimitive) id += 100'000;
+    }
+    return hits;
+  };
+  Mismatch first{};
+  first.ray = list_.ray(0);
+  for (std::size_t i = 0; i < list_.size(); ++i) {
+    if (exhaustive()(scene_, list_).occluded.empty()) first.ray = list_.ray(list_.size() / 2);
+  }
+  base::Progress progress(1, nullptr, false);
+  const auto found = minimize(scene_, list_, first, wrong, progress);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->primitives.size(), 1U);
+}
+
+TEST_F(Minimize, TheCaseIsWrittenAndReadsBack) {
+  const TemporaryFolder folder;
+  const MinimalCase found =
+      reduced(scene_, list_, losing([](auto&, auto&, auto&, std::size_t) { return true; }));
+  write_case(folder.path() / "new" / "case", found, "tetra:n=3", "mine");
+  const auto at = [&](const char* name) { return folder.path() / "new" / "case" / name; };
+  const scenes::Scene read = scenes::load_scene(at("scene.nff").string());
+  EXPECT_EQ(scenes::scene_hash(read), scenes::scene_hash(found.scene));
+  EXPECT_EQ(scenes::load_scene(at("scene.obj").string()).primitives.size(), 1U);
+  for (const char* name : {"ray.rays", "ray.csv"}) {
+    const rays::RaySet set = rays::read_ray_file(at(name));
+    ASSERT_EQ(set.rays.size(), 1U);
+    EXPECT_EQ(set.rays[0].direction, found.mismatch.ray.direction);
+    EXPECT_EQ(set.rays[0].t_max, found.mismatch.ray.t_max);
+  }
+  const auto json = nlohmann::json::parse(read_text(at("case.json")));
+  EXPECT_EQ(json["subject"], "mine");
+  EXPECT_EQ(json["wrong"]["class"], "structure_error");
+  EXPECT_EQ(json["primitives"].size(), 1U);
+}
+
+TEST(Subset, OfAllPrimitivesIsTheSceneAndOfSomeHoldsTheirBits) {
+  for (const char* name : {"balls:n=2", "tree:n=3", "gears:n=2", "teapot:n=2"}) {
+    const scenes::Scene scene = scenes::load_scene(name);
+    std::vector<scenes::PrimitiveId> all(scene.primitives.size());
+    std::iota(all.begin(), all.end(), 0U);
+    EXPECT_EQ(scenes::scene_hash(scenes::subset(scene, all)), scenes::scene_hash(scene)) << name;
+    const std::vector<scenes::PrimitiveId> some{all.back(), 0, 2};
+    const scenes::Scene part = scenes::subset(scene, some);
+    ASSERT_EQ(part.primitives.size(), 3U);
+    for (scenes::PrimitiveId i = 0; i < 3; ++i) {
+      const scenes::Bounds box = scenes::primitive_bounds(part, i);
+      const scenes::Bounds expected = scenes::primitive_bounds(scene, some[i]);
+      EXPECT_EQ(box.lower, expected.lower) << name;
+      EXPECT_EQ(box.upper, expected.upper) << name;
+      EXPECT_TRUE(glm::all(glm::lessThanEqual(part.bounds.lower, box.lower)));
+    }
+  }
+}
+
+// Commands
+
+TEST_F(Minimize, ACommandIsRunWithItsFiles) {
+  const std::string program =
+      std::string(BEAMBENCH_BINARY) + " hits {nff} --rays {rays} --accel samet -o {hits}";
+  EXPECT_EQ(verify_tracer(scene_, list_, program_of(program)).verdict, Verdict::kOk);
+  const std::string csv =
+      std::string(BEAMBENCH_BINARY) +
+      " hits {nff} --rays {rays_csv} -o {hits}.csv && mv {hits}.csv {hits} && test -s {obj}";
+  EXPECT_EQ(verify_tracer(scene_, list_, program_of(csv)).verdict, Verdict::kOk);
+}
+
+TEST_F(Minimize, ACommandThatFailsIsNamed) {
+  const auto refusal = [&](const char* command) {
+    return scenes::thrown_message([&] { program_of(command)(scene_, list_); });
+  };
+  EXPECT_TRUE(scenes::says(refusal("true"), {"no {hits}"}));
+  EXPECT_TRUE(scenes::says(refusal("exit 3; {hits}"), {"ended with exit code 3"}));
+  EXPECT_TRUE(scenes::says(refusal("kill -9 $$; {hits}"), {"signal 9"}));
+  EXPECT_TRUE(scenes::says(refusal("test ! -e {hits}"), {"wrote no hits"}));
+  EXPECT_TRUE(scenes::says(refusal("printf 't,primitive\\n1,2\\n' > {hits}"),
+                           {"wrote 1 hits for 480 rays"}));
+}
+
+}  // namespace
+}  // namespace beambench::verify
