@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "harness/verify/differ.hpp"
 #include "scenes/core/shell_word.hpp"
 
 namespace beambench::verify {
@@ -40,7 +39,8 @@ std::string_view kind_of(const scenes::Scene& scene, scenes::PrimitiveId id) {
 template <class AnyHit>
 std::string text(const scenes::Scene& scene, const std::optional<AnyHit>& hit) {
   if (!hit) return "miss";
-  if (hit->primitive == scenes::kNoPrimitive) return fmt::format("miss, but with t = {}", hit->t);
+  if (hit->primitive == scenes::kNoPrimitive)
+    return fmt::format("no primitive, but t = {}", hit->t);
   return fmt::format("primitive {} ({}) at t = {}", hit->primitive, kind_of(scene, hit->primitive),
                      hit->t);
 }
@@ -53,6 +53,22 @@ std::string answer_text(const scenes::Scene& scene, const Mismatch& mismatch) {
   if (mismatch.query == rays::Query::kClosestHit) return text(scene, mismatch.answer);
   if (mismatch.any_hit_answer > 1) return "neither 0 nor 1";
   return mismatch.any_hit_answer == 1 ? "some hit" : "no hit";
+}
+
+/// `who` gave the answer.
+std::string mismatch_text(const scenes::Scene& scene, const Mismatch& mismatch,
+                          std::string_view place, std::string_view who) {
+  return fmt::format(
+      "{}: {}{}{}\n"
+      "  ray       from {} along {}, t in [{}, {}]\n"
+      "  {:<9} {}\n"
+      "  oracle    {}\n"
+      "  exact     {}\n",
+      place, kDiffClassNames[static_cast<std::size_t>(mismatch.diff_class)],
+      mismatch.reason.empty() ? "" : ", ", mismatch.reason, text(mismatch.ray.origin),
+      text(mismatch.ray.direction), mismatch.ray.t_min, mismatch.ray.t_max, who,
+      answer_text(scene, mismatch), text(scene, mismatch.oracle),
+      mismatch.searched ? text(scene, mismatch.exact) : "not searched");
 }
 
 }  // namespace
@@ -81,18 +97,11 @@ std::string ReplayCommand::of(std::size_t index) const {
 
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch) {
-  return fmt::format(
-      "{}: {}{}{}\n"
-      "  ray       from {} along {}, t in [{}, {}]\n"
-      "  structure {}\n"
-      "  oracle    {}\n"
-      "  exact     {}\n",
-      rays::place_text(input, mismatch.index),
-      kDiffClassNames[static_cast<std::size_t>(mismatch.diff_class)],
-      mismatch.reason.empty() ? "" : ", ", mismatch.reason, text(mismatch.ray.origin),
-      text(mismatch.ray.direction), mismatch.ray.t_min, mismatch.ray.t_max,
-      answer_text(scene, mismatch), text(scene, mismatch.oracle),
-      mismatch.searched ? text(scene, mismatch.exact) : "not searched");
+  return mismatch_text(scene, mismatch, rays::place_text(input, mismatch.index), "structure");
+}
+
+std::string describe(const scenes::Scene& scene, const Mismatch& mismatch) {
+  return mismatch_text(scene, mismatch, fmt::format("ray {}", mismatch.index), "reported");
 }
 
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,

@@ -1,11 +1,14 @@
 #pragma once
 // One mismatch as text, and the command that traces the ray again.
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 #include "accel/core/registry.hpp"
-#include "harness/verify/differ.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "harness/verify/diff_report.hpp"
+#include "scenes/scene.hpp"
 
 namespace beambench::verify {
 
@@ -35,5 +38,7 @@ std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
 /// The same, and the command that shows the ray's traversal path.
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch, const ReplayCommand& replay);
+/// The same of a `ClaimVerifier`, whose rays are known by their index alone.
+std::string describe(const scenes::Scene& scene, const Mismatch& mismatch);
 
 }  // namespace beambench::verify
