@@ -5,7 +5,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <system_error>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -183,14 +182,6 @@ void add_whitted_options(CLI::App& command, WhittedRequest& request) {
 
 render::WhittedOptions whitted_options(const WhittedRequest& request) {
   return {request.max_depth, request.min_weight, render::parse_shadow_method(request.shadows)};
-}
-
-void make_picture_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!error) return;
-  throw InputError(fmt::format("cannot make the folder '{}': {}; choose another with --pictures",
-                               folder.string(), error.message()));
 }
 
 std::string file_stem(std::string title) {

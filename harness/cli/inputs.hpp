@@ -1,7 +1,6 @@
 #pragma once
 // Options of several commands: scenes, cameras, images, structures, light; and renamed options.
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -92,8 +91,6 @@ void add_whitted_options(CLI::App& command, WhittedRequest& request);
 /// Throws InputError for an unknown shadow method.
 render::WhittedOptions whitted_options(const WhittedRequest& request);
 
-/// Makes the folder of --pictures and its parents. Throws InputError.
-void make_picture_folder(const std::filesystem::path& folder);
 /// `tetra-n-4-default-samet-max_level-5` of `tetra:n=4-default-samet:max_level=5`: a name that
 /// file systems and shells take.
 std::string file_stem(std::string title);

@@ -209,7 +209,7 @@ int verify_structures(const Request& request) {
   const std::size_t structures = accel::registry().choose_list(request.structures).size();
   const std::vector<scenes::Scene> scenes = open_scenes(request);
   for (const scenes::Scene& scene : scenes) choose_camera(scene, request.view);
-  if (!request.pictures.empty()) make_picture_folder(request.pictures);
+  if (!request.pictures.empty()) make_folder(request.pictures);
 
   base::Progress progress(scenes.size() * kinds.size() * structures);
   std::vector<verify::VerifiedCell> cells;

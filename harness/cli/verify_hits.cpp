@@ -70,7 +70,7 @@ void print_disputes(const VerifiedClaims& claims, const scenes::Scene& scene) {
     if (!is_dispute(report.examples[i], report.verdict)) continue;
     if (++disputes > kPrinted) continue;
     fmt::print("\n{}",
-               verify::describe(scene, claims.found.places[i], report.examples[i], "claim"));
+               verify::describe(scene, claims.found.places[i], report.examples[i], "reported"));
   }
   if (disputes > kPrinted) {
     fmt::print("\n... and {} more, which --json FILE writes\n", disputes - kPrinted);
@@ -169,7 +169,7 @@ VerifiedClaims verify_case(const VerifyHitsRequest& request, const scenes::Scene
 
 void require_outputs(const VerifyHitsRequest& request) {
   if (!request.json.empty()) require_writable(request.json);
-  if (!request.pictures.empty()) make_picture_folder(request.pictures);
+  if (!request.pictures.empty()) make_folder(request.pictures);
 }
 
 }  // namespace

@@ -15,6 +15,8 @@
 
 #include "accel/embree/oracle.hpp"
 #include "harness/rays/trace_input.hpp"
+#include "harness/rays/trace_results.hpp"
+#include "harness/verify/differ.hpp"
 #include "harness/verify/verify_ray.hpp"
 
 namespace beambench::verify {

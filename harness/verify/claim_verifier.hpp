@@ -9,7 +9,7 @@
 
 #include "accel/core/ray.hpp"
 #include "harness/rays/claimed_hits.hpp"
-#include "harness/verify/differ.hpp"
+#include "harness/verify/diff_report.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/scene.hpp"
 

@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "harness/verify/differ.hpp"
 #include "harness/verify/hit_json.hpp"
 #include "scenes/core/shell_word.hpp"
 
@@ -41,7 +40,8 @@ std::string_view kind_of(const scenes::Scene& scene, scenes::PrimitiveId id) {
 template <class AnyHit>
 std::string text(const scenes::Scene& scene, const std::optional<AnyHit>& hit) {
   if (!hit) return "miss";
-  if (hit->primitive == scenes::kNoPrimitive) return fmt::format("miss, but with t = {}", hit->t);
+  if (hit->primitive == scenes::kNoPrimitive)
+    return fmt::format("no primitive, but t = {}", hit->t);
   return fmt::format("primitive {} ({}) at t = {}", hit->primitive, kind_of(scene, hit->primitive),
                      hit->t);
 }
@@ -85,7 +85,7 @@ std::string describe(const scenes::Scene& scene, std::string_view place, const M
   return fmt::format(
       "{}: {}{}{}\n"
       "  ray       from {} along {}, t in [{}, {}]\n"
-      "  {:9} {}\n"
+      "  {:<9} {}\n"
       "  oracle    {}\n"
       "  exact     {}\n",
       place, kDiffClassNames[static_cast<std::size_t>(mismatch.diff_class)],
@@ -93,6 +93,10 @@ std::string describe(const scenes::Scene& scene, std::string_view place, const M
       text(mismatch.ray.direction), mismatch.ray.t_min, mismatch.ray.t_max, subject,
       answer_text(scene, mismatch), text(scene, mismatch.oracle),
       mismatch.searched ? text(scene, mismatch.exact) : "not searched");
+}
+
+std::string describe(const scenes::Scene& scene, const Mismatch& mismatch) {
+  return describe(scene, fmt::format("ray {}", mismatch.index), mismatch, "reported");
 }
 
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
@@ -113,9 +117,9 @@ nlohmann::ordered_json to_json(const Mismatch& mismatch) {
       {"reason", mismatch.reason},
       {"ray", ray_json(mismatch.ray)}};
   if (mismatch.query == rays::Query::kAnyHit) {
-    out["claim"] = mismatch.any_hit_answer;
+    out["reported"] = mismatch.any_hit_answer;
   } else {
-    out["claim"] = hit_json(mismatch.answer);
+    out["reported"] = hit_json(mismatch.answer);
   }
   out["oracle"] = hit_json(mismatch.oracle);
   if (mismatch.searched) out["exact"] = hit_json(mismatch.exact);

@@ -1,13 +1,16 @@
 #pragma once
 // One mismatch as text, and the command that traces the ray again.
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "accel/core/registry.hpp"
-#include "harness/verify/differ.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "harness/verify/diff_report.hpp"
+#include "scenes/scene.hpp"
 
 namespace beambench::verify {
 
@@ -34,6 +37,8 @@ class ReplayCommand {
 /// `subject` is what gave the answer, in at most nine letters.
 std::string describe(const scenes::Scene& scene, std::string_view place, const Mismatch& mismatch,
                      std::string_view subject);
+/// The same of a program's answer, whose ray is known by its index alone.
+std::string describe(const scenes::Scene& scene, const Mismatch& mismatch);
 /// The same of a structure's answer, with the place in the input.
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch);
@@ -41,7 +46,7 @@ std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
 std::string describe(const scenes::Scene& scene, const rays::TraceInput& input,
                      const Mismatch& mismatch, const ReplayCommand& replay);
 
-/// The same as JSON: index, class, reason, ray, and the hits, `claim` being the answer.
+/// The same as JSON: index, class, reason, ray, and the hits, `reported` being the answer.
 nlohmann::ordered_json to_json(const Mismatch& mismatch);
 
 }  // namespace beambench::verify

@@ -1,13 +1,11 @@
 #pragma once
 // The differ: verifies a structure's hits against the oracle, ray by ray.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -16,69 +14,10 @@
 #include "accel/embree/oracle.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/rays/trace_results.hpp"
+#include "harness/verify/diff_report.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::verify {
-
-/// How one answer compares. u is 2^-24 x (largest |coordinate| + distance of the ray's origin), K
-/// is 16: correct hits of Embree in float were found up to 3.6 u off. The first three need a sound
-/// answer: its point lies within K u of the primitive it names. An answer to an any-hit query names
-/// no point, so it never ties: it agrees, or it grazes where every hit that is in dispute does.
-enum class DiffClass : std::size_t {
-  kAgree,           ///< same primitive, |dt| x |cos theta| <= K u (a sphere or cone: the point is
-                    ///< within K u of the surface, where the ray enters or leaves as the oracle's)
-  kTie,             ///< other primitive at the same point: |dt| x the smaller |cos theta| <= K u
-  kGraze,           ///< the disputed primitive's boundary is within K u of the ray, or the disputed
-                    ///< hit within K u of the ray's end
-  kStructureError,  ///< the structure is wrong, by long-double search over all primitives
-  kEmbreeError,     ///< the structure is right and the oracle wrong, by the same search
-  kCount
-};
-inline constexpr std::array<std::string_view, static_cast<std::size_t>(DiffClass::kCount)>
-    kDiffClassNames{"agree", "tie", "graze", "structure_error", "embree_error"};
-
-/// The result of a verification, as records state it.
-enum class Verdict {
-  kOk,        ///< no structure error, grazes within the budget
-  kMismatch,  ///< at least one structure error
-  kGrazes,    ///< no structure error, but more grazes than max(2, 1e-4 x rays)
-  kBaseline,  ///< a structure that returns no hits by design, and did not
-  kError,     ///< the structure could not be built or failed: nothing was verified
-  kNoRays     ///< the scene has no rays of the kind: nothing was verified, and nothing is wrong
-};
-/// "ok", "mismatch", "grazes", "baseline", "error", "no_rays".
-std::string_view to_string(Verdict verdict);
-inline bool is_right(Verdict verdict) {
-  return verdict == Verdict::kOk || verdict == Verdict::kBaseline;
-}
-
-/// One ray that did not agree, with all that is needed to look at it.
-struct Mismatch {
-  std::size_t index;  ///< of the ray, counted over all parts
-  accel::Ray ray;
-  rays::Query query;
-  DiffClass diff_class;
-  std::optional<accel::Hit> answer;  ///< the structure's, of a closest-hit query
-  std::uint8_t any_hit_answer;       ///< of an any-hit query: 0, 1, or what the structure wrote
-  std::optional<accel::embree::ExactHit> oracle;  ///< the closest hit, whatever the query
-  std::optional<accel::embree::ExactHit> exact;   ///< the long-double hit, if it was searched
-  bool searched;            ///< did the rules leave it to the long-double search?
-  std::string_view reason;  ///< why it is of its class: a clause for `describe`
-};
-
-/// What was found in one buffer.
-struct DiffReport {
-  std::uint64_t rays = 0;
-  std::uint64_t hits = 0;  ///< of the oracle
-  std::array<std::uint64_t, static_cast<std::size_t>(DiffClass::kCount)> counts{};
-  std::vector<Mismatch> examples;  ///< errors first, at most kMaxExamples of each class but agree
-  Verdict verdict = Verdict::kOk;
-
-  static constexpr std::size_t kMaxExamples = 10;
-  std::uint64_t count(DiffClass diff_class) const {
-    return counts[static_cast<std::size_t>(diff_class)];
-  }
-};
 
 /// The hit with `t` rounded to float.
 inline std::optional<accel::Hit> rounded(const std::optional<accel::embree::ExactHit>& hit) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <numeric>
 #include <ostream>
-#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -200,12 +199,7 @@ MinimalCase named_case(const scenes::Scene& scene, const Mismatch& wrong) {
 
 void write_case(const std::filesystem::path& folder, const MinimalCase& minimal,
                 const std::string& whole, const std::string& subject) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) {
-    throw InputError(fmt::format("cannot make the folder '{}': {}; choose another place",
-                                 folder.string(), error.message()));
-  }
+  make_folder(folder);
   const scenes::Scene& scene = minimal.scene;
   write_file(folder / "scene.nff",
              [&](std::ostream& file) { scenes::nff::write_nff(scene, file); });

@@ -461,6 +461,14 @@ void require_writable(const fs::path& target) {
   }
 }
 
+void make_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!error) return;
+  throw InputError(fmt::format("cannot make the folder '{}': {}; choose another place",
+                               folder.string(), error.message()));
+}
+
 bool is_left_behind(const fs::path& path) {
   const std::string name = path.filename().string();
   return name.starts_with('.') && name.find(kPartial) != std::string::npos;

@@ -70,6 +70,9 @@ void write_file(const std::filesystem::path& target, std::string_view text);
 void write_file(const std::filesystem::path& target,
                 const std::function<void(std::ostream&)>& write);
 
+/// Makes a folder and those above it, unless it is there. Throws InputError.
+void make_folder(const std::filesystem::path& folder);
+
 /// Whether this is the file beside its place that a killed process was writing.
 bool is_left_behind(const std::filesystem::path& path);
 

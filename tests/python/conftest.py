@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from browser import Browser, find_browser
+from plugins import installed
 from synthetic_run import synthetic_rows, write_full_run, write_run
 
 
@@ -27,6 +28,12 @@ def full_run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def repository() -> Path:
     """The top of the working tree."""
     return Path(__file__).resolve().parents[2]
+
+
+@pytest.fixture(scope="session")
+def prefix(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Where the program is installed with its CMake package."""
+    return installed(tmp_path_factory.mktemp("prefix"))
 
 
 @pytest.fixture(scope="module")

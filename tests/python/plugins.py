@@ -1,4 +1,4 @@
-"""Plug-ins for the tests, built as their authors build them: with the package alone."""
+"""Outside projects for the tests, built as their authors build them: with the package alone."""
 
 from __future__ import annotations
 
@@ -46,6 +46,19 @@ def built(source: Path, folder: Path, package: Path, *options: str) -> Path:
     configured(source, folder, package, *options)
     run("cmake", "--build", folder)
     return folder
+
+
+def reached_headers(prefix: Path, *names: str) -> set[str]:
+    """The installed headers that these include, by any number of steps, and themselves."""
+    reached: set[str] = set()
+    waiting = list(names)
+    while waiting:
+        name = waiting.pop()
+        if name not in reached:
+            reached.add(name)
+            text = (prefix / "include/beambench" / name).read_text()
+            waiting += re.findall(r'#include "(.*)"', text)
+    return reached
 
 
 def call(

@@ -16,6 +16,7 @@
 #include "harness/rays/trace_input.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/describe.hpp"
+#include "harness/verify/differ.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/planar_mirrors.hpp"

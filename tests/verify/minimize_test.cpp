@@ -51,7 +51,7 @@ MinimalCase reduced(const scenes::Scene& scene, const rays::TraceInput& input,
                     const Tracer& tracer) {
   const DiffReport report = verify_tracer(scene, input, tracer);
   EXPECT_GT(report.count(DiffClass::kStructureError), 0U);
-  base::Progress progress(1, nullptr, false);
+  base::Progress progress(1);
   auto found = minimize(scene, input, report.examples.front(), tracer, progress);
   EXPECT_TRUE(found.has_value());
   return std::move(*found);
@@ -103,7 +103,7 @@ TEST_F(Minimize, AnImageStaysWholeWhereItTakesTheImage) {
 TEST_F(Minimize, NothingIsReducedThatIsRightTheNextTime) {
   const Tracer wrong = losing([](auto&, auto&, auto&, std::size_t) { return true; });
   const DiffReport report = verify_tracer(scene_, list_, wrong);
-  base::Progress progress(1, nullptr, false);
+  base::Progress progress(1);
   EXPECT_FALSE(minimize(scene_, list_, report.examples.front(), exhaustive(), progress));
 }
 
@@ -120,7 +120,7 @@ TEST_F(Minimize, NumbersThatNoHitHasAreFaultsToo) {
   for (std::size_t i = 0; i < list_.size(); ++i) {
     if (exhaustive()(scene_, list_).occluded.empty()) first.ray = list_.ray(list_.size() / 2);
   }
-  base::Progress progress(1, nullptr, false);
+  base::Progress progress(1);
   const auto found = minimize(scene_, list_, first, wrong, progress);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->primitives.size(), 1U);

@@ -12,6 +12,7 @@
 #include "accel/core/registry.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
 #include "harness/verify/describe.hpp"
+#include "harness/verify/differ.hpp"
 #include "harness/verify/selftest/selftest.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
 #include "scenes/catalogue.hpp"

@@ -4,7 +4,6 @@
 #include <array>
 #include <functional>
 #include <ostream>
-#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -101,12 +100,7 @@ void write_scene(const fs::path& folder, SceneWithRays made) {
 }
 
 void make_empty_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) {
-    throw InputError(fmt::format("cannot make the folder '{}': {}; choose another place",
-                                 folder.string(), error.message()));
-  }
+  make_folder(folder);
   if (!fs::is_empty(folder)) {
     throw InputError(fmt::format("the folder '{}' is not empty; choose one that is, or a new one",
                                  folder.string()));
