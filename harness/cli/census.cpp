@@ -24,6 +24,7 @@
 #include "harness/render/ray_census.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/core/files.hpp"
 
 namespace beambench::cli {
 namespace {
