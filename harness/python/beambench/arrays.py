@@ -77,11 +77,12 @@ def flags(name: str, given: ArrayLike, shape: tuple[int | str, ...]) -> NDArray[
     """True and false, or 1 and 0, as uint8."""
     array = _as_array(name, given, "biu", "bool, or integers 0 and 1")
     _require_shape(name, array, shape)
-    if array.dtype.kind != "b":
-        wrong = (array != 0) & (array != 1)
-        if wrong.any():
-            first = int(np.argmax(wrong))
-            raise InputError(f"{name}[{first}] is {array[first]}; expected 0 or 1")
+    if array.dtype.kind == "b":
+        return np.require(array, requirements=["C", "A"]).view(np.uint8)
+    wrong = (array != 0) & (array != 1)
+    if wrong.any():
+        first = int(np.argmax(wrong))
+        raise InputError(f"{name}[{first}] is {array[first]}; expected 0 or 1")
     return np.require(array, dtype=np.uint8, requirements=["C", "A"])
 
 

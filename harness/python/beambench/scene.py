@@ -246,6 +246,9 @@ class Scene:
     def camera(self, name: str) -> Camera:
         """The camera of that name.
 
+        Args:
+            name: of one of `cameras`.
+
         Raises:
             InputError: there is none; the message lists the names.
         """
@@ -263,11 +266,17 @@ class Scene:
             camera = self.camera(camera)
         if camera is not None and not isinstance(camera, Camera):
             raise TypeError(f"camera is {camera!r}; expected a Camera, a name, or None")
-        size = (0, 0) if resolution is None else tuple(resolution)
-        if len(size) != 2 or not all(isinstance(n, int | np.integer) for n in size):
+        size = (0, 0) if resolution is None else resolution
+        if (
+            not isinstance(size, tuple | list)
+            or len(size) != 2
+            or not all(isinstance(n, int | np.integer) for n in size)
+        ):
             raise TypeError(f"resolution is {resolution!r}; expected (width, height)")
         if resolution is not None and not all(1 <= n <= 16384 for n in size):
-            raise InputError(f"resolution is {size}; expected width and height from 1 to 16384")
+            raise InputError(
+                f"resolution is {tuple(size)}; expected width and height from 1 to 16384"
+            )
         chosen = self._compiled.cameras[0] if camera is None else _compiled(camera)
         return _beambench.ImageChoice(chosen, int(size[0]), int(size[1]), samples)
 
