@@ -6,6 +6,10 @@
 
 namespace beambench::python {
 
+/// A dict by name, of values of several types, and a list of such, with their types in the stubs.
+using Record = nanobind::typed<nanobind::dict, nanobind::str, nanobind::any>;
+using Records = nanobind::typed<nanobind::list, Record>;
+
 void bind_catalogue(nanobind::module_& module);
 void bind_scene(nanobind::module_& module);
 void bind_structure(nanobind::module_& module);

@@ -50,12 +50,12 @@ const char* name_of(accel::Conformance conformance) {
   return "";
 }
 
-nb::list parameters_of(std::span<const ParameterInfo> infos) {
-  nb::list parameters;
+Records parameters_of(std::span<const ParameterInfo> infos) {
+  Records parameters;
   for (const ParameterInfo& info : infos) {
     const bool has_range =
         info.type != ParameterInfo::Type::kFlag && info.type != ParameterInfo::Type::kChoice;
-    nb::dict entry;
+    Record entry;
     entry["name"] = info.name;
     entry["type"] = name_of(info.type);
     entry["default"] = info.default_value;
@@ -71,16 +71,16 @@ nb::list parameters_of(std::span<const ParameterInfo> infos) {
 }
 
 template <class Info>
-nb::dict entry_of(const Info& info) {
-  nb::dict entry;
+Record entry_of(const Info& info) {
+  Record entry;
   entry["name"] = info.name;
   entry["summary"] = info.summary;
   entry["parameters"] = parameters_of(info.parameters);
   return entry;
 }
 
-nb::dict counters_of(const std::string& structure) {
-  nb::dict counters;
+Record counters_of(const std::string& structure) {
+  Record counters;
   for (const accel::CounterInfo& info : accel::common_counters()) {
     counters[info.name.c_str()] = info.meaning;
   }
@@ -90,10 +90,10 @@ nb::dict counters_of(const std::string& structure) {
   return counters;
 }
 
-nb::list structures() {
-  nb::list all;
+Records structures() {
+  Records all;
   for (const accel::StructureInfo& info : accel::registry().structures()) {
-    nb::dict entry = entry_of(info);
+    Record entry = entry_of(info);
     entry["conformance"] = name_of(info.conformance);
     entry["counters"] = counters_of(info.name);
     all.append(entry);
@@ -101,16 +101,16 @@ nb::list structures() {
   return all;
 }
 
-nb::list scene_entries() {
-  nb::list all;
+Records scene_entries() {
+  Records all;
   for (const scenes::SceneInfo& info : scenes::scene_catalogue()) all.append(entry_of(info));
   return all;
 }
 
-nb::list ray_kind_entries() {
-  nb::list all;
+Records ray_kind_entries() {
+  Records all;
   for (const rays::RayKindInfo& info : rays::ray_kinds()) {
-    nb::dict entry = entry_of(info);
+    Record entry = entry_of(info);
     const std::string_view query = rays::to_string(info.query);
     entry["query"] = nb::str(query.data(), query.size());
     all.append(entry);

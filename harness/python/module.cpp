@@ -31,7 +31,9 @@ NB_MODULE(_beambench, module) {
     }
   });
   const std::string_view version = beambench::bench::build_info().version;
-  module.attr("__version__") = nb::str(version.data(), version.size());
+  module.def(
+      "version", [version] { return nb::str(version.data(), version.size()); },
+      "The program's version.");
   module.attr("NO_PRIMITIVE") = beambench::scenes::kNoPrimitive;
 
   beambench::python::bind_catalogue(module);

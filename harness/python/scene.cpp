@@ -31,6 +31,7 @@
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
+#include "scenes/formats/mesh/mesh_scene.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::python {
@@ -84,16 +85,23 @@ SceneHandle load(const std::string& spec, bool strict) {
 SceneHandle of_triangles(const std::string& name, const Vertices& vertices,
                          const Triangles& triangles, const std::string& up) {
   const nb::gil_scoped_release released;
-  return handle_of(
-      triangle_scene(name, points_of(vertices), triples_of(triangles), orientation_of(up)));
+  return result_of([mesh = mesh_of(points_of(vertices), triples_of(triangles)), name,
+                    orientation = orientation_of(up)](const StopRequest&) {
+    return handle_of(scenes::mesh::mesh_scene(mesh, name, orientation));
+  });
 }
 
 SceneHandle of_spheres(const std::string& name, const Vertices& centers,
                        const ArrayIn<double, -1>& radii, const std::string& up) {
-  if (centers.shape(0) != radii.shape(0)) throw InputError("there are more centers than radii");
+  if (centers.shape(0) != radii.shape(0))
+    throw InputError("there are not as many radii as centers");
   const nb::gil_scoped_release released;
-  return handle_of(
-      sphere_scene(name, points_of(centers), {radii.data(), radii.shape(0)}, orientation_of(up)));
+  const auto points = points_of(centers);
+  return result_of([own_points = std::vector(points.begin(), points.end()),
+                    own_radii = std::vector(radii.data(), radii.data() + radii.shape(0)), name,
+                    orientation = orientation_of(up)](const StopRequest&) {
+    return handle_of(sphere_scene(name, own_points, own_radii, orientation));
+  });
 }
 
 ArrayOut<std::uint32_t> without_area(const Vertices& vertices, const Triangles& triangles) {

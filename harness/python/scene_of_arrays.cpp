@@ -5,21 +5,19 @@
 #include <glm/common.hpp>
 
 #include "scenes/formats/mesh/fitted_cameras.hpp"
-#include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_scene.hpp"
 #include "scenes/scene_builder.hpp"
 #include "scenes/triangulate.hpp"
 
 namespace beambench::python {
 
-scenes::Scene triangle_scene(const std::string& name, std::span<const glm::dvec3> vertices,
-                             std::span<const std::array<std::uint32_t, 3>> triangles,
-                             const scenes::mesh::Orientation& orientation) {
+scenes::mesh::TriangleMesh mesh_of(std::span<const glm::dvec3> vertices,
+                                   std::span<const std::array<std::uint32_t, 3>> triangles) {
   scenes::mesh::TriangleMesh mesh;
   mesh.vertices.assign(vertices.begin(), vertices.end());
   mesh.triangles.assign(triangles.begin(), triangles.end());
   mesh.parts.push_back({{}, static_cast<std::uint32_t>(triangles.size())});
-  return scenes::mesh::mesh_scene(mesh, name, orientation);
+  return mesh;
 }
 
 std::vector<std::uint32_t> triangles_without_area(

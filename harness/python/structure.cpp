@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/map.h>
@@ -30,6 +32,7 @@
 #include "harness/python/scene_handle.hpp"
 #include "harness/python/stoppable_queries.hpp"
 #include "harness/python/structure_handle.hpp"
+#include "scenes/core/error.hpp"
 #include "scenes/core/parameters.hpp"
 
 namespace beambench::python {
@@ -81,10 +84,18 @@ void trace_in_parts(std::span<const accel::Ray> rays, const Trace& trace) {
   }
 }
 
+/// A hit buffer is as wide as an int.
+void require_count(std::size_t rays) {
+  constexpr std::size_t kMost = std::numeric_limits<int>::max();
+  if (rays <= kMost) return;
+  throw InputError(fmt::format("there are {} rays; give at most {} at once", rays, kMost));
+}
+
 Hits closest_hits(const StructureHandle& structure, const RaysIn& given, bool counting) {
   const std::span<const accel::Ray> rays = rays_of(given);
   auto counters = counters_if(counting);
   std::shared_ptr<accel::HitBuffer> hits;
+  require_count(rays.size());
   {
     const nb::gil_scoped_release released;
     require_valid_rays(rays);
@@ -148,9 +159,9 @@ Hits trace_image(const StructureHandle& structure, const ImageChoice& choice,
                  traced.counters);
 }
 
-nb::dict statistics_of(const StructureHandle& structure) {
+Record statistics_of(const StructureHandle& structure) {
   const accel::Statistics statistics = structure.built->accelerator->statistics();
-  nb::dict all;
+  Record all;
   all["nodes"] = statistics.nodes;
   all["leaves"] = statistics.leaves;
   all["empty_leaves"] = statistics.empty_leaves;

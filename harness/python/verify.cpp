@@ -88,8 +88,8 @@ Verified verify_parts(const scenes::Scene& scene, std::span<const accel::Ray> ra
   return verified;
 }
 
-nb::dict dict_of(const verify::Mismatch& mismatch) {
-  nb::dict entry;
+Record record_of(const verify::Mismatch& mismatch) {
+  Record entry;
   entry["index"] = mismatch.index;
   entry["class"] = static_cast<std::size_t>(mismatch.diff_class);
   entry["reason"] = nb::str(mismatch.reason.data(), mismatch.reason.size());
@@ -99,8 +99,8 @@ nb::dict dict_of(const verify::Mismatch& mismatch) {
   return entry;
 }
 
-nb::dict dict_of(const verify::DiffReport& report) {
-  nb::dict entry;
+Record record_of(const verify::DiffReport& report) {
+  Record entry;
   const std::string_view verdict = verify::to_string(report.verdict);
   entry["verdict"] = nb::str(verdict.data(), verdict.size());
   entry["rays"] = report.rays;
@@ -109,12 +109,12 @@ nb::dict dict_of(const verify::DiffReport& report) {
   for (const std::uint64_t count : report.counts) counts.append(count);
   entry["counts"] = counts;
   nb::list examples;
-  for (const verify::Mismatch& mismatch : report.examples) examples.append(dict_of(mismatch));
+  for (const verify::Mismatch& mismatch : report.examples) examples.append(record_of(mismatch));
   entry["examples"] = examples;
   return entry;
 }
 
-std::tuple<nb::dict, ArrayOut<std::uint8_t>> verify_claims(
+std::tuple<Record, ArrayOut<std::uint8_t>> verify_claims(
     const SceneHandle& scene, const RaysIn& given, const Numbers<float>& t, const Points& point,
     const Numbers<std::uint32_t>& primitive, const Numbers<std::uint32_t>& triangle,
     const Numbers<std::uint8_t>& occluded) {
@@ -131,21 +131,17 @@ std::tuple<nb::dict, ArrayOut<std::uint8_t>> verify_claims(
       throw InputError(ray_fault(fault.index, fault.what()));
     }
   }
-  return {dict_of(verified.report), array_of(std::move(verified.classes))};
+  return {record_of(verified.report), array_of(std::move(verified.classes))};
 }
 
-nb::tuple class_names() {
-  nb::list names;
-  for (const std::string_view name : verify::kDiffClassNames) {
-    names.append(nb::str(name.data(), name.size()));
-  }
-  return nb::tuple(names);
+std::vector<std::string> class_names() {
+  return {verify::kDiffClassNames.begin(), verify::kDiffClassNames.end()};
 }
 
 }  // namespace
 
 void bind_verify(nb::module_& module) {
-  module.attr("CLASSES") = class_names();
+  module.def("class_names", &class_names, "The names of classes, in their order.");
   module.def("verify", &verify_claims, nb::arg("scene"), nb::arg("rays").noconvert(),
              nb::arg("t").noconvert(), nb::arg("point").noconvert(),
              nb::arg("primitive").noconvert(), nb::arg("triangle").noconvert(),

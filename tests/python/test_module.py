@@ -447,6 +447,19 @@ INVALID: dict[str, tuple[Callable[[], object], type[Exception], str]] = {
     ),
     "an image of one number": (lambda: plane().rays(resolution=8), TypeError, r"resolution is 8"),
     "a number of samples": (lambda: plane().rays(samples=3), bb.InputError, r"3 samples"),
+    "a broken number of samples": (
+        lambda: plane().rays(samples=1.5),
+        TypeError,
+        r"samples is 1\.5; expected a whole number",
+    ),
+    "a number as a kind of rays": (lambda: plane().rays(3), TypeError, r"kind is 3"),
+    "a number as a structure": (lambda: bb.Structure(plane(), 3), TypeError, r"spec is 3"),
+    "half a thread": (
+        lambda: bb.Structure(plane(), "samet", threads=0.5),
+        TypeError,
+        r"threads is 0\.5",
+    ),
+    "whole pictures as rays": (lambda: plane().rays("whitted"), bb.InputError, r"whitted"),
     "an unknown kind of rays": (lambda: plane().rays("light"), bb.InputError, r"'light'"),
     "an unknown structure": (lambda: bb.Structure(plane(), "same"), bb.InputError, r"samet"),
     "an unknown parameter": (

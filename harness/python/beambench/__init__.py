@@ -13,7 +13,8 @@ raise `InputError`, a ValueError whose message is one sentence; wrong types rais
 work runs without the GIL and is ended by Ctrl-C.
 """
 
-from beambench._beambench import CLASSES, NO_PRIMITIVE, InputError, __version__
+from beambench._beambench import NO_PRIMITIVE, InputError
+from beambench._beambench import version as _version
 from beambench.catalogue import (
     Parameter,
     RayKindInfo,
@@ -28,7 +29,10 @@ from beambench.ray_arrays import rays
 from beambench.scene import Camera, Scene
 from beambench.structure import Hits, Structure
 from beambench.sweeps import sweep
-from beambench.verification import Example, Report, verify
+from beambench.verification import CLASSES, Example, Report, verify
+
+__version__: str = _version()
+"""Of the program that the module belongs to."""
 
 __all__ = [
     "CLASSES",

@@ -12,6 +12,20 @@ from beambench._beambench import InputError
 LARGEST_ID = 0xFFFFFFFF
 
 
+def whole_number(name: str, given: object) -> int:
+    """A whole number; raises TypeError for anything else."""
+    if isinstance(given, bool) or not isinstance(given, int | np.integer):
+        raise TypeError(f"{name} is {given!r}; expected a whole number")
+    return int(given)
+
+
+def text(name: str, given: object) -> str:
+    """A text; raises TypeError for anything else."""
+    if not isinstance(given, str):
+        raise TypeError(f"{name} is {given!r}; expected a text")
+    return given
+
+
 def _shape_text(shape: tuple[int | str, ...]) -> str:
     """`(N, 3)`, `(N,)`."""
     return f"({', '.join(map(str, shape))}{',' if len(shape) == 1 else ''})"

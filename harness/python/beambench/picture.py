@@ -22,4 +22,5 @@ def to_srgb(picture: ArrayLike) -> NDArray[np.uint8]:
     """
     light = np.clip(reals("picture", picture, ("height", "width", 3), np.float32), 0.0, 1.0)
     encoded = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
-    return np.round(255.0 * encoded).astype(np.uint8)
+    display: NDArray[np.uint8] = np.round(255.0 * encoded).astype(np.uint8)
+    return display

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from beambench import _beambench
 from beambench._beambench import InputError
-from beambench.arrays import ids, reals, require_coordinates
+from beambench.arrays import ids, reals, require_coordinates, text, whole_number
 
 if TYPE_CHECKING:
     from beambench.structure import Structure
@@ -49,14 +49,14 @@ def _vector(name: str, given: ArrayLike) -> Vector:
 
 def _compiled(camera: Camera) -> _beambench.Camera:
     return _beambench.Camera(
-        name=camera.name,
+        name=text("name of the camera", camera.name),
         eye=_vector("eye", camera.eye),
         at=_vector("at", camera.at),
         up=_vector("up", camera.up),
         angle=float(camera.angle),
         aspect=float(camera.aspect),
-        width=int(camera.width),
-        height=int(camera.height),
+        width=whole_number("width of the camera", camera.width),
+        height=whole_number("height of the camera", camera.height),
     )
 
 
@@ -79,7 +79,7 @@ class Scene:
             InputError: no such name or file, a parameter out of its range, or a malformed file,
                 with the line.
         """
-        self._compiled = _beambench.load_scene(os.fspath(spec), strict)
+        self._compiled = _beambench.load_scene(text("spec", os.fspath(spec)), bool(strict))
         self._source_rows: NDArray[np.int64] | None = None
         for warning in self._compiled.warnings:
             warnings.warn(warning, stacklevel=2)
@@ -141,7 +141,9 @@ class Scene:
         if len(rows) == 0:
             raise InputError("triangles has no row with an area; expected at least one triangle")
         kept = corners if len(flat) == 0 else np.ascontiguousarray(corners[rows])
-        scene = cls._of(_beambench.scene_of_triangles(name, points, kept, up))
+        scene = cls._of(
+            _beambench.scene_of_triangles(text("name", name), points, kept, text("up", up))
+        )
         scene._source_rows = rows
         return scene
 
@@ -178,7 +180,9 @@ class Scene:
             raise InputError(
                 f"radii[{row}] is {each[row]:g}; expected a number from -1e9 to 1e9, but not 0"
             )
-        return cls._of(_beambench.scene_of_spheres(name, points, each, up))
+        return cls._of(
+            _beambench.scene_of_spheres(text("name", name), points, each, text("up", up))
+        )
 
     @property
     def name(self) -> str:
@@ -278,7 +282,9 @@ class Scene:
                 f"resolution is {tuple(size)}; expected width and height from 1 to 16384"
             )
         chosen = self._compiled.cameras[0] if camera is None else _compiled(camera)
-        return _beambench.ImageChoice(chosen, int(size[0]), int(size[1]), samples)
+        return _beambench.ImageChoice(
+            chosen, int(size[0]), int(size[1]), whole_number("samples", samples)
+        )
 
     def rays(
         self,
@@ -300,14 +306,13 @@ class Scene:
 
         Returns:
             Shape (N, 8), float32: origin, t_min, direction, t_max. Primary rays go row by row from
-            the top left, the samples of a pixel one after the other. They were verified to hit
-            nothing invalid, and no copy was made.
+            the top left, the samples of a pixel one after the other.
 
         Raises:
             InputError: an unknown kind or camera, an image that is not possible, or a scene
                 without such rays (no lights, no mirrors).
         """
-        return self._compiled.rays(kind, self._image(camera, resolution, samples))
+        return self._compiled.rays(text("kind", kind), self._image(camera, resolution, samples))
 
     def render(
         self,
@@ -338,12 +343,12 @@ class Scene:
         """
         from beambench.structure import Structure, require_threads
 
-        require_threads(threads)
+        count = require_threads(threads)
         image = self._image(camera, resolution, samples)
         built = structure if isinstance(structure, Structure) else Structure(self, structure)
         if built.scene is not self:
             raise InputError("structure was built over another scene; build one over this scene")
-        return _beambench.render(built._compiled, image, shading, threads)
+        return _beambench.render(built._compiled, image, text("shading", shading), count)
 
     def __repr__(self) -> str:
         """Name and size."""

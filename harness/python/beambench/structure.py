@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from beambench import _beambench
 from beambench._beambench import NO_PRIMITIVE, InputError
-from beambench.arrays import rays_in_place
+from beambench.arrays import rays_in_place, text, whole_number
 from beambench.scene import Camera, Scene
 
 
@@ -27,13 +27,15 @@ class Hits:
     @property
     def hit(self) -> NDArray[np.bool_]:
         """Whether anything is hit."""
-        return self.primitive != NO_PRIMITIVE
+        hit: NDArray[np.bool_] = self.primitive != NO_PRIMITIVE
+        return hit
 
 
-def require_threads(threads: int | None) -> None:
-    """Raises InputError for a number of threads that is not possible."""
-    if threads is not None and not 0 <= threads <= 1024:
+def require_threads(threads: int) -> int:
+    """A number of threads that is possible."""
+    if not 0 <= whole_number("threads", threads) <= 1024:
         raise InputError(f"threads is {threads}; expected 1 to 1024, or 0 for one for each core")
+    return int(threads)
 
 
 def _text(value: object) -> str:
@@ -61,7 +63,8 @@ class Structure:
         """
         if not isinstance(scene, Scene):
             raise TypeError(f"scene is a {type(scene).__name__}; expected a beambench.Scene")
-        require_threads(threads)
+        threads = require_threads(threads)
+        spec = text("spec", spec)
         if parameters:
             given = ",".join(f"{name}={_text(value)}" for name, value in parameters.items())
             spec = f"{spec}{',' if ':' in spec else ':'}{given}"
@@ -94,7 +97,7 @@ class Structure:
             InputError: another shape, or an invalid ray: the message names it by its index.
             TypeError: another dtype.
         """
-        t, primitive, counts = self._compiled.closest_hits(rays_in_place(rays), counters)
+        t, primitive, counts = self._compiled.closest_hits(rays_in_place(rays), bool(counters))
         return Hits(t, primitive, counts)
 
     def any_hits(self, rays: ArrayLike) -> NDArray[np.bool_]:
@@ -149,9 +152,9 @@ class Structure:
         Raises:
             InputError: an unknown camera, or an image that is not possible.
         """
-        require_threads(threads)
+        count = None if threads is None else require_threads(threads)
         image = self.scene._image(camera, resolution, samples)
-        return Hits(*self._compiled.trace_image(image, threads, counters))
+        return Hits(*self._compiled.trace_image(image, count, bool(counters)))
 
     def render(
         self,

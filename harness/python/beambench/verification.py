@@ -9,12 +9,14 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from beambench import _beambench
-from beambench._beambench import CLASSES, NO_PRIMITIVE, InputError
+from beambench._beambench import NO_PRIMITIVE, InputError
 from beambench.arrays import flags, ids, rays_in_place, reals
 from beambench.scene import Scene
 
 Vector = tuple[float, float, float]
-_AGREE = CLASSES.index("agree")
+
+CLASSES: tuple[str, ...] = tuple(_beambench.class_names())
+"""agree, tie, graze, structure_error (the claim is wrong), embree_error (the oracle is)."""
 
 
 def _number(value: float) -> str:
