@@ -145,6 +145,7 @@ class SweepRun {
   void run_group(const CellGroup& group, double share_ms) {
     const base::Stopwatch watch;
     progress_.start(shown(group));
+    options_.before_each_piece();
     const auto fail = [&](verify::Verdict verdict, const std::string& why) {
       for (const PlannedCell& cell : group.cells) finish_unmeasured(group, cell, verdict, why);
     };
@@ -164,6 +165,7 @@ class SweepRun {
     std::vector<Contender> contenders;
     for (const PlannedCell& cell : group.cells) {
       set_activity(cell.id.key());
+      options_.before_each_piece();
       contenders.emplace_back(cell, *task).count();
     }
     // The time of the oracle and of the counting passes is the group's own.
@@ -182,6 +184,7 @@ class SweepRun {
       shuffle(contenders, random);
       for (std::size_t i = 0; i < contenders.size(); ++i) {
         set_activity(contenders[i].id().key());
+        options_.before_each_piece();
         contenders[i].repeat(instruments, round, static_cast<int>(i));
         progress_.advance(work_done(contenders, allowance_ms));
       }

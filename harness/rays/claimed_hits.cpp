@@ -27,4 +27,9 @@ std::size_t ClaimedHits::size() const {
   return count;
 }
 
+ClaimedHits ClaimedHits::part(std::size_t first, std::size_t count) const {
+  const auto cut = [&](auto span) { return span.empty() ? span : span.subspan(first, count); };
+  return {cut(t), cut(points), cut(primitives), cut(triangles), cut(occluded)};
+}
+
 }  // namespace beambench::rays

@@ -25,6 +25,8 @@ struct ClaimedHits {
   /// The number of rays. Throws std::logic_error where the arrays differ in length, or are not
   /// those of one of the forms above.
   std::size_t size() const;
+  /// Those of `count` rays from `first` on.
+  ClaimedHits part(std::size_t first, std::size_t count) const;
 };
 
 /// The arrays themselves.

@@ -34,12 +34,6 @@ constexpr std::string_view kNotSearched =
     "the oracle hits another place, and no surface was searched for here since enough faults or "
     "tests were counted before";
 
-rays::ClaimedHits part_of(const rays::ClaimedHits& hits, std::size_t first, std::size_t count) {
-  const auto cut = [&](auto span) { return span.empty() ? span : span.subspan(first, count); };
-  return {cut(hits.t), cut(hits.points), cut(hits.primitives), cut(hits.triangles),
-          cut(hits.occluded)};
-}
-
 /// The ids of a claim, of primitives or triangles; empty where they are not known.
 std::span<const std::uint32_t> ids_of(const rays::ClaimedHits& hits) {
   return hits.primitives.empty() ? hits.triangles : hits.primitives;
@@ -232,7 +226,7 @@ void ClaimVerifier::add(std::span<const accel::Ray> rays, const rays::ClaimedHit
   state_->require_valid_part(rays, hits);
   for (std::size_t first = 0; first < rays.size(); first += kBlock) {
     const std::size_t count = std::min(kBlock, rays.size() - first);
-    state_->add_block(rays.subspan(first, count), part_of(hits, first, count),
+    state_->add_block(rays.subspan(first, count), hits.part(first, count),
                       classes.empty() ? classes : classes.subspan(first, count));
   }
 }

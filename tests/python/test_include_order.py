@@ -34,6 +34,7 @@ MODULES = {
     "harness/render": "render",
     "harness/bench": "bench",
     "harness/experiments": "experiments",
+    "harness/python": "python",
     "harness/cluster": "cluster",
     "harness/cli": "cli",
 }

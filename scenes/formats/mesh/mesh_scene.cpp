@@ -67,13 +67,18 @@ ImportedMesh cached_import(const fs::path& path, const std::string& ending,
 
 }  // namespace
 
+void add_view(SceneBuilder& builder, std::span<const glm::vec3> points,
+              const Orientation& orientation) {
+  builder.set_background({0.16, 0.19, 0.24});
+  const std::vector<Camera> cameras = fitted_cameras(points, orientation);
+  for (const Camera& camera : cameras) builder.add_camera(camera);
+  if (!cameras.empty()) add_lights(builder, cameras.front());
+}
+
 Scene mesh_scene(const TriangleMesh& mesh, const std::string& name,
                  const Orientation& orientation) {
   SceneBuilder builder(name);
-  builder.set_background({0.16, 0.19, 0.24});
-  const std::vector<Camera> cameras = fitted_cameras(mesh.vertices, orientation);
-  for (const Camera& camera : cameras) builder.add_camera(camera);
-  if (!cameras.empty()) add_lights(builder, cameras.front());
+  add_view(builder, mesh.vertices, orientation);
   for (const glm::vec3& vertex : mesh.vertices) builder.add_vertex(vertex);
   auto triangle = mesh.triangles.begin();
   for (const MeshPart& part : mesh.parts) {

@@ -2,17 +2,25 @@
 // Scenes from mesh files.
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
 #include "scenes/scene.hpp"
+#include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::mesh {
 
-/// A scene of a mesh: flat triangles in the order of the file, fitted cameras (`three-quarter`,
-/// which is the default, `front`, `side`, `top`), two lights on the side of the default camera.
+/// Fitted cameras that see these points (`three-quarter`, which is the default, `front`, `side`,
+/// `top`), two lights on the side of the default camera, and a background.
+void add_view(SceneBuilder& builder, std::span<const glm::vec3> points,
+              const Orientation& orientation);
+
+/// A scene of a mesh: flat triangles in the order of the file, with the view of `add_view`.
 Scene mesh_scene(const TriangleMesh& mesh, const std::string& name, const Orientation& orientation);
 
 /// What to read, and how.

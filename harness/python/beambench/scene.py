@@ -1,0 +1,355 @@
+"""Scenes: what structures are built over and rays are traced against."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from beambench import _beambench
+from beambench._beambench import InputError
+from beambench.arrays import ids, reals, require_coordinates, text, whole_number
+
+if TYPE_CHECKING:
+    from beambench.structure import Structure
+
+Vector = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Camera:
+    """A pinhole camera. `dataclasses.replace` makes another one of it."""
+
+    eye: Vector
+    """Where it is."""
+    at: Vector
+    """A point that it looks at."""
+    up: Vector = (0.0, 0.0, 1.0)
+    """Up in the image; not parallel to the view."""
+    angle: float = 45.0
+    """The full vertical field of view in degrees."""
+    aspect: float = 1.0
+    """Width of the frustum over its height; a resolution only samples the frustum."""
+    width: int = 512
+    """Of the image where no resolution is given, in pixels."""
+    height: int = 512
+    """Of the image where no resolution is given, in pixels."""
+    name: str = "custom"
+    """By which a camera of a scene is chosen."""
+
+
+def _vector(name: str, given: ArrayLike) -> Vector:
+    x, y, z = reals(name, given, (3,), np.float64).tolist()
+    return x, y, z
+
+
+def _compiled(camera: Camera) -> _beambench.Camera:
+    return _beambench.Camera(
+        name=text("name of the camera", camera.name),
+        eye=_vector("eye", camera.eye),
+        at=_vector("at", camera.at),
+        up=_vector("up", camera.up),
+        angle=float(camera.angle),
+        aspect=float(camera.aspect),
+        width=whole_number("width of the camera", camera.width),
+        height=whole_number("height of the camera", camera.height),
+    )
+
+
+class Scene:
+    """Spheres, cones and polygons in single precision.
+
+    A scene never changes: structures, arrays and other threads may share it.
+    """
+
+    def __init__(self, spec: str | os.PathLike[str], *, strict: bool = False) -> None:
+        """Makes a scene of the catalogue, or reads a file.
+
+        Args:
+            spec: a name with parameters (`"balls:n=3"`, see `scenes`), a registered mesh
+                (`"mesh:dragon"`), or the path of an NFF or mesh file.
+            strict: raise where a file's reader would skip or repair something; otherwise that is
+                a UserWarning.
+
+        Raises:
+            InputError: no such name or file, a parameter out of its range, or a malformed file,
+                with the line.
+        """
+        self._compiled = _beambench.load_scene(text("spec", os.fspath(spec)), bool(strict))
+        self._source_rows: NDArray[np.int64] | None = None
+        for warning in self._compiled.warnings:
+            warnings.warn(warning, stacklevel=2)
+
+    @classmethod
+    def _of(cls, compiled: _beambench.Scene) -> Scene:
+        scene = cls.__new__(cls)
+        scene._compiled = compiled
+        scene._source_rows = None
+        return scene
+
+    @classmethod
+    def from_triangles(
+        cls,
+        vertices: ArrayLike,
+        triangles: ArrayLike,
+        *,
+        name: str = "mesh",
+        up: str = "z",
+        degenerate: str = "error",
+    ) -> Scene:
+        """A scene of flat triangles, seen from both sides; primitive i is row i of `triangles`.
+
+        Args:
+            vertices: shape (V, 3), real numbers; rounded to float32 once.
+            triangles: shape (T, 3), integers: rows of `vertices`.
+            name: of the scene, in texts.
+            up: "y" or "z", for the cameras that are fitted to the scene.
+            degenerate: what to do with triangles that have no area after rounding, which no ray
+                can hit: "error", or "skip". Then the primitives are numbered without them, and
+                `source_rows` has their rows.
+
+        Raises:
+            InputError: another shape, a coordinate that is no number or beyond 1e9, an index that
+                is no vertex, no triangle at all, or one without area: the message names its row.
+            TypeError: another dtype.
+        """
+        points = reals("vertices", vertices, ("V", 3), np.float64)
+        require_coordinates("vertices", points)
+        corners = ids("triangles", triangles, ("T", 3))
+        beyond = (corners >= len(points)).any(axis=1)
+        if beyond.any():
+            row = int(np.argmax(beyond))
+            given = tuple(np.asarray(triangles)[row].tolist())
+            raise InputError(
+                f"triangles[{row}] is {given}, but there are {len(points)} vertices; "
+                "expected rows of vertices from 0 on"
+            )
+        if degenerate not in ("error", "skip"):
+            raise InputError(f"degenerate is {degenerate!r}; expected 'error' or 'skip'")
+        flat = _beambench.triangles_without_area(points, corners)
+        if len(flat) > 0 and degenerate == "error":
+            row = int(flat[0])
+            raise InputError(
+                f"triangles[{row}] is {tuple(corners[row].tolist())}, which has no area in single "
+                f"precision ({len(flat)} such in all); remove it, or give degenerate='skip'"
+            )
+        rows = np.delete(np.arange(len(corners)), flat)
+        if len(rows) == 0:
+            raise InputError("triangles has no row with an area; expected at least one triangle")
+        kept = corners if len(flat) == 0 else np.ascontiguousarray(corners[rows])
+        scene = cls._of(
+            _beambench.scene_of_triangles(text("name", name), points, kept, text("up", up))
+        )
+        scene._source_rows = rows
+        return scene
+
+    @classmethod
+    def from_spheres(
+        cls, centers: ArrayLike, radii: ArrayLike, *, name: str = "spheres", up: str = "z"
+    ) -> Scene:
+        """A scene of hollow spheres; primitive i is row i of `centers`.
+
+        Args:
+            centers: shape (S, 3), real numbers; rounded to float32 once.
+            radii: shape (S,), or one number for all; a negative radius is of a sphere that rays
+                hit only from the inside.
+            name: of the scene, in texts.
+            up: "y" or "z", for the cameras that are fitted to the scene.
+
+        Raises:
+            InputError: another shape, a number that is none or beyond 1e9, a radius of 0, or no
+                sphere at all: the message names the row.
+            TypeError: another dtype.
+        """
+        points = reals("centers", centers, ("S", 3), np.float64)
+        require_coordinates("centers", points)
+        shape: tuple[str, ...] = () if np.ndim(radii) == 0 else ("S",)
+        sizes = reals("radii", radii, shape, np.float64)
+        if sizes.ndim == 1 and len(sizes) != len(points):
+            raise InputError(f"there are {len(points)} centers and {len(sizes)} radii")
+        if len(points) == 0:
+            raise InputError("centers has no row; expected at least one sphere")
+        each = np.ascontiguousarray(np.broadcast_to(sizes, len(points)))
+        wrong = ~(np.abs(each) <= 1e9) | (each.astype(np.float32) == 0.0)
+        if wrong.any():
+            row = int(np.argmax(wrong))
+            raise InputError(
+                f"radii[{row}] is {each[row]:g}; expected a number from -1e9 to 1e9, but not 0"
+            )
+        return cls._of(
+            _beambench.scene_of_spheres(text("name", name), points, each, text("up", up))
+        )
+
+    @property
+    def name(self) -> str:
+        """The name with all parameters, or the file's path."""
+        return self._compiled.name
+
+    @property
+    def primitives(self) -> int:
+        """How many primitives there are; their ids are 0 ... primitives - 1."""
+        return self._compiled.primitives
+
+    @property
+    def lights(self) -> int:
+        """How many point lights there are, for shadow rays and pictures."""
+        return self._compiled.lights
+
+    @property
+    def hash(self) -> str:
+        """16 hexadecimal digits of what rays can hit, equal on every machine; as in records."""
+        return self._compiled.hash
+
+    @property
+    def bounds(self) -> NDArray[np.float32]:
+        """The box of all primitives: lower and upper corner, shape (2, 3), float32; a copy."""
+        return self._compiled.bounds
+
+    @property
+    def vertices(self) -> NDArray[np.float32]:
+        """The vertices of polygons: shape (V, 3), float32, read-only, without a copy."""
+        return self._compiled.vertices
+
+    @property
+    def triangles(self) -> NDArray[np.uint32]:
+        """Of polygons' surfaces, rows of `vertices`: (T, 3), uint32, read-only, without a copy."""
+        return self._compiled.triangles
+
+    @property
+    def triangle_primitives(self) -> NDArray[np.uint32]:
+        """The primitive of each triangle: shape (T,), uint32, read-only, without a copy."""
+        return self._compiled.triangle_primitives
+
+    @property
+    def spheres(self) -> NDArray[np.float32]:
+        """Center and radius of each sphere: shape (S, 4), float32, read-only, without a copy."""
+        return self._compiled.spheres
+
+    @property
+    def primitive_kinds(self) -> NDArray[np.uint32]:
+        """0 sphere, 1 cone, 2 polygon: shape (P,), uint32, read-only, without a copy."""
+        return self._compiled.primitive_kinds
+
+    @property
+    def source_rows(self) -> NDArray[np.int64] | None:
+        """The row of `triangles` that each primitive comes from; None for other scenes."""
+        return self._source_rows
+
+    @property
+    def cameras(self) -> tuple[Camera, ...]:
+        """At least one; the first is used where none is named."""
+        return tuple(
+            Camera(c.eye, c.at, c.up, c.angle, c.aspect, c.width, c.height, c.name)
+            for c in self._compiled.cameras
+        )
+
+    def camera(self, name: str) -> Camera:
+        """The camera of that name.
+
+        Args:
+            name: of one of `cameras`.
+
+        Raises:
+            InputError: there is none; the message lists the names.
+        """
+        for camera in self.cameras:
+            if camera.name == name:
+                return camera
+        names = ", ".join(camera.name for camera in self.cameras)
+        raise InputError(f"there is no camera '{name}' in {self.name}; expected one of {names}")
+
+    def _image(
+        self, camera: Camera | str | None, resolution: tuple[int, int] | None, samples: int
+    ) -> _beambench.ImageChoice:
+        """The image that is meant; the compiled part refuses one that is not possible."""
+        if isinstance(camera, str):
+            camera = self.camera(camera)
+        if camera is not None and not isinstance(camera, Camera):
+            raise TypeError(f"camera is {camera!r}; expected a Camera, a name, or None")
+        size = (0, 0) if resolution is None else resolution
+        if (
+            not isinstance(size, tuple | list)
+            or len(size) != 2
+            or not all(isinstance(n, int | np.integer) for n in size)
+        ):
+            raise TypeError(f"resolution is {resolution!r}; expected (width, height)")
+        if resolution is not None and not all(1 <= n <= 16384 for n in size):
+            raise InputError(
+                f"resolution is {tuple(size)}; expected width and height from 1 to 16384"
+            )
+        chosen = self._compiled.cameras[0] if camera is None else _compiled(camera)
+        return _beambench.ImageChoice(
+            chosen, int(size[0]), int(size[1]), whole_number("samples", samples)
+        )
+
+    def rays(
+        self,
+        kind: str = "primary",
+        *,
+        resolution: tuple[int, int] | None = None,
+        camera: Camera | str | None = None,
+        samples: int = 1,
+    ) -> NDArray[np.float32]:
+        """Rays of a kind, the same bits as the program's.
+
+        Args:
+            kind: one of `ray_kinds`, such as `"primary"`, `"shadow"` or `"diffuse:seed=2"`; or the
+                path of a file that ends in `.rays`.
+            resolution: width and height of the image that the rays belong to or start from; None:
+                the camera's own.
+            camera: of that image; None: the scene's first.
+            samples: rays per pixel: 1, 4, 5, 9, 16, ...
+
+        Returns:
+            Shape (N, 8), float32: origin, t_min, direction, t_max. Primary rays go row by row from
+            the top left, the samples of a pixel one after the other.
+
+        Raises:
+            InputError: an unknown kind or camera, an image that is not possible, or a scene
+                without such rays (no lights, no mirrors).
+        """
+        return self._compiled.rays(text("kind", kind), self._image(camera, resolution, samples))
+
+    def render(
+        self,
+        *,
+        resolution: tuple[int, int] | None = None,
+        camera: Camera | str | None = None,
+        samples: int = 1,
+        shading: str = "preview",
+        structure: Structure | str = "tile-beam",
+        threads: int = 0,
+    ) -> NDArray[np.float32]:
+        """A picture of the scene.
+
+        Args:
+            resolution: width and height; None: the camera's own.
+            camera: None: the scene's first.
+            samples: rays per pixel: 1, 4, 5, 9, 16, ...
+            shading: preview, normals, id, depth, or whitted (lights, shadows, mirrors, glass).
+            structure: one that was built over this scene, or a name with parameters.
+            threads: that trace; 0: one for each core.
+
+        Returns:
+            Linear light of shape (height, width, 3), float32, the top row first, without a copy.
+            `to_srgb` encodes it for displays.
+
+        Raises:
+            InputError: an unknown name, or an image that is not possible.
+        """
+        from beambench.structure import Structure, require_threads
+
+        count = require_threads(threads)
+        image = self._image(camera, resolution, samples)
+        built = structure if isinstance(structure, Structure) else Structure(self, structure)
+        if built.scene is not self:
+            raise InputError("structure was built over another scene; build one over this scene")
+        return _beambench.render(built._compiled, image, text("shading", shading), count)
+
+    def __repr__(self) -> str:
+        """Name and size."""
+        return f"<beambench.Scene '{self.name}', {self.primitives} primitives>"

@@ -1,0 +1,180 @@
+"""Structures: built over a scene, and traced."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from beambench import _beambench
+from beambench._beambench import NO_PRIMITIVE, InputError
+from beambench.arrays import rays_in_place, text, whole_number
+from beambench.scene import Camera, Scene
+
+
+@dataclass(frozen=True, eq=False)
+class Hits:
+    """The closest hits of rays, each of the shape of the rays or of the image."""
+
+    t: NDArray[np.float32]
+    """origin + t * direction is hit; infinity: nothing is."""
+    primitive: NDArray[np.uint32]
+    """The id of the primitive; NO_PRIMITIVE: nothing is hit."""
+    counters: dict[str, int] | None = None
+    """The work of all rays by name, where it was counted."""
+
+    @property
+    def hit(self) -> NDArray[np.bool_]:
+        """Whether anything is hit."""
+        hit: NDArray[np.bool_] = self.primitive != NO_PRIMITIVE
+        return hit
+
+
+def require_threads(threads: int) -> int:
+    """A number of threads that is possible."""
+    if not 0 <= whole_number("threads", threads) <= 1024:
+        raise InputError(f"threads is {threads}; expected 1 to 1024, or 0 for one for each core")
+    return int(threads)
+
+
+def _text(value: object) -> str:
+    return str(value).lower() if isinstance(value, bool | np.bool_) else str(value)
+
+
+class Structure:
+    """An acceleration structure over a scene. Its methods may be called from several threads."""
+
+    def __init__(
+        self, scene: Scene, spec: str, *, threads: int = 1, **parameters: float | bool | str
+    ) -> None:
+        """Builds a structure.
+
+        Args:
+            scene: what it is built over; it lives as long as the structure.
+            spec: a name, with or without parameters: `"sah-bvh"`, `"samet:max_level=6"`; see
+                `structures`.
+            threads: that trace images, unless `trace_image` says otherwise; 0: one for each core.
+            parameters: more of them: `max_level=6`.
+
+        Raises:
+            InputError: an unknown name or parameter, or a value out of its range: the message
+                lists what is valid.
+        """
+        if not isinstance(scene, Scene):
+            raise TypeError(f"scene is a {type(scene).__name__}; expected a beambench.Scene")
+        threads = require_threads(threads)
+        spec = text("spec", spec)
+        if parameters:
+            given = ",".join(f"{name}={_text(value)}" for name, value in parameters.items())
+            spec = f"{spec}{',' if ':' in spec else ':'}{given}"
+        self.scene = scene
+        self._compiled = _beambench.build_structure(scene._compiled, spec, threads)
+
+    @property
+    def name(self) -> str:
+        """The name with all parameters: `samet:max_level=6,max_objects=0,...`."""
+        return self._compiled.label
+
+    @property
+    def statistics(self) -> dict[str, int | float | str]:
+        """Sizes: nodes, leaves, references, depth, bytes, and what the structure adds."""
+        return self._compiled.statistics
+
+    def closest_hits(self, rays: ArrayLike, *, counters: bool = False) -> Hits:
+        """The closest hit of each ray in [t_min, t_max]; of equal ones that with the lowest id.
+
+        Args:
+            rays: shape (N, 8), float32: origin, t_min, direction, t_max. Such an array in one
+                block of memory is used where it is; anything else is converted first. It must not
+                be written to meanwhile.
+            counters: count the work, which takes longer.
+
+        Returns:
+            Arrays of shape (N,) over the memory that the structure wrote to.
+
+        Raises:
+            InputError: another shape, or an invalid ray: the message names it by its index.
+            TypeError: another dtype.
+        """
+        t, primitive, counts = self._compiled.closest_hits(rays_in_place(rays), bool(counters))
+        return Hits(t, primitive, counts)
+
+    def any_hits(self, rays: ArrayLike) -> NDArray[np.bool_]:
+        """Whether each ray hits anything in [t_min, t_max].
+
+        Args:
+            rays: as for `closest_hits`.
+
+        Returns:
+            Shape (N,), bool, over the memory that the structure wrote to.
+
+        Raises:
+            InputError, TypeError: as `closest_hits`.
+        """
+        hits, _ = self._compiled.any_hits(rays_in_place(rays), False)
+        return hits.view(np.bool_)
+
+    def any_hit_counters(self, rays: ArrayLike) -> dict[str, int]:
+        """The work of `any_hits` by name.
+
+        Args:
+            rays: as for `closest_hits`.
+
+        Raises:
+            InputError, TypeError: as `closest_hits`.
+        """
+        _, counts = self._compiled.any_hits(rays_in_place(rays), True)
+        return counts or {}
+
+    def trace_image(
+        self,
+        *,
+        resolution: tuple[int, int] | None = None,
+        camera: Camera | str | None = None,
+        samples: int = 1,
+        threads: int | None = None,
+        counters: bool = False,
+    ) -> Hits:
+        """The closest hits of an image's rays, by the structure's own way of tracing images.
+
+        Args:
+            resolution: width and height; None: the camera's own.
+            camera: None: the scene's first.
+            samples: rays per pixel: 1, 4, 5, 9, 16, ...
+            threads: None: as the structure was built for; 0: one for each core.
+            counters: count the work, which takes longer.
+
+        Returns:
+            Arrays of shape (height, width), the top row first; (height, width, samples) for
+            several samples. They are over the memory that the structure wrote to.
+
+        Raises:
+            InputError: an unknown camera, or an image that is not possible.
+        """
+        count = None if threads is None else require_threads(threads)
+        image = self.scene._image(camera, resolution, samples)
+        return Hits(*self._compiled.trace_image(image, count, bool(counters)))
+
+    def render(
+        self,
+        *,
+        resolution: tuple[int, int] | None = None,
+        camera: Camera | str | None = None,
+        samples: int = 1,
+        shading: str = "preview",
+        threads: int = 0,
+    ) -> NDArray[np.float32]:
+        """As `Scene.render`, through this structure."""
+        return self.scene.render(
+            resolution=resolution,
+            camera=camera,
+            samples=samples,
+            shading=shading,
+            structure=self,
+            threads=threads,
+        )
+
+    def __repr__(self) -> str:
+        """Name and scene."""
+        return f"<beambench.Structure '{self.name}' over '{self.scene.name}'>"

@@ -1,0 +1,67 @@
+"""Sweeps: measurements of many structures on many scenes."""
+
+from __future__ import annotations
+
+import json
+import os
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from beambench import _beambench
+
+if TYPE_CHECKING:
+    import pandas as pd
+
+# Not numbers, whatever they look like: a hash may be digits alone.
+TEXT_COLUMNS = (
+    "run_id time_utc commit machine_id build_type flags isa structure_isa "
+    "library_geometry scene camera scene_hash rays_hash structure parameters ray_kind "
+    "query query_path stop_reason verdict"
+).split()
+
+
+def sweep(
+    config: Mapping[str, Any] | str | os.PathLike[str],
+    output: str | os.PathLike[str] | None = None,
+    *,
+    resume: bool = False,
+    progress: bool = False,
+) -> pd.DataFrame:
+    """Measures a sweep in this process; a time is reported only when the hits are correct.
+
+    Args:
+        config: a sweep as in harness/bench/sweep.schema.json, or the path of its JSON file.
+        output: folder for the whole record, which must not hold a run; None: it is not kept.
+        resume: continue the run in `output`, of which every finished cell is kept.
+        progress: report on the standard error.
+
+    Returns:
+        results.csv, a row for each cell; results/README.md describes the columns. Wrong cells
+        have no times: look at `verdict`. `attrs["summary"]` is the text of summary.txt.
+
+    Raises:
+        InputError: a fault in the configuration, with its place, or in the folder.
+        ImportError: pandas is not installed.
+    """
+    try:
+        import pandas as pd
+    except ImportError as error:
+        raise ImportError("sweeps are returned as DataFrames: install pandas first") from error
+    text = json.dumps(dict(config)) if isinstance(config, Mapping) else ""
+    path = "" if isinstance(config, Mapping) else os.fspath(config)
+    if resume and output is None:
+        raise _beambench.InputError("resume continues the run in a folder; give it as output")
+    with tempfile.TemporaryDirectory(prefix="beambench-") as temporary:
+        folder = Path(temporary) / "run" if output is None else Path(output)
+        results, summary = _beambench.sweep(text, path, str(folder), resume, progress)
+        # `null` is a structure's name; only an empty field is a missing value.
+        frame = pd.read_csv(
+            results,
+            keep_default_na=False,
+            na_values=[""],
+            dtype=dict.fromkeys(TEXT_COLUMNS, "str"),
+        )
+    frame.attrs["summary"] = summary
+    return frame

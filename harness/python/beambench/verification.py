@@ -1,0 +1,280 @@
+"""Verifying the hits of any program against the exact oracle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from beambench import _beambench
+from beambench._beambench import NO_PRIMITIVE, InputError
+from beambench.arrays import flags, ids, rays_in_place, reals
+from beambench.scene import Scene
+
+Vector = tuple[float, float, float]
+
+CLASSES: tuple[str, ...] = tuple(_beambench.class_names())
+"""agree, tie, graze, structure_error (the claim is wrong), embree_error (the oracle is)."""
+
+
+def _number(value: float) -> str:
+    """As few digits as distinguish neighbors of its type."""
+    return str(value)
+
+
+def _vector(numbers: NDArray[np.float32]) -> str:
+    return f"({', '.join(map(_number, numbers))})"
+
+
+def _hit(t: float | None, primitive: int | None) -> str:
+    if t is None:
+        return "no hit"
+    return f"primitive {primitive} at t = {_number(t)}"
+
+
+@dataclass(frozen=True, eq=False)
+class Example:
+    """One ray whose claimed hit does not agree with the oracle's."""
+
+    index: int
+    """Of the ray."""
+    ray: NDArray[np.float32]
+    """Shape (8,): origin, t_min, direction, t_max."""
+    class_name: str
+    """One of CLASSES."""
+    reason: str
+    """Why it is of this class; empty where the class says it all."""
+    claimed_t: float | None
+    """As it was given; None: not given, or no hit."""
+    claimed_point: Vector | None
+    """As it was given; None: not given, or no hit."""
+    claimed_primitive: int | None
+    """As it was given; None: not given, or no hit."""
+    claimed_triangle: int | None
+    """As it was given; None: not given, or no hit."""
+    claimed_occluded: bool | None
+    """As it was given; None: the claims are of closest hits."""
+    oracle_t: float | None
+    """Of the closest hit by double-precision intersectors; None: no hit."""
+    oracle_primitive: int | None
+    """Of the same hit."""
+    exact_t: float | None
+    """Of the closest hit by a search in long double; None: no hit, or not searched."""
+    exact_primitive: int | None
+    """Of the same hit."""
+    searched: bool
+    """Was the search in long double made? It is where the oracle alone does not decide."""
+
+    @property
+    def claim(self) -> str:
+        """What was claimed, as text."""
+        if self.claimed_occluded is not None:
+            return "some hit" if self.claimed_occluded else "no hit"
+        if self.claimed_t is None and self.claimed_point is None:
+            return "no hit"
+        place = (
+            f"t = {_number(self.claimed_t)}"
+            if self.claimed_t is not None
+            else f"point {self.claimed_point}"
+        )
+        if self.claimed_primitive is not None:
+            return f"primitive {self.claimed_primitive} at {place}"
+        if self.claimed_triangle is not None:
+            return f"triangle {self.claimed_triangle} at {place}"
+        return place
+
+    def __str__(self) -> str:
+        """Several lines: the ray, the claim, the oracle's hit and the exact one."""
+        exact = _hit(self.exact_t, self.exact_primitive) if self.searched else "not searched"
+        reason = f", {self.reason}" if self.reason else ""
+        return (
+            f"ray {self.index}: {self.class_name}{reason}\n"
+            f"  ray      from {_vector(self.ray[0:3])} along {_vector(self.ray[4:7])}, "
+            f"t in [{_number(self.ray[3])}, {_number(self.ray[7])}]\n"
+            f"  claimed  {self.claim}\n"
+            f"  oracle   {_hit(self.oracle_t, self.oracle_primitive)}\n"
+            f"  exact    {exact}"
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class Report:
+    """What a verification found."""
+
+    verdict: str
+    """ok; mismatch: at least one structure_error; grazes: more than max(2, 1e-4 x rays)."""
+    rays: int
+    """How many were verified."""
+    hits: int
+    """How many of them hit anything, by the oracle."""
+    counts: dict[str, int]
+    """How many rays are of each class."""
+    classes: NDArray[np.uint8]
+    """The class of each ray: shape (N,), uint8, indices of CLASSES."""
+    examples: list[Example]
+    """Errors first, at most ten of each class but agree."""
+
+    @property
+    def ok(self) -> bool:
+        """Is the verdict ok?"""
+        return self.verdict == "ok"
+
+    def __str__(self) -> str:
+        """The verdict, the counts, and the first examples."""
+        counts = ", ".join(f"{name} {n}" for name, n in self.counts.items() if n > 0)
+        lines = [f"{self.verdict}: {self.rays} rays, {self.hits} of them hit; {counts}"]
+        shown = self.examples[:3]
+        lines += [str(example) for example in shown]
+        left = self.rays - self.counts["agree"] - len(shown)
+        if left > 0:
+            lines.append(f"{left} more that do not agree: see classes and examples")
+        return "\n".join(lines)
+
+
+@dataclass(frozen=True, eq=False)
+class _Claims:
+    """The arrays that were given, converted; those that were not are None."""
+
+    t: NDArray[np.float32] | None
+    point: NDArray[np.float32] | None
+    primitive: NDArray[np.uint32] | None
+    triangle: NDArray[np.uint32] | None
+    occluded: NDArray[np.uint8] | None
+
+    def given(self) -> dict[str, NDArray[Any]]:
+        return {name: array for name, array in vars(self).items() if array is not None}
+
+    def example(self, entry: dict[str, Any], rays: NDArray[np.float32]) -> Example:
+        """What was claimed is read from the arrays as they are."""
+        i = entry["index"]
+        named = [array[i] for array in (self.primitive, self.triangle) if array is not None]
+        missed = any(id_ == NO_PRIMITIVE for id_ in named)
+        t = None if self.t is None or missed or np.isinf(self.t[i]) else self.t[i]
+        point = None
+        if self.point is not None and not missed and not np.isinf(self.point[i]).any():
+            x, y, z = self.point[i].tolist()
+            point = (x, y, z)
+        missed |= t is None and point is None
+        oracle = entry["oracle"] or (None, None)
+        exact = entry["exact"] or (None, None)
+        return Example(
+            index=i,
+            ray=rays[i].copy(),
+            class_name=CLASSES[entry["class"]],
+            reason=entry["reason"],
+            claimed_t=t,
+            claimed_point=point,
+            claimed_primitive=None if self.primitive is None or missed else int(self.primitive[i]),
+            claimed_triangle=None if self.triangle is None or missed else int(self.triangle[i]),
+            claimed_occluded=None if self.occluded is None else bool(self.occluded[i]),
+            oracle_t=oracle[0],
+            oracle_primitive=oracle[1],
+            exact_t=exact[0],
+            exact_primitive=exact[1],
+            searched=entry["searched"],
+        )
+
+
+def _require_form(given: dict[str, object]) -> None:
+    """Raises TypeError unless the arrays are those of one kind of claim."""
+    names = " and ".join(name for name, array in given.items() if array is not None)
+    wanted = (
+        "give t or point, with or without primitive or triangle, for closest hits; or occluded "
+        "alone, for any hits"
+    )
+    if not names:
+        raise TypeError(f"no hits are given; {wanted}")
+    one_place = (given["t"] is None) != (given["point"] is None)
+    one_id = given["primitive"] is None or given["triangle"] is None
+    if names != "occluded" and not (one_place and one_id and given["occluded"] is None):
+        raise TypeError(
+            f"{names} are no hits together; {wanted}"
+            if " " in names
+            else f"{names} alone is no hit; {wanted}"
+        )
+
+
+def verify(
+    scene: Scene,
+    rays: ArrayLike,
+    *,
+    t: ArrayLike | None = None,
+    point: ArrayLike | None = None,
+    primitive: ArrayLike | None = None,
+    triangle: ArrayLike | None = None,
+    occluded: ArrayLike | None = None,
+) -> Report:
+    """Verifies the hits that any program reports for a list of rays.
+
+    The claims are of closest hits (`t` or `point`, and where the program knows them `primitive` or
+    `triangle`) or of any hits (`occluded` alone). A claim is compared with the hit of an oracle in
+    double precision, with tolerances of rounding in float32; what is in dispute is searched for in
+    long double.
+
+    Args:
+        scene: what the rays were traced against.
+        rays: shape (N, 8), float32: origin, t_min, direction, t_max; used where it is, or
+            converted first.
+        t: shape (N,), real numbers, rounded to float32: origin + t * direction is hit; infinity:
+            nothing is.
+        point: shape (N, 3), real numbers, rounded to float32: the point that is hit; three
+            infinities: none is.
+        primitive: shape (N,), integers: the id in the scene; -1 or NO_PRIMITIVE: nothing is hit.
+        triangle: shape (N,), integers: the row of `Scene.triangles`; -1 or NO_PRIMITIVE: nothing
+            is hit.
+        occluded: shape (N,), bool, or integers 0 and 1: does the ray hit anything?
+
+    Returns:
+        The verdict, how many rays are of each class, the class of each ray, and examples.
+
+    Raises:
+        InputError: another shape, no rays, or a ray or hit with numbers that it cannot have, such
+            as NaN or an id beyond the scene's: the message names it by the index of the ray.
+        TypeError: another dtype, or arrays that do not go together.
+    """
+    if not isinstance(scene, Scene):
+        raise TypeError(f"scene is a {type(scene).__name__}; expected a beambench.Scene")
+    _require_form(
+        {
+            "t": t,
+            "point": point,
+            "primitive": primitive,
+            "triangle": triangle,
+            "occluded": occluded,
+        }
+    )
+    lines = rays_in_place(rays)
+    claims = _Claims(
+        None if t is None else reals("t", t, ("N",), np.float32),
+        None if point is None else reals("point", point, ("N", 3), np.float32),
+        None if primitive is None else ids("primitive", primitive, ("N",)),
+        None if triangle is None else ids("triangle", triangle, ("N",)),
+        None if occluded is None else flags("occluded", occluded, ("N",)),
+    )
+    for name, array in claims.given().items():
+        if len(array) != len(lines):
+            raise InputError(
+                f"{name} has {len(array)} rows, but there are {len(lines)} rays; expected one each"
+            )
+    if len(lines) == 0:
+        raise InputError("there are no rays; a verdict on none would mean nothing")
+    none = np.empty(0)
+    found, classes = _beambench.verify(
+        scene._compiled,
+        lines,
+        none.astype(np.float32) if claims.t is None else claims.t,
+        np.empty((0, 3), np.float32) if claims.point is None else claims.point,
+        none.astype(np.uint32) if claims.primitive is None else claims.primitive,
+        none.astype(np.uint32) if claims.triangle is None else claims.triangle,
+        none.astype(np.uint8) if claims.occluded is None else claims.occluded,
+    )
+    return Report(
+        verdict=found["verdict"],
+        rays=found["rays"],
+        hits=found["hits"],
+        counts=dict(zip(CLASSES, found["counts"], strict=True)),
+        classes=classes,
+        examples=[claims.example(entry, lines) for entry in found["examples"]],
+    )

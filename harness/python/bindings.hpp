@@ -1,0 +1,20 @@
+#pragma once
+// The parts of the extension `_beambench`. Its functions are called by the Python files of the
+// package, which check and convert what users give and hold the documentation.
+
+#include <nanobind/nanobind.h>
+
+namespace beambench::python {
+
+/// A dict by name, of values of several types, and a list of such, with their types in the stubs.
+using Record = nanobind::typed<nanobind::dict, nanobind::str, nanobind::any>;
+using Records = nanobind::typed<nanobind::list, Record>;
+
+void bind_catalogue(nanobind::module_& module);
+void bind_scene(nanobind::module_& module);
+void bind_structure(nanobind::module_& module);
+void bind_picture(nanobind::module_& module);
+void bind_verify(nanobind::module_& module);
+void bind_sweep(nanobind::module_& module);
+
+}  // namespace beambench::python

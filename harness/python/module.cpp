@@ -1,0 +1,45 @@
+// The extension module: errors, and all parts.
+
+#include <exception>
+#include <filesystem>
+#include <new>
+
+#include <nanobind/nanobind.h>
+
+#include "harness/bench/record/machine.hpp"
+#include "harness/python/bindings.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/primitive.hpp"
+
+NB_MODULE(_beambench, module) {
+  namespace nb = nanobind;
+  module.doc() =
+      "The compiled part of beambench. Use the package `beambench`, which checks and converts "
+      "what\n"
+      "it is given and documents everything.";
+  // At its end, a program with a daemon thread keeps whatever that thread can see: no leak of ours.
+  nb::set_leak_warnings(false);
+  const nb::exception<beambench::InputError> input_error(module, "InputError", PyExc_ValueError);
+  input_error.attr("__doc__") =
+      "Invalid input: a name, a parameter, a file or a number. The message is one sentence that\n"
+      "says where it is, what was expected and what to do.";
+  nb::register_exception_translator([](const std::exception_ptr& thrown, void*) {
+    try {
+      std::rethrow_exception(thrown);
+    } catch (const std::filesystem::filesystem_error& error) {
+      PyErr_SetString(PyExc_OSError, error.what());
+    }
+  });
+  const std::string_view version = beambench::bench::build_info().version;
+  module.def(
+      "version", [version] { return nb::str(version.data(), version.size()); },
+      "The program's version.");
+  module.attr("NO_PRIMITIVE") = beambench::scenes::kNoPrimitive;
+
+  beambench::python::bind_catalogue(module);
+  beambench::python::bind_scene(module);
+  beambench::python::bind_structure(module);
+  beambench::python::bind_picture(module);
+  beambench::python::bind_verify(module);
+  beambench::python::bind_sweep(module);
+}

@@ -1,0 +1,31 @@
+#pragma once
+// A scene that Python objects and work share.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "harness/rays/trace_input.hpp"
+#include "scenes/camera.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::python {
+
+/// A scene, and what was noticed when it was read.
+struct SceneHandle {
+  std::shared_ptr<const scenes::Scene> scene;
+  std::vector<std::string> warnings{};
+};
+
+/// The camera of an image, its size (0 x 0: the camera's own) and samples per pixel.
+struct ImageChoice {
+  scenes::Camera camera;
+  int width;
+  int height;
+  int samples;
+};
+
+/// Throws InputError for a camera or an image that is not possible.
+rays::ImageOfRays image_of(const ImageChoice& choice);
+
+}  // namespace beambench::python

@@ -1,0 +1,29 @@
+#pragma once
+// A structure that Python objects and work share.
+
+#include <memory>
+#include <string>
+
+#include "accel/core/accelerator.hpp"
+#include "accel/core/registry.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::python {
+
+/// A structure, and what it needs to live.
+struct BuiltStructure {
+  std::shared_ptr<const scenes::Scene> scene;
+  accel::StructureChoice choice;
+  std::unique_ptr<const accel::Accelerator> accelerator;
+  int threads;  ///< that it was built for, to trace images; 0: one for each core
+};
+
+struct StructureHandle {
+  std::shared_ptr<const BuiltStructure> built;
+};
+
+/// Throws InputError as `accel::Registry::choose` and `accel::StructureChoice::build`.
+StructureHandle build(std::shared_ptr<const scenes::Scene> scene, const std::string& spec,
+                      int threads);
+
+}  // namespace beambench::python

@@ -1,0 +1,82 @@
+// Sweeps in this process.
+
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nlohmann/json.hpp>
+
+#include "accel/core/registry.hpp"
+#include "harness/bench/config.hpp"
+#include "harness/bench/google_benchmark.hpp"
+#include "harness/bench/plan.hpp"
+#include "harness/bench/sweep_run.hpp"
+#include "harness/python/bindings.hpp"
+#include "harness/python/interruption.hpp"
+
+namespace beambench::python {
+namespace {
+
+namespace nb = nanobind;
+
+/// Google Benchmark's state is global: one sweep at a time, the later waits for the earlier. A
+/// sweep that was interrupted may go on for as long as its present repetition takes.
+std::unique_lock<std::mutex> lock_benchmark(const StopRequest& stop) {
+  static std::mutex running;
+  std::unique_lock lock(running, std::try_to_lock);
+  while (!lock.owns_lock()) {
+    stop.check();
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    static_cast<void>(lock.try_lock());
+  }
+  return lock;
+}
+
+struct CloseFile {
+  void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+/// A configuration from JSON, or where there is none from a file.
+bench::SweepConfig read_config(const std::string& json, const std::string& file) {
+  if (json.empty()) return bench::read_sweep(file, accel::registry());
+  return bench::parse_sweep(nlohmann::json::parse(json), "config", accel::registry());
+}
+
+std::tuple<std::string, std::string> run_sweep(const std::string& json, const std::string& file,
+                                               const std::string& folder, bool resume,
+                                               bool progress) {
+  bench::SweepOutcome outcome;
+  {
+    const nb::gil_scoped_release released;
+    const bench::SweepConfig config = read_config(json, file);
+    outcome = result_of([config, folder, resume, progress](const StopRequest& stop) {
+      const auto lock = lock_benchmark(stop);
+      const std::unique_ptr<std::FILE, CloseFile> nowhere(std::fopen("/dev/null", "w"));
+      bench::SweepOptions options;
+      options.folder = folder;
+      options.resume = resume;
+      options.before_each_piece = [&] { stop.check(); };
+      return bench::run_sweep(config, bench::make_plan(config), bench::GoogleBenchmark({}), options,
+                              progress ? stderr : nowhere.get());
+    });
+  }
+  return {outcome.results.string(), outcome.summary};
+}
+
+}  // namespace
+
+void bind_sweep(nb::module_& module) {
+  module.def("sweep", &run_sweep, nb::arg("json"), nb::arg("file"), nb::arg("folder"),
+             nb::arg("resume"), nb::arg("progress"),
+             "Runs a sweep; returns the path of results.csv and the text of summary.txt.");
+}
+
+}  // namespace beambench::python
