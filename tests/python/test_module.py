@@ -561,13 +561,13 @@ def slow_scene() -> bb.Scene:
 def test_other_threads_go_on_while_rays_are_traced(work: str) -> None:
     scene = slow_scene()
     structure = bb.Structure(scene, "exhaustive")
-    rays = scene.rays(resolution=(64, 48))
-    many = np.repeat(rays, 300, axis=0)
+    rays = scene.rays(resolution=(96, 72))
+    many = np.repeat(rays, 200, axis=0)
     calls = {
         "closest_hits": lambda: structure.closest_hits(rays),
         "any_hits": lambda: structure.any_hits(rays),
-        "trace_image": lambda: structure.trace_image(resolution=(64, 48)),
-        "render": lambda: structure.render(resolution=(64, 48), threads=1),
+        "trace_image": lambda: structure.trace_image(resolution=(96, 72)),
+        "render": lambda: structure.render(resolution=(96, 72), threads=1),
         "verify": lambda: bb.verify(scene, many, t=np.zeros(len(many))),
     }
     thread = threading.Thread(target=calls[work])

@@ -6,10 +6,11 @@ import signal
 import subprocess
 import sys
 import time
+from pathlib import Path
 
 import pytest
 
-from module import ENVIRONMENT
+from module import ENVIRONMENT, bb
 
 # Each defines `work`, which would take minutes, or for those that go on unseen several seconds.
 WORK = {
@@ -140,3 +141,36 @@ print(len(seen), report.verdict)
         process.send_signal(signal.SIGINT)
         rest, _ = process.communicate(timeout=60)
     assert rest == "1 ok\n"
+
+
+def test_an_interrupted_sweep_goes_on_where_it_stopped(tmp_path: Path) -> None:
+    config = {
+        "name": "stopped",
+        "scenes": ["tetra:n=4"],
+        "structures": ["samet", "sah-bvh"],
+        "resolutions": [f"{size}x{size}" for size in range(40, 240, 20)],
+        "repetitions": {"minimum": 40, "maximum": 40},
+        "budget_seconds": 1,
+    }
+    program = f"import beambench as bb\nbb.sweep({config!r}, 'run', progress=True)\n"
+    with subprocess.Popen(
+        [sys.executable, "-c", program],
+        stderr=subprocess.PIPE,
+        text=True,
+        env=ENVIRONMENT,
+        cwd=tmp_path,
+    ) as process:
+        assert process.stderr is not None
+        for line in process.stderr:
+            if line.startswith("[2/20]"):
+                break
+        process.send_signal(signal.SIGINT)
+        rest = process.stderr.read()
+        assert process.wait(timeout=30) == -signal.SIGINT
+    assert rest.rstrip().endswith("KeyboardInterrupt")
+    kept = list((tmp_path / "run/cells").iterdir())
+    assert 2 <= len(kept) < 20
+    times = {cell: cell.stat().st_mtime_ns for cell in kept}
+    frame = bb.sweep(config, tmp_path / "run", resume=True)
+    assert len(frame) == 20
+    assert {cell: cell.stat().st_mtime_ns for cell in kept} == times
