@@ -40,12 +40,12 @@ SCENES = [
 ]
 # Kind of rays: the resolution, or the number of rays for the kinds that are made here.
 RAYS = {
-    "primary": "640x512",
-    "random": "800x500",
-    "diffuse": "640x512",
-    "edges": 200_000,
-    "axis": 100_000,
-    "inside": 200_000,
+    "primary": "512x400",
+    "random": "512x400",
+    "diffuse": "512x400",
+    "edges": 150_000,
+    "axis": 450_000,
+    "inside": 100_000,
 }
 CLOSED = "bumpy"  # scenes with a closed surface, in which rays from within must hit
 CLASSES = ["agree", "tie", "graze", "structure_error", "embree_error"]
@@ -128,13 +128,33 @@ def aimed_rays(obj: Path, kind: str, count: int) -> np.ndarray:
     return rays
 
 
-def hits_in(path: Path) -> int:
-    """How many rays of a .hits file hit."""
+def read_rays(path: Path) -> np.ndarray:
+    """The eight numbers of each ray of a .rays file."""
+    with path.open("rb") as file:
+        file.readline()
+        file.readline()
+        return np.fromfile(file, "<f4").reshape(-1, 8)
+
+
+def read_hits(path: Path) -> np.ndarray:
+    """The closest hits of a .hits file, by the names of its columns."""
     with path.open("rb") as file:
         file.readline()
         columns = json.loads(file.readline())["columns"]
-        hits = np.fromfile(file, np.dtype([(name, HIT_TYPES[name]) for name in columns]))
-    return int(np.count_nonzero(np.isfinite(hits[columns[0]])))
+        return np.fromfile(file, np.dtype([(name, HIT_TYPES[name]) for name in columns]))
+
+
+def hits_in(path: Path) -> int:
+    """How many rays of a .hits file hit."""
+    hits = read_hits(path)
+    return int(np.count_nonzero(np.isfinite(hits[hits.dtype.names[0]])))
+
+
+def places_of(build: Path) -> dict[str, str]:
+    """The words in braces of the commands, of a build folder."""
+    folder = str(build.resolve())
+    beambench = f"{folder}/release/bin/beambench"
+    return {"python": sys.executable, "here": str(HERE), "build": folder, "beambench": beambench}
 
 
 class Measurement:
@@ -243,13 +263,7 @@ def main() -> int:
     unknown = set(chosen) - {program["name"] for program in programs}
     if unknown:
         parser.error(f"no program {', '.join(sorted(unknown))} in {arguments.programs}")
-    places = {
-        "python": sys.executable,
-        "here": str(HERE),
-        "build": str(arguments.build.resolve()),
-        "beambench": str(arguments.build.resolve() / "release/bin/beambench"),
-    }
-    measurement = Measurement(arguments.work, places)
+    measurement = Measurement(arguments.work, places_of(arguments.build))
     rows, left_out = [], {}
     for program in programs:
         if chosen and program["name"] not in chosen:

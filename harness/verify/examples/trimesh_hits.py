@@ -58,6 +58,8 @@ def load_triangles(path: Path) -> Any:  # noqa: ANN401
         faces = sum(line.startswith("f ") for line in lines)
     if len(mesh.faces) != faces:
         raise ProblemError(f"trimesh reads {len(mesh.faces)} of the {faces} faces of {path}")
+    # The scene's coordinates are floats, of which the file has as many digits as a float needs.
+    mesh.vertices = mesh.vertices.astype(np.float32).astype(np.float64)
     return mesh
 
 

@@ -54,7 +54,8 @@ std::vector<typename Kernel::Triangle_3> read_triangles(const std::string& path)
   for (std::string line; std::getline(file, line);) {
     std::istringstream words(line.size() < 2 ? "" : line.substr(2));
     if (line.starts_with("v ")) {
-      double x, y, z;
+      // The scene's coordinates are floats, of which the file has as many digits as a float needs.
+      float x, y, z;
       if (!(words >> x >> y >> z)) throw std::runtime_error(path + ": not a vertex: " + line);
       points.emplace_back(x, y, z);
     } else if (line.starts_with("f ")) {
