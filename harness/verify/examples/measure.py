@@ -53,6 +53,9 @@ COLUMNS = [
     *["program", "version", "scene", "triangles", "ray_kind", "rays", "hits", "program_hits"],
     *[*CLASSES, "verdict", "seconds"],
 ]
+# How summary.csv adds the rows up.
+KINDS_TOGETHER = {"primary": "scene's own", "random": "scene's own", "diffuse": "scene's own"}
+COUNTS = ["rays", "hits", "program_hits", *CLASSES]
 HIT_TYPES = {"t": "<f4", "x": "<f4", "y": "<f4", "z": "<f4", "primitive": "<u4", "triangle": "<u4"}
 
 
@@ -150,11 +153,24 @@ def hits_in(path: Path) -> int:
     return int(np.count_nonzero(np.isfinite(hits[hits.dtype.names[0]])))
 
 
-def places_of(build: Path) -> dict[str, str]:
-    """The words in braces of the commands, of a build folder."""
-    folder = str(build.resolve())
-    beambench = f"{folder}/release/bin/beambench"
-    return {"python": sys.executable, "here": str(HERE), "build": folder, "beambench": beambench}
+def add_common_options(parser: argparse.ArgumentParser) -> None:
+    """Where everything is."""
+    parser.add_argument("--work", type=Path, required=True, help="folder for rays and cells")
+    parser.add_argument("--programs", type=Path, default=HERE / "programs.json")
+    parser.add_argument("--build", type=Path, default=REPOSITORY / "build", help="default: build")
+    parser.add_argument("--beambench", type=Path, help="default: that of the build folder")
+
+
+def places_of(arguments: argparse.Namespace) -> dict[str, str]:
+    """The words in braces of the commands."""
+    build = arguments.build.resolve()
+    beambench = (arguments.beambench or build / "release/bin/beambench").resolve()
+    return {
+        "python": sys.executable,
+        "here": str(HERE),
+        "build": str(build),
+        "beambench": str(beambench),
+    }
 
 
 class Measurement:
@@ -203,9 +219,13 @@ class Measurement:
         found.unlink()
         return verified
 
+    def cell_file(self, program: dict[str, Any], scene: str, kind: str) -> Path:
+        """Where a row is kept."""
+        return self.work / "cells" / f"{slug(program['name'])}-{slug(scene)}-{kind}.json"
+
     def cell(self, program: dict[str, Any], scene: str, kind: str) -> dict[str, Any]:
         """A row of the table, with the disputed rays in `examples`."""
-        kept = self.work / "cells" / f"{slug(program['name'])}-{slug(scene)}-{kind}.json"
+        kept = self.cell_file(program, scene, kind)
         if kept.exists():
             return json.loads(kept.read_text("utf-8"))
         mesh, rays = self.mesh(scene), self.rays(scene, kind)
@@ -232,6 +252,28 @@ class Measurement:
         return row
 
 
+def write_table(path: Path, columns: list[str], rows: list[dict[str, Any]]) -> None:
+    """A CSV file of these columns."""
+    with path.open("w", newline="", encoding="utf-8") as table:
+        writer = csv.DictWriter(table, columns, extrasaction="ignore", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def summary(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The rows of each program added up over the scenes."""
+    sums: dict[tuple[str, str], dict[str, Any]] = {}
+    for row in rows:
+        kinds = KINDS_TOGETHER.get(row["ray_kind"], row["ray_kind"])
+        start = {"program": row["program"], "ray_kinds": kinds, "scenes": set(), "not_ok": 0}
+        total = sums.setdefault((row["program"], kinds), start | dict.fromkeys(COUNTS, 0))
+        total["scenes"].add(row["scene"])
+        total["not_ok"] += row["verdict"] != "ok"
+        for name in COUNTS:
+            total[name] += row[name]
+    return [{**total, "scenes": len(total["scenes"])} for total in sums.values()]
+
+
 def machine() -> dict[str, str]:
     """Where it ran."""
     names = re.findall(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text("utf-8"), re.M)
@@ -248,14 +290,13 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--work", type=Path, required=True, help="folder for rays and cells")
+    add_common_options(parser)
     parser.add_argument("-o", dest="out", type=Path, help="folder for results.csv, manifest.json")
-    parser.add_argument("--programs", type=Path, default=HERE / "programs.json")
     parser.add_argument("--only", default="", help="programs, by names separated by commas")
     parser.add_argument("--scenes", nargs="+", default=SCENES, help="default: the published ones")
     parser.add_argument("--rays", nargs="+", default=list(RAYS), choices=list(RAYS))
     parser.add_argument(
-        "--build", type=Path, default=REPOSITORY / "build", help="see programs.json"
+        "--measured", action="store_true", help="write the table of the cells that are there"
     )
     arguments = parser.parse_args()
     programs = json.loads(arguments.programs.read_text("utf-8"))["programs"]
@@ -263,7 +304,7 @@ def main() -> int:
     unknown = set(chosen) - {program["name"] for program in programs}
     if unknown:
         parser.error(f"no program {', '.join(sorted(unknown))} in {arguments.programs}")
-    measurement = Measurement(arguments.work, places_of(arguments.build))
+    measurement = Measurement(arguments.work, places_of(arguments))
     rows, left_out = [], {}
     for program in programs:
         if chosen and program["name"] not in chosen:
@@ -275,6 +316,9 @@ def main() -> int:
             for kind in arguments.rays:
                 if kind == "inside" and not scene.startswith(CLOSED):
                     continue
+                kept = measurement.cell_file(program, scene, kind)
+                if arguments.measured and not kept.exists():
+                    continue
                 try:
                     row = measurement.cell(program, scene, kind)
                 except (FailedError, OSError) as problem:
@@ -285,10 +329,9 @@ def main() -> int:
                 print(" ".join(str(row[name]) for name in COLUMNS), flush=True)
     if arguments.out:
         arguments.out.mkdir(parents=True, exist_ok=True)
-        with (arguments.out / "results.csv").open("w", newline="", encoding="utf-8") as table:
-            writer = csv.DictWriter(table, COLUMNS, extrasaction="ignore", lineterminator="\n")
-            writer.writeheader()
-            writer.writerows(rows)
+        write_table(arguments.out / "results.csv", COLUMNS, rows)
+        columns = ["program", "ray_kinds", "scenes", *COUNTS, "not_ok"]
+        write_table(arguments.out / "summary.csv", columns, summary(rows))
         manifest = {
             "program": {
                 "commit": " ".join(sorted({row["commit"] for row in rows})),

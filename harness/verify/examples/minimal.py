@@ -20,9 +20,8 @@ from typing import Any
 
 import numpy as np
 from measure import (
-    HERE,
-    REPOSITORY,
     Measurement,
+    add_common_options,
     call,
     hits_in,
     places_of,
@@ -109,9 +108,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--work", type=Path, required=True, help="folder of measure.py")
-    parser.add_argument("--programs", type=Path, default=HERE / "programs.json")
-    parser.add_argument("--build", type=Path, default=REPOSITORY / "build")
+    add_common_options(parser)
     parser.add_argument("--program", required=True, help="its name")
     parser.add_argument("--scene", required=True)
     parser.add_argument("--rays", required=True, help="kind of rays, as measure.py names them")
@@ -128,7 +125,7 @@ def main() -> int:
     program = next((one for one in programs if one["name"] == arguments.program), None)
     if program is None:
         parser.error(f"no program {arguments.program} in {arguments.programs}")
-    measurement = Measurement(arguments.work, places_of(arguments.build))
+    measurement = Measurement(arguments.work, places_of(arguments))
     vertices, faces = read_obj(measurement.mesh(arguments.scene))
     corners = vertices[faces]
     rays = read_rays(measurement.rays(arguments.scene, arguments.rays))

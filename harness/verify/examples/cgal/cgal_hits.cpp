@@ -64,6 +64,7 @@ std::vector<typename Kernel::Triangle_3> read_triangles(const std::string& path)
       triangles.emplace_back(points.at(a - 1), points.at(b - 1), points.at(c - 1));
     }
   }
+  if (triangles.empty()) throw std::runtime_error(path + " has no triangles");
   return triangles;
 }
 
