@@ -219,7 +219,7 @@ experiments::CensusOptions options_of(const Request& request) {
 void census(const Request& request) {
   const experiments::CensusOptions options = options_of(request);
   const accel::StructureChoice choice = choose_one("--accel", request.structure);
-  if (!request.pictures.empty()) make_folder(request.pictures);
+  if (!request.pictures.empty()) make_folder(request.pictures, "choose another with --pictures");
   std::vector<std::string> scenes = request.scenes;
   if (scenes.empty()) {
     for (const scenes::SceneInfo& info : scenes::scene_catalogue()) scenes.push_back(info.name);

@@ -74,6 +74,7 @@ void add_hits_command(CLI::App& app, int&) {
       "holds a line 'beambench-hits 1', a line of JSON, then for each ray the numbers of its\n"
       "'columns', little-endian: t as a float, primitive as a 32-bit integer.\n"
       "Examples:\n"
+      "  beambench rays tetera -o tetera.rays\n"
       "  beambench hits tetera --rays tetera.rays --accel embree -o embree.hits\n"
       "  beambench hits balls --resolution 64x48 --accel tile-beam -o balls.csv");
   command->callback([request] { write_hits(*request); });

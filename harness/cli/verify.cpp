@@ -209,7 +209,7 @@ int verify_structures(const Request& request) {
   const std::size_t structures = accel::registry().choose_list(request.structures).size();
   const std::vector<scenes::Scene> scenes = open_scenes(request);
   for (const scenes::Scene& scene : scenes) choose_camera(scene, request.view);
-  if (!request.pictures.empty()) make_folder(request.pictures);
+  if (!request.pictures.empty()) make_folder(request.pictures, "choose another with --pictures");
 
   base::Progress progress(scenes.size() * kinds.size() * structures);
   std::vector<verify::VerifiedCell> cells;
@@ -320,9 +320,11 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       "  beambench verify escena1 tetra:n=4 --accel all\n"
       "  beambench verify balls --rays shadow,reflection,diffuse,random\n"
       "  beambench verify finishes --accel all --rays whitted\n"
+      "  beambench rays tetera -o tetera.rays\n"
+      "  beambench hits tetera --rays tetera.rays --accel embree -o mine.csv    # or your program\n"
       "  beambench verify tetera --rays tetera.rays --hits mine.csv --pictures .\n"
-      "  beambench verify tetera --rays tetera.rays --command 'mine {obj} {rays} {hits}'\n"
-      "  beambench verify --kit kit --command 'mine {obj} {rays} {hits}' --minimize failures\n"
+      "  beambench selftest --export kit --scenes 2\n"
+      "  beambench verify --kit kit --command 'beambench hits {nff} --rays {rays} -o {hits}'\n"
       "  beambench verify balls --accel samet:max_level=5,embree --resolution 640x480 --json "
       "v.json");
   command->callback([request, accel, &exit_code] {

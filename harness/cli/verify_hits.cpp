@@ -169,7 +169,7 @@ VerifiedClaims verify_case(const VerifyHitsRequest& request, const scenes::Scene
 
 void require_outputs(const VerifyHitsRequest& request) {
   if (!request.json.empty()) require_writable(request.json);
-  if (!request.pictures.empty()) make_folder(request.pictures);
+  if (!request.pictures.empty()) make_folder(request.pictures, "choose another with --pictures");
 }
 
 }  // namespace

@@ -461,12 +461,12 @@ void require_writable(const fs::path& target) {
   }
 }
 
-void make_folder(const fs::path& folder) {
+void make_folder(const fs::path& folder, std::string_view remedy) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!error) return;
-  throw InputError(fmt::format("cannot make the folder '{}': {}; choose another place",
-                               folder.string(), error.message()));
+  throw InputError(
+      fmt::format("cannot make the folder '{}': {}; {}", folder.string(), error.message(), remedy));
 }
 
 bool is_left_behind(const fs::path& path) {

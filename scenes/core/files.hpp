@@ -70,8 +70,10 @@ void write_file(const std::filesystem::path& target, std::string_view text);
 void write_file(const std::filesystem::path& target,
                 const std::function<void(std::ostream&)>& write);
 
-/// Makes a folder and those above it, unless it is there. Throws InputError.
-void make_folder(const std::filesystem::path& folder);
+/// Makes a folder and those above it, unless it is there. Throws InputError, with what to do about
+/// it.
+void make_folder(const std::filesystem::path& folder,
+                 std::string_view remedy = "choose another place");
 
 /// Whether this is the file beside its place that a killed process was writing.
 bool is_left_behind(const std::filesystem::path& path);

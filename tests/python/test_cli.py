@@ -1118,7 +1118,7 @@ WRONG_REQUESTS = [
     (["verify", "tetra:n=1", "--json", "missing/v.json"], ["missing"]),
     (["verify", "tetra:n=1", "nowhere"], ["nowhere"]),
     (["export", "tetra:n=1"], ["-o", "export --help"]),
-    (["export", "tetra:n=1", "-o", "a.obj"], ["a.obj", ".nff"]),
+    (["export", "tetra:n=1", "-o", "a.stl"], ["a.stl", ".nff"]),
     (["export", "tetra:n=1", "-o", "missing/a.nff"], ["missing", "create"]),
     (["export", "tetra:n=1", "-o", "/dev/full/a.nff"], ["/dev/full"]),
     (["export", "tetraa", "-o", "a.nff"], ["tetraa", "tetra"]),

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -23,15 +24,15 @@ using namespace beambench::accel;
 using namespace beambench::plugin;
 using namespace beambench::scenes;
 
-using Vec3 = bvh::v2::Vec<float, 3>;
-using Box3 = bvh::v2::BBox<float, 3>;
-using Node = bvh::v2::Node<float, 3>;
-using Builder = bvh::v2::DefaultBuilder<Node>;
+using Vec3 = ::bvh::v2::Vec<float, 3>;
+using Box3 = ::bvh::v2::BBox<float, 3>;
+using Node = ::bvh::v2::Node<float, 3>;
+using Builder = ::bvh::v2::DefaultBuilder<Node>;
 
 Vec3 vec3(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
-bvh::v2::Bvh<Node> build_bvh(const std::vector<bvh::v2::Tri<float, 3>>& triangles,
-                             const std::string& quality) {
+::bvh::v2::Bvh<Node> build_bvh(const std::vector<::bvh::v2::Tri<float, 3>>& triangles,
+                               const std::string& quality) {
   std::vector<Box3> boxes;
   std::vector<Vec3> centers;
   for (const auto& triangle : triangles) {
@@ -51,7 +52,7 @@ class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
  public:
   MadmannBvh(const Scene& scene, const std::string& quality, bool exact_t)
       : scene_(&scene), exact_t_(exact_t) {
-    std::vector<bvh::v2::Tri<float, 3>> triangles;
+    std::vector<::bvh::v2::Tri<float, 3>> triangles;
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
       const auto [a, b, c] = adapters::corners(scene, i);
       triangles.emplace_back(vec3(a), vec3(b), vec3(c));
@@ -88,8 +89,8 @@ class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
   }
 
  private:
-  using TheirRay = bvh::v2::Ray<float, 3>;
-  using Index = typename bvh::v2::Bvh<Node>::Index;
+  using TheirRay = ::bvh::v2::Ray<float, 3>;
+  using Index = typename ::bvh::v2::Bvh<Node>::Index;
 
   static TheirRay converted(const Ray& ray) {
     return {vec3(ray.origin), vec3(ray.direction), ray.t_min, ray.t_max};
@@ -100,7 +101,7 @@ class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
   std::optional<std::size_t> visit(TheirRay& ray, Counting& counting) const {
     if (triangles_.empty()) return std::nullopt;
     std::optional<std::size_t> found;
-    bvh::v2::SmallStack<Index, 64> stack;
+    ::bvh::v2::SmallStack<Index, 64> stack;
     bvh_.template intersect<kAny, kRobust>(
         ray, bvh_.get_root().index, stack,
         [&](std::size_t begin, std::size_t end) {
@@ -108,7 +109,10 @@ class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
           counting.add(Counter::kLeaves);
           counting.add(Counter::kPrimitiveTests, end - begin);
           for (std::size_t i = begin; i < end; ++i) {
-            if (triangles_[i].intersect(ray)) found = bvh_.prim_ids[i];
+            if (const auto hit = triangles_[i].intersect(ray)) {
+              ray.tmax = std::get<0>(*hit);
+              found = bvh_.prim_ids[i];
+            }
           }
           return found.has_value();
         },
@@ -121,8 +125,8 @@ class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
 
   const Scene* scene_;
   bool exact_t_;
-  bvh::v2::Bvh<Node> bvh_;
-  std::vector<bvh::v2::PrecomputedTri<float>> triangles_;
+  ::bvh::v2::Bvh<Node> bvh_;
+  std::vector<::bvh::v2::PrecomputedTri<float>> triangles_;
 };
 
 std::unique_ptr<Accelerator> build(const Scene& scene, const Parameters& parameters,
