@@ -294,7 +294,10 @@ void write_binary(std::ostream& out, const RaySet& set, const Json& note) {
 void write_csv(std::ostream& out, const RaySet& set) {
   out << fmt::format("{}\n", fmt::join(kColumns, ","));
   for (const accel::Ray& ray : set.rays) {
-    out << fmt::format("{}\n", fmt::join(std::bit_cast<std::array<float, 8>>(ray), ","));
+    const auto floats = std::bit_cast<std::array<float, 8>>(ray);
+    std::array<double, 8> numbers{};  // the shortest form of a float is another number as double
+    std::ranges::copy(floats, numbers.begin());
+    out << fmt::format("{}\n", fmt::join(numbers, ","));
   }
 }
 

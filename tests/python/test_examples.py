@@ -107,7 +107,7 @@ def verified(rays: Path, hits: Path) -> tuple[int, dict]:
     """The exit code and what was found."""
     report = hits.with_suffix(".json")
     done = beambench("verify", SCENE, "--rays", rays, "--hits", hits, "--json", report)
-    return done.returncode, json.loads(report.read_text())
+    return done.returncode, json.loads(report.read_text())["cases"][0]
 
 
 def body(path: Path, kind: np.dtype | str) -> tuple[bytes, np.ndarray]:

@@ -122,6 +122,11 @@ def test_the_round_trip_takes_two_commands(
     assert case["hits"] == np.count_nonzero(traced.primitive != NONE) > 500
 
 
+def test_rays_as_csv_are_exact_for_readers_of_double(traced: Traced) -> None:
+    table = np.loadtxt(traced.folder / "a.csv", delimiter=",", skiprows=1)
+    assert np.array_equal(table, traced.rays.astype("f8"))
+
+
 def clear_hit(traced: Traced) -> int:
     """A ray whose neighbors in the picture all hit the same triangle."""
     picture = traced.primitive.reshape(50, 60)
@@ -299,6 +304,8 @@ def test_obj_files_have_the_triangles_that_hits_name(tmp_path: Path) -> None:
     vertices = np.array([line.split()[1:] for line in lines if line[0] == "v"], "f4")
     faces = np.array([line.split()[1:] for line in lines if line[0] == "f"], int) - 1
     assert {line[0] for line in lines} == {"v", "f"}
+    as_double = np.array([line.split()[1:] for line in lines if line[0] == "v"], "f8")
+    assert np.array_equal(as_double, vertices), "exact for readers of double"
     assert faces.min() == 0
     assert faces.max() < len(vertices)
     facts = json.loads(output_of("scene", "gears:n=2", "--json"))

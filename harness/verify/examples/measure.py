@@ -215,7 +215,7 @@ class Measurement:
         found = hits.with_suffix(".json")
         files = ["--rays", str(rays), "--hits", str(hits), "--json", str(found)]
         call([self.beambench, "verify", scene, *files], expected=(0, 1))
-        verified = json.loads(found.read_text("utf-8"))
+        verified = json.loads(found.read_text("utf-8"))["cases"][0]
         found.unlink()
         return verified
 

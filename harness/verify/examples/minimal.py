@@ -168,7 +168,7 @@ def main() -> int:
         "triangles": len(left),
         "class": found["class"],
         "reason": found["reason"],
-        "claim": found["claim"],
+        "claim": found["reported"],
         "right": found.get("exact") or found["oracle"],
         "repeat": [
             "beambench rays scene.obj --rays rays.csv -o r.rays",

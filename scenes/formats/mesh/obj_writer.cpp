@@ -22,8 +22,9 @@ void write_obj(const Scene& scene, std::ostream& stream) {
     buffer.clear();
   };
   for (const glm::vec3& vertex : scene.vertices) {
-    fmt::format_to(std::back_inserter(buffer), FMT_COMPILE("v {} {} {}\n"), vertex.x, vertex.y,
-                   vertex.z);
+    const glm::dvec3 place(vertex);  // the shortest form of a float is another number as double
+    fmt::format_to(std::back_inserter(buffer), FMT_COMPILE("v {} {} {}\n"), place.x, place.y,
+                   place.z);
     if (buffer.size() >= kBlock) flush();
   }
   for (const Triangle& triangle : scene.triangles) {  // OBJ counts from 1
