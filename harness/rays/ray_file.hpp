@@ -18,17 +18,18 @@ namespace beambench::rays {
 /// each as eight 32-bit IEEE floats in little-endian order: origin, t_min, direction, t_max. The
 /// JSON must have `query` ("closest" or "any") and `rays` (how many). `seed`, `scene_hash` (a file
 /// of another scene is refused), `hash` (of the rays' bytes, XXH3; a damaged file is refused),
-/// `may_graze` (true: `RaySet::may_graze`) and `pencils` may be missing; other members, such as those of `note`, are for people. `pencils` is a
-/// list of `{"first": 0, "count": 16, "apex": [x, y, z], "toward": true}`, in the order of `first`:
-/// see `accel::Pencil`. Samples of an image and views are not saved. In Python:
+/// `may_graze` (true: `RaySet::may_graze`) and `pencils` may be missing; other members, such as
+/// those of `note`, are for people. `pencils` is a list of `{"first": 0, "count": 16, "apex": [x,
+/// y, z], "toward": true}`, in the order of `first`: see `accel::Pencil`. Samples of an image and
+/// views are not saved. In Python:
 ///
 ///     with open(path, "rb") as f:
 ///         f.readline(); header = json.loads(f.readline())
 ///         rays = numpy.fromfile(f, "<f4").reshape(-1, 8)
 ///
 /// A CSV file has the columns ox, oy, oz, t_min, dx, dy, dz, t_max, in any order; t_min (0) and
-/// t_max (infinity) may be missing or empty. Its query is "closest". Its numbers are exact for readers of
-/// float and of double.
+/// t_max (infinity) may be missing or empty. Its query is "closest". Its numbers are exact for
+/// readers of float and of double.
 ///
 /// The ending, `.csv` or another, decides what is written. Throws InputError when the file cannot
 /// be written; then there is none.

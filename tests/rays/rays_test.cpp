@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/rays/fingerprint.hpp"
-#include "harness/rays/ray_generators.hpp"
 #include "harness/rays/ray_file.hpp"
+#include "harness/rays/ray_generators.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/describe.hpp"
@@ -285,9 +285,9 @@ TEST_F(AnyHitAnswers, AreAMismatchWhereOneIsWrong) {
     EXPECT_EQ(report.verdict, verify::Verdict::kMismatch);
     ASSERT_EQ(report.examples.size(), 1U);
     EXPECT_EQ(report.examples[0].index, at);
-    EXPECT_TRUE(scenes::says(
-        verify::describe(scene_, reference_.input(), report.examples[0]),
-        {fmt::format("ray {}: structure_error", at), value == 1 ? "a hit was lost" : "there is none"}));
+    EXPECT_TRUE(scenes::says(verify::describe(scene_, reference_.input(), report.examples[0]),
+                             {fmt::format("ray {}: structure_error", at),
+                              value == 1 ? "a hit was lost" : "there is none"}));
     answer(at) = value;
   }
 }
