@@ -21,19 +21,19 @@ namespace {
 
 using glm::dvec3;
 
-PrimaryHitPoint point_of(const scenes::Scene& scene, const accel::Ray& ray,
-                         const accel::embree::ExactHit& hit, std::size_t sample) {
+SurfacePoint point_of(const scenes::Scene& scene, const accel::Ray& ray,
+                      const accel::embree::ExactHit& hit, std::size_t sample) {
   const dvec3 direction(ray.direction);
   return {dvec3(ray.origin) + hit.t * direction,
           geometric_normal(scene, ray, {static_cast<float>(hit.t), hit.primitive}),
           glm::normalize(direction), hit.primitive, static_cast<std::uint32_t>(sample)};
 }
 
-dvec3 above(const scenes::Scene& scene, const PrimaryHitPoint& at) {
+dvec3 above(const scenes::Scene& scene, const SurfacePoint& at) {
   return beside_surface(scene, at.point, at.normal);
 }
 
-accel::Ray& add_ray(const scenes::Scene& scene, const PrimaryHitPoint& at, const dvec3& direction,
+accel::Ray& add_ray(const scenes::Scene& scene, const SurfacePoint& at, const dvec3& direction,
                     RayList& list) {
   accel::Ray& ray = list.rays.emplace_back();
   ray.origin = glm::vec3(above(scene, at));
@@ -47,7 +47,24 @@ void reserve(std::size_t rays, RayList& list) {
   list.samples.reserve(rays);
 }
 
-void add_reflected(const scenes::Scene& scene, const PrimaryHitPoint& at, RayList& list) {
+/// The rays of the list from `first` on, where they hit.
+std::vector<SurfacePoint> points_hit(const scenes::Scene& scene,
+                                     const accel::embree::EmbreeOracle& oracle, const RayList& list,
+                                     std::size_t first) {
+  std::vector<std::optional<SurfacePoint>> found(list.rays.size() - first);
+  tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+    const accel::Ray& ray = list.rays[first + i];
+    const std::optional<accel::embree::ExactHit> hit = oracle.closest_hit(ray);
+    if (hit) found[i] = point_of(scene, ray, *hit, list.samples[first + i]);
+  });
+  std::vector<SurfacePoint> points;
+  for (const std::optional<SurfacePoint>& point : found) {
+    if (point) points.push_back(*point);
+  }
+  return points;
+}
+
+void add_reflected(const scenes::Scene& scene, const SurfacePoint& at, RayList& list) {
   add_ray(scene, at, accel::mirrored(at.incoming, at.normal), list);
 }
 
@@ -63,6 +80,14 @@ dvec3 cosine_direction(const dvec3& normal, Random& random) {
   return tangent * (radius * std::cos(angle)) +
          glm::cross(normal, tangent) * (radius * std::sin(angle)) +
          normal * std::sqrt(1.0 - radius_2);
+}
+
+/// One ray from each point.
+void add_scattered(const scenes::Scene& scene, const std::vector<SurfacePoint>& points,
+                   Random& random, RayList& list) {
+  for (const SurfacePoint& at : points) {
+    add_ray(scene, at, cosine_direction(at.normal, random), list);
+  }
 }
 
 struct Box {
@@ -99,40 +124,40 @@ accel::Ray line_through(const Box& box, Random& random) {
 
 }  // namespace
 
-std::vector<PrimaryHitPoint> surface_points(const scenes::Scene& scene,
-                                            const accel::PrimaryRays& rays) {
+std::vector<SurfacePoint> surface_points(const scenes::Scene& scene,
+                                         const accel::PrimaryRays& rays) {
   const accel::embree::EmbreeOracle oracle(scene, glm::length(dvec3(rays.eye())));
-  std::vector<std::vector<PrimaryHitPoint>> rows(static_cast<std::size_t>(rays.height()));
+  std::vector<std::vector<SurfacePoint>> rows(static_cast<std::size_t>(rays.height()));
   tbb::parallel_for(0, rays.height(), [&](int y) {
     rays.for_each(y, y + 1, [&](std::size_t sample, const accel::Ray& ray) {
       const std::optional<accel::embree::ExactHit> hit = oracle.closest_hit(ray);
       if (hit) rows[static_cast<std::size_t>(y)].push_back(point_of(scene, ray, *hit, sample));
     });
   });
-  std::vector<PrimaryHitPoint> points;
+  std::vector<SurfacePoint> points;
   for (const auto& row : rows) points.insert(points.end(), row.begin(), row.end());
   return points;
 }
 
-std::vector<PrimaryHitPoint> in_picture_order(const std::vector<PrimaryHitPoint>& points,
-                                              const accel::PrimaryRays& image) {
-  std::vector<const PrimaryHitPoint*> of_sample(image.count());
-  for (const PrimaryHitPoint& point : points) of_sample[point.sample] = &point;
-  std::vector<PrimaryHitPoint> ordered;
+std::vector<SurfacePoint> in_picture_order(const std::vector<SurfacePoint>& points,
+                                           const accel::PrimaryRays& image) {
+  std::vector<const SurfacePoint*> of_sample(image.count());
+  for (const SurfacePoint& point : points) of_sample[point.sample] = &point;
+  std::vector<SurfacePoint> ordered;
   ordered.reserve(points.size());
   for_each_sample(image, [&](int x, int y, int sample) {
-    const PrimaryHitPoint* point = of_sample[index_of(image, {x, y, sample})];
+    const SurfacePoint* point = of_sample[index_of(image, {x, y, sample})];
     if (point != nullptr) ordered.push_back(*point);
   });
   return ordered;
 }
 
-RayList shadow_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points) {
+RayList shadow_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points) {
   RayList list;
   for (const scenes::Light& light : scene.lights) {
     const dvec3 position(light.position);
     const std::size_t first = list.rays.size();
-    for (const PrimaryHitPoint& at : points) {
+    for (const SurfacePoint& at : points) {
       const dvec3 to_light = position - above(scene, at);
       if (glm::dot(to_light, at.normal) <= 0.0) continue;
       add_ray(scene, at, to_light, list).t_max = 1.0F;
@@ -143,21 +168,21 @@ RayList shadow_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoin
   return list;
 }
 
-RayList reflection_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points) {
+RayList reflection_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points) {
   RayList list;
   reserve(points.size(), list);
-  for (const PrimaryHitPoint& at : points) add_reflected(scene, at, list);
+  for (const SurfacePoint& at : points) add_reflected(scene, at, list);
   return list;
 }
 
-RayList mirror_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points,
+RayList mirror_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points,
                     const MirrorTable& mirrors, const accel::PrimaryRays& image) {
   struct Reflected {
     std::uint32_t mirror;
-    const PrimaryHitPoint* at;
+    const SurfacePoint* at;
   };
   std::vector<Reflected> reflected;
-  for (const PrimaryHitPoint& at : points) {
+  for (const SurfacePoint& at : points) {
     const std::uint32_t mirror = mirrors.mirror_of(at.primitive);
     if (mirror != MirrorTable::kNone) reflected.push_back({mirror, &at});
   }
@@ -178,13 +203,41 @@ RayList mirror_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoin
   return list;
 }
 
-RayList diffuse_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points,
+RayList diffuse_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points,
                      std::uint64_t seed) {
   Random random(seed);
   RayList list;
   reserve(points.size(), list);
-  for (const PrimaryHitPoint& at : points) {
-    add_ray(scene, at, cosine_direction(at.normal, random), list);
+  add_scattered(scene, points, random, list);
+  return list;
+}
+
+RayList occlusion_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points,
+                       int samples, float distance, std::uint64_t seed) {
+  Random random(seed);
+  RayList list;
+  reserve(points.size() * static_cast<std::size_t>(samples), list);
+  for (const SurfacePoint& at : points) {
+    for (int i = 0; i < samples; ++i) {
+      add_ray(scene, at, cosine_direction(at.normal, random), list).t_max = distance;
+    }
+  }
+  return list;
+}
+
+RayList path_rays(const scenes::Scene& scene, std::vector<SurfacePoint> points, int bounces,
+                  std::uint64_t seed) {
+  Random random(seed);
+  RayList list;
+  std::optional<accel::embree::EmbreeOracle> oracle;
+  for (int bounce = 0; bounce < bounces && !points.empty(); ++bounce) {
+    const std::size_t first = list.rays.size();
+    add_scattered(scene, points, random, list);
+    if (bounce + 1 == bounces) break;
+    // Its reach: every point is on a primitive, and rays begin a little beside it.
+    if (!oracle)
+      oracle.emplace(scene, 2.0 * static_cast<double>(scene.bounds.largest_coordinate()));
+    points = points_hit(scene, *oracle, list, first);
   }
   return list;
 }

@@ -15,41 +15,51 @@
 
 namespace beambench::rays {
 
-/// Where a primary ray meets a surface.
-struct PrimaryHitPoint {
+/// Where a ray meets a surface.
+struct SurfacePoint {
   glm::dvec3 point;
   glm::dvec3 normal;    ///< unit length, geometric, on the side that the ray comes from
   glm::dvec3 incoming;  ///< the ray's direction, unit length
   scenes::PrimitiveId primitive;
-  std::uint32_t sample;  ///< the ray's, as a HitBuffer of the image numbers them
+  std::uint32_t sample;  ///< that the ray comes from, as a HitBuffer of the image numbers them
 };
 
 /// Where the primary rays hit, in their order, by the oracle (on all cores): the rays that start
 /// here are the same for every structure.
-std::vector<PrimaryHitPoint> surface_points(const scenes::Scene& scene,
-                                            const accel::PrimaryRays& rays);
+std::vector<SurfacePoint> surface_points(const scenes::Scene& scene,
+                                         const accel::PrimaryRays& rays);
 
 /// The same points in the order of `for_each_sample`.
-std::vector<PrimaryHitPoint> in_picture_order(const std::vector<PrimaryHitPoint>& points,
-                                              const accel::PrimaryRays& image);
+std::vector<SurfacePoint> in_picture_order(const std::vector<SurfacePoint>& points,
+                                           const accel::PrimaryRays& image);
 
 /// All secondary rays start `beside_surface`, on the side of the primary ray, and name its sample.
 ///
 /// Light by light, from each point that faces the light: t in [0, 1], the light being at 1. Each
 /// light is a pencil.
-RayList shadow_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points);
+RayList shadow_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points);
 
 /// The mirror direction of the incoming ray, of unit length.
-RayList reflection_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points);
+RayList reflection_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points);
 
 /// The same at the points of planar mirrors alone, mirror by mirror. Each mirror is a pencil, away
 /// from the image's eye behind it, unless it is seen from its edge (`VirtualEye::behind`).
-RayList mirror_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points,
+RayList mirror_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points,
                     const MirrorTable& mirrors, const accel::PrimaryRays& image);
 
 /// One direction per point with density cos / pi about the normal, of unit length.
-RayList diffuse_rays(const scenes::Scene& scene, const std::vector<PrimaryHitPoint>& points,
+RayList diffuse_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points,
                      std::uint64_t seed);
+
+/// `samples` rays from each point, one after the other, with directions as those of diffuse rays:
+/// t in [0, distance], which is in units of the scene.
+RayList occlusion_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points,
+                       int samples, float distance, std::uint64_t seed);
+
+/// Diffuse rays, from where these hit (by the oracle, on all cores) diffuse rays again, and so on
+/// for `bounces` times; fewer when all paths have left the scene. The first are `diffuse_rays`.
+RayList path_rays(const scenes::Scene& scene, std::vector<SurfacePoint> points, int bounces,
+                  std::uint64_t seed);
 
 /// `count` rays that are uniform among all lines through the box, by the measure of lines that does
 /// not change when space is moved or turned (Santalo, Integral Geometry, 1976, II.12): they enter

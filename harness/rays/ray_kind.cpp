@@ -24,6 +24,13 @@ std::vector<ParameterInfo> whitted_parameters() {
                            "how the visibility of a light is determined")};
 }
 
+std::vector<ParameterInfo> occlusion_parameters() {
+  return {integer_parameter("samples", 16, 1, 1024, "rays from each primary hit"),
+          real_parameter("distance", 0.1, 1e-6, 1e6,
+                         "where the rays end, in diagonals of the scene's box"),
+          seed_parameter()};
+}
+
 const std::vector<RayKindInfo>& all_kinds() {
   static const std::vector<RayKindInfo> kinds{
       {RayKind::kPrimary,
@@ -52,6 +59,17 @@ const std::vector<RayKindInfo>& all_kinds() {
        "one from each primary hit, its direction random by the cosine with the surface's normal",
        Query::kClosestHit,
        {seed_parameter()}},
+      {RayKind::kOcclusion, "ao",
+       "ambient occlusion: several from each primary hit, each direction random as those of "
+       "'diffuse' rays, which end at a distance; any hit",
+       Query::kAnyHit, occlusion_parameters()},
+      {RayKind::kPath,
+       "path",
+       "diffuse paths: 'diffuse' rays, and so on from where these hit, bounce by bounce",
+       Query::kClosestHit,
+       {integer_parameter("bounces", 4, 1, 64,
+                          "scattered rays of a path, the one from the primary hit included"),
+        seed_parameter()}},
       {RayKind::kRandom,
        "random",
        "as many as the image has samples, uniform among all lines through the scene's box",
@@ -112,6 +130,12 @@ std::string_view to_string(RayKind kind) { return info_of(kind).name; }
 
 RayChoice parse_ray_choice(std::string_view text) {
   return is_ray_file(text) ? choose_file(text) : choose(parse_spec(text));
+}
+
+Parameters parameters_of(const RayChoice& choice) {
+  const RayKindInfo& info = info_of(choice.kind);
+  if (!choice.file.empty()) return {info.name, info.parameters, {}};
+  return {info.name, info.parameters, parse_spec(choice.label).parameters};
 }
 
 std::vector<RayChoice> parse_ray_choices(std::string_view list) {

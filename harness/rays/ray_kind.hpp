@@ -18,6 +18,8 @@ enum class RayKind {
   kReflection,  ///< mirrored where primary rays hit
   kMirror,      ///< mirrored where primary rays hit planar mirrors
   kDiffuse,     ///< scattered where primary rays hit
+  kOcclusion,   ///< short ones, several from each place where primary rays hit: ambient occlusion
+  kPath,        ///< scattered where primary rays hit, and again where these hit
   kRandom,      ///< lines through the scene's box
   kWhitted      ///< all of a whole picture's, which follow from the structure's own hits
 };
@@ -68,6 +70,8 @@ struct RayChoice {
 /// `primary`, `diffuse:seed=7`, `some/file.rays`. Throws InputError listing the valid names or
 /// parameters. A file is not opened yet.
 RayChoice parse_ray_choice(std::string_view text);
+/// The values of a choice's parameters, those of a file's kind being none.
+Parameters parameters_of(const RayChoice& choice);
 /// A comma-separated list, each choice once. Throws as parse_ray_choice.
 std::vector<RayChoice> parse_ray_choices(std::string_view list);
 

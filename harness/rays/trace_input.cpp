@@ -29,6 +29,17 @@ std::optional<int> parse_side(std::string_view text) {
   return value;
 }
 
+/// A list is in memory, unlike an image's rays, so its size is bounded before it is made.
+void require_list_size(std::size_t points, std::int64_t each, const RayChoice& choice,
+                       std::string_view parameter) {
+  const std::int64_t rays = static_cast<std::int64_t>(points) * each;
+  if (rays <= kMaxRays) return;
+  throw InputError(fmt::format(
+      "{} rays from each of {} places where primary rays hit are up to {} '{}' rays, more than the "
+      "{} that a list may have; lower the resolution or '{}'",
+      each, points, rays, choice.label, kMaxRays, parameter));
+}
+
 RayList made_rays(const scenes::Scene& scene, const accel::PrimaryRays& primary,
                   const RayChoice& choice) {
   switch (choice.kind) {
@@ -56,6 +67,22 @@ RayList made_rays(const scenes::Scene& scene, const accel::PrimaryRays& primary,
     }
     case RayKind::kDiffuse:
       return diffuse_rays(scene, surface_points(scene, primary), choice.seed);
+    case RayKind::kOcclusion: {
+      const Parameters parameters = parameters_of(choice);
+      const auto samples = parameters.integer("samples");
+      const double diagonal = glm::length(glm::dvec3(scene.bounds.upper - scene.bounds.lower));
+      const auto points = surface_points(scene, primary);
+      require_list_size(points.size(), samples, choice, "samples");
+      return occlusion_rays(scene, points, static_cast<int>(samples),
+                            static_cast<float>(parameters.real("distance") * diagonal),
+                            choice.seed);
+    }
+    case RayKind::kPath: {
+      const auto bounces = parameters_of(choice).integer("bounces");
+      auto points = surface_points(scene, primary);
+      require_list_size(points.size(), bounces, choice, "bounces");
+      return path_rays(scene, std::move(points), static_cast<int>(bounces), choice.seed);
+    }
     case RayKind::kRandom:
       return random_rays(scene.bounds, primary.count(), choice.seed);
     case RayKind::kPrimary:

@@ -109,8 +109,7 @@ ShadowMethod parse_shadow_method(std::string_view name) {
 }
 
 WhittedOptions whitted_options(const rays::RayChoice& choice) {
-  const rays::RayKindInfo& info = rays::info_of(rays::RayKind::kWhitted);
-  const Parameters parameters(info.name, info.parameters, parse_spec(choice.label).parameters);
+  const Parameters parameters = rays::parameters_of(choice);
   return {static_cast<int>(parameters.integer("depth")), parameters.real("least_weight"),
           parse_shadow_method(parameters.choice("shadows"))};
 }

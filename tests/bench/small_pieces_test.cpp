@@ -43,13 +43,20 @@ TEST(RayKinds, AreReadFromAListEachOnce) {
   EXPECT_EQ(choices[1].seed, 7U);
   EXPECT_EQ(choices[2].label, "diffuse");
   EXPECT_EQ(choices[3].file, "a/b.rays");
+  const auto scattered = rays::parse_ray_choices("ao:samples=4,seed=2,path:bounces=4,seed=1");
+  ASSERT_EQ(scattered.size(), 2U);
+  EXPECT_EQ(scattered[0].label, "ao:samples=4,seed=2");
+  EXPECT_EQ(rays::parameters_of(scattered[0]).integer("samples"), 4);
+  EXPECT_EQ(scattered[1].label, "path");
   const auto pictures = rays::parse_ray_choices("whitted,whitted:shadows=cache,depth=3,shadow");
   ASSERT_EQ(pictures.size(), 3U);
   EXPECT_EQ(pictures[0].label, "whitted");
   EXPECT_EQ(pictures[1].label, "whitted:depth=3,shadows=cache");
   EXPECT_EQ(pictures[2].label, "shadow");
-  for (const char* text : {"", "primary,", ",primary", "Primary", "shadows", "shadow:seed=1",
-                           "diffuse:seed=x", "diffuse:seed=-1"}) {
+  for (const char* text :
+       {"", "primary,", ",primary", "Primary", "shadows", "shadow:seed=1", "diffuse:seed=x",
+        "diffuse:seed=-1", "ao:samples=0", "ao:samples=1025", "ao:distance=0", "ao:distance=-1",
+        "ao:distance=nan", "path:bounces=0"}) {
     EXPECT_THROW(rays::parse_ray_choices(text), InputError) << text;
   }
 }

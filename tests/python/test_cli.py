@@ -78,6 +78,8 @@ def test_list_as_json_says_all_of_each_parameter() -> None:
         "reflection",
         "mirror",
         "diffuse",
+        "ao",
+        "path",
         "random",
         "whitted",
     ]
@@ -90,6 +92,8 @@ def test_list_as_json_says_all_of_each_parameter() -> None:
         ("samet:max_level=4", ["max_level="], ["sah-bvh"]),
         ("balls", ["n=4", "balls:parameter"], ["samet", "tetra"]),
         ("diffuse", ["seed=", "--rays"], ["shadow rays", "samet"]),
+        ("ao", ["samples=16", "distance=0.1", "diagonals"], ["bounces", "samet"]),
+        ("path", ["bounces=4", "seed="], ["samples", "samet"]),
     ],
 )
 def test_list_prints_one_alone(name: str, words: list[str], others: list[str]) -> None:
@@ -864,15 +868,29 @@ def test_verify_judges_every_kind_of_rays(tmp_path: Path) -> None:
     file = tmp_path / "v.json"
     done = beambench(
         *("verify", "escena1:spheres=40", "--accel", "exhaustive,samet,embree:mode=packet8"),
-        *("--rays", "primary,shadow,reflection,diffuse:seed=5,random", "--resolution", "40x30"),
-        *("--json", file),
+        *("--rays", "primary,shadow,reflection,diffuse:seed=5,ao:samples=2,path,random"),
+        *("--resolution", "40x30", "--json", file),
     )
     assert done.returncode == 0, done.stdout + done.stderr
     cells = json.loads(file.read_text())["cells"]
-    assert len(cells) == 5 * 3
+    assert len(cells) == 7 * 3
     assert {cell["ray_kind"] for cell in cells} == {
-        "primary", "shadow", "reflection", "diffuse:seed=5", "random",
+        "primary", "shadow", "reflection", "diffuse:seed=5", "ao:samples=2", "path", "random",
     }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("kind", "words"),
+    [
+        ("ao:samples=0", ["samples", "1", "1024"]),
+        ("ao:samples=1025", ["samples", "1", "1024"]),
+        ("ao:distance=0", ["distance", "1e-06"]),
+        ("ao:distance=-2", ["distance", "1e-06"]),
+        ("path:bounces=0", ["bounces", "1", "64"]),
+    ],
+)
+def test_ray_kinds_refuse_what_their_parameters_cannot_be(kind: str, words: list[str]) -> None:
+    refused(beambench("verify", "balls:n=1", "--accel", "sah-bvh", "--rays", kind), words)
 
 
 def test_verify_judges_every_ray_of_whole_pictures(tmp_path: Path) -> None:

@@ -50,7 +50,7 @@ scenes::Scene lonely_sphere() {
   return std::move(builder).build();
 }
 
-std::vector<PrimaryHitPoint> points_of(const scenes::Scene& scene) {
+std::vector<SurfacePoint> points_of(const scenes::Scene& scene) {
   return surface_points(scene, {scene.cameras.front(), 64, 48, 1});
 }
 
@@ -96,10 +96,10 @@ TEST(MirrorRays, AreTheReflectionRaysOfPlanarMirrors) {
   const scenes::Scene scene = scenes::load_scene("teapot:n=3");
   const MirrorTable mirrors(scene);
   const accel::PrimaryRays image(scene.cameras.front(), 64, 48, 1);
-  std::vector<PrimaryHitPoint> points = surface_points(scene, image);
+  std::vector<SurfacePoint> points = surface_points(scene, image);
   const RayList list = mirror_rays(scene, points, mirrors, image);
   const std::size_t all = points.size();
-  std::erase_if(points, [&](const PrimaryHitPoint& at) {
+  std::erase_if(points, [&](const SurfacePoint& at) {
     return mirrors.mirror_of(at.primitive) == MirrorTable::kNone;
   });
   EXPECT_LT(points.size(), all);
@@ -152,9 +152,98 @@ TEST(DiffuseRays, FollowTheCosineAndTheSeed) {
             fingerprint(diffuse_rays(scene, points, 2).rays));
 }
 
+/// A camera between a floor at y = 0 and a ceiling above, which looks down.
+scenes::Scene floor_and_ceiling(double height) {
+  scenes::SceneBuilder builder("floor and ceiling");
+  for (const double y : {0.0, height}) {
+    builder.add_polygon(std::vector<dvec3>{{-9, y, -9}, {9, y, -9}, {9, y, 9}, {-9, y, 9}});
+  }
+  scenes::Camera camera;
+  camera.from = {0.0F, 0.5F, 0.0F};
+  camera.at = {0.0F, 0.0F, 0.0F};
+  camera.up = {0.0F, 0.0F, 1.0F};
+  builder.add_camera(camera);
+  return std::move(builder).build();
+}
+
+// With density cos / pi, a direction has a cosine above c with probability 1 - c^2.
+TEST(OcclusionRays, MeetACeilingAsOftenAsTheirLengthSays) {
+  constexpr double kDistance = 2.0;
+  for (const double height : {1.0, 1.8, 2.1}) {
+    const scenes::Scene scene = floor_and_ceiling(height);
+    const auto points = points_of(scene);
+    ASSERT_EQ(points.size(), 64U * 48U);
+    RaySet set{occlusion_rays(scene, points, 8, kDistance, 1), "ao", Query::kAnyHit, 1};
+    ASSERT_EQ(set.rays.size(), 8 * points.size());
+    for (std::size_t i = 0; i < set.rays.size(); ++i) {
+      ASSERT_EQ(set.rays[i].origin, set.rays[i / 8 * 8].origin);
+      ASSERT_EQ(set.samples[i], points[i / 8].sample);
+      ASSERT_EQ(set.rays[i].t_max, static_cast<float>(kDistance));
+      ASSERT_NEAR(glm::length(dvec3(set.rays[i].direction)), 1.0, 1e-6);
+    }
+    const auto count = static_cast<double>(set.rays.size());
+    const verify::ReferenceHits reference(scene, TraceInput(std::move(set)));
+    const double expected = std::max(0.0, 1.0 - height * height / (kDistance * kDistance));
+    EXPECT_NEAR(static_cast<double>(reference.hit_count()) / count, expected,
+                5.0 * std::sqrt(expected * (1.0 - expected) / count) + 1e-4);
+  }
+}
+
+TEST(OcclusionRays, AreMeasuredInDiagonalsOfTheScene) {
+  const scenes::Scene scene = floor_and_ceiling(3.0);
+  const TraceInput input = input_over(scene, "ao:samples=3,distance=0.5,seed=4");
+  EXPECT_EQ(input.size(), 3U * 64U * 48U);
+  EXPECT_EQ(input.query(), Query::kAnyHit);
+  EXPECT_EQ(input.seed(), 4U);
+  EXPECT_EQ(input.label(), "ao:samples=3,distance=0.5,seed=4");
+  EXPECT_FLOAT_EQ(input.ray(0).t_max, static_cast<float>(0.5 * std::sqrt(2 * 18.0 * 18.0 + 9.0)));
+}
+
+// In a closed room no path ends early, and each ray begins where the one before it hit.
+TEST(PathRays, GoOnFromWhereTheyHit) {
+  const scenes::Scene scene = scenes::load_scene("closed-room");
+  const auto points = points_of(scene);
+  ASSERT_EQ(points.size(), 64U * 48U);
+  const RayList list = path_rays(scene, points, 4, 7);
+  ASSERT_EQ(list.rays.size(), 4 * points.size());
+  RaySet set{list, "path", Query::kClosestHit, 7};
+  const RayList first = diffuse_rays(scene, points, 7);
+  set.rays.resize(points.size());
+  EXPECT_EQ(fingerprint(set.rays), fingerprint(first.rays));
+
+  set.rays = list.rays;
+  const verify::ReferenceHits reference(scene, TraceInput(std::move(set)));
+  const double lift = accel::surface_lift(scene);
+  for (std::size_t i = points.size(); i < list.rays.size(); ++i) {
+    const std::size_t before = i - points.size();
+    const accel::Ray& ray = list.rays[before];
+    ASSERT_TRUE(reference.hits()[before]);
+    const dvec3 hit = dvec3(ray.origin) + reference.hits()[before]->t * dvec3(ray.direction);
+    ASSERT_EQ(list.samples[i], list.samples[before]);
+    ASSERT_LT(glm::distance(dvec3(list.rays[i].origin), hit), 2.0 * lift);
+  }
+}
+
+TEST(PathRays, EndWhereNothingIsHit) {
+  const scenes::Scene scene = lonely_sphere();
+  const auto points = points_of(scene);
+  EXPECT_EQ(path_rays(scene, points, 5, 1).rays.size(), points.size());
+}
+
+TEST(MakeInput, RefusesListsThatWouldFillTheMemory) {
+  const scenes::Scene scene = floor_and_ceiling(1.0);
+  for (const char* kind : {"ao:samples=1024", "path:bounces=64"}) {
+    EXPECT_TRUE(scenes::says(scenes::thrown_message([&] {
+                               input_over(scene, kind, {4096, 4096});
+                             }),
+                             {kind, "16777216 places", "lower the resolution or"}))
+        << kind;
+  }
+}
+
 TEST(SecondaryRays, DoNotMeetTheSurfaceTheyLeave) {
   const scenes::Scene scene = lonely_sphere();
-  for (const char* kind : {"shadow", "reflection", "diffuse"}) {
+  for (const char* kind : {"shadow", "reflection", "diffuse", "ao", "path"}) {
     const verify::ReferenceHits reference(scene, input_over(scene, kind));
     EXPECT_EQ(reference.hit_count(), 0U) << kind;
   }
@@ -232,7 +321,7 @@ TEST(EveryKindOfRays, FindsExhaustiveAndEmbreeRight) {
     structures.push_back("embree:mode=" + mode);
   for (const char* name : {"tetra:n=3", "escena1:spheres=60", "balls:n=1", "teapot:n=2"}) {
     const scenes::Scene scene = scenes::load_scene(name);
-    for (const char* kind : {"shadow", "reflection", "mirror", "diffuse", "random"}) {
+    for (const char* kind : {"shadow", "reflection", "mirror", "diffuse", "ao", "path", "random"}) {
       if (kind == std::string_view("mirror") && scenes::planar_mirrors(scene).empty()) continue;
       const verify::ReferenceHits reference(scene, input_over(scene, kind));
       for (const std::string& structure : structures) {

@@ -80,7 +80,8 @@ std::string first_error(const scenes::Scene& scene, const rays::TraceInput& inpu
   return "";
 }
 
-constexpr const char* kKinds[] = {"primary", "shadow", "reflection", "mirror", "diffuse", "random"};
+constexpr const char* kKinds[] = {"primary", "shadow",       "reflection",     "mirror",
+                                  "diffuse", "ao:samples=4", "path:bounces=3", "random"};
 
 /// One scene with its rays, and how the structures do.
 class Trial {
