@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "accel/core/build_memory.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/nearest_name.hpp"
 
@@ -17,6 +18,7 @@ void register_families(Registry& registry);
 
 std::unique_ptr<Accelerator> StructureChoice::build(const scenes::Scene& scene,
                                                     const Workload& workload) const {
+  require_build_memory(*this, scene, workload);
   auto accelerator = info_->build(scene, parameters_, workload);
   parameters_.require_given_were_read();
   return accelerator;

@@ -65,7 +65,8 @@ class StructureChoice {
   /// The name and the parameters that are not at their defaults.
   std::string short_label() const { return parameters_.short_label(); }
 
-  /// Builds the structure; also throws std::logic_error when it ignores a parameter it was given.
+  /// Builds the structure. Throws InputError also when it is expected to take more memory than
+  /// there is (`require_build_memory`); std::logic_error when it ignores a parameter it was given.
   std::unique_ptr<Accelerator> build(const scenes::Scene& scene, const Workload& workload) const;
   /// For the usual workload.
   std::unique_ptr<Accelerator> build(const scenes::Scene& scene) const;

@@ -16,7 +16,7 @@ import pytest
 from PIL import Image
 
 from beambench_report.base.records import read_run
-from program import BINARY, beambench, output_of, refused
+from program import BINARY, beambench, output_of, refused, shell
 
 VIEW = "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 0.1\nresolution 8 8\n"
 STRUCTURES = [
@@ -907,6 +907,31 @@ def test_verify_judges_every_ray_of_whole_pictures(tmp_path: Path) -> None:
     assert whole["beam"]["rays"] == whole["exhaustive"]["rays"] > 3 * 48 * 30
     assert whole["beam"]["bits"] == {"compared_with": "exhaustive", "different": 0}
     assert whole["null"]["verdict"] == "baseline"
+
+
+def test_a_build_that_memory_does_not_hold_is_refused_before_it_begins(tmp_path: Path) -> None:
+    stats = "beambench stats mount:n=9 --resolution 8x8 --accel"
+    refused(
+        shell(f"BEAMBENCH_MEMORY=150M {stats} sah-bvh", tmp_path),
+        ["'sah-bvh'", "524292 primitives", "GiB of memory", "available", "BEAMBENCH_MEMORY"],
+    )
+    refused(
+        shell(f"BEAMBENCH_MEMORY=lots {stats} samet", tmp_path),
+        ["BEAMBENCH_MEMORY", "'lots'", "12G"],
+    )
+    assert shell(f"BEAMBENCH_MEMORY=2G {stats} sah-bvh", tmp_path).returncode == 0
+
+
+def test_verify_goes_on_after_a_build_that_memory_does_not_hold(tmp_path: Path) -> None:
+    verify = (
+        "beambench verify mount:n=9 --resolution 8x8 --json v.json --accel samet,embree,sah-bvh"
+    )
+    done = shell(f"BEAMBENCH_MEMORY=200M {verify}", tmp_path)
+    assert done.returncode == 1, done.stderr
+    cells = json.loads((tmp_path / "v.json").read_text())["cells"]
+    verdicts = {cell["structure"]: cell["verdict"] for cell in cells}
+    assert verdicts["samet"] == "ok"
+    assert verdicts["sah-bvh"] == "error"
 
 
 def test_verify_leaves_exhaustive_out_of_all_over_many_primitives() -> None:
