@@ -111,7 +111,7 @@ def _cameras(version: Version, loaded: Loaded) -> list[dict[str, object]]:
     inside = [camera for camera in version.cameras if _holds(loaded, camera)]
     if version.cameras:
         say(
-            f"Cameras of {version.cameras_by}: {len(inside)} of {len(version.cameras)}"
+            f"Cameras by {version.cameras_by}: {len(inside)} of {len(version.cameras)}"
             + (
                 ""
                 if len(inside) == len(version.cameras)

@@ -78,7 +78,7 @@ DOWNLOADS = (
         ("sponza.obj",),
         (
             # Ours: papers name no numbers for their views of the nave.
-            Version(262267, "Crytek's", cameras=_NAVE, cameras_by="us"),
+            Version(262267, "Crytek's", cameras=_NAVE, cameras_by="this project"),
             Version(66450, "Dabrovic's"),
         ),
     ),

@@ -33,7 +33,7 @@ class Place:
     elevation: float = 0.0
 
 
-_PLACES = (
+PLACES = (
     Place("KatorLegaz", "oriental-rug", 0.1, 0.2),
     Place("KatorLegaz", "mid-century-sofa", 0.0, -2.0),
     Place("KatorLegaz", "mid-century-chair", -1.6, 0.3, 70),
@@ -190,7 +190,7 @@ def furnish(folder: Path) -> list[Mesh]:
     """The room and its furniture."""
     catalogs: dict[str, Catalog] = {}
     meshes = _shell()
-    for place in _PLACES:
+    for place in PLACES:
         if place.catalog not in catalogs:
             catalogs[place.catalog] = Catalog(folder / f"{place.catalog}.sh3f")
         entry, mesh = catalogs[place.catalog].piece(place.model)
