@@ -28,7 +28,7 @@ _CGAL = Package(
     "libcgal-demo",
     "Debian",
     24,
-    "GPL-3+; the scan by Stanford's terms: research, with credit",
+    "GPL-3+ and LGPL-3+; the scan by Stanford's terms: research, with credit",
     "CGAL; Stanford University Computer Graphics Laboratory",
     unpacked=("usr/share/doc/libcgal-dev/data.tar.gz", ("data/meshes/armadillo.off",)),
 )

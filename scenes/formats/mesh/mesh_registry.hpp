@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scenes/formats/mesh/given_view.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
-#include "scenes/formats/mesh/mesh_scene.hpp"
 
 namespace beambench::scenes::mesh {
 

@@ -8,20 +8,13 @@
 
 #include <glm/vec3.hpp>
 
-#include "scenes/camera.hpp"
+#include "scenes/formats/mesh/given_view.hpp"
 #include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
 #include "scenes/scene.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::mesh {
-
-/// How a person chose to look at a mesh, where one did. Of a closed interior, everything that is
-/// fitted to the mesh would be outside of its walls.
-struct GivenView {
-  std::vector<Camera> cameras;
-  std::vector<glm::dvec3> lights;  ///< all white and of one strength
-};
 
 /// The given cameras, then fitted cameras that see these points (`three-quarter`, which is the
 /// first of them, `front`, `side`, `top`) and have none of their names; the given lights, or else
