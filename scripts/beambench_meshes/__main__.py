@@ -116,7 +116,7 @@ def _run(options: _Options) -> int:
     beambench = options.beambench or _built()
     if options.folder is not None:
         download = downloaded.find(options.names[0])
-        file = downloaded.find_file(options.folder, download).resolve()
+        file = downloaded.find_file(options.folder, download).absolute()
         downloaded.register(download, file, cache, beambench)
         return 0
     registry = Registry(cache, beambench)

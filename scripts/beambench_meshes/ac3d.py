@@ -1,6 +1,6 @@
 """Converts a file of AC3D, or of its variant ACC with triangle strips, to OBJ.
 
-usage: python3 -m beambench_meshes.ac3d INPUT.ac OUTPUT.obj
+usage: .venv/bin/python -m beambench_meshes.ac3d INPUT.ac OUTPUT.obj
 
 Assimp's importer knows no strips. Lines are left out, and so are the triangles without area with
 which strips are joined. Coordinates stay those of the file: y is up.

@@ -1,6 +1,6 @@
 """Converts a map of Quake 3 (BSP, IBSP version 46) to OBJ.
 
-usage: python3 -m beambench_meshes.quake3_bsp ARCHIVE.pk3 maps/NAME.bsp OUTPUT.obj
+usage: .venv/bin/python -m beambench_meshes.quake3_bsp ARCHIVE.pk3 maps/NAME.bsp OUTPUT.obj
 
 Prints what was converted and left out, and where players start, as cameras for an entry of
 registered/NAME.json. Coordinates stay those of the map: z is up, and a person's eyes are 50 units

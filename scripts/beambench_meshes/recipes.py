@@ -3,7 +3,7 @@
 To add one, add a recipe, and its row to the tables in scripts/README.md. `triangles` is what the
 file in the package holds, counted apart from the converter; `sha256` is that of the very files that
 are read, as versions of a package differ in other files, too. Cameras of a map stand at starts of
-its players, as `python3 -m beambench_meshes.quake3_bsp` prints them.
+its players, as `.venv/bin/python -m beambench_meshes.quake3_bsp` prints them.
 """
 
 from __future__ import annotations

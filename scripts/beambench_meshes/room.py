@@ -1,6 +1,6 @@
 """Furnishes a room with pieces of Debian's sweethome3d-furniture and writes it as OBJ and MTL.
 
-usage: python3 -m beambench_meshes.room FURNITURE_FOLDER OUTPUT.obj
+usage: .venv/bin/python -m beambench_meshes.room FURNITURE_FOLDER OUTPUT.obj
 
 The room has a floor and two walls, so that it can be looked into. Meters, y up. The pieces have the
 sizes that their catalogs give them. Needs nothing but Python.
