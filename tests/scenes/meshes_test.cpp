@@ -340,6 +340,55 @@ TEST_F(Meshes, AreFoundByTheirRegisteredName) {
   EXPECT_EQ(mesh::find_registered_mesh("shape").about, "A test.");
 }
 
+TEST_F(Meshes, AreSeenByTheCamerasAndLightsOfTheirEntry) {
+  write("a.obj", tetrahedron_obj());
+  register_mesh("shape", R"({"path": "../../a.obj", "cameras": [
+    {"name": "hall", "from": [5, 1, 2], "at": [0, 1, 2], "angle": 70},
+    {"name": "top", "from": [0, 9, 0], "at": [0, 0, 0], "up": [1, 0, 0]}],
+    "lights": [[1, 2, 3], [4, 5, 6], [7, 8, 9], [0, 1, 2]], "sha256": "skipped"})");
+  const Scene scene = load_scene("mesh:shape");
+  std::vector<std::string> names;
+  for (const Camera& camera : scene.cameras) names.push_back(camera.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"hall", "top", "three-quarter", "front", "side"}));
+  EXPECT_EQ(scene.cameras[0].from, glm::vec3(5.0F, 1.0F, 2.0F));
+  EXPECT_EQ(scene.cameras[0].up, glm::vec3(0.0F, 1.0F, 0.0F));
+  EXPECT_EQ(scene.cameras[0].angle, 70.0F);
+  EXPECT_EQ(scene.cameras[1].up, glm::vec3(1.0F, 0.0F, 0.0F));
+  ASSERT_EQ(scene.lights.size(), 4U);
+  EXPECT_EQ(scene.lights[1].position, glm::vec3(4.0F, 5.0F, 6.0F));
+  EXPECT_EQ(scene.lights[1].color, glm::vec3(0.5F));
+}
+
+TEST_F(Meshes, AnEntryWithAWrongCameraOrLightIsNamed) {
+  write("a.obj", tetrahedron_obj());
+  const auto camera = [](const std::string& keys) {
+    return R"("cameras": [{"name": "hall", )" + keys + "}]";
+  };
+  for (const auto& [keys, why] : std::vector<std::pair<std::string, std::string>>{
+           {R"("cameras": {})", "'cameras' must be a list"},
+           {R"("cameras": [7])", "must be an object"},
+           {R"("cameras": [{"from": [0, 0, 1], "at": [0, 0, 0]}])", "must have a 'name'"},
+           {camera(R"("at": [0, 0, 0])"), "'from' of camera 'hall' must be three numbers"},
+           {camera(R"("from": [0, 0], "at": [0, 0, 0])"), "'from' of camera 'hall'"},
+           {camera(R"("from": [0, 0, "1"], "at": [0, 0, 0])"), "'from' of camera 'hall'"},
+           {camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "angel": 3)"), "'angel'"},
+           {camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "angle": "3")"), "a number of degrees"},
+           {camera(R"("from": [0, 0, 1], "at": [0, 0, 0], "angle": 180)"), "between 0 and 180"},
+           {camera(R"("from": [0, 0, 1], "at": [0, 0, 1])"), "the point looked at"},
+           {camera(R"("from": [0, 1, 0], "at": [0, 0, 0])"), "parallel to the view"},
+           {camera(R"("from": [0, 1e20, 0], "at": [0, 0, 0])"), "from -1e9 to 1e9"},
+           {R"("cameras": [{"name": "a", "from": [0, 0, 1], "at": [0, 0, 0]},
+                           {"name": "a", "from": [0, 0, 1], "at": [0, 0, 0]}])",
+            "two cameras are named 'a'"},
+           {R"("lights": 3)", "'lights' must be a list"},
+           {R"("lights": [[1, 2]])", "each of 'lights' must be three numbers"},
+           {R"("lights": [[1, 2, 1e10]])", "from -1e9 to 1e9"}}) {
+    register_mesh("broken", R"({"path": "../../a.obj", )" + keys + "}");
+    const std::string message = thrown_message([] { load_scene("mesh:broken"); });
+    EXPECT_TRUE(says(message, {"broken.json: ", why, "scripts/meshes"})) << keys << '\n' << message;
+  }
+}
+
 TEST_F(Meshes, AnUnknownNameSaysHowToGetMore) {
   EXPECT_TRUE(says(thrown_message([] { load_scene("mesh:dragon"); }),
                    {"'dragon'", "none is", "scripts/meshes"}));

@@ -1,6 +1,7 @@
 #include "scenes/formats/mesh/mesh_registry.hpp"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,6 +13,7 @@
 #include "scenes/core/nearest_name.hpp"
 #include "scenes/formats/mesh/mesh_cache.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
+#include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {
@@ -59,6 +61,74 @@ void read_axis(const Json& json, const char* key, glm::dvec3& axis, const fs::pa
   axis = *given;
 }
 
+glm::dvec3 point_of(const Json& json, std::string_view what, const fs::path& entry) {
+  const auto is_number = [](const Json& part) { return part.is_number(); };
+  if (!json.is_array() || json.size() != 3 || !std::all_of(json.begin(), json.end(), is_number)) {
+    refuse_entry(entry, fmt::format("{} must be three numbers, [x, y, z]", what));
+  }
+  return {json[0].get<double>(), json[1].get<double>(), json[2].get<double>()};
+}
+
+Camera camera_of(const Json& json, const glm::dvec3& up, const fs::path& entry) {
+  if (!json.is_object()) refuse_entry(entry, "each of 'cameras' must be an object");
+  constexpr std::array<std::string_view, 5> kKeys = {"name", "from", "at", "up", "angle"};
+  for (const auto& item : json.items()) {
+    if (std::find(kKeys.begin(), kKeys.end(), item.key()) == kKeys.end()) {
+      refuse_entry(entry, fmt::format("a camera has '{}', but may have only {}", item.key(),
+                                      fmt::join(kKeys, ", ")));
+    }
+  }
+  Camera camera;
+  camera.name = text_of(json, "name", "", entry);
+  if (camera.name.empty()) refuse_entry(entry, "each of 'cameras' must have a 'name'");
+  const auto what = [&](const char* key) {
+    return fmt::format("'{}' of camera '{}'", key, camera.name);
+  };
+  const auto point = [&](const char* key) {
+    return point_of(json.value(key, Json()), what(key), entry);
+  };
+  camera.from = point("from");
+  camera.at = point("at");
+  camera.up = json.contains("up") ? point("up") : up;
+  const Json angle = json.value("angle", Json(camera.angle));
+  if (!angle.is_number()) refuse_entry(entry, what("angle") + " must be a number of degrees");
+  camera.angle = angle.get<float>();
+  return camera;
+}
+
+/// The elements of a list; none where it is not given.
+Json list_of(const Json& json, const char* key, const fs::path& entry) {
+  Json list = json.value(key, Json::array());
+  if (!list.is_array()) refuse_entry(entry, fmt::format("'{}' must be a list", key));
+  return list;
+}
+
+GivenView read_view(const Json& json, const Orientation& orientation, const fs::path& entry) {
+  GivenView view;
+  SceneBuilder checked("");  // refuses what no scene can have
+  try {
+    for (const Json& given : list_of(json, "cameras", entry)) {
+      const Camera camera = camera_of(given, orientation.up, entry);
+      for (const Camera& other : view.cameras) {
+        if (other.name == camera.name) {
+          refuse_entry(entry, fmt::format("two cameras are named '{}'", camera.name));
+        }
+      }
+      checked.add_camera(camera);
+      view.cameras.push_back(camera);
+    }
+    for (const Json& given : list_of(json, "lights", entry)) {
+      view.lights.push_back(point_of(given, "each of 'lights'", entry));
+      checked.add_light(view.lights.back());
+    }
+  } catch (const InputError& error) {
+    const std::string_view why = error.what();
+    if (why.starts_with(entry.string())) throw;
+    refuse_entry(entry, why);
+  }
+  return view;
+}
+
 RegisteredMesh read_entry(const std::string& name, const fs::path& entry) {
   const Json json = Json::parse(read_input(entry), nullptr, false);
   if (!json.is_object()) refuse_entry(entry, "it is not a JSON object");
@@ -73,6 +143,7 @@ RegisteredMesh read_entry(const std::string& name, const fs::path& entry) {
   if (glm::dot(mesh.orientation.up, mesh.orientation.front) != 0.0) {
     refuse_entry(entry, "'up' and 'front' must be two different axes; give both");
   }
+  mesh.view = read_view(json, mesh.orientation, entry);
   mesh.about = text_of(json, "about", "", entry);
   return mesh;
 }

@@ -35,6 +35,17 @@ void add_lights(SceneBuilder& builder, const Camera& camera) {
   add(0.6 * back + 1.0 * right + 0.1 * up, {0.35, 0.38, 0.45});
 }
 
+/// Two lights at full strength light a surface as the fitted ones do; more share that.
+void add_lights(SceneBuilder& builder, const std::vector<glm::dvec3>& places) {
+  const double strength = std::min(1.0, 2.0 / static_cast<double>(places.size()));
+  for (const glm::dvec3& place : places) builder.add_light(place, glm::dvec3(strength));
+}
+
+bool is_given(const std::string& camera, const GivenView& view) {
+  return std::any_of(view.cameras.begin(), view.cameras.end(),
+                     [&](const Camera& given) { return given.name == camera; });
+}
+
 /// Looks into the cache, reads the file where that does not help, and fills the cache then.
 ImportedMesh cached_import(const fs::path& path, const std::string& ending,
                            std::vector<std::string>& notes) {
@@ -68,17 +79,24 @@ ImportedMesh cached_import(const fs::path& path, const std::string& ending,
 }  // namespace
 
 void add_view(SceneBuilder& builder, std::span<const glm::vec3> points,
-              const Orientation& orientation) {
+              const Orientation& orientation, const GivenView& given) {
   builder.set_background({0.16, 0.19, 0.24});
+  for (const Camera& camera : given.cameras) builder.add_camera(camera);
   const std::vector<Camera> cameras = fitted_cameras(points, orientation);
-  for (const Camera& camera : cameras) builder.add_camera(camera);
-  if (!cameras.empty()) add_lights(builder, cameras.front());
+  for (const Camera& camera : cameras) {
+    if (!is_given(camera.name, given)) builder.add_camera(camera);
+  }
+  if (!given.lights.empty()) {
+    add_lights(builder, given.lights);
+  } else if (!cameras.empty()) {
+    add_lights(builder, cameras.front());
+  }
 }
 
-Scene mesh_scene(const TriangleMesh& mesh, const std::string& name,
-                 const Orientation& orientation) {
+Scene mesh_scene(const TriangleMesh& mesh, const std::string& name, const Orientation& orientation,
+                 const GivenView& given) {
   SceneBuilder builder(name);
-  add_view(builder, mesh.vertices, orientation);
+  add_view(builder, mesh.vertices, orientation, given);
   for (const glm::vec3& vertex : mesh.vertices) builder.add_vertex(vertex);
   auto triangle = mesh.triangles.begin();
   for (const MeshPart& part : mesh.parts) {
@@ -100,18 +118,19 @@ Scene load_mesh(const MeshRequest& request, std::vector<std::string>* warnings) 
   if (warnings != nullptr) {
     for (const std::string& note : notes) warnings->push_back(fmt::format("{}: {}", file, note));
   }
-  return mesh_scene(imported.mesh, request.name, request.orientation);
+  return mesh_scene(imported.mesh, request.name, request.orientation, request.view);
 }
 
 void register_mesh(Catalogue& catalogue) {
   using Warnings = std::vector<std::string>;
-  catalogue.add_format(
-      {[](std::string_view spec) { return spec.starts_with(kMeshPrefix); },
-       [](std::string_view spec, ReadOptions options, Warnings& warnings) {
-         const RegisteredMesh mesh = find_registered_mesh(spec.substr(kMeshPrefix.size()));
-         return load_mesh({mesh.path, std::string(spec), mesh.orientation, options.strict},
-                          &warnings);
-       }});
+  catalogue.add_format({[](std::string_view spec) { return spec.starts_with(kMeshPrefix); },
+                        [](std::string_view spec, ReadOptions options, Warnings& warnings) {
+                          const RegisteredMesh mesh =
+                              find_registered_mesh(spec.substr(kMeshPrefix.size()));
+                          return load_mesh({mesh.path, std::string(spec), mesh.orientation,
+                                            options.strict, mesh.view},
+                                           &warnings);
+                        }});
   catalogue.add_format({[](std::string_view spec) { return !mesh_ending(spec).empty(); },
                         [](std::string_view spec, ReadOptions options, Warnings& warnings) {
                           return load_mesh({spec, std::string(spec),

@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "scenes/formats/mesh/given_view.hpp"
 #include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
 #include "scenes/scene.hpp"
@@ -15,13 +16,15 @@
 
 namespace beambench::scenes::mesh {
 
-/// Fitted cameras that see these points (`three-quarter`, which is the default, `front`, `side`,
-/// `top`), two lights on the side of the default camera, and a background.
+/// The given cameras, then fitted cameras that see these points (`three-quarter`, which is the
+/// first of them, `front`, `side`, `top`) and have none of their names; the given lights, or else
+/// two on the side of the fitted default camera; and a background.
 void add_view(SceneBuilder& builder, std::span<const glm::vec3> points,
-              const Orientation& orientation);
+              const Orientation& orientation, const GivenView& given = {});
 
 /// A scene of a mesh: flat triangles in the order of the file, with the view of `add_view`.
-Scene mesh_scene(const TriangleMesh& mesh, const std::string& name, const Orientation& orientation);
+Scene mesh_scene(const TriangleMesh& mesh, const std::string& name, const Orientation& orientation,
+                 const GivenView& given = {});
 
 /// What to read, and how.
 struct MeshRequest {
@@ -29,6 +32,7 @@ struct MeshRequest {
   std::string name;  ///< of the scene
   Orientation orientation;
   bool strict = false;  ///< what would be left out of the mesh is an error
+  GivenView view = {};
 };
 
 /// Reads a mesh file, or takes what it held from the cache (`meshes` in `cache_folder()`), where it

@@ -140,6 +140,14 @@ def write_contact_sheet(output: Path, beambench: Path, scenes: list[str] | None 
     )
 
 
+def registered_meshes(beambench: Path) -> list[str]:
+    """The names of the meshes that scripts/meshes, or a user, registered."""
+    meshes = json.loads(output_of([str(beambench), "list", "--json"]))["meshes"]
+    if not meshes:
+        raise Problem("no mesh is registered; run scripts/meshes first")
+    return [mesh["name"] for mesh in meshes]
+
+
 def _counts(beambench: Path, scene: str) -> str:
     """What the scene holds, for its label."""
     about = json.loads(_run(beambench, scene, "scene", scene, "--json"))

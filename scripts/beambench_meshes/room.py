@@ -1,6 +1,6 @@
 """Furnishes a room with pieces of Debian's sweethome3d-furniture and writes it as OBJ and MTL.
 
-usage: python3 scripts/furnished_room.py FURNITURE_FOLDER OUTPUT.obj
+usage: .venv/bin/python -m beambench_meshes.room FURNITURE_FOLDER OUTPUT.obj
 
 The room has a floor and two walls, so that it can be looked into. Meters, y up. The pieces have the
 sizes that their catalogs give them. Needs nothing but Python.
@@ -15,12 +15,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
+from beambench_meshes.problem import Problem
+
 _WIDTH, _DEPTH, _HEIGHT, _THICKNESS = 6.4, 5.0, 2.7, 0.1
 _ROOM_COLORS = {"room-floor": (0.55, 0.40, 0.28), "room-wall": (0.86, 0.83, 0.76)}
-
-
-class Problem(Exception):  # noqa: N818 (as in beambench_report)
-    """One sentence for the user."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +33,7 @@ class Place:
     elevation: float = 0.0
 
 
-_PLACES = (
+PLACES = (
     Place("KatorLegaz", "oriental-rug", 0.1, 0.2),
     Place("KatorLegaz", "mid-century-sofa", 0.0, -2.0),
     Place("KatorLegaz", "mid-century-chair", -1.6, 0.3, 70),
@@ -192,7 +190,7 @@ def furnish(folder: Path) -> list[Mesh]:
     """The room and its furniture."""
     catalogs: dict[str, Catalog] = {}
     meshes = _shell()
-    for place in _PLACES:
+    for place in PLACES:
         if place.catalog not in catalogs:
             catalogs[place.catalog] = Catalog(folder / f"{place.catalog}.sh3f")
         entry, mesh = catalogs[place.catalog].piece(place.model)
@@ -230,7 +228,7 @@ def write(meshes: list[Mesh], output: Path) -> None:
 def main(arguments: list[str]) -> int:
     """Returns the exit code."""
     if len(arguments) != 2:
-        print("usage: furnished_room.py FURNITURE_FOLDER OUTPUT.obj", file=sys.stderr)
+        print("usage: room FURNITURE_FOLDER OUTPUT.obj", file=sys.stderr)
         return 2
     try:
         write(furnish(Path(arguments[0])), Path(arguments[1]))

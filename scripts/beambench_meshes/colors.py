@@ -1,0 +1,52 @@
+"""A color for a texture by its name, as textures themselves are not read.
+
+Names of textures say what they show: grass, road, brick. Where none is recognized, the color is a
+muted one that depends on the name only.
+"""
+
+from __future__ import annotations
+
+import colorsys
+import hashlib
+import re
+
+from beambench_meshes.surface_mesh import Color
+
+# The first that a name holds counts.
+_KNOWN: tuple[tuple[str, Color], ...] = (
+    ("lava|fire", (0.80, 0.28, 0.08)),
+    ("slime|acid", (0.35, 0.55, 0.12)),
+    ("water|lake|river", (0.20, 0.34, 0.42)),
+    ("tree|arbor|bush|leaf|leaves|ivy|plant|palm", (0.16, 0.30, 0.12)),
+    ("grass|gras|meadow|moss", (0.27, 0.38, 0.15)),
+    ("snow|ice", (0.86, 0.88, 0.92)),
+    ("road|asphalt|tarmac|track", (0.23, 0.23, 0.24)),
+    ("sand|dirt|desert|soil|mud", (0.52, 0.42, 0.28)),
+    ("brick|roof|tile", (0.48, 0.27, 0.20)),
+    ("wood|plank|crate|timber|log", (0.43, 0.30, 0.18)),
+    ("glass|window", (0.45, 0.55, 0.60)),
+    ("light|lamp|lite|glow", (0.92, 0.88, 0.74)),
+    ("metal|steel|iron|pipe|grate|support|girder|trim", (0.38, 0.39, 0.42)),
+    ("concrete|conc|cement|wall|stone|rock|cliff|floor", (0.52, 0.50, 0.46)),
+)
+
+
+def color_of_texture(name: str) -> Color:
+    """Always the same for the same name."""
+    for pattern, color in _KNOWN:
+        if re.search(pattern, name.lower()):
+            return _shaded(color, name)
+    digest = _digest(name)
+    # From red earth to ocher, as what is built mostly is.
+    return colorsys.hls_to_rgb(0.02 + 0.12 * digest[0] / 255, 0.35 + 0.25 * digest[1] / 255, 0.16)
+
+
+def _shaded(color: Color, name: str) -> Color:
+    """A little lighter or darker, so that textures of one kind can be told apart."""
+    factor = 0.85 + 0.3 * _digest(name)[0] / 255
+    red, green, blue = (min(1.0, part * factor) for part in color)
+    return red, green, blue
+
+
+def _digest(name: str) -> bytes:
+    return hashlib.sha256(name.lower().encode("latin-1", "replace")).digest()
