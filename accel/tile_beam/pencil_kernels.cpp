@@ -63,10 +63,26 @@ HWY_INLINE AnsweredRays for_each_side(const PencilRays& pencil, PencilUnit& unit
   return {count, some_undecided};
 }
 
+/// 2^9 roundings of a place: below, more than one in some hundred rays that pass an edge are closer
+/// to it than a few of these.
+constexpr float kCloseTogether = 0x1p-15F;
+
 template <class Policy, class Counting>
 void walk_part(const PencilRays& pencil, const PencilPart& part, CubeSide side, PencilUnit& unit,
                Counting& counting) {
   PencilWalk<Policy, Counting>(pencil.hierarchy, pencil.scene, part, side, unit, counting)();
+}
+
+/// Are the rays of a quarter of the blocks, which are four wide, as close together?
+bool are_dense(const PencilUnit& unit) {
+  constexpr float kExtent = 2.0F * 4.0F * kCloseTogether;  // along u and along v
+  std::size_t dense = 0;
+  for (std::size_t place = 0; place < unit.places; ++place) {
+    const float extent = (unit.high_u[place] + unit.minus_low_u[place]) +
+                         (unit.high_v[place] + unit.minus_low_v[place]);
+    dense += extent < kExtent ? 1U : 0U;
+  }
+  return 4 * dense >= unit.places;
 }
 
 /// Rays toward the apex.
@@ -75,7 +91,9 @@ void walk_toward(const PencilRays& pencil, const PencilPart& part, CubeSide side
                  Counting& counting) {
   // From two scene sizes on, roundings of depths come near to how far rays begin from surfaces.
   const float close = 2.0F * pencil.hierarchy.bounds.largest_coordinate();
-  if (unit.least_w * close >= 1.0F) {
+  if (are_dense(unit)) {
+    walk_part<DenseAnyHitPolicy>(pencil, part, side, unit, counting);
+  } else if (unit.least_w * close >= 1.0F) {
     walk_part<AnyHitPolicy>(pencil, part, side, unit, counting);
   } else {
     walk_part<FarAnyHitPolicy>(pencil, part, side, unit, counting);

@@ -24,6 +24,7 @@ namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 struct AnyHitPolicy {
   static constexpr bool kClosest = false;
   static constexpr bool kFar = false;
+  static constexpr bool kDense = false;
   /// Leaves for each ray from which on single rays take less time, measured.
   static constexpr float kHandoverLeaves = 1.0F;
 };
@@ -32,10 +33,16 @@ struct AnyHitPolicy {
 struct FarAnyHitPolicy : AnyHitPolicy {
   static constexpr bool kFar = true;
 };
+/// The same for rays so close together that float is not sure of many hits at a triangle's edge
+/// either: these are confirmed, too.
+struct DenseAnyHitPolicy : FarAnyHitPolicy {
+  static constexpr bool kDense = true;
+};
 /// Rays away from the apex: a hit brings the ray's end nearer.
 struct ClosestHitPolicy {
   static constexpr bool kClosest = true;
   static constexpr bool kFar = false;
+  static constexpr bool kDense = false;
   static constexpr float kHandoverLeaves = 3.0F;
 };
 
@@ -546,10 +553,13 @@ class PencilWalk {
       if ((special >> shape & 1U) != 0) [[unlikely]] {
         changed |= test_specially(place, shape, meshlet);
       } else {
-        LaneBits unsure = 0;
+        Unsure unsure;
         LaneBits hits = test_triangle(place, shape, meshlet.primitives[shape], unsure);
-        if (Policy::kFar && unsure != 0) [[unlikely]] {
-          hits = confirmed(place, hits, unsure, crosses_plane_of(meshlet, shape));
+        if (Policy::kFar && unsure.depth != 0) [[unlikely]] {
+          hits = confirmed(place, hits, unsure.depth, crosses_plane_of(meshlet, shape));
+        }
+        if (Policy::kDense && (unsure.edge & hits) != 0) [[unlikely]] {
+          hits = decided_by_rays(place, hits, unsure.edge);
         }
         changed |= note(place, hits);
       }
@@ -557,9 +567,15 @@ class PencilWalk {
     changed_ |= changed;
   }
 
-  /// The rays of a block that hit a triangle, and which of these hits are to be confirmed.
+  /// Hits of a triangle that float is not sure of.
+  struct Unsure {
+    LaneBits depth = 0;  ///< close to a ray's origin
+    LaneBits edge = 0;   ///< close to an edge, which was moved outward
+  };
+
+  /// The rays of a block that hit a triangle, and which of these hits are uncertain.
   HWY_INLINE LaneBits test_triangle(std::size_t place, std::size_t shape,
-                                    scenes::PrimitiveId primitive, LaneBits& unsure) {
+                                    scenes::PrimitiveId primitive, Unsure& unsure) {
     const OneShape of{shapes_, shape};
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
     return for_each_register([&](std::size_t lane) {
@@ -591,11 +607,31 @@ class PencilWalk {
         if constexpr (Policy::kFar) {
           const Floats clearly = hn::NegMulAdd(hn::Mul(distance, w), all(kDepthRounding), beyond);
           const Mask close = hn::And(hit, is_negative(clearly));
-          unsure |= (bits_of(close) << lane) & unit_->alive[place];
+          unsure.depth |= (bits_of(close) << lane) & unit_->alive[place];
+        }
+        if constexpr (Policy::kDense) {
+          const auto inside = [&](std::size_t k) {
+            const std::size_t row = SeenShapes::kMagnitudes + 2 * k;
+            return hn::NegMulAdd(hn::Add(of(row), of(row + 1)), all(kEdgeRounding), edge(k));
+          };
+          const Mask at_edge = hn::And(hit, is_negative(either(inside(0), inside(1), inside(2))));
+          unsure.edge |= (bits_of(at_edge) << lane) & unit_->alive[place];
         }
         return hit;
       }
     });
+  }
+
+  /// Any hits, of which those at an edge are decided by single rays through the whole hierarchy:
+  /// where triangles share the edge, another test of one of them alone could lose the ray between.
+  LaneBits decided_by_rays(std::size_t place, LaneBits hits, LaneBits unsure) {
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    for (LaneBits left = hits & unsure; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      note_handed_over(*counting_, block + lane);
+      if (!finds_below(hierarchy_->root, block + lane)) hits &= ~(LaneBits{1} << lane);
+    }
+    return hits;
   }
 
   /// A triangle that float is too coarse for.
@@ -858,6 +894,8 @@ class PencilWalk {
 
   /// Sixteen roundings of a depth.
   static constexpr float kDepthRounding = 0x1p-20F;
+  /// By how much an edge was moved outward, and as much again on the inside.
+  static constexpr float kEdgeRounding = 0x1p-22F;
   /// What bounds of boxes and places may be wrong by: a few roundings of places |u| <= 1.
   static constexpr float kPlacePad = 3e-7F;
 
