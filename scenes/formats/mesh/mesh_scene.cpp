@@ -48,7 +48,7 @@ ImportedMesh cached_import(const fs::path& path, const std::string& ending,
   if (!cache) return import();
 
   const fs::path folder = *cache / "meshes";
-  const std::string key = mesh_key(bytes, ending, importer_version());
+  const std::string key = mesh_key(bytes, ending, importer_of(ending));
   CachedMesh cached = find_cached_mesh(folder, key, companion_folder(path));
   if (cached.state == CachedMesh::State::kFound) return std::move(cached.mesh);
   if (cached.state == CachedMesh::State::kDamaged) {
@@ -69,16 +69,27 @@ ImportedMesh cached_import(const fs::path& path, const std::string& ending,
 
 void add_view(SceneBuilder& builder, std::span<const glm::vec3> points,
               const Orientation& orientation) {
-  builder.set_background({0.16, 0.19, 0.24});
-  const std::vector<Camera> cameras = fitted_cameras(points, orientation);
-  for (const Camera& camera : cameras) builder.add_camera(camera);
-  if (!cameras.empty()) add_lights(builder, cameras.front());
+  add_view(builder, points, orientation, {}, {});
 }
 
-Scene mesh_scene(const TriangleMesh& mesh, const std::string& name,
-                 const Orientation& orientation) {
+void add_view(SceneBuilder& builder, std::span<const glm::vec3> points,
+              const Orientation& orientation, std::span<const Camera> own_cameras,
+              std::span<const Light> own_lights) {
+  builder.set_background({0.16, 0.19, 0.24});
+  for (const Camera& camera : own_cameras) builder.add_camera(camera);
+  const std::vector<Camera> cameras = fitted_cameras(points, orientation);
+  for (const Camera& camera : cameras) builder.add_camera(camera);
+  for (const Light& light : own_lights) {
+    builder.add_light(glm::dvec3(light.position), glm::dvec3(light.color));
+  }
+  if (own_lights.empty() && !cameras.empty()) add_lights(builder, cameras.front());
+}
+
+Scene mesh_scene(const TriangleMesh& mesh, const std::string& name, const Orientation& orientation,
+                 std::span<const Camera> cameras, std::span<const Light> lights) {
   SceneBuilder builder(name);
-  add_view(builder, mesh.vertices, orientation);
+  add_view(builder, mesh.vertices, orientation, cameras, lights);
+  builder.reserve_triangles(mesh.vertices.size(), mesh.triangles.size());
   for (const glm::vec3& vertex : mesh.vertices) builder.add_vertex(vertex);
   auto triangle = mesh.triangles.begin();
   for (const MeshPart& part : mesh.parts) {
@@ -100,7 +111,8 @@ Scene load_mesh(const MeshRequest& request, std::vector<std::string>* warnings) 
   if (warnings != nullptr) {
     for (const std::string& note : notes) warnings->push_back(fmt::format("{}: {}", file, note));
   }
-  return mesh_scene(imported.mesh, request.name, request.orientation);
+  return mesh_scene(imported.mesh, request.name, request.orientation, imported.cameras,
+                    imported.lights);
 }
 
 void register_mesh(Catalogue& catalogue) {

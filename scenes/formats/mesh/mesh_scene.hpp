@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "scenes/camera.hpp"
 #include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
 #include "scenes/scene.hpp"
@@ -16,12 +17,18 @@
 namespace beambench::scenes::mesh {
 
 /// Fitted cameras that see these points (`three-quarter`, which is the default, `front`, `side`,
-/// `top`), two lights on the side of the default camera, and a background.
+/// `top`), two lights on the side of the first of them, and a background.
 void add_view(SceneBuilder& builder, std::span<const glm::vec3> points,
               const Orientation& orientation);
+/// The same with cameras of the mesh's own, which come before the fitted ones, the first being the
+/// default; lights of its own, if any, take the place of the two.
+void add_view(SceneBuilder& builder, std::span<const glm::vec3> points,
+              const Orientation& orientation, std::span<const Camera> own_cameras,
+              std::span<const Light> own_lights);
 
 /// A scene of a mesh: flat triangles in the order of the file, with the view of `add_view`.
-Scene mesh_scene(const TriangleMesh& mesh, const std::string& name, const Orientation& orientation);
+Scene mesh_scene(const TriangleMesh& mesh, const std::string& name, const Orientation& orientation,
+                 std::span<const Camera> cameras = {}, std::span<const Light> lights = {});
 
 /// What to read, and how.
 struct MeshRequest {
