@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -37,15 +38,20 @@ std::string_view take_line(std::string_view& text) {
       fmt::format("it cannot be read as a mesh (line {}: {}); export it again", line, why));
 }
 
+/// Whether all of a text is a finite number, however small.
+bool is_number(std::string_view text) {
+  double number = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (end != text.data() + text.size()) return false;
+  if (error == std::errc::result_out_of_range) {
+    return std::abs(std::strtod(std::string(text).c_str(), nullptr)) < 1.0;  // not too large
+  }
+  return error == std::errc() && std::isfinite(number);
+}
+
 void require_coordinate(std::string_view word, std::size_t line) {
   if (word.empty()) refuse_line(line, "a vertex has fewer than three coordinates");
-  const std::string_view digits = word.starts_with('+') ? word.substr(1) : word;
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-  const bool is_number = (error == std::errc() || error == std::errc::result_out_of_range) &&
-                         end == digits.data() + digits.size();
-  // What is too small for a double is read as 0; what is too large, as infinite.
-  if (is_number && std::isfinite(number)) return;
+  if (is_number(word.starts_with('+') ? word.substr(1) : word)) return;
   refuse_line(line, fmt::format("a vertex has the coordinate '{}', but must have numbers from -1e9 "
                                 "to 1e9",
                                 word.substr(0, 40)));
