@@ -42,6 +42,9 @@ constexpr int kFan = 6;
 
 class Gltf : public testing::Test {
  protected:
+  Gltf() { ::setenv("BEAMBENCH_CACHE", (folder_.path() / "cache").c_str(), 1); }
+  ~Gltf() override { ::unsetenv("BEAMBENCH_CACHE"); }
+
   void SetUp() override {
     if (mesh::importer_of("gltf").empty()) GTEST_SKIP() << "built without tinygltf";
   }
@@ -365,6 +368,7 @@ TEST_F(Gltf, MaterialsBecomeSurfaces) {
   EXPECT_EQ(glass.color.z, 0.0F);
   EXPECT_EQ(glass.transmittance, 0.75F);
   EXPECT_EQ(glass.specular, 0.0F);
+  EXPECT_EQ(glass.diffuse, 0.25F);
   const Surface& metal = mesh.mesh.parts[1].surface;
   EXPECT_NEAR(metal.color.x, 0.5F, 1e-3) << "the mean of textures";
   EXPECT_FLOAT_EQ(metal.specular, 0.8F);
@@ -488,12 +492,14 @@ TEST_F(Gltf, BuffersAreReadFromItsFolderAlone) {
   }
   EXPECT_TRUE(says(thrown_message([&] { load("none.bin"); }),
                    {"a.gltf", "none.bin", "No such file or directory"}));
+  fs::resize_file(folder_.write("in/large.bin", ""), std::uint64_t{4} << 30U);
+  EXPECT_TRUE(says(thrown_message([&] { load("large.bin"); }), {"a.gltf", "more than 4 GiB"}))
+      << "the file itself counts, too";
   folder_.write("in/short.bin", file.buffer.substr(0, 20));
   EXPECT_TRUE(says(thrown_message([&] { load("short.bin"); }), {"a.gltf", "size mismatch"}));
 }
 
 TEST_F(Gltf, IsReadAgainWhenABufferChanges) {
-  ::setenv("BEAMBENCH_CACHE", (folder_.path() / "cache").c_str(), 1);
   GltfFile file = gltf_triangle();
   const std::string path = folder_.write("a.gltf", gltf(file, "b.bin")).string();
   folder_.write("b.bin", file.buffer);
@@ -502,7 +508,6 @@ TEST_F(Gltf, IsReadAgainWhenABufferChanges) {
   file.buffer.back() = '\x01';
   folder_.write("b.bin", file.buffer);
   EXPECT_NE(scene_hash(load_scene(path)), first);
-  ::unsetenv("BEAMBENCH_CACHE");
 }
 
 // Malformed files

@@ -80,6 +80,7 @@ void set_transparency(Surface& surface, const tinygltf::Material& material, doub
         std::max(transmittance, within(number_in(*clear, "transmissionFactor", 0.0), 0.0, 1.0));
   }
   surface.transmittance = static_cast<float>(transmittance);
+  surface.diffuse *= 1.0F - surface.transmittance;
   if (extension(material, "KHR_materials_volume") == nullptr) return;
   const auto* index = extension(material, "KHR_materials_ior");
   const double refraction = index == nullptr ? 1.5 : number_in(*index, "ior", 1.5);

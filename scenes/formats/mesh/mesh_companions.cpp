@@ -34,6 +34,11 @@ std::optional<fs::path> place_of(const fs::path& name, const fs::path& folder) {
   return real;
 }
 
+[[noreturn]] void refuse_size() {
+  throw InputError(
+      "it and the files that it names hold more than 4 GiB; split it, or reduce its triangles");
+}
+
 }  // namespace
 
 MeshCompanions::MeshCompanions(const fs::path& mesh, std::uint64_t mesh_bytes)
@@ -57,16 +62,16 @@ std::string_view MeshCompanions::read(const fs::path& name) {
   const auto [found, is_new] = companions_.try_emplace(name.lexically_normal().string());
   Companion& companion = found->second;
   if (!is_new && !companion.bytes.empty()) return companion.bytes;
+  std::error_code ignored;
+  if (const auto size = fs::file_size(*place, ignored); !ignored && size > bytes_left_)
+    refuse_size();
   try {
     companion.bytes = read_bytes(*place);
   } catch (const InputError& error) {
     throw InputError(fmt::format("it needs a file that is missing or unusable ({})", error.what()));
   }
   companion.hash = content_hash(companion.bytes);
-  if (companion.bytes.size() > bytes_left_) {
-    throw InputError(
-        "it and the files that it names hold more than 4 GiB; split it, or reduce its triangles");
-  }
+  if (companion.bytes.size() > bytes_left_) refuse_size();  // it has grown
   bytes_left_ -= companion.bytes.size();
   return companion.bytes;
 }
