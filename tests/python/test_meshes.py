@@ -94,7 +94,9 @@ def gltf_file(tmp_path: Path) -> Path:
 
 
 def test_a_camera_of_a_gltf_file_is_chosen_by_its_name(gltf_file: Path, tmp_path: Path) -> None:
-    cameras = json.loads(run(BINARY, "scene", gltf_file, "--json", cache=tmp_path).stdout)["cameras"]
+    cameras = json.loads(run(BINARY, "scene", gltf_file, "--json", cache=tmp_path).stdout)[
+        "cameras"
+    ]
     names = [camera["name"] for camera in cameras]
     assert names == ["eye", "three-quarter", "front", "side", "top"]
     for name in ("eye", "top"):

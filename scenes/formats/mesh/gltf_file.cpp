@@ -8,10 +8,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <exception>
 #include <limits>
+#include <new>
 #include <optional>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -128,7 +129,7 @@ class GltfCollector {
     Instance& instance = instances_.emplace_back();
     instance.to_world = &node.to_world;
     const tinygltf::Mesh& mesh = element_of(model_->meshes, node.node->mesh, "mesh", "a node");
-    std::map<int, bool> counted;
+    std::set<int> counted;
     for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
       const std::string name = fmt::format("primitive {} of mesh {}", i, node.node->mesh);
       const auto found = look_at(*model_, mesh.primitives[i], name);
@@ -138,7 +139,7 @@ class GltfCollector {
         continue;
       }
       add_bounded(triangles_, found->triangles, "triangles");
-      if (counted.emplace(found->positions, true).second) {
+      if (counted.insert(found->positions).second) {
         add_bounded(vertices_, GltfElements(*model_, found->positions).size(), "vertices");
       }
       instance.primitives.push_back(*found);

@@ -30,6 +30,12 @@ constexpr char kRefusal = 'r';
                                path.string(), what, std::strerror(errno)));
 }
 
+std::string out_of_memory(const std::filesystem::path& path) {
+  return fmt::format(
+      "{}: there is not enough memory to read it; close other programs, or reduce its triangles",
+      path.string());
+}
+
 rlim_t seconds_allowed(std::string_view bytes, std::string_view ending) {
   const rlim_t least = ending == "glb" || ending == "gltf" ? 120 : 2;
   return least + bytes.size() / (1U << 20U);
@@ -116,9 +122,7 @@ class Pipe {
   } catch (const InputError& error) {
     pipe.write(kRefusal + std::string(error.what()));
   } catch (const std::bad_alloc&) {
-    pipe.write(kRefusal + fmt::format("{}: there is not enough memory to read it; close other "
-                                      "programs, or reduce its triangles",
-                                      path.string()));
+    pipe.write(kRefusal + out_of_memory(path));
   } catch (const std::exception& error) {
     pipe.write(kRefusal + fmt::format("{}: it cannot be read as a mesh ({}); export it again",
                                       path.string(), error.what()));
@@ -185,6 +189,8 @@ ImportedMesh guarded_import(std::string_view bytes, const std::string& ending,
   pipe.close_writing_end();
   try {
     return receive(pipe);
+  } catch (const std::bad_alloc&) {
+    throw InputError(out_of_memory(path));
   } catch (const std::out_of_range&) {
     pipe.close_reading_end();  // what more the child might send would keep it waiting
     refuse_no_reply(child.wait(), bytes, ending, path);

@@ -1,5 +1,6 @@
 #include "scenes/formats/mesh/mesh.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <stdexcept>
@@ -9,6 +10,8 @@
 
 namespace beambench::scenes::mesh {
 namespace {
+
+constexpr std::size_t kBlock = std::size_t{1} << 16U;  // elements of a list that are read at a time
 
 /// Hands numbers, texts and lists to a sink.
 class Writer {
@@ -58,8 +61,13 @@ class Reader {
   std::vector<T> take_list() {
     const auto count = take<std::uint64_t>();
     require(count, sizeof(T));
-    std::vector<T> list(count);
-    if (!list.empty()) take_bytes(reinterpret_cast<char*>(list.data()), count, sizeof(T));
+    std::vector<T> list;
+    list.reserve(count);
+    while (list.size() < count) {  // part by part: only memory for what is there is touched
+      const std::size_t before = list.size();
+      list.resize(before + std::min<std::size_t>(count - before, kBlock));
+      take_bytes(reinterpret_cast<char*>(list.data() + before), list.size() - before, sizeof(T));
+    }
     return list;
   }
   std::string take_text() {

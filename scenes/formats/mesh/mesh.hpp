@@ -63,8 +63,8 @@ void encode(const ImportedMesh& imported, const ByteSink& sink);
 std::string encode(const ImportedMesh& imported);
 
 /// Throws std::out_of_range when the bytes end too early, or a list claims more than `at_most`
-/// bytes. Bytes that `encode` did not make may give any mesh; a scene builder refuses an invalid
-/// one.
+/// bytes, and std::bad_alloc when memory does not suffice. Bytes that `encode` did not make may
+/// give any mesh; a scene builder refuses an invalid one.
 ImportedMesh decode(const ByteSource& source, std::uint64_t at_most);
 /// The same, from one text.
 ImportedMesh decode(std::string_view bytes);
