@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -120,8 +121,10 @@ GltfElements::GltfElements(const tinygltf::Model& model, int accessor)
 void GltfElements::read_sparse(const tinygltf::Model& model, int number) {
   const auto& sparse = accessor_->sparse;
   const std::string user = fmt::format("sparse accessor {}", number);
-  if (sparse.count < 1 || sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0 ||
-      !is_index_type(sparse.indices.componentType)) {
+  // Signed or not, depending on tinygltf's version.
+  const bool negative =
+      std::cmp_less(sparse.indices.byteOffset, 0) || std::cmp_less(sparse.values.byteOffset, 0);
+  if (sparse.count < 1 || negative || !is_index_type(sparse.indices.componentType)) {
     refuse_gltf(fmt::format("{} has an invalid count, offset or type", user));
   }
   const auto count = static_cast<std::size_t>(sparse.count);
