@@ -254,6 +254,14 @@ void SceneBuilder::add_cone(const glm::dvec3& base, double base_radius, const gl
   scene_.cones.push_back({from, std::abs(from_radius), to, std::abs(to_radius), least < 0.0F});
 }
 
+void SceneBuilder::reserve_triangles(std::size_t vertices, std::size_t triangles) {
+  scene_.vertices.reserve(scene_.vertices.size() + vertices);
+  scene_.corners.reserve(scene_.corners.size() + 3 * triangles);
+  scene_.triangles.reserve(scene_.triangles.size() + triangles);
+  scene_.polygons.reserve(scene_.polygons.size() + triangles);
+  scene_.primitives.reserve(scene_.primitives.size() + triangles);
+}
+
 std::uint32_t SceneBuilder::add_vertex(const glm::dvec3& position) {
   const Subject subject{"vertex {}", scene_.vertices.size()};
   const std::uint32_t index = index_32(scene_.vertices.size(), subject);

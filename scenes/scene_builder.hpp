@@ -57,6 +57,8 @@ class SceneBuilder {
   void add_cone(const glm::dvec3& base, double base_radius, const glm::dvec3& apex,
                 double apex_radius);
 
+  /// Makes room for so many vertices and flat triangles more, which spares growing.
+  void reserve_triangles(std::size_t vertices, std::size_t triangles);
   /// Adds a vertex that polygons can share; returns its index.
   std::uint32_t add_vertex(const glm::dvec3& position);
   /// A polygon over shared vertices. `normals` is empty (flat) or one per corner; a normal of

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import struct
 import subprocess
 import zipfile
 from pathlib import Path
@@ -42,8 +43,8 @@ def register(cache: Path, name: str, entry: dict[str, str]) -> None:
 def mesh(tmp_path: Path) -> Path:
     file = tmp_path / "shape.obj"
     file.write_text(OBJ)
-    if "reads no meshes" in run(BINARY, "scene", file, cache=tmp_path).stderr:
-        pytest.skip("beambench was built without Assimp")
+    if "reads no meshes of this format" in run(BINARY, "scene", file, cache=tmp_path).stderr:
+        pytest.skip("beambench was built without tinyobjloader")
     return file
 
 
@@ -62,6 +63,78 @@ def test_a_mesh_is_a_scene_like_any_other(mesh: Path, tmp_path: Path) -> None:
         for scene in (mesh, tmp_path / "shape.nff")
     ]
     assert hashes[0] == hashes[1]
+
+
+def gltf(uri: str, **more: object) -> str:
+    return json.dumps(
+        {
+            "asset": {"version": "2.0"},
+            "scenes": [{"nodes": [0, 1]}],
+            "nodes": [{"mesh": 0}, {"name": "eye", "camera": 0, "translation": [0.2, 0.2, 2]}],
+            "cameras": [{"type": "perspective", "perspective": {"yfov": 0.9, "znear": 0.1}}],
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3"}],
+            "bufferViews": [{"buffer": 0, "byteLength": 36}],
+            "buffers": [{"byteLength": 36, "uri": uri}],
+            **more,
+        }
+    )
+
+
+@pytest.fixture
+def gltf_file(tmp_path: Path) -> Path:
+    (tmp_path / "in").mkdir()
+    corners = struct.pack("<9f", 0, 0, 0, 1, 0, 0, 0, 1, 0)
+    (tmp_path / "in/shape.bin").write_bytes(corners)
+    (tmp_path / "outside.bin").write_bytes(corners)
+    file = tmp_path / "in/shape.gltf"
+    file.write_text(gltf("shape.bin"))
+    if "reads no meshes of this format" in run(BINARY, "scene", file, cache=tmp_path).stderr:
+        pytest.skip("beambench was built without tinygltf")
+    return file
+
+
+def test_a_camera_of_a_gltf_file_is_chosen_by_its_name(gltf_file: Path, tmp_path: Path) -> None:
+    cameras = json.loads(run(BINARY, "scene", gltf_file, "--json", cache=tmp_path).stdout)[
+        "cameras"
+    ]
+    names = [camera["name"] for camera in cameras]
+    assert names == ["eye", "three-quarter", "front", "side", "top"]
+    for name in ("eye", "top"):
+        picture = tmp_path / f"{name}.png"
+        done = run(
+            *(BINARY, "render", gltf_file, "--camera", name, "--resolution", "16x16"),
+            *("-o", picture),
+            cache=tmp_path,
+        )
+        assert done.returncode == 0, done.stderr
+    assert (tmp_path / "eye.png").read_bytes() != (tmp_path / "top.png").read_bytes()
+    done = run(BINARY, "render", gltf_file, "--camera", "eyes", "-o", picture, cache=tmp_path)
+    assert done.returncode == 2
+    assert "did you mean 'eye'" in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("text", "words"),
+    [
+        (gltf("../outside.bin"), "'../outside.bin', which is not in its folder"),
+        (gltf("gone.bin"), "No such file or directory"),
+        (gltf("shape.bin", extensionsRequired=["KHR_draco_mesh_compression"]), "KHR_draco"),
+        (gltf("shape.bin", accessors=[]), "the accessor 0"),
+        (gltf("shape.bin")[:-40], "cannot be read as a mesh"),
+    ],
+)
+def test_a_gltf_file_that_cannot_be_read_is_one_sentence(
+    gltf_file: Path, tmp_path: Path, text: str, words: str
+) -> None:
+    gltf_file.write_text(text)
+    done = run(BINARY, "scene", gltf_file, cache=tmp_path)
+    assert done.returncode == 2
+    assert done.stdout == ""
+    assert done.stderr.startswith("beambench: ")
+    assert "shape.gltf: " in done.stderr
+    assert words in done.stderr
+    assert done.stderr.count("\n") == 1
 
 
 def test_list_shows_registered_meshes(mesh: Path, tmp_path: Path) -> None:

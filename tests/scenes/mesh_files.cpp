@@ -1,7 +1,10 @@
 #include "tests/scenes/mesh_files.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -38,19 +41,6 @@ std::string ply_header(std::string_view format) {
       "property float y\nproperty float z\nelement face 4\n"
       "property list uchar int vertex_indices\nend_header\n",
       format);
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr std::string_view kDigits =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {  // the tests' bytes are multiples of 3
-    std::uint32_t group = 0;
-    for (std::size_t j = 0; j < 3; ++j)
-      group = group << 8U | static_cast<unsigned char>(bytes[i + j]);
-    for (const unsigned shift : {18U, 12U, 6U, 0U}) text += kDigits[group >> shift & 63U];
-  }
-  return text;
 }
 
 }  // namespace
@@ -128,6 +118,23 @@ std::vector<std::pair<std::string, std::string>> tetrahedron_files() {
           {"text.ply", tetrahedron_ply()},   {"binary.ply", tetrahedron_binary_ply()},
           {"text.stl", tetrahedron_stl()},   {"binary.stl", tetrahedron_binary_stl()},
           {"text.gltf", tetrahedron_gltf()}, {"text.ac", tetrahedron_ac()}};
+}
+
+std::string base64(const std::string& bytes) {
+  constexpr std::string_view kDigits =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      group = group << 8U | (j < count ? static_cast<unsigned char>(bytes[i + j]) : 0U);
+    }
+    for (std::size_t j = 0; j < 4; ++j) {
+      text += j <= count ? kDigits[group >> (18U - 6U * j) & 63U] : '=';
+    }
+  }
+  return text;
 }
 
 std::string with_count(std::string text, const std::string& old, const std::string& by) {

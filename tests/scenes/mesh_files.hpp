@@ -20,6 +20,8 @@ std::string tetrahedron_ac();
 /// All of them, with file names.
 std::vector<std::pair<std::string, std::string>> tetrahedron_files();
 
+std::string base64(const std::string& bytes);
+
 /// The text with another first coordinate in the place of the corner (1, 0, 0).
 std::string with_coordinate(std::string text, const std::string& number);
 /// The text with its first `old` replaced.

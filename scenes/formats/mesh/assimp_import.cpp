@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
+#include <utility>
 
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
@@ -21,84 +21,65 @@
 #include <fmt/format.h>
 
 #include "scenes/core/error.hpp"
+#include "scenes/formats/mesh/importers.hpp"
 #include "scenes/formats/mesh/mesh.hpp"
-#include "scenes/formats/mesh/mesh_cache.hpp"
 #include "scenes/formats/mesh/mesh_cleaning.hpp"
-#include "scenes/formats/mesh/mesh_file.hpp"
+#include "scenes/formats/mesh/mesh_companions.hpp"
 #include "scenes/formats/mesh/mesh_import.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {
 
-/// Serves the mesh file from memory and its companions from the disk, read-only, and notes which
-/// companions were opened. Outlives what Assimp reads with it.
+/// Serves the mesh file from memory and its companions, read-only. Outlives what Assimp reads with
+/// it.
 class AssimpFiles : public Assimp::IOSystem {
  public:
-  /// The mesh is known as `name` and has these bytes, which must outlive this object.
-  AssimpFiles(std::string name, std::string_view bytes);
+  /// The mesh is known as `name`, in the folder of the companions, and has these bytes; they and
+  /// the companions must outlive this object.
+  AssimpFiles(std::string name, std::string_view bytes, MeshCompanions& companions)
+      : name_(std::move(name)), bytes_(bytes), companions_(&companions) {}
 
-  bool Exists(const char* name) const override;
+  bool Exists(const char* name) const override {
+    return name == name_ || companions_->has(relative(name));
+  }
   char getOsSeparator() const override { return '/'; }
   Assimp::IOStream* Open(const char* name, const char* mode) override;
-  void Close(Assimp::IOStream* stream) override;
-
-  /// The companions, relative to the mesh's folder.
-  std::vector<MeshCompanion> companions() const;
+  void Close(Assimp::IOStream* stream) override {
+    const std::unique_ptr<Assimp::IOStream> closed(stream);
+  }
 
  private:
+  /// Assimp puts the mesh's folder before the names of companions.
+  std::filesystem::path relative(const std::filesystem::path& name) const {
+    return name.lexically_relative(companions_->folder());
+  }
+  /// None of a companion that cannot or must not be read; how that matters depends on Assimp's
+  /// importer.
+  std::string_view companion_bytes(const char* name) {
+    try {
+      return companions_->read(relative(name));
+    } catch (const InputError&) {
+      return {};
+    }
+  }
+
   std::string name_;
   std::string_view bytes_;
-  std::map<std::string, std::string> companions_;  // their bytes, by the name Assimp used
+  MeshCompanions* companions_;
 };
-
-/// The bytes of a companion; none when it cannot be read; how that matters depends on the importer.
-std::string companion_bytes(const std::string& name) {
-  try {
-    return read_bytes(name);
-  } catch (const InputError&) {
-    return {};
-  }
-}
-
-AssimpFiles::AssimpFiles(std::string name, std::string_view bytes)
-    : name_(std::move(name)), bytes_(bytes) {}
-
-bool AssimpFiles::Exists(const char* name) const {
-  std::error_code ignored;
-  return name == name_ || std::filesystem::is_regular_file(name, ignored);
-}
 
 Assimp::IOStream* AssimpFiles::Open(const char* name, const char* mode) {
   if (std::string_view(mode).find_first_of("wa+") != std::string_view::npos) return nullptr;
-  std::string_view bytes = bytes_;
-  if (name != name_) {
-    const auto [companion, is_new] = companions_.try_emplace(name);
-    if (is_new) companion->second = companion_bytes(name);
-    bytes = companion->second;
-    if (bytes.empty()) return nullptr;
-  }
+  const std::string_view bytes = name == name_ ? bytes_ : companion_bytes(name);
+  if (bytes.empty()) return nullptr;
   // Assimp hands it back to Close.
   return std::make_unique<Assimp::MemoryIOStream>(
              reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size())
       .release();
 }
 
-void AssimpFiles::Close(Assimp::IOStream* stream) {
-  const std::unique_ptr<Assimp::IOStream> closed(stream);
-}
-
-std::vector<MeshCompanion> AssimpFiles::companions() const {
-  const std::filesystem::path folder = std::filesystem::path(name_).parent_path();
-  std::vector<MeshCompanion> list;
-  for (const auto& [name, bytes] : companions_) {
-    const std::string relative = std::filesystem::path(name).lexically_relative(folder).string();
-    list.push_back({relative, bytes.empty() ? 0 : content_hash(bytes)});
-  }
-  return list;
-}
-
 /// Incremented whenever this file, or what it calls, reads a mesh differently.
-constexpr std::uint32_t kOwnVersion = 1;
+constexpr int kOwnVersion = 2;
 
 constexpr unsigned kSteps =
     aiProcess_Triangulate | aiProcess_PreTransformVertices | aiProcess_SortByPType;
@@ -106,11 +87,6 @@ constexpr unsigned kSteps =
 [[noreturn]] void refuse(const std::filesystem::path& path, std::string_view why,
                          std::string_view remedy) {
   throw InputError(fmt::format("{}: {}; {}", path.string(), why, remedy));
-}
-
-/// Of a mesh without materials: unpainted clay.
-Surface clay() {
-  return {.color = {0.80F, 0.74F, 0.66F}, .diffuse = 0.8F, .specular = 0.2F, .shine = 20.0F};
 }
 
 bool is_default(const aiMaterial& material) {
@@ -175,51 +151,38 @@ const aiScene& read_scene(Assimp::Importer& importer, const std::string& name,
   refuse(path, fmt::format("it cannot be read as a mesh ({})", importer.GetErrorString()), kRemedy);
 }
 
-void warn_of(std::vector<std::string>& warnings, std::size_t count, std::string_view what,
-             std::string_view more = "") {
-  if (count > 0) warnings.push_back(fmt::format("{} {} left out{}", count, what, more));
-}
-
-}  // namespace
-
-std::uint32_t importer_version() {
-  return (kOwnVersion * 1000 + aiGetVersionMajor()) * 1000 + aiGetVersionMinor();
-}
-
-ImportedMesh import_mesh(std::string_view bytes, const std::string& ending,
-                         const std::filesystem::path& path) {
+ImportedMesh import_by_assimp(std::string_view bytes, const std::string& ending,
+                              const std::filesystem::path& path) {
   // Assimp learns the format from the name; a packed file's would say .gz.
   if (ending == "ply") require_complete_ply(bytes, path);
-  const std::string name = (companion_folder(path) / ("mesh." + ending)).string();
-  auto files = std::make_unique<AssimpFiles>(name, bytes);
-  const AssimpFiles& opened = *files;
+  MeshCompanions companions(path, bytes.size());
+  const std::string name = (companions.folder() / ("mesh." + ending)).string();
   Assimp::Importer importer;
-  importer.SetIOHandler(files.release());  // the importer owns it now
+  // The importer owns it.
+  importer.SetIOHandler(std::make_unique<AssimpFiles>(name, bytes, companions).release());
   const aiScene& scene = read_scene(importer, name, path);
 
   MeshCollector collector;
   std::size_t others = 0;
-  try {  // puts the file's name before an error of a triangle
+  try {  // puts the file's name before an error
     for (const aiMesh* mesh : std::span(scene.mMeshes, scene.mNumMeshes)) {
       const bool known = mesh->mMaterialIndex < scene.mNumMaterials;
       collector.set_surface(known ? surface_of(*scene.mMaterials[mesh->mMaterialIndex]) : clay());
       others += collect(*mesh, collector);
     }
+    ImportedMesh result = collected_mesh(std::move(collector), others);
+    result.companions = companions.list();
+    return result;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", path.string(), error.what()));
   }
-  ImportedMesh result;
-  warn_of(result.warnings, collector.degenerate(), "triangles without area were",
-          fmt::format(", the first of them triangle {}", collector.first_degenerate()));
-  warn_of(result.warnings, others, "points and lines were");
-  result.mesh = std::move(collector).finish();
-  result.companions = opened.companions();
-  if (result.mesh.triangles.empty()) {
-    const std::string left_out = fmt::format(
-        "{}", result.warnings.empty() ? "it holds no faces at all" : result.warnings[0]);
-    refuse(path, fmt::format("no triangle is in it ({})", left_out), "export the mesh's faces");
-  }
-  return result;
+}
+
+}  // namespace
+
+Importer assimp_importer() {
+  return {fmt::format("assimp-{}.{}-{}", aiGetVersionMajor(), aiGetVersionMinor(), kOwnVersion),
+          import_by_assimp};
 }
 
 }  // namespace beambench::scenes::mesh

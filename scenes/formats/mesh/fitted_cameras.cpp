@@ -108,4 +108,10 @@ std::vector<Camera> fitted_cameras(std::span<const glm::vec3> points,
   return cameras;
 }
 
+std::vector<std::string> fitted_camera_names() {
+  std::vector<std::string> names;
+  for (const View& view : kViews) names.emplace_back(view.name);
+  return names;
+}
+
 }  // namespace beambench::scenes::mesh

@@ -2,7 +2,10 @@
 // Cameras that see all of a mesh.
 
 #include <span>
+#include <string>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "scenes/camera.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
@@ -15,5 +18,8 @@ namespace beambench::scenes::mesh {
 /// an eye would be beyond the limit of coordinates.
 std::vector<Camera> fitted_cameras(std::span<const glm::vec3> points,
                                    const Orientation& orientation);
+
+/// The names that these views have.
+std::vector<std::string> fitted_camera_names();
 
 }  // namespace beambench::scenes::mesh

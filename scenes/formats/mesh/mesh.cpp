@@ -1,5 +1,6 @@
 #include "scenes/formats/mesh/mesh.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <stdexcept>
@@ -10,70 +11,99 @@
 namespace beambench::scenes::mesh {
 namespace {
 
-/// Appends numbers, texts and lists to bytes.
+constexpr std::size_t kBlock = std::size_t{1} << 16U;  // elements of a list that are read at a time
+
+/// Hands numbers, texts and lists to a sink.
 class Writer {
  public:
+  explicit Writer(const ByteSink& sink) : sink_(&sink) {}
+
   template <typename T>
   void put(const T& value) {
     static_assert(std::is_trivially_copyable_v<T>);
-    bytes_.append(reinterpret_cast<const char*>(&value), sizeof(T));
+    (*sink_)(reinterpret_cast<const char*>(&value), sizeof(T));
   }
   template <typename T>
   void put_list(const std::vector<T>& list) {
     static_assert(std::is_trivially_copyable_v<T>);
     put(std::uint64_t{list.size()});
     if (!list.empty()) {
-      bytes_.append(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T));
+      (*sink_)(reinterpret_cast<const char*>(list.data()), list.size() * sizeof(T));
     }
   }
   void put_text(const std::string& text) {
     put(std::uint64_t{text.size()});
-    bytes_ += text;
+    (*sink_)(text.data(), text.size());
   }
-  void reserve(std::size_t size) { bytes_.reserve(size); }
-  std::string take_bytes() && { return std::move(bytes_); }
+  void put_camera(const Camera& camera) {
+    put_text(camera.name);
+    for (const glm::vec3& vector : {camera.from, camera.at, camera.up}) put(vector);
+    for (const float number : {camera.angle, camera.aspect, camera.hither}) put(number);
+    for (const int number : {camera.width, camera.height}) put(number);
+  }
 
  private:
-  std::string bytes_;
+  const ByteSink* sink_;
 };
 
-/// Takes them off again; throws std::out_of_range where they are not there.
+/// Takes them from a source; throws std::out_of_range where they are not there.
 class Reader {
  public:
-  explicit Reader(std::string_view bytes) : bytes_(bytes) {}
+  Reader(const ByteSource& source, std::uint64_t at_most) : source_(&source), left_(at_most) {}
 
   template <typename T>
   T take() {
     T value;
-    std::memcpy(&value, take_bytes(1, sizeof(T)).data(), sizeof(T));
+    take_bytes(reinterpret_cast<char*>(&value), 1, sizeof(T));
     return value;
   }
   template <typename T>
   std::vector<T> take_list() {
-    const std::string_view bytes = take_bytes(take<std::uint64_t>(), sizeof(T));
-    std::vector<T> list(bytes.size() / sizeof(T));
-    if (!list.empty()) std::memcpy(list.data(), bytes.data(), bytes.size());
+    const auto count = take<std::uint64_t>();
+    require(count, sizeof(T));
+    std::vector<T> list;
+    list.reserve(count);
+    while (list.size() < count) {  // part by part: only memory for what is there is touched
+      const std::size_t before = list.size();
+      list.resize(before + std::min<std::size_t>(count - before, kBlock));
+      take_bytes(reinterpret_cast<char*>(list.data() + before), list.size() - before, sizeof(T));
+    }
     return list;
   }
-  std::string take_text() { return std::string(take_bytes(take<std::uint64_t>(), 1)); }
-
- private:
-  std::string_view take_bytes(std::uint64_t count, std::size_t each) {
-    if (count > bytes_.size() / each) throw std::out_of_range("the file ends too early");
-    const std::string_view taken = bytes_.substr(0, count * each);
-    bytes_.remove_prefix(taken.size());
-    return taken;
+  std::string take_text() {
+    const auto count = take<std::uint64_t>();
+    require(count, 1);
+    std::string text(count, '\0');
+    take_bytes(text.data(), count, 1);
+    return text;
+  }
+  Camera take_camera() {
+    Camera camera;
+    camera.name = take_text();
+    for (glm::vec3* vector : {&camera.from, &camera.at, &camera.up}) *vector = take<glm::vec3>();
+    for (float* number : {&camera.angle, &camera.aspect, &camera.hither}) *number = take<float>();
+    for (int* number : {&camera.width, &camera.height}) *number = take<int>();
+    return camera;
   }
 
-  std::string_view bytes_;
+ private:
+  void require(std::uint64_t count, std::size_t each) const {
+    if (count > left_ / each) throw std::out_of_range("the mesh ends too early");
+  }
+  void take_bytes(char* into, std::uint64_t count, std::size_t each) {
+    require(count, each);
+    (*source_)(into, count * each);
+    left_ -= count * each;
+  }
+
+  const ByteSource* source_;
+  std::uint64_t left_;
 };
 
 }  // namespace
 
-std::string encode(const ImportedMesh& imported) {
-  Writer writer;
-  writer.reserve(imported.mesh.vertices.size() * sizeof(glm::vec3) +
-                 imported.mesh.triangles.size() * 3 * sizeof(std::uint32_t) + 4096);
+void encode(const ImportedMesh& imported, const ByteSink& sink) {
+  Writer writer(sink);
   writer.put(std::uint64_t{imported.companions.size()});
   for (const MeshCompanion& companion : imported.companions) {
     writer.put_text(companion.path);
@@ -81,14 +111,22 @@ std::string encode(const ImportedMesh& imported) {
   }
   writer.put(std::uint64_t{imported.warnings.size()});
   for (const std::string& warning : imported.warnings) writer.put_text(warning);
+  writer.put(std::uint64_t{imported.cameras.size()});
+  for (const Camera& camera : imported.cameras) writer.put_camera(camera);
+  writer.put_list(imported.lights);
   writer.put_list(imported.mesh.vertices);
   writer.put_list(imported.mesh.triangles);
   writer.put_list(imported.mesh.parts);
-  return std::move(writer).take_bytes();
 }
 
-ImportedMesh decode(std::string_view bytes) {
-  Reader reader(bytes);
+std::string encode(const ImportedMesh& imported) {
+  std::string bytes;
+  encode(imported, [&](const char* more, std::size_t count) { bytes.append(more, count); });
+  return bytes;
+}
+
+ImportedMesh decode(const ByteSource& source, std::uint64_t at_most) {
+  Reader reader(source, at_most);
   ImportedMesh imported;
   for (auto left = reader.take<std::uint64_t>(); left > 0; --left) {
     std::string path = reader.take_text();
@@ -97,10 +135,24 @@ ImportedMesh decode(std::string_view bytes) {
   for (auto left = reader.take<std::uint64_t>(); left > 0; --left) {
     imported.warnings.push_back(reader.take_text());
   }
+  for (auto left = reader.take<std::uint64_t>(); left > 0; --left) {
+    imported.cameras.push_back(reader.take_camera());
+  }
+  imported.lights = reader.take_list<Light>();
   imported.mesh.vertices = reader.take_list<glm::vec3>();
   imported.mesh.triangles = reader.take_list<std::array<std::uint32_t, 3>>();
   imported.mesh.parts = reader.take_list<MeshPart>();
   return imported;
+}
+
+ImportedMesh decode(std::string_view bytes) {
+  const std::uint64_t size = bytes.size();
+  return decode(
+      [&](char* into, std::size_t count) {
+        std::memcpy(into, bytes.data(), count);  // at most `size` in all are taken
+        bytes.remove_prefix(count);
+      },
+      size);
 }
 
 }  // namespace beambench::scenes::mesh

@@ -4,7 +4,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
+#include <memory>
+#include <new>
 #include <ostream>
 #include <stdexcept>
 
@@ -28,7 +29,7 @@ std::optional<std::filesystem::path> place(const char* variable) {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kMagic = "beambench mesh 1";  // counts up with the layout
+constexpr std::string_view kMagic = "beambench mesh 2";  // counts up with the layout
 
 /// The start of a file: what it is, and what must follow.
 struct Header {
@@ -57,16 +58,60 @@ fs::path file_of(const fs::path& folder, const std::string& key) {
   return folder / (key + ".mesh");
 }
 
-/// The payload of a file, checked against its header.
-std::string_view checked_payload(std::string_view bytes) {
+/// XXH3 of bytes that come part by part.
+class RunningHash {
+ public:
+  RunningHash() : state_(XXH3_createState()) {
+    if (!state_) throw std::bad_alloc();
+    XXH3_64bits_reset(state_.get());
+  }
+  void add(const char* bytes, std::size_t count) { XXH3_64bits_update(state_.get(), bytes, count); }
+  std::uint64_t value() const { return XXH3_64bits_digest(state_.get()); }
+
+ private:
+  struct Free {
+    void operator()(XXH3_state_t* state) const { XXH3_freeState(state); }
+  };
+  std::unique_ptr<XXH3_state_t, Free> state_;
+};
+
+void read_fully(InputStream& file, char* into, std::size_t count) {
+  if (file.read({into, count}) < count) throw std::out_of_range("the file ends too early");
+}
+
+/// The mesh in a file, once the file was found to be what was written.
+ImportedMesh read_mesh(const fs::path& path) {
+  InputStream file(path);
   Header header{};
-  if (bytes.size() < sizeof(header)) throw std::out_of_range("the file ends too early");
-  std::memcpy(&header, bytes.data(), sizeof(header));
-  const std::string_view payload = bytes.substr(sizeof(header));
-  const bool right = std::string_view(header.magic, sizeof(header.magic)) == kMagic &&
-                     header.size == payload.size() && header.hash == content_hash(payload);
-  if (!right) throw std::out_of_range("its checksum is wrong");
-  return payload;
+  read_fully(file, reinterpret_cast<char*>(&header), sizeof(header));
+  if (std::string_view(header.magic, sizeof(header.magic)) != kMagic ||
+      file.remaining() != header.size) {
+    throw std::out_of_range("its header is wrong");
+  }
+  RunningHash hash;
+  ImportedMesh mesh = decode(
+      [&](char* into, std::size_t count) {
+        read_fully(file, into, count);
+        hash.add(into, count);
+      },
+      header.size);
+  if (hash.value() != header.hash || file.remaining() != std::uint64_t{0}) {
+    throw std::out_of_range("its checksum is wrong");
+  }
+  return mesh;
+}
+
+/// What comes before a mesh in its file.
+Header header_of(const ImportedMesh& mesh) {
+  Header header{};
+  std::copy(kMagic.begin(), kMagic.end(), header.magic);
+  RunningHash hash;
+  encode(mesh, [&](const char* bytes, std::size_t count) {
+    hash.add(bytes, count);
+    header.size += count;
+  });
+  header.hash = hash.value();
+  return header;
 }
 
 }  // namespace
@@ -82,7 +127,7 @@ std::uint64_t content_hash(std::string_view bytes) {
   return XXH3_64bits(bytes.data(), bytes.size());
 }
 
-std::string mesh_key(std::string_view bytes, std::string_view ending, std::uint32_t importer) {
+std::string mesh_key(std::string_view bytes, std::string_view ending, std::string_view importer) {
   return fmt::format("{:016x}-{}-{}-{}", content_hash(bytes), bytes.size(), ending, importer);
 }
 
@@ -92,12 +137,12 @@ CachedMesh find_cached_mesh(const fs::path& folder, const std::string& key,
   std::error_code ignored;
   if (!fs::exists(path, ignored)) return {};
   try {
-    const std::string bytes = read_bytes(path);
-    CachedMesh cached{CachedMesh::State::kFound, decode(checked_payload(bytes))};
+    CachedMesh cached{CachedMesh::State::kFound, read_mesh(path)};
     if (!are_unchanged(cached.mesh.companions, mesh_folder)) return {};
     return cached;
   } catch (const InputError&) {
   } catch (const std::out_of_range&) {
+  } catch (const std::bad_alloc&) {
   }
   return {CachedMesh::State::kDamaged, {}};
 }
@@ -106,15 +151,14 @@ bool cache_mesh(const fs::path& folder, const std::string& key, const ImportedMe
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return false;
-  const std::string payload = encode(mesh);
-  Header header{{}, payload.size(), content_hash(payload)};
-  std::copy(kMagic.begin(), kMagic.end(), header.magic);
-  const std::string_view start(reinterpret_cast<const char*>(&header), sizeof(header));
+  const Header header = header_of(mesh);
   try {
     write_file(file_of(folder, key), [&](std::ostream& file) {
-      for (const std::string_view bytes : {start, std::string_view(payload)}) {
-        file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-      }
+      const auto write = [&](const char* bytes, std::size_t count) {
+        file.write(bytes, static_cast<std::streamsize>(count));
+      };
+      write(reinterpret_cast<const char*>(&header), sizeof(header));
+      encode(mesh, write);
     });
   } catch (const InputError&) {
     return false;

@@ -19,8 +19,8 @@ std::optional<std::filesystem::path> cache_folder();
 std::uint64_t content_hash(std::string_view bytes);
 
 /// Names a mesh by what it was made from: the bytes of its file, the ending that says how to read
-/// them, and the importer. As good as a file name.
-std::string mesh_key(std::string_view bytes, std::string_view ending, std::uint32_t importer);
+/// them, and the importer (`importer_of`). As good as a file name.
+std::string mesh_key(std::string_view bytes, std::string_view ending, std::string_view importer);
 
 /// The result of a lookup.
 struct CachedMesh {

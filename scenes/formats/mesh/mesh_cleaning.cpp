@@ -1,8 +1,10 @@
 #include "scenes/formats/mesh/mesh_cleaning.hpp"
 
 #define XXH_INLINE_ALL
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <fmt/format.h>
 #include <xxhash.h>
@@ -33,20 +35,67 @@ std::size_t hash_of(const glm::vec3& position) { return XXH3_64bits(&position, s
 
 }  // namespace
 
+SharedVertices::SharedVertices(std::vector<glm::vec3> places)
+    : places_(std::move(places)), collected_(places_.size(), kFree) {}
+
+void MeshCollector::reserve(std::size_t vertices, std::size_t triangles) {
+  mesh_.vertices.reserve(vertices);
+  mesh_.triangles.reserve(triangles);
+  const std::size_t slots = std::bit_ceil(2 * (vertices + 1));
+  if (slots > slots_.size()) grow(slots);
+}
+
 void MeshCollector::set_surface(const Surface& surface) { surface_ = surface; }
 
 void MeshCollector::add(const std::array<glm::vec3, 3>& corners) {
-  const std::size_t number = mesh_.triangles.size() + degenerate_;
   std::array<glm::vec3, 3> places{};
-  for (std::size_t i = 0; i < 3; ++i) places[i] = checked(corners[i], number);
+  for (std::size_t i = 0; i < 3; ++i) places[i] = checked(corners[i], number());
   if (!has_area(places[0], places[1], places[2])) {
-    if (degenerate_++ == 0) first_degenerate_ = number;
+    leave_out();
     return;
   }
+  push_triangle({vertex(places[0]), vertex(places[1]), vertex(places[2])});
+}
+
+void MeshCollector::add(SharedVertices& vertices, const std::array<std::uint32_t, 3>& corners) {
+  std::array<glm::vec3, 3> places{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    places[i] = checked(vertices.places_[corners[i]], number());
+  }
+  if (!has_area(places[0], places[1], places[2])) {
+    leave_out();
+    return;
+  }
+  std::array<std::uint32_t, 3> collected{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::uint32_t& known = vertices.collected_[corners[i]];
+    if (known == kFree) known = vertex(places[i]);
+    collected[i] = known;
+  }
+  push_triangle(collected);
+}
+
+void MeshCollector::add_polygon(SharedVertices& vertices, std::span<const std::uint32_t> corners) {
+  std::vector<glm::vec3> places;
+  places.reserve(corners.size());
+  for (const std::uint32_t corner : corners) {
+    places.push_back(checked(vertices.places_[corner], number()));
+  }
+  const auto triangles = triangulate(places);
+  if (triangles.empty()) leave_out();
+  for (const auto& [a, b, c] : triangles) add(vertices, {corners[a], corners[b], corners[c]});
+}
+
+void MeshCollector::leave_out() {
+  if (degenerate_ == 0) first_degenerate_ = number();
+  ++degenerate_;
+}
+
+void MeshCollector::push_triangle(const std::array<std::uint32_t, 3>& corners) {
   if (mesh_.triangles.size() >= kFree / 3) {
     throw InputError("it has too many triangles for 32-bit indices; reduce them");
   }
-  mesh_.triangles.push_back({vertex(places[0]), vertex(places[1]), vertex(places[2])});
+  mesh_.triangles.push_back(corners);
   if (mesh_.parts.empty() || mesh_.parts.back().surface != surface_) {
     mesh_.parts.push_back({surface_, 0});
   }
@@ -54,7 +103,8 @@ void MeshCollector::add(const std::array<glm::vec3, 3>& corners) {
 }
 
 std::uint32_t MeshCollector::vertex(const glm::vec3& position) {
-  if (slots_.size() < 2 * (mesh_.vertices.size() + 1)) grow();
+  if (slots_.size() < 2 * (mesh_.vertices.size() + 1))
+    grow(slots_.empty() ? 64 : 2 * slots_.size());
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = hash_of(position) & mask;
   for (; slots_[slot] != kFree; slot = (slot + 1) & mask) {
@@ -65,8 +115,8 @@ std::uint32_t MeshCollector::vertex(const glm::vec3& position) {
   return slots_[slot];
 }
 
-void MeshCollector::grow() {
-  slots_.assign(slots_.empty() ? 64 : 4 * slots_.size(), kFree);
+void MeshCollector::grow(std::size_t slots) {
+  slots_.assign(slots, kFree);
   const std::size_t mask = slots_.size() - 1;
   for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
     std::size_t slot = hash_of(mesh_.vertices[i]) & mask;

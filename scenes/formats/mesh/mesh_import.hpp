@@ -1,7 +1,6 @@
 #pragma once
 // Reads the triangles of mesh files.
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -10,20 +9,23 @@
 
 namespace beambench::scenes::mesh {
 
-/// Distinguishes importers that might read one file differently; part of the key of the cache.
-std::uint32_t importer_version();
+/// The importer that reads files of an ending, with what distinguishes its versions that might read
+/// one file differently (`tinygltf-1`); part of the key of the cache. Empty in a build without the
+/// library that it needs: tinygltf for glTF, tinyobjloader for OBJ, Assimp for the others.
+std::string importer_of(std::string_view ending);
 
 /// Reads a mesh from the bytes of a file; `ending` says its format. Its polygons become triangles,
 /// in world space, right-handed; points, lines and triangles without area are left out with a
-/// warning. `path` is for messages and for finding companions. Throws InputError when the file
-/// is malformed, has no triangles, or holds numbers that no scene can, and in a build without
-/// Assimp always.
+/// warning. `path` is for messages and for finding companions, which are read from its folder
+/// alone. Throws InputError when the file is malformed, has no triangles, or holds numbers that no
+/// scene can, and in a build without its importer always.
 ImportedMesh import_mesh(std::string_view bytes, const std::string& ending,
                          const std::filesystem::path& path);
 
-/// As import_mesh, in a process of its own: for some malformed or truncated files Assimp ends the
-/// process, or never returns. Throws InputError then, too: the file may need 2 s of
-/// processor time, and another second for each MiB.
+/// As import_mesh, in a process of its own: for some malformed or truncated files a library ends
+/// the process, or never returns. Throws InputError then, too: the file may need 2 s of processor
+/// time (glTF, of which a short one may place a mesh many times, 2 minutes), and another second for
+/// each MiB.
 ImportedMesh guarded_import(std::string_view bytes, const std::string& ending,
                             const std::filesystem::path& path);
 

@@ -118,9 +118,13 @@ GivenView read_view(const Json& json, const Orientation& orientation, const fs::
       view.cameras.push_back(camera);
     }
     for (const Json& given : list_of(json, "lights", entry)) {
-      view.lights.push_back(point_of(given, "each of 'lights'", entry));
-      checked.add_light(view.lights.back());
+      const glm::dvec3 place = point_of(given, "each of 'lights'", entry);
+      checked.add_light(place);
+      view.lights.push_back({glm::vec3(place)});
     }
+    // Two at full strength light a surface as the fitted ones do; more share that.
+    const std::size_t sharing = std::max<std::size_t>(view.lights.size(), 2);
+    for (Light& light : view.lights) light.color = glm::vec3(2.0F / static_cast<float>(sharing));
   } catch (const InputError& error) {
     const std::string_view why = error.what();
     if (why.starts_with(entry.string())) throw;

@@ -35,15 +35,19 @@ void add_lights(SceneBuilder& builder, const Camera& camera) {
   add(0.6 * back + 1.0 * right + 0.1 * up, {0.35, 0.38, 0.45});
 }
 
-/// Two lights at full strength light a surface as the fitted ones do; more share that.
-void add_lights(SceneBuilder& builder, const std::vector<glm::dvec3>& places) {
-  const double strength = std::min(1.0, 2.0 / static_cast<double>(places.size()));
-  for (const glm::dvec3& place : places) builder.add_light(place, glm::dvec3(strength));
+bool has_camera(const GivenView& view, const std::string& name) {
+  return std::any_of(view.cameras.begin(), view.cameras.end(),
+                     [&](const Camera& camera) { return camera.name == name; });
 }
 
-bool is_given(const std::string& camera, const GivenView& view) {
-  return std::any_of(view.cameras.begin(), view.cameras.end(),
-                     [&](const Camera& given) { return given.name == camera; });
+/// The first view, then what the second has beside it: cameras of other names, and lights where the
+/// first has none.
+GivenView combined(GivenView first, const GivenView& second) {
+  for (const Camera& camera : second.cameras) {
+    if (!has_camera(first, camera.name)) first.cameras.push_back(camera);
+  }
+  if (first.lights.empty()) first.lights = second.lights;
+  return first;
 }
 
 /// Looks into the cache, reads the file where that does not help, and fills the cache then.
@@ -59,7 +63,7 @@ ImportedMesh cached_import(const fs::path& path, const std::string& ending,
   if (!cache) return import();
 
   const fs::path folder = *cache / "meshes";
-  const std::string key = mesh_key(bytes, ending, importer_version());
+  const std::string key = mesh_key(bytes, ending, importer_of(ending));
   CachedMesh cached = find_cached_mesh(folder, key, companion_folder(path));
   if (cached.state == CachedMesh::State::kFound) return std::move(cached.mesh);
   if (cached.state == CachedMesh::State::kDamaged) {
@@ -84,19 +88,19 @@ void add_view(SceneBuilder& builder, std::span<const glm::vec3> points,
   for (const Camera& camera : given.cameras) builder.add_camera(camera);
   const std::vector<Camera> cameras = fitted_cameras(points, orientation);
   for (const Camera& camera : cameras) {
-    if (!is_given(camera.name, given)) builder.add_camera(camera);
+    if (!has_camera(given, camera.name)) builder.add_camera(camera);
   }
-  if (!given.lights.empty()) {
-    add_lights(builder, given.lights);
-  } else if (!cameras.empty()) {
-    add_lights(builder, cameras.front());
+  for (const Light& light : given.lights) {
+    builder.add_light(glm::dvec3(light.position), glm::dvec3(light.color));
   }
+  if (given.lights.empty() && !cameras.empty()) add_lights(builder, cameras.front());
 }
 
 Scene mesh_scene(const TriangleMesh& mesh, const std::string& name, const Orientation& orientation,
                  const GivenView& given) {
   SceneBuilder builder(name);
   add_view(builder, mesh.vertices, orientation, given);
+  builder.reserve_triangles(mesh.vertices.size(), mesh.triangles.size());
   for (const glm::vec3& vertex : mesh.vertices) builder.add_vertex(vertex);
   auto triangle = mesh.triangles.begin();
   for (const MeshPart& part : mesh.parts) {
@@ -118,7 +122,8 @@ Scene load_mesh(const MeshRequest& request, std::vector<std::string>* warnings) 
   if (warnings != nullptr) {
     for (const std::string& note : notes) warnings->push_back(fmt::format("{}: {}", file, note));
   }
-  return mesh_scene(imported.mesh, request.name, request.orientation, request.view);
+  return mesh_scene(imported.mesh, request.name, request.orientation,
+                    combined(request.view, {imported.cameras, imported.lights}));
 }
 
 void register_mesh(Catalogue& catalogue) {

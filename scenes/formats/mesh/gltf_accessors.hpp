@@ -1,0 +1,66 @@
+#pragma once
+// The numbers in the buffers of a glTF file.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <tiny_gltf.h>
+
+namespace beambench::scenes::mesh {
+
+/// The elements of an accessor, where they lie in the buffers, sparse ones included. Lives no
+/// longer than the model.
+class GltfElements {
+ public:
+  /// Throws InputError naming the accessor when it is not there or not wholly within its buffer, or
+  /// when nothing says what its elements are. Reserves no memory but for sparse elements, which are
+  /// in the file.
+  GltfElements(const tinygltf::Model& model, int accessor);
+
+  std::size_t size() const { return count_; }
+  const tinygltf::Accessor& accessor() const { return *accessor_; }
+  /// The bytes of one of them.
+  const unsigned char* at(std::size_t index) const;
+
+ private:
+  void read_sparse(const tinygltf::Model& model, int number);
+
+  const tinygltf::Accessor* accessor_;
+  const unsigned char* first_ = nullptr;  ///< null: all are 0, but for the sparse ones
+  std::size_t stride_ = 0;
+  std::size_t count_ = 0;
+  std::vector<std::uint32_t> sparse_;  ///< indices, rising
+  const unsigned char* sparse_first_ = nullptr;
+  std::size_t sparse_stride_ = 0;
+};
+
+/// Positions, as float, or (KHR_mesh_quantization) as integers, normalized or not.
+class GltfPositions {
+ public:
+  /// Throws InputError naming the accessor when it does not have positions.
+  GltfPositions(const tinygltf::Model& model, int accessor);
+
+  std::size_t size() const { return elements_.size(); }
+  glm::dvec3 at(std::size_t index) const;
+
+ private:
+  GltfElements elements_;
+};
+
+/// Indices of one, two or four bytes.
+class GltfIndices {
+ public:
+  /// Throws InputError naming the accessor when it does not have indices.
+  GltfIndices(const tinygltf::Model& model, int accessor);
+
+  std::size_t size() const { return elements_.size(); }
+  std::uint32_t at(std::size_t index) const;
+
+ private:
+  GltfElements elements_;
+};
+
+}  // namespace beambench::scenes::mesh

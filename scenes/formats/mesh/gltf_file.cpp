@@ -1,0 +1,160 @@
+// tinygltf is compiled here, without the code that reads images.
+#define TINYGLTF_IMPLEMENTATION
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_EXTERNAL_IMAGE
+
+#include "scenes/formats/mesh/gltf_file.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <new>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "scenes/core/error.hpp"
+#include "scenes/formats/mesh/mesh_file.hpp"
+
+namespace beambench::scenes::mesh {
+namespace {
+
+/// How the names begin of extensions that concern looks, or are supported. A file that requires
+/// another one would be another shape without it.
+constexpr std::array<std::string_view, 9> kHarmless = {
+    "KHR_materials_", "KHR_texture_",          "EXT_texture_",
+    "MSFT_texture_",  "KHR_lights_",           "EXT_lights_",
+    "KHR_xmp",        "KHR_mesh_quantization", "KHR_animation_pointer"};
+
+void require_known_extensions(const tinygltf::Model& model) {
+  for (const std::string& name : model.extensionsRequired) {
+    const bool harmless =
+        std::any_of(kHarmless.begin(), kHarmless.end(),
+                    [&](std::string_view start) { return name.starts_with(start); });
+    if (harmless) continue;
+    throw InputError(fmt::format(
+        "it requires the extension '{}', which is not supported; export it without that, for "
+        "compressed geometry uncompressed",
+        name));
+  }
+}
+
+/// tinygltf's messages as one clause.
+std::string one_line(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  constexpr std::size_t kLongest = 300;  // a data URI may be in it
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  while (!text.empty() && (text.back() == ' ' || text.back() == '.')) text.pop_back();
+  return text.empty() ? "no reason is known" : text;
+}
+
+/// What tinygltf reads files with: the companions, and why one of them was refused.
+struct Buffers {
+  MeshCompanions* companions;
+  std::optional<std::string> refusal;
+};
+
+bool read_buffer(std::vector<unsigned char>* bytes, std::string* error, const std::string& name,
+                 void* user) {
+  Buffers& buffers = *static_cast<Buffers*>(user);
+  try {
+    const std::string_view read = buffers.companions->read(name);
+    bytes->assign(read.begin(), read.end());
+    buffers.companions->release(name);
+    return true;
+  } catch (const InputError& refusal) {
+    buffers.refusal = refusal.what();
+    *error = refusal.what();
+    return false;
+  }
+}
+
+/// Whether a file is there is seen when it is read, and only the file's own folder is looked at.
+tinygltf::FsCallbacks callbacks(Buffers& buffers) {
+  tinygltf::FsCallbacks files{};
+  files.FileExists = [](const std::string& name, void*) { return !name.empty(); };
+  files.ExpandFilePath = [](const std::string& name, void*) { return name; };
+  files.ReadWholeFile = read_buffer;
+  files.WriteWholeFile = [](std::string*, const std::string&, const std::vector<unsigned char>&,
+                            void*) { return false; };
+  files.user_data = &buffers;
+  return files;
+}
+
+/// Newer versions of tinygltf ask for the size before they read.
+template <typename Callbacks>
+void add_size_callback(Callbacks& files) {
+  if constexpr (requires { files.GetFileSizeInBytes; }) {
+    files.GetFileSizeInBytes = [](std::size_t* size, std::string*, const std::string&, void*) {
+      *size = 1;  // the companions have a limit of their own
+      return true;
+    };
+  }
+}
+
+/// Buffers in a .gltf file's text; a .glb's own is part of the file.
+std::size_t decoded_bytes(const tinygltf::Model& model) {
+  std::size_t total = 0;
+  for (const tinygltf::Buffer& buffer : model.buffers) {
+    if (buffer.uri.starts_with("data:")) total += buffer.data.size();
+  }
+  return total;
+}
+
+}  // namespace
+
+void refuse_gltf(std::string_view why) {
+  throw InputError(fmt::format("it cannot be read as a mesh ({}); export it again", why));
+}
+
+void refuse_index(int index, std::size_t size, std::string_view what, std::string_view user) {
+  refuse_gltf(
+      fmt::format("{} names the {} {}, but the file has {} of them", user, what, index, size));
+}
+
+tinygltf::Model read_gltf(std::string_view bytes, MeshCompanions& companions) {
+  constexpr std::uint64_t kLargest = std::numeric_limits<std::uint32_t>::max();
+  if (bytes.size() > kLargest)
+    throw InputError("it holds more than 4 GiB, which glTF cannot; split it");
+  Buffers buffers{&companions, {}};
+  tinygltf::FsCallbacks files = callbacks(buffers);
+  add_size_callback(files);
+  tinygltf::TinyGLTF reader;
+  reader.SetFsCallbacks(files);
+  reader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
+                           const unsigned char*, int, void*) { return true; },
+                        nullptr);
+
+  tinygltf::Model model;
+  std::string error;
+  std::string warning;
+  const auto size = static_cast<unsigned>(bytes.size());
+  const auto* start = reinterpret_cast<const unsigned char*>(bytes.data());
+  bool done = false;
+  try {
+    done = bytes.starts_with("glTF")
+               ? reader.LoadBinaryFromMemory(&model, &error, &warning, start, size)
+               : reader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& thrown) {  // of the JSON library, or a list's range
+    error = thrown.what();
+  }
+  require_known_extensions(model);  // before an error that only follows from one
+  if (buffers.refusal) throw InputError(*buffers.refusal);
+  if (!done) refuse_gltf(one_line(error));
+  if (!model.asset.version.starts_with("2")) {
+    throw InputError(fmt::format("it is glTF {}, but only glTF 2 is read; convert it to glTF 2.0",
+                                 one_line(model.asset.version)));
+  }
+  if (bytes.size() + decoded_bytes(model) > kLargestMeshFile) {
+    throw InputError("it and its buffers hold more than 4 GiB; split it, or reduce its triangles");
+  }
+  return model;
+}
+
+}  // namespace beambench::scenes::mesh

@@ -1,0 +1,265 @@
+// Mesh import by tinygltf.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <tiny_gltf.h>
+
+#include "scenes/bounds.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/formats/mesh/gltf_accessors.hpp"
+#include "scenes/formats/mesh/gltf_file.hpp"
+#include "scenes/formats/mesh/gltf_materials.hpp"
+#include "scenes/formats/mesh/gltf_nodes.hpp"
+#include "scenes/formats/mesh/gltf_views.hpp"
+#include "scenes/formats/mesh/importers.hpp"
+#include "scenes/formats/mesh/mesh.hpp"
+#include "scenes/formats/mesh/mesh_cleaning.hpp"
+#include "scenes/formats/mesh/mesh_companions.hpp"
+
+namespace beambench::scenes::mesh {
+namespace {
+
+/// Incremented whenever this file, or what it calls, reads a mesh differently.
+constexpr int kOwnVersion = 1;
+
+/// A short file may place a mesh many times: more triangles than this, or vertices of the
+/// primitives that have them, are refused before any is made. As a scene, so many need more than 20
+/// GB.
+constexpr std::size_t kMostTriangles = std::size_t{1} << 28U;
+
+constexpr const char* kPosition = "POSITION";
+
+/// One primitive of a mesh, at one node.
+struct PlacedPrimitive {
+  const tinygltf::Primitive* primitive;
+  int positions;
+  std::size_t corners;    ///< how many its triangles are made of
+  std::size_t triangles;  ///< 0 for points and lines
+};
+
+/// What is left out of the file, or is in the scene otherwise than in the file.
+struct Notes {
+  std::size_t points_and_lines = 0;
+  std::size_t masked_triangles = 0;
+  std::size_t moved_nodes = 0;       ///< by skins or morph targets
+  std::size_t instancing_nodes = 0;  ///< by EXT_mesh_gpu_instancing
+};
+
+bool has_triangles(int mode) {
+  return mode == TINYGLTF_MODE_TRIANGLES || mode == TINYGLTF_MODE_TRIANGLE_STRIP ||
+         mode == TINYGLTF_MODE_TRIANGLE_FAN;
+}
+
+/// How many primitives a list of points, lines, a line strip or a loop has.
+std::size_t points_or_lines(int mode, std::size_t corners) {
+  if (mode == TINYGLTF_MODE_LINE) return corners / 2;
+  if (mode == TINYGLTF_MODE_LINE_STRIP) return corners > 0 ? corners - 1 : 0;
+  return corners;
+}
+
+std::size_t triangle_count(int mode, std::size_t corners, std::string_view name) {
+  if (mode != TINYGLTF_MODE_TRIANGLES) return corners < 3 ? 0 : corners - 2;
+  if (corners % 3 != 0) {
+    refuse_gltf(
+        fmt::format("{} has triangles of {} corners, which is no multiple of 3", name, corners));
+  }
+  return corners / 3;
+}
+
+/// The corners of one triangle of a list, a strip or a fan, all wound alike.
+std::array<std::size_t, 3> corners_of(int mode, std::size_t triangle) {
+  if (mode == TINYGLTF_MODE_TRIANGLES) return {3 * triangle, 3 * triangle + 1, 3 * triangle + 2};
+  if (mode == TINYGLTF_MODE_TRIANGLE_FAN) return {triangle + 1, triangle + 2, 0};
+  const std::size_t odd = triangle % 2;
+  return {triangle, triangle + 1 + odd, triangle + 2 - odd};
+}
+
+/// Looks at a primitive without reading it; nothing for one that has no positions, and so no shape.
+std::optional<PlacedPrimitive> look_at(const tinygltf::Model& model,
+                                       const tinygltf::Primitive& primitive,
+                                       std::string_view name) {
+  if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
+    refuse_gltf(fmt::format("{} has the unknown mode {}", name, primitive.mode));
+  }
+  const auto positions = primitive.attributes.find(kPosition);
+  if (positions == primitive.attributes.end()) return std::nullopt;
+  const std::size_t corners = primitive.indices >= 0
+                                  ? GltfElements(model, primitive.indices).size()
+                                  : GltfElements(model, positions->second).size();
+  const std::size_t triangles =
+      has_triangles(primitive.mode) ? triangle_count(primitive.mode, corners, name) : 0;
+  return PlacedPrimitive{&primitive, positions->second, corners, triangles};
+}
+
+/// Adds to a sum that must not exceed `kMostTriangles`.
+void add_bounded(std::size_t& sum, std::size_t more, std::string_view what) {
+  if (more <= kMostTriangles && sum + more <= kMostTriangles) {
+    sum += more;
+    return;
+  }
+  throw InputError(fmt::format("its nodes place more than {} {}; split it, or reduce its triangles",
+                               kMostTriangles, what));
+}
+
+/// The meshes of the nodes, as triangles in the scene's coordinates.
+class GltfCollector {
+ public:
+  explicit GltfCollector(const tinygltf::Model& model) : model_(&model) {}
+
+  /// Throws InputError when there would be too much; reads no positions.
+  void add(const PlacedNode& node) {
+    if (node.node->mesh < 0) return;
+    if (node.node->skin >= 0 || !node.node->weights.empty()) ++notes_.moved_nodes;
+    if (node.node->extensions.contains("EXT_mesh_gpu_instancing")) ++notes_.instancing_nodes;
+    Instance& instance = instances_.emplace_back();
+    instance.to_world = &node.to_world;
+    const tinygltf::Mesh& mesh = element_of(model_->meshes, node.node->mesh, "mesh", "a node");
+    std::set<int> counted;
+    for (std::size_t i = 0; i < mesh.primitives.size(); ++i) {
+      const std::string name = fmt::format("primitive {} of mesh {}", i, node.node->mesh);
+      const auto found = look_at(*model_, mesh.primitives[i], name);
+      if (!found) continue;
+      if (found->triangles == 0) {
+        notes_.points_and_lines += points_or_lines(found->primitive->mode, found->corners);
+        continue;
+      }
+      add_bounded(triangles_, found->triangles, "triangles");
+      if (counted.insert(found->positions).second) {
+        add_bounded(vertices_, GltfElements(*model_, found->positions).size(), "vertices");
+      }
+      instance.primitives.push_back(*found);
+    }
+  }
+
+  /// Makes the triangles.
+  ImportedMesh collect() && {
+    collector_.reserve(std::min(vertices_, 3 * triangles_), triangles_);
+    for (const Instance& instance : instances_) {
+      std::map<int, SharedVertices> shared;  // primitives of a mesh may have the same positions
+      for (const PlacedPrimitive& placed : instance.primitives) {
+        auto found = shared.find(placed.positions);
+        if (found == shared.end()) {
+          found =
+              shared.emplace(placed.positions, vertices_of(placed.positions, *instance.to_world))
+                  .first;
+        }
+        add_triangles(placed, found->second);
+      }
+    }
+    ImportedMesh result = collected_mesh(std::move(collector_), notes_.points_and_lines);
+    warn(result.warnings);
+    return result;
+  }
+
+ private:
+  struct Instance {
+    const glm::dmat4* to_world = nullptr;
+    std::vector<PlacedPrimitive> primitives;
+  };
+
+  SharedVertices vertices_of(int accessor, const glm::dmat4& to_world) const {
+    const GltfPositions positions(*model_, accessor);
+    std::vector<glm::vec3> places;
+    places.reserve(positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      places.emplace_back(glm::dvec3(to_world * glm::dvec4(positions.at(i), 1.0)));
+    }
+    return SharedVertices(std::move(places));
+  }
+
+  void add_triangles(const PlacedPrimitive& placed, SharedVertices& vertices) {
+    const tinygltf::Primitive& primitive = *placed.primitive;
+    const GltfSurface surface = gltf_surface(*model_, primitive.material);
+    if (surface.has_mask) notes_.masked_triangles += placed.triangles;
+    collector_.set_surface(surface.surface);
+    std::optional<GltfIndices> indices;
+    if (primitive.indices >= 0) indices.emplace(*model_, primitive.indices);
+    for (std::size_t i = 0; i < placed.triangles; ++i) {
+      std::array<std::uint32_t, 3> corners{};
+      const auto places = corners_of(primitive.mode, i);
+      for (std::size_t j = 0; j < 3; ++j) {
+        corners[j] = indices ? indices->at(places[j]) : static_cast<std::uint32_t>(places[j]);
+        if (corners[j] >= vertices.places().size()) {
+          refuse_gltf(fmt::format("accessor {} has the index {}, but there are {} vertices",
+                                  primitive.indices, corners[j], vertices.places().size()));
+        }
+      }
+      collector_.add(vertices, corners);
+    }
+  }
+
+  void warn(std::vector<std::string>& warnings) const {
+    if (notes_.masked_triangles > 0) {
+      warnings.push_back(
+          fmt::format("{} triangles have alpha-masked materials; they are traced as opaque",
+                      notes_.masked_triangles));
+    }
+    if (notes_.moved_nodes > 0) {
+      warnings.push_back(
+          fmt::format("{} nodes have skins or morph targets; their meshes are as they are without",
+                      notes_.moved_nodes));
+    }
+    if (notes_.instancing_nodes > 0) {
+      warnings.push_back(
+          fmt::format("{} nodes have instances by EXT_mesh_gpu_instancing; each is one mesh",
+                      notes_.instancing_nodes));
+    }
+  }
+
+  const tinygltf::Model* model_;
+  std::vector<Instance> instances_;
+  std::size_t triangles_ = 0;
+  std::size_t vertices_ = 0;
+  Notes notes_;
+  MeshCollector collector_;
+};
+
+Bounds bounds_of(const TriangleMesh& mesh) {
+  Bounds bounds;
+  for (const glm::vec3& vertex : mesh.vertices) bounds.include(vertex);
+  return bounds;
+}
+
+ImportedMesh import_scene(std::string_view bytes, MeshCompanions& companions) {
+  const tinygltf::Model model = read_gltf(bytes, companions);
+  const std::vector<PlacedNode> nodes = placed_nodes(model);
+  GltfCollector collector(model);
+  for (const PlacedNode& node : nodes) collector.add(node);
+  ImportedMesh result = std::move(collector).collect();
+  const Bounds bounds = bounds_of(result.mesh);
+  result.cameras = gltf_cameras(model, nodes, bounds, result.warnings);
+  result.lights = gltf_lights(model, nodes, bounds, result.warnings);
+  result.companions = companions.list();
+  return result;
+}
+
+ImportedMesh import_by_tinygltf(std::string_view bytes, const std::string&,
+                                const std::filesystem::path& path) {
+  MeshCompanions companions(path, bytes.size());
+  try {
+    return import_scene(bytes, companions);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+  }
+}
+
+}  // namespace
+
+Importer gltf_importer() { return {fmt::format("tinygltf-{}", kOwnVersion), import_by_tinygltf}; }
+
+}  // namespace beambench::scenes::mesh

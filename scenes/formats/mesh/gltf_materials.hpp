@@ -1,0 +1,27 @@
+#pragma once
+// Surfaces from the materials of a glTF file.
+
+#include <tiny_gltf.h>
+
+#include "scenes/surface.hpp"
+
+namespace beambench::scenes::mesh {
+
+/// What a material is in a scene, and whether that leaves out holes.
+struct GltfSurface {
+  Surface surface;
+  bool has_mask = false;  ///< its alpha, which is not read, cuts out or fades parts of the surface
+};
+
+/// The surface of a material; unpainted clay for index -1. Throws InputError when there is no such
+/// material.
+/// - The color is the base color factor, encoded for display as the colors of scenes are. Textures
+///   are not read: one counts as a mean gray, which the factor tints.
+/// - Highlights and reflections: (1 - roughness) (0.2 + 0.6 metalness), with the exponent
+///   2 / roughness^4 - 2 between 1 and 1000; the rest is diffuse. A texture halves both factors.
+/// - What is seen through it: KHR_materials_transmission, or with alphaMode BLEND 1 - alpha; that
+///   share is taken from what is diffuse. It refracts only with KHR_materials_volume; else the
+///   surface is thin.
+GltfSurface gltf_surface(const tinygltf::Model& model, int material);
+
+}  // namespace beambench::scenes::mesh

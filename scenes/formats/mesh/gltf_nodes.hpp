@@ -1,0 +1,22 @@
+#pragma once
+// The nodes of a glTF file's scene, with their places in the world.
+
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <tiny_gltf.h>
+
+namespace beambench::scenes::mesh {
+
+/// A node, and the matrix from its coordinates to those of the scene.
+struct PlacedNode {
+  const tinygltf::Node* node;
+  glm::dmat4 to_world;
+};
+
+/// All nodes of the file's default scene (its first where it names none, all nodes where it has no
+/// scenes), parents before children, in the order of the file. Live no longer than the model.
+/// Throws InputError when a node is not there, or is reached twice: a cycle, or two parents.
+std::vector<PlacedNode> placed_nodes(const tinygltf::Model& model);
+
+}  // namespace beambench::scenes::mesh

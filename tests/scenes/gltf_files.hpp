@@ -1,0 +1,43 @@
+#pragma once
+// glTF files made for tests.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <nlohmann/json.hpp>
+
+namespace beambench::scenes {
+
+/// glTF's numbers for the types of components.
+enum class GltfType { kByte = 5120, kUByte, kShort, kUShort, kUInt = 5125, kFloat };
+
+/// A file in the making: its JSON, and one buffer. Begins with a default scene of no nodes.
+struct GltfFile {
+  GltfFile();
+
+  /// Each returns the index of what it added.
+  int add_view(const std::string& bytes, std::size_t stride = 0);
+  int add_accessor(int view, GltfType type, std::size_t count, const char* shape);
+  int add_positions(const std::vector<glm::vec3>& positions, std::size_t stride = 0);
+  int add_indices(const std::vector<std::uint32_t>& indices, GltfType type);
+  /// A mesh of one primitive, which needs no indices when `indices` is -1.
+  int add_mesh(int positions, int indices, int mode = 4);
+  /// A node of the default scene.
+  int add_node(const nlohmann::json& node);
+
+  nlohmann::json json;
+  std::string buffer;
+};
+
+/// A .glb file.
+std::string glb(const GltfFile& file);
+/// A .gltf file whose buffer is at a URI; by default, in the text.
+std::string gltf(const GltfFile& file, const std::string& uri = "");
+
+/// One triangle, (0,0,0) (1,0,0) (0,1,0), in one node.
+GltfFile gltf_triangle();
+
+}  // namespace beambench::scenes

@@ -1,0 +1,237 @@
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "scenes/core/error.hpp"
+#include "scenes/core/random.hpp"
+#include "scenes/formats/mesh/mesh_import.hpp"
+#include "tests/scenes/mesh_files.hpp"
+#include "tests/scenes/thrown_message.hpp"
+#include "tests/temporary_folder.hpp"
+
+namespace beambench::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+using mesh::ImportedMesh;
+
+constexpr const char* kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+class Obj : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (mesh::importer_of("obj").empty()) GTEST_SKIP() << "built without tinyobjloader";
+  }
+
+  ImportedMesh read(const std::string& text) const {
+    return mesh::import_mesh(text, "obj", folder_.write("a.obj", text));
+  }
+  std::string message(const std::string& text) const {
+    return thrown_message([&] { read(text); });
+  }
+
+  TemporaryFolder folder_;
+};
+
+glm::vec3 corner(const ImportedMesh& mesh, std::size_t triangle, std::size_t i) {
+  return mesh.mesh.vertices[mesh.mesh.triangles[triangle][i]];
+}
+
+double area_of(const ImportedMesh& mesh) {
+  double area = 0.0;
+  for (std::size_t i = 0; i < mesh.mesh.triangles.size(); ++i) {
+    const glm::dvec3 a(corner(mesh, i, 0));
+    area += 0.5 * glm::length(glm::cross(glm::dvec3(corner(mesh, i, 1)) - a,
+                                         glm::dvec3(corner(mesh, i, 2)) - a));
+  }
+  return area;
+}
+
+/// Any number that a scene can hold, by its bits.
+float drawn_float(Random& random) {
+  for (;;) {
+    const auto number = std::bit_cast<float>(static_cast<std::uint32_t>(random.below(1ULL << 32U)));
+    if (std::abs(number) <= 1e9F && std::abs(number) > 1e-37F) return number;
+  }
+}
+
+TEST_F(Obj, NumbersAreExactHoweverTheyAreWritten) {
+  Random random(7);
+  std::string text;
+  std::vector<float> expected;
+  for (int i = 0; i < 3000; ++i) {
+    text += "v";
+    for (int axis = 0; axis < 3; ++axis) {
+      const float number = drawn_float(random);
+      expected.push_back(number);
+      switch (random.below(4)) {
+        case 0:
+          text += fmt::format(" {:.9g}", number);
+          break;
+        case 1:
+          text += fmt::format(" {}", number);
+          break;
+        case 2:
+          text += fmt::format(" {}", double{number});
+          break;
+        default:
+          text += fmt::format(" {:.17g}", double{number});
+      }
+    }
+    text += i % 3 == 2 ? "\nf -3 -2 -1\n" : "\n";
+  }
+  const ImportedMesh mesh = read(text);
+  ASSERT_GT(mesh.mesh.triangles.size(), 900U);
+  std::size_t place = 0;
+  for (std::size_t i = 0; i < mesh.mesh.triangles.size(); ++i) {
+    // Triangles without area, if any, are left out.
+    const auto same = [&] { return corner(mesh, i, 0).x == expected[place]; };
+    while (!same()) place += 9;
+    for (std::size_t j = 0; j < 9; ++j) {
+      EXPECT_EQ(corner(mesh, i, j / 3)[static_cast<int>(j % 3)], expected[place + j]);
+    }
+    place += 9;
+  }
+}
+
+/// A star: its corners at rising angles, at any distances, so that it may be concave.
+RC_GTEST_FIXTURE_PROP(Obj, ConcavePolygonsKeepTheirArea, ()) {
+  const int count = *rc::gen::inRange(4, 14);
+  std::string text;
+  std::string face = "f";
+  std::vector<glm::dvec3> corners;
+  for (int i = 0; i < count; ++i) {
+    const double angle = 6.28318530717958648 * i / count;
+    const double radius = 0.1 * *rc::gen::inRange(2, 40);
+    const glm::vec3 place(glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), 0.0));
+    corners.emplace_back(place);
+    text += fmt::format("v {} {} {}\n", place.x, place.y, place.z);
+    face += fmt::format(" {}", i + 1);
+  }
+  double area = 0.0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    area += 0.5 * glm::cross(corners[i], corners[(i + 1) % corners.size()]).z;
+  }
+  RC_ASSERT(std::abs(area_of(read(text + face + "\n")) - area) < 1e-5 * area);
+}
+
+TEST_F(Obj, FacesNameVerticesInEveryWay) {
+  for (const char* face : {"f 1 2 3", "f -3 -2 -1", "f 1/1 2/1 3/1", "f 1//1 2//1 3//1",
+                           "f 1/1/1 2/1/1 3/1/1", "  f\t1  2\t3  ", "f 1 \\\n2 3", "f +1 2 3"}) {
+    const ImportedMesh mesh = read(fmt::format("{}vt 0 0\nvn 0 0 1\n{}\n", kCorners, face));
+    ASSERT_EQ(mesh.mesh.triangles.size(), 1U) << face;
+    EXPECT_EQ(corner(mesh, 0, 2), glm::vec3(0.0F, 1.0F, 0.0F)) << face;
+  }
+  EXPECT_EQ(read(fmt::format("f 1 2 3\n{}", kCorners)).mesh.triangles.size(), 1U)
+      << "a vertex may come later";
+  EXPECT_EQ(read("v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n").mesh.triangles.size(), 1U);
+  EXPECT_EQ(corner(read("v 1e-999 0 0\nv +1 0 0\nv 0 1. 0\nf 1 2 3"), 0, 0), glm::vec3(0.0F));
+  EXPECT_EQ(read("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3").mesh.triangles.size(), 1U);
+}
+
+TEST_F(Obj, ARefusedOneSaysWhere) {
+  const auto refused = [&](const std::string& lines,
+                           std::initializer_list<std::string_view> words) {
+    EXPECT_TRUE(says(message(kCorners + lines), words)) << lines;
+    EXPECT_TRUE(says(message(kCorners + lines), {"a.obj: "}));
+  };
+  refused("f 1 2 4\n", {"face 1 has the vertex 4", "3 vertices"});
+  refused("f 1 2 3\nf 1 2 -4\n", {"face 2", "before the first"});
+  refused("f 1 2 2147483647\n", {"face 1 has the vertex 2147483647"});
+  refused("f 1 2 3 9\n", {"face 1 has the vertex 9"});
+  refused("f 0 1 2\n", {"line 4", "'0'", "count from 1"});
+  refused("f 1 2 x\n", {"line 4", "the corner 'x'"});
+  refused("f 1 2 4294967299\n", {"line 4", "'4294967299'"});
+  refused("v 1 2\n", {"line 4", "fewer than three coordinates"});
+  refused("v 1 2 three\n", {"line 4", "'three'", "must have numbers"});
+  refused("v 1 2 1e999\nf 1 2 3\n", {"line 4", "'1e999'"});
+  refused("v 1 2 1,5\n", {"line 4", "'1,5'"});
+  refused("f 1 \\\n2 3\nv nan 0 0\n", {"line 6", "'nan'"});
+}
+
+TEST_F(Obj, WhatIsNoFaceIsCounted) {
+  const ImportedMesh mesh =
+      read(fmt::format("{}f 1 2 3\nf 1 2\np 1\nl 1 2 3\ncurv 0 1 1 2\n", kCorners));
+  ASSERT_EQ(mesh.warnings.size(), 2U);
+  EXPECT_EQ(mesh.warnings[0], "3 points and lines were left out");
+  EXPECT_EQ(mesh.warnings[1], "1 free-form curves and surfaces were left out");
+}
+
+TEST_F(Obj, MaterialsAreThoseOfItsLibraries) {
+  folder_.write("two words.mtl",
+                "newmtl  dark red \nKd 0.5 0 0\nnewmtl plain\nnewmtl painted\n"
+                "Kd 0 0 0\nmap_Kd a.png\n");
+  folder_.write("b.mtl", "newmtl blue\r\nKd 0 0 1\r\nTr 0.25\r\n");
+  folder_.write("c.mtl", "newmtl green\nKd 0 1 0\n");
+  std::string text = std::string("mtllib two words.mtl\nmtllib b.mtl c.mtl\n") + kCorners;
+  for (const char* name : {"dark red", "blue", "green", "plain", "painted", "unknown"}) {
+    text += fmt::format("usemtl {}\nf 1 2 3\n", name);
+  }
+  const ImportedMesh mesh = read(text);
+  ASSERT_EQ(mesh.mesh.parts.size(), 6U);
+  EXPECT_EQ(mesh.mesh.parts[0].surface.color, glm::vec3(0.5F, 0.0F, 0.0F));
+  EXPECT_EQ(mesh.mesh.parts[1].surface.color, glm::vec3(0.0F, 0.0F, 1.0F));
+  EXPECT_EQ(mesh.mesh.parts[1].surface.transmittance, 0.25F);
+  EXPECT_EQ(mesh.mesh.parts[2].surface.color, glm::vec3(0.0F, 1.0F, 0.0F));
+  EXPECT_EQ(mesh.mesh.parts[3].surface.color, glm::vec3(0.6F)) << "it says no color";
+  EXPECT_EQ(mesh.mesh.parts[4].surface.color, glm::vec3(0.5F)) << "it is painted";
+  EXPECT_EQ(mesh.companions.size(), 3U);
+  EXPECT_TRUE(mesh.warnings.empty());
+}
+
+TEST_F(Obj, LibrariesOutsideOfItsFolderAreNotRead) {
+  fs::create_directory(folder_.path() / "in");
+  const fs::path secret = folder_.write("out.mtl", "newmtl m\nKd 1 0 0\n");
+  fs::create_symlink(secret, folder_.path() / "in" / "link.mtl");
+  for (const std::string& library :
+       {std::string("../out.mtl"), std::string("link.mtl"), secret.string()}) {
+    const std::string text = fmt::format("mtllib {}\n{}usemtl m\nf 1 2 3\n", library, kCorners);
+    const ImportedMesh mesh = mesh::import_mesh(text, "obj", folder_.write("in/a.obj", text));
+    EXPECT_NE(mesh.mesh.parts[0].surface.color, glm::vec3(1.0F, 0.0F, 0.0F)) << library;
+    ASSERT_EQ(mesh.warnings.size(), 1U);
+    EXPECT_TRUE(
+        says(mesh.warnings[0], {"its materials were left out", library, "not in its folder"}));
+  }
+  const ImportedMesh mesh = read(fmt::format("mtllib none.mtl\n{}f 1 2 3\n", kCorners));
+  ASSERT_EQ(mesh.warnings.size(), 1U);
+  EXPECT_TRUE(says(mesh.warnings[0], {"its materials were left out", "none.mtl", "No such file"}));
+}
+
+/// Reads in this process, so that a sanitizer sees what is wrong.
+TEST_F(Obj, ADamagedOneIsReadOrRefused) {
+  folder_.write("m.mtl", "newmtl m\nKd 1 0 0\n");
+  const std::string whole = "mtllib m.mtl\no name\ng a b\n" + tetrahedron_obj() +
+                            "usemtl m\nf 1/1/1 2/2/2 3/3/3 4\nf -1 -2 -3\nl 1 2\nvt 0 1\n";
+  const fs::path path = folder_.write("a.obj", whole);
+  Random random(2026);
+  for (int i = 0; i < 4000; ++i) {
+    std::string damaged = whole;
+    if (random.unit() < 0.3) damaged.resize(1 + random.below(whole.size() - 1));
+    for (auto changes = random.below(4); changes > 0; --changes) {
+      constexpr std::string_view kLikely = "0123456789 -/.e\n\\vfl";
+      char& c = damaged[random.below(damaged.size())];
+      c = random.unit() < 0.5 ? kLikely[random.below(kLikely.size())]
+                              : static_cast<char>(random.below(256));
+    }
+    SCOPED_TRACE(damaged);
+    try {
+      EXPECT_FALSE(mesh::import_mesh(damaged, "obj", path).mesh.triangles.empty());
+    } catch (const InputError& error) {
+      EXPECT_TRUE(says(error.what(), {"a.obj"}));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace beambench::scenes
