@@ -10,6 +10,7 @@ import zipfile
 from pathlib import Path
 
 import pytest
+from large_glb import height_field, write_glb
 
 from beambench_meshes.room import PLACES
 from program import BINARY
@@ -252,3 +253,14 @@ def test_the_room_is_made_of_the_pieces(
     assert done.returncode == 2
     assert done.stderr.startswith("error: ")
     assert done.stderr.count("\n") == 1
+
+
+def test_a_large_gltf_is_imported_and_traced(tmp_path: Path) -> None:
+    file = tmp_path / "field.glb"
+    write_glb(file, *height_field(300))
+    scene = run(BINARY, "scene", file, "--json", cache=tmp_path)
+    assert json.loads(scene.stdout)["primitives"] == 2 * 300 * 300
+    structures = "sah-bvh,tile-beam,embree"
+    size = ("--resolution", "64x48")
+    done = run(BINARY, "verify", file, "--accel", structures, *size, cache=tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
