@@ -1,0 +1,59 @@
+"""Verifies all structures over the meshes whose recipes have cameras, from each of these.
+
+usage: PYTHONPATH=scripts python -m beambench_meshes.every_camera PROGRAM OUTPUT.csv
+
+PROGRAM is beambench. A row for each mesh, camera, kind of rays and structure, as
+`beambench verify --json` states it.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from pathlib import Path
+
+from beambench_meshes.recipes import RECIPES
+
+_RAYS = "primary,shadow,ao:samples=2,path:bounces=2"
+_SIZE = "160x120"
+_COUNTS = ("rays", "hits", "agree", "tie", "graze", "structure_error", "embree_error")
+_COLUMNS = ("scene", "camera", "ray_kind", "structure", "parameters", "verdict", *_COUNTS)
+
+
+def _cells(program: str, mesh: str, camera: str) -> Iterator[dict[str, object]]:
+    with tempfile.TemporaryDirectory() as folder:
+        file = Path(folder) / "verified.json"
+        command = [program, "verify", f"mesh:{mesh}", "--camera", camera, "--accel", "all"]
+        options = ["--rays", _RAYS, "--resolution", _SIZE, "--json", str(file)]
+        done = subprocess.run([*command, *options], capture_output=True, text=True, check=False)
+        if not file.exists():
+            sys.exit(done.stderr)
+        for cell in json.loads(file.read_text("utf-8"))["cells"]:
+            yield {**cell, "camera": camera}
+
+
+def main() -> int:
+    """The exit code: 2 for wrong arguments. A wrong hit is a row, and no failure."""
+    if len(sys.argv) != 3:
+        print(__doc__, file=sys.stderr)
+        return 2
+    program, output = sys.argv[1:]
+    views = [(recipe.name, camera.name) for recipe in RECIPES for camera in recipe.cameras]
+    pending = Path(f"{output}.pending")
+    with pending.open("w", encoding="utf-8", newline="") as table:
+        rows = csv.DictWriter(table, _COLUMNS, extrasaction="ignore", lineterminator="\n")
+        rows.writeheader()
+        for number, (mesh, camera) in enumerate(views, 1):
+            print(f"[{number}/{len(views)}] mesh:{mesh}, {camera}", flush=True)
+            for cell in _cells(program, mesh, camera):
+                rows.writerow(cell)
+    pending.rename(output)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

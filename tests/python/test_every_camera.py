@@ -1,0 +1,72 @@
+"""The table of structures verified from every camera of the registered levels."""
+
+from __future__ import annotations
+
+import csv
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+from beambench_meshes.recipes import RECIPES
+
+VIEWS = [(f"mesh:{recipe.name}", camera.name) for recipe in RECIPES for camera in recipe.cameras]
+
+_PROGRAM = """#!/usr/bin/env python3
+import json, sys
+arguments = sys.argv
+scene = arguments[arguments.index("verify") + 1]
+cell = {"scene": scene, "ray_kind": "ao:samples=2", "structure": "sah-bvh", "parameters": "a=1,b=2",
+        "verdict": "ok", "rays": 9, "hits": 4, "agree": 9, "tie": 0, "graze": 0,
+        "structure_error": 0, "embree_error": 0, "disputes": []}
+with open(arguments[arguments.index("--json") + 1], "w") as file:
+    json.dump({"cells": [cell, {**cell, "verdict": "error"}]}, file)
+sys.exit(1)
+"""
+
+
+def run(repository: Path, *arguments: str | Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(
+        [sys.executable, "-m", "beambench_meshes.every_camera", *map(str, arguments)],
+        env={**os.environ, "PYTHONPATH": str(repository / "scripts")},
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+
+
+def test_each_camera_has_its_rows(repository: Path, tmp_path: Path) -> None:
+    program = tmp_path / "program"
+    program.write_text(_PROGRAM)
+    program.chmod(0o755)
+    done = run(repository, program, tmp_path / "all.csv")
+    assert done.returncode == 0, done.stderr
+    with (tmp_path / "all.csv").open(encoding="utf-8") as table:
+        rows = list(csv.DictReader(table))
+    views = [
+        (f"mesh:{recipe.name}", camera.name) for recipe in RECIPES for camera in recipe.cameras
+    ]
+    assert [(row["scene"], row["camera"]) for row in rows[::2]] == views
+    assert {row["verdict"] for row in rows} == {"ok", "error"}
+    assert rows[0]["parameters"] == "a=1,b=2"
+
+
+def test_what_the_program_refuses_is_passed_on(repository: Path, tmp_path: Path) -> None:
+    done = run(repository, "/bin/false", tmp_path / "all.csv")
+    assert done.returncode == 1
+    assert not (tmp_path / "all.csv").exists()
+    assert run(repository).returncode == 2
+
+
+def test_what_is_published_has_no_structure_error(repository: Path) -> None:
+    file = repository / "results/published/real/cameras.csv"
+    with file.open(encoding="utf-8") as table:
+        rows = list(csv.DictReader(table))
+    assert {(row["scene"], row["camera"]) for row in rows} == set(VIEWS)
+    wrong = [row for row in rows if row["structure_error"] not in ("", "0")]
+    assert not wrong
+    said = (repository / "results/published/real/README.md").read_text("utf-8")
+    verified = [row for row in rows if row["verdict"] != "baseline"]
+    assert f"{len(verified):,} cells" in said
+    assert all(row["verdict"] == "ok" for row in verified)
