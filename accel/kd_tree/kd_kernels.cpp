@@ -38,10 +38,10 @@ HWY_INLINE bool test_leaf(const KdTree& tree, const scenes::Scene& scene, const 
   return false;
 }
 
-/// Havran's recursive traversal with a stack, TA-B-rec (dissertation, 2000, section 4.4 and
-/// appendix C), which keeps of a far child only where the ray leaves it: it enters where it left
-/// the cell before. `visit(t, primitive)` gets the result of each canonical test and returns true
-/// to end the traversal; hits beyond `t_max()` do not matter.
+/// Havran's recursive traversal with a stack, TA-B-rec ("Heuristic Ray Shooting Algorithms",
+/// dissertation, 2000, appendix C), which keeps of a far child only where the ray leaves it: it
+/// enters where it left the cell before. `visit(t, primitive)` gets the result of each canonical
+/// test and returns true to end the traversal; hits beyond `t_max()` do not matter.
 ///
 /// A child that the ray meets at one t only, in the plane, is skipped: what can be hit there is
 /// within the tolerance of the other one, too.

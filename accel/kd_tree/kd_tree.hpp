@@ -15,7 +15,7 @@
 namespace beambench::accel::kd_tree {
 
 /// A node in eight bytes (Wald, "Realtime Ray Tracing and Interactive Global Illumination",
-/// dissertation, 2004, section 7.3.2): interior (its children are a pair of nodes, the one below
+/// dissertation, 2004): interior (its children are a pair of nodes, the one below
 /// the plane first) or a leaf (a run of blocks). A plane is a float, so that building and traversal
 /// compare with the same number.
 class KdNode {

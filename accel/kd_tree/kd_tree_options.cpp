@@ -9,7 +9,8 @@ std::vector<ParameterInfo> KdTreeOptions::parameters() {
   const KdTreeOptions defaults;
   ParameterInfo depth = integer_or_auto_parameter(
       "max_depth", 0, 0, kMostSplits,
-      "most splits on the way from the root to a leaf; auto: 8 + 1.3 log2 of the primitives");
+      "most splits on the way from the root to a leaf; auto: 8 + 1.3 log2 of the primitives, or 15 "
+      "with builder=median (the cells of an octree of level 6)");
   depth.default_value = "auto";
   return {
       choice_parameter("builder", "sah", {"sah", "median"},
@@ -19,7 +20,7 @@ std::vector<ParameterInfo> KdTreeOptions::parameters() {
       real_parameter("traversal_cost", defaults.traversal_cost, 0.001, 1000.0,
                      "builder=sah: the cost of passing an interior node"),
       real_parameter("intersection_cost", defaults.intersection_cost, 0.001, 1000.0,
-                     "builder=sah: the cost of testing a primitive (a triangle of a polygon)"),
+                     "builder=sah: the cost of testing a block of up to eight primitives by SIMD"),
       real_parameter("empty_bonus", defaults.empty_bonus, 0.0, 1.0,
                      "builder=sah: the fraction by which a split is taken to cost less when one "
                      "side of it is empty"),
@@ -52,6 +53,7 @@ KdTreeOptions KdTreeOptions::from(const Parameters& parameters) {
 
 int KdTreeOptions::depth_for(std::size_t primitives) const {
   if (max_depth) return *max_depth;
+  if (builder == Builder::kMedian) return 15;
   const double doublings = std::log2(static_cast<double>(std::max<std::size_t>(primitives, 1)));
   return std::min(kMostSplits, static_cast<int>(8.0 + 1.3 * doublings));
 }
