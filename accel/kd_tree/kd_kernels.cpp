@@ -1,8 +1,11 @@
 #include "accel/kd_tree/kd_kernels.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
 #include "accel/kd_tree/kd_ray.hpp"
 

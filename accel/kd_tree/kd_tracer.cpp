@@ -1,5 +1,7 @@
 #include "accel/kd_tree/kd_tracer.hpp"
 
+#include <memory>
+
 #include <hwy/targets.h>
 
 #include "accel/core/registry.hpp"

@@ -1,7 +1,8 @@
 #pragma once
 // Individual rays through a kd-tree.
 
-#include <utility>
+#include <optional>
+#include <vector>
 
 #include "accel/bvh/probe_ray.hpp"
 #include "accel/core/traversal_accelerator.hpp"

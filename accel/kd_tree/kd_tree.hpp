@@ -2,6 +2,7 @@
 // A kd-tree over a scene: binary space partitioning by planes perpendicular to the axes.
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 

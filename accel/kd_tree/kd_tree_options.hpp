@@ -1,6 +1,7 @@
 #pragma once
 // How a kd-tree is built.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
