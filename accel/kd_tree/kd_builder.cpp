@@ -107,6 +107,12 @@ class Builder {
       tree_.nodes[0] = KdNode::leaf(0, 0);
       return std::move(tree_);
     }
+    if (pieces_.size() >= SplitEvent::kItems) {
+      throw InputError(
+          fmt::format("kd-tree: '{}' has {} triangles, spheres and cones; expected "
+                      "fewer than {}: choose another structure",
+                      scene_.name, pieces_.size(), SplitEvent::kItems));
+    }
     // Hits lie within the tolerance of the bounds: the root must hold them.
     tree_.root = bvh::padded(scene_.bounds, 2.0 * tolerance_);
     begin();

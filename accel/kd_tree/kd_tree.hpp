@@ -72,7 +72,7 @@ struct KdTree {
 };
 
 /// Throws InputError naming `max_references` when the leaves refer to more, or when there are more
-/// than KdNode::kNodes nodes.
+/// than KdNode::kNodes nodes, or as many pieces as an event can number.
 KdTree build_kd_tree(const scenes::Scene& scene, const KdTreeOptions& options);
 
 /// The children's cells: that of `cell`, cut at the plane of an interior node.
