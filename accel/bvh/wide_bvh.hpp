@@ -7,12 +7,10 @@
 #include <vector>
 
 #include "accel/bvh/bvh_builder.hpp"
+#include "accel/bvh/primitive_block.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel::bvh {
-
-/// Children of a node and primitives of a block, each a lane of a SIMD register.
-inline constexpr std::size_t kBvhLanes = 8;
 
 /// Where a child is found: a node, or a leaf, which is a run of blocks.
 class ChildReference {
@@ -45,23 +43,6 @@ struct alignas(64) WideNode {
   std::array<std::array<float, kBvhLanes>, 6> planes;  ///< lower x, y, z; upper x, y, z
   std::array<ChildReference, kBvhLanes> children;
   std::uint32_t count;
-};
-
-/// Up to eight primitives of one kind.
-struct alignas(64) PrimitiveBlock {
-  /// Triangles (kind kPolygon): the axes of three corners, corner by corner. Spheres: the axes of
-  /// the center, the radius. Cones: nothing.
-  std::array<std::array<float, kBvhLanes>, 9> coordinates;
-  std::array<scenes::PrimitiveId, kBvhLanes>
-      primitives;  ///< of triangles, the polygons they belong to
-  scenes::PrimitiveKind kind;
-  std::uint32_t count;
-  float leaf_extent;  ///< longest side of the box of the leaf that the block belongs to
-
-  glm::vec3 corner(std::size_t which, std::size_t lane) const {
-    const std::size_t row = 3 * which;
-    return {coordinates[row][lane], coordinates[row + 1][lane], coordinates[row + 2][lane]};
-  }
 };
 
 /// A hierarchy over a scene's triangles, spheres and cones. A polygon's triangles are separate:

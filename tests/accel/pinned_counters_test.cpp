@@ -85,7 +85,13 @@ INSTANTIATE_TEST_SUITE_P(Structures, PinnedWork, ::testing::Values(
     Row{"goldsmith-salmon:queue=stack", "escena1", {{"box_tests", 81'941}, {"primitive_tests", 3'693}, {"traversal_steps", 29'368}}},
     Row{"sah-bvh", "tetra:n=6", {{"box_tests", 68'080}, {"confirmed_tests", 1'622}, {"leaves", 1'976}, {"primitive_tests", 15'808}, {"traversal_steps", 10'486}}},
     Row{"sah-bvh", "balls:n=4", {{"box_tests", 100'175}, {"confirmed_tests", 4'263}, {"leaves", 6'586}, {"primitive_tests", 27'963}, {"traversal_steps", 20'028}}},
-    Row{"sah-bvh", "escena1", {{"box_tests", 58'338}, {"confirmed_tests", 2'084}, {"leaves", 5'503}, {"primitive_tests", 42'366}, {"traversal_steps", 13'234}}}
+    Row{"sah-bvh", "escena1", {{"box_tests", 58'338}, {"confirmed_tests", 2'084}, {"leaves", 5'503}, {"primitive_tests", 42'366}, {"traversal_steps", 13'234}}},
+    Row{"kd-tree", "tetra:n=6", {{"confirmed_tests", 2031}, {"empty_leaves", 4412}, {"leaves", 8220}, {"primitive_tests", 190'043}, {"traversal_steps", 37'506}}},
+    Row{"kd-tree", "balls:n=4", {{"confirmed_tests", 9704}, {"empty_leaves", 6630}, {"leaves", 18'621}, {"primitive_tests", 240'823}, {"traversal_steps", 77'075}}},
+    Row{"kd-tree", "escena1", {{"confirmed_tests", 2283}, {"empty_leaves", 281}, {"leaves", 3633}, {"primitive_tests", 203'259}, {"traversal_steps", 13'095}}},
+    Row{"kd-tree:builder=median", "tetra:n=6", {{"confirmed_tests", 2221}, {"empty_leaves", 16'095}, {"leaves", 22'045}, {"primitive_tests", 31'818}, {"traversal_steps", 104'686}}},
+    Row{"kd-tree:builder=median", "balls:n=4", {{"confirmed_tests", 8777}, {"empty_leaves", 35'790}, {"leaves", 71'278}, {"primitive_tests", 1'657'914}, {"traversal_steps", 328'526}}},
+    Row{"kd-tree:builder=median", "escena1", {{"confirmed_tests", 2918}, {"empty_leaves", 1175}, {"leaves", 15'684}, {"primitive_tests", 15'059}, {"traversal_steps", 83'455}}}
   ), row_name);
 // clang-format on
 

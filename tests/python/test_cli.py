@@ -26,6 +26,7 @@ STRUCTURES = [
     "voxel-grid",
     "goldsmith-salmon",
     "sah-bvh",
+    "kd-tree",
     "beam",
     "tile-beam",
     "embree",

@@ -23,6 +23,7 @@ MODULES = {
     "accel/octree": "accel::octree",
     "accel/grid": "accel::grid",
     "accel/bvh": "accel::bvh",
+    "accel/kd_tree": "accel::kd_tree",
     "accel/beam": "accel::beam",
     "accel/tile_beam": "accel::tile_beam",
     "accel/embree": "accel::embree",

@@ -1,0 +1,44 @@
+#include "accel/bvh/primitive_block.hpp"
+
+namespace beambench::accel::bvh {
+namespace {
+
+void append(const scenes::Scene& scene, const Piece& piece, PrimitiveBlock& block) {
+  const std::size_t lane = block.count++;
+  block.primitives[lane] = piece.primitive;
+  const auto put = [&](std::size_t first_row, const glm::vec3& point) {
+    for (int axis = 0; axis < 3; ++axis) {
+      block.coordinates[first_row + static_cast<std::size_t>(axis)][lane] = point[axis];
+    }
+  };
+  if (block.kind == scenes::PrimitiveKind::kPolygon) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      put(3 * i, scene.vertices[scene.triangles[piece.index].vertex[i]]);
+    }
+  } else if (block.kind == scenes::PrimitiveKind::kSphere) {
+    put(0, scene.spheres[piece.index].center);
+    block.coordinates[3][lane] = scene.spheres[piece.index].radius;
+  }
+}
+
+}  // namespace
+
+void append_blocks(const scenes::Scene& scene, std::span<const Piece> pieces, float extent,
+                   std::vector<PrimitiveBlock>& blocks) {
+  for (const scenes::PrimitiveKind kind :
+       {scenes::PrimitiveKind::kPolygon, scenes::PrimitiveKind::kSphere,
+        scenes::PrimitiveKind::kCone}) {
+    PrimitiveBlock* block = nullptr;
+    for (const Piece& piece : pieces) {
+      if (scene.primitives[piece.primitive].kind != kind) continue;
+      if (block == nullptr || block->count == kBvhLanes) {
+        block = &blocks.emplace_back();
+        block->kind = kind;
+        block->leaf_extent = extent;
+      }
+      append(scene, piece, *block);
+    }
+  }
+}
+
+}  // namespace beambench::accel::bvh

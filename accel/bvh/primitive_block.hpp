@@ -1,0 +1,40 @@
+#pragma once
+// Primitives as SIMD tests them: in blocks of eight.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "accel/bvh/piece.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::accel::bvh {
+
+/// Children of a node and primitives of a block, each a lane of a SIMD register.
+inline constexpr std::size_t kBvhLanes = 8;
+
+/// Up to eight primitives of one kind.
+struct alignas(64) PrimitiveBlock {
+  /// Triangles (kind kPolygon): the axes of three corners, corner by corner. Spheres: the axes of
+  /// the center, the radius. Cones: nothing.
+  std::array<std::array<float, kBvhLanes>, 9> coordinates;
+  std::array<scenes::PrimitiveId, kBvhLanes>
+      primitives;  ///< of triangles, the polygons they belong to
+  scenes::PrimitiveKind kind;
+  std::uint32_t count;
+  float leaf_extent;  ///< at least the longest side of the box of any of its triangles
+
+  glm::vec3 corner(std::size_t which, std::size_t lane) const {
+    const std::size_t row = 3 * which;
+    return {coordinates[row][lane], coordinates[row + 1][lane], coordinates[row + 2][lane]};
+  }
+};
+
+/// Appends the blocks of one leaf: of one kind each, kind by kind, pieces in the order given.
+/// `extent` becomes their `leaf_extent`.
+void append_blocks(const scenes::Scene& scene, std::span<const Piece> pieces, float extent,
+                   std::vector<PrimitiveBlock>& blocks);
+
+}  // namespace beambench::accel::bvh

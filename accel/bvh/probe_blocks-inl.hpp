@@ -1,0 +1,165 @@
+// The float tests of a ray and a block of primitives, which only reject, for the instruction set
+// being compiled.
+
+#if defined(ACCEL_BVH_PROBE_BLOCKS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ACCEL_BVH_PROBE_BLOCKS_INL
+#undef ACCEL_BVH_PROBE_BLOCKS_INL
+#else
+#define ACCEL_BVH_PROBE_BLOCKS_INL
+#endif
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include <hwy/highway.h>
+
+#include "accel/bvh/primitive_block.hpp"
+#include "accel/bvh/probe_ray.hpp"
+#include "accel/core/intersect.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::accel::bvh::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Eight lanes where the registers have them, otherwise several registers of fewer.
+using Tag = hn::CappedTag<float, kBvhLanes>;
+using Floats = hn::Vec<Tag>;
+using Mask = hn::Mask<Tag>;
+
+/// One bit per lane.
+using LaneBits = std::uint32_t;
+
+/// Calls `test(lane)` for the first lane of each register and joins the masks it returns.
+template <class Test>
+LaneBits test_registers(Test test) {
+  const Tag tag;
+  LaneBits bits = 0;
+  for (std::size_t lane = 0; lane < kBvhLanes; lane += hn::Lanes(tag)) {
+    std::array<std::uint8_t, 8> stored{};
+    hn::StoreMaskBits(tag, test(lane), stored.data());
+    bits |= static_cast<LaneBits>(stored[0]) << lane;
+  }
+  return bits;
+}
+
+/// The triangles that the ray may hit in [t_min, t_max].
+inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray, float t_max) {
+  const Tag tag;
+  const std::size_t x = ray.side_axis[0];
+  const std::size_t y = ray.side_axis[1];
+  const std::size_t z = ray.main_axis;
+  const Floats shear_x = hn::Set(tag, ray.shear[0]);
+  const Floats shear_y = hn::Set(tag, ray.shear[1]);
+  const float margin = ray.area_margin(block.leaf_extent);
+
+  struct Corner {
+    Floats x, y, z;
+  };
+  return test_registers([&](std::size_t lane) {
+    const auto corner = [&](std::size_t which) -> Corner {
+      const auto from_origin = [&](std::size_t axis) {
+        return hn::Sub(hn::Load(tag, block.coordinates[3 * which + axis].data() + lane),
+                       hn::Set(tag, ray.origin[axis]));
+      };
+      const Floats along = from_origin(z);
+      return {hn::NegMulAdd(shear_x, along, from_origin(x)),
+              hn::NegMulAdd(shear_y, along, from_origin(y)), along};
+    };
+    const Corner a = corner(0);
+    const Corner b = corner(1);
+    const Corner c = corner(2);
+    const Floats u = hn::MulSub(c.x, b.y, hn::Mul(c.y, b.x));
+    const Floats v = hn::MulSub(a.x, c.y, hn::Mul(a.y, c.x));
+    const Floats w = hn::MulSub(b.x, a.y, hn::Mul(b.y, a.x));
+    const Mask surrounds = hn::Or(hn::Ge(hn::Min(hn::Min(u, v), w), hn::Set(tag, -margin)),
+                                  hn::Le(hn::Max(hn::Max(u, v), w), hn::Set(tag, margin)));
+
+    const Floats per_t = hn::Set(tag, ray.inverse[z]);
+    const Floats ta = hn::Mul(a.z, per_t);
+    const Floats tb = hn::Mul(b.z, per_t);
+    const Floats tc = hn::Mul(c.z, per_t);
+    const Mask in_time =
+        hn::And(hn::Le(hn::Min(hn::Min(ta, tb), tc),
+                       hn::Set(tag, t_max * ProbeRay::kWider + ray.depth_margin)),
+                hn::Ge(hn::Mul(hn::Max(hn::Max(ta, tb), tc), hn::Set(tag, ProbeRay::kWider)),
+                       hn::Set(tag, ray.t_min - ray.depth_margin)));
+    return hn::And(surrounds, in_time);
+  });
+}
+
+/// The spheres that the ray may hit in [t_min, t_max].
+inline LaneBits probe_spheres(const PrimitiveBlock& block, const ProbeRay& ray, float t_max) {
+  const Tag tag;
+  const float per_square =
+      1.0F / (ray.direction[0] * ray.direction[0] + ray.direction[1] * ray.direction[1] +
+              ray.direction[2] * ray.direction[2]);
+  const float per_length = std::sqrt(per_square);
+  const Floats margin = hn::Set(tag, 32.0F * ray.rounding);
+  return test_registers([&](std::size_t lane) {
+    const auto row = [&](std::size_t index) {
+      return hn::Load(tag, block.coordinates[index].data() + lane);
+    };
+    const auto direction = [&](std::size_t axis) { return hn::Set(tag, ray.direction[axis]); };
+    const Floats x = hn::Sub(row(0), hn::Set(tag, ray.origin[0]));
+    const Floats y = hn::Sub(row(1), hn::Set(tag, ray.origin[1]));
+    const Floats z = hn::Sub(row(2), hn::Set(tag, ray.origin[2]));
+    const Floats along =
+        hn::MulAdd(x, direction(0), hn::MulAdd(y, direction(1), hn::Mul(z, direction(2))));
+    const Floats t = hn::Mul(along, hn::Set(tag, per_square));  // of the point nearest the center
+    const Floats beside_x = hn::NegMulAdd(t, direction(0), x);
+    const Floats beside_y = hn::NegMulAdd(t, direction(1), y);
+    const Floats beside_z = hn::NegMulAdd(t, direction(2), z);
+    const Floats square =
+        hn::MulAdd(beside_x, beside_x, hn::MulAdd(beside_y, beside_y, hn::Mul(beside_z, beside_z)));
+    const Floats radius = hn::Mul(hn::Add(row(3), margin), hn::Set(tag, ProbeRay::kWider));
+    const Floats half_chord = hn::Mul(radius, hn::Set(tag, per_length * ProbeRay::kWider));
+    const Floats slack = hn::Mul(margin, hn::Set(tag, per_length));
+    const Mask in_time = hn::And(
+        hn::Le(hn::Sub(hn::Sub(t, half_chord), slack), hn::Set(tag, t_max * ProbeRay::kWider)),
+        hn::Ge(hn::Mul(hn::Add(hn::Add(t, half_chord), slack), hn::Set(tag, ProbeRay::kWider)),
+               hn::Set(tag, ray.t_min)));
+    return hn::And(hn::Le(square, hn::Mul(radius, radius)), in_time);
+  });
+}
+
+inline LaneBits probe(const PrimitiveBlock& block, const ProbeRay& ray, float t_max) {
+  const LaneBits present = (LaneBits{1} << block.count) - 1;
+  switch (block.kind) {
+    case scenes::PrimitiveKind::kPolygon:
+      return present & probe_triangles(block, ray, t_max);
+    case scenes::PrimitiveKind::kSphere:
+      return present & probe_spheres(block, ray, t_max);
+    case scenes::PrimitiveKind::kCone:
+      break;
+  }
+  return present;
+}
+
+/// The canonical test of one lane.
+inline float confirm(const CanonicalRay& ray, const scenes::Scene& scene,
+                     const PrimitiveBlock& block, std::size_t lane) {
+  if (block.kind == scenes::PrimitiveKind::kPolygon) {
+    return intersect_triangle(ray, block.corner(0, lane), block.corner(1, lane),
+                              block.corner(2, lane));
+  }
+  return intersect(ray, scene, block.primitives[lane]);
+}
+
+/// Records what the probe rejected as tested and missed.
+template <class Counting>
+void count_probes(Counting& counting, const PrimitiveBlock& block, LaneBits passed) {
+  counting.add(Counter::kPrimitiveTests, block.count);
+  counting.add("confirmed_tests", static_cast<std::uint64_t>(std::popcount(passed)));
+  for (std::size_t lane = 0; lane < block.count; ++lane) {
+    if ((passed >> lane & 1U) == 0) counting.tested(block.primitives[lane], kMiss);
+  }
+}
+
+}  // namespace beambench::accel::bvh::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard

@@ -1,0 +1,375 @@
+// Builds a kd-tree from the root down: events are sorted once, then handed down in order.
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "accel/bvh/padded_bounds.hpp"
+#include "accel/core/tolerance.hpp"
+#include "accel/kd_tree/clip.hpp"
+#include "accel/kd_tree/kd_tree.hpp"
+#include "accel/kd_tree/split_events.hpp"
+#include "scenes/core/error.hpp"
+
+namespace beambench::accel::kd_tree {
+namespace {
+
+/// The largest float below a number, the smallest float above one.
+float float_below(double value) {
+  const auto rounded = static_cast<float>(value);
+  return rounded < value ? rounded : -bvh::next_above(-rounded);
+}
+float float_above(double value) { return -float_below(-value); }
+
+/// A plane, and what the heuristic expects of it.
+struct Split {
+  int axis = -1;  ///< none
+  float plane = 0.0F;
+  double cost = std::numeric_limits<double>::infinity();
+};
+
+/// What the heuristic (MacDonald and Booth, "Heuristics for ray tracing using space subdivision",
+/// 1990) says of planes across one axis of a cell.
+class PlaneCost {
+ public:
+  PlaneCost(const scenes::Bounds& cell, int axis, const KdTreeOptions& options)
+      : lower_(cell.lower[axis]),
+        upper_(cell.upper[axis]),
+        traversal_(options.traversal_cost),
+        discount_(1.0 - options.empty_bonus) {
+    const glm::dvec3 size = glm::dvec3(cell.upper) - glm::dvec3(cell.lower);
+    const double side = size[(axis + 1) % 3];
+    const double other = size[(axis + 2) % 3];
+    const double area = size[axis] * (side + other) + side * other;
+    ends_ = options.intersection_cost * (side * other) / area;
+    along_ = options.intersection_cost * (side + other) / area;
+  }
+
+  /// Does the plane cut the cell in two?
+  bool is_inside(float plane) const { return lower_ < plane && plane < upper_; }
+  /// The cost of a leaf of so many items, of those rays that meet it.
+  static double leaf(std::uint32_t items, const KdTreeOptions& options) {
+    return options.intersection_cost * blocks(items);
+  }
+  /// The cost of a ray that meets the cell, of whose items so many reach to each side of the plane.
+  double operator()(float plane, std::uint32_t below, std::uint32_t above) const {
+    const double cost = traversal_ + blocks(below) * (ends_ + (double{plane} - lower_) * along_) +
+                        blocks(above) * (ends_ + (upper_ - double{plane}) * along_);
+    return below == 0 || above == 0 ? cost * discount_ : cost;
+  }
+
+ private:
+  /// Items are tested in blocks. Without this a tree has twice the nodes, and rays take longer.
+  static std::uint32_t blocks(std::uint32_t items) {
+    constexpr std::uint32_t kLanes = bvh::kBvhLanes;
+    return (items + kLanes - 1) / kLanes;
+  }
+
+  double lower_;
+  double upper_;
+  double traversal_;
+  double discount_;
+  double ends_;   ///< probability of meeting a face across the axis, times the cost of a block
+  double along_;  ///< and what each unit of length adds to it
+};
+
+/// The build in O(n log n) of Wald and Havran (2006, section 4.3). The three lists of events (one
+/// for each axis) of the node being worked on, and of the upper children still to come, are in one
+/// array for each axis, so nothing is allocated for a node: a node's lower child takes its place,
+/// the upper child goes to the end.
+///
+/// An item begins at the largest float below its box widened by the tolerance, and ends at the
+/// smallest above: it reaches below a plane when it begins below it, and above one when it ends
+/// above.
+class Builder {
+ public:
+  Builder(const scenes::Scene& scene, const KdTreeOptions& options)
+      : scene_(scene),
+        options_(options),
+        tolerance_(overlap_tolerance(scene)),
+        pieces_(bvh::collect_pieces(scene)),
+        sides_(pieces_.size()),
+        most_splits_(options.depth_for(pieces_.size())) {}
+
+  KdTree build() {
+    tree_.scene_bounds = scene_.bounds;
+    tree_.nodes.resize(2);
+    if (pieces_.empty()) {
+      tree_.leaves = tree_.empty_leaves = tree_.depth = 1;
+      tree_.nodes[0] = KdNode::leaf(0, 0);
+      return std::move(tree_);
+    }
+    if (pieces_.size() >= SplitEvent::kItems) {
+      throw InputError(
+          fmt::format("kd-tree: '{}' has {} triangles, spheres and cones; expected "
+                      "fewer than {}: choose another structure",
+                      scene_.name, pieces_.size(), SplitEvent::kItems));
+    }
+    // Hits lie within the tolerance of the bounds: the root must hold them.
+    tree_.root = bvh::padded(scene_.bounds, 2.0 * tolerance_);
+    begin();
+    subdivide({0, 0, static_cast<std::uint32_t>(pieces_.size()), 0, tree_.root});
+    tree_.cost /= bvh::half_area(tree_.root);
+    tree_.nodes.shrink_to_fit();
+    tree_.blocks.shrink_to_fit();
+    return std::move(tree_);
+  }
+
+ private:
+  /// A node to be made, and its items: two events each, from `first_event` on in each list.
+  struct Pending {
+    std::uint32_t node;
+    std::size_t first_event;
+    std::uint32_t count;
+    int splits;  ///< above it
+    scenes::Bounds cell;
+
+    std::size_t events() const { return std::size_t{2} * count; }
+  };
+
+  enum Side : std::uint8_t { kBelow, kAbove, kBoth };
+
+  void begin() {
+    const std::size_t count = 2 * pieces_.size();
+    require_events(2 * count);
+    for (std::uint32_t item = 0; item < pieces_.size(); ++item) {
+      const scenes::Bounds bounds = bvh::piece_bounds(scene_, pieces_[item]);
+      for (int axis = 0; axis < 3; ++axis) {
+        SplitEvent* const events = list(axis, std::size_t{2} * item);
+        events[0] = SplitEvent::begin(float_below(bounds.lower[axis] - tolerance_), item);
+        events[1] = SplitEvent::end(float_above(bounds.upper[axis] + tolerance_), item);
+      }
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      sort_events({list(axis, 0), count}, {list(axis, count), count});
+    }
+    end_ = count;
+  }
+
+  SplitEvent* list(int axis, std::size_t first) {
+    return events_[static_cast<std::size_t>(axis)].data() + first;
+  }
+  std::span<SplitEvent> list(int axis, const Pending& pending) {
+    return {list(axis, pending.first_event), pending.events()};
+  }
+  /// Makes room for so many events in each list.
+  void require_events(std::size_t count) {
+    if (count <= events_[0].size()) return;
+    for (auto& events : events_) events.resize(count + count / 4);
+  }
+
+  void subdivide(const Pending& pending) {
+    tree_.depth = std::max(tree_.depth, static_cast<std::uint32_t>(pending.splits) + 1);
+    const Split split = best_split(pending);
+    if (split.axis < 0) {
+      make_leaf(pending);
+      return;
+    }
+    if (tree_.nodes.size() + 2 > KdNode::kNodes) fail_too_many("nodes", KdNode::kNodes);
+    const auto children = static_cast<std::uint32_t>(tree_.nodes.size());
+    const KdNode node =
+        KdNode::interior(static_cast<std::size_t>(split.axis), split.plane, children);
+    tree_.nodes.resize(children + 2);
+    tree_.nodes[pending.node] = node;
+    tree_.cost += bvh::half_area(pending.cell);
+
+    Pending below{children, pending.first_event, 0, pending.splits + 1,
+                  lower_cell(pending.cell, node)};
+    Pending above{children + 1, end_, 0, pending.splits + 1, upper_cell(pending.cell, node)};
+    distribute(pending, split, below, above);
+    end_ = above.first_event + above.events();
+    subdivide(below);
+    subdivide(above);
+    end_ = above.first_event;
+  }
+
+  Split best_split(const Pending& pending) {
+    if (pending.count <= options_.max_objects || pending.splits >= most_splits_) return {};
+    if (options_.builder == KdTreeOptions::Builder::kMedian) return median(pending);
+    Split best;
+    best.cost = PlaneCost::leaf(pending.count, options_);  // of a leaf
+    for (int axis = 0; axis < 3; ++axis) sweep(pending, axis, best);
+    return best;
+  }
+
+  /// The middle of one axis after the other (Kaplan, "Space-tracing: a constant time ray-tracer",
+  /// 1985); none where floats are too coarse.
+  static Split median(const Pending& pending) {
+    const int axis = pending.splits % 3;
+    const double lower = pending.cell.lower[axis];
+    const double upper = pending.cell.upper[axis];
+    const auto middle = static_cast<float>(0.5 * (lower + upper));
+    if (!(lower < middle && middle < upper)) return {};
+    return {axis, middle, 0.0};
+  }
+
+  /// The costs of all planes across an axis at which an item begins or ends. At one plane, all ends
+  /// come before all beginnings: between them the counts are right, before and after they are too
+  /// high, which does no harm.
+  void sweep(const Pending& pending, int axis, Split& best) {
+    const PlaneCost cost_of(pending.cell, axis, options_);
+    std::uint32_t below = 0;
+    std::uint32_t above = pending.count;
+    for (const SplitEvent event : list(axis, pending)) {
+      const std::uint32_t begins = event.is_begin() ? 1 : 0;
+      above -= 1 - begins;
+      const float plane = event.plane().plane();
+      const double cost = cost_of(plane, below, above);
+      if (cost < best.cost && cost_of.is_inside(plane)) best = {axis, plane, cost};
+      below += begins;
+    }
+  }
+
+  /// Hands the items of a node down to its children.
+  void distribute(const Pending& pending, const Split& split, Pending& below, Pending& above) {
+    classify(pending, split);
+    require_events(end_ + pending.events());
+    for (auto& events : events_below_) events.clear();
+    for (auto& events : events_above_) events.clear();
+    for (const std::uint32_t item : straddling_) {
+      clip_into(item, below.cell, events_below_);
+      clip_into(item, above.cell, events_above_);
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto slot = static_cast<std::size_t>(axis);
+      const auto [kept_below, kept_above] = splice(pending, axis);
+      merge(list(axis, below.first_event), kept_below, events_below_[slot]);
+      merge(list(axis, above.first_event), kept_above, events_above_[slot]);
+      below.count = static_cast<std::uint32_t>((kept_below + events_below_[slot].size()) / 2);
+      above.count = static_cast<std::uint32_t>((kept_above + events_above_[slot].size()) / 2);
+    }
+  }
+
+  /// Finds on which side of the plane each item is. It begins before it ends.
+  void classify(const Pending& pending, const Split& split) {
+    straddling_.clear();
+    const std::uint32_t plane = PlaneKey(split.plane).bits();
+    for (const SplitEvent event : list(split.axis, pending)) {
+      std::uint8_t& side = sides_[event.item()];
+      const std::uint32_t at = event.plane().bits();
+      if (event.is_begin()) {
+        side = at >= plane ? kAbove : kBoth;
+      } else if (at <= plane) {
+        side = kBelow;
+      } else if (side == kBoth) {
+        straddling_.push_back(event.item());
+      }
+    }
+  }
+
+  /// Moves the events of items on one side only, in order: those below to the front of the node's
+  /// list, those above to the end of the array. Returns how many.
+  std::array<std::size_t, 2> splice(const Pending& pending, int axis) {
+    SplitEvent* const first = list(axis, pending.first_event);
+    SplitEvent* to_below = first;
+    SplitEvent* const first_above = list(axis, end_);
+    SplitEvent* to_above = first_above;
+    // Each event is written to both: cheaper than to predict where it goes.
+    for (const SplitEvent event : list(axis, pending)) {
+      const std::uint8_t side = sides_[event.item()];
+      *to_below = event;
+      *to_above = event;
+      to_below += side == kBelow ? 1 : 0;
+      to_above += side == kAbove ? 1 : 0;
+    }
+    return {static_cast<std::size_t>(to_below - first),
+            static_cast<std::size_t>(to_above - first_above)};
+  }
+
+  using EventLists = std::array<std::vector<SplitEvent>, 3>;
+
+  /// Adds the events of an item's part in a cell; none where it does not reach into it.
+  void clip_into(std::uint32_t item, const scenes::Bounds& cell, EventLists& lists) const {
+    const Box wider{glm::dvec3(cell.lower) - tolerance_, glm::dvec3(cell.upper) + tolerance_};
+    const auto part = options_.clip ? clipped_bounds(scene_, pieces_[item], wider)
+                                    : whole_bounds(scene_, pieces_[item], wider);
+    if (!part) return;
+    for (int axis = 0; axis < 3; ++axis) {
+      // In the cell, so that planes in it are met in order; and not empty, even where the part is
+      // in the margin only.
+      const float lower = std::clamp(float_below(part->lower[axis] - tolerance_), cell.lower[axis],
+                                     float_below(cell.upper[axis]));
+      const float upper = std::clamp(float_above(part->upper[axis] + tolerance_),
+                                     float_above(cell.lower[axis]), cell.upper[axis]);
+      auto& events = lists[static_cast<std::size_t>(axis)];
+      events.push_back(SplitEvent::begin(lower, item));
+      events.push_back(SplitEvent::end(upper, item));
+    }
+  }
+
+  /// Sorts `added` and merges it into the sorted list of `count` events, from the back, in place.
+  static void merge(SplitEvent* events, std::size_t count, std::vector<SplitEvent>& added) {
+    std::sort(added.begin(), added.end());
+    std::size_t left = added.size();
+    SplitEvent* to = events + count + left;
+    while (left > 0) {
+      *--to = count > 0 && added[left - 1] < events[count - 1] ? events[--count] : added[--left];
+    }
+  }
+
+  void make_leaf(const Pending& pending) {
+    ++tree_.leaves;
+    if (pending.count == 0) ++tree_.empty_leaves;
+    tree_.references += pending.count;
+    if (tree_.references > options_.max_references) {
+      fail_too_many("references", options_.max_references);
+    }
+    leaf_items_.clear();
+    for (const SplitEvent event : list(0, pending)) {
+      if (event.is_begin()) leaf_items_.push_back(event.item());
+    }
+    std::sort(leaf_items_.begin(), leaf_items_.end());
+    leaf_pieces_.clear();
+    float extent = 0.0F;
+    for (const std::uint32_t item : leaf_items_) {
+      leaf_pieces_.push_back(pieces_[item]);
+      const glm::vec3 sides = bvh::piece_bounds(scene_, pieces_[item]).extent();
+      extent = std::max({extent, sides.x, sides.y, sides.z});
+    }
+    const std::size_t first = tree_.blocks.size();
+    bvh::append_blocks(scene_, leaf_pieces_, extent, tree_.blocks);
+    const std::size_t blocks = tree_.blocks.size() - first;
+    tree_.nodes[pending.node] =
+        KdNode::leaf(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(blocks));
+    tree_.cost += bvh::half_area(pending.cell) * static_cast<double>(blocks);
+  }
+
+  [[noreturn]] void fail_too_many(const char* what, std::uint64_t most) const {
+    throw InputError(fmt::format(
+        "the kd-tree over '{}' ({} primitives) holds more than {} {}; lower max_depth, raise "
+        "max_objects{}, or raise max_references (up to 384 bytes each)",
+        scene_.name, scene_.primitives.size(), most, what,
+        options_.builder == KdTreeOptions::Builder::kSah ? " or traversal_cost" : ""));
+  }
+
+  const scenes::Scene& scene_;
+  const KdTreeOptions& options_;
+  double tolerance_;
+  std::vector<bvh::Piece> pieces_;
+  std::array<LargePageVector<SplitEvent>, 3> events_;  ///< of each axis
+  std::size_t end_ = 0;                                ///< of the events in use
+  std::vector<std::uint8_t> sides_;                    ///< of items, at the split being made
+  std::vector<std::uint32_t> straddling_;              ///< items on both sides of it
+  EventLists events_below_;                            ///< of their parts
+  EventLists events_above_;
+  std::vector<std::uint32_t> leaf_items_;  ///< of the leaf being made
+  std::vector<bvh::Piece> leaf_pieces_;
+  int most_splits_;
+  KdTree tree_;
+};
+
+}  // namespace
+
+KdTree build_kd_tree(const scenes::Scene& scene, const KdTreeOptions& options) {
+  return Builder(scene, options).build();
+}
+
+}  // namespace beambench::accel::kd_tree

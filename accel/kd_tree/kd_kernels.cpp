@@ -1,0 +1,157 @@
+#include "accel/kd_tree/kd_kernels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "accel/kd_tree/kd_ray.hpp"
+
+// Highway includes this file once more for each instruction set.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "accel/kd_tree/kd_kernels.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "accel/bvh/probe_blocks-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::accel::kd_tree::HWY_NAMESPACE {
+
+namespace probes = bvh::HWY_NAMESPACE;
+
+/// Tests a leaf's blocks; returns true when `visit` does.
+template <class Counting, class FarEnd, class Visit>
+HWY_INLINE bool test_leaf(const KdTree& tree, const scenes::Scene& scene, const KdNode& leaf,
+                          const bvh::ProbeRay& probe_ray, const CanonicalRay& canonical,
+                          Counting& counting, FarEnd t_max, Visit visit) {
+  const bvh::PrimitiveBlock* block = tree.blocks.data() + leaf.first_block();
+  for (const bvh::PrimitiveBlock* end = block + leaf.block_count(); block != end; ++block) {
+    probes::LaneBits lanes = probes::probe(*block, probe_ray, t_max());
+    probes::count_probes(counting, *block, lanes);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      const float t = probes::confirm(canonical, scene, *block, lane);
+      counting.tested(block->primitives[lane], t);
+      if (visit(t, block->primitives[lane])) return true;
+    }
+  }
+  return false;
+}
+
+/// Havran's recursive traversal with a stack, TA-B-rec ("Heuristic Ray Shooting Algorithms",
+/// dissertation, 2000, appendix C), which keeps of a far child only where the ray leaves it: it
+/// enters where it left the cell before. `visit(t, primitive)` gets the result of each canonical
+/// test and returns true to end the traversal; hits beyond `t_max()` do not matter.
+///
+/// A child that the ray meets at one t only, in the plane, is skipped: what can be hit there is
+/// within the tolerance of the other one, too.
+template <class Counting, class FarEnd, class Visit>
+HWY_FLATTEN void walk(const KdTree& tree, const scenes::Scene& scene, const Ray& ray,
+                      const CanonicalRay& canonical, Counting& counting, FarEnd t_max,
+                      Visit visit) {
+  struct Waiting {
+    std::uint32_t node;
+    double exit;
+  };
+  const KdRay planes(ray);
+  KdRay::Interval inside = planes.clip(tree.root, ray.t_min, ray.t_max);
+  if (inside.empty()) return;
+  const bvh::ProbeRay probe_ray(ray, tree.scene_bounds);
+  std::array<Waiting, kMostSplits> waiting;
+  std::size_t waiting_count = 0;
+  const KdNode* const nodes = tree.nodes.data();
+  std::uint32_t at = 0;
+  const auto count_step = [&] {
+    counting.add(Counter::kTraversalSteps);
+    counting.enter([&] {
+      const KdPlace place = place_of(tree, at);
+      return TraceStep{.place = nodes[at].is_leaf() ? "leaf" : "node",
+                       .index = at,
+                       .level = place.level,
+                       .box = Box{glm::dvec3(place.cell.lower), glm::dvec3(place.cell.upper)},
+                       .t_enter = std::max(inside.enter, static_cast<double>(ray.t_min)),
+                       .t_exit = inside.exit};
+    });
+  };
+  while (true) {
+    count_step();
+    KdNode node = nodes[at];
+    while (!node.is_leaf()) {
+      const std::size_t axis = node.axis();
+      const double t = planes.plane_t(axis, node.plane());
+      const std::uint32_t first = node.children() | planes.first_child(axis);
+      if (t >= inside.exit) {
+        at = first;
+      } else if (t <= inside.enter) {
+        at = first ^ 1U;
+      } else {
+        waiting[waiting_count++] = {first ^ 1U, inside.exit};
+        inside.exit = t;
+        at = first;
+      }
+      count_step();
+      node = nodes[at];
+    }
+    counting.add(Counter::kLeaves);
+    counting.add(Counter::kEmptyLeaves, node.block_count() == 0 ? 1 : 0);
+    if (test_leaf(tree, scene, node, probe_ray, canonical, counting, t_max, visit)) return;
+    if (waiting_count == 0 || t_max() < static_cast<float>(inside.exit)) return;
+    --waiting_count;
+    inside.enter = inside.exit;
+    at = waiting[waiting_count].node;
+    inside.exit = waiting[waiting_count].exit;
+  }
+}
+
+template <class Counting>
+std::optional<Hit> closest(const KdTree& tree, const scenes::Scene& scene, const Ray& ray,
+                           Counting& counting) {
+  ClosestHit best(ray);
+  walk(
+      tree, scene, ray, best.ray, counting, [&] { return best.ray.t_max; },
+      [&](float t, scenes::PrimitiveId primitive) {
+        best.keep(t, primitive);
+        return false;
+      });
+  return best.result();
+}
+
+template <class Counting>
+bool any(const KdTree& tree, const scenes::Scene& scene, const Ray& ray, Counting& counting) {
+  const CanonicalRay canonical(ray);
+  bool found = false;
+  walk(
+      tree, scene, ray, canonical, counting, [&] { return ray.t_max; },
+      [&](float t, scenes::PrimitiveId) {
+        found = is_hit(t);
+        return found;
+      });
+  return found;
+}
+
+template <class Counting>
+constexpr KdQueries<Counting> queries() {
+  return {closest<Counting>, any<Counting>};
+}
+
+const KdKernels& kernels() {
+  static constexpr KdKernels kKernels{queries<NoCounting>(), queries<WorkCounters>(),
+                                      queries<StepRecorder>(), HWY_TARGET};
+  return kKernels;
+}
+
+}  // namespace beambench::accel::kd_tree::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace beambench::accel::kd_tree {
+
+HWY_EXPORT(kernels);
+
+const KdKernels& best_kd_kernels() { return HWY_DYNAMIC_DISPATCH(kernels)(); }
+
+}  // namespace beambench::accel::kd_tree
+#endif

@@ -1,0 +1,37 @@
+#pragma once
+// How a kd-tree is built.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "scenes/core/parameters.hpp"
+
+namespace beambench::accel::kd_tree {
+
+/// The most splits on the way from the root to a leaf; a traversal's stack has as many entries.
+inline constexpr int kMostSplits = 64;
+
+struct KdTreeOptions {
+  enum class Builder { kSah, kMedian };
+
+  Builder builder = Builder::kSah;
+  double traversal_cost = 1.0;     ///< of passing an interior node
+  double intersection_cost = 0.4;  ///< of testing a block of up to eight primitives
+  double empty_bonus = 0.2;        ///< by which fraction a split costs less that cuts off space
+  std::optional<int> max_depth;    ///< splits above a leaf; nothing: by the number of primitives
+  std::uint32_t max_objects = 1;   ///< a node with more may be split
+  bool clip = true;                ///< by a primitive's part in a cell, not by its whole box
+  std::uint64_t max_references = 50'000'000;
+
+  static std::vector<ParameterInfo> parameters();
+  static KdTreeOptions from(const Parameters& parameters);
+
+  /// `max_depth`, or for the heuristic 8 + 1.3 log2(n) (Pharr and Humphreys, "Physically Based
+  /// Rendering", 2004; the form is Havran's), for the spatial median 15: its cells are then those
+  /// of the thesis's octree of level 6.
+  int depth_for(std::size_t primitives) const;
+};
+
+}  // namespace beambench::accel::kd_tree
