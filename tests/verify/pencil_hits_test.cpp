@@ -247,9 +247,9 @@ scenes::Scene grass(std::uint64_t seed) {
   return std::move(builder).build();
 }
 
-// Float rounds places on the side of the cube about the light to a quarter of a millimeter here, and
-// rays that pass a leaf by as much were called shadowed: 14 with the first seed. Of needles some are
-// still.
+// Float rounds places on the side of the cube about the light to a quarter of a millimeter here,
+// and rays that pass a leaf by as much were called shadowed: 14 with the first seed. Of needles
+// some are still.
 TEST(PencilHits, OfSmallDetailsInLargeScenesAreRight) {
   for (const std::uint64_t seed : {1, 2}) {
     const scenes::Scene scene = grass(seed);
