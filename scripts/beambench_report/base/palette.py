@@ -39,7 +39,7 @@ _STRUCTURES = (
     Tint("voxel-grid", "#009e73", "#1fbf8f"),
     Tint("goldsmith-salmon", "#cc79a7", "#dd8fbb"),
     Tint("sah-bvh", "#e69f00", "#f0a818"),
-    Tint("kd-tree", "#7b5ea7", "#a58bd6"),
+    Tint("kd-tree", "#7cb518", "#a8e05f"),
     Tint("beam", "#d55e00", "#ec6f14"),
     Tint("tile-beam", "#8a7f00", "#f0e442"),
 )
