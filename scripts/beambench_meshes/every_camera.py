@@ -1,8 +1,9 @@
-"""Verifies all structures over the meshes whose recipes have cameras, from each of these.
+"""Verifies all structures over every mesh that has a recipe, from every camera.
 
 usage: PYTHONPATH=scripts python -m beambench_meshes.every_camera PROGRAM OUTPUT.csv
 
-PROGRAM is beambench. A row for each mesh, camera, kind of rays and structure, as
+PROGRAM is beambench. Cameras are those of the recipe, or else those that are fitted to the mesh. A
+row for each mesh, camera, kind of rays and structure, as
 `beambench verify --json` states it.
 """
 
@@ -24,6 +25,18 @@ _COUNTS = ("rays", "hits", "agree", "tie", "graze", "structure_error", "embree_e
 _COLUMNS = ("scene", "camera", "ray_kind", "structure", "parameters", "verdict", *_COUNTS)
 
 
+_FITTED = ("three-quarter", "front", "side", "top")
+
+
+def views() -> list[tuple[str, str]]:
+    """Mesh and camera of each."""
+    return [
+        (recipe.name, camera)
+        for recipe in RECIPES
+        for camera in [camera.name for camera in recipe.cameras] or _FITTED
+    ]
+
+
 def _cells(program: str, mesh: str, camera: str) -> Iterator[dict[str, object]]:
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "verified.json"
@@ -42,13 +55,13 @@ def main() -> int:
         print(__doc__, file=sys.stderr)
         return 2
     program, output = sys.argv[1:]
-    views = [(recipe.name, camera.name) for recipe in RECIPES for camera in recipe.cameras]
+    every = views()
     pending = Path(f"{output}.pending")
     with pending.open("w", encoding="utf-8", newline="") as table:
         rows = csv.DictWriter(table, _COLUMNS, extrasaction="ignore", lineterminator="\n")
         rows.writeheader()
-        for number, (mesh, camera) in enumerate(views, 1):
-            print(f"[{number}/{len(views)}] mesh:{mesh}, {camera}", flush=True)
+        for number, (mesh, camera) in enumerate(every, 1):
+            print(f"[{number}/{len(every)}] mesh:{mesh}, {camera}", flush=True)
             for cell in _cells(program, mesh, camera):
                 rows.writerow(cell)
     pending.rename(output)

@@ -1,4 +1,4 @@
-"""The table of structures verified from every camera of the registered levels."""
+"""The table of structures verified over registered meshes from every camera."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ import subprocess
 import sys
 from pathlib import Path
 
-from beambench_meshes.recipes import RECIPES
+from beambench_meshes.every_camera import views
 
-VIEWS = [(f"mesh:{recipe.name}", camera.name) for recipe in RECIPES for camera in recipe.cameras]
+VIEWS = [(f"mesh:{mesh}", camera) for mesh, camera in views()]
 
 _PROGRAM = """#!/usr/bin/env python3
 import json, sys
@@ -31,7 +31,7 @@ def run(repository: Path, *arguments: str | Path) -> subprocess.CompletedProcess
         env={**os.environ, "PYTHONPATH": str(repository / "scripts")},
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=300,
         check=False,
     )
 
@@ -44,10 +44,8 @@ def test_each_camera_has_its_rows(repository: Path, tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     with (tmp_path / "all.csv").open(encoding="utf-8") as table:
         rows = list(csv.DictReader(table))
-    views = [
-        (f"mesh:{recipe.name}", camera.name) for recipe in RECIPES for camera in recipe.cameras
-    ]
-    assert [(row["scene"], row["camera"]) for row in rows[::2]] == views
+    assert [(row["scene"], row["camera"]) for row in rows[::2]] == VIEWS
+    assert {("mesh:aneurysm", "tunnel"), ("mesh:cat", "top")} <= set(VIEWS)
     assert {row["verdict"] for row in rows} == {"ok", "error"}
     assert rows[0]["parameters"] == "a=1,b=2"
 
@@ -68,5 +66,7 @@ def test_what_is_published_has_no_structure_error(repository: Path) -> None:
     assert not wrong
     said = (repository / "results/published/real/README.md").read_text("utf-8")
     verified = [row for row in rows if row["verdict"] != "baseline"]
-    assert f"{len(verified):,} cells" in said
-    assert all(row["verdict"] == "ok" for row in verified)
+    right = [row for row in verified if row["verdict"] == "ok"]
+    assert f"Of {len(verified):,} cells" in said
+    assert f"{len(right):,} are `ok`" in " ".join(said.split())
+    assert {row["verdict"] for row in verified} <= {"ok", "grazes"}
