@@ -67,7 +67,7 @@ class LeafBatch {
       for (SampleMask left = images.may_hit(id, places_); left != 0; left &= left - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(left));
         ClosestHit& closest = samples_[i].closest;
-        counting.add(Counter::kPrimitiveTests);
+        counting.add_tests(scene.primitives[id].kind);
         const float t = closest.test(scene, id);
         counting.tested(id, t);
         if (is_hit(t)) places_.inverse_t[i] = limit(samples_[i]);

@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "accel/bvh/padded_bounds.hpp"
+#include "accel/core/expected_visits.hpp"
 #include "scenes/core/random.hpp"
 
 namespace beambench::accel::bvh {
@@ -76,6 +77,15 @@ Statistics GoldsmithSalmon::statistics() const {
   statistics.depth = hierarchy_.depth;
   statistics.bytes = hierarchy_.entries.capacity() * sizeof(HierarchyEntry);
   statistics.more = {{"cost", hierarchy_.cost}, {"widest", static_cast<double>(hierarchy_.widest)}};
+  ExpectedVisits visits(scene_->bounds);
+  for (const HierarchyEntry& entry : hierarchy_.entries) {
+    if (entry.is_volume()) {
+      visits.add_node(entry.box);
+    } else {
+      visits.add_leaf(entry.box, 1);
+    }
+  }
+  if (!hierarchy_.entries.empty()) visits.append_to(statistics);
   return statistics;
 }
 

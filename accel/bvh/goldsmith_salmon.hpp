@@ -133,7 +133,7 @@ class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon> {
         counting.add(Counter::kTraversalSteps);
         continue;
       }
-      counting.add(Counter::kPrimitiveTests);
+      counting.add_tests(scene_->primitives[entry.primitive].kind);
       if (is_hit(intersect(canonical, *scene_, entry.primitive))) return true;
     }
     return false;
@@ -165,7 +165,7 @@ class GoldsmithSalmon : public TraversalAccelerator<GoldsmithSalmon> {
       }
       const HierarchyEntry& entry = entries[met.index];
       if (!entry.is_volume()) {
-        counting.add(Counter::kPrimitiveTests);
+        counting.add_tests(scene_->primitives[entry.primitive].kind);
         counting.tested(entry.primitive, closest.test(*scene_, entry.primitive));
         continue;
       }

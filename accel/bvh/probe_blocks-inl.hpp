@@ -87,7 +87,42 @@ inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray
                        hn::Set(tag, t_max * ProbeRay::kWider + ray.depth_margin)),
                 hn::Ge(hn::Mul(hn::Max(hn::Max(ta, tb), tc), hn::Set(tag, ProbeRay::kWider)),
                        hn::Set(tag, ray.t_min - ray.depth_margin)));
-    return hn::And(surrounds, in_time);
+    const Mask near_it = hn::And(surrounds, in_time);
+    if (ray.t_min < 0.0F || hn::AllFalse(tag, near_it)) return near_it;
+
+    // Behind the origin: most rays begin on a triangle, which would have to be confirmed.
+    struct Vector {
+      Floats x, y, z;
+    };
+    const auto difference = [&](std::size_t to, const auto& from) -> Vector {
+      const auto along = [&](std::size_t axis) {
+        return hn::Sub(hn::Load(tag, block.coordinates[3 * to + axis].data() + lane), from(axis));
+      };
+      return {along(0), along(1), along(2)};
+    };
+    const auto first_corner = [&](std::size_t axis) {
+      return hn::Load(tag, block.coordinates[axis].data() + lane);
+    };
+    const auto size = [](const Vector& vector) {
+      return hn::Add(hn::Add(hn::Abs(vector.x), hn::Abs(vector.y)), hn::Abs(vector.z));
+    };
+    const Vector e = difference(1, first_corner);
+    const Vector f = difference(2, first_corner);
+    const Vector to_a =
+        difference(0, [&](std::size_t axis) { return hn::Set(tag, ray.origin[axis]); });
+    const Floats volume =
+        hn::MulAdd(to_a.x, hn::MulSub(e.y, f.z, hn::Mul(e.z, f.y)),
+                   hn::MulAdd(to_a.y, hn::MulSub(e.z, f.x, hn::Mul(e.x, f.z)),
+                              hn::Mul(to_a.z, hn::MulSub(e.x, f.y, hn::Mul(e.y, f.x)))));
+    const Floats error = hn::Mul(
+        hn::Mul(size(e), size(f)),
+        hn::MulAdd(size(to_a), hn::Set(tag, 0x1p-20F), hn::Set(tag, 0x1p-9F * ray.rounding)));
+    const Floats total = hn::Add(hn::Add(u, v), w);
+    const Floats side = hn::Mul(hn::Mul(total, per_t), volume);  // of the sign of -t
+    const Mask sure = hn::And(hn::Gt(hn::Abs(total), hn::Set(tag, 4.0F * margin)),
+                              hn::Gt(hn::Abs(volume), error));
+    const Mask outside = hn::And(sure, hn::Gt(side, hn::Zero(tag)));
+    return hn::AndNot(outside, near_it);
   });
 }
 
@@ -152,7 +187,7 @@ inline float confirm(const CanonicalRay& ray, const scenes::Scene& scene,
 /// Records what the probe rejected as tested and missed.
 template <class Counting>
 void count_probes(Counting& counting, const PrimitiveBlock& block, LaneBits passed) {
-  counting.add(Counter::kPrimitiveTests, block.count);
+  counting.add_tests(block.kind, block.count);
   counting.add("confirmed_tests", static_cast<std::uint64_t>(std::popcount(passed)));
   for (std::size_t lane = 0; lane < block.count; ++lane) {
     if ((passed >> lane & 1U) == 0) counting.tested(block.primitives[lane], kMiss);

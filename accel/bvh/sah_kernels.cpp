@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "accel/bvh/probe_ray.hpp"
 #include "accel/bvh/slab_ray.hpp"
@@ -22,57 +23,139 @@ namespace beambench::accel::bvh::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// The children whose boxes the ray may meet before `limit`, and where it enters them.
-inline LaneBits meet_children(const WideNode& node, const ProbeRay& ray, float limit,
-                              float* enter_t) {
+/// The children whose boxes the ray may meet before `limit`, which is enlarged by kWider, and where
+/// it enters them.
+HWY_INLINE LaneBits meet_children(const WideNode& node, const ProbeRay& ray, float limit,
+                                  float* enter_t) {
   const Tag tag;
   return test_registers([&](std::size_t lane) {
-    const auto plane_t = [&](std::size_t row, std::size_t axis) {
+    const auto plane_t = [&](std::size_t row, std::size_t axis,
+                             const std::array<float, 3>& inverse) {
       const Floats plane = hn::Load(tag, node.planes[row].data() + lane);
-      return hn::Mul(hn::Sub(plane, hn::Set(tag, ray.origin[axis])),
-                     hn::Set(tag, ray.inverse[axis]));
+      return hn::Mul(hn::Sub(plane, hn::Set(tag, ray.origin[axis])), hn::Set(tag, inverse[axis]));
     };
-    const Floats enter = hn::Max(hn::Max(plane_t(ray.near_row[0], 0), plane_t(ray.near_row[1], 1)),
-                                 hn::Max(plane_t(ray.near_row[2], 2), hn::Set(tag, ray.t_min)));
-    const Floats exit = hn::Min(hn::Min(plane_t(ray.far_row[0], 0), plane_t(ray.far_row[1], 1)),
-                                hn::Min(plane_t(ray.far_row[2], 2), hn::Set(tag, limit)));
+    const auto near_t = [&](std::size_t axis) {
+      return plane_t(ray.near_row[axis], axis, ray.inverse);
+    };
+    const auto far_t = [&](std::size_t axis) {
+      return plane_t(ray.far_row[axis], axis, ray.far_inverse);
+    };
+    const Floats enter =
+        hn::Max(hn::Max(near_t(0), near_t(1)), hn::Max(near_t(2), hn::Set(tag, ray.t_min)));
+    const Floats exit =
+        hn::Min(hn::Min(far_t(0), far_t(1)), hn::Min(far_t(2), hn::Set(tag, limit)));
     hn::Store(enter, tag, enter_t + lane);
-    return hn::Le(enter, hn::Mul(exit, hn::Set(tag, ProbeRay::kWider)));
+    return hn::Le(enter, exit);
   });
 }
 
-/// The entries still to be visited: the float bits of where the ray enters them, which order as the
-/// floats do, above the reference. The nearest is on top.
+/// What is still to be visited, the next on top, with the t at which the ray enters it.
 class WaitingStack {
  public:
-  bool empty() const { return size_ == 0; }
-  void push(float enter_t, ChildReference child) {
-    entries_[size_++] = std::uint64_t{std::bit_cast<std::uint32_t>(enter_t)} << 32U | child.bits();
-  }
-  /// Puts the nearest of the last `count` entries on top, the farthest below.
-  void sort_last(std::size_t count) {
-    std::uint64_t* first = entries_.data() + (size_ - count);
-    for (std::size_t i = 1; i < count; ++i) {
-      const std::uint64_t moving = first[i];
-      std::size_t hole = i;
-      for (; hole > 0 && first[hole - 1] < moving; --hole) first[hole] = first[hole - 1];
-      first[hole] = moving;
+  /// Takes the next of those that are entered before `limit`; false when there is none.
+  HWY_INLINE bool pop(float limit, ChildReference& next) {
+    while (size_ > 0) {
+      --size_;
+      if (enter_t_[size_] <= limit) {
+        next = ChildReference::from_bits(references_[size_]);
+        return true;
+      }
     }
+    return false;
   }
-  ChildReference pop(float& enter_t) {
-    const std::uint64_t entry = entries_[--size_];
-    enter_t = std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32U));
-    return ChildReference::from_bits(static_cast<std::uint32_t>(entry));
+
+  /// Pushes all of the children but one and returns that: the nearest of two, otherwise, of more
+  /// than one, the nearest along the octant's diagonal.
+  HWY_INLINE ChildReference push_but_nearest(const WideNode& node, LaneBits met, std::size_t octant,
+                                             const float* enter_t) {
+    const LaneBits rest = met & (met - 1);
+    const auto first = static_cast<std::size_t>(std::countr_zero(met));
+    if (rest == 0) return node.children[first];
+    if ((rest & (rest - 1)) == 0) {
+      const auto second = static_cast<std::size_t>(std::countr_zero(rest));
+      const bool in_order = enter_t[first] <= enter_t[second];
+      const std::size_t farther = in_order ? second : first;
+      enter_t_[size_] = enter_t[farther];
+      references_[size_++] = node.children[farther].bits();
+      return node.children[in_order ? first : second];
+    }
+    push(node, met, octant, enter_t);
+    return ChildReference::from_bits(references_[--size_]);
+  }
+
+  /// Takes the next; false when there is none.
+  HWY_INLINE bool pop_any(ChildReference& next) {
+    if (size_ == 0) return false;
+    next = ChildReference::from_bits(references_[--size_]);
+    return true;
+  }
+
+  /// Pushes all of the children but the last and returns that. Must not be used with `pop`.
+  HWY_INLINE ChildReference push_but_last(const WideNode& node, LaneBits met) {
+    const auto last = static_cast<std::size_t>(std::bit_width(met) - 1);
+    const LaneBits rest = met ^ LaneBits { 1 } << last;
+    const Tag tag;
+    const hn::RebindToUnsigned<Tag> bits;
+    const auto* references = reinterpret_cast<const std::uint32_t*>(node.children.data());
+    if (rest != 0) {
+      if constexpr (hn::MaxLanes(tag) == kBvhLanes) {
+        const std::array<std::uint8_t, 8> lanes{static_cast<std::uint8_t>(rest)};
+        const auto mask = hn::LoadMaskBits(bits, lanes.data());
+        hn::StoreU(hn::Compress(hn::LoadU(bits, references), mask), bits,
+                   references_.data() + size_);
+        size_ += static_cast<std::size_t>(std::popcount(rest));
+      } else {
+        for (std::size_t lane = 0; lane < kBvhLanes; ++lane) {
+          references_[size_] = references[lane];
+          size_ += rest >> lane & 1U;
+        }
+      }
+    }
+    return node.children[last];
   }
 
  private:
-  std::array<std::uint64_t, kMaxBvhDepth*(kBvhLanes - 1) + 1> entries_;  // the maximum depth
+  /// The children of `met`, the farthest first.
+  HWY_INLINE void push(const WideNode& node, LaneBits met, std::size_t octant,
+                       const float* enter_t) {
+    const Tag tag;
+    const hn::RebindToUnsigned<Tag> bits;
+    const std::uint32_t order = node.orders[octant];
+    if constexpr (hn::MaxLanes(tag) == kBvhLanes) {
+      const auto lanes =
+          hn::And(hn::Shr(hn::Set(bits, order), hn::Mul(hn::Iota(bits, 0), hn::Set(bits, 3))),
+                  hn::Set(bits, 7));
+      const auto wanted = hn::And(hn::Shr(hn::Set(bits, met), lanes), hn::Set(bits, 1));
+      const auto table =
+          hn::IndicesFromVec(bits, hn::Compress(lanes, hn::Ne(wanted, hn::Zero(bits))));
+      const auto* enter = reinterpret_cast<const std::uint32_t*>(enter_t);
+      const auto* references = reinterpret_cast<const std::uint32_t*>(node.children.data());
+      hn::StoreU(hn::TableLookupLanes(hn::LoadU(bits, enter), table), bits,
+                 reinterpret_cast<std::uint32_t*>(enter_t_.data() + size_));
+      hn::StoreU(hn::TableLookupLanes(hn::LoadU(bits, references), table), bits,
+                 references_.data() + size_);
+      size_ += static_cast<std::size_t>(std::popcount(met));
+    } else {
+      for (std::size_t i = 0; i < kBvhLanes; ++i) {
+        const std::size_t lane = order >> 3 * i & 7U;
+        enter_t_[size_] = enter_t[lane];
+        references_[size_] = node.children[lane].bits();
+        size_ += met >> lane & 1U;
+      }
+    }
+  }
+
+  /// The maximum depth, and a register that is stored whole.
+  static constexpr std::size_t kRoom = kMaxBvhDepth * (kBvhLanes - 1) + 1 + kBvhLanes;
+
   std::size_t size_ = 0;
+  std::array<float, kRoom> enter_t_;
+  std::array<std::uint32_t, kRoom> references_;  // bits: a ChildReference would be initialized
 };
 
 inline scenes::Bounds bounds_of(const WideNode& node) {
   scenes::Bounds bounds;
-  for (std::size_t lane = 0; lane < node.count; ++lane) {
+  for (std::size_t lane = 0; lane < node.count(); ++lane) {
     const auto& plane = node.planes;
     bounds.include(glm::vec3(plane[0][lane], plane[1][lane], plane[2][lane]));
     bounds.include(glm::vec3(plane[3][lane], plane[4][lane], plane[5][lane]));
@@ -121,87 +204,80 @@ void count_step(Counting& counting, const WideBvh& bvh, const scenes::Scene& sce
   if (at.is_leaf()) {
     counting.add(Counter::kLeaves);
   } else {
-    counting.add(Counter::kBoxTests, bvh.nodes[at.node_index()].count);
+    counting.add(Counter::kBoxTests, bvh.nodes[at.node_index()].count());
   }
 }
 
 /// Traverses the hierarchy, nearest child first. Everything is inlined: otherwise GCC calls the
-/// lambdas for each node, with the ray in memory, which costs a tenth of the time. `visit(t,
-/// primitive)` gets the result of each canonical test and returns true to end the traversal; hits
-/// beyond `t_max()` do not matter.
-template <class Counting, class FarEnd, class Visit>
+/// lambdas for each node, with the ray in memory, which costs a tenth of the time. `confirm(block,
+/// lane)` makes the canonical test and returns true to end the traversal; hits beyond `t_max` do
+/// not matter, which `confirm` may lower.
+template <bool kAny, class Counting, class Confirm>
 HWY_FLATTEN void walk(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,
-                      const CanonicalRay& canonical, Counting& counting, FarEnd t_max,
-                      Visit visit) {
+                      const float& t_max, Counting& counting, Confirm confirm) {
   const ProbeRay probe_ray(ray, bvh.scene_bounds);
   WaitingStack waiting;
   ChildReference at = bvh.root;
-  float at_t = ray.t_min;
+  float limit = t_max * ProbeRay::kWider;
   while (true) {
     count_step(counting, bvh, scene, ray, at);
     if (at.is_leaf()) {
       const PrimitiveBlock* block = bvh.blocks.data() + at.first_block();
       for (const PrimitiveBlock* end = block + at.block_count(); block != end; ++block) {
-        LaneBits lanes = probe(*block, probe_ray, t_max());
+        LaneBits lanes = probe(*block, probe_ray, t_max);
         count_probes(counting, *block, lanes);
         for (; lanes != 0; lanes &= lanes - 1) {
-          const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-          const float t = confirm(canonical, scene, *block, lane);
-          counting.tested(block->primitives[lane], t);
-          if (visit(t, block->primitives[lane])) return;
+          if (confirm(*block, static_cast<std::size_t>(std::countr_zero(lanes)))) return;
+          limit = t_max * ProbeRay::kWider;
         }
       }
     } else {
       const WideNode& node = bvh.nodes[at.node_index()];
       alignas(64) std::array<float, kBvhLanes> enter_t;
-      LaneBits met = meet_children(node, probe_ray, t_max(), enter_t.data());
+      const LaneBits met = meet_children(node, probe_ray, limit, enter_t.data());
       if (met != 0) {
-        const auto nearest = static_cast<std::size_t>(std::countr_zero(met));
-        at = node.children[nearest];
-        at_t = enter_t[nearest];
-        met &= met - 1;
-        if (met == 0) continue;
-        std::size_t count = 1;
-        waiting.push(at_t, at);
-        for (; met != 0; met &= met - 1, ++count) {
-          const auto lane = static_cast<std::size_t>(std::countr_zero(met));
-          waiting.push(enter_t[lane], node.children[lane]);
+        if constexpr (kAny) {
+          at = waiting.push_but_last(node, met);
+        } else {
+          at = waiting.push_but_nearest(node, met, probe_ray.octant, enter_t.data());
         }
-        waiting.sort_last(count);
-        at = waiting.pop(at_t);
         continue;
       }
     }
-    do {
-      if (waiting.empty()) return;
-      at = waiting.pop(at_t);
-    } while (at_t > t_max() * ProbeRay::kWider);
+    if (!(kAny ? waiting.pop_any(at) : waiting.pop(limit, at))) return;
   }
 }
+
+// Many rays need no canonical test, so that the canonical ray is made for the first.
 
 template <class Counting>
 std::optional<Hit> closest(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,
                            Counting& counting) {
-  ClosestHit best(ray);
-  walk(
-      bvh, scene, ray, best.ray, counting, [&] { return best.ray.t_max; },
-      [&](float t, scenes::PrimitiveId primitive) {
-        best.keep(t, primitive);
-        return false;
-      });
-  return best.result();
+  std::optional<ClosestHit> best;
+  float t_max = ray.t_max;
+  walk<false>(bvh, scene, ray, t_max, counting, [&](const PrimitiveBlock& block, std::size_t lane) {
+    if (!best) best.emplace(ray);
+    const float t = confirm(best->ray, scene, block, lane);
+    counting.tested(block.primitives[lane], t);
+    best->keep(t, block.primitives[lane]);
+    t_max = best->ray.t_max;
+    return false;
+  });
+  return best ? best->result() : std::nullopt;
 }
 
 template <class Counting>
 bool any(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray, Counting& counting) {
-  const CanonicalRay canonical(ray);
+  std::optional<CanonicalRay> canonical;
   bool found = false;
-  walk(
-      bvh, scene, ray, canonical, counting, [&] { return ray.t_max; },
-      [&](float t, scenes::PrimitiveId) {
-        found = is_hit(t);
-        return found;
-      });
+  walk<true>(bvh, scene, ray, ray.t_max, counting,
+             [&](const PrimitiveBlock& block, std::size_t lane) {
+               if (!canonical) canonical.emplace(ray);
+               const float t = confirm(*canonical, scene, block, lane);
+               counting.tested(block.primitives[lane], t);
+               found = is_hit(t);
+               return found;
+             });
   return found;
 }
 

@@ -31,6 +31,7 @@ class WideBvhBuilder {
   WideBvh build() {
     wide_.scene_bounds = scene_.bounds;
     wide_.references = binary_.items.size();
+    wide_.visits = ExpectedVisits(scene_.bounds);
     if (!pieces_.empty()) wide_.root = convert(0, 1);
     wide_.nodes.shrink_to_fit();
     wide_.blocks.shrink_to_fit();
@@ -53,6 +54,7 @@ class WideBvhBuilder {
     const BvhNode& node = binary_.nodes[binary_node];
     wide_.depth = std::max(wide_.depth, depth);
     if (node.is_leaf()) return make_leaf(node);
+    wide_.visits.add_node(node.box);
     std::array<std::uint32_t, kBvhLanes> children{};
     const std::size_t count = gather_children(binary_, binary_node, children);
     const auto index = static_cast<std::uint32_t>(wide_.nodes.size());
@@ -66,7 +68,6 @@ class WideBvhBuilder {
 
   WideNode make_node(std::span<const std::uint32_t> children) const {
     WideNode node{};
-    node.count = static_cast<std::uint32_t>(children.size());
     for (std::size_t lane = 0; lane < kBvhLanes; ++lane) {
       const scenes::Bounds box =
           lane < children.size() ? binary_.nodes[children[lane]].box : scenes::Bounds{};  // empty
@@ -76,12 +77,37 @@ class WideBvhBuilder {
         node.planes[row + 3][lane] = box.upper[axis];
       }
     }
+    for (std::uint32_t octant = 0; octant < node.orders.size(); ++octant) {
+      node.orders[octant] = order_along(octant, children);
+    }
     return node;
+  }
+
+  /// As WideNode::orders has it: by the centers' places along the octant's diagonal.
+  std::uint32_t order_along(std::uint32_t octant, std::span<const std::uint32_t> children) const {
+    std::array<float, kBvhLanes> places{};
+    std::array<std::uint32_t, kBvhLanes> lanes{};
+    for (std::uint32_t lane = 0; lane < kBvhLanes; ++lane) {
+      lanes[lane] = lane;
+      if (lane >= children.size()) continue;
+      const scenes::Bounds& box = binary_.nodes[children[lane]].box;
+      for (int axis = 0; axis < 3; ++axis) {
+        const float twice_center = box.lower[axis] + box.upper[axis];
+        places[lane] += (octant >> axis & 1U) != 0 ? -twice_center : twice_center;
+      }
+    }
+    const auto present = static_cast<std::ptrdiff_t>(children.size());
+    std::stable_sort(lanes.begin(), lanes.begin() + present,
+                     [&](std::uint32_t a, std::uint32_t b) { return places[a] > places[b]; });
+    std::uint32_t order = 0;
+    for (std::uint32_t i = 0; i < kBvhLanes; ++i) order |= lanes[i] << 3 * i;
+    return order;
   }
 
   /// Pieces in increasing id.
   ChildReference make_leaf(const BvhNode& leaf) {
     ++wide_.leaves;
+    wide_.visits.add_leaf(leaf.box, leaf.count);
     const auto first_block = static_cast<std::uint32_t>(wide_.blocks.size());
     const auto items = std::span(binary_.items).subspan(leaf.first, leaf.count);
     std::sort(items.begin(), items.end());

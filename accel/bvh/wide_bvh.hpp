@@ -8,6 +8,7 @@
 
 #include "accel/bvh/bvh_builder.hpp"
 #include "accel/bvh/primitive_block.hpp"
+#include "accel/core/expected_visits.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel::bvh {
@@ -38,12 +39,21 @@ class ChildReference {
   std::uint32_t bits_ = 0;
 };
 
-/// The boxes of up to eight children; those that are missing have an empty box.
+/// The boxes of up to eight children; those that are missing have an empty box and are the last.
 struct alignas(64) WideNode {
   std::array<std::array<float, kBvhLanes>, 6> planes;  ///< lower x, y, z; upper x, y, z
   std::array<ChildReference, kBvhLanes> children;
-  std::uint32_t count;
+  /// For each octant of directions (bit a: backward along axis a) the lanes, from the child that
+  /// is farthest along them to the nearest, three bits for each.
+  std::array<std::uint32_t, 8> orders;
+
+  std::uint32_t count() const {
+    std::uint32_t present = 0;
+    while (present < kBvhLanes && planes[0][present] <= planes[3][present]) ++present;
+    return present;
+  }
 };
+static_assert(sizeof(WideNode) == 256);
 
 /// A hierarchy over a scene's triangles, spheres and cones. A polygon's triangles are separate:
 /// the nearest of them is the polygon's hit. Boxes are widened by `overlap_tolerance`.
@@ -55,7 +65,8 @@ struct WideBvh {
   std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, leaf included
   std::uint64_t leaves = 0;
   std::uint64_t references = 0;  ///< to triangles, spheres and cones
-  double cost = 0.0;             ///< of the binary hierarchy it was made from: see sah_cost
+  ExpectedVisits visits{{}};
+  double cost = 0.0;  ///< of the binary hierarchy it was made from: see sah_cost
 
   bool empty() const { return blocks.empty(); }
 };

@@ -27,7 +27,7 @@ bool test_references(const scenes::Scene& scene, std::span<const scenes::Primiti
                      Mailboxes&& mailboxes = {}) {
   for (const scenes::PrimitiveId id : references) {
     if (!mailboxes.is_first(id)) continue;
-    counting.add(Counter::kPrimitiveTests);
+    counting.add_tests(scene.primitives[id].kind);
     counting.tested(id, closest.test(scene, id));
   }
   return closest.ray.t_max < static_cast<float>(exit_t);
@@ -40,7 +40,7 @@ bool any_reference_hit(const scenes::Scene& scene, std::span<const scenes::Primi
                        Mailboxes&& mailboxes = {}) {
   for (const scenes::PrimitiveId id : references) {
     if (!mailboxes.is_first(id)) continue;
-    counting.add(Counter::kPrimitiveTests);
+    counting.add_tests(scene.primitives[id].kind);
     if (is_hit(intersect(canonical, scene, id))) return true;
   }
   return false;

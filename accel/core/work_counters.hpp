@@ -26,8 +26,12 @@ enum class Counter : std::size_t {
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(Counter::kCount)>
     kCounterNames{"traversal_steps", "leaves", "empty_leaves", "box_tests", "primitive_tests"};
 
+/// Names of the primitive tests by kind, in the order of `scenes::PrimitiveKind`.
+inline constexpr std::array<std::string_view, 3> kTestNames{"sphere_tests", "cone_tests",
+                                                            "polygon_tests"};
+
 /// The policy of timed code: nothing is counted, no step recorded. A traversal calls its policy
-/// - for each piece of work it does (`add`),
+/// - for each piece of work it does (`add`; for ray-primitive tests `add_tests`),
 /// - for each place it enters (`enter`): `make()` returns the `TraceStep`; only the policy that
 ///   needs it calls it (`StepRecorder`),
 /// - for each ray-primitive test in that place, with its t or kMiss (`tested`).
@@ -35,6 +39,7 @@ struct NoCounting {
   static constexpr void add(Counter, std::uint64_t = 1) {}
   static constexpr void add(std::string_view, std::uint64_t = 1) {}
   static constexpr void add(const NoCounting&) {}
+  static constexpr void add_tests(scenes::PrimitiveKind, std::uint64_t = 1) {}
   template <class Make>
   static constexpr void enter(const Make&) {}
   static constexpr void tested(scenes::PrimitiveId, float) {}
@@ -52,13 +57,21 @@ class WorkCounters {
   }
   void add(std::string_view name, std::uint64_t amount = 1);
   void add(const WorkCounters& other);
+  /// Ray-primitive tests of one kind: `Counter::kPrimitiveTests`, split. Triangles of polygons are
+  /// tests of polygons.
+  void add_tests(scenes::PrimitiveKind kind, std::uint64_t amount = 1) {
+    add(Counter::kPrimitiveTests, amount);
+    tests_[static_cast<std::size_t>(kind)] += amount;
+  }
 
   std::uint64_t get(Counter counter) const { return standard_[static_cast<std::size_t>(counter)]; }
-  /// All counters by name: the standard ones, then the family's own.
+  /// All counters by name: the standard ones, then the family's own; `sphere_tests`, `cone_tests`
+  /// and `polygon_tests` where all primitive tests were counted by kind.
   std::map<std::string, std::uint64_t, std::less<>> by_name() const;
 
  private:
   std::array<std::uint64_t, static_cast<std::size_t>(Counter::kCount)> standard_{};
+  std::array<std::uint64_t, kTestNames.size()> tests_{};
   std::map<std::string, std::uint64_t, std::less<>> own_;
 };
 

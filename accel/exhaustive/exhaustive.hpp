@@ -15,10 +15,10 @@ class Exhaustive : public TraversalAccelerator<Exhaustive> {
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
-    counting.add(Counter::kPrimitiveTests, scene_->primitives.size());
     ClosestHit closest(ray);
     counting.enter([&] { return TraceStep{.t_enter = ray.t_min, .t_exit = ray.t_max}; });
     for (scenes::PrimitiveId id = 0; id < scene_->primitives.size(); ++id) {
+      counting.add_tests(scene_->primitives[id].kind);
       counting.tested(id, closest.test(*scene_, id));
     }
     return closest.result();
@@ -28,7 +28,7 @@ class Exhaustive : public TraversalAccelerator<Exhaustive> {
   bool find_any(const Ray& ray, Counting& counting) const {
     const CanonicalRay canonical(ray);
     for (scenes::PrimitiveId id = 0; id < scene_->primitives.size(); ++id) {
-      counting.add(Counter::kPrimitiveTests);
+      counting.add_tests(scene_->primitives[id].kind);
       if (is_hit(intersect(canonical, *scene_, id))) return true;
     }
     return false;

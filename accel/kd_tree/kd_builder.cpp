@@ -101,6 +101,7 @@ class Builder {
 
   KdTree build() {
     tree_.scene_bounds = scene_.bounds;
+    tree_.visits = ExpectedVisits(scene_.bounds);
     tree_.nodes.resize(2);
     if (pieces_.empty()) {
       tree_.leaves = tree_.empty_leaves = tree_.depth = 1;
@@ -180,6 +181,7 @@ class Builder {
     tree_.nodes.resize(children + 2);
     tree_.nodes[pending.node] = node;
     tree_.cost += bvh::half_area(pending.cell);
+    tree_.visits.add_node(pending.cell);
 
     Pending below{children, pending.first_event, 0, pending.splits + 1,
                   lower_cell(pending.cell, node)};
@@ -340,6 +342,7 @@ class Builder {
     tree_.nodes[pending.node] =
         KdNode::leaf(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(blocks));
     tree_.cost += bvh::half_area(pending.cell) * static_cast<double>(blocks);
+    tree_.visits.add_leaf(pending.cell, pending.count);
   }
 
   [[noreturn]] void fail_too_many(const char* what, std::uint64_t most) const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "accel/bvh/primitive_block.hpp"
+#include "accel/core/expected_visits.hpp"
 #include "accel/core/large_pages.hpp"
 #include "accel/core/overlap.hpp"
 #include "accel/core/statistics.hpp"
@@ -67,6 +68,7 @@ struct KdTree {
   /// As `bvh::sah_cost` has it: of a ray that meets the root, the expected number of interior nodes
   /// visited and blocks tested.
   double cost = 0.0;
+  ExpectedVisits visits{{}};
 
   bool empty() const { return blocks.empty(); }
 };

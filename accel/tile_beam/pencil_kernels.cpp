@@ -152,7 +152,7 @@ AnsweredRays closest_hits(const PencilRays& pencil, PencilUnit& unit, HitBuffer&
               const float exact = intersect(CanonicalRay(ray), pencil.scene, primitive[i]);
               t[i] = is_hit(exact) ? exact : kNaN;
               some_missed = some_missed || !is_hit(exact);
-              counting.add(Counter::kPrimitiveTests);
+              counting.add_tests(pencil.scene.primitives[primitive[i]].kind);
             }
           }
         }

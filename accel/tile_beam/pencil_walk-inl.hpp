@@ -338,6 +338,10 @@ class PencilWalk {
 
   // ---- leaves -----------------------------------------------------------------------------------
 
+  void count_tests(scenes::PrimitiveKind kind) {
+    counting_->add_tests(kind, tests_count_ * PencilUnit::kBlock);
+  }
+
   HWY_INLINE void visit_leaf(const Entry& entry, std::uint32_t groups) {
     counting_->add(Counter::kLeaves);
     changed_ = 0;
@@ -348,6 +352,7 @@ class PencilWalk {
         if (shapes_.present == 0) return;
         find_pairs(entry, groups, meshlet.triangle_count);
         test_blocks<true>(meshlet.triangle_count);
+        count_tests(scenes::PrimitiveKind::kPolygon);
         test_triangles(meshlet);
         break;
       }
@@ -357,6 +362,7 @@ class PencilWalk {
         if (shapes_.present == 0) return;
         find_pairs(entry, groups, block.count);
         test_blocks<false>(block.count);
+        count_tests(scenes::PrimitiveKind::kSphere);
         test_spheres(block);
         break;
       }
@@ -366,6 +372,7 @@ class PencilWalk {
         if (shapes_.present == 0) return;
         find_pairs(entry, groups, block.count);
         test_blocks<false>(block.count);
+        count_tests(scenes::PrimitiveKind::kCone);
         for (std::size_t i = 0; i < tests_count_; ++i) {
           const scenes::PrimitiveId id = block.primitives[tests_[i] % SeenShapes::kMost];
           const scenes::Cone& cone = scene_->cones[scene_->primitives[id].index];
@@ -540,7 +547,6 @@ class PencilWalk {
       }
     }
     tests_count_ = count_of_tests;
-    counting_->add(Counter::kPrimitiveTests, tests_count_ * PencilUnit::kBlock);
   }
 
   HWY_INLINE void test_triangles(const Meshlet& meshlet) {

@@ -129,7 +129,7 @@ HWY_INLINE bool visit_leaf(const TileHierarchy& hierarchy, const scenes::Scene& 
                            TileChild leaf, const bvh::ProbeRay& probe, const CanonicalRay& ray,
                            Counting& counting, FarEnd t_max, Visit visit) {
   const auto confirm = [&](scenes::PrimitiveId primitive, float t) {
-    counting.add(Counter::kPrimitiveTests);
+    counting.add_tests(scene.primitives[primitive].kind);
     counting.tested(primitive, t);
     return visit(t, primitive);
   };

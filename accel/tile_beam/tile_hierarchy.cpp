@@ -56,6 +56,7 @@ class Builder {
     binary.parallel = options.parallel;
     binary_ = bvh::build_bvh(all.boxes, binary);
     wide_.cost = bvh::sah_cost(binary_, binary);
+    wide_.visits = ExpectedVisits(scene.bounds);
     pack({scene, all.pieces, all.boxes}, options.parallel);
     wide_.nodes.reserve(binary_.nodes.size() / 16 + 1);
     const Made root = convert(0, 1);
@@ -91,6 +92,11 @@ class Builder {
   /// The recursion is bounded by kMaxBvhDepth.
   Made convert(std::uint32_t binary_node, std::uint32_t depth) {
     const bvh::BvhNode& node = binary_.nodes[binary_node];
+    if (node.is_leaf()) {
+      wide_.visits.add_leaf(node.box, node.count);
+    } else {
+      wide_.visits.add_node(node.box);
+    }
     if (node.is_leaf()) return convert_leaf(packed_.of(node.first), depth);
     std::array<std::uint32_t, kTileLanes> children{};
     const std::size_t count = bvh::gather_children(binary_, binary_node, children);

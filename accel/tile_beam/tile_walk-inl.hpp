@@ -126,19 +126,19 @@ class TileWalk {
     switch (entry.child.kind()) {
       case TileChild::Kind::kMeshlet: {
         const Meshlet& meshlet = hierarchy_->meshlets[entry.child.index()];
-        counting_->add(Counter::kPrimitiveTests, meshlet.triangle_count);
+        counting_->add_tests(scenes::PrimitiveKind::kPolygon, meshlet.triangle_count);
         draw_meshlet(meshlet, rays_, farthest_, *image_);
         break;
       }
       case TileChild::Kind::kSpheres: {
         const SphereBlock& block = hierarchy_->spheres[entry.child.index()];
-        counting_->add(Counter::kPrimitiveTests, block.count);
+        counting_->add_tests(scenes::PrimitiveKind::kSphere, block.count);
         draw_spheres(block, *scene_, rays_, farthest_, *image_);
         break;
       }
       case TileChild::Kind::kCones: {
         const ConeBlock& block = hierarchy_->cones[entry.child.index()];
-        counting_->add(Counter::kPrimitiveTests, block.count);
+        counting_->add_tests(scenes::PrimitiveKind::kCone, block.count);
         draw_cones(block, *scene_, rays_, probe_, farthest_, *image_);
         break;
       }

@@ -149,12 +149,12 @@ class WideBvhCheck {
       return;
     }
     const bvh::WideNode& node = bvh_.nodes[at.node_index()];
-    EXPECT_GE(node.count, 2U);
+    EXPECT_GE(node.count(), 2U);
     scenes::Bounds together;
     for (std::uint32_t lane = 0; lane < bvh::kBvhLanes; ++lane) {
       const scenes::Bounds child = box_of(node, lane);
-      EXPECT_EQ(child.empty(), lane >= node.count);
-      if (lane >= node.count) continue;
+      EXPECT_EQ(child.empty(), lane >= node.count());
+      if (lane >= node.count()) continue;
       together.include(child);
       visit(node.children[lane], child, depth + 1);
     }

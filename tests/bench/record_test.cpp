@@ -210,8 +210,9 @@ const char* const kContract =
     "build_instructions,build_cycles,build_cache_misses,"
     "trace_instructions,trace_cycles,trace_cache_misses,"
     "memory_bytes,allocated_bytes,nodes,leaves,empty_leaves,references,depth,tree_cost,"
+    "sah_nodes,sah_leaves,sah_tests,"
     "traversal_steps_per_ray,leaves_per_ray,empty_leaves_per_ray,box_tests_per_ray,"
-    "primitive_tests_per_ray,"
+    "primitive_tests_per_ray,sphere_tests_per_ray,cone_tests_per_ray,polygon_tests_per_ray,"
     "hits,agree,tie,graze,structure_error,embree_error,verdict\n";
 
 TEST(CellRow, HasTheColumnsOfTheContract) {
@@ -308,7 +309,9 @@ TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
               is_time || column == "leaves_per_ray" || column == "empty_leaves_per_ray" ||
                   column == "box_tests_per_ray" || column == "primitive_tests_per_ray" ||
                   column == "structure_isa" || column == "library_geometry" ||
-                  column == "occluded_share" || column == "tree_cost")
+                  column == "occluded_share" || column == "tree_cost" ||
+                  column.starts_with("sah_") || column == "sphere_tests_per_ray" ||
+                  column == "cone_tests_per_ray" || column == "polygon_tests_per_ray")
         << column;
   }
   EXPECT_TRUE(to_json(kRun, cell).at("repetitions").empty());

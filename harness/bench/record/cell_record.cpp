@@ -187,16 +187,21 @@ void add_statistics(Row& row, const CellRecord& cell) {
   row["references"] = size(&accel::Statistics::references);
   row["depth"] = size(&accel::Statistics::depth);
   row["tree_cost"] = cell.statistics ? own_figure(*cell.statistics, "cost") : Json();
+  for (const char* name : {"sah_nodes", "sah_leaves", "sah_tests"}) {
+    row[name] = cell.statistics ? own_figure(*cell.statistics, name) : Json();
+  }
 }
 
 void add_counters(Row& row, const CellRecord& cell) {
   const NamedCounters& counters = cell.work.counters;
   const auto rays = static_cast<double>(cell.rays.rays);
-  for (const std::string_view name : accel::kCounterNames) {
+  const auto add = [&](std::string_view name) {
     const auto found = counters.find(name);
     row[fmt::format("{}_per_ray", name)] =
         found == counters.end() ? Json() : Json(static_cast<double>(found->second) / rays);
-  }
+  };
+  std::ranges::for_each(accel::kCounterNames, add);
+  std::ranges::for_each(accel::kTestNames, add);
   for (const auto& [name, count] : counters) {
     row[name + "_per_ray"] = static_cast<double>(count) / rays;
   }
@@ -208,12 +213,14 @@ void add_kinds(Row& row, const CellRecord& cell) {
   for (const RaysOfKind& kind : cell.work.kinds) {
     row[kind.kind + "_rays"] = kind.rays;
     if (cell.work.counters.empty() || kind.rays == 0) continue;
-    for (const std::string_view name : accel::kCounterNames) {
+    const auto add = [&](std::string_view name) {
       const auto count = kind.counters.find(name);
-      if (count == kind.counters.end()) continue;
+      if (count == kind.counters.end()) return;
       row[fmt::format("{}_{}_per_ray", kind.kind, name)] =
           static_cast<double>(count->second) / static_cast<double>(kind.rays);
-    }
+    };
+    std::ranges::for_each(accel::kCounterNames, add);
+    std::ranges::for_each(accel::kTestNames, add);
   }
 }
 

@@ -1,0 +1,59 @@
+#pragma once
+// What a structure is expected to cost, in the same terms for all of them.
+
+#include <cstddef>
+
+#include <glm/common.hpp>
+
+#include "accel/core/overlap.hpp"
+#include "accel/core/statistics.hpp"
+#include "scenes/bounds.hpp"
+
+namespace beambench::accel {
+
+/// The surface area heuristic's estimate (Goldsmith and Salmon 1987; MacDonald and Booth 1990): a
+/// random line that meets the scene's box meets a convex cell in it with the ratio of their surface
+/// areas. Summed over the cells of a structure, this is the number of interior nodes, leaves and
+/// primitives that such a line meets, were it never to end at a hit.
+class ExpectedVisits {
+ public:
+  explicit ExpectedVisits(const scenes::Bounds& scene)
+      : scene_{glm::dvec3(scene.lower), glm::dvec3(scene.upper)} {}
+
+  void add_node(const Box& cell) { nodes_ += area(cell); }
+  /// `tests`: references of the leaf.
+  void add_leaf(const Box& cell, std::size_t tests) {
+    const double inside = area(cell);
+    leaves_ += inside;
+    tests_ += inside * static_cast<double>(tests);
+  }
+  void add_node(const scenes::Bounds& cell) { add_node(boxed(cell)); }
+  void add_leaf(const scenes::Bounds& cell, std::size_t tests) { add_leaf(boxed(cell), tests); }
+
+  /// Adds `sah_nodes`, `sah_leaves` and `sah_tests`; nothing where the scene's box has no area.
+  void append_to(Statistics& statistics) const {
+    const double whole = area(scene_);
+    if (!(whole > 0.0)) return;
+    statistics.more.emplace_back("sah_nodes", nodes_ / whole);
+    statistics.more.emplace_back("sah_leaves", leaves_ / whole);
+    statistics.more.emplace_back("sah_tests", tests_ / whole);
+  }
+
+ private:
+  static Box boxed(const scenes::Bounds& cell) {
+    return {glm::dvec3(cell.lower), glm::dvec3(cell.upper)};
+  }
+  /// Half the surface area of the part in the scene's box; 0 where there is none.
+  double area(const Box& cell) const {
+    const glm::dvec3 size = glm::min(cell.upper, scene_.upper) - glm::max(cell.lower, scene_.lower);
+    if (!(size.x >= 0.0 && size.y >= 0.0 && size.z >= 0.0)) return 0.0;
+    return size.x * (size.y + size.z) + size.y * size.z;
+  }
+
+  Box scene_;
+  double nodes_ = 0.0;
+  double leaves_ = 0.0;
+  double tests_ = 0.0;
+};
+
+}  // namespace beambench::accel
