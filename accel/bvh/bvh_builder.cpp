@@ -14,103 +14,15 @@
 #include <tbb/parallel_reduce.h>
 
 #include "accel/bvh/box_quads.hpp"
+#include "accel/bvh/object_split.hpp"
 #include "accel/bvh/padded_bounds.hpp"
 #include "accel/core/large_pages.hpp"
 
 namespace beambench::accel::bvh {
 namespace {
 
-/// Maps centers to bins, on all axes.
-class Binning {
- public:
-  static constexpr std::size_t kMaxBins = 32;
-
-  Binning(const QuadBox& centers, std::size_t items) : lower_(centers.lower), scale_{} {
-    // A few items need fewer bins: their sums would cost more than the items.
-    count_ = std::min(kMaxBins, 8 + items / 16);
-    last_ = quad_of(static_cast<float>(count_ - 1));
-    const glm::vec3 extent = centers.bounds().extent();
-    for (int axis = 0; axis < 3; ++axis) {
-      if (!(extent[axis] > 0.0F)) continue;
-      const float scale = static_cast<float>(count_) / extent[axis];
-      // An extent so small that its inverse overflows cannot be divided.
-      if (scale < std::numeric_limits<float>::max()) scale_[axis] = scale;
-    }
-  }
-
-  std::size_t count() const { return count_; }
-  bool divides(std::size_t axis) const { return scale_[axis] > 0.0F; }
-  /// The bins of a center, one axis per lane.
-  IntQuad bins(Quad center) const {
-    return __builtin_convertvector(smaller((center - lower_) * scale_, last_), IntQuad);
-  }
-
- private:
-  std::size_t count_;
-  Quad lower_;
-  Quad scale_;
-  Quad last_;
-};
-
-struct Bin {
-  QuadBox box;
-  std::uint32_t count;
-
-  void include(const Bin& other) {
-    box.include(other.box);
-    count += other.count;
-  }
-};
-
-/// The sums of items by bins: as many as the binning has, on each axis.
-class Bins {
- public:
-  explicit Bins(const Binning& binning) : binning_(&binning) {
-    for (auto& bins : axes_) {
-      std::fill_n(bins.begin(), binning.count(), Bin{QuadBox::empty(), 0});
-    }
-  }
-
-  void include(const BuildItem& item) {
-    const IntQuad bins = binning_->bins(item.center());
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      Bin& bin = axes_[axis][static_cast<std::size_t>(bins[axis])];
-      bin.box.include(item.box());
-      ++bin.count;
-    }
-  }
-  void include(const Bins& other) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      for (std::size_t i = 0; i < binning_->count(); ++i) {
-        axes_[axis][i].include(other.axes_[axis][i]);
-      }
-    }
-  }
-
-  const Bin& at(std::size_t axis, std::size_t bin) const { return axes_[axis][bin]; }
-
- private:
-  const Binning* binning_;
-  std::array<std::array<Bin, Binning::kMaxBins>, 3> axes_;
-};
-
-/// Below it nodes are split in the middle: 2^32 items then need 32 more levels.
-constexpr std::uint32_t kDeepestSahSplit = kMaxBvhDepth - 34;
 /// Below this, tasks cost more than they save.
 constexpr std::size_t kParallelItems = 4096;
-
-/// Items in a bin below `bin` go left.
-struct Split {
-  float cost = std::numeric_limits<float>::infinity();
-  int axis = -1;  ///< none is worth it, or possible
-  std::int32_t bin = 0;
-};
-
-/// The cost of testing `count` items, block by block.
-float leaf_cost(std::uint32_t count, const BvhOptions& options) {
-  const std::uint32_t blocks = (count + options.block_size - 1) / options.block_size;
-  return static_cast<float>(blocks);
-}
 
 class Builder {
  public:
@@ -212,7 +124,7 @@ class Builder {
     if (pending.count() == 1) return std::nullopt;
     if (pending.depth < kDeepestSahSplit) {
       const Binning binning(pending.extent.centers, pending.count());
-      const Split split = best_split(pending, binning);
+      const ObjectSplit split = best_split(pending, binning);
       if (split.axis >= 0) return partition(pending, binning, split);
     }
     if (pending.count() <= options_.max_leaf) return std::nullopt;
@@ -222,7 +134,7 @@ class Builder {
 
   /// From both ends to the middle, as std::partition does, but summing up the extents at the same
   /// time.
-  Halves partition(const Pending& pending, const Binning& binning, const Split& split) {
+  Halves partition(const Pending& pending, const Binning& binning, const ObjectSplit& split) {
     Halves halves{pending.begin, {}, {}};
     std::size_t end = pending.end;
     const auto goes_left = [&](const BuildItem& item) {
@@ -244,41 +156,13 @@ class Builder {
   }
 
   /// The cheapest split; none when a leaf is allowed and costs no more.
-  Split best_split(const Pending& pending, const Binning& binning) const {
+  ObjectSplit best_split(const Pending& pending, const Binning& binning) const {
     const Bins bins = sum_up(pending.begin, pending.end, [&] { return Bins(binning); });
-    Split best;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      if (binning.divides(axis)) sweep(bins, axis, binning.count(), best);
-    }
-    const auto whole = static_cast<float>(half_area(pending.extent.boxes.bounds()));
-    if (pending.count() <= options_.max_leaf &&
-        whole * leaf_cost(static_cast<std::uint32_t>(pending.count()), options_) <=
-            whole * options_.node_cost + best.cost) {
+    ObjectSplit best = best_object_split(bins, binning, options_);
+    if (leaf_pays(pending.count(), pending.extent.boxes.bounds(), best.cost, options_)) {
       best.axis = -1;
     }
     return best;
-  }
-
-  /// The costs of all splits along one axis.
-  void sweep(const Bins& bins, std::size_t axis, std::size_t count, Split& best) const {
-    const auto cost_of = [&](const Bin& part) {
-      return static_cast<float>(half_area(part.box.bounds())) * leaf_cost(part.count, options_);
-    };
-    std::array<float, Binning::kMaxBins> right_cost{};  // of the bins from i on
-    std::array<std::uint32_t, Binning::kMaxBins> right_count{};
-    Bin right{QuadBox::empty(), 0};
-    for (std::size_t i = count - 1; i > 0; --i) {
-      right.include(bins.at(axis, i));
-      right_count[i] = right.count;
-      right_cost[i] = cost_of(right);
-    }
-    Bin left{QuadBox::empty(), 0};
-    for (std::size_t i = 1; i < count; ++i) {
-      left.include(bins.at(axis, i - 1));
-      if (left.count == 0 || right_count[i] == 0) continue;
-      const float cost = cost_of(left) + right_cost[i];
-      if (cost < best.cost) best = {cost, static_cast<int>(axis), static_cast<std::int32_t>(i)};
-    }
   }
 
   /// Copies the nodes in use, siblings together and each pair's children behind it.

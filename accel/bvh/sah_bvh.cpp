@@ -6,15 +6,18 @@ namespace beambench::accel::bvh {
 
 std::vector<ParameterInfo> SahBvh::parameters() {
   const BvhOptions defaults;
-  return {integer_parameter("max_leaf", defaults.max_leaf, 1, 32, "most primitives of a leaf"),
+  return {choice_parameter("builder", "binned", {"binned", "spatial"},
+                           "spatial: splits may divide primitives (Stich and others 2009)"),
+          integer_parameter("max_leaf", defaults.max_leaf, 1, 32, "most primitives of a leaf"),
           flag_parameter("parallel", defaults.parallel,
                          "build on all cores; the hierarchy is the same")};
 }
 
-BvhOptions SahBvh::options_from(const Parameters& parameters) {
-  BvhOptions options;
-  options.max_leaf = static_cast<std::uint32_t>(parameters.integer("max_leaf"));
-  options.parallel = parameters.flag("parallel");
+WideBvhOptions SahBvh::options_from(const Parameters& parameters) {
+  WideBvhOptions options;
+  options.splits.max_leaf = static_cast<std::uint32_t>(parameters.integer("max_leaf"));
+  options.splits.parallel = parameters.flag("parallel");
+  if (parameters.choice("builder") == "spatial") options.builder = BvhBuilder::kSpatial;
   return options;
 }
 

@@ -17,9 +17,9 @@ namespace beambench::accel::bvh {
 class SahBvh : public TraversalAccelerator<SahBvh> {
  public:
   static std::vector<ParameterInfo> parameters();
-  static BvhOptions options_from(const Parameters& parameters);
+  static WideBvhOptions options_from(const Parameters& parameters);
 
-  SahBvh(const scenes::Scene& scene, const BvhOptions& options)
+  SahBvh(const scenes::Scene& scene, const WideBvhOptions& options)
       : scene_(&scene), bvh_(build_wide_bvh(scene, options)), kernels_(&best_sah_kernels()) {}
 
   const WideBvh& bvh() const { return bvh_; }

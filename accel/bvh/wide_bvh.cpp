@@ -8,6 +8,7 @@
 
 #include "accel/bvh/padded_bounds.hpp"
 #include "accel/bvh/piece.hpp"
+#include "accel/bvh/spatial_builder.hpp"
 #include "accel/core/tolerance.hpp"
 #include "scenes/core/error.hpp"
 
@@ -17,16 +18,19 @@ namespace {
 /// Turns the binary hierarchy over a scene's pieces into the wide one.
 class WideBvhBuilder {
  public:
-  WideBvhBuilder(const scenes::Scene& scene, const BvhOptions& options)
+  WideBvhBuilder(const scenes::Scene& scene, const WideBvhOptions& options)
       : scene_(scene), pieces_(collect_pieces(scene)) {
-    const std::vector<scenes::Bounds> boxes = padded_boxes();
-    binary_ = build_bvh(boxes, options);
-    wide_.cost = sah_cost(binary_, options);
+    if (options.builder == BvhBuilder::kSpatial) {
+      binary_ = build_spatial_bvh(scene, pieces_, overlap_tolerance(scene), options.splits);
+    } else {
+      binary_ = build_bvh(padded_boxes(), options.splits);
+    }
+    wide_.cost = sah_cost(binary_, options.splits);
   }
 
   WideBvh build() {
     wide_.scene_bounds = scene_.bounds;
-    wide_.references = pieces_.size();
+    wide_.references = binary_.items.size();
     if (!pieces_.empty()) wide_.root = convert(0, 1);
     wide_.nodes.shrink_to_fit();
     wide_.blocks.shrink_to_fit();
@@ -79,11 +83,15 @@ class WideBvhBuilder {
   ChildReference make_leaf(const BvhNode& leaf) {
     ++wide_.leaves;
     const auto first_block = static_cast<std::uint32_t>(wide_.blocks.size());
-    const glm::vec3 sides = leaf.box.extent();
     const auto items = std::span(binary_.items).subspan(leaf.first, leaf.count);
     std::sort(items.begin(), items.end());
     leaf_pieces_.clear();
-    for (const std::uint32_t item : items) leaf_pieces_.push_back(pieces_[item]);
+    scenes::Bounds box = leaf.box;  // of the whole pieces, where the leaf has parts
+    for (const std::uint32_t item : items) {
+      leaf_pieces_.push_back(pieces_[item]);
+      box.include(piece_bounds(scene_, pieces_[item]));
+    }
+    const glm::vec3 sides = box.extent();
     append_blocks(scene_, leaf_pieces_, std::max({sides.x, sides.y, sides.z}), wide_.blocks);
     if (wide_.blocks.size() > ChildReference::kBlockIndices) {
       throw InputError(
@@ -104,7 +112,7 @@ class WideBvhBuilder {
 
 }  // namespace
 
-WideBvh build_wide_bvh(const scenes::Scene& scene, const BvhOptions& options) {
+WideBvh build_wide_bvh(const scenes::Scene& scene, const WideBvhOptions& options) {
   return WideBvhBuilder(scene, options).build();
 }
 

@@ -54,13 +54,23 @@ struct WideBvh {
   scenes::Bounds scene_bounds;
   std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, leaf included
   std::uint64_t leaves = 0;
-  std::uint64_t references = 0;  ///< triangles, spheres and cones
+  std::uint64_t references = 0;  ///< to triangles, spheres and cones
   double cost = 0.0;             ///< of the binary hierarchy it was made from: see sah_cost
 
   bool empty() const { return blocks.empty(); }
 };
 
+enum class BvhBuilder : std::uint8_t {
+  kBinned,  ///< `build_bvh`: each piece in one leaf
+  kSpatial  ///< `build_spatial_bvh`: pieces may be divided among leaves
+};
+
+struct WideBvhOptions {
+  BvhOptions splits;
+  BvhBuilder builder = BvhBuilder::kBinned;
+};
+
 /// Throws InputError when the scene needs more than ChildReference::kBlockIndices blocks.
-WideBvh build_wide_bvh(const scenes::Scene& scene, const BvhOptions& options);
+WideBvh build_wide_bvh(const scenes::Scene& scene, const WideBvhOptions& options);
 
 }  // namespace beambench::accel::bvh

@@ -12,9 +12,9 @@
 
 #include <fmt/format.h>
 
+#include "accel/bvh/clip.hpp"
 #include "accel/bvh/padded_bounds.hpp"
 #include "accel/core/tolerance.hpp"
-#include "accel/kd_tree/clip.hpp"
 #include "accel/kd_tree/kd_tree.hpp"
 #include "accel/kd_tree/split_events.hpp"
 #include "scenes/core/error.hpp"
@@ -289,8 +289,8 @@ class Builder {
   /// Adds the events of an item's part in a cell; none where it does not reach into it.
   void clip_into(std::uint32_t item, const scenes::Bounds& cell, EventLists& lists) const {
     const Box wider{glm::dvec3(cell.lower) - tolerance_, glm::dvec3(cell.upper) + tolerance_};
-    const auto part = options_.clip ? clipped_bounds(scene_, pieces_[item], wider)
-                                    : whole_bounds(scene_, pieces_[item], wider);
+    const auto part = options_.clip ? bvh::clipped_bounds(scene_, pieces_[item], wider)
+                                    : bvh::whole_bounds(scene_, pieces_[item], wider);
     if (!part) return;
     for (int axis = 0; axis < 3; ++axis) {
       // In the cell, so that planes in it are met in order; and not empty, even where the part is

@@ -14,11 +14,11 @@
 #include <gtest/gtest.h>
 #include <hwy/targets.h>
 
+#include "accel/bvh/clip.hpp"
 #include "accel/core/overlap.hpp"
 #include "accel/core/registry.hpp"
 #include "accel/core/tolerance.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
-#include "accel/kd_tree/clip.hpp"
 #include "accel/kd_tree/kd_tracer.hpp"
 #include "accel/kd_tree/split_events.hpp"
 #include "scenes/catalogue.hpp"
@@ -275,12 +275,11 @@ TEST(KdTreeClip, KeepsThePartOfATriangle) {
   builder.add_polygon(std::array<glm::dvec3, 3>{{{0, 0, 0}, {4, 0, 0}, {0, 4, 4}}});
   const scenes::Scene scene = std::move(builder).build();
   const bvh::Piece piece{0, 0};
-  expect_box(kd_tree::clipped_bounds(scene, piece, {{-1, -1, -1}, {5, 5, 5}}), {0, 0, 0},
-             {4, 4, 4});
-  expect_box(kd_tree::clipped_bounds(scene, piece, {{1, -1, -1}, {2, 5, 5}}), {1, 0, 0}, {2, 3, 3});
-  expect_box(kd_tree::clipped_bounds(scene, piece, {{2, 1, -1}, {5, 5, 5}}), {2, 1, 1}, {3, 2, 2});
-  EXPECT_FALSE(kd_tree::clipped_bounds(scene, piece, {{3, 3, 0}, {4, 4, 4}})) << "its box does";
-  expect_box(kd_tree::whole_bounds(scene, piece, {{3, 3, 0}, {4, 4, 4}}), {3, 3, 0}, {4, 4, 4});
+  expect_box(bvh::clipped_bounds(scene, piece, {{-1, -1, -1}, {5, 5, 5}}), {0, 0, 0}, {4, 4, 4});
+  expect_box(bvh::clipped_bounds(scene, piece, {{1, -1, -1}, {2, 5, 5}}), {1, 0, 0}, {2, 3, 3});
+  expect_box(bvh::clipped_bounds(scene, piece, {{2, 1, -1}, {5, 5, 5}}), {2, 1, 1}, {3, 2, 2});
+  EXPECT_FALSE(bvh::clipped_bounds(scene, piece, {{3, 3, 0}, {4, 4, 4}})) << "its box does";
+  expect_box(bvh::whole_bounds(scene, piece, {{3, 3, 0}, {4, 4, 4}}), {3, 3, 0}, {4, 4, 4});
 }
 
 TEST(KdTreeClip, KeepsThePartOfASphere) {
@@ -288,11 +287,11 @@ TEST(KdTreeClip, KeepsThePartOfASphere) {
   builder.add_sphere(glm::dvec3(0.0), 1.0);
   const scenes::Scene scene = std::move(builder).build();
   const bvh::Piece piece{0, 0};
-  expect_box(kd_tree::clipped_bounds(scene, piece, {{0.6, -2, -2}, {2, 2, 2}}), {0.6, -0.8, -0.8},
+  expect_box(bvh::clipped_bounds(scene, piece, {{0.6, -2, -2}, {2, 2, 2}}), {0.6, -0.8, -0.8},
              {1, 0.8, 0.8});
-  EXPECT_FALSE(kd_tree::clipped_bounds(scene, piece, {{-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}}))
+  EXPECT_FALSE(bvh::clipped_bounds(scene, piece, {{-0.1, -0.1, -0.1}, {0.1, 0.1, 0.1}}))
       << "a sphere is hollow";
-  EXPECT_FALSE(kd_tree::clipped_bounds(scene, piece, {{0.8, 0.8, 0.8}, {2, 2, 2}}));
+  EXPECT_FALSE(bvh::clipped_bounds(scene, piece, {{0.8, 0.8, 0.8}, {2, 2, 2}}));
 }
 
 TEST(KdTreeEvents, AreSortedByPlaneThenKindThenItem) {

@@ -30,6 +30,24 @@ void expect_equal_to_exhaustive(const bvh::SahBvh& structure, const scenes::Scen
   }
 }
 
+class SahBvhBuilders : public ::testing::TestWithParam<bvh::BvhBuilder> {
+ protected:
+  static bvh::WideBvhOptions options() { return {{}, GetParam()}; }
+};
+INSTANTIATE_TEST_SUITE_P(All, SahBvhBuilders,
+                         ::testing::Values(bvh::BvhBuilder::kBinned, bvh::BvhBuilder::kSpatial),
+                         [](const auto& info) {
+                           return info.param == bvh::BvhBuilder::kBinned ? "Binned" : "Spatial";
+                         });
+
+TEST_P(SahBvhBuilders, GiveTheHitsOfExhaustive) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const scenes::Scene scene = testing::random_scene(seed, 80);
+    expect_equal_to_exhaustive(bvh::SahBvh(scene, options()), scene, seed, 200);
+  }
+}
+
 TEST(SahBvh, EveryInstructionSetGivesTheSameHits) {
   const std::vector<std::int64_t> targets = hwy::SupportedAndGeneratedTargets();
   ASSERT_GE(targets.size(), 2U) << "no choice at run time was compiled in";
@@ -53,16 +71,16 @@ TEST(SahBvh, PicksTheBestInstructionSet) {
 }
 
 // Closed meshes, with rays aimed at their vertices and the middles of their edges.
-TEST(SahBvh, LosesNothingOnMeshes) {
+TEST_P(SahBvhBuilders, LoseNothingOnMeshes) {
   for (const char* name : {"bumpy:triangles=3072", "tetra:n=5", "balls:n=3"}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
-    expect_equal_to_exhaustive(bvh::SahBvh(scene, {}), scene, 11, 1500);
+    expect_equal_to_exhaustive(bvh::SahBvh(scene, options()), scene, 11, 1500);
   }
 }
 
 // Slivers seen from eight scene sizes away: where float tests err most.
-TEST(SahBvh, LosesNoSliverSeenFromAfar) {
+TEST_P(SahBvhBuilders, LoseNoSliverSeenFromAfar) {
   scenes::SceneBuilder builder("slivers");
   Random random(7);
   const auto point = [&] {
@@ -75,7 +93,7 @@ TEST(SahBvh, LosesNoSliverSeenFromAfar) {
     builder.add_sphere(point(), 1e-4);
   }
   const scenes::Scene scene = std::move(builder).build();
-  const bvh::SahBvh structure(scene, {});
+  const bvh::SahBvh structure(scene, options());
   const exhaustive::Exhaustive exhaustive(scene);
   int hits = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -203,12 +221,12 @@ TEST(SahBvh, HoldsEveryPrimitiveOnceInBoxesThatFit) {
   }
 }
 
-TEST(SahBvh, IsTheSameBuiltInParallel) {
+TEST_P(SahBvhBuilders, IsTheSameBuiltInParallel) {
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=50000");
-  bvh::BvhOptions options;
-  const bvh::SahBvh serial(scene, options);
-  options.parallel = true;
-  const bvh::SahBvh parallel(scene, options);
+  bvh::WideBvhOptions with_tasks = options();
+  with_tasks.splits.parallel = true;
+  const bvh::SahBvh serial(scene, options());
+  const bvh::SahBvh parallel(scene, with_tasks);
   ASSERT_EQ(serial.bvh().nodes.size(), parallel.bvh().nodes.size());
   ASSERT_EQ(serial.bvh().blocks.size(), parallel.bvh().blocks.size());
   for (std::size_t i = 0; i < serial.bvh().nodes.size(); ++i) {

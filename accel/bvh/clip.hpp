@@ -6,17 +6,15 @@
 #include "accel/bvh/piece.hpp"
 #include "accel/core/overlap.hpp"
 
-namespace beambench::accel::kd_tree {
+namespace beambench::accel::bvh {
 
 /// The bounds, within `box`, of the part of a piece's surface that lies in a closed box; nothing
 /// where no part does. Exact, to the rounding of double, for triangles, which are clipped by the
 /// box's planes (Sutherland and Hodgman, "Reentrant Polygon Clipping", 1974). Conservative for
 /// spheres, whose part is that of the ball, and for cones, whose part is that of their box.
-std::optional<Box> clipped_bounds(const scenes::Scene& scene, const bvh::Piece& piece,
-                                  const Box& box);
+std::optional<Box> clipped_bounds(const scenes::Scene& scene, const Piece& piece, const Box& box);
 
 /// The same of the piece's whole box.
-std::optional<Box> whole_bounds(const scenes::Scene& scene, const bvh::Piece& piece,
-                                const Box& box);
+std::optional<Box> whole_bounds(const scenes::Scene& scene, const Piece& piece, const Box& box);
 
-}  // namespace beambench::accel::kd_tree
+}  // namespace beambench::accel::bvh

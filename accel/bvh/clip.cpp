@@ -1,4 +1,4 @@
-#include "accel/kd_tree/clip.hpp"
+#include "accel/bvh/clip.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <glm/exponential.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
-namespace beambench::accel::kd_tree {
+namespace beambench::accel::bvh {
 namespace {
 
 /// A convex polygon while it is clipped. Each of the six planes adds one corner at most to those of
@@ -102,8 +102,7 @@ std::optional<Box> clipped_sphere(const scenes::Sphere& sphere, const Box& box) 
 
 }  // namespace
 
-std::optional<Box> clipped_bounds(const scenes::Scene& scene, const bvh::Piece& piece,
-                                  const Box& box) {
+std::optional<Box> clipped_bounds(const scenes::Scene& scene, const Piece& piece, const Box& box) {
   switch (scene.primitives[piece.primitive].kind) {
     case scenes::PrimitiveKind::kPolygon:
       return clipped_triangle(scene, scene.triangles[piece.index], box);
@@ -116,10 +115,9 @@ std::optional<Box> clipped_bounds(const scenes::Scene& scene, const bvh::Piece& 
   return whole_bounds(scene, piece, box);
 }
 
-std::optional<Box> whole_bounds(const scenes::Scene& scene, const bvh::Piece& piece,
-                                const Box& box) {
-  const scenes::Bounds whole = bvh::piece_bounds(scene, piece);
+std::optional<Box> whole_bounds(const scenes::Scene& scene, const Piece& piece, const Box& box) {
+  const scenes::Bounds whole = piece_bounds(scene, piece);
   return common({glm::dvec3(whole.lower), glm::dvec3(whole.upper)}, box);
 }
 
-}  // namespace beambench::accel::kd_tree
+}  // namespace beambench::accel::bvh

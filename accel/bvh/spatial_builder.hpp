@@ -1,0 +1,25 @@
+#pragma once
+// A binary hierarchy whose splits may divide primitives.
+
+#include <span>
+
+#include "accel/bvh/bvh_builder.hpp"
+#include "accel/bvh/piece.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::accel::bvh {
+
+/// The builder of Stich, Friedrich and Dietrich ("Spatial Splits in Bounding Volume Hierarchies",
+/// 2009): where the children of the best division by centers (`build_bvh`'s) overlap by more than
+/// 1e-5 of the root's surface (section 4.5), planes are tried as well. A piece on both sides of the
+/// plane is referred to by both children, each time with the box of its part there, unless the cost
+/// is less with the whole of it on one side (section 4.4).
+///
+/// `items` has the indices of pieces, of which there are at most twice as many entries as pieces.
+/// Boxes are those of the parts, widened by `tolerance` (scene units): every point of a piece is in
+/// the box of a leaf that refers to it. The result is the same with and without
+/// `options.parallel`.
+BinaryBvh build_spatial_bvh(const scenes::Scene& scene, std::span<const Piece> pieces,
+                            double tolerance, const BvhOptions& options);
+
+}  // namespace beambench::accel::bvh

@@ -1,0 +1,151 @@
+// Splits that divide primitives: what the hierarchy must hold, and what it saves.
+
+#include "accel/bvh/spatial_builder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "accel/bvh/padded_bounds.hpp"
+#include "accel/core/tolerance.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/core/random.hpp"
+#include "scenes/scene_builder.hpp"
+#include "tests/random_scene.hpp"
+
+namespace beambench::accel {
+namespace {
+
+/// A hierarchy over a scene by either builder.
+struct Built {
+  explicit Built(const scenes::Scene& scene)
+      : pieces(bvh::collect_pieces(scene)),
+        spatial(bvh::build_spatial_bvh(scene, pieces, overlap_tolerance(scene), {})) {
+    std::vector<scenes::Bounds> boxes;
+    for (const bvh::Piece& piece : pieces) {
+      boxes.push_back(bvh::padded(bvh::piece_bounds(scene, piece), overlap_tolerance(scene)));
+    }
+    binned = bvh::build_bvh(boxes, {});
+  }
+
+  std::vector<bvh::Piece> pieces;
+  bvh::BinaryBvh spatial;
+  bvh::BinaryBvh binned;
+};
+
+bool holds(const scenes::Bounds& box, const glm::dvec3& point) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (point[axis] < box.lower[axis] || point[axis] > box.upper[axis]) return false;
+  }
+  return true;
+}
+
+bool holds(const scenes::Bounds& outer, const scenes::Bounds& inner) {
+  return bvh::united(outer, inner).lower == outer.lower &&
+         bvh::united(outer, inner).upper == outer.upper;
+}
+
+/// Triangles of a tenth of the scene's size, and as thin as a hundredth.
+scenes::Scene long_triangles(std::uint64_t seed) {
+  scenes::SceneBuilder builder("long triangles");
+  Random random(seed);
+  const auto point = [&] {
+    return glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
+  };
+  for (int i = 0; i < 2000; ++i) {
+    const glm::dvec3 a = point();
+    const glm::dvec3 b = a + point() * 0.3;
+    builder.add_polygon(std::array<glm::dvec3, 3>{a, b, b + point() * 0.01});
+  }
+  return std::move(builder).build();
+}
+
+double spatial_over_binned(const char* name) {
+  const Built built(scenes::load_scene(name));
+  return bvh::sah_cost(built.spatial, {}) / bvh::sah_cost(built.binned, {});
+}
+
+TEST(SpatialBuilder, EachPointOfATriangleIsInALeafThatRefersToIt) {
+  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+    const scenes::Scene scene = long_triangles(seed);
+    const Built built(scene);
+    std::vector<std::vector<const bvh::BvhNode*>> leaves_of(built.pieces.size());
+    for (const bvh::BvhNode& node : built.spatial.nodes) {
+      for (std::uint32_t i = 0; i < node.count; ++i) {
+        leaves_of[built.spatial.items[node.first + i]].push_back(&node);
+      }
+    }
+    EXPECT_GT(built.spatial.items.size(), built.pieces.size()) << "no triangle is divided";
+    Random random(seed);
+    for (std::size_t item = 0; item < built.pieces.size(); ++item) {
+      const auto& corner = scene.triangles[built.pieces[item].index].vertex;
+      for (int i = 0; i < 40; ++i) {
+        double u = random.unit();
+        double v = random.unit() * 1.2 - 0.1;  // on edges, too
+        v = std::clamp(v, 0.0, 1.0 - u);
+        const glm::dvec3 point = (1 - u - v) * glm::dvec3(scene.vertices[corner[0]]) +
+                                 u * glm::dvec3(scene.vertices[corner[1]]) +
+                                 v * glm::dvec3(scene.vertices[corner[2]]);
+        const auto& leaves = leaves_of[item];
+        ASSERT_TRUE(std::any_of(leaves.begin(), leaves.end(),
+                                [&](const bvh::BvhNode* leaf) { return holds(leaf->box, point); }))
+            << "triangle " << item;
+      }
+    }
+  }
+}
+
+TEST(SpatialBuilder, IsAHierarchyOfBoundedSize) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const scenes::Scene scene = testing::random_scene(seed, static_cast<int>(2 + 10 * seed));
+    const Built built(scene);
+    const bvh::BinaryBvh& bvh = built.spatial;
+    EXPECT_LE(bvh.items.size(), 2 * built.pieces.size());
+    EXPECT_LE(bvh.depth, bvh::kMaxBvhDepth);
+    const std::set<std::uint32_t> used(bvh.items.begin(), bvh.items.end());
+    EXPECT_EQ(used.size(), built.pieces.size()) << "a piece is in no leaf";
+    for (const bvh::BvhNode& node : bvh.nodes) {
+      if (node.is_leaf()) {
+        EXPECT_LE(node.count, bvh::BvhOptions{}.max_leaf);
+        const auto first = bvh.items.begin() + node.first;
+        EXPECT_EQ(std::set<std::uint32_t>(first, first + node.count).size(), node.count)
+            << "a leaf refers twice to a piece";
+      } else {
+        EXPECT_TRUE(holds(node.box, bvh.nodes[node.first].box));
+        EXPECT_TRUE(holds(node.box, bvh.nodes[node.first + 1].box));
+      }
+    }
+  }
+}
+
+TEST(SpatialBuilder, CostsLess) {
+  EXPECT_LT(spatial_over_binned("ajedrez"), 0.85) << "pieces beside the squares of a board";
+  EXPECT_LT(spatial_over_binned("torre-eiffel"), 0.93) << "a lattice of long triangles";
+  EXPECT_LT(spatial_over_binned("bumpy:triangles=5000"), 1.005) << "there is little to gain";
+}
+
+// Triangles that do not overlap give no reason to divide one.
+TEST(SpatialBuilder, DividesNothingWithoutAReason) {
+  scenes::SceneBuilder builder("apart");
+  for (int i = 0; i < 64; ++i) {
+    const glm::dvec3 a(3 * (i % 4), 3 * (i / 4 % 4), 3 * (i / 16));
+    builder.add_polygon(
+        std::array<glm::dvec3, 3>{a, a + glm::dvec3(1, 0, 0), a + glm::dvec3(0, 1, 0.5)});
+  }
+  const Built built(std::move(builder).build());
+  EXPECT_EQ(built.spatial.items.size(), built.pieces.size());
+  EXPECT_EQ(bvh::sah_cost(built.spatial, {}), bvh::sah_cost(built.binned, {}));
+}
+
+TEST(SpatialBuilder, NoPiecesMakeNoNodes) {
+  const scenes::Scene scene = testing::random_scene(1, 5);
+  EXPECT_TRUE(bvh::build_spatial_bvh(scene, {}, 0.0, {}).nodes.empty());
+}
+
+}  // namespace
+}  // namespace beambench::accel
