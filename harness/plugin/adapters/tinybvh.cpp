@@ -156,7 +156,8 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
   tinybvh::Ray converted(const Ray& ray, float unit) const {
     const tinybvh::bvhvec3 origin = vec3(ray.origin + ray.direction * ray.t_min);
     const float reach = (ray.t_max - ray.t_min) * unit;
-    const float t_max = reach < BVH_FAR ? reach : BVH_FAR;
+    const float far = options_.normalize ? BVH_FAR : kFarNotNormalized;
+    const float t_max = reach < far ? reach : far;
     // What the constructor of its rays does, which always normalizes.
     tinybvh::Ray query;
     query.O = origin;
@@ -166,6 +167,10 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
     query.hit.t = t_max;
     return query;
   }
+
+  /// Empty children are boxes at 1e30, BVH_FAR. A longer direction reaches them before t is so
+  /// large, and finds no node; this is short of them for all that are not longer than 1e10.
+  static constexpr float kFarNotNormalized = 1e20F;
 
   const Scene* scene_;
   Options options_;
