@@ -30,6 +30,9 @@ struct Statistics {
   /// The types in which a library holds the primitives, joined by '+'; empty where they are tested
   /// by the project's own functions (accel/core/intersect.hpp).
   std::string library_geometry;
+  /// The library whose code traces, and its version: "Embree 3.13.5"; empty: the project's own
+  /// code.
+  std::string library_version;
   std::vector<std::pair<std::string, double>> more;  ///< what the family adds, by name
 };
 

@@ -70,6 +70,7 @@ class EmbreeStructure : public Accelerator {
     statistics.instruction_set = isa_;
     statistics.image_rays = ImageRays::kSimd;
     statistics.library_geometry = scene_.geometry_types();
+    statistics.library_version = "Embree " + embree_version();
     statistics.more = {{"triangles", static_cast<double>(scene_.triangle_count())},
                        {"sphere_points", static_cast<double>(scene_.sphere_count())},
                        {"user_primitives", static_cast<double>(scene_.user_count())}};

@@ -125,13 +125,16 @@ void require_isa(const std::string& isa) {
 }
 
 std::string embree_version() {
-  const Device device("threads=1");
-  const auto part = [&](RTCDeviceProperty property) {
-    return static_cast<long>(rtcGetDeviceProperty(device.get(), property));
-  };
-  return fmt::format("{}.{}.{}", part(RTC_DEVICE_PROPERTY_VERSION_MAJOR),
-                     part(RTC_DEVICE_PROPERTY_VERSION_MINOR),
-                     part(RTC_DEVICE_PROPERTY_VERSION_PATCH));
+  static const std::string version = [] {
+    const Device device("threads=1");
+    const auto part = [&](RTCDeviceProperty property) {
+      return static_cast<long>(rtcGetDeviceProperty(device.get(), property));
+    };
+    return fmt::format("{}.{}.{}", part(RTC_DEVICE_PROPERTY_VERSION_MAJOR),
+                       part(RTC_DEVICE_PROPERTY_VERSION_MINOR),
+                       part(RTC_DEVICE_PROPERTY_VERSION_PATCH));
+  }();
+  return version;
 }
 
 }  // namespace beambench::accel::embree

@@ -172,6 +172,7 @@ Json to_json(const Finding& finding, std::size_t rays) {
            {"memory_bytes", sizes.bytes},
            {"instruction_set", sizes.instruction_set},
            {"library_geometry", sizes.library_geometry},
+           {"library_version", sizes.library_version},
            {"more", Json::object()},
            {"build_ms", finding.build_ms},
            {"hits", finding.hits},

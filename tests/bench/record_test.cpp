@@ -195,7 +195,7 @@ const RunFacts kRun{"id", "abc", true, "m", "Release", "-O3", "AVX2", 1};
 /// The columns that scripts and people rely on, in order.
 const char* const kContract =
     "schema_version,run_id,time_utc,commit,dirty,machine_id,build_type,flags,isa,structure_isa,"
-    "library_geometry,threads,"
+    "library_version,library_geometry,threads,"
     "scene,camera,scene_hash,rays_hash,seed,primitives,"
     "structure,parameters,width,height,samples,ray_kind,query,query_path,rays,hit_share,"
     "occluded_share,coherence,"
@@ -288,11 +288,16 @@ TEST(CellRow, TheFirstAndTheSecondTracesHaveAnIntervalEach) {
   EXPECT_TRUE(row.at("trace_warm_ms_ci_low").is_null()) << "five have none";
 }
 
-TEST(CellRow, NamesTheGeometryOfALibrary) {
+TEST(CellRow, NamesALibraryItsVersionAndItsGeometry) {
   CellRecord cell = some_cell();
+  EXPECT_TRUE(to_row(kRun, cell).at("library_version").is_null());
   EXPECT_TRUE(to_row(kRun, cell).at("library_geometry").is_null());
+  cell.statistics->library_version = "Embree 4.3.3";
   cell.statistics->library_geometry = "triangles+points";
+  EXPECT_EQ(to_row(kRun, cell).at("library_version"), "Embree 4.3.3");
   EXPECT_EQ(to_row(kRun, cell).at("library_geometry"), "triangles+points");
+  cell.statistics.reset();
+  EXPECT_TRUE(to_row(kRun, cell).at("library_version").is_null()) << "it was not built";
 }
 
 TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
@@ -308,10 +313,11 @@ TEST(CellRow, WithoutTheVerdictOkItKeepsCountersAndLosesTimes) {
     EXPECT_EQ(value.is_null(),
               is_time || column == "leaves_per_ray" || column == "empty_leaves_per_ray" ||
                   column == "box_tests_per_ray" || column == "primitive_tests_per_ray" ||
-                  column == "structure_isa" || column == "library_geometry" ||
-                  column == "occluded_share" || column == "tree_cost" ||
-                  column.starts_with("sah_") || column == "sphere_tests_per_ray" ||
-                  column == "cone_tests_per_ray" || column == "polygon_tests_per_ray")
+                  column == "structure_isa" || column == "library_version" ||
+                  column == "library_geometry" || column == "occluded_share" ||
+                  column == "tree_cost" || column.starts_with("sah_") ||
+                  column == "sphere_tests_per_ray" || column == "cone_tests_per_ray" ||
+                  column == "polygon_tests_per_ray")
         << column;
   }
   EXPECT_TRUE(to_json(kRun, cell).at("repetitions").empty());

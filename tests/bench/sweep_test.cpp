@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accel/core/registry.hpp"
+#include "accel/embree/isa.hpp"
 #include "harness/bench/sweep_run.hpp"
 #include "tests/scenes/thrown_message.hpp"
 #include "tests/temporary_folder.hpp"
@@ -203,6 +204,8 @@ TEST_F(Sweep, EachQueryPathHasAShareOfItsOwn) {
   }
   EXPECT_EQ(row("embree")["library_geometry"], "triangles");
   EXPECT_TRUE(row("samet")["library_geometry"].is_null());
+  EXPECT_EQ(row("embree")["library_version"], "Embree " + accel::embree::embree_version());
+  EXPECT_TRUE(row("samet")["library_version"].is_null());
   const json overhead = read_json("manifest.json")["harness_overhead"];
   EXPECT_TRUE(overhead["by_query_path"].contains("image-single"));
   EXPECT_FALSE(overhead["by_query_path"].contains("image-own"));

@@ -6,11 +6,14 @@
 #include <cstdlib>
 #include <limits>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "harness/plugin/activity.hpp"
+#include "harness/plugin/adapters/madmann91_hit.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "harness/plugin/validation.hpp"
 #include "scenes/core/error.hpp"
@@ -23,13 +26,13 @@ namespace {
 // Plug-ins that were made with other types are refused; the version's number says why.
 TEST(PluginStamp, TheInterfaceVersionChangesWithTheTypes) {
 #if defined(__x86_64__) && defined(__GLIBCXX__) && !defined(_GLIBCXX_DEBUG)
-  constexpr std::uint64_t kLayoutOfVersion4 = 0x84B33543791EAC01;
-  EXPECT_EQ(kPluginStamp.layout, kLayoutOfVersion4)
+  constexpr std::uint64_t kLayoutOfVersion5 = 0x4017D4DC8CCB3821;
+  EXPECT_EQ(kPluginStamp.layout, kLayoutOfVersion5)
       << std::hex << kPluginStamp.layout
       << ": types of the interface have changed; increment kPluginInterface and write their "
          "fingerprint here";
 #endif
-  EXPECT_EQ(kPluginInterface, 4U);
+  EXPECT_EQ(kPluginInterface, 5U);
 }
 
 TEST(PluginStamp, TheLayoutIsThatOfAllTypes) {
@@ -49,6 +52,17 @@ TEST(PluginStamp, TheLayoutIsThatOfAllTypes) {
   EXPECT_NE((plugin_stamp::layout_of<Small, Large>()), (plugin_stamp::layout_of<Large, Small>()));
   EXPECT_NE(plugin_stamp::layout_of<Aligned>(), plugin_stamp::layout_of<Whole>());
   EXPECT_EQ((plugin_stamp::layout_of<Small, Large>()), (plugin_stamp::layout_of<Small, Large>()));
+}
+
+// With an adapter that knew only the older one, every closest hit was the last of its leaf.
+TEST(Madmann91Adapter, TakesTFromTheHitOrFindsItInTheRay) {
+  struct {
+    float tmax = 2.0F;
+  } ray;
+  adapters::end_at(ray, std::tuple(1.5F, 0.25F, 0.5F));
+  EXPECT_EQ(ray.tmax, 1.5F);
+  adapters::end_at(ray, std::pair(0.25F, 0.5F));
+  EXPECT_EQ(ray.tmax, 1.5F) << "the older version stored it there";
 }
 
 TEST(RequestedPlugins, AreTakenOffTheCommandLineWhereverTheyStand) {

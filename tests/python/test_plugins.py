@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 
-from plugins import BUILD, SOURCES, built, call, configured, reached_headers
+from plugins import BUILD, SOURCES, built, call, configured, reached_headers, run
 from program import BINARY, refused
 
 SWEEP = {
@@ -133,6 +133,32 @@ def test_an_adapter_is_built_where_its_headers_are(
     (folder / header).touch()
     libraries = configured(adapters, tmp_path / "right", prefix, f"-D{variable}={folder}")
     assert libraries == {f"plugins/lib{variable.removeprefix('BEAMBENCH_').lower()}.so"}
+
+
+def test_an_adapter_states_the_commit_of_its_library_alone(prefix: Path, tmp_path: Path) -> None:
+    """Not that of a checkout in which the library's folder happens to lie."""
+    adapters = SOURCES.parents[1] / "harness/plugin/adapters"
+    library = tmp_path / "library"
+    library.mkdir()
+    (library / "tiny_bvh.h").touch()
+    git = ("git", "-C", library, "-c", "user.name=T", "-c", "user.email=t@example.org")
+    run("git", "init", "--quiet", library)
+
+    def stated() -> str:
+        configured(adapters, tmp_path / "build", prefix, f"-DBEAMBENCH_TINYBVH={library}")
+        text = (tmp_path / "build/build.ninja").read_text()
+        (commit,) = set(re.findall(r'BEAMBENCH_LIBRARY_COMMIT=\\"(.*?)\\"', text))
+        return commit
+
+    run(*git, "commit", "--quiet", "--allow-empty", "-m", "something else")
+    assert not stated()
+    run(*git, "add", "tiny_bvh.h")
+    run(*git, "commit", "--quiet", "-m", "the library")
+    head = subprocess.run([*git, "rev-parse", "HEAD"], capture_output=True, text=True, check=True)
+    assert re.fullmatch("[0-9a-f]{7,}", stated())
+    assert head.stdout.startswith(stated())
+    (library / "tiny_bvh.h").write_text("changed")
+    assert stated().endswith("-dirty")
 
 
 # What is taken in
@@ -293,10 +319,22 @@ def test_another_interface_is_refused_by_its_stamp(
         refusal_of(8, other, [f"version {other} of the interface", f"this program has {version}"])
         refusal_of(8, other, ["build it again"])
     refusal_of(
-        8, 2, ["since then: each query exists once", "RayBatch (version 3);", "(version 4); build"]
+        8,
+        2,
+        [
+            "since then: each query exists once",
+            "RayBatch (version 3);",
+            "library and its version (version 5); build",
+        ],
     )
     refusal_of(
-        8, 1, ["image (version 2); each query", "(version 3); a RayBatch", "(version 4); build"]
+        8,
+        1,
+        [
+            "image (version 2); each query",
+            "(version 3); a RayBatch",
+            "library and its version (version 5); build",
+        ],
     )
     refusal_of(8, version + 1, [f"this program has {version}, an older one; build it again"])
     refusal_of(16, code[stamp + 16] ^ 2, ["other types", "build it again"])

@@ -47,7 +47,7 @@ def test_the_default_sweep_has_every_structure_and_the_modes_of_embree() -> None
     assert sweep["budget_seconds"] < 5 * 60
 
 
-@pytest.mark.parametrize("path", SWEEPS, ids=lambda path: path.name)
+@pytest.mark.parametrize("path", [*SWEEPS, LIBRARIES], ids=lambda path: path.name)
 def test_a_committed_sweep_is_valid(path: Path, validator: jsonschema.Draft202012Validator) -> None:
     validator.validate(json.loads(path.read_text()))
 

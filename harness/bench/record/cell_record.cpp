@@ -46,10 +46,13 @@ void add_run(Row& row, const RunFacts& run, const CellRecord& cell) {
   row["build_type"] = run.build_type;
   row["flags"] = run.flags;
   row["isa"] = run.isa;
-  const bool chose = cell.statistics && !cell.statistics->instruction_set.empty();
-  row["structure_isa"] = chose ? Json(cell.statistics->instruction_set) : Json();
-  const bool of_library = cell.statistics && !cell.statistics->library_geometry.empty();
-  row["library_geometry"] = of_library ? Json(cell.statistics->library_geometry) : Json();
+  const auto stated = [&](std::string accel::Statistics::*text) {
+    const bool known = cell.statistics && !((*cell.statistics).*text).empty();
+    return known ? Json((*cell.statistics).*text) : Json();
+  };
+  row["structure_isa"] = stated(&accel::Statistics::instruction_set);
+  row["library_version"] = stated(&accel::Statistics::library_version);
+  row["library_geometry"] = stated(&accel::Statistics::library_geometry);
   row["threads"] = run.threads;
 }
 

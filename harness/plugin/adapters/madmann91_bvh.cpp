@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -15,6 +14,8 @@
 #include <bvh/v2/tri.h>
 #include <bvh/v2/vec.h>
 
+#include "library_version.hpp"
+#include "madmann91_hit.hpp"
 #include "scene_triangles.hpp"
 
 namespace {
@@ -85,6 +86,8 @@ class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
     statistics.bytes = bvh_.nodes.capacity() * sizeof(Node) +
                        bvh_.prim_ids.capacity() * sizeof(std::size_t) +
                        triangles_.capacity() * sizeof(triangles_[0]);
+    // Its headers state no version.
+    statistics.library_version = adapters::library_version("madmann91/bvh 2");
     return statistics;
   }
 
@@ -110,7 +113,7 @@ class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
           counting.add(Counter::kPrimitiveTests, end - begin);
           for (std::size_t i = begin; i < end; ++i) {
             if (const auto hit = triangles_[i].intersect(ray)) {
-              ray.tmax = std::get<0>(*hit);
+              adapters::end_at(ray, *hit);
               found = bvh_.prim_ids[i];
             }
           }

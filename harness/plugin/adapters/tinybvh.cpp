@@ -1,10 +1,12 @@
-// Jacco Bikker's tinybvh (https://github.com/jbikker/tinybvh, MIT) as a plug-in.
+// Jacco Bikker's tinybvh (https://github.com/jbikker/tinybvh, MIT) as a plug-in, by its layouts for
+// processors.
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #define NO_THREADED_BUILDS  // one thread for everyone
@@ -12,6 +14,7 @@
 #include <glm/geometric.hpp>
 #include <tiny_bvh.h>
 
+#include "library_version.hpp"
 #include "scene_triangles.hpp"
 
 namespace {
@@ -28,17 +31,40 @@ std::size_t bytes_of(const tinybvh::BVH& bvh) {
   return bvh.allocatedNodes * sizeof(tinybvh::BVH::BVHNode) +
          bvh.idxCount * (sizeof(std::uint32_t) + sizeof(tinybvh::BVHBase::Fragment));
 }
+template <int kChildren>
+std::size_t bytes_of(const tinybvh::MBVH<kChildren>& wide) {
+  return wide.allocatedNodes * sizeof(typename tinybvh::MBVH<kChildren>::MBVHNode) +
+         bytes_of(wide.bvh);
+}
+std::size_t bytes_of(const tinybvh::BVH_SoA& soa) {
+  return soa.allocatedNodes * sizeof(tinybvh::BVH_SoA::BVHNode) + bytes_of(soa.bvh);
+}
+std::size_t bytes_of(const tinybvh::BVH4_CPU& bvh) {
+  return bvh.allocatedBlocks * sizeof(tinybvh::BVH4_CPU::CacheLine) + bytes_of(bvh.bvh4);
+}
 std::size_t bytes_of(const tinybvh::BVH8_CPU& bvh) {
-  return bvh.allocatedBlocks * sizeof(tinybvh::BVH8_CPU::CacheLine) +
-         bvh.bvh8.allocatedNodes * sizeof(tinybvh::MBVH<8>::MBVHNode) + bytes_of(bvh.bvh8.bvh);
+  return bvh.allocatedBlocks * sizeof(tinybvh::BVH8_CPU::CacheLine) + bytes_of(bvh.bvh8);
 }
 
-/// One of tinybvh's layouts over the triangles of a scene. It normalizes directions and knows no
-/// t_min, so rays begin at their t_min and t is scaled back.
+/// The hierarchy of two children a node that a layout was made from.
+const tinybvh::BVH& binary(const tinybvh::BVH& bvh) { return bvh; }
+const tinybvh::BVH& binary(const tinybvh::BVH_SoA& soa) { return soa.bvh; }
+const tinybvh::BVH& binary(const tinybvh::BVH4_CPU& bvh) { return bvh.bvh4.bvh; }
+const tinybvh::BVH& binary(const tinybvh::BVH8_CPU& bvh) { return bvh.bvh8.bvh; }
+
+struct Options {
+  bool spatial;
+  std::uint32_t optimize;  ///< iterations
+  bool normalize;
+  bool exact_t;
+};
+
+/// One of tinybvh's layouts over the triangles of a scene. tinybvh knows no t_min, so rays begin at
+/// theirs.
 template <class Layout>
 class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
  public:
-  TinyBvh(const Scene& scene, bool high_quality, bool exact_t) : scene_(&scene), exact_t_(exact_t) {
+  TinyBvh(const Scene& scene, const Options& options) : scene_(&scene), options_(options) {
     for (std::size_t i = 0; i < scene.triangles.size(); ++i) {
       for (const glm::vec3& corner : adapters::corners(scene, i)) {
         vertices_.push_back({corner.x, corner.y, corner.z, 0.0F});
@@ -46,49 +72,108 @@ class TinyBvh : public TraversalAccelerator<TinyBvh<Layout>> {
     }
     const auto triangles = static_cast<std::uint32_t>(scene.triangles.size());
     if (triangles == 0) return;
-    if (high_quality) {
+    if (options.optimize > 0) {
+      build_optimized(triangles);
+    } else if (options.spatial) {
       layout_.BuildHQ(vertices_.data(), triangles);
     } else {
-      layout_.Build(vertices_.data(), triangles);
+      build_binned(layout_, triangles);
     }
   }
 
   template <class Counting>
   std::optional<Hit> find_closest(const Ray& ray, Counting&) const {
     if (vertices_.empty() || ray.t_min > ray.t_max) return std::nullopt;
-    const float length = glm::length(ray.direction);
-    tinybvh::Ray query = begun(ray, length);
+    const float unit = unit_of(ray);
+    tinybvh::Ray query = converted(ray, unit);
     const float end = query.hit.t;
     layout_.Intersect(query);
     if (!(query.hit.t < end)) return std::nullopt;
-    const float t = ray.t_min + query.hit.t / length;
-    if (exact_t_) return adapters::with_exact_t(*scene_, ray, query.hit.prim, t);
+    const float t = ray.t_min + query.hit.t / unit;
+    if (options_.exact_t) return adapters::with_exact_t(*scene_, ray, query.hit.prim, t);
     return Hit{t, scene_->triangles[query.hit.prim].primitive};
   }
 
   template <class Counting>
   bool find_any(const Ray& ray, Counting&) const {
     if (vertices_.empty() || ray.t_min > ray.t_max) return false;
-    return layout_.IsOccluded(begun(ray, glm::length(ray.direction)));
+    return layout_.IsOccluded(converted(ray, unit_of(ray)));
   }
 
   Statistics statistics() const override {
     Statistics statistics;
-    statistics.nodes = layout_.usedNodes;
-    statistics.references = layout_.idxCount;
+    statistics.library_version = adapters::library_version(
+        "tinybvh " + std::to_string(TINY_BVH_VERSION_MAJOR) + "." +
+        std::to_string(TINY_BVH_VERSION_MINOR) + "." + std::to_string(TINY_BVH_VERSION_SUB));
+    if (vertices_.empty()) return statistics;
+    statistics.nodes = nodes();
+    statistics.references = binary(layout_).idxCount;
     statistics.bytes = bytes_of(layout_) + vertices_.capacity() * sizeof(tinybvh::bvhvec4);
     return statistics;
   }
 
  private:
-  static tinybvh::Ray begun(const Ray& ray, float length) {
-    const float reach = (ray.t_max - ray.t_min) * length;
-    return {vec3(ray.origin + ray.direction * ray.t_min), vec3(ray.direction),
-            reach < BVH_FAR ? reach : BVH_FAR};
+  /// The wider layouts choose the fastest builder themselves; BVH::Build is the reference one,
+  /// which makes the same tree.
+  template <class Built>
+  void build_binned(Built& built, std::uint32_t triangles) {
+#ifdef BVH_USEAVX
+    if constexpr (std::is_same_v<Built, tinybvh::BVH>) {
+      built.BuildAVX(vertices_.data(), triangles);
+      return;
+    }
+#endif
+    built.Build(vertices_.data(), triangles);
   }
 
+  /// `Optimize` of the wider layouts themselves loses triangles: they join leaves whose triangles
+  /// must be neighbors, which `Compact` alone makes them again after subtrees were moved.
+  void build_optimized(std::uint32_t triangles) {
+    auto& bvh = const_cast<tinybvh::BVH&>(binary(layout_));
+    if (options_.spatial) {
+      bvh.BuildHQ(vertices_.data(), triangles);
+    } else {
+      build_binned(bvh, triangles);
+    }
+    bvh.Optimize(options_.optimize, /*extreme=*/true);
+    bvh.Compact();
+    if constexpr (std::is_same_v<Layout, tinybvh::BVH_SoA>) layout_.ConvertFrom(layout_.bvh, false);
+    if constexpr (std::is_same_v<Layout, tinybvh::BVH4_CPU>) layout_.ConvertFrom(layout_.bvh4);
+    if constexpr (std::is_same_v<Layout, tinybvh::BVH8_CPU>) layout_.ConvertFrom(layout_.bvh8);
+  }
+
+  std::uint64_t nodes() const {
+    if constexpr (std::is_same_v<Layout, tinybvh::BVH4_CPU>) return layout_.bvh4.usedNodes;
+    if constexpr (std::is_same_v<Layout, tinybvh::BVH8_CPU>) return layout_.bvh8.usedNodes;
+    return binary(layout_).usedNodes;
+  }
+
+  /// The length of the direction where it is normalized: tinybvh's t are in it.
+  float unit_of(const Ray& ray) const {
+    return options_.normalize ? glm::length(ray.direction) : 1.0F;
+  }
+
+  tinybvh::Ray converted(const Ray& ray, float unit) const {
+    const tinybvh::bvhvec3 origin = vec3(ray.origin + ray.direction * ray.t_min);
+    const float reach = (ray.t_max - ray.t_min) * unit;
+    const float far = options_.normalize ? BVH_FAR : kFarNotNormalized;
+    const float t_max = reach < far ? reach : far;
+    // What the constructor of its rays does, which always normalizes.
+    tinybvh::Ray query;
+    query.O = origin;
+    query.D =
+        options_.normalize ? tinybvh::tinybvh_normalize(vec3(ray.direction)) : vec3(ray.direction);
+    query.rD = tinybvh::tinybvh_rcp(query.D);
+    query.hit.t = t_max;
+    return query;
+  }
+
+  /// Empty children are boxes at 1e30, BVH_FAR. A longer direction reaches them before t is so
+  /// large, and finds no node; this is short of them for all that are not longer than 1e10.
+  static constexpr float kFarNotNormalized = 1e20F;
+
   const Scene* scene_;
-  bool exact_t_;
+  Options options_;
   std::vector<tinybvh::bvhvec4> vertices_;  // tinybvh keeps pointers into it
   Layout layout_;
 };
@@ -97,18 +182,23 @@ std::unique_ptr<Accelerator> build(const Scene& scene, const Parameters& paramet
                                    const Workload&) {
   adapters::require_triangles_only(scene, "tinybvh");
   const std::string& layout = parameters.choice("layout");
-  const bool high_quality = parameters.flag("hq");
-  const bool exact_t = parameters.flag("exact_t");
-  if (layout == "bvh2")
-    return std::make_unique<TinyBvh<tinybvh::BVH>>(scene, high_quality, exact_t);
+  const Options options{.spatial = parameters.choice("builder") == "spatial",
+                        .optimize = static_cast<std::uint32_t>(parameters.integer("optimize")),
+                        .normalize = parameters.flag("normalize"),
+                        .exact_t = parameters.flag("exact_t")};
 #ifdef BVH_USEAVX2
   if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma")) {
-    throw InputError("tinybvh:layout=bvh8 needs AVX2 and FMA; take tinybvh:layout=bvh2");
+    throw InputError("this plug-in was built for AVX2 and FMA, which this processor lacks");
   }
-  return std::make_unique<TinyBvh<tinybvh::BVH8_CPU>>(scene, high_quality, exact_t);
+  if (layout == "bvh8") return std::make_unique<TinyBvh<tinybvh::BVH8_CPU>>(scene, options);
+  if (layout == "bvh4") return std::make_unique<TinyBvh<tinybvh::BVH4_CPU>>(scene, options);
+  if (layout == "soa") return std::make_unique<TinyBvh<tinybvh::BVH_SoA>>(scene, options);
 #else
-  throw InputError("this plug-in was built without AVX2 and FMA; take tinybvh:layout=bvh2");
+  if (layout != "bvh2") {
+    throw InputError("this plug-in was built without AVX2 and FMA; take tinybvh:layout=bvh2");
+  }
 #endif
+  return std::make_unique<TinyBvh<tinybvh::BVH>>(scene, options);
 }
 
 }  // namespace
@@ -117,10 +207,17 @@ const Plugin beambench_plugin{
     .description = "Jacco Bikker's tinybvh", .fill = [](PluginContents& contents) {
       contents.structures.push_back(
           {"tinybvh",
-           "Bikker's library of one header: a binned SAH hierarchy of two or eight children a node",
+           "Bikker's library of one header: SAH hierarchies of two, four or eight children a node",
            Conformance::kTolerance,
-           {choice_parameter("layout", "bvh8", {"bvh8", "bvh2"}, "children a node; bvh8: by AVX2"),
-            flag_parameter("hq", false, "build with spatial splits"),
+           {choice_parameter("layout", "bvh8", {"bvh8", "bvh4", "soa", "bvh2"},
+                             "children a node: BVH8_CPU by AVX2, BVH4_CPU by SSE, BVH_SoA with two "
+                             "by SSE, BVH with two"),
+            choice_parameter("builder", "binned", {"binned", "spatial"},
+                             "spatial: with spatial splits (Stich and others 2009), its BuildHQ"),
+            integer_parameter("optimize", 0, 0, 10000,
+                              "iterations by which its optimizer reinserts subtrees, after that"),
+            flag_parameter("normalize", true,
+                           "directions, as the constructor of its rays does; t is scaled back"),
             adapters::exact_t_parameter()},
            build});
     }};

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 # Not numbers, whatever they look like: a hash may be digits alone.
 TEXT_COLUMNS = (
     "run_id time_utc commit machine_id build_type flags isa structure_isa "
-    "library_geometry scene camera scene_hash rays_hash structure parameters ray_kind "
-    "query query_path stop_reason verdict"
+    "library_version library_geometry scene camera scene_hash rays_hash structure parameters "
+    "ray_kind query query_path stop_reason verdict"
 ).split()
 
 
