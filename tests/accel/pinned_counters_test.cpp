@@ -56,12 +56,18 @@ std::string row_name(const ::testing::TestParamInfo<Row>& info) {
 
 // clang-format off
 INSTANTIATE_TEST_SUITE_P(Structures, PinnedWork, ::testing::Values(
-    Row{"samet", "tetra:n=4", {{"empty_leaves", 17'142}, {"leaves", 22'163}, {"neighbor_steps", 64'398}, {"primitive_tests", 10'665}, {"traversal_steps", 79'395}}},
+    Row{"samet", "tetra:n=4", {{"empty_leaves", 17'142}, {"last_climb", 4459}, {"leaves", 22'163}, {"neighbor_steps", 64'398}, {"primitive_tests", 10'665}, {"traversal_steps", 79'395}}},
     Row{"samet", "balls:n=2", {{"empty_leaves", 20'835}, {"leaves", 36'819}, {"neighbor_steps", 130'031}, {"primitive_tests", 85'609}, {"traversal_steps", 155'896}}},
-    Row{"samet", "escena1", {{"empty_leaves", 16'004}, {"leaves", 26'168}, {"neighbor_steps", 82'127}, {"primitive_tests", 10'726}, {"traversal_steps", 98'455}}},
+    Row{"samet", "escena1", {{"empty_leaves", 16'004}, {"last_climb", 3552}, {"leaves", 26'168}, {"neighbor_steps", 82'127}, {"primitive_tests", 10'726}, {"traversal_steps", 98'455}}},
     Row{"samet-net", "tetra:n=4", {{"empty_leaves", 17'142}, {"leaves", 22'163}, {"neighbor_steps", 19'683}, {"primitive_tests", 10'665}, {"traversal_steps", 34'680}}},
     Row{"samet-net", "balls:n=2", {{"empty_leaves", 20'835}, {"leaves", 36'819}, {"neighbor_steps", 32'723}, {"primitive_tests", 85'609}, {"traversal_steps", 58'588}}},
     Row{"samet-net", "escena1", {{"empty_leaves", 16'004}, {"leaves", 26'168}, {"neighbor_steps", 23'631}, {"primitive_tests", 10'726}, {"traversal_steps", 39'959}}},
+    Row{"glassner", "tetra:n=4", {{"empty_leaves", 17'142}, {"leaves", 22'163}, {"primitive_tests", 10'665}, {"traversal_steps", 112'414}}},
+    Row{"glassner", "balls:n=2", {{"empty_leaves", 20'835}, {"leaves", 36'819}, {"primitive_tests", 85'609}, {"traversal_steps", 210'613}}},
+    Row{"glassner", "escena1", {{"empty_leaves", 16'004}, {"leaves", 26'168}, {"primitive_tests", 10'726}, {"traversal_steps", 152'433}}},
+    Row{"gargantini", "tetra:n=4", {{"empty_leaves", 17'142}, {"leaves", 22'163}, {"primitive_tests", 10'665}, {"traversal_steps", 45'417}}},
+    Row{"gargantini", "balls:n=2", {{"empty_leaves", 20'835}, {"leaves", 36'819}, {"primitive_tests", 85'609}, {"traversal_steps", 90'236}}},
+    Row{"gargantini", "escena1", {{"empty_leaves", 16'004}, {"leaves", 26'168}, {"primitive_tests", 10'726}, {"traversal_steps", 56'667}}},
     Row{"voxel-grid", "tetra:n=4", {{"empty_leaves", 12'357}, {"leaves", 18'052}, {"primitive_tests", 26'779}, {"traversal_steps", 18'052}}},
     Row{"voxel-grid", "balls:n=2", {{"leaves", 12'867}, {"primitive_tests", 195'217}, {"traversal_steps", 12'867}}},
     Row{"voxel-grid", "escena1", {{"empty_leaves", 1'519}, {"leaves", 12'160}, {"primitive_tests", 18'401}, {"traversal_steps", 12'160}}},

@@ -23,6 +23,8 @@ STRUCTURES = [
     "exhaustive",
     "samet",
     "samet-net",
+    "glassner",
+    "gargantini",
     "voxel-grid",
     "goldsmith-salmon",
     "sah-bvh",

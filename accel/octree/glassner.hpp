@@ -1,0 +1,18 @@
+#pragma once
+// The octree traversed from the root: Glassner's search for each leaf, and Gargantini and
+// Atkinson's descent into the children in order.
+
+#include "accel/octree/octree_cursor.hpp"
+#include "accel/octree/octree_tracer.hpp"
+#include "accel/octree/parametric_search.hpp"
+#include "accel/octree/root_search.hpp"
+
+namespace beambench::accel::octree {
+
+/// Glassner's traversal (IEEE CG&A 4(10), 1984).
+using Glassner = OctreeTracer<RootSearch<OctreeCursor>>;
+
+/// Gargantini and Atkinson's traversal (Computer Graphics Forum 12(4), 1993).
+using Gargantini = OctreeTracer<ParametricSearch<OctreeCursor>>;
+
+}  // namespace beambench::accel::octree
