@@ -1,7 +1,9 @@
 #pragma once
 // A structure for single rays, from an octree and a way to find the leaves along a ray.
 
+#include <concepts>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,8 @@
 #include "accel/core/statistics.hpp"
 #include "accel/core/traversal_accelerator.hpp"
 #include "accel/octree/octree.hpp"
+#include "accel/octree/octree_cursor.hpp"
+#include "scenes/core/error.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel::octree {
@@ -25,9 +29,13 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
   using Tree = typename Search::Cursor::Tree;
 
   OctreeTracer(const scenes::Scene& scene, const OctreeOptions& options)
-      : OctreeTracer(scene, Tree(scene, options)) {}
-  OctreeTracer(const scenes::Scene& scene, Tree octree)
-      : scene_(&scene), octree_(std::move(octree)), search_(octree_) {}
+      : scene_(&scene), octree_(scene, options), search_(octree_) {
+    require_fitting_planes();
+  }
+  OctreeTracer(const scenes::Scene& scene, Tree octree) requires std::move_constructible<Tree>
+      : scene_(&scene), octree_(std::move(octree)), search_(octree_) {
+    require_fitting_planes();
+  }
 
   const Tree& octree() const { return octree_; }
   /// What finds the leaf behind a leaf.
@@ -61,6 +69,16 @@ class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
   }
 
  private:
+  /// Places by a size and halves of it have no way between planes that lie anywhere.
+  void require_fitting_planes() const {
+    if constexpr (std::is_same_v<typename Search::Cursor, OctreeCursor>) {
+      if (octree_.has_central_planes()) return;
+      throw InputError(
+          "planes=cost needs a traversal from the root down, as those of glassner and gargantini; "
+          "choose one of these, or planes=median");
+    }
+  }
+
   const scenes::Scene* scene_;
   Tree octree_;
   Search search_;
