@@ -586,6 +586,18 @@ def test_a_census_counts_rays_by_kind(tmp_path: Path) -> None:
     assert shallow["shadow_rays"] < cached["shadow_rays"]
 
 
+def test_a_census_counts_the_work_of_the_structure() -> None:
+    arguments = ("census", "balls:n=1", "--resolution", "48x48", "--accel", "samet", "--count")
+    assert re.search(r"balls:n=1 +traversal_steps +\d+ +[0-9.]+\n", output_of(*arguments))
+    (one,) = json.loads(output_of(*arguments, "--json", "--threads", "1"))["scenes"]
+    (two,) = json.loads(output_of(*arguments, "--json", "--threads", "2"))["scenes"]
+    assert one["work"] == two["work"]
+    assert one["work"]["rays"] == one["eye_rays"] + one["reflected_rays"] + one["shadow_queries"]
+    assert one["work"]["rays_that_hit"] > one["eye_hits"]
+    assert one["work"]["traversal_steps"] > one["work"]["leaves"] > one["eye_hits"]
+    assert one["size"]["nodes"] > one["size"]["leaves"] > one["size"]["empty_leaves"] > 0
+
+
 def test_a_census_by_beams_asks_the_shadow_cache_in_another_order() -> None:
     arguments = ("census", "maceta", "--accel", "beam", "--resolution", "80x64", "--json")
     scan, beams = (
