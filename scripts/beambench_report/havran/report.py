@@ -1,0 +1,98 @@
+"""Writes the comparison as one page of tables."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from beambench_report.base.files import write_text
+from beambench_report.havran.comparison import (
+    APART,
+    QUANTITIES,
+    WITHIN,
+    WORK,
+    Ratios,
+    order,
+    ratios,
+)
+from beambench_report.havran.contenders import SCENES, STRUCTURES
+from beambench_report.havran.counts import PUBLISHED, Counts, read_counts
+
+
+def write_report(folder: Path) -> Path:
+    """Writes FOLDER/report.md from FOLDER/counts.csv."""
+    ours = read_counts(folder / "counts.csv")
+    published = read_counts(PUBLISHED)
+    parts = (_head(), _orders(ours, published), _means(ours, published), *_tables(ours, published))
+    return write_text(folder / "report.md", "\n".join(parts))
+
+
+def _head() -> str:
+    return """# Havran's octrees, measured again
+
+Counts of five octrees on the seven SPD scenes and lattice: 513x513 rays through the corners of
+pixels and all rays that follow, `beambench census --rules spd --count`. Every cell is ours / his.
+What the quantities mean: [results/havran](../../havran/README.md). Made by
+`python -m beambench_report havran`.
+"""
+
+
+def _orders(ours: Counts, published: Counts) -> str:
+    rows = []
+    for quantity in WORK:
+        found = order(ours, published, quantity)
+        share = f"{found.same / found.pairs:.0%}" if found.pairs else "-"
+        rows.append((quantity, found.pairs, f"{found.same} ({share})", found.level, found.reversed))
+    header = ("quantity", "pairs", "the same order", f"ours within {APART:.0%}", "reversed")
+    return (
+        "## Are the structures in the same order?\n"
+        f"Each two structures on one scene at one depth that his counts tell apart by more than "
+        f"{APART:.0%}:\n\n{_markdown(header, rows)}"
+    )
+
+
+def _means(ours: Counts, published: Counts) -> str:
+    by_structure = [
+        (structure, *(_ratio(ratios(ours, published, q, structure)) for q in QUANTITIES))
+        for structure in STRUCTURES
+    ]
+    by_scene = [
+        (scene, *(_ratio(ratios(ours, published, q, scene=scene)) for q in QUANTITIES))
+        for scene in SCENES
+    ]
+    return (
+        f"## Ours over his\nGeometric means, and how many are within {WITHIN:.0%}.\n\n"
+        + _markdown(("structure", *QUANTITIES), by_structure)
+        + "\n"
+        + _markdown(("scene", *QUANTITIES), by_scene)
+    )
+
+
+def _ratio(found: Ratios | None) -> str:
+    return f"{found.mean:.3f} ({found.within}/{len(found.values)})" if found else "-"
+
+
+def _tables(ours: Counts, published: Counts) -> list[str]:
+    parts = []
+    for scene in SCENES:
+        rows = [
+            (
+                case.structure,
+                case.setting,
+                *(_beside(ours[case][q], published[case][q]) for q in QUANTITIES),
+            )
+            for case in ours
+            if case.scene == scene and case in published
+        ]
+        if rows:
+            table = _markdown(("structure", "setting", *QUANTITIES), rows)
+            parts.append(f"## {scene}\n{table}")
+    return parts
+
+
+def _beside(mine: float, theirs: float) -> str:
+    digits = ",.0f" if theirs == int(theirs) and theirs >= 100 else ".2f"
+    return f"{mine:{digits}} / {theirs:{digits}}"
+
+
+def _markdown(header: Sequence[object], rows: Sequence[Sequence[object]]) -> str:
+    lines = [header, ["---"] * len(header), *rows]
+    return "".join(f"| {' | '.join(map(str, line))} |\n" for line in lines)
