@@ -99,6 +99,13 @@ std::array<Compared, 4> compared(const render::RayCensus& ours,
            {"shadow", ours.shadow, theirs.shadow}}};
 }
 
+nlohmann::ordered_json to_json(const experiments::QueryWork& queries) {
+  nlohmann::ordered_json out = queries.counters.by_name();
+  out["rays"] = queries.rays;
+  out["rays_that_hit"] = queries.rays_that_hit;
+  return out;
+}
+
 nlohmann::ordered_json to_json(const CensusResult& result) {
   const render::RayCensus& census = result.census;
   nlohmann::ordered_json out{{"scene", result.scene}, {"lights", result.lights}};
@@ -117,10 +124,7 @@ nlohmann::ordered_json to_json(const CensusResult& result) {
                    {"depth", built.depth},
                    {"bytes", built.bytes}};
     for (const auto& [name, value] : built.more) out["size"][name] = value;
-    const experiments::QueryWork& queries = result.work->queries;
-    out["work"] = queries.counters.by_name();
-    out["work"]["rays"] = queries.rays;
-    out["work"]["rays_that_hit"] = queries.rays_that_hit;
+    out["work"] = to_json(result.work->queries);
   }
   if (result.full) {
     out["full_rays"] = result.full->rays;
@@ -301,8 +305,10 @@ void add_census_command(CLI::App& app, int&) {
       ->add_option("--pictures", request->pictures,
                    "Also write each scene's picture to this folder, which is created")
       ->type_name("DIR");
-  command->add_flag("--count", request->count_work,
-                    "Also count the structure's work over all rays, which the times then include");
+  command->add_flag(
+      "--count", request->count_work,
+      "Also count the structure's work over all rays, of shadow rays to the first thing that "
+      "they hit; times then include it");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "The rules of SPD: 513x513 rays through the corners of pixels, maximum depth 5, no minimum\n"

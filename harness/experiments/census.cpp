@@ -1,5 +1,6 @@
 #include "harness/experiments/census.hpp"
 
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,8 @@
 #include "harness/rays/hit_check.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/render/picture/image.hpp"
+#include "harness/render/shaded_scene.hpp"
+#include "harness/render/whitted.hpp"
 #include "harness/render/whitted_picture.hpp"
 
 namespace beambench::experiments {
@@ -85,9 +88,12 @@ CensusResult take_census(const accel::StructureChoice& choice, const scenes::Sce
   base::Stopwatch stopwatch;
   const auto built = choice.build(scene, rays::workload_of(image, primary));
   result.build_ms = stopwatch.milliseconds();
-  const CountedQueries counted(*built);
+  const CountedQueries paths(*built);
+  const CountedShadows shadows(*built);
   const accel::Accelerator& structure =
-      options.count_work ? static_cast<const accel::Accelerator&>(counted) : *built;
+      options.count_work ? static_cast<const accel::Accelerator&>(paths) : *built;
+  const accel::Accelerator& of_shadows =
+      options.count_work ? static_cast<const accel::Accelerator&>(shadows) : *built;
   const accel::PrimaryRays rays = options.spd_rules ? render::corner_rays(image.camera) : primary;
   stopwatch = {};
   const accel::HitBuffer hits =
@@ -97,7 +103,9 @@ CensusResult take_census(const accel::StructureChoice& choice, const scenes::Sce
   check.require(hits, rays);
   const Setting setting{scene, structure, check, primary, rays, hits, options, progress};
   stopwatch = {};
-  const render::Whitted tracer(scene, structure, whitted_options(options), check);
+  const render::Whitted tracer(std::make_shared<const render::ShadedScene>(scene),
+                               {&structure, &structure, &of_shadows}, whitted_options(options),
+                               check);
   result.preparation_ms = stopwatch.milliseconds();
   stopwatch = {};
   render::WhittedPicture picture = draw(setting, tracer, options.order);
@@ -105,7 +113,11 @@ CensusResult take_census(const accel::StructureChoice& choice, const scenes::Sce
   result.census = picture.census;
   result.shadow_bytes = tracer.shadows().memory_bytes();
   result.picture = std::move(picture.image);
-  if (options.count_work) result.work = {built->statistics(), counted.work()};
+  if (options.count_work) {
+    QueryWork queries = paths.work();
+    queries.add(shadows.work());
+    result.work = {built->statistics(), std::move(queries)};
+  }
   progress.finish(
       fmt::format("{} rays in {}", result.census.all_rays(), base::format_duration(all.seconds())));
   if (options.whitted.min_weight > 0.0) result.full = draw_full(setting, result.picture);

@@ -39,7 +39,7 @@ struct FullPicture {
 /// What a structure is and did, over all rays of a picture.
 struct StructureWork {
   accel::Statistics statistics;
-  QueryWork queries;
+  QueryWork queries;  ///< shadow rays: to the first thing that they hit (`CountedShadows`)
 };
 
 /// The rays and times of one picture.

@@ -83,6 +83,9 @@ class CountedQueries : public accel::Accelerator {
   }
   accel::Statistics statistics() const override { return structure_->statistics(); }
 
+ protected:
+  const accel::Accelerator& structure() const { return *structure_; }
+
  private:
   static std::uint64_t hits_of(const accel::HitBuffer& buffer) {
     const std::span primitives(buffer.primitive(), buffer.size());
@@ -97,6 +100,31 @@ class CountedQueries : public accel::Accelerator {
   const accel::Accelerator* structure_;
   mutable std::mutex adding_;
   mutable QueryWork work_;
+};
+
+/// Of shadow rays, the work up to the first thing that hides the light, as any-hit queries: what
+/// published counts are of. Where that is glass, or may be, closest hits are asked for and the ray
+/// goes on behind it: this is not counted.
+class CountedShadows : public CountedQueries {
+ public:
+  using CountedQueries::CountedQueries;
+
+  std::optional<accel::Hit> closest_hit(const accel::Ray& ray,
+                                        accel::WorkCounters*) const override {
+    count_first(ray);
+    return structure().closest_hit(ray, nullptr);
+  }
+  void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
+                    accel::WorkCounters*) const override {
+    for (const accel::Ray& ray : batch.rays) count_first(ray);
+    structure().closest_hits(batch, buffer, nullptr);
+  }
+
+ private:
+  /// A shadow ray begins at 0, and behind glass beyond it.
+  void count_first(const accel::Ray& ray) const {
+    if (ray.t_min <= 0.0F) any_hit(ray, nullptr);
+  }
 };
 
 }  // namespace beambench::experiments

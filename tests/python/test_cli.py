@@ -592,9 +592,13 @@ def test_a_census_counts_the_work_of_the_structure() -> None:
     (one,) = json.loads(output_of(*arguments, "--json", "--threads", "1"))["scenes"]
     (two,) = json.loads(output_of(*arguments, "--json", "--threads", "2"))["scenes"]
     assert one["work"] == two["work"]
-    assert one["work"]["rays"] == one["eye_rays"] + one["reflected_rays"] + one["shadow_queries"]
+    assert one["work"]["rays"] == one["eye_rays"] + one["reflected_rays"] + one["shadow_rays"]
     assert one["work"]["rays_that_hit"] > one["eye_hits"]
     assert one["work"]["traversal_steps"] > one["work"]["leaves"] > one["eye_hits"]
+    (glass,) = json.loads(output_of(*("census", "mount:n=2"), *arguments[2:], "--json"))["scenes"]
+    of_paths = glass["eye_rays"] + glass["reflected_rays"] + glass["refracted_rays"]
+    assert glass["shadow_queries"] > glass["shadow_rays"], "on behind glass, which is not counted"
+    assert glass["work"]["rays"] == of_paths + glass["shadow_rays"]
     assert one["size"]["nodes"] > one["size"]["leaves"] > one["size"]["empty_leaves"] > 0
 
 

@@ -5,7 +5,7 @@ from itertools import combinations
 
 from scipy.stats import gmean
 
-from beambench_report.havran.counts import Counts
+from beambench_report.havran.counts import Case, Counts
 
 SIZES = ("N_IN", "N_V", "N_EV", "N_OIV")
 WORK = ("N_IT", "N_TS", "N_ETS", "N_EETS")
@@ -41,11 +41,8 @@ class Order:
     same: int
     level: int
     """Ours are the same there, to within `APART`."""
-
-    @property
-    def reversed(self) -> int:
-        """Pairs that ours put the other way."""
-        return self.pairs - self.same - self.level
+    reversed: tuple[tuple[Case, Case], ...] = ()
+    """Those that ours put the other way."""
 
 
 def ratios(
@@ -71,6 +68,7 @@ def ratios(
 def order(ours: Counts, published: Counts, quantity: str) -> Order:
     """Over all scenes and settings: each two structures that both sides have there."""
     pairs = same = level = 0
+    reverse = []
     for one, other in combinations(ours, 2):
         if (one.scene, one.setting) != (other.scene, other.setting):
             continue
@@ -83,7 +81,9 @@ def order(ours: Counts, published: Counts, quantity: str) -> Order:
         pairs += 1
         same += mine == theirs
         level += mine == 0
-    return Order(pairs, same, level)
+        if mine == -theirs:
+            reverse.append((one, other))
+    return Order(pairs, same, level, tuple(reverse))
 
 
 def _sign(one: float, other: float) -> int:

@@ -1,6 +1,8 @@
 """Writes the comparison as one page of tables."""
 
+from collections import Counter
 from collections.abc import Sequence
+from itertools import product
 from pathlib import Path
 
 from beambench_report.base.files import write_text
@@ -15,6 +17,9 @@ from beambench_report.havran.comparison import (
 )
 from beambench_report.havran.contenders import SCENES, STRUCTURES
 from beambench_report.havran.counts import PUBLISHED, Counts, read_counts
+
+_UNLIKE = "gears"
+"""His is another scene: results/havran/README.md."""
 
 
 def write_report(folder: Path) -> Path:
@@ -36,22 +41,31 @@ What the quantities mean: [results/havran](../../havran/README.md). Made by
 
 
 def _orders(ours: Counts, published: Counts) -> str:
+    others = {case: counts for case, counts in ours.items() if case.scene != _UNLIKE}
     rows = []
-    for quantity in WORK:
-        found = order(ours, published, quantity)
+    reversals: Counter[tuple[str, str, str]] = Counter()
+    for quantity, (where, cases) in product(WORK, (("all", ours), (f"all but {_UNLIKE}", others))):
+        found = order(cases, published, quantity)
         share = f"{found.same / found.pairs:.0%}" if found.pairs else "-"
-        rows.append((quantity, found.pairs, f"{found.same} ({share})", found.level, found.reversed))
-    header = ("quantity", "pairs", "the same order", f"ours within {APART:.0%}", "reversed")
+        if cases is others:
+            reversals.update((quantity, a.structure, b.structure) for a, b in found.reversed)
+        level, reverse = found.level, len(found.reversed)
+        rows.append((quantity, where, found.pairs, f"{found.same} ({share})", level, reverse))
+    header = ("quantity", "scenes", "pairs", "same order", f"ours within {APART:.0%}", "reversed")
+    worst = [(*pair, number) for pair, number in reversals.most_common()]
     return (
         "## Are the structures in the same order?\n"
         f"Each two structures on one scene at one depth that his counts tell apart by more than "
-        f"{APART:.0%}:\n\n{_markdown(header, rows)}"
+        f"{APART:.0%}:\n\n{_markdown(header, rows)}\n"
+        f"The reversed ones of all but {_UNLIKE}:\n\n"
+        f"{_markdown(('quantity', 'structure', 'structure', 'scenes and depths'), worst)}"
     )
 
 
 def _means(ours: Counts, published: Counts) -> str:
+    others = {case: counts for case, counts in ours.items() if case.scene != _UNLIKE}
     by_structure = [
-        (structure, *(_ratio(ratios(ours, published, q, structure)) for q in QUANTITIES))
+        (structure, *(_ratio(ratios(others, published, q, structure)) for q in QUANTITIES))
         for structure in STRUCTURES
     ]
     by_scene = [
@@ -59,7 +73,8 @@ def _means(ours: Counts, published: Counts) -> str:
         for scene in SCENES
     ]
     return (
-        f"## Ours over his\nGeometric means, and how many are within {WITHIN:.0%}.\n\n"
+        f"## Ours over his\nGeometric means, and how many are within {WITHIN:.0%}; by structure "
+        f"without {_UNLIKE}.\n\n"
         + _markdown(("structure", *QUANTITIES), by_structure)
         + "\n"
         + _markdown(("scene", *QUANTITIES), by_scene)
