@@ -9,6 +9,7 @@ from beambench_report.base.files import write_text
 from beambench_report.havran.comparison import (
     APART,
     QUANTITIES,
+    SIZES,
     WITHIN,
     WORK,
     Ratios,
@@ -92,7 +93,7 @@ def _tables(ours: Counts, published: Counts) -> list[str]:
             (
                 case.structure,
                 case.setting,
-                *(_beside(ours[case][q], published[case][q]) for q in QUANTITIES),
+                *(_beside(q, ours[case], published[case]) for q in QUANTITIES),
             )
             for case in ours
             if case.scene == scene and case in published
@@ -103,9 +104,9 @@ def _tables(ours: Counts, published: Counts) -> list[str]:
     return parts
 
 
-def _beside(mine: float, theirs: float) -> str:
-    digits = ",.0f" if theirs == int(theirs) and theirs >= 100 else ".2f"
-    return f"{mine:{digits}} / {theirs:{digits}}"
+def _beside(quantity: str, mine: dict[str, float], theirs: dict[str, float]) -> str:
+    digits = ",.0f" if quantity in SIZES else ".2f"
+    return f"{mine[quantity]:{digits}} / {theirs[quantity]:{digits}}"
 
 
 def _markdown(header: Sequence[object], rows: Sequence[Sequence[object]]) -> str:
