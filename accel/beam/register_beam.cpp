@@ -3,6 +3,7 @@
 #include "accel/beam/beam_tracer.hpp"
 #include "accel/core/registry.hpp"
 #include "accel/octree/leaf_walk.hpp"
+#include "accel/octree/samet.hpp"
 
 namespace beambench::accel::beam {
 
@@ -37,6 +38,7 @@ std::vector<CounterInfo> beam_counters() {
       {"beam_clips", "cuts of a polygon by a line"},
       {"neighbor_searches", "searches of the leaf behind a face, by beams"},
       {std::string(octree::kNeighborSteps), std::string(octree::kNeighborStepsMeaning)},
+      {std::string(octree::kLastClimb), std::string(octree::kLastClimbMeaning)},
       {"samples_leaving", "samples that left the root with a beam"},
       {"samples_in_leaves", "samples that were tested in a leaf with a beam"},
       {"rays_after_leaf", "samples that found no hit in their beam's leaf and continued as rays"},

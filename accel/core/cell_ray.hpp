@@ -62,6 +62,12 @@ class CellRay {
     }
   }
 
+  /// The same of a box of `size` cells along each axis.
+  [[gnu::always_inline]] double exit_t(int axis, const glm::ivec3& corner,
+                                       const glm::ivec3& size) const {
+    return exit_t(axis, corner, size[axis]);
+  }
+
   /// The cell along an axis that the ray is in at t, a t in the grid.
   std::int32_t cell_at(int axis, double t) const {
     const auto slot = static_cast<std::size_t>(axis);

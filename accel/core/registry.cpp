@@ -63,7 +63,28 @@ StructureChoice Registry::choose(const Spec& spec) const {
                     "--plugin FILE",
                     spec.name, did_you_mean(spec.name, names), fmt::join(names, ", ")));
   }
+  for (const auto& [parameter, value] : spec.parameters) {
+    require_own_parameter(*found, parameter);
+  }
   return {*found, Parameters(found->name, found->parameters, spec.parameters)};
+}
+
+void Registry::require_own_parameter(const StructureInfo& structure,
+                                     const std::string& name) const {
+  const auto has = [&](const StructureInfo& info) {
+    return std::ranges::find(info.parameters, name, &ParameterInfo::name) != info.parameters.end();
+  };
+  if (has(structure) || structure.parameters.empty()) return;
+  std::vector<std::string> owners;
+  for (const StructureInfo& info : structures_) {
+    if (has(info)) owners.push_back(info.name);
+  }
+  if (owners.empty()) return;
+  std::vector<std::string> valid;
+  for (const ParameterInfo& info : structure.parameters) valid.push_back(info.name);
+  throw InputError(
+      fmt::format("{}: there is no parameter '{}', which is one of {}; the valid ones are {}",
+                  structure.name, name, fmt::join(owners, ", "), fmt::join(valid, ", ")));
 }
 
 std::vector<StructureChoice> Registry::choose_list(std::string_view text) const {

@@ -102,6 +102,10 @@ class Registry {
   std::vector<StructureChoice> choose_list(std::string_view text) const;
 
  private:
+  /// Refuses a parameter that other structures have, and names them. Others are left to
+  /// `Parameters`.
+  void require_own_parameter(const StructureInfo& structure, const std::string& name) const;
+
   std::vector<StructureInfo> structures_;
   std::map<std::string, std::vector<CounterInfo>> own_counters_;
 };

@@ -5,7 +5,9 @@
 
 #include "accel/core/cell_search.hpp"
 #include "accel/core/primary_rays.hpp"
+#include "accel/octree/box_cursor.hpp"
 #include "accel/octree/leaf_walk.hpp"
+#include "accel/octree/root_search.hpp"
 #include "accel/octree/samet.hpp"
 
 namespace beambench::accel::octree {
@@ -119,11 +121,9 @@ bool enough(int rays, const WorkCounters& counters, const Workload& workload) {
              workload.rays / 6;
 }
 
-}  // namespace
-
-OctreeWork count_work(const scenes::Scene& scene, const Octree& octree, const Workload& workload) {
-  const PrimaryRays sample(workload.camera, kColumns, kRows, 1);
-  const AncestorNeighbors neighbors(octree);
+template <class Search>
+OctreeWork count_by(const Search& search, const scenes::Scene& scene, const Octree& octree,
+                    const PrimaryRays& sample, const Workload& workload) {
   WorkCounters counters;
   std::size_t meet_objects = 0;
   int rays = 0;
@@ -132,7 +132,7 @@ OctreeWork count_work(const scenes::Scene& scene, const Octree& octree, const Wo
     const Ray ray = sample.ray(at % kColumns, at / kColumns, 0);
     ClosestHit closest(ray);
     bool met = false;
-    walk_leaves(octree, neighbors, ray, counters, [&](const OctreeNode& leaf, double exit_t) {
+    walk_leaves(octree, search, ray, counters, [&](const OctreeNode& leaf, double exit_t) {
       met = met || leaf.count > 0;
       return test_references(scene, octree.references(leaf), exit_t, counters, closest);
     });
@@ -145,6 +145,16 @@ OctreeWork count_work(const scenes::Scene& scene, const Octree& octree, const Wo
           .steps = a_ray(counters.get(Counter::kTraversalSteps)),
           .tests = a_ray(counters.get(Counter::kPrimitiveTests)),
           .hit_share = a_ray(meet_objects)};
+}
+
+}  // namespace
+
+OctreeWork count_work(const scenes::Scene& scene, const Octree& octree, const Workload& workload) {
+  const PrimaryRays sample(workload.camera, kColumns, kRows, 1);
+  if (octree.has_central_planes()) {
+    return count_by(AncestorNeighbors(octree), scene, octree, sample, workload);
+  }
+  return count_by(RootSearch<BoxCursor>(octree), scene, octree, sample, workload);
 }
 
 OctreeWork extrapolate(const OctreeWork& before, const OctreeWork& now) {

@@ -1,5 +1,7 @@
 #include "accel/octree/octree.hpp"
 
+#include "accel/octree/box_cursor.hpp"
+#include "accel/octree/for_each_leaf.hpp"
 #include "accel/octree/octree_cursor.hpp"
 
 namespace beambench::accel::octree {
@@ -44,6 +46,30 @@ OctreeOptions OctreeOptions::from(const Parameters& parameters) {
   return options;
 }
 
+std::vector<ParameterInfo> OctreeOptions::top_down_parameters() {
+  const OctreeOptions defaults;
+  std::vector<ParameterInfo> all = parameters();
+  all.push_back(choice_parameter(
+      "planes", "median", {"median", "cost"},
+      "where a node is divided: in its middle, or along each axis where the cost of MacDonald and "
+      "Booth is the least of 10 positions between the spatial and the object median"));
+  all.push_back(choice_parameter(
+      "build", "complete", {"complete", "on-demand"},
+      "when nodes are divided: all before the first ray, or those below built_level when the first "
+      "ray enters them, which changes no hit and no counter"));
+  all.push_back(integer_parameter("built_level", defaults.built_level, 1, kDeepestLevel,
+                                  "with build=on-demand, levels divided before the first ray"));
+  return all;
+}
+
+OctreeOptions OctreeOptions::from_top_down(const Parameters& parameters) {
+  OctreeOptions options = from(parameters);
+  options.planes = parameters.choice("planes") == "cost" ? Planes::kCost : Planes::kMedian;
+  options.build = parameters.choice("build") == "complete" ? Build::kComplete : Build::kOnDemand;
+  options.built_level = static_cast<int>(parameters.integer("built_level"));
+  return options;
+}
+
 Statistics Octree::statistics() const {
   Statistics statistics;
   statistics.nodes = nodes_.size();
@@ -55,28 +81,17 @@ Statistics Octree::statistics() const {
   statistics.references = reference_count();
   statistics.depth = static_cast<std::uint64_t>(deepest_level_);
   statistics.bytes = sizeof(*this) + nodes_.capacity() * sizeof(OctreeNode) +
-                     references_.capacity() * sizeof(scenes::PrimitiveId);
+                     references_.capacity() * sizeof(scenes::PrimitiveId) +
+                     splits_.capacity() * sizeof(splits_[0]);
   return statistics;
 }
 
 std::vector<Box> Octree::occupied_cells() const {
   std::vector<Box> cells;
-  std::vector<OctreeCursor> open{OctreeCursor(*this)};
-  while (!open.empty()) {
-    const OctreeCursor place = open.back();
-    open.pop_back();
-    if (place.node().is_leaf()) {
-      if (place.node().count > 0) cells.push_back(grid_.box(place.corner(), place.size()));
-      continue;
-    }
-    const std::int32_t half = place.size() / 2;
-    for (int octant = 0; octant < 8; ++octant) {
-      OctreeCursor child = place;
-      child.enter_child(place.corner() +
-                        half * glm::ivec3(octant & 1, (octant >> 1) & 1, octant >> 2));
-      open.push_back(child);
-    }
-  }
+  const auto add = [&](const auto& leaf) {
+    if (leaf.node().count > 0) cells.push_back(grid_.box(leaf.corner(), leaf.size()));
+  };
+  central_planes_ ? for_each_leaf(OctreeCursor(*this), add) : for_each_leaf(BoxCursor(*this), add);
   return cells;
 }
 

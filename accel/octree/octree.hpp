@@ -1,11 +1,14 @@
 #pragma once
 // The octree of the thesis (section 3.3), shared by every structure that traverses one.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "accel/core/cell_grid.hpp"
 #include "accel/core/statistics.hpp"
@@ -19,6 +22,9 @@ struct OctreeOptions {
   enum class Root { kCube, kBox };          ///< a cube around the scene (thesis), or its own box
   enum class Assign { kSurface, kBounds };  ///< a reference where the surface, or its box, reaches
 
+  enum class Planes { kMedian, kCost };       ///< nodes halved, or planes where a cost is least
+  enum class Build { kComplete, kOnDemand };  ///< before the first ray, or where rays come
+
   /// In `max_level`: `choose_octree` finds it.
   static constexpr int kAutomatic = 0;
 
@@ -29,13 +35,26 @@ struct OctreeOptions {
   double pad = 1e-6;  ///< root's margin on each side, relative to its size
   std::uint64_t max_references = 50'000'000;
 
+  /// Only traversals from the root find their way between planes that lie anywhere; all others
+  /// refuse `kCost`.
+  Planes planes = Planes::kMedian;
+  Build build = Build::kComplete;  ///< `OnDemandOctree` divides on demand; `Octree` never
+  int built_level = 4;             ///< divided before the first ray, with `kOnDemand`
+
   /// The parameters `max_level`, `max_objects`, `root`, `assign`, `pad`, `max_references` that
   /// every structure over an octree offers, and their values read back.
   static std::vector<ParameterInfo> parameters();
   static OctreeOptions from(const Parameters& parameters);
+
+  /// These, and `planes`, `build`, `built_level` of the structures that are traversed from the root
+  /// down, and their values read back.
+  static std::vector<ParameterInfo> top_down_parameters();
+  static OctreeOptions from_top_down(const Parameters& parameters);
 };
 
-/// The finest cells of an octree of these options over a scene: its root, divided evenly.
+/// The finest cells of an octree of these options over a scene: its root, divided evenly, into
+/// 2^(max_level - 1) cells along each axis where nodes are halved, and into 2^16, to which planes
+/// are rounded, where they lie anywhere.
 CellGrid octree_grid(const scenes::Scene& scene, const OctreeOptions& options);
 
 /// A part of an octree, where a scene is divided among several processes: all cells of `level`
@@ -75,8 +94,16 @@ class Octree {
   /// cells.
   Octree(const scenes::Scene& scene, const OctreeOptions& options, const OctreePart& part);
 
-  /// The finest cells, as many along each axis: 2^(max_level - 1).
+  /// The finest cells, as many along each axis (`octree_grid`).
   const CellGrid& grid() const { return grid_; }
+  /// Is each node halved along each axis? Neighbors are found by coordinates only where it is.
+  bool has_central_planes() const { return central_planes_; }
+  /// The planes between the children of an interior node, as finest cells. Not of an octree with
+  /// central planes.
+  glm::ivec3 split_of(const OctreeNode& node) const {
+    const auto& split = splits_[(node.first - 1) / 8];
+    return {split[0], split[1], split[2]};
+  }
   int deepest_level() const { return deepest_level_; }
   /// Of all leaves together.
   std::size_t reference_count() const { return references_.size(); }
@@ -95,6 +122,9 @@ class Octree {
   CellGrid grid_;
   std::vector<OctreeNode> nodes_;
   std::vector<scenes::PrimitiveId> references_;
+  /// Of interior nodes, in the order of their children; empty where planes are central.
+  std::vector<std::array<std::uint16_t, 3>> splits_;
+  bool central_planes_ = true;
   int deepest_level_ = 1;
 };
 

@@ -15,15 +15,31 @@ namespace beambench::accel::octree {
 /// axis.
 class OctreeCursor {
  public:
+  using Tree = Octree;
+
+  /// At the root.
   explicit OctreeCursor(const Octree& octree)
       : nodes_(octree.nodes().data()), size_(octree.grid().cells.x), cells_(size_) {}
 
   const OctreeNode& node() const { return nodes_[index_]; }
+  bool is_leaf() const { return node().is_leaf(); }
   std::uint32_t index() const { return index_; }
   const glm::ivec3& corner() const { return corner_; }
   std::int32_t size() const { return size_; }
   /// The root being level 1.
   int level() const { return std::countr_zero(static_cast<std::uint32_t>(cells_ / size_)) + 1; }
+
+  /// The planes between the children, as finest cells. Not of a leaf.
+  glm::ivec3 split() const { return corner_ + size_ / 2; }
+
+  /// Goes down to a child by its number (x + 2 y + 4 z). Not from a leaf.
+  void enter(std::uint32_t octant) {
+    index_ = node().first + octant;
+    size_ /= 2;
+    for (int axis = 0; axis < 3; ++axis) {
+      if ((octant >> static_cast<unsigned>(axis) & 1U) != 0) corner_[axis] += size_;
+    }
+  }
 
   /// Goes down to the leaf that the ray is in at parameter t (a point on a boundary belongs to the
   /// side the ray is going to). Returns the number of levels descended.

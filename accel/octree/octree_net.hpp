@@ -18,6 +18,9 @@ namespace beambench::accel::octree {
 /// found as Samet does.
 class OctreeNet {
  public:
+  using Cursor = OctreeCursor;
+  static constexpr bool kNeighborSteps = true;
+
   /// One pass over the nodes: a child's links follow from its parent's.
   explicit OctreeNet(const Octree& octree);
 

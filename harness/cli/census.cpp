@@ -37,6 +37,7 @@ struct Request {
   ImageRequest image;
   WhittedRequest whitted;
   std::string pictures;  ///< a folder; empty: none are kept
+  bool count_work = false;
   bool json = false;
 };
 
@@ -98,6 +99,13 @@ std::array<Compared, 4> compared(const render::RayCensus& ours,
            {"shadow", ours.shadow, theirs.shadow}}};
 }
 
+nlohmann::ordered_json to_json(const experiments::QueryWork& queries) {
+  nlohmann::ordered_json out = queries.counters.by_name();
+  out["rays"] = queries.rays;
+  out["rays_that_hit"] = queries.rays_that_hit;
+  return out;
+}
+
 nlohmann::ordered_json to_json(const CensusResult& result) {
   const render::RayCensus& census = result.census;
   nlohmann::ordered_json out{{"scene", result.scene}, {"lights", result.lights}};
@@ -107,6 +115,17 @@ nlohmann::ordered_json to_json(const CensusResult& result) {
   out["eye_ms"] = result.eye_ms;
   out["preparation_ms"] = result.preparation_ms;
   out["picture_ms"] = result.picture_ms;
+  if (result.work) {
+    const accel::Statistics& built = result.work->statistics;
+    out["size"] = {{"nodes", built.nodes},
+                   {"leaves", built.leaves},
+                   {"empty_leaves", built.empty_leaves},
+                   {"references", built.references},
+                   {"depth", built.depth},
+                   {"bytes", built.bytes}};
+    for (const auto& [name, value] : built.more) out["size"][name] = value;
+    out["work"] = to_json(result.work->queries);
+  }
   if (result.full) {
     out["full_rays"] = result.full->rays;
     out["full_picture_ms"] = result.full->picture_ms;
@@ -150,6 +169,20 @@ nlohmann::ordered_json to_json_beside_published(const CensusResult& result) {
   return out;
 }
 
+std::string work_text(const std::vector<CensusResult>& results) {
+  TextTable table({"scene", "work", "count", "per ray"}, 2);
+  for (const CensusResult& result : results) {
+    if (!result.work) continue;
+    const auto rays = static_cast<double>(result.work->queries.rays);
+    for (const auto& [name, count] : result.work->queries.counters.by_name()) {
+      if (count == 0) continue;
+      table.add({result.scene, name, number(count),
+                 fmt::format("{:.4g}", static_cast<double>(count) / rays)});
+    }
+  }
+  return table.text();
+}
+
 std::string census_text(const std::vector<CensusResult>& results) {
   Cells header{"scene",  "eye rays", "hits",  "reflected", "refracted", "shadow",  "hidden",
                "cached", "listed",   "build", "eye",       "lists",     "the rest"};
@@ -179,6 +212,7 @@ std::string departure(const Request& request) {
 void print_text(const Request& request, const std::vector<CensusResult>& results) {
   fmt::print("{}, {} rules, depth {}, shadows by {}\n\n{}", request.structure, request.rules,
              request.whitted.max_depth, request.whitted.shadows, census_text(results));
+  if (request.count_work) fmt::print("\n{}", work_text(results));
   if (!by_spd(request)) return;
   const std::string beside = published_text(results, departure(request));
   if (!beside.empty()) fmt::print("\n{}", beside);
@@ -209,7 +243,7 @@ experiments::CensusOptions options_of(const Request& request) {
   }
   const experiments::CensusOptions options{whitted_options(request.whitted), by_spd(request),
                                            render::parse_shading_order(request.order),
-                                           request.whitted.threads};
+                                           request.whitted.threads, request.count_work};
   if (options.order != render::ShadingOrder::kRows && by_spd(request)) {
     throw InputError("the rules of SPD have rows of corners of pixels; leave out --order");
   }
@@ -271,6 +305,10 @@ void add_census_command(CLI::App& app, int&) {
       ->add_option("--pictures", request->pictures,
                    "Also write each scene's picture to this folder, which is created")
       ->type_name("DIR");
+  command->add_flag(
+      "--count", request->count_work,
+      "Also count the structure's work over all rays, of shadow rays to the first thing that "
+      "they hit; times then include it");
   command->add_flag("--json", request->json, "Print JSON instead of text");
   command->footer(
       "The rules of SPD: 513x513 rays through the corners of pixels, maximum depth 5, no minimum\n"

@@ -1,13 +1,17 @@
 #include "harness/experiments/census.hpp"
 
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "harness/base/stopwatch.hpp"
+#include "harness/experiments/counted_queries.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/render/picture/image.hpp"
+#include "harness/render/shaded_scene.hpp"
+#include "harness/render/whitted.hpp"
 #include "harness/render/whitted_picture.hpp"
 
 namespace beambench::experiments {
@@ -78,21 +82,30 @@ CensusResult take_census(const accel::StructureChoice& choice, const scenes::Sce
                          base::Progress& progress) {
   const accel::PrimaryRays primary = image.rays();
   progress.start(fmt::format("{} over {}", choice.info().name, scene.name));
-  CensusResult result{scene.name, scene.lights.size(), {}, 0, 0, 0, 0, 0, {}, render::Image(1, 1)};
+  CensusResult result{scene.name, scene.lights.size(), {}, 0, 0, 0, 0, 0, {},
+                      {},         render::Image(1, 1)};
   const base::Stopwatch all;
   base::Stopwatch stopwatch;
-  const auto structure = choice.build(scene, rays::workload_of(image, primary));
+  const auto built = choice.build(scene, rays::workload_of(image, primary));
   result.build_ms = stopwatch.milliseconds();
+  const CountedQueries paths(*built);
+  const CountedShadows shadows(*built);
+  const accel::Accelerator& structure =
+      options.count_work ? static_cast<const accel::Accelerator&>(paths) : *built;
+  const accel::Accelerator& of_shadows =
+      options.count_work ? static_cast<const accel::Accelerator&>(shadows) : *built;
   const accel::PrimaryRays rays = options.spd_rules ? render::corner_rays(image.camera) : primary;
   stopwatch = {};
   const accel::HitBuffer hits =
-      primary_hits(*structure, rays, options.spd_rules ? nullptr : &primary);
+      primary_hits(structure, rays, options.spd_rules ? nullptr : &primary);
   result.eye_ms = stopwatch.milliseconds();
   const rays::HitCheck check(scene, choice);
   check.require(hits, rays);
-  const Setting setting{scene, *structure, check, primary, rays, hits, options, progress};
+  const Setting setting{scene, structure, check, primary, rays, hits, options, progress};
   stopwatch = {};
-  const render::Whitted tracer(scene, *structure, whitted_options(options), check);
+  const render::Whitted tracer(std::make_shared<const render::ShadedScene>(scene),
+                               {&structure, &structure, &of_shadows}, whitted_options(options),
+                               check);
   result.preparation_ms = stopwatch.milliseconds();
   stopwatch = {};
   render::WhittedPicture picture = draw(setting, tracer, options.order);
@@ -100,6 +113,11 @@ CensusResult take_census(const accel::StructureChoice& choice, const scenes::Sce
   result.census = picture.census;
   result.shadow_bytes = tracer.shadows().memory_bytes();
   result.picture = std::move(picture.image);
+  if (options.count_work) {
+    QueryWork queries = paths.work();
+    queries.add(shadows.work());
+    result.work = {built->statistics(), std::move(queries)};
+  }
   progress.finish(
       fmt::format("{} rays in {}", result.census.all_rays(), base::format_duration(all.seconds())));
   if (options.whitted.min_weight > 0.0) result.full = draw_full(setting, result.picture);

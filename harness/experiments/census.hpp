@@ -7,7 +7,9 @@
 #include <string>
 
 #include "accel/core/registry.hpp"
+#include "accel/core/statistics.hpp"
 #include "harness/base/progress.hpp"
+#include "harness/experiments/counted_queries.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/render/picture/image.hpp"
 #include "harness/render/ray_census.hpp"
@@ -23,6 +25,8 @@ struct CensusOptions {
   bool spd_rules = false;
   render::ShadingOrder order = render::ShadingOrder::kRows;
   int threads = 0;  ///< 0: one for each core
+  /// Count the structure's work, which times then include.
+  bool count_work = false;
 };
 
 /// The same picture with all rays, however small their weight.
@@ -30,6 +34,12 @@ struct FullPicture {
   std::uint64_t rays;
   double picture_ms;
   double error;  ///< of the picture without some of the rays: `root_mean_square_error`
+};
+
+/// What a structure is and did, over all rays of a picture.
+struct StructureWork {
+  accel::Statistics statistics;
+  QueryWork queries;  ///< shadow rays: to the first thing that they hit (`CountedShadows`)
 };
 
 /// The rays and times of one picture.
@@ -42,7 +52,8 @@ struct CensusResult {
   double preparation_ms;  ///< light buffers
   double picture_ms;      ///< all but the primary rays
   std::size_t shadow_bytes;
-  std::optional<FullPicture> full;  ///< where `min_weight` is positive
+  std::optional<FullPicture> full;    ///< where `min_weight` is positive
+  std::optional<StructureWork> work;  ///< with `count_work`
   render::Image picture;
 };
 

@@ -274,7 +274,7 @@ TEST(MirrorBeams, TheirWorkIsUnchanged) {
       {"beam_clips", 1802}, {"beam_edges", 4318}, {"beams", 1073}, {"beams_divided", 198},
       {"beams_leaving", 34}, {"beams_made", 1047}, {"beams_nonterminal", 976},
       {"beams_occupied", 63}, {"beams_passed_whole", 26}, {"empty_leaves", 5554},
-      {"leaves", 7354}, {"neighbor_searches", 456}, {"neighbor_steps", 23'814},
+      {"last_climb", 302}, {"leaves", 7354}, {"neighbor_searches", 456}, {"neighbor_steps", 23'814},
       {"primitive_tests", 4607}, {"rays_after_leaf", 74}, {"rays_by_handover", 1256},
       {"samples_in_leaves", 84}, {"samples_leaving", 164}, {"traversal_steps", 25'552}};
   // clang-format on

@@ -23,6 +23,8 @@ STRUCTURES = [
     "exhaustive",
     "samet",
     "samet-net",
+    "glassner",
+    "gargantini",
     "voxel-grid",
     "goldsmith-salmon",
     "sah-bvh",
@@ -582,6 +584,22 @@ def test_a_census_counts_rays_by_kind(tmp_path: Path) -> None:
     (shallow,) = json.loads(output_of(*arguments, "--json", "--depth", "1"))["scenes"]
     assert shallow["reflected_rays"] == 0
     assert shallow["shadow_rays"] < cached["shadow_rays"]
+
+
+def test_a_census_counts_the_work_of_the_structure() -> None:
+    arguments = ("census", "balls:n=1", "--resolution", "48x48", "--accel", "samet", "--count")
+    assert re.search(r"balls:n=1 +traversal_steps +\d+ +[0-9.]+\n", output_of(*arguments))
+    (one,) = json.loads(output_of(*arguments, "--json", "--threads", "1"))["scenes"]
+    (two,) = json.loads(output_of(*arguments, "--json", "--threads", "2"))["scenes"]
+    assert one["work"] == two["work"]
+    assert one["work"]["rays"] == one["eye_rays"] + one["reflected_rays"] + one["shadow_rays"]
+    assert one["work"]["rays_that_hit"] > one["eye_hits"]
+    assert one["work"]["traversal_steps"] > one["work"]["leaves"] > one["eye_hits"]
+    (glass,) = json.loads(output_of(*("census", "mount:n=2"), *arguments[2:], "--json"))["scenes"]
+    of_paths = glass["eye_rays"] + glass["reflected_rays"] + glass["refracted_rays"]
+    assert glass["shadow_queries"] > glass["shadow_rays"], "on behind glass, which is not counted"
+    assert glass["work"]["rays"] == of_paths + glass["shadow_rays"]
+    assert one["size"]["nodes"] > one["size"]["leaves"] > one["size"]["empty_leaves"] > 0
 
 
 def test_a_census_by_beams_asks_the_shadow_cache_in_another_order() -> None:

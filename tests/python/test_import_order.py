@@ -16,6 +16,7 @@ ORDER = (
     "site",
     "nightly",
     "embree_comparison",
+    "havran",
     "thesis.paper",
     "thesis.chapter5",
     "thesis.chapter6",

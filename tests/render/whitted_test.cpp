@@ -301,8 +301,8 @@ TEST(Whitted, ClassicStructuresGiveTheSameBits) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = scene_of_all_surfaces(seed);
     const WhittedPicture expected = picture(scene, "exhaustive", {});
-    for (const char* spec :
-         {"samet", "samet-net", "voxel-grid", "goldsmith-salmon", "sah-bvh", "beam"}) {
+    for (const char* spec : {"samet", "samet-net", "glassner", "gargantini", "voxel-grid",
+                             "goldsmith-salmon", "sah-bvh", "beam"}) {
       SCOPED_TRACE(spec);
       const WhittedPicture found = picture(scene, spec, {});
       expect_same_bits(found.image, expected.image);

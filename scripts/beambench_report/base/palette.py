@@ -36,6 +36,8 @@ _STRUCTURES = (
     Tint("null", "#b0b0b0", "#c4c4c4"),
     Tint("samet", "#0072b2", "#5b8def"),
     Tint("samet-net", "#56b4e9", "#7fd4ff"),
+    Tint("glassner", "#003f5c", "#00bcd4"),
+    Tint("gargantini", "#283593", "#8c9eff"),
     Tint("voxel-grid", "#009e73", "#1fbf8f"),
     Tint("goldsmith-salmon", "#cc79a7", "#dd8fbb"),
     Tint("sah-bvh", "#e69f00", "#f0a818"),

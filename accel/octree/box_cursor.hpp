@@ -1,0 +1,48 @@
+#pragma once
+// A position in an octree whose planes lie anywhere.
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+#include "accel/core/cell_ray.hpp"
+#include "accel/octree/descend.hpp"
+#include "accel/octree/node_division.hpp"
+#include "accel/octree/octree.hpp"
+
+namespace beambench::accel::octree {
+
+/// A node of an octree with the box that it spans. It only goes down: beside a node there need be
+/// none of its size.
+class BoxCursor {
+ public:
+  using Tree = Octree;
+
+  /// At the root of an octree whose planes lie anywhere.
+  explicit BoxCursor(const Octree& octree)
+      : octree_(&octree), cell_{glm::ivec3(0), octree.grid().cells, 1} {}
+
+  const OctreeNode& node() const { return octree_->nodes()[index_]; }
+  bool is_leaf() const { return node().is_leaf(); }
+  std::uint32_t index() const { return index_; }
+  const glm::ivec3& corner() const { return cell_.corner; }
+  const glm::ivec3& size() const { return cell_.size; }
+  int level() const { return cell_.level; }
+  /// The planes between the children, as finest cells. Not of a leaf.
+  glm::ivec3 split() const { return octree_->split_of(node()); }
+
+  /// Goes down to a child by its number (x + 2 y + 4 z). Not from a leaf.
+  void enter(std::uint32_t octant) {
+    cell_ = cell_.child(split(), octant);
+    index_ = node().first + octant;
+  }
+  /// As `descend_to_leaf`.
+  int descend(const CellRay& ray, double t) { return descend_to_leaf(*this, ray, t); }
+
+ private:
+  const Octree* octree_;
+  std::uint32_t index_ = 0;
+  OctreeCell cell_;
+};
+
+}  // namespace beambench::accel::octree

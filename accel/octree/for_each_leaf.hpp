@@ -1,0 +1,29 @@
+#pragma once
+// All leaves below a node of an octree.
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace beambench::accel::octree {
+
+/// Calls `visit(cursor)` at each leaf below a place in an octree, that place included.
+template <class Cursor, class Visit>
+void for_each_leaf(Cursor from, Visit visit) {
+  std::vector<Cursor> open{std::move(from)};
+  while (!open.empty()) {
+    const Cursor place = open.back();
+    open.pop_back();
+    if (place.is_leaf()) {
+      visit(place);
+      continue;
+    }
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+      Cursor child = place;
+      child.enter(octant);
+      open.push_back(child);
+    }
+  }
+}
+
+}  // namespace beambench::accel::octree

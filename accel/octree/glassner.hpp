@@ -1,0 +1,27 @@
+#pragma once
+// The octree traversed from the root: Glassner's search for each leaf, and Gargantini and
+// Atkinson's descent into the children in order.
+
+#include "accel/octree/box_cursor.hpp"
+#include "accel/octree/octree_cursor.hpp"
+#include "accel/octree/octree_tracer.hpp"
+#include "accel/octree/on_demand_octree.hpp"
+#include "accel/octree/parametric_search.hpp"
+#include "accel/octree/root_search.hpp"
+
+namespace beambench::accel::octree {
+
+/// Each over octrees with central planes; with planes that lie anywhere; and divided on demand, by
+/// planes of either kind.
+///
+/// Glassner's traversal (IEEE CG&A 4(10), 1984).
+using Glassner = OctreeTracer<RootSearch<OctreeCursor>>;
+using GlassnerAnyPlanes = OctreeTracer<RootSearch<BoxCursor>>;
+using GlassnerOnDemand = OctreeTracer<RootSearch<OnDemandCursor>>;
+
+/// Gargantini and Atkinson's traversal (Computer Graphics Forum 12(4), 1993).
+using Gargantini = OctreeTracer<ParametricSearch<OctreeCursor>>;
+using GargantiniAnyPlanes = OctreeTracer<ParametricSearch<BoxCursor>>;
+using GargantiniOnDemand = OctreeTracer<ParametricSearch<OnDemandCursor>>;
+
+}  // namespace beambench::accel::octree

@@ -1,0 +1,126 @@
+#include "accel/octree/node_division.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include <fmt/format.h>
+#include <glm/common.hpp>
+
+#include "accel/core/overlap.hpp"
+#include "accel/core/tolerance.hpp"
+#include "accel/octree/cost_planes.hpp"
+#include "scenes/core/error.hpp"
+
+namespace beambench::accel::octree {
+namespace {
+
+/// Planes that may lie anywhere are rounded to that many cells along each axis: all a `CellRange`
+/// can number.
+constexpr int kCostCells = 1 << 16;
+
+}  // namespace
+
+CellGrid octree_grid(const scenes::Scene& scene, const OctreeOptions& options) {
+  const double tolerance = overlap_tolerance(scene);
+  glm::dvec3 size(0.0);
+  if (!scene.bounds.empty()) size = glm::dvec3(scene.bounds.upper) - glm::dvec3(scene.bounds.lower);
+  if (options.root == OctreeOptions::Root::kCube) {
+    size = glm::dvec3(std::max({size.x, size.y, size.z}));
+  }
+  // Hits lie within the tolerance of the bounds: the root must hold them.
+  const glm::dvec3 margin = glm::max(size * options.pad, glm::dvec3(2.0 * tolerance));
+  return make_cell_grid(
+      scene.bounds, size, margin,
+      glm::ivec3(options.planes == OctreeOptions::Planes::kCost ? kCostCells
+                                                                : 1 << (options.max_level - 1)));
+}
+
+NodeDivision::NodeDivision(const scenes::Scene& scene, const OctreeOptions& options)
+    : scene_(&scene),
+      options_(&options),
+      tolerance_(overlap_tolerance(scene)),
+      grid_(octree_grid(scene, options)) {
+  const auto count = static_cast<scenes::PrimitiveId>(scene.primitives.size());
+  ranges_.reserve(count);
+  for (scenes::PrimitiveId id = 0; id < count; ++id) {
+    ranges_.push_back(cell_range(grid_, scenes::primitive_bounds(scene, id), tolerance_));
+  }
+}
+
+glm::ivec3 NodeDivision::split(const OctreeCell& cell,
+                               std::span<const scenes::PrimitiveId> primitives) const {
+  if (options_->planes == OctreeOptions::Planes::kCost) {
+    return cost_planes(grid_, cell.corner, cell.size, ranges_, primitives);
+  }
+  return cell.corner + cell.size / 2;
+}
+
+// A stable counting sort, which keeps ids in increasing order.
+std::array<std::size_t, 8> NodeDivision::distribute(const OctreeCell& cell, const glm::ivec3& split,
+                                                    std::span<const scenes::PrimitiveId> primitives,
+                                                    std::vector<std::uint8_t>& octants,
+                                                    std::vector<scenes::PrimitiveId>& lists) const {
+  octants.resize(primitives.size());
+  std::array<std::size_t, 8> ends{};
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    octants[i] = overlapped_octants(cell, split, primitives[i]);
+    for (std::uint32_t rest = octants[i]; rest != 0; rest &= rest - 1) {
+      ++ends[static_cast<std::size_t>(std::countr_zero(rest))];
+    }
+  }
+  std::array<std::size_t, 8> next{};
+  for (std::size_t octant = 1; octant < 8; ++octant) {
+    next[octant] = ends[octant - 1];
+    ends[octant] += ends[octant - 1];
+  }
+  lists.resize(ends[7]);
+  for (std::size_t i = 0; i < primitives.size(); ++i) {
+    for (std::uint32_t rest = octants[i]; rest != 0; rest &= rest - 1) {
+      lists[next[static_cast<std::size_t>(std::countr_zero(rest))]++] = primitives[i];
+    }
+  }
+  return ends;
+}
+
+/// The children that a primitive of the node belongs to, as a bit mask.
+std::uint8_t NodeDivision::overlapped_octants(const OctreeCell& cell, const glm::ivec3& split,
+                                              scenes::PrimitiveId id) const {
+  constexpr std::array<std::uint8_t, 3> kLowHalf{0x55, 0x33, 0x0F};  // octants with the axis' bit 0
+  const CellRange& range = ranges_[id];
+  std::uint8_t octants = 0xFF;
+  int axes_crossed = 0;
+  bool contained = true;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto slot = static_cast<std::size_t>(axis);
+    const std::int32_t corner = cell.corner[axis];
+    const bool low = range.first[slot] < split[axis];
+    const bool high = range.last[slot] >= split[axis];
+    contained =
+        contained && range.first[slot] >= corner && range.last[slot] < corner + cell.size[axis];
+    if (low && high) {
+      ++axes_crossed;
+    } else {
+      octants &= low ? kLowHalf[slot] : static_cast<std::uint8_t>(~kLowHalf[slot]);
+    }
+  }
+  // One octant is left, or a connected surface inside the node crosses one plane: no test needed.
+  if (axes_crossed == 0 || (axes_crossed == 1 && contained)) return octants;
+  if (options_->assign == OctreeOptions::Assign::kBounds) return octants;
+  for (std::uint32_t octant = 0; octant < 8; ++octant) {
+    if ((octants >> octant & 1U) == 0) continue;
+    const OctreeCell child = cell.child(split, octant);
+    if (!surface_overlaps(*scene_, id, grid_.box(child.corner, child.size), tolerance_)) {
+      octants &= static_cast<std::uint8_t>(~(1U << octant));
+    }
+  }
+  return octants;
+}
+
+void NodeDivision::fail_too_many_references() const {
+  throw InputError(fmt::format(
+      "the octree of max_level {} over '{}' ({} primitives) holds more than {} references; "
+      "lower max_level, raise max_objects, or raise max_references (4 bytes each)",
+      options_->max_level, scene_->name, scene_->primitives.size(), options_->max_references));
+}
+
+}  // namespace beambench::accel::octree

@@ -1,0 +1,87 @@
+#pragma once
+// A structure for single rays, from an octree and a way to find the leaves along a ray.
+
+#include <concepts>
+#include <optional>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "accel/core/cell_search.hpp"
+#include "accel/core/intersect.hpp"
+#include "accel/core/overlap.hpp"
+#include "accel/core/ray.hpp"
+#include "accel/core/statistics.hpp"
+#include "accel/core/traversal_accelerator.hpp"
+#include "accel/octree/octree.hpp"
+#include "accel/octree/octree_cursor.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::accel::octree {
+
+/// The octree of the thesis (section 3.3) for individual rays. `Search`, made from the octree,
+/// finds the leaves along a ray by `walk_leaves(octree, search, ray, counting, visit)`; it changes
+/// no leaf, no order and no hit.
+template <class Search>
+class OctreeTracer : public TraversalAccelerator<OctreeTracer<Search>> {
+ public:
+  using Tree = typename Search::Cursor::Tree;
+
+  OctreeTracer(const scenes::Scene& scene, const OctreeOptions& options)
+      : scene_(&scene), octree_(scene, options), search_(octree_) {
+    require_fitting_planes();
+  }
+  OctreeTracer(const scenes::Scene& scene, Tree octree) requires std::move_constructible<Tree>
+      : scene_(&scene), octree_(std::move(octree)), search_(octree_) {
+    require_fitting_planes();
+  }
+
+  const Tree& octree() const { return octree_; }
+  /// What finds the leaf behind a leaf.
+  const Search& neighbors() const { return search_; }
+
+  Statistics statistics() const override {
+    Statistics statistics = octree_.statistics();
+    search_.describe(statistics);
+    return statistics;
+  }
+
+  std::vector<Box> occupied_cells() const override { return octree_.occupied_cells(); }
+
+  template <class Counting>
+  std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
+    ClosestHit closest(ray);
+    walk_leaves(octree_, search_, ray, counting, [&](const auto& leaf, double exit_t) {
+      return test_references(*scene_, octree_.references(leaf), exit_t, counting, closest);
+    });
+    return closest.result();
+  }
+  template <class Counting>
+  bool find_any(const Ray& ray, Counting& counting) const {
+    const CanonicalRay canonical(ray);
+    bool found = false;
+    walk_leaves(octree_, search_, ray, counting, [&](const auto& leaf, double exit_t) {
+      found = any_reference_hit(*scene_, octree_.references(leaf), canonical, counting);
+      return found || canonical.t_max < static_cast<float>(exit_t);
+    });
+    return found;
+  }
+
+ private:
+  /// Places by a size and halves of it have no way between planes that lie anywhere.
+  void require_fitting_planes() const {
+    if constexpr (std::is_same_v<typename Search::Cursor, OctreeCursor>) {
+      if (octree_.has_central_planes()) return;
+      throw InputError(
+          "planes=cost needs a traversal from the root down, as those of glassner and gargantini; "
+          "choose one of these, or planes=median");
+    }
+  }
+
+  const scenes::Scene* scene_;
+  Tree octree_;
+  Search search_;
+};
+
+}  // namespace beambench::accel::octree

@@ -1,0 +1,132 @@
+#pragma once
+// An octree whose nodes are divided when the first ray enters them.
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "accel/core/cell_grid.hpp"
+#include "accel/core/cell_ray.hpp"
+#include "accel/core/overlap.hpp"
+#include "accel/core/statistics.hpp"
+#include "accel/octree/descend.hpp"
+#include "accel/octree/node_division.hpp"
+#include "accel/octree/octree.hpp"
+#include "scenes/primitive.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::accel::octree {
+
+struct Children;
+
+/// A node: interior once it has children.
+struct OnDemandNode {
+  std::vector<scenes::PrimitiveId> references;
+  mutable std::atomic<const Children*> children{nullptr};
+};
+
+/// What a node was divided into.
+struct Children {
+  glm::ivec3 split;  ///< the planes between them, as finest cells
+  std::array<OnDemandNode, 8> nodes;
+};
+
+/// The octree of McNeill and others ("Performance of space subdivision techniques in ray tracing",
+/// Computer Graphics Forum 11(4), 1992; thesis, section 2.2.2): few rays reach the small nodes, so
+/// only the high levels are divided beforehand, and a node below when the first ray enters it. It
+/// is divided by the same rules (`NodeDivision`), so that a ray passes through the same leaves as
+/// in `Octree`.
+///
+/// Several threads may query at once. A thread that finds a node undivided divides it and then
+/// publishes the children under a lock; one that comes second discards its own, which are the same.
+/// A divided node keeps its list, for another thread may still be dividing it.
+class OnDemandOctree {
+ public:
+  /// Divides down to `built_level`. The scene must outlive this. Throws InputError naming
+  /// `max_references` when the lists exceed it.
+  OnDemandOctree(const scenes::Scene& scene, const OctreeOptions& options);
+  OnDemandOctree(const OnDemandOctree&) = delete;
+  OnDemandOctree& operator=(const OnDemandOctree&) = delete;
+
+  const CellGrid& grid() const { return division_.grid(); }
+  const OnDemandNode& root() const { return root_; }
+  OctreeCell root_cell() const { return division_.root(); }
+  static std::span<const scenes::PrimitiveId> references(const OnDemandNode& leaf) {
+    return leaf.references;
+  }
+
+  /// The children of a node at a place, divided now if none entered it before; nullptr of a leaf.
+  /// Throws InputError naming `max_references` when the lists made so far exceed it.
+  const Children* children(const OnDemandNode& node, const OctreeCell& cell) const {
+    const Children* children = node.children.load(std::memory_order_acquire);
+    if (children != nullptr || !division_.divides(cell, node.references.size())) return children;
+    return &divide(node, cell);
+  }
+
+  /// Of what is divided so far: nodes that would be divided count as leaves, and are counted.
+  Statistics statistics() const;
+  /// The leaves so far that hold references, in scene units.
+  std::vector<Box> occupied_cells() const;
+
+ private:
+  const Children& divide(const OnDemandNode& node, const OctreeCell& cell) const;
+  void divide_to(const OnDemandNode& node, const OctreeCell& cell, int level) const;
+  /// Calls `visit(node, cell, leaf)` for all nodes so far; divides none.
+  template <class Visit>
+  void for_each_node(Visit visit) const;
+
+  OctreeOptions options_;
+  NodeDivision division_;
+  OnDemandNode root_;
+  // Mutable: what a query adds is what any other query would have found.
+  mutable std::mutex publishing_;
+  mutable std::vector<std::unique_ptr<const Children>> divided_;
+  mutable std::uint64_t references_made_ = 0;
+};
+
+/// A node of an octree on demand with the box that it spans.
+class OnDemandCursor {
+ public:
+  using Tree = OnDemandOctree;
+
+  /// At the root.
+  explicit OnDemandCursor(const OnDemandOctree& octree)
+      : octree_(&octree), node_(&octree.root()), cell_(octree.root_cell()) {}
+
+  const OnDemandNode& node() const { return *node_; }
+  /// Divides the node if it must be and was not.
+  bool is_leaf() const { return octree_->children(*node_, cell_) == nullptr; }
+  /// The code of the node: the numbers of the children on the way, as octal digits after a 1. It
+  /// depends on no order of division.
+  std::uint64_t index() const { return code_; }
+  const glm::ivec3& corner() const { return cell_.corner; }
+  const glm::ivec3& size() const { return cell_.size; }
+  int level() const { return cell_.level; }
+  /// The planes between the children, as finest cells. Not of a leaf.
+  glm::ivec3 split() const { return octree_->children(*node_, cell_)->split; }
+
+  /// Goes down to a child by its number (x + 2 y + 4 z). Not from a leaf.
+  void enter(std::uint32_t octant) {
+    const Children* children = octree_->children(*node_, cell_);
+    cell_ = cell_.child(children->split, octant);
+    node_ = &children->nodes[octant];
+    code_ = code_ * 8 + octant;
+  }
+  /// As `descend_to_leaf`.
+  int descend(const CellRay& ray, double t) { return descend_to_leaf(*this, ray, t); }
+
+ private:
+  const OnDemandOctree* octree_;
+  const OnDemandNode* node_;
+  OctreeCell cell_;
+  std::uint64_t code_ = 1;
+};
+
+}  // namespace beambench::accel::octree

@@ -1,0 +1,45 @@
+#pragma once
+// Finding the next leaf along a ray from the root.
+
+#include <glm/vec3.hpp>
+
+#include "accel/core/statistics.hpp"
+
+namespace beambench::accel::octree {
+
+/// As `LeafWalk` requires: the next leaf is searched from the root each time (Glassner, "Space
+/// subdivision for fast ray tracing", IEEE CG&A 4(10), 1984; the "root" methods of the thesis,
+/// section 2.2.2). Nodes need neither parents nor neighbors of their own size, so that planes may
+/// lie anywhere.
+///
+/// Glassner moves a point a little beyond the leaf and looks where it is. Here no point is moved:
+/// the search goes by the planes that the ray has crossed at the leaf's exit, so that no thin leaf
+/// is skipped. He finds nodes by a hash of their names; the nodes on the way are the same.
+template <class CursorType>
+class RootSearch {
+ public:
+  using Cursor = CursorType;
+  static constexpr bool kNeighborSteps = false;
+
+  explicit RootSearch(const typename Cursor::Tree& octree) : octree_(&octree) {}
+  // The octree lies beside this in a structure, which is not moved.
+  RootSearch(const RootSearch&) = delete;
+  RootSearch& operator=(const RootSearch&) = delete;
+
+  int move(Cursor& cursor, const glm::ivec3& step) const {
+    const glm::ivec3& cells = octree_->grid().cells;
+    const glm::ivec3 end = cursor.corner() + cursor.size();
+    for (int axis = 0; axis < 3; ++axis) {
+      if (step[axis] < 0 && cursor.corner()[axis] == 0) return 0;
+      if (step[axis] > 0 && end[axis] == cells[axis]) return 0;
+    }
+    cursor = Cursor(*octree_);
+    return 1;
+  }
+  static void describe(Statistics&) {}
+
+ private:
+  const typename Cursor::Tree* octree_;
+};
+
+}  // namespace beambench::accel::octree

@@ -1,0 +1,1 @@
+"""Havran's comparison of octrees (1999), measured again."""

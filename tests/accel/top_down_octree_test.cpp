@@ -1,0 +1,94 @@
+// The traversals of the octree from the root: they find the leaves that Samet's finds.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "accel/core/work_counters.hpp"
+#include "accel/exhaustive/exhaustive.hpp"
+#include "accel/octree/glassner.hpp"
+#include "accel/octree/samet.hpp"
+#include "scenes/core/random.hpp"
+#include "tests/random_scene.hpp"
+
+namespace beambench::accel {
+namespace {
+
+octree::OctreeOptions some_options(std::uint64_t number) {
+  octree::OctreeOptions options;
+  options.max_level = static_cast<int>(1 + number % 6);
+  options.max_objects = static_cast<std::uint32_t>(number % 3);
+  if (number % 4 == 1) options.root = octree::OctreeOptions::Root::kBox;
+  if (number % 5 == 2) options.assign = octree::OctreeOptions::Assign::kBounds;
+  return options;
+}
+
+/// Nodes from the root to each leaf of a path, the leaves included.
+std::uint64_t levels_of(const std::vector<TraceStep>& path) {
+  std::uint64_t levels = 0;
+  for (const TraceStep& step : path) levels += static_cast<std::uint64_t>(step.level);
+  return levels;
+}
+
+TEST(TopDownOctree, LeavesTheirOrderAndTheTestsAreThoseOfSamet) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    const scenes::Scene scene = testing::random_scene(seed, 25);
+    const octree::Samet samet(scene, some_options(seed));
+    const octree::Glassner glassner(scene, some_options(seed));
+    const octree::Gargantini gargantini(scene, some_options(seed));
+    const exhaustive::Exhaustive exhaustive(scene);
+    Random random(seed);
+    for (int i = 0; i < 100; ++i) {
+      const Ray ray = testing::random_ray(scene, random);
+      const auto expected = samet.explain(ray);
+      const auto hit = exhaustive.closest_hit(ray, nullptr);
+      for (const Accelerator* structure : {static_cast<const Accelerator*>(&glassner),
+                                           static_cast<const Accelerator*>(&gargantini)}) {
+        const auto actual = structure->explain(ray);
+        ASSERT_EQ(actual.size(), expected.size());
+        for (std::size_t step = 0; step < actual.size(); ++step) {
+          ASSERT_EQ(actual[step].index, expected[step].index);
+          ASSERT_EQ(actual[step].level, expected[step].level);
+          ASSERT_EQ(actual[step].t_enter, expected[step].t_enter);
+          ASSERT_EQ(actual[step].t_exit, expected[step].t_exit);
+          ASSERT_EQ(actual[step].tests.size(), expected[step].tests.size());
+        }
+        ASSERT_EQ(structure->closest_hit(ray, nullptr), hit);
+        ASSERT_EQ(structure->any_hit(ray, nullptr), hit.has_value());
+      }
+    }
+  }
+}
+
+// A search from the root passes a node on each level; the descent in order passes each node once.
+TEST(TopDownOctree, StepsAreTheNodesPassed) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE(seed);
+    const scenes::Scene scene = testing::random_scene(seed, 40);
+    octree::OctreeOptions options = some_options(seed);
+    options.max_level = 6;
+    const octree::Glassner glassner(scene, options);
+    const octree::Gargantini gargantini(scene, options);
+    Random random(seed);
+    std::uint64_t searched = 0;
+    WorkCounters from_root;
+    WorkCounters in_order;
+    for (int i = 0; i < 100; ++i) {
+      const Ray ray = testing::random_ray(scene, random);
+      glassner.closest_hit(ray, &from_root);
+      gargantini.closest_hit(ray, &in_order);
+      searched += levels_of(glassner.explain(ray));
+    }
+    EXPECT_EQ(from_root.get(Counter::kTraversalSteps), searched);
+    EXPECT_EQ(in_order.get(Counter::kLeaves), from_root.get(Counter::kLeaves));
+    EXPECT_EQ(in_order.get(Counter::kPrimitiveTests), from_root.get(Counter::kPrimitiveTests));
+    EXPECT_GE(in_order.get(Counter::kTraversalSteps), in_order.get(Counter::kLeaves));
+    EXPECT_LE(in_order.get(Counter::kTraversalSteps), searched);
+  }
+}
+
+}  // namespace
+}  // namespace beambench::accel
