@@ -1,0 +1,30 @@
+#pragma once
+// How a hierarchy of grids is made.
+
+#include <cstdint>
+#include <vector>
+
+#include "accel/grid/grid_layout.hpp"
+#include "scenes/core/parameters.hpp"
+
+namespace beambench::accel::hierarchical_grid {
+
+/// The levels of grids that there can be.
+inline constexpr int kMostLevels = 8;
+
+struct HierarchicalGridOptions : grid::GridLayout {
+  HierarchicalGridOptions() { density = 1.0; }
+
+  double inner_density = 4.0;      ///< voxels for each reference of the voxel that is divided
+  std::uint32_t max_objects = 16;  ///< a voxel that refers to more is divided
+  int max_level = 3;               ///< levels of grids, the top one being 1
+  /// Only voxels in which a grid is expected to save time, or all that refer to so many.
+  enum class Divide { kGain, kAlways };
+  Divide divide = Divide::kGain;
+  bool mailboxes = false;
+
+  static std::vector<ParameterInfo> parameters();
+  static HierarchicalGridOptions from(const Parameters& parameters);
+};
+
+}  // namespace beambench::accel::hierarchical_grid
