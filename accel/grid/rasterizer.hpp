@@ -52,17 +52,18 @@ class Rasterizer {
     return true;
   }
 
-  /// Halves a block of voxels that the primitive is known to reach into, down to single ones: the
-  /// cost of a large primitive depends on its surface, not on the volume around it. `all`: it is
-  /// known to reach into each. So it does in a row of voxels that holds the whole primitive, for
-  /// its surface is connected.
+  /// Halves a block of voxels that the primitive is known to reach into, down to a few that are
+  /// tested one by one: the cost of a large primitive depends on its surface, not on the volume
+  /// around it. `all`: it is known to reach into each. So it does in a row of voxels that holds the
+  /// whole primitive, for its surface is connected.
   template <class Emit>
   bool split(scenes::PrimitiveId id, const glm::ivec3& corner, const glm::ivec3& size, bool all,
              Emit& emit) const {
-    const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
-    if (size[axis] == 1) {
-      return emit(voxel_index(*grid_, corner));
+    constexpr int kFew = 8;
+    if (size.x <= kFew && size.y <= kFew && size.z <= kFew && size.x * size.y * size.z <= kFew) {
+      return for_each_of_few(id, corner, size, all, emit);
     }
+    const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
     glm::ivec3 half = size;
     half[axis] = size[axis] / 2;
     glm::ivec3 rest = size;
@@ -71,6 +72,22 @@ class Rasterizer {
     middle[axis] += half[axis];
     if ((all || reaches(id, corner, half)) && !split(id, corner, half, all, emit)) return false;
     return !(all || reaches(id, middle, rest)) || split(id, middle, rest, all, emit);
+  }
+
+  template <class Emit>
+  bool for_each_of_few(scenes::PrimitiveId id, const glm::ivec3& corner, const glm::ivec3& size,
+                       bool all, Emit& emit) const {
+    const bool one = size == glm::ivec3(1);
+    for (int z = 0; z < size.z; ++z) {
+      for (int y = 0; y < size.y; ++y) {
+        for (int x = 0; x < size.x; ++x) {
+          const glm::ivec3 voxel = corner + glm::ivec3(x, y, z);
+          if (!all && !one && !reaches(id, voxel, glm::ivec3(1))) continue;
+          if (!emit(voxel_index(*grid_, voxel))) return false;
+        }
+      }
+    }
+    return true;
   }
 
   bool reaches(scenes::PrimitiveId id, const glm::ivec3& corner, const glm::ivec3& size) const {

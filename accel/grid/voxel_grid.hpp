@@ -24,6 +24,7 @@ class VoxelGrid : public TraversalAccelerator<VoxelGrid<Voxels, Boxes>> {
   VoxelGrid(const scenes::Scene& scene, const VoxelGridOptions& options)
       : scene_(&scene),
         grid_(make_voxel_grid(scene, options)),
+        walk_(grid_),
         voxels_(scene, grid_, options.max_references, options.assign) {}
 
   const CellGrid& grid() const { return grid_; }
@@ -50,7 +51,7 @@ class VoxelGrid : public TraversalAccelerator<VoxelGrid<Voxels, Boxes>> {
   std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
     ClosestHit closest(ray);
     Boxes boxes(scene_->primitives.size());
-    walk_voxels(grid_, ray, counting, [&](std::size_t voxel, double exit_t) {
+    walk_voxels(walk_, ray, counting, [&](std::size_t voxel, double exit_t) {
       return test_references(*scene_, references(voxel, counting), exit_t, counting, closest,
                              boxes);
     });
@@ -61,7 +62,7 @@ class VoxelGrid : public TraversalAccelerator<VoxelGrid<Voxels, Boxes>> {
     const CanonicalRay canonical(ray);
     Boxes boxes(scene_->primitives.size());
     bool found = false;
-    walk_voxels(grid_, ray, counting, [&](std::size_t voxel, double exit_t) {
+    walk_voxels(walk_, ray, counting, [&](std::size_t voxel, double exit_t) {
       found = any_reference_hit(*scene_, references(voxel, counting), canonical, counting, boxes);
       return found || canonical.t_max < static_cast<float>(exit_t);
     });
@@ -78,6 +79,7 @@ class VoxelGrid : public TraversalAccelerator<VoxelGrid<Voxels, Boxes>> {
 
   const scenes::Scene* scene_;
   CellGrid grid_;
+  WalkGrid walk_;
   Voxels voxels_;
 };
 

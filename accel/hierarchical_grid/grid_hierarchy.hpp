@@ -11,6 +11,7 @@
 #include "accel/core/cell_grid.hpp"
 #include "accel/core/overlap.hpp"
 #include "accel/core/statistics.hpp"
+#include "accel/grid/voxel_walk.hpp"
 #include "accel/hierarchical_grid/hierarchical_grid_options.hpp"
 #include "scenes/scene.hpp"
 
@@ -38,10 +39,11 @@ class Voxel {
 
 /// One of the grids: that of the scene, or in a voxel of another.
 struct NestedGrid {
-  CellGrid place;
-  glm::dvec3 cells_per_unit;  ///< 1 / place.cell
+  grid::WalkGrid walk;
   std::uint32_t first_voxel;  ///< its voxels follow each other, x fastest
   std::int32_t level;         ///< the scene's grid being level 1
+
+  const CellGrid& place() const { return walk.cells; }
 };
 
 /// Jevans and Wyvill, "Adaptive voxel subdivision for ray tracing" (Graphics Interface 1989): a

@@ -100,8 +100,7 @@ class GridHierarchyBuilder {
   std::uint32_t append(const CellGrid& place, int level) {
     const auto number = static_cast<std::uint32_t>(hierarchy_.grids_.size());
     const std::size_t first = hierarchy_.voxels_.size();
-    hierarchy_.grids_.push_back(
-        {place, 1.0 / place.cell, static_cast<std::uint32_t>(first), level});
+    hierarchy_.grids_.push_back({grid::WalkGrid(place), static_cast<std::uint32_t>(first), level});
     hierarchy_.voxels_.resize(first + grid::voxel_count(place));
     return number;
   }
@@ -112,7 +111,7 @@ class GridHierarchyBuilder {
     Scratch& own = scratch(grid.level);
     choose_divisions(grid, own);
     auto division = own.divisions.begin();
-    const auto count = static_cast<std::uint32_t>(grid::voxel_count(grid.place));
+    const auto count = static_cast<std::uint32_t>(grid::voxel_count(grid.place()));
     for (std::uint32_t voxel = 0; voxel < count; ++voxel) {
       const auto primitives = list(own, voxel);
       Voxel made;
@@ -127,7 +126,7 @@ class GridHierarchyBuilder {
 
   Voxel divide(const NestedGrid& grid, const Division& division,
                std::span<const scenes::PrimitiveId> primitives) {
-    const Box box = grid.place.box(grid::voxel_at(grid.place, division.voxel), 1);
+    const Box box = grid.place().box(grid::voxel_at(grid.place(), division.voxel), 1);
     const CellGrid place = grid_in(box, division.cells);
     const int level = grid.level + 1;
     const bool always = options_.divide == HierarchicalGridOptions::Divide::kAlways;
@@ -188,11 +187,11 @@ class GridHierarchyBuilder {
     scratch.divisions.clear();
     if (grid.level == options_.max_level) return;
     std::uint64_t voxels = voxels_;
-    const auto count = static_cast<std::uint32_t>(grid::voxel_count(grid.place));
+    const auto count = static_cast<std::uint32_t>(grid::voxel_count(grid.place()));
     for (std::uint32_t voxel = 0; voxel < count; ++voxel) {
       const std::size_t objects = list(scratch, voxel).size();
       if (objects <= options_.max_objects) continue;
-      const glm::ivec3 cells = inner_cells(grid.place.cell, objects);
+      const glm::ivec3 cells = inner_cells(grid.place().cell, objects);
       const std::uint64_t made = std::uint64_t{1} * static_cast<std::uint32_t>(cells.x) *
                                  static_cast<std::uint32_t>(cells.y) *
                                  static_cast<std::uint32_t>(cells.z);

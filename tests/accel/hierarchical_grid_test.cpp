@@ -49,9 +49,9 @@ HierarchicalGridOptions some_options(std::uint64_t number) {
 template <class Visit>
 void for_each_leaf(const GridHierarchy& hierarchy, Visit visit) {
   for (const NestedGrid& grid : hierarchy.grids()) {
-    for (std::size_t i = 0; i < grid::voxel_count(grid.place); ++i) {
+    for (std::size_t i = 0; i < grid::voxel_count(grid.place()); ++i) {
       const Voxel voxel = hierarchy.voxel(grid.first_voxel + i);
-      if (!voxel.is_divided()) visit(voxel, grid.place.box(grid::voxel_at(grid.place, i), 1));
+      if (!voxel.is_divided()) visit(voxel, grid.place().box(grid::voxel_at(grid.place(), i), 1));
     }
   }
 }
@@ -95,7 +95,7 @@ TEST(HierarchicalGrid, VoxelsReferToExactlyWhatOverlapsThem) {
         EXPECT_TRUE(surface_overlaps(scene, id, box, 3.0 * tolerance)) << id;
       }
     });
-    const CellGrid& top = hierarchy.top().place;
+    const CellGrid& top = hierarchy.top().place();
     EXPECT_NEAR(sum / volume(top.box(glm::ivec3(0), top.cells)), 1.0, 1e-9) << "they tile the box";
   }
 }
@@ -160,7 +160,7 @@ TEST(HierarchicalGrid, DividesTheVoxelsThatReferToMore) {
   options.divide = HierarchicalGridOptions::Divide::kAlways;
   const GridHierarchy hierarchy(scene, options);
   ASSERT_EQ(hierarchy.grids().size(), 2U);
-  EXPECT_EQ(hierarchy.grids()[1].place.cells, glm::ivec3(2));
+  EXPECT_EQ(hierarchy.grids()[1].place().cells, glm::ivec3(2));
   const Statistics statistics = hierarchy.statistics();
   EXPECT_EQ(statistics.nodes, 1U + 8U + 8U);
   EXPECT_EQ(statistics.leaves, 7U + 8U);
