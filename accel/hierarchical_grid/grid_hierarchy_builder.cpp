@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -207,15 +208,25 @@ class GridHierarchyBuilder {
   }
 
   glm::ivec3 inner_cells(const glm::dvec3& size, std::size_t objects) const {
+    const double number = options_.inner_density * static_cast<double>(objects);
+    if (options_.inner == HierarchicalGridOptions::Inner::kPowers) return power_cells(size, number);
     const glm::ivec3 wanted =
-        grid::cells_by_number(size, options_.inner_density * static_cast<double>(objects),
-                              options_.shape, grid::kMaxCellsPerAxis);
+        grid::cells_by_number(size, number, options_.shape, grid::kMaxCellsPerAxis);
     glm::ivec3 cells(1);
     for (int axis = 0; axis < 3; ++axis) {
       const double most = std::min(size[axis] / narrowest_, double{grid::kMaxCellsPerAxis});
       cells[axis] = std::clamp(wanted[axis], 1, std::max(1, static_cast<int>(most)));
     }
     return cells;
+  }
+
+  /// The power of two nearest to the cube root, by ratio; few, so that finest cells have numbers.
+  glm::ivec3 power_cells(const glm::dvec3& size, double number) const {
+    constexpr int kMostPower = 4;
+    int power = std::clamp(static_cast<int>(std::lround(std::log2(number) / 3.0)), 0, kMostPower);
+    const double shortest = std::min({size.x, size.y, size.z});
+    while (power > 0 && std::ldexp(shortest, -power) < narrowest_) --power;
+    return glm::ivec3(1 << power);
   }
 
   Voxel leaf(std::span<const scenes::PrimitiveId> primitives) {

@@ -29,8 +29,12 @@ class GridWalk {
       : hierarchy_(&hierarchy), counting_(&counting), visit_(visit), ray_(ray) {}
 
   /// From t_min on.
-  void operator()() {
-    const grid::WalkInterval inside = grid::interval_inside(hierarchy_->top().place(), ray_);
+  void operator()() { from(-kInfinity); }
+
+  /// From t on, but not before t_min.
+  void from(double t) {
+    grid::WalkInterval inside = grid::interval_inside(hierarchy_->top().place(), ray_);
+    inside.enter = std::max(inside.enter, t);
     if (!inside.empty()) walk(hierarchy_->top(), inside);
   }
 

@@ -21,10 +21,16 @@ struct HierarchicalGridOptions : grid::GridLayout {
   /// Only voxels in which a grid is expected to save time, or all that refer to so many.
   enum class Divide { kGain, kAlways };
   Divide divide = Divide::kGain;
+  /// The number of voxels of a grid in a voxel: any, or the nearest power of two along each axis,
+  /// the same for all (so that the planes of all grids lie on one lattice).
+  enum class Inner { kAny, kPowers };
+  Inner inner = Inner::kAny;
   bool mailboxes = false;
 
   static std::vector<ParameterInfo> parameters();
   static HierarchicalGridOptions from(const Parameters& parameters);
+  /// Without `inner` and `mailboxes`, where these are not to be chosen.
+  static HierarchicalGridOptions hierarchy_from(const Parameters& parameters);
 };
 
 }  // namespace beambench::accel::hierarchical_grid
