@@ -4,20 +4,11 @@
 #include <utility>
 
 #include "accel/beam/beam_counters.hpp"
-#include "accel/beam/beam_run.hpp"
 #include "accel/beam/beam_watch.hpp"
 #include "accel/beam/shared_beam_run.hpp"
 #include "accel/core/registry.hpp"
 
 namespace beambench::accel::grid_beam {
-
-template <class Watch>
-void GridBeam::trace_watched(const PrimaryRays& rays, HitBuffer& buffer, Watch& watch) const {
-  const beam::WholeImage sight;
-  auto finished = finished_samples(rules_, sight, buffer);
-  beam::BeamRun<Watch, beam::WholeImage, GridCells>(*scene_, cells(), rules_, rays, sight, buffer,
-                                                    finished, watch)();
-}
 
 void GridBeam::trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const {
   if (counters != nullptr) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "accel/beam/beam_run.hpp"
 #include "accel/grid_beam/grid_beam_options.hpp"
 #include "accel/grid_beam/grid_cells.hpp"
 #include "accel/grid_beam/grid_lattice.hpp"
@@ -30,10 +31,18 @@ class GridBeam : public GridCells::Tracer {
   /// Samples become rays at occupied voxels only, so that not all of an image's rays are made.
   Statistics statistics() const override;
 
+  const GridLattice& lattice() const { return lattice_; }
+  /// `trace`, reported to a policy (see beam::NoBeamWatch).
+  template <class Watch>
+  void trace_watched(const PrimaryRays& rays, HitBuffer& buffer, Watch& watch) const {
+    const beam::WholeImage sight;
+    auto finished = finished_samples(rules_, sight, buffer);
+    beam::BeamRun<Watch, beam::WholeImage, GridCells>(*scene_, cells(), rules_, rays, sight, buffer,
+                                                      finished, watch)();
+  }
+
  private:
   GridCells cells() const { return {*this, lattice_}; }
-  template <class Watch>
-  void trace_watched(const PrimaryRays& rays, HitBuffer& buffer, Watch& watch) const;
 
   const scenes::Scene* scene_;
   beam::BeamRules rules_;

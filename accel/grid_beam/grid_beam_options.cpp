@@ -1,13 +1,16 @@
 #include "accel/grid_beam/grid_beam_options.hpp"
 
+#include <cstdint>
 #include <utility>
 
 namespace beambench::accel::grid_beam {
 
 namespace {
 
-/// Beams are divided at every voxel, so small ones are not worth their cost.
-constexpr std::int64_t kHandover = 48;
+/// Beams are divided at every voxel, so that small ones cost more than their rays: of 16, 48, 128
+/// and 1000 the smallest with which no scene of four took longer than single rays through the same
+/// grids was 128 (escena2, gato-bill, torre-eiffel, habitacion; 640x480); twice that for others.
+constexpr std::int64_t kHandover = 256;
 
 }  // namespace
 

@@ -13,11 +13,11 @@ namespace beambench::accel::hierarchical_grid {
 inline constexpr int kMostLevels = 5;
 
 struct HierarchicalGridOptions : grid::GridLayout {
-  HierarchicalGridOptions() { density = 1.0; }
+  HierarchicalGridOptions() { density = 0.2; }
 
-  double inner_density = 4.0;      ///< voxels for each reference of the voxel that is divided
-  std::uint32_t max_objects = 16;  ///< a voxel that refers to more is divided
-  int max_level = 3;               ///< levels of grids, the top one being 1
+  double inner_density = 1.0;     ///< voxels for each reference of the voxel that is divided
+  std::uint32_t max_objects = 8;  ///< a voxel that refers to more is divided
+  int max_level = 3;              ///< levels of grids, the top one being 1
   /// Only voxels in which a grid is expected to save time, or all that refer to so many.
   enum class Divide { kGain, kAlways };
   Divide divide = Divide::kGain;
