@@ -9,11 +9,19 @@
 
 namespace beambench::accel::beam {
 
-struct BeamOptions {
-  octree::OctreeOptions octree;
+/// What becomes of a beam's samples, whatever cells the beam passes through.
+struct BeamRules {
   std::int64_t handover = 0;       ///< beams of fewer samples become individual rays
   bool share_corners = false;      ///< samples in the corners of pixels are shared between pixels
   bool continue_with_rays = true;  ///< behind an occupied leaf: rays (thesis), or the beam again
+
+  /// The parameters `handover`, `continue` and `share_corners`, and their values read back.
+  static std::vector<ParameterInfo> parameters(const BeamRules& defaults);
+  static BeamRules from(const Parameters& parameters);
+};
+
+struct BeamOptions : BeamRules {
+  octree::OctreeOptions octree;
 
   static std::vector<ParameterInfo> parameters();
   static BeamOptions from(const Parameters& parameters);

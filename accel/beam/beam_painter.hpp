@@ -12,17 +12,17 @@
 #include "accel/beam/beam_samples.hpp"
 #include "accel/beam/beam_watch.hpp"
 #include "accel/beam/leaf_batch.hpp"
-#include "accel/octree/samet.hpp"
+#include "accel/beam/octree_cells.hpp"
 
 namespace beambench::accel::beam {
 
 /// For each sample of a buffer 1 if it needs no tracing, where that matters: when some samples are
 /// not wanted, or beams continue behind occupied leaves. Empty otherwise.
 template <class Sight>
-std::vector<std::uint8_t> finished_samples(const BeamOptions& options, const Sight& sight,
+std::vector<std::uint8_t> finished_samples(const BeamRules& rules, const Sight& sight,
                                            const HitBuffer& buffer) {
   std::vector<std::uint8_t> finished = sight.finished();
-  if (finished.empty() && !options.continue_with_rays) finished.assign(buffer.size(), 0);
+  if (finished.empty() && !rules.continue_with_rays) finished.assign(buffer.size(), 0);
   return finished;
 }
 
@@ -30,19 +30,20 @@ std::vector<std::uint8_t> finished_samples(const BeamOptions& options, const Sig
 /// not depend on other beams, so several painters, in threads or processes, can fill one image.
 /// They can share its buffer: two beams have no sample in common, unless one descends from the
 /// other.
-template <class Watch, class Sight>
+/// `Cells` are those that beams pass through.
+template <class Watch, class Sight, class Cells = OctreeCells>
 class BeamPainter {
  public:
-  /// `tracer` holds the octree over the scene. All but `options` must outlive the painter. The
-  /// buffer begins as background, `finished` as `finished_samples`.
-  BeamPainter(const scenes::Scene& scene, const octree::Samet& tracer, const BeamOptions& options,
+  /// `cells` are those of the scene. All but these and `rules` must outlive the painter. The buffer
+  /// begins as background, `finished` as `finished_samples`.
+  BeamPainter(const scenes::Scene& scene, const Cells& cells, const BeamRules& rules,
               const EyeView& view, const PrimaryRays& rays, const Sight& sight, HitBuffer& buffer,
               std::span<std::uint8_t> finished, Watch& watch)
       : scene_(&scene),
-        tracer_(&tracer),
-        continue_with_rays_(options.continue_with_rays),
+        cells_(cells),
+        continue_with_rays_(rules.continue_with_rays),
         scan_(view, rays),
-        lattices_(sight.lattices(rays, options.share_corners)),
+        lattices_(sight.lattices(rays, rules.share_corners)),
         images_(scene, view, rays),
         sight_(&sight),
         finished_(finished),
@@ -67,10 +68,10 @@ class BeamPainter {
 
   /// A beam in an empty leaf becomes individual rays.
   void hand_over(const Beam& beam, RayReason reason) {
-    const octree::OctreeCursor place = cursor_at(beam);
     for_each_batch(beam, [&] {
       for (LeafBatch::Sample& sample : batch_.samples()) {
-        follow(place, CellRay(octree().grid(), sample.ray), sample);
+        const CellRay cell_ray(cells_.grid(), sample.ray);
+        follow(beam, cell_ray, exit_of(beam, cell_ray), sample);
         watch_->handed_over(reason);
         finish(sample);
       }
@@ -79,26 +80,29 @@ class BeamPainter {
 
   /// A beam at an occupied leaf. Returns whether some of its samples continue with it.
   bool test_leaf(const Beam& beam) {
-    const octree::OctreeCursor place = cursor_at(beam);
     bool unfinished = false;
     for_each_batch(beam, [&] {
-      batch_.test(*scene_, octree().references(place.node()), images_, counting_);
+      batch_.test(*scene_, cells_.references(beam), images_, counting_);
       watch_->tested(batch_.samples().size());
       for (LeafBatch::Sample& sample : batch_.samples()) {
-        if (!settle(place, sample)) unfinished = true;
+        if (!settle(beam, sample)) unfinished = true;
       }
     });
     return unfinished;
   }
 
  private:
-  const octree::Octree& octree() const { return tracer_->octree(); }
+  /// Where a ray leaves a beam's cell.
+  static double exit_of(const Beam& beam, const CellRay& ray) {
+    return std::min({ray.exit_t(0, beam.corner, beam.size), ray.exit_t(1, beam.corner, beam.size),
+                     ray.exit_t(2, beam.corner, beam.size)});
+  }
 
   /// After a sample was tested in an occupied leaf: finishes it, or returns false where it
   /// continues with its beam.
-  bool settle(const octree::OctreeCursor& place, LeafBatch::Sample& sample) {
-    const CellRay cell_ray(octree().grid(), sample.ray);
-    const double exit_t = octree::leaf_exit(cell_ray, place).t;
+  bool settle(const Beam& beam, LeafBatch::Sample& sample) {
+    const CellRay cell_ray(cells_.grid(), sample.ray);
+    const double exit_t = exit_of(beam, cell_ray);
     if (!(sample.closest.ray.t_max < static_cast<float>(exit_t))) {
       if (!continue_with_rays_ || exit_t < sample.ray.t_min) {
         for_each_index(sample,
@@ -106,30 +110,23 @@ class BeamPainter {
         return false;
       }
       watch_->handed_over(RayReason::kOccupied);
-      follow(place, cell_ray, sample);
+      follow(beam, cell_ray, exit_t, sample);
     }
     finish(sample);
     return true;
   }
 
-  /// Traces a ray behind a leaf on its own (thesis, section 3.6.2); from where it begins, if it
-  /// begins behind that leaf.
-  void follow(const octree::OctreeCursor& place, const CellRay& cell_ray,
-              LeafBatch::Sample& sample) {
-    ClosestHit closest = sample.closest;  // a copy can stay in registers
-    double t = octree::leaf_exit(cell_ray, place).t;
-    if (t < sample.ray.t_min) {
-      if (const auto hit = tracer_->find_closest(sample.ray, counting_)) {
+  /// Traces a ray behind a leaf, which it leaves at `exit_t`, on its own (thesis, section 3.6.2);
+  /// from where it begins, if it begins behind that leaf.
+  void follow(const Beam& beam, const CellRay& cell_ray, double exit_t, LeafBatch::Sample& sample) {
+    if (exit_t < sample.ray.t_min) {
+      if (const auto hit = cells_.find_closest(sample.ray, counting_)) {
         sample.closest.keep(hit->t, hit->primitive);
       }
       return;
     }
-    octree::LeafWalk{octree(), tracer_->neighbors(), sample.ray, cell_ray}.behind(
-        place, counting_, [&](const octree::OctreeNode& leaf, double exit_t) {
-          if (watch_->leaves_part(leaf, t)) return true;
-          t = exit_t;
-          return test_references(*scene_, octree().references(leaf), exit_t, counting_, closest);
-        });
+    ClosestHit closest = sample.closest;  // a copy can stay in registers
+    cells_.follow(*scene_, beam, sample.ray, cell_ray, exit_t, closest, counting_, *watch_);
     sample.closest = closest;
   }
 
@@ -188,14 +185,8 @@ class BeamPainter {
     sample.lattice->for_each_index(*buffer_, sample.x, sample.y, visit);
   }
 
-  octree::OctreeCursor cursor_at(const Beam& beam) const {
-    octree::OctreeCursor cursor(octree());
-    cursor.jump(beam.node, beam.corner, beam.size);
-    return cursor;
-  }
-
   const scenes::Scene* scene_;
-  const octree::Samet* tracer_;
+  Cells cells_;
   bool continue_with_rays_;
   LeafBatch batch_;
   SampleScan scan_;

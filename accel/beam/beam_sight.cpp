@@ -196,8 +196,8 @@ std::vector<SampleLattice> BehindMirror::lattices(const PrimaryRays& rays, bool)
   return lattices;
 }
 
-std::int64_t BehindMirror::handover(const BeamOptions& options) {
-  return std::max(options.handover, kSmallBeam);
+std::int64_t BehindMirror::handover(const BeamRules& rules) {
+  return std::max(rules.handover, kSmallBeam);
 }
 
 SampleRay BehindMirror::ray(const SampleScan&, const SampleLattice& lattice, int x, int y) const {

@@ -30,7 +30,7 @@ struct WholeImage {
     return sample_lattices(rays, share_corners);
   }
   /// A beam of fewer samples becomes individual rays.
-  static std::int64_t handover(const BeamOptions& options) { return options.handover; }
+  static std::int64_t handover(const BeamRules& rules) { return rules.handover; }
   static const PassedNodes* passed() { return nullptr; }
   /// The samples that need no tracing; empty where all need it.
   static std::vector<std::uint8_t> finished() { return {}; }
@@ -72,7 +72,7 @@ class BehindMirror : public PassedNodes {
   /// For each place of the buffer 1 if no ray of the pencil has it.
   std::vector<std::uint8_t> finished() const;
   /// Some even where the option is 0.
-  static std::int64_t handover(const BeamOptions& options);
+  static std::int64_t handover(const BeamRules& rules);
   SampleRay ray(const SampleScan&, const SampleLattice& lattice, int x, int y) const;
   const PassedNodes* passed() const { return this; }
   /// Is everything in a node behind the plane of the rays' origins?

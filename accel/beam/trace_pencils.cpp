@@ -31,7 +31,8 @@ void BeamTracer::trace_mirror(const RayBatch& batch, const Pencil& pencil, HitBu
   HitBuffer seen = mirror.buffer();
   std::vector<std::uint8_t> finished = mirror.finished();
   const auto trace = [&](auto watch) {
-    Run<decltype(watch), BehindMirror>(*this, *pencil.view, mirror, seen, finished, watch)();
+    BeamRun<decltype(watch), BehindMirror>(*scene_, *this, options_, *pencil.view, mirror, seen,
+                                           finished, watch)();
   };
   if constexpr (std::is_same_v<Counting, WorkCounters>) {
     trace(CountingBeamWatch(counting));

@@ -7,16 +7,18 @@
 
 #include "accel/core/cell_grid.hpp"
 #include "accel/core/statistics.hpp"
+#include "accel/grid/assign.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel::grid {
 
-/// The primitives whose surface reaches into each closed voxel, widened by `overlap_tolerance`, in
-/// increasing id: one list after the other.
+/// The primitives whose surface (or box, by `Assign`) reaches into each closed voxel, widened by
+/// `overlap_tolerance`, in increasing id: one list after the other.
 class EagerVoxels {
  public:
   /// Throws InputError naming `max_references` when the lists exceed it.
-  EagerVoxels(const scenes::Scene& scene, const CellGrid& grid, std::uint64_t max_references);
+  EagerVoxels(const scenes::Scene& scene, const CellGrid& grid, std::uint64_t max_references,
+              Assign assign = Assign::kSurface);
 
   std::span<const scenes::PrimitiveId> references(std::size_t voxel) const {
     return {references_.data() + first_[voxel], first_[voxel + 1] - first_[voxel]};

@@ -3,17 +3,18 @@
 #include <utility>
 
 #include "accel/core/tolerance.hpp"
-#include "accel/grid/voxel_grid_options.hpp"
+#include "accel/grid/grid_layout.hpp"
 #include "accel/grid/voxel_walk.hpp"
 
 namespace beambench::accel::grid {
 
 LazyVoxels::LazyVoxels(const scenes::Scene& scene, const CellGrid& grid,
-                       std::uint64_t max_references)
+                       std::uint64_t max_references, Assign assign)
     : scene_(scene),
       grid_(grid),
       tolerance_(overlap_tolerance(scene)),
       max_references_(max_references),
+      assign_(assign),
       lists_(voxel_count(grid)) {
   ranges_.reserve(scene.primitives.size());
   for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
@@ -33,7 +34,8 @@ std::unique_ptr<const LazyVoxels::List> LazyVoxels::evaluate(std::size_t voxel) 
   const Box box = grid_.box(place, 1);
   List found;
   for (scenes::PrimitiveId id = 0; id < scene_.primitives.size(); ++id) {
-    if (ranges_[id].contains(place) && surface_overlaps(scene_, id, box, tolerance_)) {
+    if (ranges_[id].contains(place) &&
+        (assign_ == Assign::kBounds || surface_overlaps(scene_, id, box, tolerance_))) {
       found.push_back(id);
     }
   }

@@ -9,6 +9,7 @@
 
 #include "accel/core/cell_grid.hpp"
 #include "accel/core/statistics.hpp"
+#include "accel/grid/assign.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::accel::grid {
@@ -21,7 +22,8 @@ namespace beambench::accel::grid {
 /// compare-exchange; the second to do so discards its own, which is the same.
 class LazyVoxels {
  public:
-  LazyVoxels(const scenes::Scene& scene, const CellGrid& grid, std::uint64_t max_references);
+  LazyVoxels(const scenes::Scene& scene, const CellGrid& grid, std::uint64_t max_references,
+             Assign assign = Assign::kSurface);
   LazyVoxels(const LazyVoxels&) = delete;
   LazyVoxels& operator=(const LazyVoxels&) = delete;
   ~LazyVoxels();
@@ -52,6 +54,7 @@ class LazyVoxels {
   CellGrid grid_;
   double tolerance_;
   std::uint64_t max_references_;
+  Assign assign_;
   std::vector<CellRange> ranges_;  ///< by primitive
   /// Shared by all empty voxels, which are most.
   const List empty_;

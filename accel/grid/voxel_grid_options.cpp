@@ -1,142 +1,32 @@
 #include "accel/grid/voxel_grid_options.hpp"
 
-#include <algorithm>
-#include <cmath>
-
-#include <fmt/format.h>
-
-#include "accel/core/tolerance.hpp"
-#include "accel/grid/voxel_walk.hpp"
-#include "scenes/core/error.hpp"
-
 namespace beambench::accel::grid {
-
-namespace {
-
-/// The numbers of cubic voxels per axis, about `wanted` in all, over a box of `size`. An axis
-/// too short for one such voxel has one, and the others have more.
-glm::ivec3 cubic_cells(const glm::dvec3& size, double wanted) {
-  glm::ivec3 cells(1);
-  std::array<bool, 3> is_short{};
-  for (int attempt = 0; attempt < 3; ++attempt) {
-    double volume = 1.0;
-    int axes = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      if (is_short[static_cast<std::size_t>(axis)]) continue;
-      volume *= size[axis];
-      ++axes;
-    }
-    if (axes == 0) break;
-    const double edge = std::pow(volume / wanted, 1.0 / axes);
-    bool settled = true;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto slot = static_cast<std::size_t>(axis);
-      if (is_short[slot]) continue;
-      if (!(size[axis] >= edge) || size[axis] == 0.0) {
-        is_short[slot] = true;
-        cells[axis] = 1;
-        settled = false;
-      } else {
-        cells[axis] = static_cast<std::int32_t>(
-            std::clamp(std::round(size[axis] / edge), 1.0, double{kMaxCellsPerAxis}));
-      }
-    }
-    if (settled) break;
-  }
-  return cells;
-}
-
-/// An upper estimate of the references in a grid of `cells`: a surface reaches into the voxels
-/// of its bounds, or, where those are many, into about twice as many as its bounds' sides show.
-double estimated_references(const scenes::Scene& scene, const glm::dvec3& size,
-                            const glm::ivec3& cells) {
-  const glm::dvec3 voxels_per_unit = glm::dvec3(cells) / glm::max(size, glm::dvec3(1e-300));
-  double references = 0.0;
-  for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-    const glm::dvec3 extent(scenes::primitive_bounds(scene, id).extent());
-    const glm::dvec3 n = glm::min(extent * voxels_per_unit + 1.0, glm::dvec3(cells));
-    references += std::min(n.x * n.y * n.z, 2.0 * (n.x * n.y + n.y * n.z + n.z * n.x));
-  }
-  return references;
-}
-
-glm::ivec3 automatic_cells(const scenes::Scene& scene, const glm::dvec3& size,
-                           const VoxelGridOptions& options) {
-  double wanted = std::clamp(options.density * static_cast<double>(scene.primitives.size()), 1.0,
-                             static_cast<double>(options.max_voxels));
-  glm::ivec3 cells = cubic_cells(size, wanted);
-  while (wanted > 1.0 &&
-         estimated_references(scene, size, cells) > static_cast<double>(options.max_references)) {
-    wanted /= 2.0;
-    cells = cubic_cells(size, std::max(wanted, 1.0));
-  }
-  return cells;
-}
-
-}  // namespace
 
 std::vector<ParameterInfo> VoxelGridOptions::parameters() {
   const VoxelGridOptions defaults;
-  return {
-      cells_parameter("resolution", "auto", kMaxCellsPerAxis,
-                      "voxels along the axes of the scene's box: one number for all three, three "
-                      "numbers, or auto: cubic voxels by density, fewer where the lists would hold "
-                      "more than max_references"),
-      real_parameter("density", defaults.density, 0.001, 1000.0,
-                     "voxels for each primitive of the scene, where resolution is auto"),
-      choice_parameter("fill", "eager", {"lazy", "eager"},
-                       "when a voxel's list is made: by the first ray that visits it, testing "
-                       "every primitive (thesis), or all before the first ray"),
-      flag_parameter("mailboxes", defaults.mailboxes,
-                     "test no primitive twice against a ray; 4 bytes per primitive and thread"),
-      integer_parameter("max_voxels", defaults.max_voxels, 1, 2'000'000'000,
-                        "refuse a grid of more voxels (4 bytes each, 8 where fill is lazy)"),
-      integer_parameter("max_references", static_cast<std::int64_t>(defaults.max_references), 1,
-                        2'000'000'000,
-                        "stop with an error beyond this many references (4 bytes each)")};
+  return {resolution_parameter(),
+          density_parameter(defaults.density),
+          assign_parameter(),
+          choice_parameter("fill", "eager", {"lazy", "eager"},
+                           "when a voxel's list is made: by the first ray that visits it, testing "
+                           "every primitive (thesis), or all before the first ray"),
+          flag_parameter("mailboxes", defaults.mailboxes,
+                         "test no primitive twice against a ray; 4 bytes per primitive and thread"),
+          integer_parameter("max_voxels", defaults.max_voxels, 1, 2'000'000'000,
+                            "refuse a grid of more voxels (4 bytes each, 8 where fill is lazy)"),
+          max_references_parameter(defaults)};
 }
 
 VoxelGridOptions VoxelGridOptions::from(const Parameters& parameters) {
   VoxelGridOptions options;
   options.resolution = parameters.cells("resolution");
   options.density = parameters.real("density");
+  options.assign = assign_of(parameters);
   options.fill = parameters.choice("fill") == "lazy" ? Fill::kLazy : Fill::kEager;
   options.mailboxes = parameters.flag("mailboxes");
   options.max_voxels = parameters.integer("max_voxels");
   options.max_references = static_cast<std::uint64_t>(parameters.integer("max_references"));
   return options;
-}
-
-CellGrid make_voxel_grid(const scenes::Scene& scene, const VoxelGridOptions& options) {
-  glm::dvec3 size(0.0);
-  if (!scene.bounds.empty()) size = glm::dvec3(scene.bounds.upper) - glm::dvec3(scene.bounds.lower);
-  glm::ivec3 cells(1);
-  if (options.resolution) {
-    const auto& given = *options.resolution;
-    cells = {given[0], given[1], given[2]};
-  } else {
-    cells = automatic_cells(scene, size, options);
-  }
-  const std::int64_t voxels = std::int64_t{cells.x} * cells.y * cells.z;
-  if (voxels > options.max_voxels) {
-    throw InputError(fmt::format(
-        "voxel-grid: resolution {}x{}x{} makes {} voxels, more than max_voxels {}; lower "
-        "resolution, or raise max_voxels (4 bytes each, 8 where fill is lazy)",
-        cells.x, cells.y, cells.z, voxels, options.max_voxels));
-  }
-  // Hits lie within the tolerance of the bounds: the grid must hold them.
-  const double tolerance = overlap_tolerance(scene);
-  const glm::dvec3 margin = glm::max(size * 1e-6, glm::dvec3(2.0 * tolerance));
-  return make_cell_grid(scene.bounds, size, margin, cells);
-}
-
-void fail_too_many_references(const scenes::Scene& scene, const CellGrid& grid,
-                              std::uint64_t max_references) {
-  throw InputError(fmt::format(
-      "the grid of {}x{}x{} voxels over '{}' ({} primitives) holds more than {} references; lower "
-      "resolution (or density), or raise max_references (4 bytes each)",
-      grid.cells.x, grid.cells.y, grid.cells.z, scene.name, scene.primitives.size(),
-      max_references));
 }
 
 }  // namespace beambench::accel::grid

@@ -3,10 +3,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include <glm/vec3.hpp>
 
 #include "accel/core/cell_grid.hpp"
-#include "accel/core/cell_ray.hpp"
+#include "accel/core/ray.hpp"
 #include "accel/core/trace_step.hpp"
 #include "accel/core/work_counters.hpp"
 
@@ -32,61 +37,148 @@ inline glm::ivec3 voxel_at(const CellGrid& grid, std::size_t index) {
           static_cast<std::int32_t>(index / x / y)};
 }
 
-/// Calls `visit(index, exit_t)` for the voxels that the ray passes through, from t_min on, until it
-/// returns true or the ray leaves the grid (Amanatides and Woo, "A fast voxel traversal algorithm
-/// for ray tracing", Eurographics 1987). The voxel is stepped by integers; beside it goes, for each
-/// axis, the t of the next plane (their tMax), which grows by a constant (their tDelta).
-///
-/// These sums are not exact, yet no hit is lost. The intervals between the computed t follow each
-/// other without a gap, so a hit's t lies in the interval of one voxel. After n additions tMax is
-/// off by less than 2 n 2^-53 of the largest t in the grid; times the direction, and with an eye
-/// within 8 scene sizes (accel/core/tolerance.hpp: 10 diagonals), the point lies at most
-/// 2 x 2^12 x 2^-53 x 10 < 2^-36 diagonals outside its voxel. Overlaps are widened by 2^-30
-/// diagonals, of which the canonical tests use less than 0.63.
-template <class Counting, class Visit>
-void walk_voxels(const CellGrid& grid, const Ray& ray, Counting& counting, Visit visit) {
-  const CellRay cell_ray(grid, ray);
-  double enter_t = cell_ray.enter(ray.t_min);
-  if (!(enter_t < kInfinity)) return;
+/// A grid as walks through it need it.
+struct WalkGrid {
+  WalkGrid() = default;
+  explicit WalkGrid(const CellGrid& grid) : cells(grid), per_unit(1.0 / grid.cell) {}
 
+  CellGrid cells;
+  glm::dvec3 per_unit{1.0};  ///< cells in a unit of length
+};
+
+/// A ray as walks through grids need it.
+struct WalkRay {
+  explicit WalkRay(const Ray& ray) : t_min(ray.t_min), t_max(ray.t_max) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const float along = ray.direction[static_cast<int>(axis)];
+      origin[axis] = ray.origin[static_cast<int>(axis)];
+      direction[axis] = along;
+      inverse[axis] = 1.0 / direction[axis];
+      step[axis] = along > 0.0F ? 1 : (along < 0.0F ? -1 : 0);
+    }
+  }
+
+  std::array<double, 3> origin;
+  std::array<double, 3> direction;
+  std::array<double, 3> inverse;
+  std::array<int, 3>
+      step;  ///< +1, -1 or 0: the direction in which it crosses the planes of an axis
+  float t_min;
+  float t_max;
+};
+
+/// A part of a ray; empty where it does not end before it begins.
+struct WalkInterval {
+  double enter;
+  double exit;
+
+  bool empty() const { return !(enter <= exit); }
+};
+
+/// The part of a ray in the box of a grid, from just below t_min, for a hit's t may round up to it,
+/// to just above t_max.
+inline WalkInterval interval_inside(const CellGrid& grid, const WalkRay& ray) {
+  WalkInterval inside{std::nextafter(ray.t_min, -kInfinity), std::nextafter(ray.t_max, kInfinity)};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<int>(axis);
+    const double lower = grid.plane(i, 0);
+    const double upper = grid.plane(i, grid.cells[i]);
+    if (ray.step[axis] == 0) {
+      if (ray.origin[axis] < lower || ray.origin[axis] > upper) return {kInfinity, -kInfinity};
+      continue;
+    }
+    const double t_lower = (lower - ray.origin[axis]) * ray.inverse[axis];
+    const double t_upper = (upper - ray.origin[axis]) * ray.inverse[axis];
+    inside.enter = std::max(inside.enter, std::min(t_lower, t_upper));
+    inside.exit = std::min(inside.exit, std::max(t_lower, t_upper));
+  }
+  return inside;
+}
+
+/// Calls `visit(index, enter_t, exit_t)` for the voxels that the ray passes through in a part of it
+/// inside the grid, until it returns true; returns whether it did (Amanatides and Woo, "A fast
+/// voxel traversal algorithm for ray tracing", Eurographics 1987). The voxel is stepped by
+/// integers; beside it goes, for each axis, the t of the next plane (their tMax), which grows by a
+/// constant (their tDelta). The axes are told apart by branches: while one is predicted rightly,
+/// the comparisons of the next step need not wait for those of this one.
+///
+/// The sums are not exact, yet no hit is lost. The intervals between the computed t follow each
+/// other without a gap, the first begins with the part and the last ends with it, so a hit's t lies
+/// in the interval of one voxel. After n additions tMax is off by less than 2 n 2^-53 of the
+/// largest t in the grid; times the direction, and with an eye within 8 scene sizes
+/// (accel/core/tolerance.hpp: 10 diagonals), the point lies at most 2 x 2^12 x 2^-53 x 10 < 2^-36
+/// diagonals outside its voxel. Overlaps are widened by 2^-30 diagonals, of which the canonical
+/// tests use less than 0.63.
+template <class Visit>
+bool walk_part(const WalkGrid& grid, const WalkRay& ray, const WalkInterval& part, Visit visit) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  const CellGrid& cells = grid.cells;
   const std::array<std::ptrdiff_t, 3> strides{
-      1, grid.cells.x, static_cast<std::ptrdiff_t>(grid.cells.x) * grid.cells.y};
-  glm::ivec3 voxel(0);
+      1, cells.cells.x, static_cast<std::ptrdiff_t>(cells.cells.x) * cells.cells.y};
   std::array<double, 3> next_t{};
   std::array<double, 3> delta_t{};
   std::array<std::ptrdiff_t, 3> stride{};
   std::array<std::int32_t, 3> steps_left{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto slot = static_cast<std::size_t>(axis);
-    voxel[axis] = cell_ray.cell_at(axis, enter_t);
-    delta_t[slot] = cell_ray.delta_t(axis);
-    stride[slot] = strides[slot] * cell_ray.step(axis);
-    steps_left[slot] = cell_ray.step(axis) > 0 ? grid.cells[axis] - 1 - voxel[axis] : voxel[axis];
-  }
-  for (int axis = 0; axis < 3; ++axis) {
-    next_t[static_cast<std::size_t>(axis)] = cell_ray.exit_t(axis, voxel, 1);
+  std::ptrdiff_t voxel = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<int>(axis);
+    const std::int32_t last = cells.cells[i] - 1;
+    const double at =
+        (ray.origin[axis] + part.enter * ray.direction[axis] - cells.lower[i]) * grid.per_unit[i];
+    const auto cell = static_cast<std::int32_t>(std::clamp(at, 0.0, static_cast<double>(last)));
+    voxel += strides[axis] * cell;
+    stride[axis] = strides[axis] * ray.step[axis];
+    steps_left[axis] = ray.step[axis] > 0 ? last - cell : cell;
+    delta_t[axis] = cells.cell[i] * std::abs(ray.inverse[axis]);
+    // The faces of the grid end the part: they are not crossed.
+    next_t[axis] = kNever;
+    if (ray.step[axis] != 0 && steps_left[axis] > 0) {
+      const std::int32_t plane = ray.step[axis] > 0 ? cell + 1 : cell;
+      next_t[axis] = (cells.plane(i, plane) - ray.origin[axis]) * ray.inverse[axis];
+    }
   }
 
-  std::size_t index = voxel_index(grid, voxel);
-  while (true) {
-    const std::size_t nearer = next_t[0] < next_t[1] ? 0 : 1;
-    const std::size_t axis = next_t[nearer] < next_t[2] ? nearer : 2;
-    const double exit_t = next_t[axis];
+  double enter_t = part.enter;
+  double next_x = next_t[0];
+  double next_y = next_t[1];
+  double next_z = next_t[2];
+  /// Visits the voxel and crosses the plane at `next`; returns whether the walk goes on.
+  bool stopped = false;
+  const auto pass = [&](double& next, std::size_t axis) __attribute__((always_inline)) {
+    const double exit_t = std::min(next, part.exit);
+    stopped = visit(static_cast<std::size_t>(voxel), enter_t, exit_t);
+    if (stopped || !(next < part.exit)) return false;
+    voxel += stride[axis];
+    enter_t = exit_t;
+    next = --steps_left[axis] == 0 ? kNever : next + delta_t[axis];
+    return true;
+  };
+  while (next_x < next_y && next_x < next_z ? pass(next_x, 0)
+         : next_y < next_z                  ? pass(next_y, 1)
+                                            : pass(next_z, 2)) {
+  }
+  return stopped;
+}
+
+/// Calls `visit(index, exit_t)` for the voxels that the ray passes through, from t_min on, until it
+/// returns true or the ray leaves the grid.
+template <class Counting, class Visit>
+void walk_voxels(const WalkGrid& grid, const Ray& ray, Counting& counting, Visit visit) {
+  const WalkRay line(ray);
+  const WalkInterval inside = interval_inside(grid.cells, line);
+  if (inside.empty()) return;
+  walk_part(grid, line, inside, [&](std::size_t index, double enter_t, double exit_t) {
     counting.add(Counter::kTraversalSteps);
     counting.add(Counter::kLeaves);
     counting.enter([&] {
       return TraceStep{.place = "leaf",
                        .index = index,
-                       .box = grid.box(voxel_at(grid, index), 1),
+                       .box = grid.cells.box(voxel_at(grid.cells, index), 1),
                        .t_enter = std::max(enter_t, static_cast<double>(ray.t_min)),
                        .t_exit = exit_t};
     });
-    if (visit(index, exit_t)) return;
-    if (steps_left[axis]-- == 0) return;
-    index = static_cast<std::size_t>(static_cast<std::ptrdiff_t>(index) + stride[axis]);
-    next_t[axis] += delta_t[axis];
-    enter_t = exit_t;
-  }
+    return visit(index, exit_t);
+  });
 }
 
 }  // namespace beambench::accel::grid

@@ -16,6 +16,7 @@ from beambench_report.thesis.chapter5.facts import (
     scenes_section,
     visits_section,
 )
+from beambench_report.thesis.chapter5.grid_beams import grid_beams_section
 from beambench_report.thesis.chapter5.levels import levels_section
 from beambench_report.thesis.chapter5.mirrors import mirrors_section, read_mirrors
 from beambench_report.thesis.chapter5.sampling import read_comparisons, sampling_section
@@ -36,6 +37,8 @@ SAMPLING = "sampling"
 """The folder of what `beambench sampling SCENE --json` printed."""
 MIRRORS = "mirrors"
 """The folder of what `beambench mirrors SCENE --json` printed."""
+GRID_BEAMS = "grid-beams"
+"""The folder of the run of harness/bench/sweeps/grid-beams.json."""
 
 
 @dataclass(frozen=True)
@@ -116,6 +119,7 @@ def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]
     """Those that were measured, and a sentence for each file that could not be read."""
     comparisons, unread = read_comparisons(sorted((directory / SAMPLING).glob("*.json")))
     mirrors, unread_mirrors = read_mirrors(sorted((directory / MIRRORS).glob("*.json")))
+    grid_beams = read_cells(directory, [GRID_BEAMS])
     sections = (
         scenes_section(directory),
         visits_section(directory),
@@ -124,9 +128,10 @@ def sections_of(directory: Path, cells: Cells) -> tuple[list[Section], list[str]
         levels_section(cells.cells),
         sampling_section(comparisons),
         mirrors_section(mirrors),
+        grid_beams_section(grid_beams.cells),
     )
     shown = [section for section in sections if section is not None]
-    return shown, [*unread, *unread_mirrors]
+    return shown, [*unread, *unread_mirrors, *grid_beams.unread]
 
 
 def _extra_sweeps(directory: Path, plan: Plan) -> list[Sweep]:

@@ -1,0 +1,86 @@
+#pragma once
+// An image by beams on several threads.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/task_group.h>
+
+#include "accel/beam/beam_run.hpp"
+
+namespace beambench::accel::beam {
+
+/// Each thread traces beams from a stack of its own, and turns half of it into a task whenever many
+/// wait.
+template <class Watch, class Cells = OctreeCells>
+class SharedBeamRun {
+ public:
+  using Counting = std::conditional_t<std::is_same_v<Watch, NoBeamWatch>, NoCounting, WorkCounters>;
+
+  /// All but `cells` and `rules` must outlive it.
+  SharedBeamRun(const scenes::Scene& scene, const Cells& cells, const BeamRules& rules,
+                const PrimaryRays& rays, HitBuffer& buffer)
+      : finished_(finished_samples(rules, sight_, buffer)),
+        workers_([this, &scene, cells, rules, &rays, &buffer] {
+          return std::make_unique<Worker>(scene, cells, rules, rays, sight_, buffer, finished_);
+        }) {}
+
+  void operator()(Counting& counting) {
+    Worker& first = *workers_.local();
+    first.run.begin();
+    hand_over(std::exchange(first.run.waiting(), {}));
+    tasks_.wait();
+    for (const auto& worker : workers_) {
+      worker->run.end();
+      counting.add(worker->counting);
+    }
+  }
+
+ private:
+  /// From this number on half of the waiting beams are worth a task.
+  static constexpr std::size_t kMany = 16;
+
+  /// The state of one thread.
+  struct Worker {
+    Worker(const scenes::Scene& scene, const Cells& cells, const BeamRules& rules,
+           const PrimaryRays& rays, const WholeImage& sight, HitBuffer& buffer,
+           std::span<std::uint8_t> finished)
+        : watch(watch_of(counting)),
+          run(scene, cells, rules, rays, sight, buffer, finished, watch) {}
+
+    static Watch watch_of(Counting& counting) {
+      if constexpr (std::is_same_v<Watch, NoBeamWatch>) {
+        return {};
+      } else {
+        return Watch(counting);
+      }
+    }
+
+    Counting counting;
+    Watch watch;
+    BeamRun<Watch, WholeImage, Cells> run;
+  };
+
+  void hand_over(BeamStack beams) {
+    tasks_.run([this, shared = std::make_shared<BeamStack>(std::move(beams))] {
+      BeamRun<Watch, WholeImage, Cells>& run = workers_.local()->run;
+      run.waiting() = std::move(*shared);
+      run.work([this](BeamStack& waiting) {
+        if (waiting.size() >= kMany) hand_over(waiting.take_older_half());
+      });
+    });
+  }
+
+  WholeImage sight_;
+  std::vector<std::uint8_t> finished_;
+  tbb::enumerable_thread_specific<std::unique_ptr<Worker>> workers_;
+  tbb::task_group tasks_;
+};
+
+}  // namespace beambench::accel::beam

@@ -1,0 +1,23 @@
+#pragma once
+// What must reach into a voxel for a reference.
+
+#include "scenes/core/parameters.hpp"
+
+namespace beambench::accel::grid {
+
+/// A primitive's surface, or only its bounding box, as many published counts have it (Havran and
+/// Sixta, "Comparison of hierarchical grids", Ray Tracing News 12(1), 1999).
+enum class Assign { kSurface, kBounds };
+
+/// The parameter `assign`.
+inline ParameterInfo assign_parameter() {
+  return choice_parameter("assign", "surface", {"surface", "bbox"},
+                          "what must reach into a voxel for a reference: the primitive's surface, "
+                          "or only its bounding box");
+}
+/// Its value.
+inline Assign assign_of(const Parameters& parameters) {
+  return parameters.choice("assign") == "bbox" ? Assign::kBounds : Assign::kSurface;
+}
+
+}  // namespace beambench::accel::grid

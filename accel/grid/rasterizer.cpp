@@ -1,0 +1,21 @@
+#include "accel/grid/rasterizer.hpp"
+
+#include <numeric>
+
+namespace beambench::accel::grid {
+
+/// A stable counting sort. While it runs, first[v + 1] is where the next reference of voxel v goes;
+/// at the end that is where voxel v + 1 begins.
+void sort_by_voxel(const std::vector<VoxelReference>& found, std::size_t voxels,
+                   std::vector<std::uint32_t>& first,
+                   std::vector<scenes::PrimitiveId>& references) {
+  first.assign(voxels + 1, 0);
+  for (const VoxelReference& each : found) {
+    if (each.voxel + 2 < first.size()) ++first[each.voxel + 2];
+  }
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  references.resize(found.size());
+  for (const VoxelReference& each : found) references[first[each.voxel + 1]++] = each.primitive;
+}
+
+}  // namespace beambench::accel::grid

@@ -1,0 +1,52 @@
+#pragma once
+// The beams of the thesis through a hierarchy of grids.
+
+#include <vector>
+
+#include "accel/beam/beam_run.hpp"
+#include "accel/grid_beam/grid_beam_options.hpp"
+#include "accel/grid_beam/grid_cells.hpp"
+#include "accel/grid_beam/grid_lattice.hpp"
+
+namespace beambench::accel::grid_beam {
+
+/// Beams of primary rays through the voxels of a hierarchy of grids, which the thesis (González
+/// López 1999, section 7.3) proposes as future work: in empty voxels the beams continue, divided by
+/// the faces and the voxels behind them; at an occupied voxel the samples of a beam become rays;
+/// what leaves the top grid is background without a ray. All other rays are traced one by one
+/// through the same grids.
+class GridBeam : public GridCells::Tracer {
+ public:
+  GridBeam(const scenes::Scene& scene, const GridBeamOptions& options)
+      : GridCells::Tracer(scene, options.grid),
+        scene_(&scene),
+        rules_(options.rules),
+        lattice_(hierarchy()) {}
+
+  void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters* counters) const override;
+  /// The beams are shared among the threads.
+  void trace_shared(const PrimaryRays& rays, HitBuffer& buffer,
+                    WorkCounters* counters) const override;
+  std::vector<BeamOutline> beam_outlines(const PrimaryRays& rays) const override;
+  /// Samples become rays at occupied voxels only, so that not all of an image's rays are made.
+  Statistics statistics() const override;
+
+  const GridLattice& lattice() const { return lattice_; }
+  /// `trace`, reported to a policy (see beam::NoBeamWatch).
+  template <class Watch>
+  void trace_watched(const PrimaryRays& rays, HitBuffer& buffer, Watch& watch) const {
+    const beam::WholeImage sight;
+    auto finished = finished_samples(rules_, sight, buffer);
+    beam::BeamRun<Watch, beam::WholeImage, GridCells>(*scene_, cells(), rules_, rays, sight, buffer,
+                                                      finished, watch)();
+  }
+
+ private:
+  GridCells cells() const { return {*this, lattice_}; }
+
+  const scenes::Scene* scene_;
+  beam::BeamRules rules_;
+  GridLattice lattice_;
+};
+
+}  // namespace beambench::accel::grid_beam

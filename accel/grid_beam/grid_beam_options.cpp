@@ -1,0 +1,39 @@
+#include "accel/grid_beam/grid_beam_options.hpp"
+
+#include <cstdint>
+#include <utility>
+
+namespace beambench::accel::grid_beam {
+
+namespace {
+
+/// Beams are divided at every voxel, so that small ones cost more than their rays: of 16, 48, 128
+/// and 1000 the smallest with which no scene of four took longer than single rays through the same
+/// grids was 128 (escena2, gato-bill, torre-eiffel, habitacion; 640x480); twice that for others.
+constexpr std::int64_t kHandover = 256;
+
+}  // namespace
+
+std::vector<ParameterInfo> GridBeamOptions::parameters() {
+  std::vector<ParameterInfo> parameters;
+  for (ParameterInfo& parameter : hierarchical_grid::HierarchicalGridOptions::parameters()) {
+    if (parameter.name == "inner" || parameter.name == "mailboxes") continue;
+    parameters.push_back(std::move(parameter));
+  }
+  beam::BeamRules defaults;
+  defaults.handover = kHandover;
+  for (ParameterInfo& rule : beam::BeamRules::parameters(defaults)) {
+    parameters.push_back(std::move(rule));
+  }
+  return parameters;
+}
+
+GridBeamOptions GridBeamOptions::from(const Parameters& parameters) {
+  using hierarchical_grid::HierarchicalGridOptions;
+  GridBeamOptions options{beam::BeamRules::from(parameters),
+                          HierarchicalGridOptions::hierarchy_from(parameters)};
+  options.grid.inner = HierarchicalGridOptions::Inner::kPowers;
+  return options;
+}
+
+}  // namespace beambench::accel::grid_beam

@@ -1,0 +1,21 @@
+#pragma once
+// Options of beams through a hierarchy of grids.
+
+#include <vector>
+
+#include "accel/beam/beam_options.hpp"
+#include "accel/hierarchical_grid/hierarchical_grid_options.hpp"
+#include "scenes/core/parameters.hpp"
+
+namespace beambench::accel::grid_beam {
+
+struct GridBeamOptions {
+  beam::BeamRules rules;
+  hierarchical_grid::HierarchicalGridOptions grid;
+
+  /// The hierarchy is made with `Inner::kPowers`, without mailboxes.
+  static std::vector<ParameterInfo> parameters();
+  static GridBeamOptions from(const Parameters& parameters);
+};
+
+}  // namespace beambench::accel::grid_beam

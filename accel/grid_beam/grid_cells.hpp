@@ -1,0 +1,66 @@
+#pragma once
+// The voxels of a hierarchy of grids as beams pass through them.
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "accel/beam/beam.hpp"
+#include "accel/beam/beam_paths.hpp"
+#include "accel/core/cell_search.hpp"
+#include "accel/grid_beam/grid_lattice.hpp"
+#include "accel/hierarchical_grid/grid_walk.hpp"
+#include "accel/hierarchical_grid/hierarchical_grid.hpp"
+
+namespace beambench::accel::grid_beam {
+
+/// What `beam::OctreeCells` is for octrees: a beam's cell is an undivided voxel, its node the
+/// number of that voxel.
+class GridCells {
+ public:
+  using Tracer = hierarchical_grid::HierarchicalGrid<NoMailboxes>;
+
+  /// Both must outlive it.
+  GridCells(const Tracer& tracer, const GridLattice& lattice)
+      : tracer_(&tracer), lattice_(&lattice) {}
+
+  /// On its planes lie the faces of all voxels.
+  const CellGrid& grid() const { return lattice_->cells(); }
+  /// The first beams (thesis, section 3.4): from outside for each visible face of the top grid,
+  /// divided among the voxels behind it; from inside in the voxel that contains the eye.
+  void begin(const beam::EyeView& view, const beam::ImagePolygon& part,
+             beam::BeamQueue& queue) const;
+  /// A beam behind its voxel: divided among the faces by which its rays leave, then among the
+  /// voxels behind each.
+  void advance(const beam::EyeView& view, const beam::Beam& beam, beam::BeamQueue& queue) const;
+  /// Those of the beam's voxel.
+  std::span<const scenes::PrimitiveId> references(const beam::Beam& beam) const {
+    return hierarchy().references(hierarchy().voxel(beam.node));
+  }
+
+  /// Traces a ray behind the beam's voxel, which it leaves at t.
+  template <class Counting, class Watch>
+  void follow(const scenes::Scene& scene, const beam::Beam&, const Ray& ray, const CellRay&,
+              double t, ClosestHit& closest, Counting& counting, const Watch&) const {
+    hierarchical_grid::GridWalk(
+        hierarchy(), ray, counting,
+        [&](std::span<const scenes::PrimitiveId> references, double exit_t) {
+          return test_references(scene, references, exit_t, counting, closest);
+        })
+        .from(t);
+  }
+
+  /// Traces a ray from where it begins.
+  template <class Counting>
+  std::optional<Hit> find_closest(const Ray& ray, Counting& counting) const {
+    return tracer_->find_closest(ray, counting);
+  }
+
+ private:
+  const hierarchical_grid::GridHierarchy& hierarchy() const { return tracer_->hierarchy(); }
+
+  const Tracer* tracer_;
+  const GridLattice* lattice_;
+};
+
+}  // namespace beambench::accel::grid_beam

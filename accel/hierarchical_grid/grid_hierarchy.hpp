@@ -1,0 +1,84 @@
+#pragma once
+// Grids in the voxels of grids.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "accel/core/cell_grid.hpp"
+#include "accel/core/overlap.hpp"
+#include "accel/core/statistics.hpp"
+#include "accel/grid/voxel_walk.hpp"
+#include "accel/hierarchical_grid/hierarchical_grid_options.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::accel::hierarchical_grid {
+
+/// A voxel in four bytes: empty, or where its references are, or the number of the grid in it.
+class Voxel {
+ public:
+  Voxel() = default;
+  static Voxel with_references(std::uint32_t first) { return Voxel(first); }
+  static Voxel with_grid(std::uint32_t grid) { return Voxel(kGrid | grid); }
+
+  bool is_empty() const { return word_ == 0; }
+  bool is_divided() const { return (word_ & kGrid) != 0; }
+  std::uint32_t grid() const { return word_ & ~kGrid; }  ///< of a divided voxel
+  /// Of one that has references: where their number is; they follow it. Never 0.
+  std::uint32_t first() const { return word_; }
+
+ private:
+  explicit Voxel(std::uint32_t word) : word_(word) {}
+
+  static constexpr std::uint32_t kGrid = std::uint32_t{1} << 31U;
+  std::uint32_t word_ = 0;
+};
+
+/// One of the grids: that of the scene, or in a voxel of another.
+struct NestedGrid {
+  grid::WalkGrid walk;
+  std::uint32_t first_voxel;  ///< its voxels follow each other, x fastest
+  std::int32_t level;         ///< the scene's grid being level 1
+
+  const CellGrid& place() const { return walk.cells; }
+};
+
+/// Jevans and Wyvill, "Adaptive voxel subdivision for ray tracing" (Graphics Interface 1989): a
+/// grid over the scene, and in each voxel that refers to more than `max_objects` primitives a grid
+/// of its own, down to `max_level`. An undivided voxel refers to each primitive whose surface (or
+/// box) reaches into it, closed and widened by `overlap_tolerance`, in increasing id.
+class GridHierarchy {
+ public:
+  /// Throws InputError naming `max_voxels` when the top grid has more, and `max_references` when
+  /// its voxels refer to more. Where the grids in the voxels of a grid would make more than
+  /// `max_voxels` in all, none of them is made; a voxel whose grid would make more references than
+  /// `max_references` in all is not divided, or, with `divide=always`, an InputError.
+  GridHierarchy(const scenes::Scene& scene, const HierarchicalGridOptions& options);
+
+  std::span<const NestedGrid> grids() const { return grids_; }
+  const NestedGrid& top() const { return grids_.front(); }
+  Voxel voxel(std::size_t index) const { return voxels_[index]; }
+  const Voxel* voxels() const { return voxels_.data(); }
+  /// Of a voxel that is not divided.
+  std::span<const scenes::PrimitiveId> references(Voxel voxel) const {
+    const scenes::PrimitiveId* list = references_.data() + voxel.first();
+    return {list + 1, *list};
+  }
+
+  Statistics statistics() const;
+  /// The undivided voxels that hold references, in scene units.
+  std::vector<Box> occupied_cells() const;
+
+ private:
+  friend class GridHierarchyBuilder;
+
+  std::vector<NestedGrid> grids_;  ///< the scene's first
+  std::vector<Voxel> voxels_;
+  /// Lists with their lengths before them; the first is that of all empty voxels.
+  std::vector<scenes::PrimitiveId> references_{0};
+};
+
+}  // namespace beambench::accel::hierarchical_grid
