@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "accel/core/expected_visits.hpp"
 #include "accel/grid/voxel_walk.hpp"
 
 namespace beambench::accel::hierarchical_grid {
@@ -25,6 +26,21 @@ Statistics GridHierarchy::statistics() const {
                      voxels_.capacity() * sizeof(Voxel) +
                      references_.capacity() * sizeof(scenes::PrimitiveId);
   statistics.more = {{"grids", static_cast<double>(grids_.size())}};
+  ExpectedVisits visits(scene_bounds_);
+  const CellGrid& scene = top().place();
+  visits.add_node(scene.box({0, 0, 0}, scene.cells));
+  for (const NestedGrid& grid : grids_) {
+    for (std::size_t i = 0; i < grid::voxel_count(grid.place()); ++i) {
+      const Voxel voxel = voxels_[grid.first_voxel + i];
+      const Box cell = grid.place().box(grid::voxel_at(grid.place(), i), 1);
+      if (voxel.is_divided()) {
+        visits.add_node(cell);
+      } else {
+        visits.add_leaf(cell, voxel.is_empty() ? 0 : references(voxel).size());
+      }
+    }
+  }
+  visits.append_to(statistics);
   return statistics;
 }
 

@@ -75,6 +75,7 @@ class GridHierarchy {
  private:
   friend class GridHierarchyBuilder;
 
+  scenes::Bounds scene_bounds_;
   std::vector<NestedGrid> grids_;  ///< the scene's first
   std::vector<Voxel> voxels_;
   /// Lists with their lengths before them; the first is that of all empty voxels.

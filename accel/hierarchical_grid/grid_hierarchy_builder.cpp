@@ -256,6 +256,7 @@ class GridHierarchyBuilder {
 };
 
 GridHierarchy::GridHierarchy(const scenes::Scene& scene, const HierarchicalGridOptions& options) {
+  scene_bounds_ = scene.bounds;
   GridHierarchyBuilder(scene, options, *this).build();
 }
 

@@ -1,7 +1,8 @@
 #include "accel/octree/octree.hpp"
 
+#include "accel/core/expected_visits.hpp"
 #include "accel/octree/box_cursor.hpp"
-#include "accel/octree/for_each_leaf.hpp"
+#include "accel/octree/for_each_node.hpp"
 #include "accel/octree/octree_cursor.hpp"
 
 namespace beambench::accel::octree {
@@ -83,15 +84,23 @@ Statistics Octree::statistics() const {
   statistics.bytes = sizeof(*this) + nodes_.capacity() * sizeof(OctreeNode) +
                      references_.capacity() * sizeof(scenes::PrimitiveId) +
                      splits_.capacity() * sizeof(splits_[0]);
+  ExpectedVisits visits(scene_bounds_);
+  const auto add = [&](const auto& place) {
+    const Box cell = grid_.box(place.corner(), place.size());
+    place.is_leaf() ? visits.add_leaf(cell, place.node().count) : visits.add_node(cell);
+  };
+  central_planes_ ? for_each_node(OctreeCursor(*this), add) : for_each_node(BoxCursor(*this), add);
+  visits.append_to(statistics);
   return statistics;
 }
 
 std::vector<Box> Octree::occupied_cells() const {
   std::vector<Box> cells;
-  const auto add = [&](const auto& leaf) {
-    if (leaf.node().count > 0) cells.push_back(grid_.box(leaf.corner(), leaf.size()));
+  const auto add = [&](const auto& place) {
+    if (!place.is_leaf() || place.node().count == 0) return;
+    cells.push_back(grid_.box(place.corner(), place.size()));
   };
-  central_planes_ ? for_each_leaf(OctreeCursor(*this), add) : for_each_leaf(BoxCursor(*this), add);
+  central_planes_ ? for_each_node(OctreeCursor(*this), add) : for_each_node(BoxCursor(*this), add);
   return cells;
 }
 

@@ -124,6 +124,7 @@ class Octree {
   std::vector<scenes::PrimitiveId> references_;
   /// Of interior nodes, in the order of their children; empty where planes are central.
   std::vector<std::array<std::uint16_t, 3>> splits_;
+  scenes::Bounds scene_bounds_;
   bool central_planes_ = true;
   int deepest_level_ = 1;
 };

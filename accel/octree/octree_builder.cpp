@@ -40,7 +40,9 @@ class OctreeBuilder {
         octree_(octree),
         part_(part),
         lists_(static_cast<std::size_t>(options.max_level) + 1),
-        octants_(static_cast<std::size_t>(options.max_level) + 1) {}
+        octants_(static_cast<std::size_t>(options.max_level) + 1) {
+    octree_.scene_bounds_ = scene.bounds;
+  }
 
   void build() {
     begin();

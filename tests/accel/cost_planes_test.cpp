@@ -17,7 +17,7 @@
 #include "accel/core/registry.hpp"
 #include "accel/core/tolerance.hpp"
 #include "accel/exhaustive/exhaustive.hpp"
-#include "accel/octree/for_each_leaf.hpp"
+#include "accel/octree/for_each_node.hpp"
 #include "accel/octree/glassner.hpp"
 #include "accel/octree/samet.hpp"
 #include "scenes/catalogue.hpp"
@@ -68,7 +68,8 @@ TEST(CostPlanes, LeavesTileTheRootAndReferToWhatOverlapsThem) {
     const octree::Octree octree(scene, some_options(seed));
     const double tolerance = overlap_tolerance(scene);
     std::uint64_t volume = 0;
-    octree::for_each_leaf(octree::BoxCursor(octree), [&](const octree::BoxCursor& leaf) {
+    octree::for_each_node(octree::BoxCursor(octree), [&](const octree::BoxCursor& leaf) {
+      if (!leaf.is_leaf()) return;
       const auto& size = leaf.size();
       volume += static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) *
                 static_cast<std::uint64_t>(size.z);
@@ -204,7 +205,7 @@ TEST(OnDemandOctree, DividesWhereRaysCome) {
   structure.trace(PrimaryRays(scene.cameras.front(), 64, 64, 1), buffer, nullptr);
   const Statistics after = structure.statistics();
   EXPECT_GT(after.nodes, before.nodes);
-  octree::for_each_leaf(octree::OnDemandCursor(structure.octree()), [](const auto&) {});
+  octree::for_each_node(octree::OnDemandCursor(structure.octree()), [](const auto&) {});
   const Statistics all = structure.statistics();
   const Statistics complete = octree::Octree(scene, options).statistics();
   EXPECT_LT(after.nodes, all.nodes);

@@ -1,5 +1,5 @@
 #pragma once
-// All leaves below a node of an octree.
+// All nodes below a node of an octree.
 
 #include <cstdint>
 #include <utility>
@@ -7,17 +7,15 @@
 
 namespace beambench::accel::octree {
 
-/// Calls `visit(cursor)` at each leaf below a place in an octree, that place included.
+/// Calls `visit(cursor)` at each node below a place in an octree, that place included.
 template <class Cursor, class Visit>
-void for_each_leaf(Cursor from, Visit visit) {
+void for_each_node(Cursor from, Visit visit) {
   std::vector<Cursor> open{std::move(from)};
   while (!open.empty()) {
     const Cursor place = open.back();
     open.pop_back();
-    if (place.is_leaf()) {
-      visit(place);
-      continue;
-    }
+    visit(place);
+    if (place.is_leaf()) continue;
     for (std::uint32_t octant = 0; octant < 8; ++octant) {
       Cursor child = place;
       child.enter(octant);
