@@ -91,18 +91,21 @@ class OnDemandOctree {
   mutable std::uint64_t references_made_ = 0;
 };
 
-/// A node of an octree on demand with the box that it spans.
+/// A node of an octree on demand with the box that it spans. A node that must be divided is when
+/// the cursor comes to it.
 class OnDemandCursor {
  public:
   using Tree = OnDemandOctree;
 
   /// At the root.
   explicit OnDemandCursor(const OnDemandOctree& octree)
-      : octree_(&octree), node_(&octree.root()), cell_(octree.root_cell()) {}
+      : octree_(&octree),
+        node_(&octree.root()),
+        cell_(octree.root_cell()),
+        children_(octree.children(*node_, cell_)) {}
 
   const OnDemandNode& node() const { return *node_; }
-  /// Divides the node if it must be and was not.
-  bool is_leaf() const { return octree_->children(*node_, cell_) == nullptr; }
+  bool is_leaf() const { return children_ == nullptr; }
   /// The code of the node: the numbers of the children on the way, as octal digits after a 1. It
   /// depends on no order of division.
   std::uint64_t index() const { return code_; }
@@ -110,13 +113,13 @@ class OnDemandCursor {
   const glm::ivec3& size() const { return cell_.size; }
   int level() const { return cell_.level; }
   /// The planes between the children, as finest cells. Not of a leaf.
-  glm::ivec3 split() const { return octree_->children(*node_, cell_)->split; }
+  glm::ivec3 split() const { return children_->split; }
 
   /// Goes down to a child by its number (x + 2 y + 4 z). Not from a leaf.
   void enter(std::uint32_t octant) {
-    const Children* children = octree_->children(*node_, cell_);
-    cell_ = cell_.child(children->split, octant);
-    node_ = &children->nodes[octant];
+    cell_ = cell_.child(children_->split, octant);
+    node_ = &children_->nodes[octant];
+    children_ = octree_->children(*node_, cell_);
     code_ = code_ * 8 + octant;
   }
   /// As `descend_to_leaf`.
@@ -126,6 +129,7 @@ class OnDemandCursor {
   const OnDemandOctree* octree_;
   const OnDemandNode* node_;
   OctreeCell cell_;
+  const Children* children_;  ///< of a leaf nullptr
   std::uint64_t code_ = 1;
 };
 

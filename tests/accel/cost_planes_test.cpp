@@ -52,9 +52,9 @@ glm::ivec3 planes_of(const std::vector<CellRange>& ranges) {
 CellRange point(std::uint16_t x) { return {{x, 8, 8}, {x, 8, 8}}; }
 
 // By hand: with x at 1, 2, 3 and 14 the object median is plane 3, the spatial one 8, and the
-// positions between, rounded, are 8, 7, 7, 6, 6, 5, 5, 4, 4, 3. At plane p (4 to 8) three of four lie below, and half the
-// areas are 256 + 32 p and 256 + 32 (16 - p): 3 (256 + 32 p) + 768 - 32 p = 1536 + 64 p, least at
-// 4: 1792. At 3 it is 2 (256 + 96) + 2 (256 + 416) = 2048.
+// positions between, rounded, are 8, 7, 7, 6, 6, 5, 5, 4, 4, 3. At plane p (4 to 8) three of four
+// lie below, and half the areas are 256 + 32 p and 256 + 32 (16 - p): 3 (256 + 32 p) + 768 - 32 p =
+// 1536 + 64 p, least at 4: 1792. At 3 it is 2 (256 + 96) + 2 (256 + 416) = 2048.
 TEST(CostPlanes, LieWhereTheCostIsLeast) {
   EXPECT_EQ(planes_of({point(1), point(2), point(3), point(14)}).x, 4);
   EXPECT_EQ(planes_of({}), glm::ivec3(8)) << "nothing to choose by: the spatial median";
