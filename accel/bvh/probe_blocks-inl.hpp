@@ -13,6 +13,8 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 
 #include <hwy/highway.h>
 
@@ -193,6 +195,74 @@ void count_probes(Counting& counting, const PrimitiveBlock& block, LaneBits pass
     if ((passed >> lane & 1U) == 0) counting.tested(block.primitives[lane], kMiss);
   }
 }
+
+/// Tests the blocks of a leaf. `confirm(counting, block, lane)` makes the canonical test of what
+/// may be hit, may lower `t_max`, and returns true to end, as this does then.
+template <class Counting, class Confirm>
+HWY_INLINE bool test_blocks(std::span<const PrimitiveBlock> blocks, const ProbeRay& ray,
+                            const float& t_max, Counting& counting, Confirm& confirm) {
+  for (const PrimitiveBlock& block : blocks) {
+    LaneBits lanes = probe(block, ray, t_max);
+    count_probes(counting, block, lanes);
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+      if (confirm(counting, block, lane)) return true;
+    }
+  }
+  return false;
+}
+
+// Many rays need no canonical test, so that the canonical ray is made for the first.
+
+/// Keeps the closest of what it confirms, whose t is the least of `t_max`.
+class ConfirmClosest {
+ public:
+  ConfirmClosest(const scenes::Scene& scene, const Ray& ray)
+      : t_max(ray.t_max), scene_(&scene), ray_(&ray) {}
+
+  template <class Counting>
+  bool operator()(Counting& counting, const PrimitiveBlock& block, std::size_t lane) {
+    if (!best_) best_.emplace(*ray_);
+    const float t = confirm(best_->ray, *scene_, block, lane);
+    counting.tested(block.primitives[lane], t);
+    best_->keep(t, block.primitives[lane]);
+    t_max = best_->ray.t_max;
+    return false;
+  }
+  std::optional<Hit> result() const { return best_ ? best_->result() : std::nullopt; }
+
+  float t_max;
+
+ private:
+  const scenes::Scene* scene_;
+  const Ray* ray_;
+  std::optional<ClosestHit> best_;
+};
+
+/// Ends at the first hit.
+class ConfirmAny {
+ public:
+  ConfirmAny(const scenes::Scene& scene, const Ray& ray)
+      : t_max(ray.t_max), scene_(&scene), ray_(&ray) {}
+
+  template <class Counting>
+  bool operator()(Counting& counting, const PrimitiveBlock& block, std::size_t lane) {
+    if (!canonical_) canonical_.emplace(*ray_);
+    const float t = confirm(*canonical_, *scene_, block, lane);
+    counting.tested(block.primitives[lane], t);
+    found_ = is_hit(t);
+    return found_;
+  }
+  bool result() const { return found_; }
+
+  const float t_max;
+
+ private:
+  const scenes::Scene* scene_;
+  const Ray* ray_;
+  std::optional<CanonicalRay> canonical_;
+  bool found_ = false;
+};
 
 }  // namespace beambench::accel::bvh::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -1,10 +1,11 @@
 #include "accel/bvh/sah_kernels.hpp"
 
-#include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
-#include <limits>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
 
 #include "accel/bvh/probe_ray.hpp"
 #include "accel/bvh/slab_ray.hpp"
@@ -208,32 +209,25 @@ void count_step(Counting& counting, const WideBvh& bvh, const scenes::Scene& sce
   }
 }
 
-/// Traverses the hierarchy, nearest child first. Everything is inlined: otherwise GCC calls the
-/// lambdas for each node, with the ray in memory, which costs a tenth of the time. `confirm(block,
-/// lane)` makes the canonical test and returns true to end the traversal; hits beyond `t_max` do
-/// not matter, which `confirm` may lower.
-template <bool kAny, class Counting, class Confirm>
-HWY_FLATTEN void walk(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,
-                      const float& t_max, Counting& counting, Confirm confirm) {
+/// Traverses the hierarchy, for a closest hit the nearest child first, and returns what `Confirm`
+/// found. Everything is inlined: otherwise GCC makes calls for each node, with the ray in memory,
+/// which costs a tenth of the time.
+template <bool kAny, class Confirm, class Counting>
+HWY_FLATTEN auto traverse(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,
+                          Counting& counting) {
   const ProbeRay probe_ray(ray, bvh.scene_bounds);
+  Confirm confirm(scene, ray);
   WaitingStack waiting;
   ChildReference at = bvh.root;
-  float limit = t_max * ProbeRay::kWider;
   while (true) {
     count_step(counting, bvh, scene, ray, at);
     if (at.is_leaf()) {
-      const PrimitiveBlock* block = bvh.blocks.data() + at.first_block();
-      for (const PrimitiveBlock* end = block + at.block_count(); block != end; ++block) {
-        LaneBits lanes = probe(*block, probe_ray, t_max);
-        count_probes(counting, *block, lanes);
-        for (; lanes != 0; lanes &= lanes - 1) {
-          if (confirm(*block, static_cast<std::size_t>(std::countr_zero(lanes)))) return;
-          limit = t_max * ProbeRay::kWider;
-        }
-      }
+      const std::span blocks(bvh.blocks.data() + at.first_block(), at.block_count());
+      if (test_blocks(blocks, probe_ray, confirm.t_max, counting, confirm)) break;
     } else {
       const WideNode& node = bvh.nodes[at.node_index()];
       alignas(64) std::array<float, kBvhLanes> enter_t;
+      const float limit = confirm.t_max * ProbeRay::kWider;
       const LaneBits met = meet_children(node, probe_ray, limit, enter_t.data());
       if (met != 0) {
         if constexpr (kAny) {
@@ -244,41 +238,21 @@ HWY_FLATTEN void walk(const WideBvh& bvh, const scenes::Scene& scene, const Ray&
         continue;
       }
     }
-    if (!(kAny ? waiting.pop_any(at) : waiting.pop(limit, at))) return;
+    const float limit = confirm.t_max * ProbeRay::kWider;
+    if (!(kAny ? waiting.pop_any(at) : waiting.pop(limit, at))) break;
   }
+  return confirm.result();
 }
-
-// Many rays need no canonical test, so that the canonical ray is made for the first.
 
 template <class Counting>
 std::optional<Hit> closest(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray,
                            Counting& counting) {
-  std::optional<ClosestHit> best;
-  float t_max = ray.t_max;
-  walk<false>(bvh, scene, ray, t_max, counting, [&](const PrimitiveBlock& block, std::size_t lane) {
-    if (!best) best.emplace(ray);
-    const float t = confirm(best->ray, scene, block, lane);
-    counting.tested(block.primitives[lane], t);
-    best->keep(t, block.primitives[lane]);
-    t_max = best->ray.t_max;
-    return false;
-  });
-  return best ? best->result() : std::nullopt;
+  return traverse<false, ConfirmClosest>(bvh, scene, ray, counting);
 }
 
 template <class Counting>
 bool any(const WideBvh& bvh, const scenes::Scene& scene, const Ray& ray, Counting& counting) {
-  std::optional<CanonicalRay> canonical;
-  bool found = false;
-  walk<true>(bvh, scene, ray, ray.t_max, counting,
-             [&](const PrimitiveBlock& block, std::size_t lane) {
-               if (!canonical) canonical.emplace(ray);
-               const float t = confirm(*canonical, scene, block, lane);
-               counting.tested(block.primitives[lane], t);
-               found = is_hit(t);
-               return found;
-             });
-  return found;
+  return traverse<true, ConfirmAny>(bvh, scene, ray, counting);
 }
 
 template <class Counting>

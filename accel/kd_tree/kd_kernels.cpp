@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "accel/kd_tree/kd_ray.hpp"
 
@@ -22,43 +22,23 @@ namespace beambench::accel::kd_tree::HWY_NAMESPACE {
 
 namespace probes = bvh::HWY_NAMESPACE;
 
-/// Tests a leaf's blocks; returns true when `visit` does.
-template <class Counting, class FarEnd, class Visit>
-HWY_INLINE bool test_leaf(const KdTree& tree, const scenes::Scene& scene, const KdNode& leaf,
-                          const bvh::ProbeRay& probe_ray, const CanonicalRay& canonical,
-                          Counting& counting, FarEnd t_max, Visit visit) {
-  const bvh::PrimitiveBlock* block = tree.blocks.data() + leaf.first_block();
-  for (const bvh::PrimitiveBlock* end = block + leaf.block_count(); block != end; ++block) {
-    probes::LaneBits lanes = probes::probe(*block, probe_ray, t_max());
-    probes::count_probes(counting, *block, lanes);
-    for (; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-      const float t = probes::confirm(canonical, scene, *block, lane);
-      counting.tested(block->primitives[lane], t);
-      if (visit(t, block->primitives[lane])) return true;
-    }
-  }
-  return false;
-}
-
 /// Havran's recursive traversal with a stack, TA-B-rec ("Heuristic Ray Shooting Algorithms",
 /// dissertation, 2000, appendix C), which keeps of a far child only where the ray leaves it: it
-/// enters where it left the cell before. `visit(t, primitive)` gets the result of each canonical
-/// test and returns true to end the traversal; hits beyond `t_max()` do not matter.
+/// enters where it left the cell before. Returns what `Confirm` found.
 ///
 /// A child that the ray meets at one t only, in the plane, is skipped: what can be hit there is
 /// within the tolerance of the other one, too.
-template <class Counting, class FarEnd, class Visit>
-HWY_FLATTEN void walk(const KdTree& tree, const scenes::Scene& scene, const Ray& ray,
-                      const CanonicalRay& canonical, Counting& counting, FarEnd t_max,
-                      Visit visit) {
+template <class Confirm, class Counting>
+HWY_FLATTEN auto traverse(const KdTree& tree, const scenes::Scene& scene, const Ray& ray,
+                          Counting& counting) {
   struct Waiting {
     std::uint32_t node;
     double exit;
   };
+  Confirm confirm(scene, ray);
   const KdRay planes(ray);
   KdRay::Interval inside = planes.clip(tree.root, ray.t_min, ray.t_max);
-  if (inside.empty()) return;
+  if (inside.empty()) return confirm.result();
   const bvh::ProbeRay probe_ray(ray, tree.scene_bounds);
   std::array<Waiting, kMostSplits> waiting;
   std::size_t waiting_count = 0;
@@ -97,39 +77,26 @@ HWY_FLATTEN void walk(const KdTree& tree, const scenes::Scene& scene, const Ray&
     }
     counting.add(Counter::kLeaves);
     counting.add(Counter::kEmptyLeaves, node.block_count() == 0 ? 1 : 0);
-    if (test_leaf(tree, scene, node, probe_ray, canonical, counting, t_max, visit)) return;
-    if (waiting_count == 0 || t_max() < static_cast<float>(inside.exit)) return;
+    const std::span blocks(tree.blocks.data() + node.first_block(), node.block_count());
+    if (probes::test_blocks(blocks, probe_ray, confirm.t_max, counting, confirm)) break;
+    if (waiting_count == 0 || confirm.t_max < static_cast<float>(inside.exit)) break;
     --waiting_count;
     inside.enter = inside.exit;
     at = waiting[waiting_count].node;
     inside.exit = waiting[waiting_count].exit;
   }
+  return confirm.result();
 }
 
 template <class Counting>
 std::optional<Hit> closest(const KdTree& tree, const scenes::Scene& scene, const Ray& ray,
                            Counting& counting) {
-  ClosestHit best(ray);
-  walk(
-      tree, scene, ray, best.ray, counting, [&] { return best.ray.t_max; },
-      [&](float t, scenes::PrimitiveId primitive) {
-        best.keep(t, primitive);
-        return false;
-      });
-  return best.result();
+  return traverse<probes::ConfirmClosest>(tree, scene, ray, counting);
 }
 
 template <class Counting>
 bool any(const KdTree& tree, const scenes::Scene& scene, const Ray& ray, Counting& counting) {
-  const CanonicalRay canonical(ray);
-  bool found = false;
-  walk(
-      tree, scene, ray, canonical, counting, [&] { return ray.t_max; },
-      [&](float t, scenes::PrimitiveId) {
-        found = is_hit(t);
-        return found;
-      });
-  return found;
+  return traverse<probes::ConfirmAny>(tree, scene, ray, counting);
 }
 
 template <class Counting>

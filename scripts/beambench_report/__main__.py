@@ -11,6 +11,7 @@ from beambench_report.base.columns import as_markdown, dictionary
 from beambench_report.base.files import ROOT, Problem, write_text
 from beambench_report.base.records import read_run
 from beambench_report.embree_comparison.report import comparison
+from beambench_report.haines.command import add_haines_command
 from beambench_report.havran.command import add_havran_command
 from beambench_report.nightly.command import add_nightly_command
 from beambench_report.nightly.compare import compare_turns, measure_in_turns
@@ -81,6 +82,7 @@ def _parser() -> argparse.ArgumentParser:
     add_nightly_command(commands, _BUILT)
     add_cluster_command(commands, _BUILT.parent)
     add_havran_command(commands, _BUILT)
+    add_haines_command(commands, _BUILT)
     add(
         "columns",
         lambda _: as_markdown(dictionary()),

@@ -17,6 +17,7 @@ ORDER = (
     "nightly",
     "embree_comparison",
     "havran",
+    "haines",
     "thesis.paper",
     "thesis.chapter5",
     "thesis.chapter6",

@@ -1,0 +1,76 @@
+"""Tests by kind of primitive, of whole pictures: Haines's, and ours by `beambench census`."""
+
+import json
+import subprocess
+from pathlib import Path
+
+import pandas as pd
+
+from beambench_report.base.files import (
+    ROOT,
+    Problem,
+    read_json,
+    read_table,
+    say,
+    write_text,
+    write_whole,
+)
+from beambench_report.havran.contenders import SCENES
+
+PUBLISHED = ROOT / "results/haines/tests.csv"
+KINDS = ("polygon", "sphere", "cone", "box")
+CONTENDERS = ("goldsmith-salmon:order=given", "goldsmith-salmon:order=shuffled")
+"""He does not state the order in which he inserts primitives."""
+
+_PUBLISHED_COLUMNS = ("scene", "kind", "tests")
+_COLUMNS = ("contender", *_PUBLISHED_COLUMNS)
+
+Tests = dict[str, dict[str, float]]
+"""By scene, then by kind."""
+
+
+def published_tests() -> Tests:
+    """His counts."""
+    return _by_scene(read_table(PUBLISHED, _PUBLISHED_COLUMNS, "it is part of the repository"))
+
+
+def read_tests(path: Path) -> dict[str, Tests]:
+    """Ours, by contender. Raises Problem where the file is missing or is none."""
+    rows = read_table(path, _COLUMNS, "run `python -m beambench_report haines DIR`")
+    return {str(name): _by_scene(group) for name, group in rows.groupby("contender", sort=False)}
+
+
+def measure_tests(folder: Path, program: Path) -> Path:
+    """Counts into FOLDER/tests.csv, but for what FOLDER/census has already."""
+    folder.joinpath("census").mkdir(parents=True, exist_ok=True)
+    published = published_tests()
+    rows = []
+    for number, contender in enumerate(CONTENDERS):
+        for scene in published:
+            say(f"{scene}, {contender}")
+            work = _work(folder / "census" / f"{scene}-{number}.json", program, scene, contender)
+            rows += [(contender, scene, kind, work[f"{kind}_tests"]) for kind in KINDS]
+    table = pd.DataFrame(rows, columns=list(_COLUMNS))
+    return write_whole(folder / "tests.csv", lambda pending: table.to_csv(pending, index=False))
+
+
+def _by_scene(rows: pd.DataFrame) -> Tests:
+    tests: Tests = {}
+    for row in rows.itertuples():
+        tests.setdefault(str(row.scene), {})[str(row.kind)] = float(row.tests)
+    return tests
+
+
+def _work(file: Path, program: Path, scene: str, contender: str) -> dict[str, float]:
+    known = read_json(file)
+    if not isinstance(known, dict):
+        command = [program, "census", SCENES[scene], "--rules", "spd", "--accel", contender]
+        done = subprocess.run(
+            [*command, "--count", "--json"], capture_output=True, text=True, check=False
+        )
+        if done.returncode != 0:
+            raise Problem(f"{program} census {scene}: {done.stderr.strip()}")
+        write_text(file, done.stdout)
+        known = json.loads(done.stdout)
+    work: dict[str, float] = known["scenes"][0]["work"]
+    return work
