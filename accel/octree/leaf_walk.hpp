@@ -56,7 +56,8 @@ struct LeafWalk {
   /// returns true or the ray leaves the root. `passed` nodes were passed to find that node, itself
   /// included.
   template <class Counting, class Visit>
-  void from(OctreeCursor cursor, double t, int passed, Counting& counting, Visit visit) const {
+  [[gnu::always_inline]] void from(OctreeCursor cursor, double t, int passed, Counting& counting,
+                                   Visit visit) const {
     while (true) {
       passed += cursor.descend(planes, t);
       const OctreeNode& leaf = cursor.node();
@@ -83,7 +84,7 @@ struct LeafWalk {
 
   /// The leaves behind a leaf.
   template <class Counting, class Visit>
-  void behind(OctreeCursor leaf, Counting& counting, Visit visit) const {
+  [[gnu::always_inline]] void behind(OctreeCursor leaf, Counting& counting, Visit visit) const {
     const LeafExit exit = leaf_exit(planes, leaf);
     const int passed = neighbors.move(leaf, exit.step);
     if (passed == 0) return;
