@@ -125,9 +125,7 @@ class BeamPainter {
       }
       return;
     }
-    ClosestHit closest = sample.closest;  // a copy can stay in registers
-    cells_.follow(*scene_, beam, sample.ray, cell_ray, exit_t, closest, counting_, *watch_);
-    sample.closest = closest;
+    cells_.follow(*scene_, beam, sample.ray, cell_ray, exit_t, sample.closest, counting_, *watch_);
   }
 
   void finish(const LeafBatch::Sample& sample) {

@@ -38,16 +38,19 @@ class OctreeCells {
   /// Traces a ray behind the beam's cell, which it leaves at t; `watch` may end it where another
   /// process takes over.
   template <class Counting, class Watch>
-  void follow(const scenes::Scene& scene, const Beam& beam, const Ray& ray, const CellRay& cell_ray,
-              double t, ClosestHit& closest, Counting& counting, const Watch& watch) const {
+  [[gnu::always_inline]] void follow(const scenes::Scene& scene, const Beam& beam, const Ray& ray,
+                                     const CellRay& cell_ray, double t, ClosestHit& best,
+                                     Counting& counting, const Watch& watch) const {
     octree::OctreeCursor place(octree());
     place.jump(beam.node, beam.corner, beam.size);
+    ClosestHit closest = best;  // a copy can stay in registers
     octree::LeafWalk{octree(), tracer_->neighbors(), ray, cell_ray}.behind(
         place, counting, [&](const octree::OctreeNode& leaf, double exit_t) {
           if (watch.leaves_part(leaf, t)) return true;
           t = exit_t;
           return test_references(scene, octree().references(leaf), exit_t, counting, closest);
         });
+    best = closest;
   }
 
   /// Traces a ray from where it begins.

@@ -8,6 +8,7 @@
 #include "accel/beam/beam.hpp"
 #include "accel/beam/beam_paths.hpp"
 #include "accel/core/cell_search.hpp"
+#include "accel/grid/mailboxes.hpp"
 #include "accel/grid_beam/grid_lattice.hpp"
 #include "accel/hierarchical_grid/grid_walk.hpp"
 #include "accel/hierarchical_grid/hierarchical_grid.hpp"
@@ -18,7 +19,7 @@ namespace beambench::accel::grid_beam {
 /// number of that voxel.
 class GridCells {
  public:
-  using Tracer = hierarchical_grid::HierarchicalGrid<NoMailboxes>;
+  using Tracer = hierarchical_grid::HierarchicalGrid<grid::Mailboxes>;
 
   /// Both must outlive it.
   GridCells(const Tracer& tracer, const GridLattice& lattice)
@@ -42,10 +43,11 @@ class GridCells {
   template <class Counting, class Watch>
   void follow(const scenes::Scene& scene, const beam::Beam&, const Ray& ray, const CellRay&,
               double t, ClosestHit& closest, Counting& counting, const Watch&) const {
+    grid::Mailboxes boxes(scene.primitives.size());
     hierarchical_grid::GridWalk(
         hierarchy(), ray, counting,
         [&](std::span<const scenes::PrimitiveId> references, double exit_t) {
-          return test_references(scene, references, exit_t, counting, closest);
+          return test_references(scene, references, exit_t, counting, closest, boxes);
         })
         .from(t);
   }

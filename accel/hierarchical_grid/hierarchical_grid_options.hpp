@@ -25,7 +25,7 @@ struct HierarchicalGridOptions : grid::GridLayout {
   /// the same for all (so that the planes of all grids lie on one lattice).
   enum class Inner { kAny, kPowers };
   Inner inner = Inner::kAny;
-  bool mailboxes = false;
+  bool mailboxes = true;
 
   static std::vector<ParameterInfo> parameters();
   static HierarchicalGridOptions from(const Parameters& parameters);

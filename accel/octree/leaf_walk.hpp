@@ -41,7 +41,8 @@ struct LeafWalk {
   /// returns true or the ray leaves the root. `passed` nodes were passed to find that node, itself
   /// included. Returns the level of the leaf in which the ray left the root; 0 where it did not.
   template <class Counting, class Visit>
-  int from(Cursor cursor, double t, int passed, Counting& counting, Visit visit) const {
+  [[gnu::always_inline]] int from(Cursor cursor, double t, int passed, Counting& counting,
+                                  Visit visit) const {
     while (true) {
       passed += cursor.descend(planes, t);
       counting.add(Counter::kTraversalSteps, static_cast<std::uint64_t>(passed));
@@ -59,7 +60,7 @@ struct LeafWalk {
 
   /// The leaves behind a leaf.
   template <class Counting, class Visit>
-  void behind(Cursor leaf, Counting& counting, Visit visit) const {
+  [[gnu::always_inline]] void behind(Cursor leaf, Counting& counting, Visit visit) const {
     const LeafExit exit = leaf_exit(planes, leaf);
     const int passed = neighbors.move(leaf, exit.step);
     if (passed == 0) return;

@@ -205,7 +205,8 @@ TEST(HierarchicalGrid, OneLevelIsTheGridOfVoxels) {
   for (const char* name : {"tetra:n=4", "balls:n=2", "escena1"}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
-    const auto one = build("hierarchical-grid:resolution=16x9x12,max_level=1", scene);
+    const auto one =
+        build("hierarchical-grid:resolution=16x9x12,max_level=1,mailboxes=false", scene);
     const auto voxels = build("voxel-grid:resolution=16x9x12", scene);
     EXPECT_EQ(one->statistics().references, voxels->statistics().references);
     EXPECT_EQ(one->statistics().empty_leaves, voxels->statistics().empty_leaves);
