@@ -26,6 +26,7 @@ from beambench_report.run.pictures import (
 )
 from beambench_report.run.plots import write_plots
 from beambench_report.run.repeatability import repeatability
+from beambench_report.run.winners import write_winners
 from beambench_report.site.write import write_site
 from beambench_report.thesis.chapter5.levels import levels_of_runs
 from beambench_report.thesis.chapter5.sampling import write_sampling
@@ -160,6 +161,13 @@ def _add_of_runs(add: Callable[..., Callable[..., argparse.Action]]) -> None:
     )
     claims("--cells", action="store_true", help="list every cell, too")
     claims(*("-o", "--output"), type=Path, metavar="FILE.md", help="if not given, it is printed")
+    winners = add(
+        "winners",
+        lambda o: write_winners(o.run, o.output),
+        help="which structure wins where, each with its own best parameters",
+    )
+    winners("run", **run)
+    winners(*("-o", "--output"), type=Path, metavar="FILE.md", help="if not given, it is printed")
     levels = add(
         "levels",
         lambda o: levels_of_runs(o.runs, o.output),

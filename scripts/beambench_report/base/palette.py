@@ -39,7 +39,7 @@ _STRUCTURES = (
     Tint("glassner", "#003f5c", "#00bcd4"),
     Tint("gargantini", "#283593", "#8c9eff"),
     Tint("voxel-grid", "#009e73", "#1fbf8f"),
-    Tint("hierarchical-grid", "#005f56", "#5fd3c0"),
+    Tint("hierarchical-grid", "#3f7f6b", "#5fd3c0"),
     Tint("goldsmith-salmon", "#cc79a7", "#dd8fbb"),
     Tint("sah-bvh", "#e69f00", "#f0a818"),
     Tint("kd-tree", "#7cb518", "#a8e05f"),

@@ -1,0 +1,123 @@
+"""Which structure wins where: each structure with its own best parameters, view by view.
+
+Beside `standings`, which ranks every contender, a structure counts once here: with the parameters
+that give it the least median trace time in the view. Two structures are tied where the intervals
+of their medians overlap.
+"""
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+import pandas as pd
+
+from beambench_report.base.files import Problem, write_text
+from beambench_report.base.quantities import markdown_table, number
+from beambench_report.base.records import REFERENCES, contenders_with_times, read_run
+
+_VIEW = ["scene", "camera", "width", "height"]
+
+
+@dataclass(frozen=True)
+class Race:
+    """The structures in one view for one kind of rays, the fastest first."""
+
+    scene: str
+    ray_kind: str
+    ranked: pd.DataFrame
+    """Their best rows, with `ratio`: times the fastest."""
+
+    @property
+    def tied(self) -> list[str]:
+        """The fastest structure, and those whose interval overlaps its own."""
+        first = self.ranked.iloc[0]
+        overlap = self.ranked["trace_ms_ci_low"] <= first["trace_ms_ci_high"]
+        return list(self.ranked.loc[overlap | (self.ranked["ratio"] == 1), "structure"])
+
+    @property
+    def words(self) -> str:
+        """The winners, and what comes behind them: `sah-bvh; 1.31 kd-tree`."""
+        tied = self.tied
+        others = self.ranked[~self.ranked["structure"].isin(tied)]
+        text = ", ".join(f"`{name}`" for name in tied)
+        if others.empty:
+            return text
+        second = others.iloc[0]
+        return f"{text}; {second['ratio']:.2f} `{second['structure']}`"
+
+
+def races(rows: pd.DataFrame) -> list[Race]:
+    """Of all views and kinds of rays, in the order of the rows."""
+    timed = contenders_with_times(rows)
+    timed = timed[~timed["structure"].isin(REFERENCES)]
+    found = []
+    for (scene, _, _, _, kind), group in timed.groupby([*_VIEW, "ray_kind"], sort=False):
+        best = group.loc[group.groupby("structure")["trace_ms_median"].idxmin()]
+        best = best.sort_values("trace_ms_median")
+        ratio = best["trace_ms_median"] / best["trace_ms_median"].iloc[0]
+        found.append(Race(str(scene), str(kind), best.assign(ratio=ratio)))
+    return found
+
+
+def write_winners(run: Path, output: Path | None) -> str | list[Path]:
+    """The tables as Markdown: a text to be printed, or the file that was written."""
+    found = races(read_run(run).rows)
+    if not found:
+        raise Problem(f"{run}: no structure has times; a run with correct hits is needed")
+    text = "\n".join((*_by_structure(found), _by_scene(found)))
+    return [write_text(output, text)] if output else text
+
+
+def _by_structure(found: Sequence[Race]) -> list[str]:
+    parts = []
+    for kind in dict.fromkeys(race.ray_kind for race in found):
+        of_kind = [race for race in found if race.ray_kind == kind]
+        rows = pd.concat([race.ranked for race in of_kind])
+        wins = Counter(name for race in of_kind for name in race.tied)
+        table = sorted(
+            (_mean(group["ratio"]), str(name), group) for name, group in rows.groupby("structure")
+        )
+        lines = markdown_table(
+            ("structure", "times the fastest", "fastest or tied", "build, ms", "bytes a primitive",
+             "best parameters"),
+            [
+                (
+                    f"`{name}`",
+                    f"{mean:.2f}",
+                    f"{wins[name]} of {len(of_kind)}"
+                    + ("" if len(group) == len(of_kind) else f" (in {len(group)})"),
+                    number(group["build_ms_median"].median()),
+                    number((group["memory_bytes"] / group["primitives"]).median()),
+                    _parameters(group),
+                )
+                for mean, name, group in table
+            ],
+            right=(1, 3, 4),
+        )  # fmt: skip
+        parts.append(f"## {kind} rays, {len(of_kind)} views\n\n" + "\n".join(lines) + "\n")
+    return parts
+
+
+def _mean(ratios: pd.Series) -> float:
+    return float(np.exp(np.log(ratios).mean()))
+
+
+def _parameters(group: pd.DataFrame) -> str:
+    """How often each set of parameters was the best, where there is a choice."""
+    counted = Counter(str(label) for label in group["contender"])
+    return "; ".join(f"{label} ({times})" for label, times in counted.most_common(3))
+
+
+def _by_scene(found: Sequence[Race]) -> str:
+    kinds = list(dict.fromkeys(race.ray_kind for race in found))
+    words: dict[str, dict[str, str]] = {}
+    for race in found:
+        words.setdefault(race.scene, {}).setdefault(race.ray_kind, race.words)
+    rows = [(scene, *(of.get(kind, "-") for kind in kinds)) for scene, of in words.items()]
+    lines = markdown_table(("scene", *kinds), rows)
+    return (
+        "## By scene\n\nThe fastest, with those that are tied with it, and the next with its ratio."
+        "\n\n" + "\n".join(lines) + "\n"
+    )

@@ -1,0 +1,73 @@
+"""Which structure wins where: each structure counts once, with its own best parameters."""
+
+from pathlib import Path
+
+import pytest
+
+from beambench_report.__main__ import main
+from beambench_report.base.records import read_run
+from beambench_report.run.winners import races
+from synthetic_run import synthetic_rows, write_run
+
+
+def a_run(folder: Path, times: dict[tuple[str, str], tuple[float, float, float]]) -> Path:
+    """One view, with the median of each contender's trace time and its interval."""
+    example = synthetic_rows()[0]
+    rows = [
+        example
+        | {"structure": structure, "parameters": parameters, "verdict": "ok"}
+        | {"trace_ms_median": median, "trace_ms_ci_low": low, "trace_ms_ci_high": high}
+        | {"total_ms_median": median + 1}
+        for (structure, parameters), (median, low, high) in times.items()
+    ]
+    write_run(folder, rows)
+    return folder
+
+
+def test_a_structure_counts_once_with_its_best_parameters(tmp_path: Path) -> None:
+    run = a_run(
+        tmp_path,
+        {
+            ("samet", "max_level=5"): (30, 29, 31),
+            ("samet", "max_level=6"): (20, 19, 21),
+            ("sah-bvh", "max_leaf=8"): (10, 9, 11),
+            ("exhaustive", ""): (1, 1, 1),
+        },
+    )
+    (race,) = races(read_run(run).rows)
+    assert list(race.ranked["structure"]) == ["sah-bvh", "samet"]
+    assert list(race.ranked["ratio"]) == [1, 2]
+    assert list(race.ranked["parameters"]) == ["max_leaf=8", "max_level=6"]
+    assert race.tied == ["sah-bvh"]
+    assert race.words == "`sah-bvh`; 2.00 `samet`"
+
+
+def test_intervals_that_overlap_are_a_tie(tmp_path: Path) -> None:
+    run = a_run(
+        tmp_path,
+        {
+            ("samet", ""): (11, 10, 12),
+            ("sah-bvh", ""): (10, 9, 10.5),
+            ("kd-tree", ""): (15, 14, 16),
+        },
+    )
+    (race,) = races(read_run(run).rows)
+    assert race.tied == ["sah-bvh", "samet"]
+    assert race.words == "`sah-bvh`, `samet`; 1.50 `kd-tree`"
+
+
+def test_the_tables_are_printed_or_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    run = a_run(tmp_path, {("samet", ""): (20, 19, 21), ("sah-bvh", ""): (10, 9, 11)})
+    assert main(["winners", str(run)]) == 0
+    printed = capsys.readouterr().out
+    assert "## primary rays, 1 views" in printed
+    assert "| `samet` | 2.00 | 0 of 1 |" in printed
+    assert main(["winners", str(run), "-o", str(tmp_path / "winners.md")]) == 0
+    assert (tmp_path / "winners.md").read_text() == printed
+
+
+def test_a_run_without_times_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["winners", str(a_run(tmp_path, {("exhaustive", ""): (1, 1, 1)}))]) == 2
+    assert "no structure has times" in capsys.readouterr().err
