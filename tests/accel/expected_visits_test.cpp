@@ -2,9 +2,12 @@
 
 #include "accel/core/expected_visits.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <string>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
@@ -14,6 +17,7 @@
 #include "scenes/catalogue.hpp"
 #include "scenes/core/parameters.hpp"
 #include "scenes/core/random.hpp"
+#include "scenes/scene_builder.hpp"
 
 namespace beambench::accel {
 namespace {
@@ -55,12 +59,22 @@ Ray random_line(const glm::dvec3& center, double radius, Random& random) {
   return ray;
 }
 
-/// Lines that hit nothing visit all that they meet.
+/// Triangles so small that hardly a line hits one: lines that hit nothing visit all that they meet.
+scenes::Scene small_triangles() {
+  scenes::SceneBuilder builder("small triangles");
+  Random random(9);
+  for (int i = 0; i < 1500; ++i) {
+    const glm::dvec3 a(random.unit(), 2.0 * random.unit(), random.unit());
+    builder.add_polygon(
+        std::array<glm::dvec3, 3>{a, a + glm::dvec3(0.01, 0, 0), a + glm::dvec3(0, 0.01, 0.01)});
+  }
+  return std::move(builder).build();
+}
+
 class EstimatedStructure : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(EstimatedStructure, EstimatesWhatLinesThatMissVisit) {
-  // A few thin triangles in a large box: hardly a line hits one.
-  const scenes::Scene scene = scenes::load_scene("torre-eiffel");
+  const scenes::Scene scene = small_triangles();
   const auto structure = registry().choose(parse_spec(GetParam())).build(scene);
   const auto estimate = figures(structure->statistics());
   const glm::dvec3 lower(scene.bounds.lower);
@@ -83,15 +97,15 @@ TEST_P(EstimatedStructure, EstimatesWhatLinesThatMissVisit) {
   ASSERT_GT(lines, 10'000);
   const double leaves = static_cast<double>(work.get(Counter::kLeaves)) / lines;
   const double steps = static_cast<double>(work.get(Counter::kTraversalSteps)) / lines;
-  // Lines that miss meet less than all lines do.
-  EXPECT_NEAR(leaves, estimate.at("sah_leaves"), 0.25 * leaves);
-  const bool is_entered_from_the_root = steps > leaves;
-  if (is_entered_from_the_root) {
-    EXPECT_NEAR(steps - leaves, estimate.at("sah_nodes"), 0.25 * (steps - leaves));
+  EXPECT_NEAR(leaves, estimate.at("sah_leaves"), 0.05 * leaves);
+  const std::string name = GetParam();
+  if (name == "sah-bvh" || name == "kd-tree") {  // whose other steps are interior nodes
+    EXPECT_NEAR(steps - leaves, estimate.at("sah_nodes"), 0.05 * (steps - leaves));
   }
 }
 INSTANTIATE_TEST_SUITE_P(All, EstimatedStructure,
-                         ::testing::Values("sah-bvh", "kd-tree", "samet", "hierarchical-grid"));
+                         ::testing::Values("sah-bvh", "kd-tree", "samet:root=box",
+                                           "hierarchical-grid"));
 
 TEST(TestsByKind, AddUpToThePrimitiveTests) {
   const scenes::Scene scene = scenes::load_scene("rings:n=2");

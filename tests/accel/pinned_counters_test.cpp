@@ -17,10 +17,12 @@
 namespace beambench::accel {
 namespace {
 
+/// Without the tests by kind of primitive, which add up to all
+/// (tests/accel/expected_visits_test.cpp).
 std::map<std::string, std::uint64_t> work_of(const WorkCounters& counters) {
   std::map<std::string, std::uint64_t> work;
   for (const auto& [name, count] : counters.by_name()) {
-    if (count != 0) work[name] = count;
+    if (count != 0 && std::ranges::count(kTestNames, name) == 0) work[name] = count;
   }
   return work;
 }
@@ -100,11 +102,11 @@ INSTANTIATE_TEST_SUITE_P(Structures, PinnedWork, ::testing::Values(
     Row{"goldsmith-salmon:queue=stack", "balls:n=4", {{"box_tests", 86'577}, {"primitive_tests", 5'589}, {"traversal_steps", 30'636}}},
     Row{"goldsmith-salmon:queue=stack", "escena1", {{"box_tests", 81'941}, {"primitive_tests", 3'693}, {"traversal_steps", 29'368}}},
     Row{"sah-bvh", "tetra:n=6", {{"box_tests", 68'080}, {"confirmed_tests", 1'622}, {"leaves", 1'976}, {"primitive_tests", 15'808}, {"traversal_steps", 10'486}}},
-    Row{"sah-bvh", "balls:n=4", {{"box_tests", 100'175}, {"confirmed_tests", 4'263}, {"leaves", 6'586}, {"primitive_tests", 27'963}, {"traversal_steps", 20'028}}},
-    Row{"sah-bvh", "escena1", {{"box_tests", 58'338}, {"confirmed_tests", 2'084}, {"leaves", 5'503}, {"primitive_tests", 42'366}, {"traversal_steps", 13'234}}},
+    Row{"sah-bvh", "balls:n=4", {{"box_tests", 102'071}, {"confirmed_tests", 4342}, {"leaves", 6754}, {"primitive_tests", 28'648}, {"traversal_steps", 20'463}}},
+    Row{"sah-bvh", "escena1", {{"box_tests", 58'380}, {"confirmed_tests", 2079}, {"leaves", 5547}, {"primitive_tests", 42'712}, {"traversal_steps", 13'284}}},
     Row{"sah-bvh:builder=spatial", "tetra:n=6", {{"box_tests", 68'080}, {"confirmed_tests", 1'680}, {"leaves", 1'851}, {"primitive_tests", 14'808}, {"traversal_steps", 10'361}}},
-    Row{"sah-bvh:builder=spatial", "balls:n=4", {{"box_tests", 95'199}, {"confirmed_tests", 4'576}, {"leaves", 6'556}, {"primitive_tests", 33'987}, {"traversal_steps", 19'561}}},
-    Row{"sah-bvh:builder=spatial", "escena1", {{"box_tests", 58'338}, {"confirmed_tests", 2'078}, {"leaves", 5'518}, {"primitive_tests", 42'236}, {"traversal_steps", 13'249}}},
+    Row{"sah-bvh:builder=spatial", "balls:n=4", {{"box_tests", 95'977}, {"confirmed_tests", 4663}, {"leaves", 6685}, {"primitive_tests", 34'493}, {"traversal_steps", 19'798}}},
+    Row{"sah-bvh:builder=spatial", "escena1", {{"box_tests", 58'380}, {"confirmed_tests", 2073}, {"leaves", 5560}, {"primitive_tests", 42'566}, {"traversal_steps", 13'297}}},
     Row{"kd-tree", "tetra:n=6", {{"confirmed_tests", 2031}, {"empty_leaves", 4412}, {"leaves", 8220}, {"primitive_tests", 190'043}, {"traversal_steps", 37'506}}},
     Row{"kd-tree", "balls:n=4", {{"confirmed_tests", 9704}, {"empty_leaves", 6630}, {"leaves", 18'621}, {"primitive_tests", 240'823}, {"traversal_steps", 77'075}}},
     Row{"kd-tree", "escena1", {{"confirmed_tests", 2283}, {"empty_leaves", 281}, {"leaves", 3633}, {"primitive_tests", 203'259}, {"traversal_steps", 13'095}}},
