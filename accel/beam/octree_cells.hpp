@@ -40,7 +40,7 @@ class OctreeCells {
   template <class Counting, class Watch>
   [[gnu::always_inline]] void follow(const scenes::Scene& scene, const Beam& beam, const Ray& ray,
                                      const CellRay& cell_ray, double t, ClosestHit& best,
-                                     Counting& counting, const Watch& watch) const {
+                                     Counting& counting, Watch& watch) const {
     octree::OctreeCursor place(octree());
     place.jump(beam.node, beam.corner, beam.size);
     ClosestHit closest = best;  // a copy can stay in registers
