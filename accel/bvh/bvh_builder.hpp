@@ -29,7 +29,7 @@ struct BvhNode {
 
 struct BinaryBvh {
   std::vector<BvhNode> nodes;        ///< the root first, children after their parent; may be empty
-  std::vector<std::uint32_t> items;  ///< indices of the boxes, leaf by leaf, each once
+  std::vector<std::uint32_t> items;  ///< indices, leaf by leaf; each once where splits divide none
   std::uint32_t depth = 0;           ///< nodes on the longest path to a leaf, leaf included
 };
 

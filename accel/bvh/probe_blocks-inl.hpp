@@ -90,9 +90,10 @@ inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray
                 hn::Ge(hn::Mul(hn::Max(hn::Max(ta, tb), tc), hn::Set(tag, ProbeRay::kWider)),
                        hn::Set(tag, ray.t_min - ray.depth_margin)));
     const Mask near_it = hn::And(surrounds, in_time);
-    if (ray.t_min < 0.0F || hn::AllFalse(tag, near_it)) return near_it;
+    if (hn::AllFalse(tag, near_it)) return near_it;
 
-    // Behind the origin: most rays begin on a triangle, which would have to be confirmed.
+    // Most rays begin on a triangle. It passes the tests above; where its plane is surely met
+    // behind the origin, it need not be confirmed (probe_ray.hpp).
     struct Vector {
       Floats x, y, z;
     };
@@ -116,15 +117,16 @@ inline LaneBits probe_triangles(const PrimitiveBlock& block, const ProbeRay& ray
         hn::MulAdd(to_a.x, hn::MulSub(e.y, f.z, hn::Mul(e.z, f.y)),
                    hn::MulAdd(to_a.y, hn::MulSub(e.z, f.x, hn::Mul(e.x, f.z)),
                               hn::Mul(to_a.z, hn::MulSub(e.x, f.y, hn::Mul(e.y, f.x)))));
-    const Floats error = hn::Mul(
+    const Floats error = hn::MulAdd(
         hn::Mul(size(e), size(f)),
-        hn::MulAdd(size(to_a), hn::Set(tag, 0x1p-20F), hn::Set(tag, 0x1p-9F * ray.rounding)));
+        hn::MulAdd(size(to_a), hn::Set(tag, 0x1p-20F), hn::Set(tag, 0x1p-9F * ray.rounding)),
+        hn::Set(tag, 0x1p-120F));  // products that underflow, or are flushed to zero
     const Floats total = hn::Add(hn::Add(u, v), w);
     const Floats side = hn::Mul(hn::Mul(total, per_t), volume);  // of the sign of -t
     const Mask sure = hn::And(hn::Gt(hn::Abs(total), hn::Set(tag, 4.0F * margin)),
                               hn::Gt(hn::Abs(volume), error));
-    const Mask outside = hn::And(sure, hn::Gt(side, hn::Zero(tag)));
-    return hn::AndNot(outside, near_it);
+    const Mask behind = hn::And(sure, hn::Gt(side, hn::Zero(tag)));
+    return hn::AndNot(behind, near_it);
   });
 }
 
@@ -197,12 +199,12 @@ void count_probes(Counting& counting, const PrimitiveBlock& block, LaneBits pass
 }
 
 /// Tests the blocks of a leaf. `confirm(counting, block, lane)` makes the canonical test of what
-/// may be hit, may lower `t_max`, and returns true to end, as this does then.
+/// may be hit before `confirm.t_max`, may lower that, and returns true to end, as this does then.
 template <class Counting, class Confirm>
 HWY_INLINE bool test_blocks(std::span<const PrimitiveBlock> blocks, const ProbeRay& ray,
-                            const float& t_max, Counting& counting, Confirm& confirm) {
+                            Counting& counting, Confirm& confirm) {
   for (const PrimitiveBlock& block : blocks) {
-    LaneBits lanes = probe(block, ray, t_max);
+    LaneBits lanes = probe(block, ray, confirm.t_max);
     count_probes(counting, block, lanes);
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
@@ -212,7 +214,7 @@ HWY_INLINE bool test_blocks(std::span<const PrimitiveBlock> blocks, const ProbeR
   return false;
 }
 
-// Many rays need no canonical test, so that the canonical ray is made for the first.
+// Many rays need no canonical test: the canonical ray is made for the first.
 
 /// Keeps the closest of what it confirms, whose t is the least of `t_max`.
 class ConfirmClosest {

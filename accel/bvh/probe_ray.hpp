@@ -11,6 +11,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "accel/core/canonical_ray.hpp"
 #include "accel/core/ray.hpp"
@@ -30,23 +31,29 @@ namespace beambench::accel::bvh {
 /// box's face, where nothing can be hit.
 ///
 /// **Triangles.** Corners are moved by the origin and sheared so that the ray becomes an axis (as
-/// CanonicalRay::beside does). A sheared coordinate is wrong by at most 7 e R. Where a ray meets
-/// the box of a leaf whose longest side is s, to the tolerance of the box test, the sheared
-/// coordinates of corners in it are at most P = 2 s + 20 e R. The areas a.x b.y - a.y b.x are then
-/// wrong by at most 4 P 7eR + 2 (7eR)^2 + 4 e P^2, which 40 e R (P + 12 e R) exceeds (P <= 2 R).
+/// CanonicalRay::beside does). A sheared coordinate is wrong by at most 7 e R. Let s be at
+/// least the longest side of the box of any triangle of the leaf. Where a ray hits one of them, its
+/// corners are within s of the hit along each axis: sheared, they are at most P = 2 s + 20 e R. The
+/// areas a.x b.y - a.y b.x are then wrong by at most 4 P 7eR + 2 (7eR)^2 + 4 e P^2, which
+/// 40 e R (P + 12 e R) exceeds (P <= 2 R).
 /// Depths along the main axis are wrong by 3 e R, and the canonical hit is within 2^-10 e R x 20 of
 /// its triangle: 5 e R over |direction| covers both.
 ///
-/// Let m be the bound of the areas' error, u, v and w the areas computed (u opposite a), D their
-/// sum and S that of their sizes. Where |D| > 4 m its sign is right, for D is wrong by 3 m + 2 e S.
-/// The plane is met at t with D (t - t0) = u (ta - t0) + v (tb - t0) + w (tc - t0), for the depths
-/// ta, tb and tc over the direction and any t0. Computed, the sum is wrong by 3 m T, T being the
-/// largest |ta - t0|, and by S times what the differences are wrong by, 5 e R over |direction| and
-/// some e T: T (4 m + 8 e S) + 2 S (5 e R / |direction|) exceeds it. A hit's t, which is rounded to
-/// float and whose point may be 2^-35 R beside the plane, differs from that by less than the rest,
-/// 46 e R over the cosine of the angle to the plane's normal, however thin the triangle is: its
-/// area is at most its longest side times its width in the direction in which its depth changes
-/// most, and T is at least half that width times the sine.
+/// **Triangles behind the origin.** Let o be the origin, a a corner, e1 and e2 the edges from it,
+/// and |x| the sum of the sizes of x's components. The canonical test has t = V / N, with the
+/// volume V = (a - o).(e1 x e2) and N = direction.(e1 x e2). With d, the direction along the main
+/// axis, and D, the sum of the sheared areas, N = -d D: the shear keeps volumes, and the axes are
+/// in cyclic order. So t < 0 where V D / d > 0, if both signs are certain:
+/// - V in float is wrong by at most 8 e |a - o| |e1| |e2|: three differences, each with a relative
+///   error of e, and five more roundings. 16 e is allowed, and 2^-120 for products that underflow.
+/// - D is wrong by 3 m and the rounding of its sums, m being the bound of the areas' error. Beyond
+///   4 m its sign is right, and it is nearly m or more.
+///
+/// They are then the canonical test's signs, too: in double V is wrong by 2^-50 |a - o| |e1| |e2|,
+/// and N by 2^-50 |direction| |e1| |e2| <= 2^-44 |d| R s, while |d| m > 2^-18 |d| R s. Where the
+/// hit's computed point lies does not matter: that test only rejects more. One case is left: a
+/// negative t that underflows is -0, which t_min = 0 accepts. Another 2^-33 R |e1| |e2| is
+/// therefore allowed: t is then beyond -2^-33 R / |direction|.
 ///
 /// **Spheres.** The vector from the center to the nearest point of the line is wrong by at most
 /// 21 e R: 32 e R is added to the radius, and as much to the depth of the sphere.
@@ -64,18 +71,18 @@ class ProbeRay {
     // Without branches, which the directions of secondary rays make unpredictable.
     float reach = 0.0F;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      origin[axis] = (&ray.origin.x)[axis];
-      direction[axis] = (&ray.direction.x)[axis];
+      origin[axis] = glm::value_ptr(ray.origin)[axis];
+      direction[axis] = glm::value_ptr(ray.direction)[axis];
       constexpr float kLargest = std::numeric_limits<float>::max();
       const float quotient = 1.0F / direction[axis];
-      inverse[axis] = std::max(std::min(quotient, kLargest), -kLargest);
-      far_inverse[axis] = std::max(std::min(quotient * kWider, kLargest), -kLargest);
+      inverse[axis] = std::clamp(quotient, -kLargest, kLargest);
+      far_inverse[axis] = std::clamp(quotient * kWider, -kLargest, kLargest);
       const auto backward = std::size_t{std::bit_cast<std::uint32_t>(direction[axis]) >> 31U};
       near_row[axis] = axis + 3 * backward;
       far_row[axis] = axis + 3 - 3 * backward;
       octant |= backward << axis;
-      const float below = std::abs((&scene_bounds.lower.x)[axis] - origin[axis]);
-      const float above = std::abs((&scene_bounds.upper.x)[axis] - origin[axis]);
+      const float below = std::abs(glm::value_ptr(scene_bounds.lower)[axis] - origin[axis]);
+      const float above = std::abs(glm::value_ptr(scene_bounds.upper)[axis] - origin[axis]);
       reach = std::max(reach, std::max(below, above));
     }
     set_shear(*this, ray.direction);
@@ -96,7 +103,7 @@ class ProbeRay {
   std::array<float, 3> direction;
   float t_min;
   std::array<float, 3> inverse;
-  std::array<float, 3> far_inverse;     ///< enlarged by kWider
+  std::array<float, 3> far_inverse;     ///< enlarged by kWider, to the largest float at most
   std::array<std::size_t, 3> near_row;  ///< of WideNode::planes, for each axis
   std::array<std::size_t, 3> far_row;
   std::size_t octant = 0;  ///< of WideNode::orders

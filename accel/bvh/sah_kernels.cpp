@@ -97,9 +97,9 @@ class WaitingStack {
     const LaneBits rest = met ^ LaneBits { 1 } << last;
     const Tag tag;
     const hn::RebindToUnsigned<Tag> bits;
-    const auto* references = reinterpret_cast<const std::uint32_t*>(node.children.data());
     if (rest != 0) {
       if constexpr (hn::MaxLanes(tag) == kBvhLanes) {
+        const auto* references = reinterpret_cast<const std::uint32_t*>(node.children.data());
         const std::array<std::uint8_t, 8> lanes{static_cast<std::uint8_t>(rest)};
         const auto mask = hn::LoadMaskBits(bits, lanes.data());
         hn::StoreU(hn::Compress(hn::LoadU(bits, references), mask), bits,
@@ -107,7 +107,7 @@ class WaitingStack {
         size_ += static_cast<std::size_t>(std::popcount(rest));
       } else {
         for (std::size_t lane = 0; lane < kBvhLanes; ++lane) {
-          references_[size_] = references[lane];
+          references_[size_] = node.children[lane].bits();
           size_ += rest >> lane & 1U;
         }
       }
@@ -146,7 +146,8 @@ class WaitingStack {
     }
   }
 
-  /// The maximum depth, and a register that is stored whole.
+  /// Each node on the longest path leaves at most seven children waiting; a whole register is
+  /// stored above them.
   static constexpr std::size_t kRoom = kMaxBvhDepth * (kBvhLanes - 1) + 1 + kBvhLanes;
 
   std::size_t size_ = 0;
@@ -223,7 +224,7 @@ HWY_FLATTEN auto traverse(const WideBvh& bvh, const scenes::Scene& scene, const 
     count_step(counting, bvh, scene, ray, at);
     if (at.is_leaf()) {
       const std::span blocks(bvh.blocks.data() + at.first_block(), at.block_count());
-      if (test_blocks(blocks, probe_ray, confirm.t_max, counting, confirm)) break;
+      if (test_blocks(blocks, probe_ray, counting, confirm)) break;
     } else {
       const WideNode& node = bvh.nodes[at.node_index()];
       alignas(64) std::array<float, kBvhLanes> enter_t;

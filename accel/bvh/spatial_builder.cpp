@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -81,7 +82,7 @@ struct SpatialSplit {
   std::uint32_t right_count = 0;
 };
 
-/// What is to become of a node's references.
+/// The references of a node's two children.
 struct Division {
   References left;
   References right;
@@ -170,13 +171,16 @@ class SpatialBuilder {
       if (spare > 0 && children_overlap(bins, binning, by_objects)) {
         by_space = best_spatial_split(references, extent.boxes.bounds());
       }
-      const float cost = std::min(by_objects.cost, by_space.cost);
-      if (leaf_pays(references.size(), extent.boxes.bounds(), cost, options_)) return std::nullopt;
-      if (by_space.cost < by_objects.cost) {
+      const auto is_leaf_cheaper = [&](float cost) {
+        return leaf_pays(references.size(), extent.boxes.bounds(), cost, options_);
+      };
+      if (by_space.cost < by_objects.cost && !is_leaf_cheaper(by_space.cost)) {
         std::optional<Division> parts = split_space(references, by_space, spare);
         if (parts) return parts;
       }
-      if (by_objects.axis >= 0) return split_objects(references, binning, by_objects);
+      if (by_objects.axis >= 0 && !is_leaf_cheaper(by_objects.cost)) {
+        return split_objects(references, binning, by_objects);
+      }
     }
     if (references.size() <= options_.max_leaf) return std::nullopt;
     const auto middle = references.begin() + static_cast<std::ptrdiff_t>(references.size() / 2);
@@ -206,7 +210,8 @@ class SpatialBuilder {
     if (!found) return std::nullopt;
     scenes::Bounds part;
     for (int i = 0; i < 3; ++i) {
-      // Outward, but not beyond the reference's own box.
+      // One float outward, but not beyond the reference's own box; beside a coordinate of 0, where
+      // floats are finer than the clipping's error, the boxes' padding covers that.
       part.lower[i] = std::max(-next_above(-static_cast<float>(found->lower[i])), box.lower[i]);
       part.upper[i] = std::min(next_above(static_cast<float>(found->upper[i])), box.upper[i]);
     }
@@ -336,8 +341,9 @@ class SpatialBuilder {
     return division;
   }
 
-  /// Section 4.4: both parts, or the whole on the side where that costs less. `split` has the boxes
-  /// and counts of both sides as they are with what was decided before.
+  /// Section 4.4, which weighs by references, not by blocks: both parts, or the whole on the side
+  /// where that costs less. `split` has the boxes and counts of both sides as they are with what
+  /// was decided before.
   static void divide_reference(const BuildItem& reference, const std::optional<QuadBox>& left,
                                const std::optional<QuadBox>& right, SpatialSplit& split,
                                Division& division) {

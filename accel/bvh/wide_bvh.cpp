@@ -112,13 +112,13 @@ class WideBvhBuilder {
     const auto items = std::span(binary_.items).subspan(leaf.first, leaf.count);
     std::sort(items.begin(), items.end());
     leaf_pieces_.clear();
-    scenes::Bounds box = leaf.box;  // of the whole pieces, where the leaf has parts
+    float extent = 0.0F;
     for (const std::uint32_t item : items) {
       leaf_pieces_.push_back(pieces_[item]);
-      box.include(piece_bounds(scene_, pieces_[item]));
+      const glm::vec3 sides = piece_bounds(scene_, pieces_[item]).extent();
+      extent = std::max({extent, sides.x, sides.y, sides.z});
     }
-    const glm::vec3 sides = box.extent();
-    append_blocks(scene_, leaf_pieces_, std::max({sides.x, sides.y, sides.z}), wide_.blocks);
+    append_blocks(scene_, leaf_pieces_, extent, wide_.blocks);
     if (wide_.blocks.size() > ChildReference::kBlockIndices) {
       throw InputError(
           fmt::format("sah-bvh over '{}' needs more than {} leaf blocks; use a scene "

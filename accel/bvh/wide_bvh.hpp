@@ -39,7 +39,7 @@ class ChildReference {
   std::uint32_t bits_ = 0;
 };
 
-/// The boxes of up to eight children; those that are missing have an empty box and are the last.
+/// The boxes of up to eight children; those that are missing have an empty box and come last.
 struct alignas(64) WideNode {
   std::array<std::array<float, kBvhLanes>, 6> planes;  ///< lower x, y, z; upper x, y, z
   std::array<ChildReference, kBvhLanes> children;

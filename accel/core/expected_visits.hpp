@@ -13,8 +13,8 @@ namespace beambench::accel {
 
 /// The surface area heuristic's estimate (Goldsmith and Salmon 1987; MacDonald and Booth 1990): a
 /// random line that meets the scene's box meets a convex cell in it with the ratio of their surface
-/// areas. Summed over the cells of a structure, this is the number of interior nodes, leaves and
-/// primitives that such a line meets, were it never to end at a hit.
+/// areas. Summed over the cells of a structure, this is the number of interior nodes and
+/// leaves that such a line meets and of references that it tests, were it never to end at a hit.
 class ExpectedVisits {
  public:
   explicit ExpectedVisits(const scenes::Bounds& scene)

@@ -66,7 +66,7 @@ class WorkCounters {
 
   std::uint64_t get(Counter counter) const { return standard_[static_cast<std::size_t>(counter)]; }
   /// All counters by name: the standard ones, then the family's own; `sphere_tests`, `cone_tests`
-  /// and `polygon_tests` where all primitive tests were counted by kind.
+  /// and `polygon_tests` where there were tests and all were counted by kind.
   std::map<std::string, std::uint64_t, std::less<>> by_name() const;
 
  private:

@@ -78,7 +78,7 @@ HWY_FLATTEN auto traverse(const KdTree& tree, const scenes::Scene& scene, const 
     counting.add(Counter::kLeaves);
     counting.add(Counter::kEmptyLeaves, node.block_count() == 0 ? 1 : 0);
     const std::span blocks(tree.blocks.data() + node.first_block(), node.block_count());
-    if (probes::test_blocks(blocks, probe_ray, confirm.t_max, counting, confirm)) break;
+    if (probes::test_blocks(blocks, probe_ray, counting, confirm)) break;
     if (waiting_count == 0 || confirm.t_max < static_cast<float>(inside.exit)) break;
     --waiting_count;
     inside.enter = inside.exit;

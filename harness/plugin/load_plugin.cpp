@@ -100,7 +100,7 @@ constexpr auto kInterfaceChanges = std::to_array<std::string_view>({
     "each query exists once, with a pointer to counters, and a list of rays is a RayBatch",
     "a RayBatch has the sample of each ray, its pencils the virtual eye's image, and "
     "structures say where rays are in their beams",
-    "statistics() names a library and its version",
+    "statistics() names a library and its version, and add_tests counts tests by kind of primitive",
 });
 static_assert(kInterfaceChanges.size() == kPluginInterface - 1);
 

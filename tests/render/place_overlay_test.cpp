@@ -134,7 +134,7 @@ TEST(ParseOverlay, NamesWhatIsPossible) {
   EXPECT_NE(refusal_of("pencil", "tile-beam").find("beams, cells, pencils"), std::string::npos);
   EXPECT_NE(refusal_of("pencils", "beam").find("structures that have: tile-beam"),
             std::string::npos);
-  EXPECT_NE(refusal_of("beams", "samet").find("structures that have: beam, tile-beam"),
+  EXPECT_NE(refusal_of("beams", "samet").find("structures that have: beam, grid-beam, tile-beam"),
             std::string::npos);
   EXPECT_NE(refusal_of("pencils:light=0", "tile-beam").find("light"), std::string::npos);
   EXPECT_NE(refusal_of("pencils:lamp=1", "tile-beam").find("light"), std::string::npos);

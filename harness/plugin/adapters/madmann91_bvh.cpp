@@ -110,7 +110,7 @@ class MadmannBvh : public TraversalAccelerator<MadmannBvh<kRobust>> {
         [&](std::size_t begin, std::size_t end) {
           counting.add(Counter::kTraversalSteps);
           counting.add(Counter::kLeaves);
-          counting.add(Counter::kPrimitiveTests, end - begin);
+          counting.add_tests(PrimitiveKind::kPolygon, end - begin);
           for (std::size_t i = begin; i < end; ++i) {
             if (const auto hit = triangles_[i].intersect(ray)) {
               adapters::end_at(ray, *hit);
