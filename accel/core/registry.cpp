@@ -35,6 +35,9 @@ std::span<const CounterInfo> common_counters() {
       {"empty_leaves", "leaves entered that hold no reference"},
       {"box_tests", "ray-box tests"},
       {"primitive_tests", "ray-primitive tests"},
+      {"sphere_tests", "of these: tests of spheres, where a structure counts by kind"},
+      {"cone_tests", "tests of cones and cylinders"},
+      {"polygon_tests", "tests of polygons, or of their triangles where these are tested singly"},
   });
   return all;
 }
