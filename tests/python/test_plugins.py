@@ -324,7 +324,7 @@ def test_another_interface_is_refused_by_its_stamp(
         [
             "since then: each query exists once",
             "RayBatch (version 3);",
-            "library and its version (version 5); build",
+            "counts tests by kind of primitive (version 5); build",
         ],
     )
     refusal_of(
@@ -333,7 +333,7 @@ def test_another_interface_is_refused_by_its_stamp(
         [
             "image (version 2); each query",
             "(version 3); a RayBatch",
-            "library and its version (version 5); build",
+            "counts tests by kind of primitive (version 5); build",
         ],
     )
     refusal_of(8, version + 1, [f"this program has {version}, an older one; build it again"])
