@@ -42,7 +42,7 @@ def color_of_texture(name: str) -> Color:
 
 
 def _shaded(color: Color, name: str) -> Color:
-    """A little lighter or darker, so that textures of one kind can be told apart."""
+    """A little lighter or darker, so that textures of one kind differ."""
     factor = 0.85 + 0.3 * _digest(name)[0] / 255
     red, green, blue = (min(1.0, part * factor) for part in color)
     return red, green, blue

@@ -1,7 +1,7 @@
 """Scenes of the literature that no registry has: a user downloads them, `--from` registers them.
 
 What is known of them has its source beside it. Where no checksum is published, the number of
-triangles tells versions apart, and the checksum of the user's file is kept, so that a later run
+triangles identifies the version, and the checksum of the user's file is kept, so that a later run
 notices another file.
 """
 
@@ -16,7 +16,7 @@ _MCGUIRE = "the McGuire Computer Graphics Archive (casual-effects.com/data)"
 
 @dataclass(frozen=True)
 class Version:
-    """One version of a scene, told by its number of triangles, where cameras are right for it."""
+    """One version of a scene, identified by its number of triangles, where cameras are right for it."""
 
     triangles: int
     which: str

@@ -13,10 +13,10 @@ from beambench_report.haines.report import write_report
 COMMITTED = ROOT / "results/published/haines"
 
 
-def a_census(scene: str) -> str:
+def a_census(scene: str, contender: str) -> str:
     """What `beambench census --count --json` would print, with half of his tests."""
     work = {f"{kind}_tests": published_tests()[scene][kind] / 2 for kind in KINDS}
-    return json.dumps({"scenes": [{"work": work}]})
+    return json.dumps({"structure": contender, "scenes": [{"work": work}]})
 
 
 def test_his_counts_are_of_seven_scenes_by_kind() -> None:
@@ -30,8 +30,8 @@ def test_what_was_counted_is_not_counted_again(tmp_path: Path) -> None:
     census = tmp_path / "census"
     census.mkdir()
     for scene in published_tests():
-        for number in range(len(CONTENDERS)):
-            census.joinpath(f"{scene}-{number}.json").write_text(a_census(scene))
+        for number, contender in enumerate(CONTENDERS):
+            census.joinpath(f"{scene}-{number}.json").write_text(a_census(scene, contender))
     program = tmp_path / "never-run"
     program.touch()
     assert main(["haines", str(tmp_path), "--program", str(program)]) == 0

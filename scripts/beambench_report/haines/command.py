@@ -3,9 +3,9 @@
 import argparse
 from pathlib import Path
 
-from beambench_report.base.files import Problem
 from beambench_report.haines.counts import measure_tests
 from beambench_report.haines.report import write_report
+from beambench_report.havran.census import require_program
 
 
 def add_haines_command(commands: argparse._SubParsersAction, program: Path) -> None:
@@ -28,7 +28,5 @@ def add_haines_command(commands: argparse._SubParsersAction, program: Path) -> N
 
 def run_haines(options: argparse.Namespace) -> list[Path]:
     """Counts and writes; returns what was written."""
-    program = options.program.absolute()
-    if not program.exists():
-        raise Problem(f"{program}: there is no such program; build it with scripts/setup")
+    program = require_program(options.program)
     return [measure_tests(options.folder, program), write_report(options.folder)]

@@ -1,21 +1,11 @@
 """Tests by kind of primitive, of whole pictures: Haines's, and ours by `beambench census`."""
 
-import json
-import subprocess
 from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.files import (
-    ROOT,
-    Problem,
-    read_json,
-    read_table,
-    say,
-    write_text,
-    write_whole,
-)
-from beambench_report.havran.contenders import SCENES
+from beambench_report.base.files import ROOT, read_table, say, write_whole
+from beambench_report.havran.census import census_of
 
 PUBLISHED = ROOT / "results/haines/tests.csv"
 KINDS = ("polygon", "sphere", "cone", "box")
@@ -48,7 +38,8 @@ def measure_tests(folder: Path, program: Path) -> Path:
     for number, contender in enumerate(CONTENDERS):
         for scene in published:
             say(f"{scene}, {contender}")
-            work = _work(folder / "census" / f"{scene}-{number}.json", program, scene, contender)
+            file = folder / "census" / f"{scene}-{number}.json"
+            work = census_of(file, program, scene, contender)["work"]
             rows += [(contender, scene, kind, work[f"{kind}_tests"]) for kind in KINDS]
     table = pd.DataFrame(rows, columns=list(_COLUMNS))
     return write_whole(folder / "tests.csv", lambda pending: table.to_csv(pending, index=False))
@@ -59,18 +50,3 @@ def _by_scene(rows: pd.DataFrame) -> Tests:
     for row in rows.itertuples():
         tests.setdefault(str(row.scene), {})[str(row.kind)] = float(row.tests)
     return tests
-
-
-def _work(file: Path, program: Path, scene: str, contender: str) -> dict[str, float]:
-    known = read_json(file)
-    if not isinstance(known, dict):
-        command = [program, "census", SCENES[scene], "--rules", "spd", "--accel", contender]
-        done = subprocess.run(
-            [*command, "--count", "--json"], capture_output=True, text=True, check=False
-        )
-        if done.returncode != 0:
-            raise Problem(f"{program} census {scene}: {done.stderr.strip()}")
-        write_text(file, done.stdout)
-        known = json.loads(done.stdout)
-    work: dict[str, float] = known["scenes"][0]["work"]
-    return work

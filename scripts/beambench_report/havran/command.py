@@ -3,7 +3,7 @@
 import argparse
 from pathlib import Path
 
-from beambench_report.base.files import Problem
+from beambench_report.havran.census import require_program
 from beambench_report.havran.contenders import SCENES
 from beambench_report.havran.measure import measure
 from beambench_report.havran.report import write_report
@@ -39,7 +39,5 @@ def run_step(options: argparse.Namespace) -> list[Path]:
     """Runs one step; returns what was written."""
     if options.step == "write":
         return [write_report(options.folder)]
-    program = options.program.absolute()
-    if not program.exists():
-        raise Problem(f"{program}: there is no such program; build it with scripts/setup")
+    program = require_program(options.program)
     return measure(options.folder, program, options.scene or sorted(SCENES))

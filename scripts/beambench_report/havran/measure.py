@@ -1,20 +1,11 @@
 """Measures Havran's octrees again: sizes, and the work of all rays of whole pictures."""
 
-import json
-import subprocess
 from pathlib import Path
-from typing import TypedDict
 
-from beambench_report.base.files import Problem, read_json, say, write_text
-from beambench_report.havran.contenders import SCENES, STRUCTURES, contender_of
+from beambench_report.base.files import say
+from beambench_report.havran.census import Census, census_of
+from beambench_report.havran.contenders import STRUCTURES, contender_of
 from beambench_report.havran.counts import PUBLISHED, Case, read_counts, write_counts
-
-
-class Census(TypedDict):
-    """What `beambench census --count --json` prints of one scene, as far as it is used."""
-
-    size: dict[str, float]
-    work: dict[str, float]
 
 
 def quantities_of(census: Census) -> dict[str, float]:
@@ -47,23 +38,11 @@ def measure(folder: Path, program: Path, scenes: list[str]) -> list[Path]:
     for number, case in enumerate(cases, start=1):
         contender = contender_of(case.structure, case.setting)
         say(f"{number} of {len(cases)}: {case.scene}, {contender}")
-        census = _census(folder, program, case, contender)
+        file = folder / "census" / f"{_file_name(case)}.json"
+        census = census_of(file, program, case.scene, contender)
         counted.append((case, contender, quantities_of(census)))
     return [write_counts(folder / "counts.csv", counted)]
 
 
-def _census(folder: Path, program: Path, case: Case, contender: str) -> Census:
-    name = "-".join((case.scene, *case.setting.split(), str(STRUCTURES.index(case.structure))))
-    file = folder / "census" / f"{name}.json"
-    known = read_json(file)
-    if not isinstance(known, dict) or known.get("structure") != contender:
-        command = [program, "census", SCENES[case.scene], "--rules", "spd", "--accel", contender]
-        done = subprocess.run(
-            [*command, "--count", "--json"], capture_output=True, text=True, check=False
-        )
-        if done.returncode != 0:
-            raise Problem(f"{program} census {case.scene}: {done.stderr.strip()}")
-        write_text(file, done.stdout)
-        known = json.loads(done.stdout)
-    census: Census = known["scenes"][0]
-    return census
+def _file_name(case: Case) -> str:
+    return "-".join((case.scene, *case.setting.split(), str(STRUCTURES.index(case.structure))))

@@ -6,6 +6,7 @@ from itertools import product
 from pathlib import Path
 
 from beambench_report.base.files import write_text
+from beambench_report.base.quantities import markdown_table
 from beambench_report.havran.comparison import (
     APART,
     QUANTITIES,
@@ -56,7 +57,7 @@ def _orders(ours: Counts, published: Counts) -> str:
     worst = [(*pair, number) for pair, number in reversals.most_common()]
     return (
         "## Are the structures in the same order?\n"
-        f"Each two structures on one scene at one depth that his counts tell apart by more than "
+        f"Each two structures on one scene at one depth whose published counts differ by more than "
         f"{APART:.0%}:\n\n{_markdown(header, rows)}\n"
         f"The reversed ones of all but {_UNLIKE}:\n\n"
         f"{_markdown(('quantity', 'structure', 'structure', 'scenes and depths'), worst)}"
@@ -109,6 +110,6 @@ def _beside(quantity: str, mine: dict[str, float], theirs: dict[str, float]) -> 
     return f"{mine[quantity]:{digits}} / {theirs[quantity]:{digits}}"
 
 
-def _markdown(header: Sequence[object], rows: Sequence[Sequence[object]]) -> str:
-    lines = [header, ["---"] * len(header), *rows]
-    return "".join(f"| {' | '.join(map(str, line))} |\n" for line in lines)
+def _markdown(header: Sequence[str], rows: Sequence[Sequence[object]]) -> str:
+    texts = [[str(cell) for cell in row] for row in rows]
+    return "\n".join(markdown_table(header, texts)) + "\n"

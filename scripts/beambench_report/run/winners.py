@@ -10,8 +10,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
+from scipy.stats import gmean
 
 from beambench_report.base.files import Problem, write_text
 from beambench_report.base.quantities import markdown_table, number
@@ -77,7 +77,8 @@ def _by_structure(found: Sequence[Race]) -> list[str]:
         rows = pd.concat([race.ranked for race in of_kind])
         wins = Counter(name for race in of_kind for name in race.tied)
         table = sorted(
-            (_mean(group["ratio"]), str(name), group) for name, group in rows.groupby("structure")
+            (float(gmean(group["ratio"])), str(name), group)
+            for name, group in rows.groupby("structure")
         )
         lines = markdown_table(
             ("structure", "times the fastest", "fastest or tied", "build, ms", "bytes a primitive",
@@ -98,10 +99,6 @@ def _by_structure(found: Sequence[Race]) -> list[str]:
         )  # fmt: skip
         parts.append(f"## {kind} rays, {len(of_kind)} views\n\n" + "\n".join(lines) + "\n")
     return parts
-
-
-def _mean(ratios: pd.Series) -> float:
-    return float(np.exp(np.log(ratios).mean()))
 
 
 def _parameters(group: pd.DataFrame) -> str:
