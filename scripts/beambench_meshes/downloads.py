@@ -16,7 +16,7 @@ _MCGUIRE = "the McGuire Computer Graphics Archive (casual-effects.com/data)"
 
 @dataclass(frozen=True)
 class Version:
-    """One version of a scene, identified by its number of triangles, where cameras are right for it."""
+    """A version of a scene, known by its number of triangles, where cameras are right for it."""
 
     triangles: int
     which: str
