@@ -1,10 +1,8 @@
 #include "accel/bvh/bvh_builder.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -20,9 +18,6 @@
 
 namespace beambench::accel::bvh {
 namespace {
-
-/// Below this, tasks cost more than they save.
-constexpr std::size_t kParallelItems = 4096;
 
 class Builder {
  public:

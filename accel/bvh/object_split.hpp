@@ -15,6 +15,8 @@ namespace beambench::accel::bvh {
 
 /// Nodes from this depth on are split in the middle: 2^32 items then need 32 more levels.
 inline constexpr std::uint32_t kDeepestSahSplit = kMaxBvhDepth - 34;
+/// Below this many items, tasks cost more than they save.
+inline constexpr std::size_t kParallelItems = 4096;
 
 /// Maps centers to bins, on all axes.
 class Binning {

@@ -25,8 +25,6 @@ namespace {
 
 /// Children that overlap by less of the root's surface are not worth a plane.
 constexpr double kLeastOverlap = 1e-5;
-/// Below this, tasks cost more than they save.
-constexpr std::size_t kParallelItems = 4096;
 
 /// References to pieces, each with the box of a part of its piece.
 using References = std::vector<BuildItem>;
