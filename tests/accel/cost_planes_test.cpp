@@ -23,6 +23,7 @@
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/random.hpp"
+#include "tests/hits_of_exhaustive.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench::accel {
@@ -85,26 +86,14 @@ TEST(CostPlanes, LeavesTileTheRootAndReferToWhatOverlapsThem) {
   }
 }
 
-void expect_hits_of_exhaustive(const scenes::Scene& scene, const Accelerator& structure,
-                               std::uint64_t seed, int rays) {
-  const exhaustive::Exhaustive exhaustive(scene);
-  Random random(seed);
-  for (int i = 0; i < rays; ++i) {
-    const Ray ray = testing::random_ray(scene, random);
-    const auto hit = exhaustive.closest_hit(ray, nullptr);
-    ASSERT_EQ(structure.closest_hit(ray, nullptr), hit) << "ray " << i;
-    ASSERT_EQ(structure.any_hit(ray, nullptr), hit.has_value()) << "ray " << i;
-  }
-}
-
 TEST(CostPlanes, HitsAreThoseOfExhaustive) {
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = testing::random_scene(seed, 60);
-    expect_hits_of_exhaustive(scene, octree::GlassnerAnyPlanes(scene, some_options(seed)), seed,
-                              100);
-    expect_hits_of_exhaustive(scene, octree::GargantiniAnyPlanes(scene, some_options(seed)), seed,
-                              100);
+    testing::expect_hits_of_exhaustive(scene, octree::GlassnerAnyPlanes(scene, some_options(seed)),
+                                       seed, 100);
+    testing::expect_hits_of_exhaustive(
+        scene, octree::GargantiniAnyPlanes(scene, some_options(seed)), seed, 100);
   }
 }
 
@@ -135,8 +124,8 @@ TEST(CostPlanes, ADeeperOctreeIsTheSameFromACoarserOne) {
     const octree::Octree deepened(scene, options, coarser);
     ASSERT_EQ(deepened.nodes().size(), fresh.nodes().size());
     ASSERT_EQ(deepened.reference_count(), fresh.reference_count());
-    expect_hits_of_exhaustive(scene, octree::GargantiniAnyPlanes(scene, octree::Octree(deepened)),
-                              seed, 50);
+    testing::expect_hits_of_exhaustive(
+        scene, octree::GargantiniAnyPlanes(scene, octree::Octree(deepened)), seed, 50);
   }
 }
 

@@ -11,24 +11,12 @@
 #include "accel/core/tolerance.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
+#include "tests/hits_of_exhaustive.hpp"
 #include "tests/only_target.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench::accel {
 namespace {
-
-/// Hits of difficult rays, and of the same rays with any_hit.
-void expect_equal_to_exhaustive(const bvh::SahBvh& structure, const scenes::Scene& scene,
-                                std::uint64_t seed, int rays) {
-  const exhaustive::Exhaustive exhaustive(scene);
-  Random random(seed);
-  for (int i = 0; i < rays; ++i) {
-    const Ray ray = testing::random_ray(scene, random);
-    const auto hit = exhaustive.closest_hit(ray, nullptr);
-    ASSERT_EQ(structure.closest_hit(ray, nullptr), hit) << "ray " << i;
-    ASSERT_EQ(structure.any_hit(ray, nullptr), hit.has_value()) << "ray " << i;
-  }
-}
 
 class SahBvhBuilders : public ::testing::TestWithParam<bvh::BvhBuilder> {
  protected:
@@ -44,7 +32,7 @@ TEST_P(SahBvhBuilders, GiveTheHitsOfExhaustive) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = testing::random_scene(seed, 80);
-    expect_equal_to_exhaustive(bvh::SahBvh(scene, options()), scene, seed, 200);
+    testing::expect_hits_of_exhaustive(scene, bvh::SahBvh(scene, options()), seed, 200);
   }
 }
 
@@ -59,7 +47,7 @@ TEST(SahBvh, EveryInstructionSetGivesTheSameHits) {
       const scenes::Scene scene = testing::random_scene(seed, 80);
       const bvh::SahBvh structure(scene, {});
       ASSERT_STREQ(structure.instruction_set(), hwy::TargetName(target));
-      expect_equal_to_exhaustive(structure, scene, seed, 200);
+      testing::expect_hits_of_exhaustive(scene, structure, seed, 200);
     }
   }
 }
@@ -75,7 +63,7 @@ TEST_P(SahBvhBuilders, LoseNothingOnMeshes) {
   for (const char* name : {"bumpy:triangles=3072", "tetra:n=5", "balls:n=3"}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
-    expect_equal_to_exhaustive(bvh::SahBvh(scene, options()), scene, 11, 1500);
+    testing::expect_hits_of_exhaustive(scene, bvh::SahBvh(scene, options()), 11, 1500);
   }
 }
 
