@@ -85,7 +85,7 @@ Statistics GoldsmithSalmon::statistics() const {
       visits.add_leaf(entry.box, 1);
     }
   }
-  if (!hierarchy_.entries.empty()) visits.append_to(statistics);
+  visits.append_to(statistics);
   return statistics;
 }
 

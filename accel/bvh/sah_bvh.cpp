@@ -33,7 +33,7 @@ Statistics SahBvh::statistics() const {
       bvh_.nodes.capacity() * sizeof(WideNode) + bvh_.blocks.capacity() * sizeof(PrimitiveBlock);
   statistics.instruction_set = instruction_set();
   statistics.more = {{"cost", bvh_.cost}};
-  if (!bvh_.empty()) bvh_.visits.append_to(statistics);
+  bvh_.visits.append_to(statistics);
   return statistics;
 }
 

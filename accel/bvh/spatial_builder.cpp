@@ -206,14 +206,14 @@ class SpatialBuilder {
     between.upper[axis] = std::min(between.upper[axis], static_cast<double>(to));
     const std::optional<Box> found = clipped_bounds(scene_, pieces_[reference.index()], between);
     if (!found) return std::nullopt;
-    scenes::Bounds part;
+    QuadBox part = reference.box();
     for (int i = 0; i < 3; ++i) {
       // One float outward, but not beyond the reference's own box; beside a coordinate of 0, where
       // floats are finer than the clipping's error, the boxes' padding covers that.
       part.lower[i] = std::max(-next_above(-static_cast<float>(found->lower[i])), box.lower[i]);
       part.upper[i] = std::min(next_above(static_cast<float>(found->upper[i])), box.upper[i]);
     }
-    return BuildItem(part, reference.index()).box();
+    return part;
   }
 
   /// Calls `visit` with boxes of a reference's parts in the bins [first, last]. Those of triangles

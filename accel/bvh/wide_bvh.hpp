@@ -65,7 +65,7 @@ struct WideBvh {
   std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, leaf included
   std::uint64_t leaves = 0;
   std::uint64_t references = 0;  ///< to triangles, spheres and cones
-  ExpectedVisits visits{{}};
+  ExpectedVisits visits;
   double cost = 0.0;  ///< of the binary hierarchy it was made from: see sah_cost
 
   bool empty() const { return blocks.empty(); }

@@ -17,6 +17,7 @@ namespace beambench::accel {
 /// leaves that such a line meets and of references that it tests, were it never to end at a hit.
 class ExpectedVisits {
  public:
+  ExpectedVisits() = default;  ///< of an empty scene
   explicit ExpectedVisits(const scenes::Bounds& scene)
       : scene_{glm::dvec3(scene.lower), glm::dvec3(scene.upper)} {}
 
@@ -30,7 +31,8 @@ class ExpectedVisits {
   void add_node(const scenes::Bounds& cell) { add_node(boxed(cell)); }
   void add_leaf(const scenes::Bounds& cell, std::size_t tests) { add_leaf(boxed(cell), tests); }
 
-  /// Adds `sah_nodes`, `sah_leaves` and `sah_tests`; nothing where the scene's box has no area.
+  /// Adds `sah_nodes`, `sah_leaves` and `sah_tests`; nothing where the scene is empty or its box
+  /// has no area.
   void append_to(Statistics& statistics) const {
     const double whole = area(scene_);
     if (!(whole > 0.0)) return;
@@ -50,7 +52,7 @@ class ExpectedVisits {
     return size.x * (size.y + size.z) + size.y * size.z;
   }
 
-  Box scene_;
+  Box scene_{glm::dvec3(0.0), glm::dvec3(0.0)};
   double nodes_ = 0.0;
   double leaves_ = 0.0;
   double tests_ = 0.0;

@@ -99,7 +99,7 @@ inline WalkInterval interval_inside(const CellGrid& grid, const WalkRay& ray) {
 /// inside the grid, until it returns true; returns whether it did (Amanatides and Woo, "A fast
 /// voxel traversal algorithm for ray tracing", Eurographics 1987). The voxel is stepped by
 /// integers; beside it goes, for each axis, the t of the next plane (their tMax), which grows by a
-/// constant (their tDelta). The axes are told apart by branches: while one is predicted rightly,
+/// constant (their tDelta). The axis is chosen by branches: while one is predicted rightly,
 /// the comparisons of the next step need not wait for those of this one.
 ///
 /// The sums are not exact, yet no hit is lost. The intervals between the computed t follow each

@@ -21,7 +21,7 @@ Statistics KdTracer::statistics() const {
                      tree_.blocks.capacity() * sizeof(bvh::PrimitiveBlock);
   statistics.instruction_set = instruction_set();
   statistics.more = {{"cost", tree_.cost}};
-  if (tree_.references > 0) tree_.visits.append_to(statistics);
+  tree_.visits.append_to(statistics);
   return statistics;
 }
 

@@ -68,7 +68,7 @@ struct KdTree {
   /// As `bvh::sah_cost` has it: of a ray that meets the root, the expected number of interior nodes
   /// visited and blocks tested.
   double cost = 0.0;
-  ExpectedVisits visits{{}};
+  ExpectedVisits visits;
 
   bool empty() const { return blocks.empty(); }
 };

@@ -332,7 +332,7 @@ Statistics TileBeam::statistics() const {
   statistics.image_rays = ImageRays::kOwn;
   statistics.more = {{"cost", hierarchy_.cost},
                      {"meshlets", static_cast<double>(hierarchy_.meshlets.size())}};
-  if (!hierarchy_.empty()) hierarchy_.visits.append_to(statistics);
+  hierarchy_.visits.append_to(statistics);
   return statistics;
 }
 

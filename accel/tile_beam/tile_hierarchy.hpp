@@ -111,7 +111,7 @@ struct TileHierarchy : TileBlocks {
   scenes::Bounds bounds;    ///< of everything, widened
   std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, leaf included
   std::uint64_t references = 0;
-  ExpectedVisits visits{{}};
+  ExpectedVisits visits;
   double cost = 0.0;  ///< of the binary hierarchy it was made from: see sah_cost
 
   bool empty() const { return references == 0; }

@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
 #include "accel/bvh/padded_bounds.hpp"
@@ -69,16 +70,36 @@ double spatial_over_binned(const char* name) {
   return bvh::sah_cost(built.spatial, {}) / bvh::sah_cost(built.binned, {});
 }
 
+using LeavesOfPieces = std::vector<std::vector<const bvh::BvhNode*>>;
+
+LeavesOfPieces leaves_of_pieces(const Built& built) {
+  LeavesOfPieces leaves(built.pieces.size());
+  for (const bvh::BvhNode& node : built.spatial.nodes) {
+    for (std::uint32_t i = 0; i < node.count; ++i) {
+      leaves[built.spatial.items[node.first + i]].push_back(&node);
+    }
+  }
+  return leaves;
+}
+
+bool holds(const std::vector<const bvh::BvhNode*>& leaves, const glm::dvec3& point) {
+  return std::any_of(leaves.begin(), leaves.end(),
+                     [&](const bvh::BvhNode* leaf) { return holds(leaf->box, point); });
+}
+
+glm::dvec3 random_direction(Random& random) {
+  glm::dvec3 direction(0.0);
+  while (glm::length(direction) < 0.1) {
+    direction = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+  }
+  return glm::normalize(direction);
+}
+
 TEST(SpatialBuilder, EachPointOfATriangleIsInALeafThatRefersToIt) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     const scenes::Scene scene = long_triangles(seed);
     const Built built(scene);
-    std::vector<std::vector<const bvh::BvhNode*>> leaves_of(built.pieces.size());
-    for (const bvh::BvhNode& node : built.spatial.nodes) {
-      for (std::uint32_t i = 0; i < node.count; ++i) {
-        leaves_of[built.spatial.items[node.first + i]].push_back(&node);
-      }
-    }
+    const LeavesOfPieces leaves = leaves_of_pieces(built);
     EXPECT_GT(built.spatial.items.size(), built.pieces.size()) << "no triangle is divided";
     Random random(seed);
     for (std::size_t item = 0; item < built.pieces.size(); ++item) {
@@ -90,11 +111,48 @@ TEST(SpatialBuilder, EachPointOfATriangleIsInALeafThatRefersToIt) {
         const glm::dvec3 point = (1 - u - v) * glm::dvec3(scene.vertices[corner[0]]) +
                                  u * glm::dvec3(scene.vertices[corner[1]]) +
                                  v * glm::dvec3(scene.vertices[corner[2]]);
-        const auto& leaves = leaves_of[item];
-        ASSERT_TRUE(std::any_of(leaves.begin(), leaves.end(),
-                                [&](const bvh::BvhNode* leaf) { return holds(leaf->box, point); }))
-            << "triangle " << item;
+        ASSERT_TRUE(holds(leaves[item], point)) << "triangle " << item;
       }
+    }
+  }
+}
+
+// Crowded, so that some are divided: here 23.
+TEST(SpatialBuilder, EachPointOfASphereOrConeIsInALeafThatRefersToIt) {
+  scenes::SceneBuilder builder("round");
+  Random random(7);
+  for (int i = 0; i < 600; ++i) {
+    const glm::dvec3 center = random_direction(random) * random.unit();
+    if (i % 2 == 0) {
+      builder.add_sphere(center, random.uniform(0.01, i % 8 == 0 ? 0.5 : 0.05));
+    } else {
+      builder.add_cone(center, random.uniform(0.0, 0.02),
+                       center + random_direction(random) * random.uniform(0.5, 2.0), 0.01);
+    }
+  }
+  const scenes::Scene scene = std::move(builder).build();
+  const Built built(scene);
+  EXPECT_GT(built.spatial.items.size(), built.pieces.size()) << "nothing is divided";
+  const LeavesOfPieces leaves = leaves_of_pieces(built);
+  for (std::size_t item = 0; item < built.pieces.size(); ++item) {
+    const bvh::Piece& piece = built.pieces[item];
+    const bool is_sphere = scene.primitives[piece.primitive].kind == scenes::PrimitiveKind::kSphere;
+    for (int i = 0; i < 100; ++i) {
+      const glm::dvec3 direction = random_direction(random);
+      glm::dvec3 point;
+      if (is_sphere) {
+        const scenes::Sphere& sphere = scene.spheres[piece.index];
+        point = glm::dvec3(sphere.center) + direction * double{sphere.radius};
+      } else {
+        const scenes::Cone& cone = scene.cones[piece.index];
+        const glm::dvec3 base(cone.base);
+        const glm::dvec3 axis = glm::dvec3(cone.apex) - base;
+        const double along = random.unit();
+        const glm::dvec3 across = glm::normalize(glm::cross(axis, direction));
+        point = base + axis * along +
+                across * glm::mix(double{cone.base_radius}, double{cone.apex_radius}, along);
+      }
+      ASSERT_TRUE(holds(leaves[item], point)) << "primitive " << piece.primitive;
     }
   }
 }
