@@ -25,6 +25,7 @@ from beambench_report.run.pictures import (
     write_pictures,
 )
 from beambench_report.run.plots import write_plots
+from beambench_report.run.ratio_table import write_ratios
 from beambench_report.run.repeatability import repeatability
 from beambench_report.run.winners import write_winners
 from beambench_report.site.write import write_site
@@ -168,6 +169,14 @@ def _add_of_runs(add: Callable[..., Callable[..., argparse.Action]]) -> None:
     )
     winners("run", **run)
     winners(*("-o", "--output"), type=Path, metavar="FILE.md", help="if not given, it is printed")
+    ratios = add(
+        "ratios",
+        lambda o: write_ratios(o.run, o.to, o.output),
+        help="every contender over one of them, or over the best of a structure",
+    )
+    ratios("run", **run)
+    ratios("--to", required=True, metavar="NAME", help="a contender, as plots call it; a structure")
+    ratios(*("-o", "--output"), type=Path, metavar="FILE.md", help="if not given, it is printed")
     levels = add(
         "levels",
         lambda o: levels_of_runs(o.runs, o.output),

@@ -1,0 +1,83 @@
+"""Every contender of a run over one of them, or over the best of a structure, view by view.
+
+For runs that compare programs over a few scenes: a row for each contender, a column for each scene,
+and the geometric mean over the scenes.
+"""
+
+from pathlib import Path
+
+import pandas as pd
+from scipy.stats import gmean
+
+from beambench_report.base.files import Problem, write_text
+from beambench_report.base.quantities import markdown_table, number
+from beambench_report.base.records import OK, read_run
+
+_VIEW = ["scene", "camera", "width", "height", "ray_kind"]
+_TIME = "trace_net_ms_median"
+
+
+def write_ratios(run: Path, base: str, output: Path | None) -> str | list[Path]:
+    """The table as Markdown: a text to be printed, or the file that was written.
+
+    `base` is a contender, as plots call it, or a structure: then it is, in each view, that of its
+    contenders with correct hits that is fastest. Raises Problem when the run has neither.
+    """
+    text = _text(read_run(run).rows, base)
+    return [write_text(output, text)] if output else text
+
+
+def _text(rows: pd.DataFrame, base: str) -> str:
+    rows = rows[rows["structure"] != "null"]
+    correct = rows[rows["timed"] & (rows["verdict"] == OK) & (rows[_TIME] > 0)]
+    ratios = _ratios(correct, base)
+    kinds = list(dict.fromkeys(rows["ray_kind"]))
+    scenes = list(dict.fromkeys(rows["scene"]))
+    contenders = list(dict.fromkeys(rows["contender"]))
+    build = correct.groupby(["contender", "scene"])["build_ms_median"].first()
+    body = []
+    for contender in contenders:
+        own = ratios[ratios["contender"] == contender]
+        found = own.set_index(["scene", "ray_kind"])["ratio"].groupby(level=[0, 1]).agg(gmean)
+        cells = [
+            f"{number(build[contender, scene]) if (contender, scene) in build else '-'}; "
+            + ", ".join(_ratio(found.get((scene, kind))) for kind in kinds)
+            for scene in scenes
+        ]
+        means = [found[found.index.get_level_values(1) == kind] for kind in kinds]
+        all_scenes = ", ".join(
+            f"{gmean(of_kind):.3f}" if len(of_kind) == len(scenes) else "-" for of_kind in means
+        )
+        body.append((f"`{contender}`", *cells, all_scenes))
+    heads = (f"build, ms; {', '.join(kinds)}", *(f"`{scene}`" for scene in scenes), "all scenes")
+    wrong = rows[rows["timed"].isin([False]) | (rows["verdict"] != OK)]
+    lines = [
+        f"Trace time, without the harness's share, over that of `{base}`: medians, and geometric "
+        "means over all scenes; build in milliseconds, from the first kind of rays with correct "
+        "hits.",
+        "",
+        *markdown_table(heads, body),
+        "",
+        f"{len(rows) - len(wrong)} of {len(rows)} cells have correct hits.",
+        *(
+            f"- `{row['contender']}` over `{row['scene']}`, {row['ray_kind']}: {row['verdict']}, "
+            f"{row['structure_error']:.0f} of {row['rays']:.0f} rays"
+            for _, row in wrong.iterrows()
+        ),
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _ratios(correct: pd.DataFrame, base: str) -> pd.DataFrame:
+    """The rows with `ratio`."""
+    of_base = correct[(correct["contender"] == base) | (correct["structure"] == base)]
+    if of_base.empty:
+        names = ", ".join(sorted({*correct["contender"], *correct["structure"]}))
+        raise Problem(f"no contender or structure '{base}' has correct hits; there are: {names}")
+    fastest = of_base.groupby(_VIEW, as_index=False)[_TIME].min()
+    both = correct.merge(fastest, on=_VIEW, suffixes=("", "_of_base"))
+    return both.assign(ratio=both[_TIME] / both[f"{_TIME}_of_base"])
+
+
+def _ratio(value: float | None) -> str:
+    return "wrong" if value is None else f"{value:.2f}"
