@@ -1,11 +1,14 @@
 #include "scenes/triangulate.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+
+#include "scenes/corner_search.hpp"
 
 namespace beambench::scenes {
 namespace {
@@ -37,24 +40,21 @@ std::optional<std::vector<glm::dvec2>> project(std::span<const glm::vec3> corner
   return points;
 }
 
-/// Twice the signed area of a triangle, positive when it runs counter-clockwise.
-double area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-/// What is left of a polygon while ears are clipped off it: a ring of corner numbers.
+/// What is left of a polygon while ears are clipped off it: a ring of corner numbers. What is known
+/// of each corner is kept, and only that of a corner's neighbors changes when it goes.
 class Ring {
  public:
   explicit Ring(std::vector<glm::dvec2> points)
-      : points_(std::move(points)), next_(points_.size()), previous_(points_.size()) {
-    const auto count = static_cast<std::uint32_t>(points_.size());
-    for (std::uint32_t i = 0; i < count; ++i) {
-      next_[i] = (i + 1) % count;
-      previous_[next_[i]] = i;
-    }
-    for (std::uint32_t i = 0; i < count; ++i) {
-      if (ear_area(i) <= 0.0) not_convex_.push_back(i);
-    }
+      : points_(std::move(points)),
+        next_(points_.size()),
+        previous_(points_.size()),
+        convex_(count()),
+        without_area_(count()),
+        may_be_ear_(count()),
+        not_convex_(points_, link_and_classify()) {
+    if (not_convex_.empty()) return;
+    in_its_way_.resize(points_.size(), kNone);
+    in_the_way_of_.resize(points_.size());
   }
 
   std::uint32_t next(std::uint32_t i) const { return next_[i]; }
@@ -62,63 +62,95 @@ class Ring {
 
   /// Twice the area of the triangle that would go with corner i.
   double ear_area(std::uint32_t i) const {
-    return area(points_[previous_[i]], points_[i], points_[next_[i]]);
+    return signed_area(points_[previous_[i]], points_[i], points_[next_[i]]);
   }
 
-  /// Whether corner i is strictly convex and no other corner lies in its closed triangle. It is
-  /// enough to look at corners that are not convex, and a convex corner stays convex (Eberly 2002);
-  /// a corner at the very place of one of the triangle's own (a bridge to a hole) does not count.
-  bool is_ear(std::uint32_t i) const {
-    if (ear_area(i) <= 0.0) return false;
-    const glm::dvec2 a = points_[previous_[i]];
-    const glm::dvec2 b = points_[i];
-    const glm::dvec2 c = points_[next_[i]];
-    return std::none_of(not_convex_.begin(), not_convex_.end(), [&](std::uint32_t j) {
-      const glm::dvec2 p = points_[j];
-      const bool inside = area(a, b, p) >= 0.0 && area(b, c, p) >= 0.0 && area(c, a, p) >= 0.0;
-      return inside && p != a && p != b && p != c;
-    });
+  /// The corner to clip next, the first of its kind from `start` on: an ear; failing that, a corner
+  /// without area, so that corners on a straight edge are kept as long as another triangle can use
+  /// them (neighbors that share such a corner then meet without a crack); failing that, the polygon
+  /// crosses itself and any convex corner will do.
+  std::optional<std::uint32_t> next_to_clip(std::uint32_t start) {
+    while (const auto corner = may_be_ear_.next(start)) {
+      if (is_ear(*corner)) return corner;
+      may_be_ear_.assign(*corner, false);
+    }
+    const auto corner = without_area_.next(start);
+    return corner ? corner : convex_.next(start);
   }
 
   void remove(std::uint32_t i) {
     next_[previous_[i]] = next_[i];
     previous_[next_[i]] = previous_[i];
-    std::erase_if(not_convex_, [&](std::uint32_t j) { return j == i || ear_area(j) > 0.0; });
+    for (CornerSet* set : {&convex_, &without_area_, &may_be_ear_}) set->assign(i, false);
+    is_out_of_the_way(i);
+    if (!in_its_way_.empty()) in_its_way_[i] = kNone;
+    take_new_neighbors(previous_[i]);
+    take_new_neighbors(next_[i]);
   }
 
  private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+
+  std::uint32_t count() const { return static_cast<std::uint32_t>(points_.size()); }
+
+  /// Returns the corners that are not convex.
+  std::vector<std::uint32_t> link_and_classify() {
+    for (std::uint32_t i = 0; i < count(); ++i) {
+      next_[i] = (i + 1) % count();
+      previous_[next_[i]] = i;
+    }
+    std::vector<std::uint32_t> not_convex;
+    for (std::uint32_t i = 0; i < count(); ++i) {
+      if (classify(i) <= 0.0) not_convex.push_back(i);
+    }
+    return not_convex;
+  }
+
+  double classify(std::uint32_t i) {
+    const double area = ear_area(i);
+    convex_.assign(i, area > 0.0);
+    may_be_ear_.assign(i, area > 0.0);
+    without_area_.assign(i, area == 0.0);
+    return area;
+  }
+
+  /// Is a convex corner an ear, because no other lies in its closed triangle? It is enough to look
+  /// at corners that are not convex, and a convex corner stays convex (Eberly 2002); a corner at
+  /// the very place of one of the triangle's own (a bridge to a hole) does not count.
+  bool is_ear(std::uint32_t i) {
+    const auto found =
+        not_convex_.find_in_triangle(points_[previous_[i]], points_[i], points_[next_[i]]);
+    if (!found) return true;
+    in_its_way_[i] = *found;
+    in_the_way_of_[*found].push_back(i);
+    return false;
+  }
+
+  /// Corner i has other neighbors.
+  void take_new_neighbors(std::uint32_t i) {
+    if (classify(i) > 0.0) is_out_of_the_way(i);
+    if (!in_its_way_.empty()) in_its_way_[i] = kNone;
+  }
+
+  /// Corner i has gone or become convex: corners for which it was found may be ears now.
+  void is_out_of_the_way(std::uint32_t i) {
+    if (!not_convex_.has(i)) return;
+    not_convex_.remove(i);
+    for (const std::uint32_t j : in_the_way_of_[i]) {
+      if (in_its_way_[j] == i) may_be_ear_.assign(j, true);
+    }
+  }
+
   std::vector<glm::dvec2> points_;
   std::vector<std::uint32_t> next_;
   std::vector<std::uint32_t> previous_;
-  std::vector<std::uint32_t> not_convex_;
+  CornerSet convex_;
+  CornerSet without_area_;
+  CornerSet may_be_ear_;  ///< convex, and no corner is known that is in its way
+  CornerTree not_convex_;
+  std::vector<std::uint32_t> in_its_way_;                  ///< by corner that is no ear
+  std::vector<std::vector<std::uint32_t>> in_the_way_of_;  ///< the other way around
 };
-
-/// The first corner from `start` on, once around, that satisfies the condition.
-template <typename Condition>
-std::optional<std::uint32_t> find_corner(const Ring& ring, std::uint32_t start,
-                                         Condition condition) {
-  std::uint32_t i = start;
-  do {
-    if (condition(i)) return i;
-    i = ring.next(i);
-  } while (i != start);
-  return std::nullopt;
-}
-
-/// The corner to clip next: an ear; failing that, a corner without area, so that corners on a
-/// straight edge are kept as long as another triangle can use them (neighbors that share such a
-/// corner then meet without a crack); failing that, the polygon crosses itself and any convex
-/// corner will do.
-std::optional<std::uint32_t> next_to_clip(const Ring& ring, std::uint32_t start) {
-  auto corner = find_corner(ring, start, [&](std::uint32_t i) { return ring.is_ear(i); });
-  if (!corner) {
-    corner = find_corner(ring, start, [&](std::uint32_t i) { return ring.ear_area(i) == 0.0; });
-  }
-  if (!corner) {
-    corner = find_corner(ring, start, [&](std::uint32_t i) { return ring.ear_area(i) > 0.0; });
-  }
-  return corner;
-}
 
 }  // namespace
 
@@ -137,7 +169,7 @@ std::vector<std::array<std::uint32_t, 3>> triangulate(std::span<const glm::vec3>
   Ring ring(std::move(*points));
   std::uint32_t start = 1;  // a convex polygon becomes a fan around corner 0
   for (std::size_t left = corners.size(); left >= 3; --left) {
-    const auto corner = next_to_clip(ring, start);
+    const auto corner = ring.next_to_clip(start);
     if (!corner) break;
     if (ring.ear_area(*corner) > 0.0) {
       triangles.push_back({ring.previous(*corner), *corner, ring.next(*corner)});

@@ -1,0 +1,82 @@
+#pragma once
+// How ear clipping finds its next corner, and a corner in its way, without looking at all of them.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace beambench::scenes {
+
+/// Twice the signed area of a triangle, positive when it runs counter-clockwise. Computed so that
+/// it is monotonic in each coordinate of `c`, rounding included: differences, products with a
+/// constant and a sum of two terms, each rounded to nearest.
+inline double signed_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// A set of the numbers 0 ... size - 1. A bit for each number, a bit for each 64 of them that holds
+/// whether there is one, and so on: each call takes time in proportion to log size.
+class CornerSet {
+ public:
+  explicit CornerSet(std::uint32_t size);
+
+  /// Puts a number in or takes it out.
+  void assign(std::uint32_t number, bool member);
+  /// The first member from `number` on, and from 0 on after the last; nothing when there is none.
+  std::optional<std::uint32_t> next(std::uint32_t number) const;
+
+ private:
+  std::optional<std::uint32_t> next_not_around(std::uint32_t number) const;
+
+  struct Level {
+    std::size_t first;  ///< into words_
+    std::size_t words;
+  };
+  std::vector<Level> levels_;
+  std::vector<std::uint64_t> words_;
+};
+
+/// A k-d tree over some points of the plane, from which points are taken away (Bentley 1975).
+class CornerTree {
+ public:
+  /// `corners` are numbers of `points`, which must outlive the tree.
+  CornerTree(std::span<const glm::dvec2> points, std::vector<std::uint32_t> corners);
+
+  bool empty() const { return nodes_.empty() || nodes_[kRoot].left == 0; }
+  bool has(std::uint32_t corner) const { return !empty() && leaf_of_[corner] != kNoLeaf; }
+  /// A corner that is left and lies in the closed triangle, by the signs of `signed_area`, and not
+  /// at the place of one of its own corners; nothing when there is none.
+  std::optional<std::uint32_t> find_in_triangle(const glm::dvec2& a, const glm::dvec2& b,
+                                                const glm::dvec2& c) const;
+  /// Takes a corner away that is in the tree.
+  void remove(std::uint32_t corner);
+
+ private:
+  struct Rectangle {
+    glm::dvec2 lower;
+    glm::dvec2 upper;
+  };
+  struct Node {
+    Rectangle box;           ///< of all corners that were ever below it
+    std::uint32_t left = 0;  ///< corners that are left below it; in a leaf, its first slots
+  };
+  static constexpr std::uint32_t kNoLeaf = 0;
+  static constexpr std::size_t kRoot = 1;  ///< the children of node n are 2n and 2n + 1
+
+  bool is_leaf(std::size_t node) const { return node >= nodes_.size() / 2; }
+  /// The corners of a node lie together: the first of its slots, and the first after them.
+  std::pair<std::size_t, std::size_t> slots_of(std::size_t node) const;
+  void build(std::size_t node);
+
+  std::span<const glm::dvec2> points_;
+  std::vector<std::uint32_t> slots_;
+  std::vector<std::uint32_t> leaf_of_;  ///< by corner
+  std::vector<Node> nodes_;             ///< the second half are the leaves, a power of two
+};
+
+}  // namespace beambench::scenes
