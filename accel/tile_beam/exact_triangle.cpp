@@ -152,7 +152,7 @@ std::optional<ExactApexTriangle> exact_apex_triangle(const glm::vec3& apex, cons
   }
   switch (place_of_eye(from_apex)) {
     case Eye::kOnTriangle:
-      return ExactApexTriangle{{}, {}, {}, {}, 0.0, true};
+      return ExactApexTriangle{{}, {}, {}, {}, {}, 0.0, true};
     case Eye::kInPlane:  // rays in its plane miss
       return std::nullopt;
     case Eye::kOff:
@@ -173,8 +173,11 @@ std::optional<ExactApexTriangle> exact_apex_triangle(const glm::vec3& apex, cons
     const double largest = std::max({std::abs(edge.x), std::abs(edge.y), std::abs(edge.z)});
     if (largest == 0.0) return std::nullopt;
     edge /= largest;
-    edge.z += kApexWidening * (std::abs(edge.x) + std::abs(edge.y) + std::abs(edge.z));
+    const double widening =
+        kApexWidening * (std::abs(edge.x) + std::abs(edge.y) + std::abs(edge.z));
+    edge.z += widening;
     triangle.edges[i] = edge;
+    triangle.clear[i] = 2.0 * widening;
   }
   const glm::dvec3 plane =
       glm::cross(projected[1] - projected[0], projected[2] - projected[0]) * inward;

@@ -45,6 +45,7 @@ struct ExactApexTriangle {
   glm::dvec2 low;
   glm::dvec2 high;
   std::array<glm::dvec3, 3> edges;
+  std::array<double, 3> clear;  ///< from this value of an edge on, a place is surely inside
   glm::dvec3 plane;
   double distance;
   bool at_apex;  ///< nothing else is set, rays decide

@@ -649,8 +649,11 @@ class PencilWalk {
                                   meshlet.corner(2, shape));
       });
     }
-    LaneBits hits = test_exact_triangle(place, shapes_.exact_triangle[shape], primitive);
+    Unsure unsure;
+    LaneBits hits = test_exact_triangle(place, shapes_.exact_triangle[shape], primitive, unsure);
     if (Policy::kFar) hits = confirmed(place, hits, hits, crosses_plane_of(meshlet, shape));
+    // Seen edge-on, a sliver is not wider than its edges were moved.
+    if (!kClosest) hits = decided_by_rays(place, hits, unsure.edge);
     return note(place, hits);
   }
 
@@ -691,7 +694,7 @@ class PencilWalk {
   }
 
   LaneBits test_exact_triangle(std::size_t place, const ExactApexTriangle& triangle,
-                               scenes::PrimitiveId primitive) {
+                               scenes::PrimitiveId primitive, Unsure& unsure) {
     const hn::CappedTag<double, 8> d;
     const hn::Rebind<float, decltype(d)> half;
     const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
@@ -708,9 +711,10 @@ class PencilWalk {
       const auto none = hn::Zero(d);
       const auto plane = line(triangle.plane);
       const auto distance = hn::Set(d, triangle.distance);
-      auto hit = hn::And(
-          hn::And(hn::Ge(line(triangle.edges[0]), none), hn::Ge(line(triangle.edges[1]), none)),
-          hn::And(hn::Ge(line(triangle.edges[2]), none), hn::Gt(plane, hn::Mul(distance, w))));
+      const std::array edges{line(triangle.edges[0]), line(triangle.edges[1]),
+                             line(triangle.edges[2])};
+      auto hit = hn::And(hn::And(hn::Ge(edges[0], none), hn::Ge(edges[1], none)),
+                         hn::And(hn::Ge(edges[2], none), hn::Gt(plane, hn::Mul(distance, w))));
       const auto within = [&](auto place, double low, double high) {
         return hn::And(hn::Ge(place, hn::Set(d, low)), hn::Le(place, hn::Set(d, high)));
       };
@@ -721,9 +725,15 @@ class PencilWalk {
         hit = hn::And(hit, hn::Lt(plane, hn::Mul(distance, origin_w)));
         hn::Store(hn::DemoteTo(half, hn::Div(plane, distance)), half, &found_w[lane]);
       }
-      std::array<std::uint8_t, 8> stored{};
-      hn::StoreMaskBits(d, hit, stored.data());
-      hits |= static_cast<LaneBits>(stored[0]) << lane;
+      const auto bits = [&](auto mask) {
+        std::array<std::uint8_t, 8> stored{};
+        hn::StoreMaskBits(d, mask, stored.data());
+        return static_cast<LaneBits>(stored[0]) << lane;
+      };
+      hits |= bits(hit);
+      for (std::size_t k = 0; k < 3; ++k) {
+        unsure.edge |= bits(hn::Lt(edges[k], hn::Set(d, triangle.clear[k])));
+      }
     }
     hits &= unit_->alive[place];
     if constexpr (kClosest) {

@@ -262,6 +262,17 @@ TEST(PencilHits, OfSmallDetailsInLargeScenesAreRight) {
   }
 }
 
+// A triangle that a light sees at a ten-thousandth of its extent is narrower, seen from there, than
+// its edges are moved outward: two rays of 34,011 were called shadowed by it.
+TEST(PencilHits, OfTrianglesSeenEdgeOnAreRight) {
+  const scenes::Scene scene = scenes::load_scene("delfines");
+  const Outcome outcome =
+      verified(scene, rays::make_trace_input(scene, image_over(scene, 320, 240),
+                                             rays::parse_ray_choice("shadow")));
+  expect_right(outcome);
+  EXPECT_EQ(outcome.differing, 0U);
+}
+
 /// Corners of the octree's cells, places on their edges and faces, and the same of the boxes of the
 /// hierarchy that the pencils traverse; both also beyond the scene.
 std::vector<scenes::Light> lights_on_borders(const scenes::Scene& scene, Random& random) {
