@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -86,15 +85,6 @@ Message MpiTransport::Mpi::receive_next() {
   int size = 0;
   MPI_Get_count(&came, MPI_BYTE, &size);
   return {came.MPI_SOURCE, static_cast<Tag>(came.MPI_TAG), Bytes(room.get(), room.get() + size)};
-}
-
-MpiSession::MpiSession(int& argc, char**& argv) { MPI_Init(&argc, &argv); }
-
-MpiSession::~MpiSession() { MPI_Finalize(); }
-
-void MpiSession::abort(int exit_code) {
-  MPI_Abort(MPI_COMM_WORLD, exit_code);
-  std::_Exit(exit_code);
 }
 
 MpiTransport::MpiTransport(Waiting waiting) : mpi_(std::make_unique<Mpi>()), waiting_(waiting) {

@@ -7,19 +7,6 @@
 
 namespace beambench::cluster {
 
-/// MPI from its beginning to its end. One per program, constructed before anything else.
-class MpiSession {
- public:
-  MpiSession(int& argc, char**& argv);
-  /// Waits for the other processes.
-  ~MpiSession();
-  MpiSession(const MpiSession&) = delete;
-  MpiSession& operator=(const MpiSession&) = delete;
-
-  /// Ends all processes at once, hanging ones included.
-  [[noreturn]] static void abort(int exit_code);
-};
-
 /// The processes that mpirun started, in a communicator of its own.
 class MpiTransport : public Transport {
  public:

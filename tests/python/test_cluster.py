@@ -8,6 +8,7 @@ import json
 import os
 import signal
 import subprocess
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -168,6 +169,47 @@ def test_a_consumer_that_hangs_is_done_without(tmp_path: Path) -> None:
     assert "process 2 was silent for 2 s" in done.stderr
     output_of("render", *LONG, "-o", one)
     assert one.read_bytes() == several.read_bytes()
+
+
+def when_begun(run: subprocess.Popen[str], process: int) -> int:
+    """The pid of a process as soon as it is there: MPI has hardly started."""
+    while run.poll() is None:
+        if process in (found := processes_of(run)):
+            return found[process]
+        time.sleep(0.001)
+    raise AssertionError(run.communicate(timeout=60))
+
+
+SPLIT = ["tetra:n=8", "--split", "3", "--shade", "id", "--resolution", "1600x1200"]
+
+
+@pytest.mark.parametrize("process", [0, 2])
+@pytest.mark.parametrize("asked", [LONG, SPLIT], ids=["producer", "split"])
+@pytest.mark.parametrize("seconds", [0.0, 0.2, 0.8])
+def test_a_process_stopped_at_any_moment_ends_in_a_picture_or_a_message(
+    tmp_path: Path, process: int, asked: list[str], seconds: float
+) -> None:
+    file = tmp_path / "picture.png"
+    file.write_text("the picture before")
+    run = start("-n", 3, CLUSTER, *asked, "-o", file, "--timeout", "1.5")
+    pid = when_begun(run, process)
+    time.sleep(seconds)
+    os.kill(pid, signal.SIGSTOP)
+    done = finish_aborted(run)
+    assert list(tmp_path.iterdir()) == [file]
+    if file.read_bytes() == b"the picture before":
+        assert done.returncode != 0
+        assert "was silent for 1.5 s" in done.stderr or "within 1.5 s" in done.stderr
+    else:
+        one = tmp_path / "one.png"
+        output_of("render", *without_split(asked), "--accel", "beam", "-o", one)
+        assert one.read_bytes() == file.read_bytes()
+
+
+def without_split(asked: list[str]) -> list[str]:
+    words = [word for word in asked if word not in ("--accel", "beam")]
+    return [word for word, before in zip(words, ["", *words], strict=False)
+            if "--split" not in (word, before)]  # fmt: skip
 
 
 def refused(done: subprocess.CompletedProcess[str], words: list[str]) -> None:

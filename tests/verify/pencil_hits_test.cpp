@@ -266,9 +266,8 @@ TEST(PencilHits, OfSmallDetailsInLargeScenesAreRight) {
 // its edges are moved outward: two rays of 34,011 were called shadowed by it.
 TEST(PencilHits, OfTrianglesSeenEdgeOnAreRight) {
   const scenes::Scene scene = scenes::load_scene("delfines");
-  const Outcome outcome =
-      verified(scene, rays::make_trace_input(scene, image_over(scene, 320, 240),
-                                             rays::parse_ray_choice("shadow")));
+  const Outcome outcome = verified(scene, rays::make_trace_input(scene, image_over(scene, 320, 240),
+                                                                 rays::parse_ray_choice("shadow")));
   expect_right(outcome);
   EXPECT_EQ(outcome.differing, 0U);
 }

@@ -14,6 +14,7 @@
 #include "harness/base/messages.hpp"
 #include "harness/bench/record/machine.hpp"
 #include "harness/cli/inputs.hpp"
+#include "harness/cluster/mpi_session.hpp"
 #include "harness/cluster/mpi_transport.hpp"
 #include "harness/cluster/run.hpp"
 #include "harness/cluster/split/split_run.hpp"
@@ -52,6 +53,31 @@ struct Options {
   std::string work = "beams";
 };
 
+void add_timeout_option(CLI::App& app, double& seconds) {
+  app.add_option(
+         "--timeout", seconds,
+         "Seconds after which a silent consumer is declared lost, or the run is ended where "
+         "no other can do the work of a silent process; for starting MPI, too")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 1e6));
+}
+
+/// What every process must know before it can hear of the others; what is wrong with the options is
+/// said later, by process 0.
+double timeout_of(int argc, const char* const* argv) {
+  double seconds = ProducerOptions{}.timeout;
+  CLI::App app;
+  app.set_help_flag();
+  app.allow_extras();
+  add_timeout_option(app, seconds);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError&) {
+    return ProducerOptions{}.timeout;
+  }
+  return seconds;
+}
+
 void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
   add_scene_option(app, typed.scene);
   app.add_option("-o", request.picture, "Picture to write, .png or .exr (default: none)");
@@ -82,10 +108,7 @@ void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
       ->check(CLI::Range(1, 64));
   app.add_flag("--producer-consumes", request.producer.consumes,
                "Process 0 works itself while no consumer waits");
-  app.add_option("--timeout", request.producer.timeout,
-                 "Seconds after which a silent consumer is declared lost")
-      ->capture_default_str()
-      ->check(CLI::Range(0.1, 1e6));
+  add_timeout_option(app, request.producer.timeout);
   app.add_option("--report", request.report,
                  "Write JSON: messages, bytes, busy times of each process");
   app.add_option("--tasks", request.tasks, "Write CSV: cost and size of each beam or block");
@@ -150,7 +173,7 @@ std::optional<ClusterRequest> parse_request(int argc, char** argv) {
 }
 
 /// Process 0. The others receive the job, or nothing where there is none.
-int lead_run(int argc, char** argv, Transport& transport) {
+int lead_run(int argc, char** argv, MpiSession& session, Transport& transport) {
   std::optional<ClusterRequest> request;
   Bytes job;
   try {
@@ -166,6 +189,7 @@ int lead_run(int argc, char** argv, Transport& transport) {
     base::report_error(kProgram, summary(lead_split(*request, transport)), 0);
     return base::kSuccess;
   }
+  session.allow_silence();
   const ClusterRun run = lead(*request, transport);
   for (const std::string& remark : run.report.remarks) base::report_error(kProgram, remark, 0);
   base::report_error(kProgram, summary(run), 0);
@@ -174,9 +198,9 @@ int lead_run(int argc, char** argv, Transport& transport) {
   MpiSession::abort(base::kSuccess);
 }
 
-int run_process(int argc, char** argv, Transport& transport) {
+int run_process(int argc, char** argv, MpiSession& session, Transport& transport) {
   try {
-    if (transport.self() == kProducer) return lead_run(argc, argv, transport);
+    if (transport.self() == kProducer) return lead_run(argc, argv, session, transport);
     follow(transport);
     return base::kSuccess;
   } catch (const LostProcess& error) {
@@ -197,7 +221,8 @@ int run_process(int argc, char** argv, Transport& transport) {
 }  // namespace beambench::cli
 
 int main(int argc, char** argv) {
-  const beambench::cluster::MpiSession session(argc, argv);
-  beambench::cluster::MpiTransport transport(beambench::cluster::MpiTransport::Waiting::kSleeping);
-  return beambench::cli::run_process(argc, argv, transport);
+  using namespace beambench;
+  cluster::MpiSession session(argc, argv, cli::timeout_of(argc, argv));
+  cluster::MpiTransport transport(cluster::MpiTransport::Waiting::kSleeping);
+  return cli::run_process(argc, argv, session, transport);
 }
