@@ -35,7 +35,7 @@ Json parse_file(const fs::path& path) {
   constexpr const char* kRemedy =
       "remove a cell's file to have the cell measured again, or begin a new run with -o";
   try {
-    Json document = Json::parse(read_input(path), nullptr, /*allow_exceptions=*/false);
+    Json document = Json::parse(read_input(path, kLargestFile), nullptr, /*allow_exceptions=*/false);
     if (!document.is_discarded()) return document;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}; {}", error.what(), kRemedy));
