@@ -1,5 +1,6 @@
 #include "accel/grid/eager_voxels.hpp"
 
+#include "accel/core/least_references.hpp"
 #include "accel/grid/grid_layout.hpp"
 #include "accel/grid/rasterizer.hpp"
 #include "accel/grid/voxel_walk.hpp"
@@ -9,11 +10,14 @@ namespace beambench::accel::grid {
 EagerVoxels::EagerVoxels(const scenes::Scene& scene, const CellGrid& grid,
                          std::uint64_t max_references, Assign assign) {
   const Rasterizer rasterizer(scene, grid, assign);
+  ReferenceLimit limit(max_references, scene, grid);
   std::vector<VoxelReference> found;
   found.reserve(scene.primitives.size());
   for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     rasterizer.for_each_voxel(id, [&](std::size_t voxel) {
-      if (found.size() == max_references) fail_too_many_references(scene, grid, max_references);
+      if (limit.exceeded(found.size() + 1)) {
+        fail_too_many_references(scene, grid, max_references);
+      }
       found.push_back({static_cast<std::uint32_t>(voxel), id});
       return true;
     });

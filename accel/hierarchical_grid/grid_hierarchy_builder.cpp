@@ -11,6 +11,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "accel/core/least_references.hpp"
 #include "accel/core/tolerance.hpp"
 #include "accel/grid/rasterizer.hpp"
 #include "accel/grid/voxel_walk.hpp"
@@ -67,7 +68,7 @@ class GridHierarchyBuilder {
     std::vector<scenes::PrimitiveId> all(scene_.primitives.size());
     std::iota(all.begin(), all.end(), scenes::PrimitiveId{0});
     const CellGrid place = grid::make_voxel_grid(scene_, options_);
-    if (!rasterize(place, 1, all, options_.max_references)) fail_too_many();
+    if (!rasterize(place, 1, all, {options_.max_references, scene_, place})) fail_too_many();
     voxels_ = grid::voxel_count(place);
     references_ = scratch(1).references.size();
     fill(append(place, 1));
@@ -79,15 +80,15 @@ class GridHierarchyBuilder {
  private:
   Scratch& scratch(int level) { return scratch_[static_cast<std::size_t>(level) - 1]; }
 
-  /// Finds the references of a grid's voxels; false where there are more than that many.
+  /// Finds the references of a grid's voxels; false where there are more than the limit.
   bool rasterize(const CellGrid& place, int level, std::span<const scenes::PrimitiveId> primitives,
-                 std::uint64_t most) {
+                 ReferenceLimit limit) {
     Scratch& into = scratch(level);
     const grid::Rasterizer rasterizer(scene_, place, options_.assign);
     into.found.clear();
     for (const scenes::PrimitiveId id : primitives) {
       const bool all = rasterizer.for_each_voxel(id, [&](std::size_t voxel) {
-        if (into.found.size() >= most) return false;
+        if (limit.exceeded(into.found.size() + 1)) return false;
         into.found.push_back({static_cast<std::uint32_t>(voxel), id});
         return true;
       });
@@ -135,7 +136,7 @@ class GridHierarchyBuilder {
     const std::uint64_t room = options_.max_references - references_ + primitives.size();
     const std::uint64_t most = always ? room : std::min(room, worthwhile(place, primitives.size()));
     if ((!always && sample_exceeds(place, primitives, most)) ||
-        !rasterize(place, level, primitives, most)) {
+        !rasterize(place, level, primitives, ReferenceLimit(most))) {
       if (always) fail_too_many();
       voxels_ -= grid::voxel_count(place);
       return leaf(primitives);

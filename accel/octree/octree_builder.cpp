@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "accel/core/least_references.hpp"
 #include "accel/octree/node_division.hpp"
 #include "accel/octree/octree.hpp"
 
@@ -39,6 +40,7 @@ class OctreeBuilder {
         division_(scene, options),
         octree_(octree),
         part_(part),
+        limit_(limit()),
         lists_(static_cast<std::size_t>(options.max_level) + 1),
         octants_(static_cast<std::size_t>(options.max_level) + 1) {
     octree_.scene_bounds_ = scene.bounds;
@@ -60,6 +62,13 @@ class OctreeBuilder {
   }
 
  private:
+  /// Where every occupied node is divided down to the finest cells, these foretell the references.
+  ReferenceLimit limit() const {
+    const bool all_divided = options_.max_objects == 0 && part_ == nullptr &&
+                             options_.planes == OctreeOptions::Planes::kMedian;
+    if (!all_divided) return ReferenceLimit(options_.max_references);
+    return {options_.max_references, scene_, division_.grid()};
+  }
   void begin() {
     octree_.grid_ = division_.grid();
     octree_.central_planes_ = options_.planes == OctreeOptions::Planes::kMedian;
@@ -132,7 +141,7 @@ class OctreeBuilder {
 
   void make_leaf(std::uint32_t node, std::span<const scenes::PrimitiveId> primitives) {
     auto& references = octree_.references_;
-    if (references.size() + primitives.size() > options_.max_references) {
+    if (limit_.exceeded(references.size() + primitives.size())) {
       division_.fail_too_many_references();
     }
     octree_.nodes_[node].first = static_cast<std::uint32_t>(references.size());
@@ -145,6 +154,7 @@ class OctreeBuilder {
   NodeDivision division_;
   Octree& octree_;
   const OctreePart* part_;
+  ReferenceLimit limit_;
   std::vector<std::vector<scenes::PrimitiveId>> lists_;  ///< by level
   std::vector<std::vector<std::uint8_t>> octants_;       ///< by level
 };

@@ -11,6 +11,61 @@
 namespace beambench::bench {
 namespace {
 
+/// More cells than any run could measure: with six repetitions of a millisecond each, ten minutes.
+constexpr double kMaxCells = 100'000;
+
+/// How long a list is; 1 of any other value.
+double length(const nlohmann::json& value) {
+  return value.is_array() ? static_cast<double>(value.size()) : 1.0;
+}
+
+/// The same of a member; 1 where there is none.
+double length_of(const nlohmann::json& object, const char* key) {
+  return object.is_object() && object.contains(key) ? length(object[key]) : 1.0;
+}
+
+/// The combinations of the lists of parameters of one entry.
+double combinations(const nlohmann::json& entry) {
+  double product = 1.0;
+  if (!entry.is_object() || !entry.contains("parameters")) return product;
+  const nlohmann::json& parameters = entry["parameters"];
+  if (!parameters.is_object()) return product;  // items() of a list are its elements
+  for (const auto& [name, values] : parameters.items()) product *= length(values);
+  return product;
+}
+
+/// The sum over the entries of a list; 1 where there is none.
+template <class Count>
+double sum_of(const nlohmann::json& root, const char* key, Count count) {
+  if (!root.is_object() || !root.contains(key) || !root[key].is_array()) return 1.0;
+  double sum = 0.0;
+  for (const nlohmann::json& entry : root[key]) sum += count(entry);
+  return sum;
+}
+
+/// How many structures the document lists, before any is made. A text counts once, `all` too.
+double listed_structures(const JsonNode& root) {
+  return sum_of(root.value(), "structures", combinations);
+}
+
+/// Refuses a sweep whose lists multiply to too many cells. Takes no notice of mistakes in the
+/// lists, which are found when they are read.
+void require_affordable(const JsonNode& root, double structures) {
+  const nlohmann::json& json = root.value();
+  const double views =
+      sum_of(json, "scenes", [](const auto& entry) { return length_of(entry, "cameras"); });
+  const double resolutions = length_of(json, "resolutions");
+  const double samples = length_of(json, "samples");
+  const double rays = length_of(json, "rays");
+  const double cells = views * structures * resolutions * samples * rays;
+  if (cells <= kMaxCells) return;
+  root.fail(fmt::format(
+      "its lists multiply to {:.0f} cells ({:.0f} cameras of scenes x {:.0f} structures x {:.0f} "
+      "resolutions x {:.0f} samples x {:.0f} kinds of rays), more than {:.0f}; shorten them, or "
+      "divide the sweep into several",
+      cells, views, structures, resolutions, samples, rays, kMaxCells));
+}
+
 /// A parameter and the values it takes in turn.
 struct SweptParameter {
   std::string name;
@@ -29,20 +84,6 @@ SweptParameter read_parameter(const std::string& structure, const std::string& n
     parameter.values.push_back(text);
   }
   return parameter;
-}
-
-void require_affordable(const JsonNode& node, const std::vector<SweptParameter>& parameters) {
-  constexpr std::size_t kMaxCombinations = 10'000;
-  std::size_t combinations = 1;
-  for (const SweptParameter& parameter : parameters) {
-    combinations *= parameter.values.size();
-    if (combinations > kMaxCombinations) {
-      node.fail(
-          fmt::format("the lists of parameters multiply to more than {} structures; shorten "
-                      "them",
-                      kMaxCombinations));
-    }
-  }
 }
 
 /// All combinations, as specs of `structure`.
@@ -81,7 +122,6 @@ std::vector<accel::StructureChoice> read_structure_entry(const JsonNode& node,
       parameters.push_back(read_parameter(name, key, value, structures));
     }
   }
-  require_affordable(node, parameters);
   std::vector<accel::StructureChoice> choices;
   for (const Spec& spec : multiply_out(name, parameters))
     choices.push_back(structures.choose(spec));
@@ -237,6 +277,7 @@ SweepConfig parse_sweep(nlohmann::json source, const std::string& name,
   root.require_object({"$schema", "name", "description", "scenes", "structures", "resolutions",
                        "samples", "rays", "threads", "precision", "repetitions", "budget_seconds",
                        "warm_up_seconds", "exclude"});
+  require_affordable(root, listed_structures(root));
   config.name = read_name(root.require("name"));
   if (const auto description = root.find("description")) config.description = description->text();
   for (const JsonNode& node : root.require("scenes").elements()) {
@@ -245,6 +286,7 @@ SweepConfig parse_sweep(nlohmann::json source, const std::string& name,
   for (const JsonNode& node : root.require("structures").elements()) {
     std::ranges::move(read_structure_entry(node, structures),
                       std::back_inserter(config.structures));
+    require_affordable(root, static_cast<double>(config.structures.size()));  // `all` are many
   }
   read_rays(root, config);
   config.threads = read_threads(root, config);

@@ -52,7 +52,8 @@ struct SweepConfig {
 
 /// Reads and checks a configuration (schema: harness/bench/sweep.schema.json). Structures and their
 /// parameters are checked against `structures`, which outlives the result. Throws InputError
-/// `file: /structures/1/parameters/max_level: ...`.
+/// `file: /structures/1/parameters/max_level: ...`, and where the lists multiply to more than
+/// 100,000 cells, which is known before any is made.
 SweepConfig read_sweep(const std::filesystem::path& path, const accel::Registry& structures);
 
 /// The same of a configuration in memory; `name` stands for it in messages.

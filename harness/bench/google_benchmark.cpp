@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <ostream>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -216,17 +217,20 @@ void GoogleBenchmark::run_once(const std::string& name, const TimedWork& work) c
   benchmark::RunSpecifiedBenchmarks(&collector, ".");
 }
 
-std::string google_benchmark_json(std::span<const Json> cells, const Json& context) {
-  std::ostringstream text;
+void write_google_benchmark_json(std::ostream& out, const Json& context,
+                                 const std::function<void(const CellVisitor&)>& for_each_cell) {
+  std::ostringstream start;
   benchmark::JSONReporter reporter;
-  reporter.SetOutputStream(&text);
+  reporter.SetOutputStream(&start);
   reporter.ReportContext(benchmark::BenchmarkReporter::Context());
-  std::int64_t index = 0;
-  for (const Json& cell : cells) reporter.ReportRuns(runs_of(cell, index++));
-  reporter.Finalize();
-  Json document = Json::parse(text.str());
+  Json document = Json::parse(start.str() + "]}");  // it ends within the list of benchmarks
   document["context"].update(context);
-  return document.dump(2) + '\n';
+  const std::string text = document.dump(2);
+  out << text.substr(0, text.rfind("[]")) << "[\n";
+  reporter.SetOutputStream(&out);
+  std::int64_t index = 0;
+  for_each_cell([&](const Json& cell) { reporter.ReportRuns(runs_of(cell, index++)); });
+  reporter.Finalize();
 }
 
 }  // namespace beambench::bench

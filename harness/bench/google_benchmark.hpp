@@ -2,6 +2,7 @@
 // Google Benchmark's command-line flags, as far as they mean something here.
 
 #include <functional>
+#include <iosfwd>
 #include <optional>
 #include <set>
 #include <span>
@@ -9,6 +10,8 @@
 #include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include "harness/bench/record/cell_record.hpp"
 
 namespace benchmark {
 class State;
@@ -47,10 +50,10 @@ class GoogleBenchmark {
   void run_once(const std::string& name, const TimedWork& work) const;
 };
 
-/// Finished cells (their JSON files) as Google Benchmark writes its results: one entry each
-/// repetition, `context` put into its context. Derived from the cells, so that a resumed run loses
-/// none.
-std::string google_benchmark_json(std::span<const nlohmann::ordered_json> cells,
-                                  const nlohmann::ordered_json& context);
+/// Writes finished cells as Google Benchmark writes its results: one entry each repetition,
+/// `context` put into its context. Derived from the cells, so that a resumed run loses none;
+/// `for_each_cell` hands over one after the other.
+void write_google_benchmark_json(std::ostream& out, const nlohmann::ordered_json& context,
+                                 const std::function<void(const CellVisitor&)>& for_each_cell);
 
 }  // namespace beambench::bench

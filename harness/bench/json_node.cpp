@@ -77,7 +77,7 @@ std::string shown(const json& value) {
 }  // namespace
 
 json read_json_file(const std::filesystem::path& path) {
-  const std::string text = read_input(path);
+  const std::string text = read_input(path, kLargestDocument);
   try {
     return json::parse(text, DuplicateKeys(path.string()));
   } catch (const json::parse_error& error) {

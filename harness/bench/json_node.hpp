@@ -17,8 +17,8 @@
 
 namespace beambench::bench {
 
-/// A JSON file's contents. Throws InputError when it cannot be read, is not JSON (naming line and
-/// column), or gives a key twice.
+/// A JSON file's contents. Throws InputError when it cannot be read, holds more than 64 MiB, is not
+/// JSON (naming line and column), or gives a key twice.
 nlohmann::json read_json_file(const std::filesystem::path& path);
 
 /// A value in a JSON document and its place. Whatever is not as expected throws InputError

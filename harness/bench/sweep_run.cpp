@@ -1,6 +1,9 @@
 #include "harness/bench/sweep_run.hpp"
 
 #include <algorithm>
+#include <array>
+#include <ostream>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,6 +19,7 @@
 #include "harness/bench/task.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/core/files.hpp"
 #include "scenes/core/random.hpp"
 
 namespace beambench::bench {
@@ -54,6 +58,45 @@ std::string result_line(const CellRecord& cell, const Row& row) {
                      verify::to_string(cell.verdict),
                      base::counted(cell.repetitions.size(), "repetition"),
                      to_string(*cell.stop_reason));
+}
+
+/// The members of an object that are among the names.
+template <class Names>
+Json members(const Json& object, const Names& names) {
+  Json found = Json::object();
+  for (const char* name : names) {
+    if (const auto member = object.find(name); member != object.end()) found[name] = *member;
+  }
+  return found;
+}
+
+/// A cell's file with what standings, overheads and doubts read.
+Json summary_of(const Json& cell) {
+  constexpr std::array kRow{"scene",
+                            "camera",
+                            "structure",
+                            "parameters",
+                            "width",
+                            "height",
+                            "samples",
+                            "ray_kind",
+                            "rays",
+                            "primitives",
+                            "query_path",
+                            "verdict",
+                            "build_ms_median",
+                            "trace_ms_median",
+                            "trace_ms_ci_low",
+                            "trace_ms_ci_high",
+                            "harness_ms",
+                            "stop_reason"};
+  Json summary = members(cell, std::array{"key", "name", "message"});
+  summary["row"] = members(cell.at("row"), kRow);
+  Json& repetitions = summary["repetitions"] = Json::array();
+  for (const Json& each : cell.at("repetitions")) {
+    repetitions.push_back(members(each, std::array{"round", "trace_ms"}));
+  }
+  return summary;
 }
 
 /// A group's name without what is at its default.
@@ -104,6 +147,7 @@ class SweepRun {
       run_group(group, left_ms / static_cast<double>(cells_left));
       cells_left -= group.cells.size();
       group.scene.reset();
+      group.cells = {};  // as the record grows, the plan shrinks
     }
     return close();
   }
@@ -257,7 +301,8 @@ class SweepRun {
   }
 
   SweepOutcome close() {
-    const std::vector<Json> cells = folder_.cells();
+    folder_.write_results();  // whose columns are then in the order of the plan
+    const std::vector<Json> cells = summaries();
     manifest_.finished_utc = utc_now();
     const std::vector<Overhead> overheads = largest_overheads(cells);
     manifest_.overhead = to_json(overheads);
@@ -265,7 +310,10 @@ class SweepRun {
     if (!overheads.empty() && overheads.front().part > kWantedOverhead) {
       manifest_.uncontrolled.push_back(fmt::format("The {}.", describe(overheads)));
     }
-    folder_.write_text("google-benchmark.json", google_benchmark_json(cells, benchmark_context()));
+    write_file(folder_.path() / "google-benchmark.json", [&](std::ostream& out) {
+      write_google_benchmark_json(out, benchmark_context(),
+                                  [&](const CellVisitor& visit) { folder_.for_each_cell(visit); });
+    });
     folder_.write_json("manifest.json", to_json(manifest_));
     SweepOutcome outcome{};
     outcome.results = folder_.results();
@@ -285,6 +333,13 @@ class SweepRun {
     outcome.summary = describe(outcome.standings) + "\n" + describe_verdicts(outcome);
     folder_.write_text("summary.txt", outcome.summary);
     return outcome;
+  }
+
+  /// Of each cell what the conclusions of a run are drawn from: a tenth of it.
+  std::vector<Json> summaries() const {
+    std::vector<Json> cells;
+    folder_.for_each_cell([&](const Json& cell) { cells.push_back(summary_of(cell)); });
+    return cells;
   }
 
   Json benchmark_context() const {

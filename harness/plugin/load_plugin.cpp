@@ -251,8 +251,8 @@ void load_plugin(const std::string& file, Activity& activity) {
 
   const PluginStamp& stamp = plugin.stamp;
   all_loaded().push_back({file, plugin.description == nullptr ? "" : plugin.description,
-                          rays::fingerprint(read_input(file)), stamp.compiler, stamp.instructions,
-                          stamp.optimized,
+                          rays::fingerprint(read_input(file, kLargestFile)), stamp.compiler,
+                          stamp.instructions, stamp.optimized,
                           names_of(contents.structures, &accel::StructureInfo::name),
                           names_of(contents.scenes, &scenes::SceneInfo::name),
                           names_of(contents.readers, &scenes::SceneReader::ending)});

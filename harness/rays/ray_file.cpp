@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -331,7 +332,13 @@ RaySet read_ray_file(const std::filesystem::path& path) {
     fail(path, fmt::format("it holds {} rays, more than the {} that are read at once",
                            *reader.count(), kMaxRaysInMemory));
   }
-  set.rays.reserve(static_cast<std::size_t>(reader.count().value_or(0)));
+  // What comes through a pipe may be less than its header says.
+  std::error_code has_no_length;
+  const std::uint64_t bytes = std::filesystem::file_size(path, has_no_length);
+  if (!has_no_length) {
+    set.rays.reserve(static_cast<std::size_t>(
+        std::min<std::uint64_t>(reader.count().value_or(0), bytes / sizeof(accel::Ray))));
+  }
   for (std::size_t count = kBlock; count == kBlock;) {
     const std::size_t used = set.rays.size();
     if (used > kMaxRaysInMemory) {

@@ -106,8 +106,15 @@ std::uint64_t known_length(int descriptor, const std::string& name) {
       std::max<off_t>(status.st_size - std::max<off_t>(position, 0), 0));
 }
 
+/// Whether it is a device, such as /dev/zero, of which nobody means to read gigabytes.
+bool is_device(int descriptor) {
+  struct stat status {};
+  return ::fstat(descriptor, &status) == 0 && S_ISCHR(status.st_mode);
+}
+
 std::string read_whole(int descriptor, const std::string& name, std::uint64_t max_bytes) {
   const std::uint64_t length = known_length(descriptor, name);
+  if (is_device(descriptor)) max_bytes = std::min(max_bytes, kLargestDocument);
   if (length > max_bytes) refuse_size(name, max_bytes);
   // One byte more than is known of: the end is seen without growing.
   std::string bytes(length > 0 ? length + 1 : kFirstBlock, '\0');

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <functional>
 #include <iosfwd>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,20 +14,25 @@
 
 namespace beambench {
 
-inline constexpr std::uint64_t kNoByteLimit = std::numeric_limits<std::uint64_t>::max();
+/// What people write (a sweep, an entry of the cache, the index of a kit) is at most so long: 64
+/// MiB.
+inline constexpr std::uint64_t kLargestDocument = std::uint64_t{64} << 20U;
+/// And what programs write in one piece: 4 GiB.
+inline constexpr std::uint64_t kLargestFile = std::uint64_t{4} << 30U;
 
 /// Reads a whole input: a file, or what comes through a pipe or a device until its end
 /// (`/dev/stdin` is the standard input). Opening never waits: a named pipe into which nothing is
-/// written is refused. No part of an input that is incomplete is ever returned: throws InputError
+/// written is refused. Where a program has the pipe open but does not write, it is waited for, as
+/// anywhere in a shell. No part of an input that is incomplete is ever returned: throws InputError
 /// naming the path and the reason when it cannot be opened, is a folder, holds more than
-/// `max_bytes`, does not fit into memory, when the system reports an error while it is read, or
-/// when it ends before the length that it had at the beginning.
-std::string read_input(const std::filesystem::path& path, std::uint64_t max_bytes = kNoByteLimit);
+/// `max_bytes` (64 MiB of a device, which may have no end), does not fit into memory, when the
+/// system reports an error while it is read, or when it ends before the length that it had at the
+/// beginning.
+std::string read_input(const std::filesystem::path& path, std::uint64_t max_bytes);
 
 /// The same for an open descriptor, read from its current position; `name` stands for it in
 /// messages. It stays open.
-std::string read_input(int descriptor, const std::string& name,
-                       std::uint64_t max_bytes = kNoByteLimit);
+std::string read_input(int descriptor, const std::string& name, std::uint64_t max_bytes);
 
 /// An input that is read part by part, for what may be larger than memory. Opened, read and refused
 /// by the rules of `read_input`; a file that ends early is found when its end is reached.

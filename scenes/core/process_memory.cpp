@@ -20,11 +20,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kKibi = 1024;
+constexpr std::uint64_t kLargestSystemText = std::uint64_t{1} << 20U;
 
 /// A file of the system's; empty where it is not there.
 std::string system_text(const fs::path& path) {
   try {
-    return read_input(path);
+    return read_input(path, kLargestSystemText);
   } catch (const InputError&) {
     return "";
   }
@@ -128,6 +129,8 @@ std::optional<std::uint64_t> available_memory() {
   }
   return least;
 }
+
+std::optional<std::uint64_t> mapped_data_bytes() { return status_bytes("VmData:"); }
 
 std::optional<std::uint64_t> peak_memory_growth(const std::function<void()>& work) {
 #ifdef __GLIBC__

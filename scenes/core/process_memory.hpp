@@ -14,6 +14,10 @@ namespace beambench {
 /// BEAMBENCH_MEMORY.
 std::optional<std::uint64_t> available_memory();
 
+/// Bytes of memory of its own that this process has mapped, used or not: what RLIMIT_DATA limits.
+/// Nothing where the system does not say.
+std::optional<std::uint64_t> mapped_data_bytes();
+
 /// Runs `work`, and returns by how many bytes the resident memory of this process was at most
 /// larger meanwhile than before, what other threads use included. Nothing where the system does not
 /// say (before Linux 4.0, or without /proc). Passes on what `work` throws.

@@ -30,6 +30,7 @@ from beambench_meshes.surface_mesh import Point, SurfaceMesh
 LEVEL = 8  # squares along each side of a patch of 3 x 3 control points
 
 _MAGIC, _VERSION = b"IBSP", 46
+_LARGEST_MAP = 256 << 20  # bytes; the largest known ones have some 30 MB
 _LUMPS = 17
 _ENTITIES, _TEXTURES, _MODELS, _VERTICES, _MESH_INDICES, _FACES = 0, 1, 7, 10, 11, 13
 _TEXTURE = struct.Struct("<64sii")
@@ -278,6 +279,8 @@ def read_map(archive: Path, member: str) -> bytes:
     """The bytes of one map of an archive."""
     try:
         with zipfile.ZipFile(archive) as opened:
+            if opened.getinfo(member).file_size > _LARGEST_MAP:
+                raise Problem(f"{archive}: {member} holds more than {_LARGEST_MAP >> 20} MiB")
             return opened.read(member)
     except KeyError:
         raise Problem(f"{archive}: it holds no {member}; is the package another one?") from None

@@ -2,10 +2,12 @@
 
 #include "harness/bench/config.hpp"
 
+#include <chrono>
 #include <initializer_list>
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -148,7 +150,58 @@ TEST_F(Config, TooManyCombinationsAreRefused) {
   for (int i = 0; i < 200; ++i) values.push_back(i);
   document["structures"][1]["parameters"] = {{"max_objects", values}, {"max_references", values}};
   document["structures"][1]["parameters"]["max_references"][0] = 200;
-  EXPECT_TRUE(scenes::says(refusal(document), {"/structures/1: ", "multiply", "10000"}));
+  EXPECT_TRUE(scenes::says(refusal(document), {"sweep.json: its lists multiply to 320008 cells",
+                                               "2 cameras of scenes x 40001 structures",
+                                               "more than 100000", "shorten them"}));
+}
+
+/// The review's sweep took 9.9 GB and half a minute.
+TEST_F(Config, TooManyCellsAreRefusedBeforeAnyIsMade) {
+  json document = fine();
+  document["structures"] = json::array();
+  for (int i = 0; i < 10'000; ++i) {
+    document["structures"].push_back(fmt::format("samet:max_references={}", 1000 + i));
+  }
+  document["resolutions"] = json::array();
+  for (int i = 1; i <= 1'000; ++i) document["resolutions"].push_back(fmt::format("{}x1", i));
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_TRUE(scenes::says(refusal(document), {"multiply to 40000000 cells", "10000 structures",
+                                               "1000 resolutions", "2 samples"}));
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(seconds.count(), 2.0) << "a debug build takes most of it to read the JSON";
+}
+
+TEST_F(Config, AllStructuresAreCountedOneByOne) {
+  json document = fine();
+  document["structures"] = json::array();
+  for (int i = 0; i < 10'000; ++i) document["structures"].push_back("all");
+  document["samples"] = {1};
+  EXPECT_TRUE(scenes::says(refusal(document), {"its lists multiply to"}));
+}
+
+TEST_F(Config, AsManyCellsAsAllowedAreRead) {
+  json document = fine();
+  document["scenes"] = {"tetra:n=1"};
+  document["samples"] = {1};
+  document["structures"] = {"null"};
+  document["resolutions"] = json::array();
+  for (int i = 0; i < 100'000; ++i) document["resolutions"].push_back("8x4");
+  EXPECT_EQ(read(document).resolutions.size(), 100'000U);
+  document["resolutions"].push_back("8x4");
+  EXPECT_TRUE(scenes::says(refusal(document), {"100001 cells"}));
+}
+
+TEST_F(Config, CountingCellsLeavesMistakesToTheReader) {
+  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { read_text(R"("text")"); }),
+                           {"sweep.json: expected an object"}));
+  for (const char* key : {"scenes", "structures", "resolutions", "samples", "rays"}) {
+    for (const json& value :
+         {json(3), json(nullptr), json::object(), json(json::array({3, json::array()}))}) {
+      json document = fine();
+      document[key] = value;
+      EXPECT_TRUE(scenes::says(refusal(document), {std::string("/") + key})) << document;
+    }
+  }
 }
 
 TEST_F(Config, SeveralThreadsAreForImages) {

@@ -389,11 +389,42 @@ TEST(RunFolder, KeepsCellsInTheOrderOfThePlan) {
   }
   const std::string results = read_text(path / "results.csv");
   RunFolder again = RunFolder::open(path);
-  ASSERT_EQ(again.cells().size(), 3U);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(again.cells()[i].at("index"), i);
-  again.add_cell(again.cells()[1]);
+  std::vector<nlohmann::ordered_json> cells;
+  again.for_each_cell([&](const nlohmann::ordered_json& cell) { cells.push_back(cell); });
+  ASSERT_EQ(cells.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(cells[i].at("index"), i);
+  again.add_cell(cells[1]);
   EXPECT_EQ(read_text(path / "results.csv"), results);
   EXPECT_FALSE(std::filesystem::exists(path / "cells" / ".left-behind.123.partial.json"));
+}
+
+/// Rows are put into results.csv one by one; made from all cells it must be the same.
+TEST(RunFolder, PutsRowsWhereTheyBelong) {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "run";
+  RunFolder run = RunFolder::create(path);
+  run.write_json("manifest.json", {});
+  const auto add = [&](std::size_t index, const std::string& camera, const char* counter) {
+    CellRecord cell = some_cell();
+    cell.index = index;
+    cell.id.samples = static_cast<int>(index);
+    cell.id.camera = camera;
+    if (counter != nullptr) cell.work.counters[counter] = 7;
+    run.add_cell(to_json(kRun, cell));
+    std::vector<Row> rows;
+    run.for_each_cell([&](const auto& each) { rows.push_back(each.at("row")); });
+    EXPECT_EQ(read_text(path / "results.csv"), csv_table(rows)) << index;
+  };
+  for (const std::size_t index : {5U, 2U, 9U, 0U, 7U}) add(index, "a,\"b\"\nc", nullptr);
+  add(3, "default", "own_counter");
+  for (const std::size_t index : {1U, 8U, 4U}) add(index, "default", nullptr);
+  std::filesystem::remove(path / "results.csv");
+  add(6, "default", nullptr);
+  folder.write("run/results.csv", "of somebody else");
+  add(10, "default", nullptr);
+  std::vector<std::size_t> order;
+  run.for_each_cell([&](const auto& cell) { order.push_back(cell.at("index")); });
+  EXPECT_EQ(order, (std::vector<std::size_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
 }
 
 TEST(RunFolder, BelongsToOneAtATime) {

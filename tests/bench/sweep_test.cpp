@@ -2,13 +2,18 @@
 // is finished is not repeated.
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -98,10 +103,13 @@ class Sweep : public testing::Test {
   }
 
   SweepOutcome run(const json& document, bool resume = false) {
-    const SweepConfig sweep = read_sweep(folder_.write("sweep.json", document.dump()), structures_);
     SweepOptions options;
-    options.folder = results();
     options.resume = resume;
+    return run(document, std::move(options));
+  }
+  SweepOutcome run(const json& document, SweepOptions options) {
+    const SweepConfig sweep = read_sweep(folder_.write("sweep.json", document.dump()), structures_);
+    options.folder = results();
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> messages(
         std::fopen((folder_.path() / "messages").c_str(), "w"), std::fclose);
     return run_sweep(sweep, make_plan(sweep), GoogleBenchmark(BenchmarkFlags()), options,
@@ -222,6 +230,36 @@ TEST_F(Sweep, AListOfRaysIsReadOneByOneOrInPackets) {
   EXPECT_EQ(row("tile-beam")["harness_ms"], row("exhaustive")["harness_ms"]);
   EXPECT_EQ(row("embree")["query_path"], "list-packed");
   EXPECT_GT(row("embree")["harness_ms"], 0.0);
+}
+
+/// The resident memory of this process, in bytes; 0 where the system does not say.
+std::uint64_t resident_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    std::uint64_t kibibytes = 0;
+    if (word == "VmRSS:" && status >> kibibytes) return 1024 * kibibytes;
+  }
+  return 0;
+}
+
+/// A cell took 20 kB or more, for as long as the run went on, and at its end as much again.
+TEST_F(Sweep, MemoryDoesNotGrowWithTheCells) {
+  json document = config({"null", "exhaustive"});
+  document["scenes"] = {"tetra:n=1"};
+  document["repetitions"] = {{"minimum", 12}, {"maximum", 12}};
+  document["resolutions"] = json::array();
+  for (int width = 1; width <= 150; ++width) {
+    document["resolutions"].push_back(fmt::format("{}x1", width));
+  }
+  std::vector<std::uint64_t> resident;
+  SweepOptions options;
+  options.before_each_piece = [&] { resident.push_back(resident_bytes()); };
+  EXPECT_EQ(run(document, options).cells, 300U);
+  if (resident.front() == 0) GTEST_SKIP() << "the system does not say how much memory is used";
+  const std::uint64_t early = resident[resident.size() / 10];
+  constexpr std::uint64_t kMost = std::uint64_t{3} << 20U;  // 10 kB for each of the other cells
+  EXPECT_LT(resident.back(), early + kMost) << "as the last cell is measured";
+  EXPECT_LT(resident_bytes(), early + kMost) << "at the end";
 }
 
 TEST_F(Sweep, TheFolderHoldsTheWholeRecord) {

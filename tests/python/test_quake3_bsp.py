@@ -174,3 +174,14 @@ def test_the_command_writes_an_obj_and_names_the_file_at_fault(
         assert why in message
         assert message.count("\n") == 1
     assert main(["one"]) == 2
+
+
+def test_a_map_larger_than_any_is_not_unpacked(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("beambench_meshes.quake3_bsp._LARGEST_MAP", 1 << 20)
+    archive = tmp_path / "maps.pk3"
+    with zipfile.ZipFile(archive, "w", zipfile.ZIP_DEFLATED) as opened:
+        opened.writestr("maps/bomb.bsp", bytes((1 << 20) + 1))
+    assert main([str(archive), "maps/bomb.bsp", str(tmp_path / "a.obj")]) == 2
+    assert "maps/bomb.bsp holds more than 1 MiB" in capsys.readouterr().err

@@ -52,10 +52,11 @@ TEST(Input, IsReadWhole) {
   const TemporaryFolder folder;
   std::string text(300000, 'x');
   text[70000] = '\0';
-  EXPECT_EQ(read_input(folder.write("a", text)), text);
-  EXPECT_EQ(read_input(folder.write("empty", "")), "");
-  EXPECT_EQ(read_input("/dev/null"), "");
-  EXPECT_FALSE(read_input("/proc/self/status").empty()) << "a file that names no length";
+  EXPECT_EQ(read_input(folder.write("a", text), kLargestFile), text);
+  EXPECT_EQ(read_input(folder.write("empty", ""), 0), "");
+  EXPECT_EQ(read_input("/dev/null", 0), "");
+  EXPECT_FALSE(read_input("/proc/self/status", kLargestFile).empty())
+      << "a file that names no length";
 }
 
 TEST(Input, ComesThroughPipes) {
@@ -63,7 +64,7 @@ TEST(Input, ComesThroughPipes) {
   ASSERT_EQ(::pipe(ends.data()), 0);
   ASSERT_EQ(::write(ends[1], "s 0 0 0 1\n", 10), 10);
   ::close(ends[1]);
-  EXPECT_EQ(read_input("/dev/fd/" + std::to_string(ends[0])), "s 0 0 0 1\n");
+  EXPECT_EQ(read_input("/dev/fd/" + std::to_string(ends[0]), kLargestFile), "s 0 0 0 1\n");
   ::close(ends[0]);
 }
 
@@ -71,25 +72,26 @@ TEST(Input, IsReadFromWhereADescriptorStands) {
   const TemporaryFolder folder;
   const int file = ::open(folder.write("a", "0123456789").c_str(), O_RDONLY);
   ASSERT_EQ(::lseek(file, 4, SEEK_SET), 4);
-  EXPECT_EQ(read_input(file, "a"), "456789");
-  EXPECT_EQ(read_input(file, "a"), "") << "at the end";
+  EXPECT_EQ(read_input(file, "a", kLargestFile), "456789");
+  EXPECT_EQ(read_input(file, "a", kLargestFile), "") << "at the end";
   ::close(file);
 }
 
 TEST(Input, CutByAnInputErrorIsRefused) {
-  EXPECT_TRUE(says(thrown_message([] { read_input("/proc/self/mem"); }),
+  EXPECT_TRUE(says(thrown_message([] { read_input("/proc/self/mem", kLargestFile); }),
                    {"/proc/self/mem: cannot be read: Input/output error"}));
   const HungUpTerminal terminal("s 0 0 0 1\n");
   if (!terminal.works()) GTEST_SKIP() << "no pseudo terminals here";
-  EXPECT_TRUE(says(thrown_message([&] { read_input(terminal.descriptor(), "a.nff"); }),
-                   {"a.nff: cannot be read: Input/output error"}));
+  EXPECT_TRUE(
+      says(thrown_message([&] { read_input(terminal.descriptor(), "a.nff", kLargestFile); }),
+           {"a.nff: cannot be read: Input/output error"}));
 }
 
 TEST(Input, ThatIsNoneIsRefused) {
   const TemporaryFolder folder;
-  EXPECT_TRUE(says(thrown_message([] { read_input("/no/such/file"); }),
+  EXPECT_TRUE(says(thrown_message([] { read_input("/no/such/file", kLargestFile); }),
                    {"/no/such/file: cannot be read: No such file or directory", "check the path"}));
-  EXPECT_TRUE(says(thrown_message([&] { read_input(folder.path()); }),
+  EXPECT_TRUE(says(thrown_message([&] { read_input(folder.path(), kLargestFile); }),
                    {folder.path().string() + ": cannot be read: it is a folder"}));
   const std::string file = folder.write("a", "12345").string();
   EXPECT_EQ(read_input(file, 5), "12345");
@@ -99,11 +101,18 @@ TEST(Input, ThatIsNoneIsRefused) {
                    {"/dev/zero: cannot be read: it holds more than 1048576 bytes"}));
 }
 
+TEST(Input, OfADeviceIsBoundedWhateverTheKindOfFile) {
+  EXPECT_TRUE(says(thrown_message([] { read_input("/dev/zero", kLargestFile); }),
+                   {"/dev/zero: cannot be read: it holds more than 67108864 bytes"}));
+  EXPECT_TRUE(says(thrown_message([] { nff::read_nff("/dev/zero"); }),
+                   {"/dev/zero: cannot be read: it holds more than 67108864 bytes"}));
+}
+
 TEST(Input, IsNotWaitedForAtANamedPipe) {
   const TemporaryFolder folder;
   const fs::path pipe = folder.path() / "pipe";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
-  EXPECT_TRUE(says(thrown_message([&] { read_input(pipe); }),
+  EXPECT_TRUE(says(thrown_message([&] { read_input(pipe, kLargestFile); }),
                    {"it is a pipe into which nothing is written"}));
 }
 

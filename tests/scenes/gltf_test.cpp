@@ -18,6 +18,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <rapidcheck/gtest.h>
+#include <sys/stat.h>
 
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
@@ -485,11 +486,20 @@ TEST_F(Gltf, BuffersAreReadFromItsFolderAlone) {
   const std::string absolute = (folder_.path() / "in" / "b.bin").string();
   for (const std::string& uri :
        {std::string("../outside.bin"), std::string("link.bin"), std::string("up/outside.bin"),
-        std::string("sub/../../outside.bin"), std::string("%2e%2e/outside.bin"), absolute}) {
+        std::string("sub/../../outside.bin"), std::string("%2e%2e/outside.bin"),
+        std::string("%2e%2e%2foutside.bin"), std::string("%2E./outside.bin"), absolute,
+        "%2f" + absolute.substr(1)}) {
     EXPECT_TRUE(says(thrown_message([&] { load(uri); }),
                      {"a.gltf", "which is not in its folder", "put the file into the folder"}))
         << uri;
   }
+  for (const std::string& uri :
+       {"file://" + absolute, "file:" + absolute, std::string("file:///etc/passwd")}) {
+    EXPECT_TRUE(says(thrown_message([&] { load(uri); }), {"a.gltf", "No such file or directory"}))
+        << "a name like any other, in its folder: " << uri;
+  }
+  ASSERT_EQ(::mkfifo((folder_.path() / "in" / "pipe.bin").c_str(), 0600), 0);
+  EXPECT_TRUE(says(thrown_message([&] { load("pipe.bin"); }), {"a.gltf", "not a regular file"}));
   EXPECT_TRUE(says(thrown_message([&] { load("none.bin"); }),
                    {"a.gltf", "none.bin", "No such file or directory"}));
   fs::resize_file(folder_.write("in/large.bin", ""), std::uint64_t{4} << 30U);

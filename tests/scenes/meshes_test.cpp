@@ -1,12 +1,15 @@
+#include <chrono>
 #include <cmath>
 #include <cstdlib>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 #include <zlib.h>
 
 #include "scenes/catalogue.hpp"
+#include "scenes/core/process_memory.hpp"
 #include "scenes/core/random.hpp"
 #include "scenes/formats/mesh/fitted_cameras.hpp"
 #include "scenes/formats/mesh/mesh.hpp"
@@ -181,6 +184,75 @@ TEST_F(Meshes, AFileThatIsCutOffIsRefused) {
   EXPECT_TRUE(says(message("cut.ply.gz", bytes.substr(0, bytes.size() / 2)), {"cut off"}));
   EXPECT_TRUE(says(message("claims.ply", with_count(text, "face 4", "face 4000000000")),
                    {"4000000000", "cut off"}));
+}
+
+TEST_F(Meshes, ElementsWithoutPropertiesAreNotCounted) {
+  const std::string header = "ply\nformat binary_little_endian 1.0\n";
+  EXPECT_TRUE(says(
+      message("many.ply", header + "element vertex 1000000000000000000\nend_header\n"),
+      {"many.ply", "declares 1000000000000000000 of the element 'vertex'", "no property of it"}));
+  EXPECT_TRUE(says(message("text.ply",
+                           "ply\nformat ascii 1.0\n"
+                           "element vertex 1000000000000000000\nend_header\n\n\n"),
+                   {"text.ply", "'vertex'", "after 0 the file ends"}));
+}
+
+// What is packed
+
+TEST_F(Meshes, NothingUnpacksToNothing) {
+  EXPECT_TRUE(says(thrown_message([] { mesh::gunzip("", "empty.ply.gz"); }),
+                   {"empty.ply.gz", "damaged or cut off"}));
+  gzipped("", folder_.path() / "packed.ply.gz");
+  EXPECT_TRUE(says(thrown_message([&] { load_scene((folder_.path() / "packed.ply.gz").string()); }),
+                   {"packed.ply.gz", "unpacks to an empty file"}));
+}
+
+/// 400 MiB of one byte.
+TEST_F(Meshes, WhatUnpacksToFarMoreThanItIsIsRefusedEarly) {
+  const fs::path path = folder_.path() / "bomb.ply.gz";
+  const gzFile file = ::gzopen(path.c_str(), "wb");
+  const std::string block(std::size_t{1} << 20U, ' ');
+  for (int i = 0; i < 400; ++i) ::gzwrite(file, block.data(), static_cast<unsigned>(block.size()));
+  ::gzclose(file);
+  const std::string packed = read_text(path);
+  std::string refusal;
+  const auto growth =
+      peak_memory_growth([&] { refusal = thrown_message([&] { mesh::gunzip(packed, path); }); });
+  EXPECT_TRUE(says(refusal, {"bomb.ply.gz", "more than 200 times", "unpack it yourself"}));
+  EXPECT_LT(growth.value_or(0), std::uint64_t{256} << 20U);
+}
+
+/// Numbers in a row pack well, as vertices of a regular grid do.
+TEST_F(Meshes, WhatPacksWellIsRead) {
+  std::string text;
+  while (text.size() < (std::size_t{70} << 20U)) {
+    text += fmt::format("v {} 1.000000 0.000000\n", text.size());
+  }
+  const std::string packed = gzipped(text, folder_.path() / "grid.obj.gz");
+  EXPECT_EQ(mesh::gunzip(packed, "grid.obj.gz"), text);
+}
+
+// The limits of an import
+
+TEST_F(Meshes, AnImportThatTakesTooLongIsEnded) {
+  mesh::ImportLimits limits = mesh::import_limits("", "obj");
+  limits.elapsed = std::chrono::milliseconds(1);
+  std::string text = tetrahedron_obj();
+  while (text.size() < 4'000'000) text += "f 1 2 3\nf 1 3 2\n";
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_TRUE(says(thrown_message([&] { mesh::guarded_import(text, "obj", "slow.obj", limits); }),
+                   {"slow.obj", "took more than 0.001 s by the clock"}));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));
+}
+
+TEST(ImportLimits, GrowWithTheFileAndEndAtTheMemoryThereIs) {
+  const std::string bytes(std::size_t{3} << 20U, ' ');
+  EXPECT_EQ(mesh::import_limits(bytes, "obj").processor, std::chrono::seconds(5));
+  EXPECT_EQ(mesh::import_limits(bytes, "glb").processor, std::chrono::seconds(123));
+  EXPECT_EQ(mesh::import_limits(bytes, "obj").elapsed, std::chrono::seconds(80));
+  ::setenv("BEAMBENCH_MEMORY", "1", 1);
+  EXPECT_EQ(mesh::import_limits(bytes, "obj").memory, 0U);
+  ::unsetenv("BEAMBENCH_MEMORY");
 }
 
 /// Whatever is in a file, it becomes a scene or is refused; Assimp's own end is not ours. Seeded,

@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <sys/stat.h>
 
 #include "scenes/core/error.hpp"
 #include "scenes/core/random.hpp"
@@ -194,14 +195,25 @@ TEST_F(Obj, LibrariesOutsideOfItsFolderAreNotRead) {
   fs::create_directory(folder_.path() / "in");
   const fs::path secret = folder_.write("out.mtl", "newmtl m\nKd 1 0 0\n");
   fs::create_symlink(secret, folder_.path() / "in" / "link.mtl");
+  fs::create_directory_symlink("..", folder_.path() / "in" / "up");
   for (const std::string& library :
-       {std::string("../out.mtl"), std::string("link.mtl"), secret.string()}) {
+       {std::string("../out.mtl"), std::string("link.mtl"), std::string("x/../../out.mtl"),
+        std::string("up/out.mtl"), secret.string()}) {
     const std::string text = fmt::format("mtllib {}\n{}usemtl m\nf 1 2 3\n", library, kCorners);
     const ImportedMesh mesh = mesh::import_mesh(text, "obj", folder_.write("in/a.obj", text));
     EXPECT_NE(mesh.mesh.parts[0].surface.color, glm::vec3(1.0F, 0.0F, 0.0F)) << library;
     ASSERT_EQ(mesh.warnings.size(), 1U);
     EXPECT_TRUE(
         says(mesh.warnings[0], {"its materials were left out", library, "not in its folder"}));
+  }
+  ASSERT_EQ(::mkfifo((folder_.path() / "pipe.mtl").c_str(), 0600), 0);
+  for (const std::string& library :
+       {std::string("pipe.mtl"), "file://" + secret.string(), std::string("%2e%2e/out.mtl")}) {
+    const ImportedMesh mesh =
+        read(fmt::format("mtllib {}\n{}usemtl m\nf 1 2 3\n", library, kCorners));
+    EXPECT_NE(mesh.mesh.parts[0].surface.color, glm::vec3(1.0F, 0.0F, 0.0F)) << library;
+    ASSERT_EQ(mesh.warnings.size(), 1U);
+    EXPECT_TRUE(says(mesh.warnings[0], {"its materials were left out"})) << library;
   }
   const ImportedMesh mesh = read(fmt::format("mtllib none.mtl\n{}f 1 2 3\n", kCorners));
   ASSERT_EQ(mesh.warnings.size(), 1U);

@@ -108,7 +108,9 @@ TEST_P(FlatCone, IsVerified) {
   for (const std::string kind : {"primary", "random"}) {
     const rays::TraceInput input = rays_over(scene_, kind, 160);
     const ReferenceHits reference(scene_, input);
-    for (const std::string structure : {"exhaustive", "samet", "voxel-grid", "sah-bvh", "embree"}) {
+    for (const std::string structure :
+         {"exhaustive", "samet", "voxel-grid", "sah-bvh", "kd-tree", "goldsmith-salmon",
+          "hierarchical-grid", "beam", "grid-beam", "tile-beam", "embree"}) {
       const DiffReport report =
           verify_results(reference, traced(structure, scene_, input),
                          accel::registry().choose(parse_spec(structure)).info().conformance);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -21,6 +22,9 @@ namespace beambench::bench {
 /// A row of a record: column names to numbers, texts, flags, or null for what was not measured. The
 /// order is that of the columns.
 using Row = nlohmann::ordered_json;
+
+/// Takes one finished cell after the other, as its file has it.
+using CellVisitor = std::function<void(const nlohmann::ordered_json& cell)>;
 
 enum class QueryPath {
   kImageSingle,  ///< an image, its rays made one by one

@@ -1,7 +1,9 @@
 #include "harness/bench/record/run_folder.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
+#include <ostream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -35,7 +37,8 @@ Json parse_file(const fs::path& path) {
   constexpr const char* kRemedy =
       "remove a cell's file to have the cell measured again, or begin a new run with -o";
   try {
-    Json document = Json::parse(read_input(path), nullptr, /*allow_exceptions=*/false);
+    Json document =
+        Json::parse(read_input(path, kLargestFile), nullptr, /*allow_exceptions=*/false);
     if (!document.is_discarded()) return document;
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}; {}", error.what(), kRemedy));
@@ -91,15 +94,35 @@ std::string value_text(const Row& value) {
   return value.dump();
 }
 
-template <class Fields>
-void append_line(std::string& text, const Fields& fields) {
-  bool first = true;
+std::string csv_line(const std::vector<std::string>& fields) {
+  std::string text;
   for (const std::string& field : fields) {
-    if (!first) text += ',';
+    if (&field != fields.data()) text += ',';
     text += csv_field(field);
-    first = false;
   }
-  text += '\n';
+  return text + '\n';
+}
+
+std::string csv_line(const Columns& columns, const Row& row) {
+  std::vector<std::string> fields;
+  fields.reserve(columns.size());
+  for (const std::string& column : columns) {
+    const auto found = row.find(column);
+    fields.push_back(found == row.end() ? std::string() : value_text(*found));
+  }
+  return csv_line(fields);
+}
+
+/// Copies the next bytes of an input.
+void copy(InputStream& from, std::uint64_t count, std::ostream& to) {
+  std::array<char, 1U << 16U> block{};
+  while (count > 0) {
+    const auto wanted = static_cast<std::size_t>(std::min<std::uint64_t>(count, block.size()));
+    const std::size_t got = from.read({block.data(), wanted});
+    if (got == 0) return;
+    to.write(block.data(), static_cast<std::streamsize>(got));
+    count -= got;
+  }
 }
 
 }  // namespace
@@ -145,41 +168,71 @@ void RunFolder::write_text(const std::string& name, const std::string& text) con
 }
 
 void RunFolder::add_cell(const Json& cell) {
-  const auto key = cell.at("key").get<std::string>();
-  write_file(path_ / kCells / (key + ".json"), cell.dump(2) + '\n');
-  remember(cell);
-  write_results();
+  const std::string file = cell.at("key").get<std::string>() + ".json";
+  write_file(path_ / kCells / file, cell.dump(2) + '\n');
+  const Row& row = cell.at("row");
+  const std::size_t columns_before = columns_.size();
+  merge_columns(columns_, row);
+  const bool fits = remember(cell, file) && columns_.size() == columns_before &&
+                    insert_row(cell.at("index").get<std::size_t>(), csv_line(columns_, row));
+  if (!fits) write_results();
 }
 
-std::vector<Json> RunFolder::cells() const {
-  std::vector<Json> list;
-  for (const auto& [index, cell] : cells_) list.push_back(cell);
-  return list;
+void RunFolder::for_each_cell(const CellVisitor& visit) const {
+  for (const auto& [index, place] : cells_) {
+    visit(parse_file(path_ / kCells / place.file));
+  }
+}
+
+/// Puts the row of a cell that is in the plan, but not in results.csv yet, behind those before it:
+/// nothing else of the file changes. False where the file is not what was written last.
+bool RunFolder::insert_row(std::size_t index, const std::string& row) {
+  std::uint64_t before = header_bytes_;
+  std::uint64_t after = 0;
+  for (const auto& [place, cell] : cells_) (place < index ? before : after) += cell.row_bytes;
+  std::error_code unknown;
+  if (fs::file_size(results(), unknown) != before + after || unknown) return false;
+  InputStream old(results());
+  write_file(results(), [&](std::ostream& out) {
+    copy(old, before, out);
+    out << row;
+    copy(old, after, out);
+  });
+  cells_.at(index).row_bytes = row.size();
+  return true;
 }
 
 void RunFolder::load_cells() {
   for (const auto& entry : fs::directory_iterator(path_ / kCells)) {
     if (entry.path().extension() != ".json") continue;
-    Json cell = parse_file(entry.path());
+    const Json cell = parse_file(entry.path());
     for (const char* member : {"index", "key", "row", "repetitions", "name", "message"}) {
       if (cell.contains(member)) continue;
       throw InputError(fmt::format("'{}' is not a cell of a run: it has no '{}'; remove it",
                                    entry.path().string(), member));
     }
-    remember(std::move(cell));
+    remember(cell, entry.path().filename().string());
   }
 }
 
-void RunFolder::remember(Json cell) {
+bool RunFolder::remember(const Json& cell, const std::string& file) {
   keys_.insert(cell.at("key").get<std::string>());
-  const auto index = cell.at("index").get<std::size_t>();
-  cells_.insert_or_assign(index, std::move(cell));
+  return cells_.insert_or_assign(cell.at("index").get<std::size_t>(), Place{file, 0}).second;
 }
 
-void RunFolder::write_results() const {
-  std::vector<Row> rows;
-  for (const auto& [index, cell] : cells_) rows.push_back(cell.at("row"));
-  write_text(kResults, csv_table(rows));
+void RunFolder::write_results() {
+  columns_.clear();
+  for_each_cell([&](const Json& cell) { merge_columns(columns_, cell.at("row")); });
+  write_file(results(), [&](std::ostream& out) {
+    const std::string header = csv_line(columns_);
+    header_bytes_ = header.size();
+    out << header;
+    for_each_cell([&](const Json& cell) {
+      const std::string row = csv_line(columns_, cell.at("row"));
+      cells_.at(cell.at("index").get<std::size_t>()).row_bytes = row.size();
+      out << row;
+    });
+  });
 }
 
 void require_same_run(const RunFolder& folder, const nlohmann::json& config, const Json& now) {
@@ -237,17 +290,8 @@ std::string csv_field(std::string_view text) {
 std::string csv_table(std::span<const Row> rows) {
   Columns columns;
   for (const Row& row : rows) merge_columns(columns, row);
-  std::string text;
-  append_line(text, columns);
-  for (const Row& row : rows) {
-    std::vector<std::string> fields;
-    fields.reserve(columns.size());
-    for (const std::string& column : columns) {
-      const auto found = row.find(column);
-      fields.push_back(found == row.end() ? std::string() : value_text(*found));
-    }
-    append_line(text, fields);
-  }
+  std::string text = csv_line(columns);
+  for (const Row& row : rows) text += csv_line(columns, row);
   return text;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The folder of a run: one file for each finished cell, and all that is derived from them.
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -18,8 +19,9 @@ namespace beambench::bench {
 
 /// Keeps what is finished, whatever happens next (Ctrl-C, a kill, a full disk, a power loss):
 /// `cells/<key>.json` is whole or absent, results.csv is written anew from the cells after each,
-/// and a folder with a manifest.json holds a run. One process at a time may have a folder. Methods
-/// throw InputError when the folder cannot be written.
+/// and a folder with a manifest.json holds a run. Memory holds what cells are called, not the
+/// cells: a run may have any number. One process at a time may have a folder. Methods throw
+/// InputError when the folder cannot be written, or a file of it no longer be read.
 class RunFolder {
  public:
   /// Makes a folder for a new run; throws InputError when it already holds one.
@@ -39,19 +41,29 @@ class RunFolder {
   /// Keeps a finished cell and brings results.csv up to date.
   void add_cell(const nlohmann::ordered_json& cell);
   /// Makes results.csv from the cells: a kill may have come between a cell and its row.
-  void write_results() const;
-  /// All finished cells in the order of the plan.
-  std::vector<nlohmann::ordered_json> cells() const;
+  void write_results();
+  /// Reads the finished cells, one by one, in the order of the plan.
+  void for_each_cell(const CellVisitor& visit) const;
 
  private:
   explicit RunFolder(std::filesystem::path path) : path_(std::move(path)), lock_(path_) {}
+  /// Where a finished cell is.
+  struct Place {
+    std::string file;             ///< its name, in the folder of cells
+    std::uint64_t row_bytes = 0;  ///< of its row in results.csv
+  };
+
   void load_cells();
-  void remember(nlohmann::ordered_json cell);
+  /// Returns whether it is a new one.
+  bool remember(const nlohmann::ordered_json& cell, const std::string& file);
+  bool insert_row(std::size_t index, const std::string& row);
 
   std::filesystem::path path_;
   FolderLock lock_;
   std::set<std::string> keys_;
-  std::map<std::size_t, nlohmann::ordered_json> cells_;  ///< by index in the plan
+  std::map<std::size_t, Place> cells_;  ///< by index in the plan
+  std::vector<std::string> columns_;    ///< of results.csv
+  std::uint64_t header_bytes_ = 0;
 };
 
 /// Throws InputError when a folder holds no run that could be resumed.

@@ -144,7 +144,8 @@ std::vector<KitCase> read_kit(const fs::path& folder) {
                                  file.string(), problem));
   };
   if (!fs::exists(file)) fail("there is no such file, so the folder holds no kit");
-  const auto json = nlohmann::ordered_json::parse(read_input(file), nullptr, false);
+  const auto json =
+      nlohmann::ordered_json::parse(read_input(file, kLargestDocument), nullptr, false);
   if (!json.is_object() || !json.contains("cases") || !json["cases"].is_array()) {
     fail("it is no list of cases");
   }

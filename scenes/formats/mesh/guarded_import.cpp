@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <cstring>
@@ -9,12 +11,14 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "scenes/core/error.hpp"
+#include "scenes/core/process_memory.hpp"
 #include "scenes/formats/mesh/mesh.hpp"
 #include "scenes/formats/mesh/mesh_import.hpp"
 
@@ -30,16 +34,17 @@ constexpr char kRefusal = 'r';
                                path.string(), what, std::strerror(errno)));
 }
 
-std::string out_of_memory(const std::filesystem::path& path) {
+constexpr double kGibi = 0x1p30;
+
+std::string out_of_memory(const std::filesystem::path& path, const ImportLimits& limits) {
   return fmt::format(
-      "{}: there is not enough memory to read it; close other programs, or reduce its triangles",
-      path.string());
+      "{}: there is not enough memory to read it ({:.2g} GiB were left to it); close other "
+      "programs, or reduce its triangles",
+      path.string(), static_cast<double>(limits.memory) / kGibi);
 }
 
-rlim_t seconds_allowed(std::string_view bytes, std::string_view ending) {
-  const rlim_t least = ending == "glb" || ending == "gltf" ? 120 : 2;
-  return least + bytes.size() / (1U << 20U);
-}
+/// The mesh did not come in time.
+struct TooLate {};
 
 /// A mesh that claims to be larger than this was sent by a process that had gone wrong.
 constexpr std::uint64_t kLargestReply = std::uint64_t{1} << 37U;
@@ -47,7 +52,10 @@ constexpr std::uint64_t kLargestReply = std::uint64_t{1} << 37U;
 /// The two ends of a pipe, closed at destruction.
 class Pipe {
  public:
-  explicit Pipe(const std::filesystem::path& path) {
+  using Clock = std::chrono::steady_clock;
+
+  /// Reading throws TooLate where nothing comes until the deadline.
+  Pipe(const std::filesystem::path& path, Clock::time_point deadline) : deadline_(deadline) {
     if (::pipe2(ends_.data(), O_CLOEXEC) != 0) refuse_by_errno(path, "making a pipe");
   }
   ~Pipe() {
@@ -71,11 +79,10 @@ class Pipe {
   /// Fills a buffer; throws std::out_of_range when the other side closes its end before.
   void read(char* buffer, std::size_t size) const {
     while (size > 0) {
-      const ssize_t count = ::read(ends_[0], buffer, size);
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) throw std::out_of_range("the reply ends too early");
+      const std::size_t count = read_some(buffer, size);
+      if (count == 0) throw std::out_of_range("the reply ends too early");
       buffer += count;
-      size -= static_cast<std::size_t>(count);
+      size -= count;
     }
   }
 
@@ -83,33 +90,68 @@ class Pipe {
   std::string read_rest() const {
     std::string text;
     std::array<char, 4096> block{};
-    for (;;) {
-      const ssize_t count = ::read(ends_[0], block.data(), block.size());
-      if (count < 0 && errno == EINTR) continue;
-      if (count <= 0) return text;
-      text.append(block.data(), static_cast<std::size_t>(count));
+    while (const std::size_t count = read_some(block.data(), block.size())) {
+      text.append(block.data(), count);
     }
+    return text;
   }
 
  private:
+  /// Waits for some bytes; 0 at their end.
+  std::size_t read_some(char* buffer, std::size_t size) const {
+    for (;;) {
+      wait_for_bytes();
+      const ssize_t count = ::read(ends_[0], buffer, size);
+      if (count >= 0) return static_cast<std::size_t>(count);
+      if (errno != EINTR) return 0;
+    }
+  }
+
+  void wait_for_bytes() const {
+    for (;;) {
+      const auto left =
+          std::chrono::ceil<std::chrono::milliseconds>(deadline_ - Clock::now()).count();
+      if (left <= 0) throw TooLate();
+      constexpr std::int64_t kLongestWait = 1'000'000;  // it is an int
+      pollfd end{ends_[0], POLLIN, 0};
+      const int ready =
+          ::poll(&end, 1, static_cast<int>(std::min<std::int64_t>(left, kLongestWait)));
+      if (ready > 0 || (ready < 0 && errno != EINTR)) return;
+    }
+  }
+
   void close_end(std::size_t end) {
     if (ends_[end] >= 0) ::close(ends_[end]);
     ends_[end] = -1;
   }
 
   std::array<int, 2> ends_{-1, -1};
+  Clock::time_point deadline_;
 };
+
+/// Limits this process. What it has of its parent does not count: of that, as much as both had
+/// mapped by then is known.
+void keep_within(const ImportLimits& limits) {
+  const rlimit no_core{0, 0};
+  ::setrlimit(RLIMIT_CORE, &no_core);
+  const auto seconds = static_cast<rlim_t>(limits.processor.count());
+  const rlimit time{seconds, seconds + 1};
+  ::setrlimit(RLIMIT_CPU, &time);
+  // Not the address space, of which a sanitizer reserves terabytes; those count here, and are there
+  // before the limit is set.
+  if (const auto used = mapped_data_bytes()) {
+    const rlimit memory{*used + limits.memory, RLIM_INFINITY};
+    ::setrlimit(RLIMIT_DATA, &memory);
+  }
+}
 
 /// What the child does: it sends the mesh, or why there is none, and ends.
 [[noreturn]] void import_and_send(const Pipe& pipe, pid_t parent, std::string_view bytes,
-                                  const std::string& ending, const std::filesystem::path& path) {
+                                  const std::string& ending, const std::filesystem::path& path,
+                                  const ImportLimits& limits) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);  // it has gone already
-  const rlimit no_core{0, 0};
-  ::setrlimit(RLIMIT_CORE, &no_core);
-  const rlim_t seconds = seconds_allowed(bytes, ending);
-  const rlimit time{seconds, seconds + 1};
-  ::setrlimit(RLIMIT_CPU, &time);
+  keep_within(limits);
   const int nowhere = ::open("/dev/null", O_WRONLY | O_CLOEXEC);
   // A library's last messages are for its developers, and what is in a buffer of stdout is the
   // parent's to write.
@@ -122,7 +164,7 @@ class Pipe {
   } catch (const InputError& error) {
     pipe.write(kRefusal + std::string(error.what()));
   } catch (const std::bad_alloc&) {
-    pipe.write(kRefusal + out_of_memory(path));
+    pipe.write(kRefusal + out_of_memory(path, limits));
   } catch (const std::exception& error) {
     pipe.write(kRefusal + fmt::format("{}: it cannot be read as a mesh ({}); export it again",
                                       path.string(), error.what()));
@@ -153,17 +195,19 @@ class Child {
   int status_ = 0;
 };
 
-[[noreturn]] void refuse_no_reply(int status, std::string_view bytes, const std::string& ending,
-                                  const std::filesystem::path& path) {
-  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  const std::string end = signal == SIGXCPU || signal == SIGKILL
-                              ? fmt::format("needed more than {} s or all of the memory",
-                                            seconds_allowed(bytes, ending))
-                              : std::string("crashed");
+[[noreturn]] void refuse_no_reply(const std::string& ending, const std::filesystem::path& path,
+                                  std::string_view end) {
   throw InputError(
       fmt::format("{}: it cannot be read as a mesh (its importer, {}, {}): most likely it is "
                   "malformed or cut off; export it again, or convert it to another format",
                   path.string(), importer_of(ending), end));
+}
+
+/// How a child ended that sent no mesh.
+std::string end_of(int status, const ImportLimits& limits) {
+  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+  if (signal != SIGXCPU && signal != SIGKILL) return "crashed";
+  return fmt::format("needed more than {} s or all of the memory", limits.processor.count());
 }
 
 /// What the child sent: a mesh. Throws InputError with the child's reason when that is none, and
@@ -177,23 +221,35 @@ ImportedMesh receive(const Pipe& pipe) {
 
 }  // namespace
 
+ImportLimits import_limits(std::string_view bytes, std::string_view ending) {
+  const bool is_gltf = ending == "glb" || ending == "gltf";
+  const std::chrono::seconds processor((is_gltf ? 120 : 2) + bytes.size() / (1U << 20U));
+  const std::uint64_t memory = (std::uint64_t{is_gltf ? 32U : 4U} << 30U) + 64 * bytes.size();
+  return {processor, 10 * processor + std::chrono::seconds(30),
+          std::min(memory, available_memory().value_or(memory))};
+}
+
 ImportedMesh guarded_import(std::string_view bytes, const std::string& ending,
-                            const std::filesystem::path& path) {
-  Pipe pipe(path);
+                            const std::filesystem::path& path, const ImportLimits& limits) {
+  Pipe pipe(path, Pipe::Clock::now() + limits.elapsed);
   const pid_t parent = ::getpid();
   const pid_t id = ::fork();
   if (id < 0) refuse_by_errno(path, "starting a process");
-  if (id == 0) import_and_send(pipe, parent, bytes, ending, path);
+  if (id == 0) import_and_send(pipe, parent, bytes, ending, path, limits);
 
   Child child(id);
   pipe.close_writing_end();
   try {
     return receive(pipe);
   } catch (const std::bad_alloc&) {
-    throw InputError(out_of_memory(path));
+    throw InputError(out_of_memory(path, limits));
   } catch (const std::out_of_range&) {
     pipe.close_reading_end();  // what more the child might send would keep it waiting
-    refuse_no_reply(child.wait(), bytes, ending, path);
+    refuse_no_reply(ending, path, end_of(child.wait(), limits));
+  } catch (const TooLate&) {  // the child is ended as this is left
+    refuse_no_reply(ending, path,
+                    fmt::format("took more than {} s by the clock",
+                                std::chrono::duration<double>(limits.elapsed).count()));
   }
 }
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <limits>
+#include <new>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -71,6 +72,8 @@ class Inflation {
     while (usable_ && !done_ && stream_.avail_out > 0) step();
     return wanted - stream_.avail_out;
   }
+  /// How many of the packed bytes are left.
+  std::size_t packed_left() const { return packed_.size(); }
   bool done() const { return done_; }
   bool damaged() const { return !usable_; }
 
@@ -103,6 +106,31 @@ class Inflation {
   bool usable_ = false;
   bool done_ = false;
 };
+
+/// Unpacks block by block, so that little more than what is accepted is ever there.
+std::string unpacked(std::string_view packed, const std::filesystem::path& path) {
+  constexpr std::size_t kBlock = std::size_t{4} << 20U;
+  constexpr std::size_t kSmall = std::size_t{64} << 20U;
+  constexpr std::size_t kLargestRatio = 200;  // text repeats itself 10 times, gzip's most is 1032
+  Inflation inflation(packed);
+  std::string bytes;
+  while (!inflation.done()) {
+    const std::size_t used = bytes.size();
+    bytes.resize(used + kBlock);
+    bytes.resize(used + inflation.fill(bytes.data() + used, kBlock));
+    if (inflation.damaged()) {
+      refuse(path, "its gzip data is damaged or cut off; get the file again");
+    }
+    if (bytes.size() > kLargestMeshFile) refuse_size(path);
+    const std::size_t taken = packed.size() - inflation.packed_left();
+    if (bytes.size() > kSmall && bytes.size() / kLargestRatio > taken) {
+      refuse(path, fmt::format("its first {} bytes unpack to {}, more than {} times as many, which "
+                               "no mesh does; unpack it yourself if it is one",
+                               taken, bytes.size(), kLargestRatio));
+    }
+  }
+  return bytes;
+}
 
 }  // namespace
 
@@ -145,20 +173,13 @@ std::string read_bytes(const std::filesystem::path& path) {
 }
 
 std::string gunzip(std::string_view packed, const std::filesystem::path& path) {
-  Inflation inflation(packed);
-  std::string bytes;
-  std::size_t used = 0;
-  while (!inflation.done()) {
-    if (bytes.size() - used < packed.size()) bytes.resize(bytes.size() + 4 * packed.size() + 4096);
-    used += inflation.fill(bytes.data() + used, bytes.size() - used);
-    if (inflation.damaged()) {
-      refuse(path, "its gzip data is damaged or cut off; get the file again");
-    }
-    if (used > kLargestMeshFile) refuse_size(path);
+  try {
+    std::string bytes = unpacked(packed, path);
+    if (!bytes.empty()) return bytes;
+  } catch (const std::bad_alloc&) {
+    refuse(path, "there is not enough memory to unpack it; close other programs");
   }
-  bytes.resize(used);
-  if (bytes.empty()) refuse(path, "it unpacks to an empty file; export the mesh again");
-  return bytes;
+  refuse(path, "it unpacks to an empty file; export the mesh again");
 }
 
 Orientation usual_orientation(std::string_view ending) {

@@ -9,6 +9,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "scenes/core/files.hpp"
+
 namespace beambench::scenes::mesh {
 
 /// The ending of a mesh file's name in lower case, without dot and `.gz`; empty for other files.
@@ -24,7 +26,7 @@ bool is_foreign_model(std::string_view path);
 [[noreturn]] void refuse_foreign_model(std::string_view path);
 
 /// No mesh file, unpacked, may be larger: 4 GiB.
-inline constexpr std::uint64_t kLargestMeshFile = std::uint64_t{4} << 30U;
+inline constexpr std::uint64_t kLargestMeshFile = kLargestFile;
 
 /// Where the companions (material libraries, glTF buffers) of a mesh file lie: beside the file
 /// itself, not beside a link to it.
@@ -33,8 +35,9 @@ std::filesystem::path companion_folder(const std::filesystem::path& path);
 /// Reads a file whole. Throws InputError when it cannot be read, is empty or too large.
 std::string read_bytes(const std::filesystem::path& path);
 
-/// What a gzip file's bytes stand for. Throws InputError naming the file when they are damaged, cut
-/// off, or stand for too much.
+/// What a gzip file's bytes stand for. Throws InputError naming the file when they are damaged or
+/// cut off, and as soon as they turn out to stand for more than `kLargestMeshFile`, or for more
+/// than 64 MiB that are 200 times as long as what was unpacked, as no mesh is.
 std::string gunzip(std::string_view packed, const std::filesystem::path& path);
 
 /// Two axes at right angles: where its top is, and where it faces.

@@ -1,6 +1,8 @@
 #pragma once
 // Reads the triangles of mesh files.
 
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -22,15 +24,29 @@ std::string importer_of(std::string_view ending);
 ImportedMesh import_mesh(std::string_view bytes, const std::string& ending,
                          const std::filesystem::path& path);
 
+/// What the import of one file may take.
+struct ImportLimits {
+  std::chrono::seconds processor;     ///< time of the processor
+  std::chrono::milliseconds elapsed;  ///< until the whole mesh is here
+  std::uint64_t memory;               ///< bytes, beyond what this process has
+};
+
+/// What is enough for any valid file of that size: 2 s of processor time and another for each MiB
+/// (for glTF, of which a short file may place a mesh many times, 2 minutes); ten times as long, and
+/// half a minute, by the clock; and 4 GiB of memory and 64 bytes for each byte (glTF: 32 GiB), but
+/// no more than is available (`available_memory`).
+ImportLimits import_limits(std::string_view bytes, std::string_view ending);
+
 /// As import_mesh, in a process of its own: for some malformed or truncated files a library ends
-/// the process, or never returns. Throws InputError then, too: the file may need 2 s of processor
-/// time (glTF, of which a short one may place a mesh many times, 2 minutes), and another second for
-/// each MiB.
+/// the process, never returns, or takes all memory. Throws InputError then, too, and when a limit
+/// is exceeded.
 ImportedMesh guarded_import(std::string_view bytes, const std::string& ending,
-                            const std::filesystem::path& path);
+                            const std::filesystem::path& path, const ImportLimits& limits);
 
 /// Throws InputError naming the file when its header declares more than follows: Assimp fills up
-/// what is missing with what it read last. A header that is no PLY header is left to Assimp.
+/// what is missing with what it read last. So it does when a binary file has elements without
+/// properties, of which there could be any number. A header that is no PLY header is left to
+/// Assimp.
 void require_complete_ply(std::string_view bytes, const std::filesystem::path& path);
 
 }  // namespace beambench::scenes::mesh

@@ -134,7 +134,7 @@ GivenView read_view(const Json& json, const Orientation& orientation, const fs::
 }
 
 RegisteredMesh read_entry(const std::string& name, const fs::path& entry) {
-  const Json json = Json::parse(read_input(entry), nullptr, false);
+  const Json json = Json::parse(read_input(entry, kLargestDocument), nullptr, false);
   if (!json.is_object()) refuse_entry(entry, "it is not a JSON object");
   RegisteredMesh mesh;
   mesh.name = name;

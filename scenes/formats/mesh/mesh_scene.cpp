@@ -55,9 +55,9 @@ ImportedMesh cached_import(const fs::path& path, const std::string& ending,
                            std::vector<std::string>& notes) {
   const std::string bytes = read_bytes(path);
   const auto import = [&] {
-    const std::string name = path.string();
-    return is_gzipped(name) ? guarded_import(gunzip(bytes, path), ending, path)
-                            : guarded_import(bytes, ending, path);
+    const std::string unpacked = is_gzipped(path.string()) ? gunzip(bytes, path) : std::string();
+    const std::string& whole = unpacked.empty() ? bytes : unpacked;
+    return guarded_import(whole, ending, path, import_limits(whole, ending));
   };
   const auto cache = cache_folder();
   if (!cache) return import();

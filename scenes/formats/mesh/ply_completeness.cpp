@@ -169,6 +169,13 @@ void require_complete_ply(std::string_view bytes, const std::filesystem::path& p
   const auto header = take_header(bytes);
   if (!header) return;
   for (const Element& element : header->elements) {
+    if (element.properties.empty() && element.count > 0 &&
+        header->format != Header::Format::kText) {  // it has no bytes, however many there are
+      throw InputError(
+          fmt::format("{}: its header declares {} of the element '{}', but no property of it; "
+                      "export it again",
+                      path.string(), element.count, element.name));
+    }
     for (std::uint64_t i = 0; i < element.count; ++i) {
       const bool there = header->format == Header::Format::kText
                              ? take_text_row(bytes)
@@ -179,7 +186,6 @@ void require_complete_ply(std::string_view bytes, const std::filesystem::path& p
           "off, or its header is invalid; get it again",
           path.string(), element.count, element.name, i));
     }
-    if (element.properties.empty() && header->format != Header::Format::kText) return;
   }
 }
 

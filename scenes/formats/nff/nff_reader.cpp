@@ -407,7 +407,7 @@ NffResult parse_nff(std::string_view text, const std::string& file, ReadOptions 
 }
 
 NffResult read_nff(const std::filesystem::path& path, ReadOptions options) {
-  const std::string text = read_input(path);
+  const std::string text = read_input(path, kLargestFile);
   try {
     return parse_nff(text, path.string(), options);
   } catch (const std::bad_alloc&) {

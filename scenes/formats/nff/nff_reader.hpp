@@ -26,7 +26,8 @@ struct NffResult {
 /// allow.
 NffResult parse_nff(std::string_view text, const std::string& file, ReadOptions options = {});
 
-/// Reads and parses a file; throws InputError also when it cannot be read whole (`read_input`).
+/// Reads and parses a file; throws InputError also when it cannot be read whole (`read_input`),
+/// as one of more than 4 GiB.
 NffResult read_nff(const std::filesystem::path& path, ReadOptions options = {});
 
 }  // namespace beambench::scenes::nff

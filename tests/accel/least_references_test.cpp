@@ -1,0 +1,128 @@
+// References predicted while they are made: never more than there are, and in time.
+
+#include "accel/core/least_references.hpp"
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/vec3.hpp>
+#include <gtest/gtest.h>
+
+#include "accel/core/registry.hpp"
+#include "accel/grid/eager_voxels.hpp"
+#include "accel/grid/grid_layout.hpp"
+#include "accel/octree/octree.hpp"
+#include "scenes/catalogue.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/scene_builder.hpp"
+#include "tests/random_scene.hpp"
+
+namespace beambench::accel {
+namespace {
+
+scenes::Scene one_sphere() {
+  scenes::SceneBuilder builder("one sphere");
+  builder.add_sphere({1.0, 2.0, 3.0}, 2.0);
+  return std::move(builder).build();
+}
+
+std::uint64_t references_in(const scenes::Scene& scene, const CellGrid& grid) {
+  Statistics statistics;
+  grid::EagerVoxels(scene, grid, 1'000'000'000).describe(statistics);
+  return statistics.references;
+}
+
+/// Cells that are long along each axis in turn, so that every projection counts once.
+void expect_no_more_than_there_are(const scenes::Scene& scene) {
+  for (const auto& cells : std::vector<std::array<int, 3>>{
+           {9, 9, 9}, {40, 7, 3}, {3, 40, 7}, {7, 3, 40}, {64, 64, 64}}) {
+    grid::GridLayout layout;
+    layout.resolution = cells;
+    const CellGrid grid = grid::make_voxel_grid(scene, layout);
+    EXPECT_LE(least_references(scene, grid), static_cast<double>(references_in(scene, grid)))
+        << scene.name << " " << cells[0] << "x" << cells[1] << "x" << cells[2];
+  }
+}
+
+TEST(LeastReferences, AreNoMoreThanThereAre) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    expect_no_more_than_there_are(testing::random_scene(seed, 1));
+    expect_no_more_than_there_are(testing::random_scene(seed, 20));
+  }
+  expect_no_more_than_there_are(one_sphere());
+  for (const char* name : {"escena1", "tetra:n=3", "teapot:n=2", "jacks:n=2", "gears:n=1"}) {
+    expect_no_more_than_there_are(scenes::load_scene(name));
+  }
+}
+
+TEST(LeastReferences, OfOneConeAreNoMoreThanThereAre) {
+  for (const double radius : {0.0, 0.3, 1.0, 1.9}) {
+    for (const glm::dvec3& apex : std::vector<glm::dvec3>{
+             {0.0, 0.0, 3.0}, {1e-6, 0.0, 0.0}, {0.1, 0.0, 0.0}, {1.0, 2.0, 3.0}}) {
+      scenes::SceneBuilder builder("cone");
+      builder.add_cone({0.0, 0.0, 0.0}, 2.0, apex, radius);
+      expect_no_more_than_there_are(std::move(builder).build());
+    }
+  }
+}
+
+TEST(LeastReferences, AreOfTheRightSize) {
+  const scenes::Scene sphere = one_sphere();
+  grid::GridLayout layout;
+  layout.resolution = {100, 100, 100};
+  const CellGrid grid = grid::make_voxel_grid(sphere, layout);
+  EXPECT_GT(1.6 * least_references(sphere, grid), static_cast<double>(references_in(sphere, grid)));
+  scenes::SceneBuilder builder("quad");
+  const glm::dvec3 corners[] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 1}, {0, 1, 1}};
+  builder.add_polygon(corners);
+  const scenes::Scene quad = std::move(builder).build();
+  const CellGrid over_quad = grid::make_voxel_grid(quad, layout);
+  EXPECT_GT(8.0 * least_references(quad, over_quad),
+            static_cast<double>(references_in(quad, over_quad)));
+}
+
+/// The octree's own count, of which nothing more than the limit is refused.
+TEST(ReferenceLimit, RefusesNothingThatFits) {
+  for (const char* name : {"escena1", "tetra:n=2", "jacks:n=1"}) {
+    const scenes::Scene scene = scenes::load_scene(name);
+    octree::OctreeOptions options;
+    options.max_level = 8;
+    const std::uint64_t references = octree::Octree(scene, options).reference_count();
+    options.max_references = references;
+    EXPECT_EQ(octree::Octree(scene, options).reference_count(), references) << name;
+    options.max_references = references - 1;
+    EXPECT_THROW(octree::Octree(scene, options), InputError) << name;
+  }
+}
+
+/// One sphere has hundreds of millions of references in the finest cells. The time is that of a
+/// debug build under a sanitizer; without the prediction it would be minutes there.
+TEST(ReferenceLimit, IsKnownToBeExceededEarly) {
+  const scenes::Scene scene = one_sphere();
+  for (const char* spec :
+       {"samet:max_level=13", "samet:max_level=16", "samet-net:max_level=16",
+        "glassner:max_level=15", "gargantini:max_level=16", "beam:max_level=16",
+        "samet:max_level=16,assign=bbox",
+        "voxel-grid:resolution=1200,max_voxels=2000000000,max_references=1000000",
+        "hierarchical-grid:resolution=1200,max_voxels=2000000000,max_references=1000000"}) {
+    SCOPED_TRACE(spec);
+    const auto begin = std::chrono::steady_clock::now();
+    std::string message;
+    try {
+      registry().choose(parse_spec(spec)).build(scene);
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    EXPECT_NE(message.find("000000 references"), std::string::npos) << message;
+    EXPECT_LT(seconds.count(), 5.0);
+  }
+}
+
+}  // namespace
+}  // namespace beambench::accel
