@@ -23,14 +23,16 @@ from beambench_campaign.programs import Programs
 from beambench_campaign.rows import Rows, cells_of, difference
 from beambench_report.base.files import ROOT
 
-_MOST_KILLS = 6
+_KILLS = 4
 _REGRESSED = 1  # tiny nights are noisy
 _WAIT = 0.5  # seconds, for a run whose parent was killed
 _IN_PROGRESS = ("a nightly run is in progress", "no run was cut off")
 
 
 def kill_nights(beambench: Path, folder: Path, random: Random, programs: Programs) -> Tally:
-    """Two nights: one that nothing disturbs, and one that is killed until it is complete."""
+    """A night that nothing disturbs, then others, until so many kills were made and the last one is
+    complete.
+    """
     tally = Tally()
     home = folder / "nightly"
     command = [
@@ -44,7 +46,7 @@ def kill_nights(beambench: Path, folder: Path, random: Random, programs: Program
     while not complete and not tally.faults:
         resume = ["--resume"] if _unfinished(home) else []
         program = programs.start([*command, *resume], folder, environment)
-        if tally.kills < _MOST_KILLS:
+        if tally.kills < _KILLS:
             ended = killed(program, random, whole, tally, to_all=random.random() < 0.5)
         else:
             ended = finished(program, tally)
@@ -53,7 +55,7 @@ def kill_nights(beambench: Path, folder: Path, random: Random, programs: Program
         if lost:
             tally.faults.append(f"the finished night {min(lost)} is gone")
         if ended.code in (0, _REGRESSED):
-            complete = True
+            complete = tally.kills >= _KILLS
         elif any(words in ended.errors for words in _IN_PROGRESS):
             time.sleep(_WAIT)
         elif not ended_as_killed(ended):

@@ -45,11 +45,11 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::size_t line = text.find('\n');
   if (line == std::string_view::npos) return 0;
   const std::string name = "input." + std::string(text.substr(0, line));
-  if (name != "input." + scenes::mesh::mesh_ending(name)) return 0;
+  const std::string ending = scenes::mesh::mesh_ending(name);
+  if (ending.empty() || name != "input." + ending) return 0;
   const auto file = folder.write(name, text.substr(line + 1));
   fuzz::accepted([&] {
-    return scenes::mesh::load_mesh(
-        {file, name, scenes::mesh::usual_orientation(scenes::mesh::mesh_ending(name))});
+    return scenes::mesh::load_mesh({file, name, scenes::mesh::usual_orientation(ending)});
   });
   return 0;
 }

@@ -7,7 +7,6 @@ import os
 import shutil
 import signal
 import subprocess
-import sys
 import threading
 import time
 from collections.abc import Callable
@@ -253,21 +252,19 @@ def test_kills_lose_nothing(record: Record, kind: str) -> None:
     arguments = ["--only", kind, "--minutes", "0", "--seed", "5", "--beambench", BINARY]
     assert campaign(record, "kills", *arguments) == 0, record.pieces()
     (done,) = record.pieces()
-    assert done["counts"]["runs"] >= done["counts"]["kills"] > 0
+    assert done["counts"]["runs"] >= max(2, done["counts"]["kills"])
 
 
 def faulty_program(folder: Path) -> Path:
     """Its runs end at once, and hold the same cell twice unless nothing disturbed them."""
     path = folder / "beambench"
     path.write_text(
-        f"#!{sys.executable}\n"
-        "import sys, pathlib\n"
-        "folder = pathlib.Path(sys.argv[-1])\n"
-        "folder.mkdir(exist_ok=True)\n"
-        "cell = 'a,b,c,d,8,8,1,primary,ok\\n'\n"
-        "header = 'scene,camera,structure,parameters,width,height,samples,ray_kind,verdict\\n'\n"
-        "times = 1 if folder.name == 'undisturbed' else 2\n"
-        "(folder / 'results.csv').write_text(header + cell * times)\n"
+        "#!/bin/sh\n"
+        "trap '' INT TERM\n"
+        'for folder; do :; done; mkdir -p "$folder"; exec >"$folder/results.csv"\n'
+        "echo scene,camera,structure,parameters,width,height,samples,ray_kind,verdict\n"
+        "echo a,b,c,d,8,8,1,primary,ok\n"
+        '[ "${folder##*/}" = undisturbed ] || echo a,b,c,d,8,8,1,primary,ok\n'
     )
     path.chmod(0o755)
     return path

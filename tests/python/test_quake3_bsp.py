@@ -148,7 +148,7 @@ def wrong(change: Callable[[Bsp], None]) -> bytes:
             wrong(
                 lambda b: setattr(b, "entities", f'{{"model" "*{"9" * 5000}" "origin" "1 2 3"}}')
             ),
-            "model *99999999, but there are 2",
+            "model *999999999, but there are 2",
         ),
         (
             wrong(lambda b: b.face(0, POLYGON, [(float("nan"), 0.0, 0.0)] * 3, (0, 1, 2))),
