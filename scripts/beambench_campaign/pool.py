@@ -11,6 +11,8 @@ from beambench_campaign.programs import Programs
 from beambench_campaign.record import Record
 from beambench_report.base.files import say
 
+_SILENCE = 30.0  # seconds without a word, at most
+
 Choose = Callable[[Collection[str]], Task]
 """The next task, given the subjects that are under way."""
 
@@ -24,6 +26,7 @@ def do_pieces(
     a keyboard's interrupt, the pieces under way are ended, and not counted.
     """
     end = time.monotonic() + seconds
+    said = time.monotonic()
     pieces: list[Piece] = []
     running: dict[Future[Piece], str] = {}
     with ThreadPoolExecutor(jobs) as pool:
@@ -41,6 +44,10 @@ def do_pieces(
                     record.add(piece)
                     pieces.append(piece)
                     _report(piece, end - time.monotonic())
+                if done or time.monotonic() > said + _SILENCE:
+                    said = time.monotonic()
+                    if running:
+                        say(f"   under way: {', '.join(running.values())}")
         finally:
             programs.stop()
 
