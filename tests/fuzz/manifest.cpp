@@ -27,13 +27,12 @@ std::string changed(const nlohmann::ordered_json& manifest, std::string_view inp
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fuzz::ScratchFolder folder;
-  bench::Manifest now{};
-  folder.write("manifest.json", changed(to_json(now), fuzz::text_of(data, size)));
+  static const nlohmann::ordered_json now = to_json(bench::Manifest{});
+  folder.write("manifest.json", changed(now, fuzz::text_of(data, size)));
   folder.write("config.json", "{}");
-  fuzz::accepted([&] {
+  fuzz::accepted([] {
     const bench::RunFolder run = bench::RunFolder::open(folder.path());
-    bench::require_same_run(run, nlohmann::json::object(), to_json(now));
-    bench::continue_with(now, run.read_json("manifest.json"));
+    bench::require_same_run(run, nlohmann::json::object(), now);
     return true;
   });
   return 0;
