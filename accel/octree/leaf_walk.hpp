@@ -71,6 +71,11 @@ struct LeafWalk {
   }
 };
 
+// Clang before version 17 does not deduce the arguments of aggregates.
+template <class Neighbors>
+LeafWalk(const typename Neighbors::Cursor::Tree&, const Neighbors&, const Ray&, const CellRay&)
+    -> LeafWalk<Neighbors>;
+
 /// Calls `visit(leaf, exit_t)` for the leaves that the ray passes through, from t_min on, until it
 /// returns true or the ray leaves the root.
 template <class Neighbors, class Counting, class Visit>

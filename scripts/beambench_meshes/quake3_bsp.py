@@ -134,8 +134,8 @@ class _Reader:
             name = entity.get("model", "")
             if not re.fullmatch(r"\*\d+", name) or "origin" not in entity:
                 continue
-            if int(name[1:]) >= len(self._models):
-                raise Problem(f"an entity has model {name}, but there are {len(self._models)}")
+            if len(name) > 10 or int(name[1:]) >= len(self._models):
+                raise Problem(f"an entity has model {name:.10}, but there are {len(self._models)}")
             first, count = self._models[int(name[1:])][6:8]
             if first < 0 or count < 0 or first + count > len(self._faces):
                 raise Problem(
@@ -259,7 +259,7 @@ def _entities(text: str) -> list[dict[str, str]]:
 
 def _origin(entity: dict[str, str]) -> Point:
     try:
-        x, y, z = (float(part) for part in entity["origin"].split())
+        x, y, z = (_finite(part) for part in entity["origin"].split())
     except ValueError:
         raise Problem(
             f"an entity has the origin '{entity['origin']}', but must have three numbers"
@@ -270,9 +270,17 @@ def _origin(entity: dict[str, str]) -> Point:
 def _number(entity: dict[str, str], key: str) -> float:
     """0 where it is not given, or is none."""
     try:
-        return float(entity.get(key, "0"))
+        return _finite(entity.get(key, "0"))
     except ValueError:
         return 0.0
+
+
+def _finite(text: str) -> float:
+    """A number that a scene can have. Raises ValueError for another text."""
+    number = float(text)
+    if not math.isfinite(number):
+        raise ValueError(text)
+    return number
 
 
 def read_map(archive: Path, member: str) -> bytes:

@@ -85,6 +85,14 @@ def test_players_starts_are_cameras_at_the_height_of_their_eyes() -> None:
     assert camera["at"] == (10, 120, 56)
 
 
+@pytest.mark.parametrize("angle", ["inf", "nan", "1e999", "north"])
+def test_an_angle_that_is_no_number_counts_as_zero(angle: str) -> None:
+    bsp = small_map()
+    bsp.entities = bsp.entities.replace('"angle" "90"', f'"angle" "{angle}"')
+    (start,) = convert(bsp.bytes()).starts()
+    assert start["at"] == (110.0, 20.0, 56.0)
+
+
 def test_a_map_that_is_cut_off_anywhere_is_refused_in_the_converters_words() -> None:
     whole = small_map().bytes()
     for size in range(len(whole) - 4):
@@ -131,6 +139,16 @@ def wrong(change: Callable[[Bsp], None]) -> bytes:
         (
             wrong(lambda b: setattr(b, "entities", '{"model" "*1" "origin" "1 2"}')),
             "the origin '1 2'",
+        ),
+        (
+            wrong(lambda b: setattr(b, "entities", '{"model" "*1" "origin" "1 2 inf"}')),
+            "the origin '1 2 inf'",
+        ),
+        (
+            wrong(
+                lambda b: setattr(b, "entities", f'{{"model" "*{"9" * 5000}" "origin" "1 2 3"}}')
+            ),
+            "model *999999999, but there are 2",
         ),
         (
             wrong(lambda b: b.face(0, POLYGON, [(float("nan"), 0.0, 0.0)] * 3, (0, 1, 2))),

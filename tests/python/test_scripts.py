@@ -47,7 +47,7 @@ def test_help_is_given(script: str, repository: Path) -> None:
         ("run", ["--resume"], "--resume needs the folder of a run"),
         ("run", ["--resume", "no/such"], "no/such is not the folder of a run"),
         ("run", ["--resume=a", "--output=b"], "--resume excludes --sweep and --output"),
-        ("setup", ["--jobs"], "knows no job '--jobs', only beambench, cluster and all"),
+        ("setup", ["--jobs"], "knows no job '--jobs', only beambench, cluster, fuzz and all"),
         ("setup", ["all", "cluster"], "takes one job, not 2"),
         ("test", ["--quick"], "unknown arguments: --quick"),
         ("meshes", ["--all"], "unknown argument '--all'"),

@@ -191,6 +191,19 @@ TEST_F(Obj, MaterialsAreThoseOfItsLibraries) {
   EXPECT_TRUE(mesh.warnings.empty());
 }
 
+TEST_F(Obj, ExponentsThatOverflowAreRefused) {
+  for (const std::string line :
+       {"v 1e-2147483648 0 0", "vn 0 0 .5E+2147483649", "vt 1.e9999999999"}) {
+    EXPECT_TRUE(says(message(kCorners + line + "\nf 1 2 3\n"), {"line 4", "exponent"})) << line;
+  }
+  EXPECT_EQ(read("o a1e2147483649\n" + std::string(kCorners) + "f 1 2 3\n").mesh.triangles.size(),
+            1U);
+  folder_.write("a.mtl", "newmtl 1e2147483649\nKs .5e-2147483648 0 0\nKd 1 0 0\n");
+  const ImportedMesh mesh =
+      read("mtllib a.mtl\n" + std::string(kCorners) + "usemtl 1e2147483649\nf 1 2 3\n");
+  EXPECT_EQ(mesh.mesh.parts.at(0).surface.color, glm::vec3(1.0F, 0.0F, 0.0F));
+}
+
 TEST_F(Obj, LibrariesOutsideOfItsFolderAreNotRead) {
   fs::create_directory(folder_.path() / "in");
   const fs::path secret = folder_.write("out.mtl", "newmtl m\nKd 1 0 0\n");

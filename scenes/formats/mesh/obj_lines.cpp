@@ -69,6 +69,11 @@ void require_corner(std::string_view word, std::size_t line) {
                                 word.substr(0, 40)));
 }
 
+bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }
+
+/// Whether numbers follow the word, rather than names.
+bool takes_numbers(std::string_view word) { return word.starts_with('v') || word == "t"; }
+
 bool is_free_form(std::string_view word) {
   return word == "curv" || word == "curv2" || word == "surf";
 }
@@ -80,6 +85,9 @@ ObjLines obj_lines(std::string_view text) {
   for (std::size_t number = 1; !text.empty(); ++number) {
     std::string_view line = take_line(text);
     const std::string_view word = take_word(line);
+    if (takes_numbers(word) && has_long_exponent(line)) {
+      refuse_line(number, "a number has an exponent of ten digits or more");
+    }
     if (word == "v") {
       ++found.vertices;
       for (int axis = 0; axis < 3; ++axis) require_coordinate(take_word(line), number);
@@ -97,6 +105,19 @@ ObjLines obj_lines(std::string_view text) {
     }
   }
   return found;
+}
+
+bool has_long_exponent(std::string_view line) {
+  constexpr std::size_t kLong = 10;
+  for (std::size_t e = line.find_first_of("eE"); e != std::string_view::npos;
+       e = line.find_first_of("eE", e + 1)) {
+    if (e == 0 || !(is_digit(line[e - 1]) || line[e - 1] == '.')) continue;
+    std::string_view exponent = line.substr(e + 1);
+    if (exponent.starts_with('+') || exponent.starts_with('-')) exponent.remove_prefix(1);
+    const auto end = std::find_if_not(exponent.begin(), exponent.end(), is_digit);
+    if (static_cast<std::size_t>(end - exponent.begin()) >= kLong) return true;
+  }
+  return false;
 }
 
 std::string joined_lines(std::string_view text) {

@@ -19,8 +19,12 @@ struct ObjLines {
 
 /// Looks at the lines of a file. Throws InputError naming the line when a vertex has fewer than
 /// three coordinates or one that is no number, or a face has a corner that is no index: such a word
-/// would be read as 0.
+/// would be read as 0. So it does for a line of numbers that `has_long_exponent`.
 ObjLines obj_lines(std::string_view text);
+
+/// Whether a number of the line has an exponent of ten digits or more, for which tinyobjloader's
+/// integers are too small.
+bool has_long_exponent(std::string_view line);
 
 /// The text with lines that continue (after a backslash at their end) joined, and empty lines after
 /// them, so that all others keep their numbers. Empty when no line continues.

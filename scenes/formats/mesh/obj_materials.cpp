@@ -9,24 +9,28 @@
 
 #include "scenes/core/error.hpp"
 #include "scenes/formats/mesh/importers.hpp"
+#include "scenes/formats/mesh/obj_lines.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
 
-/// A material without a color of its own is as gray as Assimp and tinyobjloader make it; the latter
-/// only where it has a texture.
+/// What tinyobjloader can read, without lines whose numbers overflow in it. A material without a
+/// color of its own is as gray as Assimp and tinyobjloader make it; the latter only where it has a
+/// texture.
 std::string with_default_colors(std::string_view text) {
   std::string result;
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
-    result += line;
-    result += '\n';
     const std::string_view words =
         line.substr(std::min(line.find_first_not_of(kBlanks), line.size()));
-    if (words.starts_with("newmtl")) result += "Kd 0.6 0.6 0.6\n";
+    const bool is_name = words.starts_with("newmtl");
+    if (!is_name && has_long_exponent(line)) continue;
+    result += line;
+    result += '\n';
+    if (is_name) result += "Kd 0.6 0.6 0.6\n";
   }
   return result;
 }

@@ -1,0 +1,48 @@
+"""What a campaign consists of: pieces, each of which counts as a whole or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Finding:
+    """Something that went wrong."""
+
+    file: str
+    """What repeats it, or was left by it, in the folder of findings."""
+    message: str
+    command: str
+    """To be run at the top of the repository."""
+
+
+@dataclass(frozen=True)
+class Piece:
+    """What was done, and what came of it."""
+
+    command: str
+    """`fuzz`, `rays` or `kills`."""
+    subject: str
+    """The target, the structure, or what was killed."""
+    seed: int
+    counts: dict[str, int]
+    """Executions, or scenes and rays, or kills and runs."""
+    cpu_seconds: float
+    coverage: dict[str, int] = field(default_factory=dict)
+    """libFuzzer's figures: edges (`cov`), features (`ft`), inputs of the corpus (`corpus`)."""
+    findings: list[Finding] = field(default_factory=list)
+
+    def __str__(self) -> str:
+        """One line, for the progress."""
+        counts = ", ".join(f"{count:,} {what}" for what, count in self.counts.items())
+        findings = f", {len(self.findings)} FINDINGS" if self.findings else ""
+        return f"{self.command} {self.subject}, seed {self.seed}: {counts}{findings}"
+
+
+@dataclass(frozen=True)
+class Task:
+    """A piece that is to be done."""
+
+    subject: str
+    run: Callable[[], Piece]

@@ -1,0 +1,104 @@
+"""The record as a table: Markdown for people, CSV for programs."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections import defaultdict
+from pathlib import Path
+
+from beambench_report.base.files import Problem, write_text
+
+_COUNTS = ("executions", "scenes", "rays", "kills", "runs")
+_COVERAGE = ("cov", "ft", "corpus")
+_COLUMNS = (
+    *("command", "subject", "pieces", *_COUNTS, "cpu_seconds", *_COVERAGE),
+    *("findings", "first_utc", "last_utc", "commits"),
+)
+_INTRODUCTION = """\
+# Robustness campaigns
+
+<!-- Written by `scripts/campaign --report`. -->
+
+Inputs, rays and kills at random, as `scripts/campaign` makes them; each row is the sum of the
+pieces of one subject. `fuzz`: readers, by mutated inputs under the address and undefined-behavior
+sanitizers (`bsp`: by a loop in Python); edges and features are libFuzzer's of the last piece.
+`rays`: the self-test of a structure over random scenes and the scenes that are made to be hard.
+`kills`: a sweep, nightly runs and the cluster program, by signals at random moments.
+
+"""
+
+
+def write_report(pieces: list[dict], folder: Path) -> list[Path]:
+    """Writes campaigns.md and campaigns.csv. Raises Problem where no piece was recorded."""
+    if not pieces:
+        raise Problem("there is no record yet; scripts/campaign fuzz, rays or kills makes one")
+    folder.mkdir(parents=True, exist_ok=True)
+    rows = summed(pieces)
+    return [
+        write_text(folder / "campaigns.md", _markdown(rows, pieces)),
+        write_text(folder / "campaigns.csv", _csv(rows)),
+    ]
+
+
+def summed(pieces: list[dict]) -> list[dict[str, object]]:
+    """A row for each command and subject."""
+    groups: dict[tuple[str, str], list[dict]] = defaultdict(list)
+    for piece in pieces:
+        groups[piece["command"], piece["subject"]].append(piece)
+    return [
+        {
+            "command": command,
+            "subject": subject,
+            "pieces": len(ours),
+            **{what: sum(piece["counts"].get(what, 0) for piece in ours) for what in _COUNTS},
+            "cpu_seconds": round(sum(piece["cpu_seconds"] for piece in ours), 1),
+            **{what: ours[-1]["coverage"].get(what, "") for what in _COVERAGE},
+            "findings": sum(len(piece["findings"]) for piece in ours),
+            "first_utc": ours[0]["time_utc"],
+            "last_utc": ours[-1]["time_utc"],
+            "commits": " ".join(dict.fromkeys(piece["commit"][:7] for piece in ours)),
+        }
+        for (command, subject), ours in sorted(groups.items())
+    ]
+
+
+def _csv(rows: list[dict[str, object]]) -> str:
+    text = io.StringIO()
+    writer = csv.DictWriter(text, _COLUMNS, lineterminator="\n")
+    writer.writeheader()
+    writer.writerows(rows)
+    return text.getvalue()
+
+
+def _markdown(rows: list[dict[str, object]], pieces: list[dict]) -> str:
+    lines = [
+        "| campaign | subject | pieces | amount | hours of processor time | edges | features "
+        "| corpus | findings |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
+    for row in rows:
+        amount = ", ".join(f"{row[what]:,} {what}" for what in _COUNTS if row[what])
+        numbers = (*(row[what] for what in _COVERAGE), row["findings"])
+        cells = (
+            *(row["command"], f"`{row['subject']}`", row["pieces"], amount),
+            *(f"{float(str(row['cpu_seconds'])) / 3600:.2f}", *numbers),
+        )
+        lines.append("| " + " | ".join(str(cell) for cell in cells) + " |")
+    machines = "; ".join(dict.fromkeys(piece["machine"] for piece in pieces))
+    commits = ", ".join(dict.fromkeys(piece["commit"][:7] for piece in pieces))
+    lines += ["", f"Machines: {machines}. Commits: {commits}.", "", "## Findings", ""]
+    findings = [
+        f"- `{piece['subject']}` at {piece['commit'][:7]}: {_plain(finding['message'])}  \n"
+        f"  `{finding['command']}`"
+        for piece in pieces
+        for finding in piece["findings"]
+    ]
+    lines += findings or ["None."]
+    return _INTRODUCTION + "\n".join(lines) + "\n"
+
+
+def _plain(text: str) -> str:
+    """What a program said of an input of anyone's, as text in Markdown."""
+    printable = "".join(letter if letter.isprintable() else " " for letter in text)
+    return "`" + printable.replace("`", "'") + "`"

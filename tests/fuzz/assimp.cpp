@@ -1,0 +1,55 @@
+// The formats that Assimp reads, in a process of its own each, as the program does it: slow, and
+// what the importer did is not seen, so that inputs are mutated blindly. The first line of an input
+// is the ending, the rest the file.
+
+#include <csignal>
+#include <cstdlib>
+#include <string>
+
+#include <pthread.h>
+
+#include "scenes/formats/mesh/mesh_file.hpp"
+#include "scenes/formats/mesh/mesh_scene.hpp"
+#include "tests/fuzz/scratch_folder.hpp"
+#include "tests/fuzz/target.hpp"
+
+/// Of a sanitizer, where the program was built with one.
+extern "C" void __sanitizer_set_death_callback(void (*callback)()) __attribute__((weak));
+
+namespace {
+
+using namespace beambench;
+
+/// An importer may crash: the parent says so, and libFuzzer, of which the child is a copy, must not
+/// take it for a fault.
+void forget_fuzzer() {
+  for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGXCPU, SIGALRM}) {
+    std::signal(signal, SIG_DFL);
+  }
+  if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(nullptr);
+}
+
+/// Once in a process. Without a place for the cache, each input is imported.
+bool prepare() {
+  for (const char* place : {"BEAMBENCH_CACHE", "XDG_CACHE_HOME", "HOME"}) ::unsetenv(place);
+  return ::pthread_atfork(nullptr, nullptr, forget_fuzzer) == 0;
+}
+
+}  // namespace
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const fuzz::ScratchFolder folder;
+  static const bool prepared = prepare();
+  fuzz::require(prepared, "a child cannot be told what to forget");
+  const std::string_view text = fuzz::text_of(data, size);
+  const std::size_t line = text.find('\n');
+  if (line == std::string_view::npos) return 0;
+  const std::string name = "input." + std::string(text.substr(0, line));
+  const std::string ending = scenes::mesh::mesh_ending(name);
+  if (ending.empty() || name != "input." + ending) return 0;
+  const auto file = folder.write(name, text.substr(line + 1));
+  fuzz::accepted([&] {
+    return scenes::mesh::load_mesh({file, name, scenes::mesh::usual_orientation(ending)});
+  });
+  return 0;
+}

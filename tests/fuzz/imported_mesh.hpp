@@ -1,0 +1,23 @@
+#pragma once
+// What must be true of every mesh that an importer accepts.
+
+#include <string>
+
+#include "scenes/formats/mesh/mesh.hpp"
+#include "scenes/formats/mesh/mesh_file.hpp"
+#include "scenes/formats/mesh/mesh_scene.hpp"
+#include "tests/fuzz/target.hpp"
+
+namespace beambench::fuzz {
+
+/// A scene can be made of it or is refused, and it is the same when it comes out of the cache.
+inline void check_imported(const scenes::mesh::ImportedMesh& imported) {
+  const std::string bytes = encode(imported);
+  require(encode(scenes::mesh::decode(bytes)) == bytes, "a mesh is another one in the cache");
+  accepted([&] {
+    return mesh_scene(imported.mesh, "input", scenes::mesh::Orientation{},
+                      {imported.cameras, imported.lights});
+  });
+}
+
+}  // namespace beambench::fuzz
