@@ -11,6 +11,8 @@
 #include <fmt/format.h>
 
 #include "scenes/core/error.hpp"
+#include "scenes/core/json_text.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::bench {
 namespace {
@@ -96,7 +98,8 @@ void do_nothing(benchmark::State& state) { state.SkipWithError("not meant to be 
 
 benchmark::BenchmarkReporter::Run base_run(const Json& cell) {
   benchmark::BenchmarkReporter::Run run;
-  run.run_name.function_name = cell.at("name").get<std::string>();
+  // The library writes control characters of names as they are, which is no JSON.
+  run.run_name.function_name = printable(cell.at("name").get<std::string>());
   run.run_name.time_type = "manual_time";
   run.family_index = 0;
   run.per_family_instance_index = 0;
@@ -142,7 +145,8 @@ std::vector<benchmark::BenchmarkReporter::Run> runs_of(const Json& cell, std::in
     runs.push_back(std::move(run));
   }
   if (runs.empty()) {
-    mark_failed(runs.emplace_back(base_run(cell)), cell.at("message").get<std::string>());
+    mark_failed(runs.emplace_back(base_run(cell)),
+                printable(cell.at("message").get<std::string>()));
   }
   for (auto& run : runs) run.family_index = index;
   return runs;
@@ -226,7 +230,7 @@ std::string google_benchmark_json(std::span<const Json> cells, const Json& conte
   reporter.Finalize();
   Json document = Json::parse(text.str());
   document["context"].update(context);
-  return document.dump(2) + '\n';
+  return json_text(document) + '\n';
 }
 
 }  // namespace beambench::bench

@@ -1,6 +1,8 @@
 #include "harness/bench/sweep_run.hpp"
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,6 +18,7 @@
 #include "harness/bench/task.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/core/json_text.hpp"
 #include "scenes/core/random.hpp"
 
 namespace beambench::bench {
@@ -118,7 +121,15 @@ class SweepRun {
     }
     RunFolder folder = RunFolder::open(options_.folder.value());
     require_same_run(folder, config_.source, to_json(manifest_));
-    continue_with(manifest_, folder.read_json("manifest.json"));
+    read_as_written((folder.path() / "manifest.json").string(), "begin a new run with -o",
+                    [&] { continue_with(manifest_, folder.read_json("manifest.json")); });
+    // Before more is measured: the end of the run reads the cells like this.
+    folder.require_readable([&](const Json& cell) {
+      const std::span<const Json> alone(&cell, 1);
+      standings(alone, config_.exclude);
+      largest_overheads(alone);
+      google_benchmark_json(alone, Json::object());
+    });
     folder.write_results();
     return folder;
   }
@@ -257,7 +268,11 @@ class SweepRun {
   }
 
   SweepOutcome close() {
-    const std::vector<Json> cells = folder_.cells();
+    return read_as_written((folder_.path() / "cells").string(), "remove the file that is at fault",
+                           [&] { return summarize(folder_.cells()); });
+  }
+
+  SweepOutcome summarize(const std::vector<Json>& cells) {
     manifest_.finished_utc = utc_now();
     const std::vector<Overhead> overheads = largest_overheads(cells);
     manifest_.overhead = to_json(overheads);

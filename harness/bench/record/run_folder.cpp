@@ -7,9 +7,12 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
+#include "scenes/core/printable.hpp"
 #include "scenes/core/shell_word.hpp"
 
 namespace beambench::bench {
@@ -31,17 +34,15 @@ void make_folder(const fs::path& path) {
   }
 }
 
+constexpr const char* kRemedy =
+    "remove a cell's file to have the cell measured again, or begin a new run with -o";
+
 Json parse_file(const fs::path& path) {
-  constexpr const char* kRemedy =
-      "remove a cell's file to have the cell measured again, or begin a new run with -o";
   try {
-    Json document = Json::parse(read_input(path), nullptr, /*allow_exceptions=*/false);
-    if (!document.is_discarded()) return document;
+    return read_json_file<Json>(path);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}; {}", error.what(), kRemedy));
   }
-  throw InputError(fmt::format("cannot read '{}', which a run should have left whole; {}",
-                               path.string(), kRemedy));
 }
 
 void remove_left_behind(const fs::path& folder) {
@@ -61,7 +62,7 @@ bool holds_run(const fs::path& path) {
 /// A member of a manifest as text, whatever it is; empty where there is none.
 std::string member(const Json& manifest, const char* pointer) {
   const Json::json_pointer place(pointer);
-  return manifest.contains(place) ? manifest.at(place).dump() : "";
+  return manifest.contains(place) ? json_text(manifest.at(place), -1) : "";
 }
 
 /// The hashes of a manifest's plug-ins or scenes, by file or name.
@@ -84,22 +85,12 @@ void merge_columns(Columns& columns, const Row& row) {
   }
 }
 
-std::string value_text(const Row& value) {
+/// A value as a CSV field.
+std::string field_of(const Row& value) {
   if (value.is_null()) return "";
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string()) return csv_field(value.get<std::string>());
   if (value.is_number_float()) return fmt::format("{}", value.get<double>());
-  return value.dump();
-}
-
-template <class Fields>
-void append_line(std::string& text, const Fields& fields) {
-  bool first = true;
-  for (const std::string& field : fields) {
-    if (!first) text += ',';
-    text += csv_field(field);
-    first = false;
-  }
-  text += '\n';
+  return json_text(value, -1);
 }
 
 }  // namespace
@@ -137,7 +128,7 @@ RunFolder RunFolder::open(const fs::path& path) {
 Json RunFolder::read_json(const std::string& name) const { return parse_file(path_ / name); }
 
 void RunFolder::write_json(const std::string& name, const Json& document) const {
-  write_text(name, document.dump(2) + '\n');
+  write_text(name, json_text(document) + '\n');
 }
 
 void RunFolder::write_text(const std::string& name, const std::string& text) const {
@@ -146,7 +137,7 @@ void RunFolder::write_text(const std::string& name, const std::string& text) con
 
 void RunFolder::add_cell(const Json& cell) {
   const auto key = cell.at("key").get<std::string>();
-  write_file(path_ / kCells / (key + ".json"), cell.dump(2) + '\n');
+  write_file(path_ / kCells / (key + ".json"), json_text(cell) + '\n');
   remember(cell);
   write_results();
 }
@@ -166,7 +157,14 @@ void RunFolder::load_cells() {
       throw InputError(fmt::format("'{}' is not a cell of a run: it has no '{}'; remove it",
                                    entry.path().string(), member));
     }
-    remember(std::move(cell));
+    read_as_written(entry.path().string(), kRemedy, [&] { remember(std::move(cell)); });
+  }
+}
+
+void RunFolder::require_readable(const std::function<void(const Json& cell)>& read) const {
+  for (const auto& [index, cell] : cells_) {
+    const auto key = cell.at("key").get<std::string>();
+    read_as_written((path_ / kCells / (key + ".json")).string(), kRemedy, [&] { read(cell); });
   }
 }
 
@@ -182,7 +180,9 @@ void RunFolder::write_results() const {
   write_text(kResults, csv_table(rows));
 }
 
-void require_same_run(const RunFolder& folder, const nlohmann::json& config, const Json& now) {
+namespace {
+
+void require_same(const RunFolder& folder, const nlohmann::json& config, const Json& now) {
   const auto refuse = [&](const std::string& reason) {
     throw InputError(fmt::format("cannot resume '{}': {}; begin a new run with -o",
                                  folder.path().string(), reason));
@@ -210,7 +210,7 @@ void require_same_run(const RunFolder& folder, const nlohmann::json& config, con
   for (const auto& [file, hash] : hashes(then, "plugins", "file")) {
     const auto found = plugins.find(file);
     if (found == plugins.end()) {
-      refuse(fmt::format("it was begun with --plugin {}", shell_quoted(file)));
+      refuse(fmt::format("it was begun with --plugin {}", shell_quoted(path_of_name(file))));
     } else if (found->second != hash) {
       refuse(fmt::format("the plug-in {} has changed since", file));
     }
@@ -219,15 +219,27 @@ void require_same_run(const RunFolder& folder, const nlohmann::json& config, con
   for (const auto& [name, hash] : hashes(now, "scenes", "name")) {
     const auto found = earlier.find(name);
     if (found != earlier.end() && found->second != hash) {
-      refuse(fmt::format("the scene {} has changed since", Json(name).dump()));
+      refuse(fmt::format("the scene {} has changed since", json_text(Json(name), -1)));
     }
   }
 }
 
+}  // namespace
+
+void require_same_run(const RunFolder& folder, const nlohmann::json& config, const Json& now) {
+  read_as_written((folder.path() / kManifest).string(), "begin a new run with -o",
+                  [&] { require_same(folder, config, now); });
+}
+
 std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  constexpr std::string_view kFormulaOrApostrophe = "=+-@\t\r'";
+  std::string guarded(text);
+  if (!text.empty() && kFormulaOrApostrophe.find(text.front()) != std::string_view::npos) {
+    guarded.insert(0, 1, '\'');
+  }
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return guarded;
   std::string field = "\"";
-  for (const char letter : text) {
+  for (const char letter : guarded) {
     if (letter == '"') field += '"';
     field += letter;
   }
@@ -237,16 +249,16 @@ std::string csv_field(std::string_view text) {
 std::string csv_table(std::span<const Row> rows) {
   Columns columns;
   for (const Row& row : rows) merge_columns(columns, row);
-  std::string text;
-  append_line(text, columns);
+  std::vector<std::string> fields;
+  for (const std::string& column : columns) fields.push_back(csv_field(column));
+  std::string text = fmt::format("{}\n", fmt::join(fields, ","));
   for (const Row& row : rows) {
-    std::vector<std::string> fields;
-    fields.reserve(columns.size());
+    fields.clear();
     for (const std::string& column : columns) {
       const auto found = row.find(column);
-      fields.push_back(found == row.end() ? std::string() : value_text(*found));
+      fields.push_back(found == row.end() ? std::string() : field_of(*found));
     }
-    append_line(text, fields);
+    text += fmt::format("{}\n", fmt::join(fields, ","));
   }
   return text;
 }

@@ -2,6 +2,7 @@
 // The folder of a run: one file for each finished cell, and all that is derived from them.
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <span>
@@ -40,6 +41,9 @@ class RunFolder {
   void add_cell(const nlohmann::ordered_json& cell);
   /// Makes results.csv from the cells: a kill may have come between a cell and its row.
   void write_results() const;
+  /// Runs `read` over each finished cell. Throws InputError naming the cell's file where it finds a
+  /// value missing or of another type.
+  void require_readable(const std::function<void(const nlohmann::ordered_json& cell)>& read) const;
   /// All finished cells in the order of the plan.
   std::vector<nlohmann::ordered_json> cells() const;
 
@@ -64,7 +68,9 @@ void require_same_run(const RunFolder& folder, const nlohmann::json& config,
                       const nlohmann::ordered_json& manifest);
 
 /// A text as a CSV field: in quotes, inner quotes doubled, when it holds a comma, quote or line
-/// end.
+/// end. One that begins with a character at which a spreadsheet takes it for a formula (=, +, -, @,
+/// tab, carriage return), or with an apostrophe, gets an apostrophe before it, which readers drop
+/// (scripts/beambench_report/base/csv_texts.py).
 std::string csv_field(std::string_view text);
 
 /// Header and rows, lines ending with a line feed. The columns are those of the first row; columns

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "harness/base/messages.hpp"
+#include "harness/base/process_start.hpp"
 #include "harness/bench/record/machine.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cluster/mpi_transport.hpp"
@@ -197,6 +198,7 @@ int run_process(int argc, char** argv, Transport& transport) {
 }  // namespace beambench::cli
 
 int main(int argc, char** argv) {
+  beambench::base::prepare_process();
   const beambench::cluster::MpiSession session(argc, argv);
   beambench::cluster::MpiTransport transport(beambench::cluster::MpiTransport::Waiting::kSleeping);
   return beambench::cli::run_process(argc, argv, transport);
