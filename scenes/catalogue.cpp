@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +10,7 @@
 
 #include "scenes/core/error.hpp"
 #include "scenes/core/nearest_name.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::scenes {
 
@@ -38,7 +40,6 @@ SceneFormat format_of(const SceneReader& reader) {
           [read = reader.read](std::string_view spec, ReadOptions options,
                                std::vector<std::string>& warnings) {
             Scene scene = read(std::filesystem::path(spec), warnings);
-            scene.name = spec;
             if (options.strict && !warnings.empty()) throw InputError(warnings.front());
             return scene;
           }};
@@ -58,7 +59,7 @@ const SceneFormat* find_format(std::string_view spec) {
       "there is no scene '{}'; {}the scenes are {}; a file is given as a path with a slash or the "
       "ending .nff or of a mesh, and an installed mesh as mesh:NAME; scenes of a plug-in need "
       "--plugin FILE",
-      name, did_you_mean(name, names), fmt::join(names, ", ")));
+      excerpt(name), did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 }  // namespace
@@ -97,7 +98,9 @@ Scene load_scene(std::string_view spec, std::vector<std::string>* warnings, Read
   if (const SceneFormat* format = find_format(spec)) {
     std::vector<std::string> noticed;
     Scene scene = format->read(spec, options, noticed);
-    if (warnings != nullptr) warnings->insert(warnings->end(), noticed.begin(), noticed.end());
+    scene.name = name_of_path(spec);
+    if (warnings != nullptr)
+      std::ranges::transform(noticed, std::back_inserter(*warnings), message_line);
     return scene;
   }
   const Spec parsed = parse_spec(spec);

@@ -16,6 +16,7 @@
 
 #include "scenes/core/error.hpp"
 #include "scenes/core/nearest_name.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::scenes {
 namespace {
@@ -166,12 +167,13 @@ Bounds primitive_bounds(const Scene& scene, PrimitiveId id) {
 
 const Camera& find_camera(const Scene& scene, std::string_view name) {
   std::vector<std::string> names;
+  const std::string wanted = printable(name);
   for (const Camera& camera : scene.cameras) {
-    if (camera.name == name) return camera;
+    if (camera.name == wanted) return camera;
     names.push_back(camera.name);
   }
   throw InputError(fmt::format("the scene {} has no camera '{}'; {}choose from: {}", scene.name,
-                               name, did_you_mean(name, names), fmt::join(names, ", ")));
+                               excerpt(name), did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 }  // namespace beambench::scenes

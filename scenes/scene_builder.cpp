@@ -11,6 +11,7 @@
 #include <glm/trigonometric.hpp>
 
 #include "scenes/core/error.hpp"
+#include "scenes/core/printable.hpp"
 #include "scenes/triangulate.hpp"
 
 namespace beambench::scenes {
@@ -123,7 +124,7 @@ void require_plain_name(const std::string& name, const Subject& subject) {
   if (!plain || name.empty() || name.front() == ' ' || name.back() == ' ') {
     refuse(subject, fmt::format("the name is '{}', but must be a line of text without '#' and "
                                 "without blanks at its ends",
-                                name));
+                                excerpt(name)));
   }
 }
 
@@ -164,7 +165,7 @@ Camera fitted_camera(const Bounds& bounds) {
 
 }  // namespace
 
-SceneBuilder::SceneBuilder(std::string name) { scene_.name = std::move(name); }
+SceneBuilder::SceneBuilder(std::string name) { scene_.name = printable(name); }
 
 void SceneBuilder::set_surface(const Surface& surface) {
   const Subject subject{"surface {}", scene_.surfaces.size()};
@@ -214,6 +215,7 @@ void SceneBuilder::add_camera(const Camera& camera) {
     refuse(subject, "the up vector is 0 or parallel to the view; turn it");
   }
   scene_.cameras.push_back(camera);
+  scene_.cameras.back().name = printable(camera.name);
 }
 
 void SceneBuilder::add_sphere(const glm::dvec3& center, double radius) {

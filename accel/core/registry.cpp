@@ -10,6 +10,7 @@
 #include "accel/core/build_memory.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/nearest_name.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::accel {
 
@@ -64,7 +65,7 @@ StructureChoice Registry::choose(const Spec& spec) const {
     throw InputError(
         fmt::format("unknown structure '{}'; {}expected one of {}; those of a plug-in need "
                     "--plugin FILE",
-                    spec.name, did_you_mean(spec.name, names), fmt::join(names, ", ")));
+                    excerpt(spec.name), did_you_mean(spec.name, names), fmt::join(names, ", ")));
   }
   for (const auto& [parameter, value] : spec.parameters) {
     require_own_parameter(*found, parameter);
@@ -87,7 +88,7 @@ void Registry::require_own_parameter(const StructureInfo& structure,
   for (const ParameterInfo& info : structure.parameters) valid.push_back(info.name);
   throw InputError(
       fmt::format("{}: there is no parameter '{}', which is one of {}; the valid ones are {}",
-                  structure.name, name, fmt::join(owners, ", "), fmt::join(valid, ", ")));
+                  structure.name, excerpt(name), fmt::join(owners, ", "), fmt::join(valid, ", ")));
 }
 
 std::vector<StructureChoice> Registry::choose_list(std::string_view text) const {

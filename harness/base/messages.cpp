@@ -11,6 +11,7 @@
 
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::base {
 
@@ -44,14 +45,12 @@ std::size_t place_of_name(std::string_view what, std::string_view name,
   const auto found = std::ranges::find(names, name);
   if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
   throw InputError(
-      fmt::format("unknown {} '{}'; choose from: {}", what, name, fmt::join(names, ", ")));
+      fmt::format("unknown {} '{}'; choose from: {}", what, excerpt(name), fmt::join(names, ", ")));
 }
 
-int report_error(std::string_view program, std::string message, int exit_code) {
-  std::ranges::replace_if(
-      message, [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  message.erase(message.find_last_not_of(' ') + 1);
-  fmt::print(stderr, "{}: {}\n", program, message);
+int report_error(std::string_view program, std::string_view message, int exit_code) {
+  const std::string line = fmt::format("{}: {}\n", program, message_line(message));
+  std::fputs(line.c_str(), stderr);  // where it cannot be written, there is nowhere to say so
   return exit_code;
 }
 

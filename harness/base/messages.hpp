@@ -34,8 +34,9 @@ std::vector<std::string> aligned(std::span<const std::vector<std::string>> lines
 std::size_t place_of_name(std::string_view what, std::string_view name,
                           std::span<const std::string_view> names);
 
-/// Prints `program: message` on stderr as one line, and returns `exit_code`.
-int report_error(std::string_view program, std::string message, int exit_code);
+/// Prints `program: message` on stderr as one printable line (`message_line`), and returns
+/// `exit_code`.
+int report_error(std::string_view program, std::string_view message, int exit_code);
 
 /// The same for an exception that nothing else has handled: out of memory, with `kInvalidInput`, or
 /// an internal error.

@@ -7,6 +7,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "scenes/core/printable.hpp"
+
 namespace beambench::base {
 namespace {
 
@@ -46,7 +48,7 @@ Progress::Progress(std::size_t cells, std::FILE* stream, bool terminal)
 Progress::~Progress() { clear(); }
 
 void Progress::start(std::string_view name) {
-  name_ = name;
+  name_ = printable(name);
   if (terminal_) draw(0.0);
 }
 

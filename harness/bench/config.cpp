@@ -7,6 +7,7 @@
 
 #include "accel/core/primary_rays.hpp"
 #include "harness/bench/json_node.hpp"
+#include "scenes/core/json_text.hpp"
 
 namespace beambench::bench {
 namespace {
@@ -266,7 +267,7 @@ int read_threads(const JsonNode& root, const SweepConfig& config) {
 }  // namespace
 
 SweepConfig read_sweep(const std::filesystem::path& path, const accel::Registry& structures) {
-  return parse_sweep(read_json_file(path), path.string(), structures);
+  return parse_sweep(read_json_file<nlohmann::json>(path), path.string(), structures);
 }
 
 SweepConfig parse_sweep(nlohmann::json source, const std::string& name,

@@ -12,6 +12,8 @@
 #include <fmt/format.h>
 
 #include "scenes/core/error.hpp"
+#include "scenes/core/json_text.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::bench {
 namespace {
@@ -97,7 +99,8 @@ void do_nothing(benchmark::State& state) { state.SkipWithError("not meant to be 
 
 benchmark::BenchmarkReporter::Run base_run(const Json& cell) {
   benchmark::BenchmarkReporter::Run run;
-  run.run_name.function_name = cell.at("name").get<std::string>();
+  // The library writes control characters of names as they are, which is no JSON.
+  run.run_name.function_name = printable(cell.at("name").get<std::string>());
   run.run_name.time_type = "manual_time";
   run.family_index = 0;
   run.per_family_instance_index = 0;
@@ -143,7 +146,8 @@ std::vector<benchmark::BenchmarkReporter::Run> runs_of(const Json& cell, std::in
     runs.push_back(std::move(run));
   }
   if (runs.empty()) {
-    mark_failed(runs.emplace_back(base_run(cell)), cell.at("message").get<std::string>());
+    mark_failed(runs.emplace_back(base_run(cell)),
+                printable(cell.at("message").get<std::string>()));
   }
   for (auto& run : runs) run.family_index = index;
   return runs;
@@ -225,7 +229,7 @@ void write_google_benchmark_json(std::ostream& out, const Json& context,
   reporter.ReportContext(benchmark::BenchmarkReporter::Context());
   Json document = Json::parse(start.str() + "]}");  // it ends within the list of benchmarks
   document["context"].update(context);
-  const std::string text = document.dump(2);
+  const std::string text = json_text(document);
   out << text.substr(0, text.rfind("[]")) << "[\n";
   reporter.SetOutputStream(&out);
   std::int64_t index = 0;

@@ -1,89 +1,27 @@
 #include "harness/bench/json_node.hpp"
 
 #include <algorithm>
-#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
 #include "scenes/core/nearest_name.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::bench {
 namespace {
 
 using nlohmann::json;
 
-/// Is a comma right before the end of a list or object there?
-bool comma_is_last(std::string_view text, std::size_t at) {
-  if (at >= text.size() || (text[at] != ']' && text[at] != '}')) return false;
-  const std::size_t before = text.substr(0, at).find_last_not_of(" \t\r\n");
-  return before != std::string_view::npos && text[before] == ',';
-}
-
-/// nlohmann's message without its own prefix and position.
-std::string_view plain_message(std::string_view what) {
-  const std::size_t column = what.find("column ");
-  const std::size_t start = column == std::string_view::npos ? column : what.find(": ", column);
-  return start == std::string_view::npos ? what : what.substr(start + 2);
-}
-
-[[noreturn]] void fail_malformed(const std::string& file, std::string_view text,
-                                 const json::parse_error& error) {
-  const std::size_t at = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
-  const std::string_view before = text.substr(0, at);
-  const auto line = std::count(before.begin(), before.end(), '\n') + 1;
-  const std::size_t line_start = before.rfind('\n');
-  const std::size_t column = line_start == std::string_view::npos ? at + 1 : at - line_start;
-  if (comma_is_last(text, at)) {
-    throw InputError(fmt::format(
-        "{}:{}:{}: not JSON: there is a comma before this '{}', after the last element; "
-        "remove the comma",
-        file, line, column, text[at]));
-  }
-  throw InputError(
-      fmt::format("{}:{}:{}: not JSON: {}", file, line, column, plain_message(error.what())));
-}
-
-/// A parser callback that refuses a key given twice in one object, which nlohmann would let win.
-class DuplicateKeys {
- public:
-  explicit DuplicateKeys(std::string file) : file_(std::move(file)) {}
-
-  bool operator()(int /*depth*/, json::parse_event_t event, const json& parsed) {
-    if (event == json::parse_event_t::object_start) seen_.emplace_back();
-    if (event == json::parse_event_t::object_end) seen_.pop_back();
-    if (event == json::parse_event_t::key && !seen_.back().insert(parsed).second) {
-      throw InputError(fmt::format("{}: the key {} is given twice in one object; keep one of them",
-                                   file_, parsed.dump()));
-    }
-    return true;
-  }
-
- private:
-  std::string file_;
-  std::vector<std::set<std::string>> seen_;
-};
-
 /// A value as a message shows it.
 std::string shown(const json& value) {
-  constexpr std::size_t kMaxLength = 40;
   if (value.is_object()) return "an object";
   if (value.is_array()) return value.empty() ? "an empty list" : "a list";
-  const std::string text = value.dump(-1, ' ', false, json::error_handler_t::replace);
-  return text.size() <= kMaxLength ? text : text.substr(0, kMaxLength) + "...";
+  return excerpt(json_text(value, -1));
 }
 
 }  // namespace
-
-json read_json_file(const std::filesystem::path& path) {
-  const std::string text = read_input(path, kLargestDocument);
-  try {
-    return json::parse(text, DuplicateKeys(path.string()));
-  } catch (const json::parse_error& error) {
-    fail_malformed(path.string(), text, error);
-  }
-}
 
 JsonNode::JsonNode(const json& document, std::string file)
     : JsonNode(document, std::move(file), json::json_pointer()) {}
@@ -168,7 +106,7 @@ double JsonNode::number(double minimum, double maximum) const {
 std::string JsonNode::parameter_text() const {
   if (value_->is_string()) return value_->get<std::string>();
   if (value_->is_number_float()) return fmt::format("{}", value_->get<double>());
-  if (value_->is_number_integer() || value_->is_boolean()) return value_->dump();
+  if (value_->is_number_integer() || value_->is_boolean()) return json_text(*value_, -1);
   fail_expecting("a number, a string, true or false");
 }
 

@@ -1,8 +1,7 @@
 #pragma once
-// Reading a JSON file that people write: every message names the place.
+// The values of a JSON document that people write: every message names the place.
 
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <optional>
@@ -16,10 +15,6 @@
 #include "scenes/core/error.hpp"
 
 namespace beambench::bench {
-
-/// A JSON file's contents. Throws InputError when it cannot be read, holds more than 64 MiB, is not
-/// JSON (naming line and column), or gives a key twice.
-nlohmann::json read_json_file(const std::filesystem::path& path);
 
 /// A value in a JSON document and its place. Whatever is not as expected throws InputError
 /// `file: /structures/1/parameters: expected ...`, with the value's JSON pointer (RFC 6901).

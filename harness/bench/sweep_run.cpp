@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <ostream>
+#include <sstream>
 #include <vector>
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
 #include "scenes/core/random.hpp"
 
 namespace beambench::bench {
@@ -162,7 +164,17 @@ class SweepRun {
     }
     RunFolder folder = RunFolder::open(options_.folder.value());
     require_same_run(folder, config_.source, to_json(manifest_));
-    continue_with(manifest_, folder.read_json("manifest.json"));
+    read_as_written((folder.path() / "manifest.json").string(), "begin a new run with -o",
+                    [&] { continue_with(manifest_, folder.read_json("manifest.json")); });
+    // Before more is measured: the end of the run reads the cells like this.
+    folder.for_each_cell([&](const Json& cell) {
+      const std::array alone{summary_of(cell)};
+      standings(alone, config_.exclude);
+      largest_overheads(alone);
+      std::ostringstream nowhere;
+      write_google_benchmark_json(nowhere, Json::object(),
+                                  [&](const CellVisitor& visit) { visit(cell); });
+    });
     folder.write_results();
     return folder;
   }
@@ -302,7 +314,11 @@ class SweepRun {
 
   SweepOutcome close() {
     folder_.write_results();  // whose columns are then in the order of the plan
-    const std::vector<Json> cells = summaries();
+    return read_as_written((folder_.path() / "cells").string(), "remove the file that is at fault",
+                           [&] { return summarize(summaries()); });
+  }
+
+  SweepOutcome summarize(const std::vector<Json>& cells) {
     manifest_.finished_utc = utc_now();
     const std::vector<Overhead> overheads = largest_overheads(cells);
     manifest_.overhead = to_json(overheads);

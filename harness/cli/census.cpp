@@ -25,6 +25,8 @@
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -230,7 +232,7 @@ void print_json(const Request& request, const std::vector<CensusResult>& results
   for (const CensusResult& result : results) {
     out["scenes"].push_back(by_spd(request) ? to_json_beside_published(result) : to_json(result));
   }
-  fmt::print("{}\n", out.dump(2));
+  fmt::print("{}\n", json_text(out));
 }
 
 experiments::CensusOptions options_of(const Request& request) {
@@ -272,7 +274,7 @@ void census(const Request& request) {
   progress.clear();
   if (!request.pictures.empty()) {
     fmt::print(stderr, "{} in the folder '{}'\n", base::counted(results.size(), "picture"),
-               request.pictures);
+               printable(request.pictures));
   }
   request.json ? print_json(request, results) : print_text(request, results);
 }

@@ -11,6 +11,7 @@
 #include "harness/cli/inputs.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/printable.hpp"
 #include "scenes/formats/mesh/obj_writer.hpp"
 #include "scenes/formats/nff/nff_writer.hpp"
 
@@ -36,7 +37,8 @@ void export_scene(const Request& request) {
   write_file(request.file, [&](std::ostream& file) {
     obj ? scenes::mesh::write_obj(scene, file) : scenes::nff::write_nff(scene, file);
   });
-  fmt::print(stderr, "{}: {}, {} primitives\n", request.file, scene.name, scene.primitives.size());
+  fmt::print(stderr, "{}: {}, {} primitives\n", printable(request.file), scene.name,
+             scene.primitives.size());
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "harness/rays/trace_results.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -48,7 +49,7 @@ void write_hits(const Request& request) {
   rays::write_hit_file(
       request.file, results,
       {{"scene", scene.name}, {"structure", choice.short_label()}, {"rays", input.label()}});
-  fmt::print(stderr, "{}: {} hits of {} by {}\n", request.file, input.size(), scene.name,
+  fmt::print(stderr, "{}: {} hits of {} by {}\n", printable(request.file), input.size(), scene.name,
              choice.short_label());
 }
 

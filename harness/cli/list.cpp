@@ -20,7 +20,9 @@
 #include "harness/rays/ray_kind.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/core/json_text.hpp"
 #include "scenes/core/nearest_name.hpp"
+#include "scenes/core/printable.hpp"
 #include "scenes/formats/mesh/mesh_registry.hpp"
 
 namespace beambench::cli {
@@ -95,7 +97,7 @@ void print_meshes() {
   const std::vector<std::string> names = scenes::mesh::registered_mesh_names();
   if (names.empty()) fmt::print("  none\n");
   for (const std::string& name : names) {
-    fmt::print("  {}{}\n{}", scenes::mesh::kMeshPrefix, name, wrap(about_mesh(name), 6));
+    fmt::print("  {}{}\n{}", scenes::mesh::kMeshPrefix, printable(name), wrap(about_mesh(name), 6));
   }
 }
 
@@ -111,7 +113,7 @@ void print_plugins() {
   }
   fmt::print("\nPlug-ins:\n");
   for (const plugin::LoadedPlugin& plugin : plugin::loaded_plugins()) {
-    fmt::print("\n  {}\n{}", plugin.file, wrap(plugin.description, 6));
+    fmt::print("\n  {}\n{}", printable(plugin.file), wrap(plugin.description, 6));
     fmt::print("      hash {}, built by {} for {}{}\n", rays::hex_digits(plugin.hash),
                plugin.compiler, plugin.instructions,
                plugin.optimized ? "" : ", without optimization");
@@ -274,7 +276,7 @@ void print_json() {
                            {"query", rays::to_string(info.query)},
                            {"parameters", parameters_json(info.parameters)}});
   }
-  fmt::print("{}\n", all.dump(2));
+  fmt::print("{}\n", json_text(all));
 }
 
 struct Request {

@@ -15,6 +15,7 @@
 #include <fmt/ranges.h>
 
 #include "harness/base/messages.hpp"
+#include "harness/base/process_start.hpp"
 #include "harness/bench/record/machine.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
@@ -169,4 +170,7 @@ int begin(int argc, char** argv) {
 }  // namespace
 }  // namespace beambench::cli
 
-int main(int argc, char** argv) { return beambench::cli::begin(argc, argv); }
+int main(int argc, char** argv) {
+  beambench::base::prepare_process();
+  return beambench::cli::begin(argc, argv);
+}

@@ -15,6 +15,7 @@
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
 #include "harness/rays/hit_check.hpp"
+#include "scenes/core/json_text.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -67,7 +68,7 @@ void print_json(const scenes::Scene& scene, const Request& request,
                            {"rays_ms", result.rays_ms},
                            {"beams_ms", result.beams_ms}});
   }
-  fmt::print("{}\n", out.dump(2));
+  fmt::print("{}\n", json_text(out));
 }
 
 /// Returns false when beams and rays found different hits.

@@ -16,6 +16,7 @@
 #include "harness/verify/differ.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -61,7 +62,7 @@ void print_facts(const Request& request, const scenes::Scene& scene, const rays:
     out[any ? "occluded_share" : "hit_share"] =
         static_cast<double>(hits) / static_cast<double>(input.size());
     out["coherence"] = rays::coherence(input);
-    fmt::print("{}\n", out.dump(2));
+    fmt::print("{}\n", json_text(out));
   } else {
     fmt::print("{} {} rays over {}, {}\n", input.size(), input.label(), scene.name,
                rays::to_string(image.resolution));

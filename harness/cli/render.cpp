@@ -28,6 +28,7 @@
 #include "harness/render/whitted_picture.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -276,7 +277,7 @@ void render(const Request& request) {
       found = compare(request, choice, scene, rays, results);
     }
   }
-  progress.say(fmt::format("{}: {} by {}, {}x{}, {}", request.file, scene.name,
+  progress.say(fmt::format("{}: {} by {}, {}x{}, {}", printable(request.file), scene.name,
                            choice.short_label(), rays.width(), rays.height(), found));
 }
 

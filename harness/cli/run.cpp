@@ -16,6 +16,7 @@
 #include "harness/cli/interruption.hpp"
 #include "harness/plugin/load_plugin.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/core/json_text.hpp"
 #include "scenes/core/shell_word.hpp"
 
 namespace beambench::cli {
@@ -148,7 +149,7 @@ int run(RunRequest request, plugin::Activity& activity) {
   const bench::GoogleBenchmark benchmark(flags);
   bench::Plan plan = selected_plan(config, benchmark);
   if (request.dry_run || flags.list) {
-    if (request.json) fmt::print("{}\n", to_json(plan).dump(2));
+    if (request.json) fmt::print("{}\n", json_text(to_json(plan)));
     for (const std::string& name : cell_names(plan)) {
       if (!request.json) fmt::print("{}\n", name);
     }

@@ -19,6 +19,7 @@
 #include "harness/render/picture/legend.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -59,7 +60,7 @@ void print_json(const scenes::Scene& scene, const Request& request,
                               {"trace_ms", result.trace_ms},
                               {"error", result.error}});
   }
-  fmt::print("{}\n", out.dump(2));
+  fmt::print("{}\n", json_text(out));
 }
 
 void write_picture(const std::string& file, const accel::beam::BeamTracer& tracer,

@@ -16,6 +16,7 @@
 #include "harness/cli/text.hpp"
 #include "harness/experiments/scene_growth.hpp"
 #include "harness/rays/fingerprint.hpp"
+#include "scenes/core/json_text.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -105,7 +106,7 @@ void print_json(const scenes::Scene& scene) {
     out["lights"].push_back(
         {{"position", to_json(light.position)}, {"color", to_json(light.color)}});
   }
-  fmt::print("{}\n", out.dump(2));
+  fmt::print("{}\n", json_text(out));
 }
 
 void print_text(const experiments::SceneGrowth& growth) {
@@ -129,7 +130,7 @@ void print_json(const experiments::SceneGrowth& growth) {
                             {"bytes", row.bytes},
                             {"seconds", row.seconds}});
   }
-  fmt::print("{}\n", out.dump(2));
+  fmt::print("{}\n", json_text(out));
 }
 
 /// A label may hold commas, so it is quoted.

@@ -22,6 +22,8 @@
 #include "harness/verify/selftest/kit.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -132,7 +134,7 @@ void write_json(const Request& request, const std::vector<CheckedProperty>& chec
                              {"passed", property.outcome.passed()},
                              {"failure", property.outcome.failure}});
   }
-  write_file(request.json, out.dump(2) + '\n');
+  write_file(request.json, json_text(out) + '\n');
 }
 
 /// `spheres,polygons`, `all`. Throws InputError listing the kinds.
@@ -152,8 +154,8 @@ int write_kit(const Request& request) {
   base::Progress progress(verify::kit_size(request.effort, kinds));
   const std::size_t scenes = verify::write_kit(request.kit, request.effort, kinds, progress);
   progress.clear();
-  fmt::print("{}: {} scenes of {}, each with closest and any hits to be found\n", request.kit,
-             scenes, fmt::join(kinds.names(), ", "));
+  fmt::print("{}: {} scenes of {}, each with closest and any hits to be found\n",
+             printable(request.kit), scenes, fmt::join(kinds.names(), ", "));
   return base::kSuccess;
 }
 

@@ -20,6 +20,7 @@
 #include "harness/rays/level_visits.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/core/json_text.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -207,7 +208,7 @@ void print_json(const scenes::Scene& scene, const rays::ImageOfRays& image,
   for (const Finding& finding : findings) {
     out["structures"].push_back(to_json(finding, input.size()));
   }
-  fmt::print("{}\n", out.dump(2));
+  fmt::print("{}\n", json_text(out));
 }
 
 /// A structure that cannot be built over the scene does not keep the others from being shown.

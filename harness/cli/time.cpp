@@ -18,6 +18,8 @@
 #include "harness/cli/interruption.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -94,12 +96,22 @@ nlohmann::json sweep_of(const Request& request) {
           {"exclude", {{{"structure", "exhaustive"}, {"primitives_above", kMostForExhaustive}}}}};
 }
 
+/// The sweep is JSON, whose texts are UTF-8.
+void require_can_be_saved(const Request& request) {
+  for (const std::string& scene : request.scenes) {
+    if (is_utf8(scene)) continue;
+    throw InputError(fmt::format(
+        "--save: the sweep cannot hold the path '{}', which is not UTF-8; rename the file", scene));
+  }
+}
+
 int time_structures(const Request& request) {
+  if (!request.save.empty()) require_can_be_saved(request);
   Interruption interruption("interrupted; nothing was kept");
   const bench::SweepConfig config =
       bench::parse_sweep(sweep_of(request), "beambench time", accel::registry());
   bench::Plan plan = bench::make_plan(config);
-  if (!request.save.empty()) write_file(request.save, config.source.dump(2) + "\n");
+  if (!request.save.empty()) write_file(request.save, json_text(config.source) + "\n");
   const TemporaryFolder folder;
   interruption.set_folder_to_remove(folder.path());
   bench::SweepOptions options;

@@ -14,6 +14,7 @@
 #include "harness/cli/inputs.hpp"
 #include "harness/verify/ray_path.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/core/json_text.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -96,7 +97,7 @@ int trace(const Request& request) {
   const verify::RayPath path =
       verify::trace_path(choice, scene, image, input, index, request.alone, progress);
   progress.clear();
-  fmt::print("{}", request.json ? to_json(scene, path).dump(2) + '\n' : to_text(scene, path));
+  fmt::print("{}", request.json ? json_text(to_json(scene, path)) + '\n' : to_text(scene, path));
   return path.verified.diff_class == verify::DiffClass::kStructureError ? base::kMismatch
                                                                         : base::kSuccess;
 }

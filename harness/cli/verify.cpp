@@ -24,6 +24,7 @@
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
 #include "scenes/core/shell_word.hpp"
 
 namespace beambench::cli {
@@ -106,7 +107,7 @@ void write_json(const Request& request, const std::vector<verify::VerifiedCell>&
                              {"passed", passed},
                              {"cells", nlohmann::ordered_json::array()}};
   for (const verify::VerifiedCell& cell : cells) out["cells"].push_back(to_json(cell));
-  write_file(request.json, out.dump(2) + '\n');
+  write_file(request.json, json_text(out) + '\n');
 }
 
 /// The request as one about the hits of a program. Throws InputError for what does not go together.

@@ -20,6 +20,8 @@
 #include "harness/verify/selftest/kit.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -108,7 +110,7 @@ void write_json(const VerifyHitsRequest& request, std::span<const VerifiedClaims
            {"passed", std::ranges::all_of(all, &VerifiedClaims::passed)},
            {"cases", Json::array()}};
   for (const VerifiedClaims& each : all) out["cases"].push_back(json_of(each));
-  write_file(request.json, out.dump(2) + '\n');
+  write_file(request.json, json_text(out) + '\n');
 }
 
 /// What gives the hits, unless they are in a file.
@@ -119,15 +121,15 @@ std::optional<verify::Tracer> tracer_of(const VerifyHitsRequest& request) {
 }
 
 std::string subject_of(const VerifyHitsRequest& request, const std::string& hits) {
-  if (!request.command.empty()) return request.command;
-  return request.structure ? request.structure->short_label() : hits;
+  if (!request.command.empty()) return printable(request.command);
+  return request.structure ? request.structure->short_label() : printable(hits);
 }
 
 /// `folder/NAME`: one line on what an error was reduced to.
 std::string case_text(const std::filesystem::path& folder, const verify::MinimalCase& minimal) {
   return fmt::format("reduced to {} and {}, in {}{}",
                      base::counted(minimal.primitives.size(), "primitive"),
-                     base::counted(minimal.input.size(), "ray"), folder.string(),
+                     base::counted(minimal.input.size(), "ray"), printable(folder.string()),
                      minimal.repeated ? ""
                                       : ": what the answers name; with --command it is traced "
                                         "again, which shows whether these are enough");
@@ -139,7 +141,7 @@ VerifiedClaims verify_case(const VerifyHitsRequest& request, const scenes::Scene
   render::DisputedPlaces places;
   const auto collect = [&](const verify::Mismatch& mismatch) { places.add(mismatch); };
   VerifiedClaims claims{
-      files.name, scene.name, scene.primitives.size(),
+      printable(files.name), scene.name, scene.primitives.size(),
       tracer ? verify::verify_traced_file(scene, files.rays, *tracer, collect, progress)
              : verify::verify_hit_files(scene, files.rays, files.hits, collect, progress)};
   const verify::DiffReport& report = claims.found.report;
@@ -223,7 +225,7 @@ int verify_kit(const VerifyHitsRequest& request) {
     all.push_back(verify_case(request, scene, each, tracer, progress));
     if (all.back().passed() || ++failed > kPrinted) continue;
     progress.clear();
-    fmt::print("{}:\n", each.name);
+    fmt::print("{}:\n", printable(each.name));
     print_disputes(all.back(), scene);
     fmt::print("\n");
   }

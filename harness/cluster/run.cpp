@@ -22,6 +22,7 @@
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
 
 namespace beambench::cluster {
 namespace {
@@ -119,7 +120,7 @@ void write_files(const ClusterRequest& request, const WorkerState& state, const 
   if (!request.picture.empty()) {
     render::write_image(request.picture, result.picture(state, request.shading));
   }
-  if (!request.report.empty()) write_file(request.report, to_json(run).dump(2) + "\n");
+  if (!request.report.empty()) write_file(request.report, json_text(to_json(run)) + "\n");
   if (!request.tasks.empty()) write_file(request.tasks, task_table(run.report));
 }
 

@@ -21,6 +21,7 @@
 #include "harness/bench/sweep_run.hpp"
 #include "harness/python/bindings.hpp"
 #include "harness/python/interruption.hpp"
+#include "scenes/core/json_text.hpp"
 
 namespace beambench::python {
 namespace {
@@ -47,7 +48,8 @@ struct CloseFile {
 /// A configuration from JSON, or where there is none from a file.
 bench::SweepConfig read_config(const std::string& json, const std::string& file) {
   if (json.empty()) return bench::read_sweep(file, accel::registry());
-  return bench::parse_sweep(nlohmann::json::parse(json), "config", accel::registry());
+  return bench::parse_sweep(parse_json<nlohmann::json>(json, "config"), "config",
+                            accel::registry());
 }
 
 std::tuple<std::string, std::string> run_sweep(const std::string& json, const std::string& file,

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "scenes/core/error.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::rays {
 namespace {
@@ -33,7 +34,6 @@ std::size_t count_cells(std::string_view line) {
 }
 
 std::vector<std::string> names_of(std::string_view line) {
-  if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
   line = trimmed(line);
   if (line.starts_with('#')) line.remove_prefix(1);
   std::vector<std::string> names(count_cells(line));
@@ -77,7 +77,7 @@ double CsvNumbers::number(std::string_view cell, std::size_t column, double when
   if (cell.empty() && !std::isnan(when_empty)) return when_empty;
   if (const auto value = parse_number(cell)) return *value;
   throw InputError(fmt::format("{}: column '{}' holds '{}', which is not a number",
-                               place_of(records_), columns_[column], cell.substr(0, 40)));
+                               place_of(records_), excerpt(columns_[column]), excerpt(cell)));
 }
 
 bool CsvNumbers::next(std::span<double> row, std::span<const double> when_empty) {

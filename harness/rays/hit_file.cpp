@@ -16,8 +16,11 @@
 
 #include "accel/core/ray.hpp"
 #include "harness/rays/csv_numbers.hpp"
+#include "harness/rays/file_header.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::rays {
 
@@ -40,9 +43,10 @@ constexpr std::string_view kColumnHelp =
 
 static_assert(std::endian::native == std::endian::little, "hits are written as they lie in memory");
 
+constexpr std::string_view kRemedy = "'beambench hits' writes such files";
+
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& problem) {
-  throw InputError(
-      fmt::format("{}: {}; 'beambench hits' writes such files", path.string(), problem));
+  throw InputError(fmt::format("{}: {}; {}", path.string(), problem, kRemedy));
 }
 
 enum class Column { kT, kX, kY, kZ, kPrimitive, kTriangle, kOccluded };
@@ -157,9 +161,7 @@ class BinaryHits : public HitReader::Format {
 
  private:
   Columns read_header() {
-    const std::optional<std::string_view> line = input_.line();
-    const Json json = line ? Json::parse(*line, nullptr, false) : Json();
-    if (!json.is_object()) fail(path_, "the second line is not a JSON object");
+    const Json json = parse_file_header(path_, input_.line(), kRemedy);
     const Json hits = json.value("hits", Json());
     if (!hits.is_number_unsigned() || hits.get<std::uint64_t>() < 1 ||
         hits.get<std::uint64_t>() > kMaxHits) {
@@ -283,7 +285,7 @@ void write_binary(std::ostream& out, const TraceResults& results, const Json& no
       {"hits", any != nullptr ? any->size() : hits->size()},
       {"columns", any != nullptr ? Json::array({"occluded"}) : Json::array({"t", "primitive"})},
       {"note", note}};
-  out << kFirstLine << '\n' << header.dump() << '\n';
+  out << kFirstLine << '\n' << json_text(header, -1) << '\n';
   if (any != nullptr) {
     out.write(reinterpret_cast<const char*>(any->data()),
               static_cast<std::streamsize>(any->size()));
@@ -333,6 +335,8 @@ std::optional<std::uint64_t> HitReader::count() const { return format_->count();
 std::size_t HitReader::read(std::size_t at_most, HitTable& hits) {
   return format_->read(at_most, hits);
 }
-std::string HitReader::place_of(std::size_t index) const { return format_->place_of(index); }
+std::string HitReader::place_of(std::size_t index) const {
+  return printable(format_->place_of(index));
+}
 
 }  // namespace beambench::rays

@@ -16,9 +16,12 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/rays/csv_numbers.hpp"
+#include "harness/rays/file_header.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::rays {
 
@@ -42,9 +45,10 @@ constexpr std::uint64_t kMaxRaysInMemory = std::uint64_t{1} << 28U;
 static_assert(std::endian::native == std::endian::little, "rays are written as they lie in memory");
 static_assert(sizeof(accel::Ray) == 8 * sizeof(float));
 
+constexpr std::string_view kRemedy = "'beambench rays' writes such files";
+
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& problem) {
-  throw InputError(
-      fmt::format("{}: {}; 'beambench rays' writes such files", path.string(), problem));
+  throw InputError(fmt::format("{}: {}; {}", path.string(), problem, kRemedy));
 }
 
 double part_of(const InputStream& input) {
@@ -129,9 +133,7 @@ class BinaryRays : public RayReader::Format {
  public:
   BinaryRays(const std::filesystem::path& path, InputStream input)
       : path_(path), input_(std::move(input)) {
-    const std::optional<std::string_view> line = input_.line();
-    if (!line) fail(path, "the second line is not a JSON object");
-    read_header(*line);
+    read_header(parse_file_header(path, input_.line(), kRemedy));
     begin_ = input_.position();
     const std::uint64_t bytes = count_ * sizeof(accel::Ray);
     if (const auto remaining = input_.remaining(); remaining && *remaining != bytes) {
@@ -162,10 +164,8 @@ class BinaryRays : public RayReader::Format {
   }
 
  private:
-  void read_header(std::string_view line) {
-    const Json json = Json::parse(line, nullptr, false);
-    if (!json.is_object()) fail(path_, "the second line is not a JSON object");
-    header.label = path_.string();
+  void read_header(const Json& json) {
+    header.label = name_of_path(path_.string());
     const Json query = json.value("query", Json());
     if (query != "closest" && query != "any") {
       fail(path_, R"("query" is neither "closest" nor "any")");
@@ -222,7 +222,7 @@ class CsvRays : public RayReader::Format {
  public:
   CsvRays(const std::filesystem::path& path, InputStream input, std::string_view first_line)
       : path_(path), numbers_(path, std::move(input), first_line) {
-    header.label = path.string();
+    header.label = name_of_path(path.string());
     std::array<bool, 8> found{};
     for (const std::string& name : numbers_.columns()) {
       const auto place =
@@ -287,7 +287,7 @@ void write_binary(std::ostream& out, const RaySet& set, const Json& note) {
   for (const accel::Pencil& pencil : set.pencils) header["pencils"].push_back(json_of(pencil));
   if (set.may_graze) header["may_graze"] = true;
   header["note"] = note;
-  out << kFirstLine << '\n' << header.dump() << '\n';
+  out << kFirstLine << '\n' << json_text(header, -1) << '\n';
   out.write(reinterpret_cast<const char*>(set.rays.data()),
             static_cast<std::streamsize>(set.rays.size() * sizeof(accel::Ray)));
 }

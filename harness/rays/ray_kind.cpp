@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "scenes/core/error.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::rays {
 namespace {
@@ -94,7 +95,7 @@ RayChoice choose(const Spec& spec) {
     for (const RayKindInfo& known : kinds) names.push_back(known.name);
     throw InputError(
         fmt::format("unknown ray kind '{}'; choose from: {}, or a file of saved rays (*{}, *{})",
-                    spec.name, fmt::join(names, ", "), kRayFileEnding, kCsvEnding));
+                    excerpt(spec.name), fmt::join(names, ", "), kRayFileEnding, kCsvEnding));
   }
   const Parameters parameters(info->name, info->parameters, spec.parameters);
   RayChoice choice{info->kind, 0, {}, parameters.short_label()};
@@ -111,7 +112,7 @@ bool is_parameter(std::string_view rest) {
 RayChoice choose_file(std::string_view path) {
   RayChoice choice;
   choice.file = path;
-  choice.label = path;
+  choice.label = name_of_path(path);
   return choice;
 }
 

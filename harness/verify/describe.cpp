@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "harness/verify/hit_json.hpp"
+#include "scenes/core/printable.hpp"
 #include "scenes/core/shell_word.hpp"
 
 namespace beambench::verify {
@@ -62,7 +63,8 @@ ReplayCommand::ReplayCommand(std::string_view program, const scenes::Scene& scen
                              const rays::ImageOfRays& image,
                              const accel::StructureChoice& structure, const rays::TraceInput& input)
     : input_(input),
-      subject_(fmt::format("{} trace {} --accel {}", program, shell_quoted(scene.name),
+      subject_(fmt::format("{} trace {} --accel {}", program,
+                           shell_quoted(path_of_name(scene.name)),
                            shell_quoted(structure.short_label()))),
       image_(fmt::format("--resolution {}", rays::to_string(image.resolution))) {
   if (image.samples > 1) image_ += fmt::format(" --samples {}", image.samples);
@@ -72,8 +74,8 @@ ReplayCommand::ReplayCommand(std::string_view program, const scenes::Scene& scen
 std::string ReplayCommand::of(std::size_t index) const {
   const auto pixel = input_.pixel(index);
   if (!pixel) {
-    return fmt::format("{} --rays {} --ray {} {}", subject_, shell_quoted(input_.label()), index,
-                       image_);
+    return fmt::format("{} --rays {} --ray {} {}", subject_,
+                       shell_quoted(path_of_name(input_.label())), index, image_);
   }
   const std::string which =
       input_.image()->samples() > 1 ? fmt::format(" --sample {}", pixel->sample) : "";

@@ -15,6 +15,7 @@
 #include "harness/verify/describe.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
 #include "scenes/formats/mesh/obj_writer.hpp"
 #include "scenes/formats/nff/nff_writer.hpp"
 #include "scenes/subset.hpp"
@@ -223,7 +224,7 @@ void write_case(const std::filesystem::path& folder, const MinimalCase& minimal,
         {"width", image.width()}, {"height", image.height()}, {"samples", image.samples()}};
   }
   out["wrong"] = to_json(minimal.mismatch);
-  write_file(folder / "case.json", out.dump(2) + '\n');
+  write_file(folder / "case.json", json_text(out) + '\n');
 }
 
 }  // namespace beambench::verify

@@ -49,6 +49,7 @@ constexpr std::size_t kFirstBlock = std::size_t{1} << 16U;   // of what has no l
 constexpr std::size_t kLargestRead = std::size_t{1} << 30U;  // one call reads no more than 2 GiB
 constexpr std::size_t kStreamBlock = std::size_t{1} << 18U;
 constexpr std::size_t kLongestLine = std::size_t{1} << 28U;
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 [[noreturn]] void refuse_input(const std::string& name, std::string_view why,
                                std::string_view remedy) {
@@ -224,6 +225,10 @@ fs::path folder_of(const fs::path& target) {
                   fmt::format("the disk of the folder '{}' is full", folder_of(target).string()),
                   "make room there or choose another place");
   }
+  if (error == EFBIG) {
+    refuse_output(target, "it would be larger than files may be here",
+                  "raise the limit (ulimit -f) or choose another disk");
+  }
   refuse_output(target, error == 0 ? "the writing failed" : std::strerror(error),
                 "choose another place");
 }
@@ -356,6 +361,12 @@ std::string read_input(const fs::path& path, std::uint64_t max_bytes) {
   return bytes;
 }
 
+std::string read_text_input(const fs::path& path, std::uint64_t max_bytes) {
+  std::string text = read_input(path, max_bytes);
+  if (text.starts_with(kByteOrderMark)) text.erase(0, kByteOrderMark.size());
+  return text;
+}
+
 struct InputStream::State {
   explicit State(const fs::path& path)
       : file(path), name(path.string()), length(known_length(file.descriptor.number(), name)) {}
@@ -401,6 +412,7 @@ InputStream::InputStream(InputStream&&) noexcept = default;
 
 std::optional<std::string_view> InputStream::line() {
   State& state = *state_;
+  const bool is_first = position() == 0;
   for (std::size_t searched = 0;;) {
     const std::string_view rest = std::string_view(state.buffer).substr(state.begin);
     const std::size_t end = rest.find('\n', searched);
@@ -419,6 +431,7 @@ std::optional<std::string_view> InputStream::line() {
     line = line.substr(0, end);
     state.begin += line.size() + (ended ? 0 : 1);
     if (line.ends_with('\r')) line.remove_suffix(1);
+    if (is_first && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
     return line;
   }
 }

@@ -34,6 +34,10 @@ std::string read_input(const std::filesystem::path& path, std::uint64_t max_byte
 /// messages. It stays open.
 std::string read_input(int descriptor, const std::string& name, std::uint64_t max_bytes);
 
+/// Reads a text as `read_input` does. A byte order mark of UTF-8 at its beginning, which some
+/// editors write, is skipped.
+std::string read_text_input(const std::filesystem::path& path, std::uint64_t max_bytes);
+
 /// An input that is read part by part, for what may be larger than memory. Opened, read and refused
 /// by the rules of `read_input`; a file that ends early is found when its end is reached.
 class InputStream {
@@ -43,8 +47,9 @@ class InputStream {
   InputStream(InputStream&&) noexcept;
   InputStream& operator=(InputStream&&) = delete;
 
-  /// The next line without its end, "\n" or "\r\n"; nothing at the end of the input. It stays until
-  /// the next call. Throws InputError for a line of more than 256 MiB.
+  /// The next line without its end, "\n" or "\r\n"; nothing at the end of the input. A byte order
+  /// mark before the first line is skipped. The line stays until the next call. Throws InputError
+  /// for a line of more than 256 MiB.
   std::optional<std::string_view> line();
   /// Fills the buffer and returns how many bytes it got: fewer only at the end of the input.
   std::size_t read(std::span<char> buffer);

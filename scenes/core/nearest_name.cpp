@@ -138,6 +138,7 @@ std::string similar_name(std::string_view word, std::span<const std::string> nam
   std::string nearest;
   std::size_t least = std::numeric_limits<std::size_t>::max();
   for (const std::string& name : names) {
+    if (word.size() > 2 * name.size()) continue;  // more than half of it would have to go
     const std::size_t distance = edit_distance(word, name);
     if (distance < least) {
       least = distance;

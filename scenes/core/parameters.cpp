@@ -11,6 +11,7 @@
 
 #include "scenes/core/error.hpp"
 #include "scenes/core/nearest_name.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench {
 namespace {
@@ -128,20 +129,20 @@ std::string expectation(const ParameterInfo& info) {
 
 [[noreturn]] void refuse_value(const std::string& owner, const ParameterInfo& info,
                                const std::string& value) {
-  throw InputError(fmt::format("{}: parameter {} is '{}', but must be {}", owner, info.name, value,
-                               expectation(info)));
+  throw InputError(fmt::format("{}: parameter {} is '{}', but must be {}", owner, info.name,
+                               excerpt(value), expectation(info)));
 }
 
 [[noreturn]] void refuse_name(const std::string& owner, std::span<const ParameterInfo> infos,
                               const std::string& name) {
   if (infos.empty()) {
     throw InputError(
-        fmt::format("{}: there is no parameter '{}'; {} takes none", owner, name, owner));
+        fmt::format("{}: there is no parameter '{}'; {} takes none", owner, excerpt(name), owner));
   }
   std::vector<std::string> names;
   for (const ParameterInfo& info : infos) names.push_back(info.name);
   throw InputError(fmt::format("{}: there is no parameter '{}'; {}the valid ones are {}", owner,
-                               name, did_you_mean(name, names), fmt::join(names, ", ")));
+                               excerpt(name), did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 ParameterInfo plain_info(std::string name, Type type, std::string default_value,
@@ -155,7 +156,8 @@ ParameterInfo plain_info(std::string name, Type type, std::string default_value,
 }
 
 [[noreturn]] void refuse(std::string_view text, std::string_view why) {
-  throw InputError(fmt::format("'{}': {}; write a name, or name:key=value,key=value", text, why));
+  throw InputError(
+      fmt::format("'{}': {}; write a name, or name:key=value,key=value", excerpt(text), why));
 }
 
 /// Takes the text up to the first comma off the front of `text`, and the comma with it.
@@ -336,11 +338,11 @@ Spec parse_spec(std::string_view text) {
     const std::string_view piece = take_piece(rest);
     const std::size_t equals = piece.find('=');
     if (equals == std::string_view::npos || equals == 0 || equals + 1 == piece.size()) {
-      refuse(text, fmt::format("'{}' is not of the form key=value", piece));
+      refuse(text, fmt::format("'{}' is not of the form key=value", excerpt(piece)));
     }
     const std::string_view key = piece.substr(0, equals);
     for (const auto& parameter : spec.parameters) {
-      if (parameter.first == key) refuse(text, fmt::format("'{}' is given twice", key));
+      if (parameter.first == key) refuse(text, fmt::format("'{}' is given twice", excerpt(key)));
     }
     spec.parameters.emplace_back(key, piece.substr(equals + 1));
   }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "scenes/core/printable.hpp"
+
 namespace beambench {
 namespace {
 
@@ -15,8 +17,16 @@ bool is_plain(char c) {
 
 std::string shell_quoted(std::string_view word) {
   if (!word.empty() && std::all_of(word.begin(), word.end(), is_plain)) return std::string(word);
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  const bool is_printable = printable(word) == word;
+  std::string quoted = is_printable ? "'" : "$'";
+  const std::string_view apostrophe = is_printable ? "'\\''" : "\\'";
+  for (const char c : is_printable ? std::string(word) : name_of_path(word)) {
+    if (c == '\'') {
+      quoted += apostrophe;
+    } else {
+      quoted += c;
+    }
+  }
   return quoted + '\'';
 }
 

@@ -6,7 +6,8 @@
 
 namespace beambench {
 
-/// A word as a shell must be given it: as it is where that is safe, otherwise in single quotes.
+/// A word as a shell must be given it, and printable: as it is where that is safe, otherwise in
+/// single quotes, or where some of it is not printable as bash, ksh and zsh read it, `$'esc\x1b'`.
 std::string shell_quoted(std::string_view word);
 
 }  // namespace beambench

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from beambench_report.base.cell_files import write_repetitions
 from beambench_report.base.columns import as_markdown, dictionary
-from beambench_report.base.files import ROOT, Problem, write_text
+from beambench_report.base.files import ROOT, Problem, say, write_text
 from beambench_report.base.records import read_run
 from beambench_report.embree_comparison.report import comparison
 from beambench_report.haines.command import add_haines_command
@@ -50,10 +50,10 @@ def main(arguments: list[str] | None = None) -> int:
     try:
         result: Result = options.handler(options)
     except Problem as problem:
-        print(f"error: {problem}", file=sys.stderr)
+        say(f"error: {problem}")
         return 2
     except OSError as error:
-        print(f"error: {error.filename}: {error.strerror}", file=sys.stderr)
+        say(f"error: {error.filename}: {error.strerror}")
         return 2
     if isinstance(result, int):
         return result

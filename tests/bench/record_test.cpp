@@ -145,6 +145,19 @@ TEST(Csv, QuotesOnlyWhatNeedsIt) {
   EXPECT_EQ(csv_field("two\nlines"), "\"two\nlines\"");
 }
 
+TEST(Csv, NoTextIsAFormula) {
+  EXPECT_EQ(csv_field("=1+1.nff"), "'=1+1.nff");
+  EXPECT_EQ(csv_field("=HYPERLINK(\"a\")"), "\"'=HYPERLINK(\"\"a\"\")\"");
+  EXPECT_EQ(csv_field("-O3"), "'-O3");
+  EXPECT_EQ(csv_field("+x"), "'+x");
+  EXPECT_EQ(csv_field("@x"), "'@x");
+  EXPECT_EQ(csv_field("\tx"), "'\tx");
+  EXPECT_EQ(csv_field("\rx"), "\"'\rx\"");
+  EXPECT_EQ(csv_field("'x"), "''x") << "an apostrophe that readers drop is never the text's own";
+  EXPECT_EQ(csv_table(std::vector{Row{{"=a", -1.5}, {"b", -2}, {"c", "-2"}}}),
+            "'=a,b,c\n-1.5,-2,'-2\n");
+}
+
 RC_GTEST_PROP(Csv, TextsComeBackAsTheyWere, (const std::vector<std::string>& texts)) {
   Row row = Row::object();
   row["first"] = "x";
@@ -153,8 +166,11 @@ RC_GTEST_PROP(Csv, TextsComeBackAsTheyWere, (const std::vector<std::string>& tex
     row["column" + std::to_string(i)] = texts[i];
     expected.push_back(texts[i]);
   }
-  const Fields read = read_csv(csv_table(std::vector{row}));
+  Fields read = read_csv(csv_table(std::vector{row}));
   RC_ASSERT(read.size() == 2U);
+  for (std::string& text : read[1]) {
+    if (text.starts_with('\'')) text.erase(0, 1);
+  }
   RC_ASSERT(read[1] == expected);
 }
 

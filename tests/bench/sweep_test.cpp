@@ -539,6 +539,41 @@ TEST_F(Resume, RefusesAnotherBuildOrScene) {
                            {"tetra:n=2", "has changed"}));
 }
 
+TEST_F(Resume, RefusesRecordsThatAreNotAsTheyWereWritten) {
+  run(config_);
+  const std::string cell = "run/cells/" + cells()["faulty"]["key"].get<std::string>() + ".json";
+  const json whole = cells()["faulty"];
+  for (const auto& [pointer, value] :
+       std::initializer_list<std::pair<const char*, json>>{{"/row", json::array({1})},
+                                                           {"/row/scene", 7},
+                                                           {"/row/rays", "many"},
+                                                           {"/row/trace_ms_median", "fast"},
+                                                           {"/index", "first"},
+                                                           {"/repetitions", json::array({1})}}) {
+    json changed = whole;
+    changed[json::json_pointer(pointer)] = value;
+    folder_.write(cell, changed.dump());
+    EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_, true); }),
+                             {cell, "not as it was written", "remove"}))
+        << pointer;
+  }
+  folder_.write(cell, whole.dump());
+  const json manifest = read_json("manifest.json");
+  for (const char* member : {"plugins", "scenes", "run_id"}) {
+    json changed = manifest;
+    changed[member] = json::array({1});
+    folder_.write("run/manifest.json", changed.dump());
+    EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_, true); }),
+                             {"run/manifest.json", "not as it was written", "-o"}))
+        << member;
+  }
+  folder_.write("run/manifest.json", std::string(400'000, '['));
+  EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_, true); }),
+                           {"run/manifest.json", "64 levels", "-o"}));
+  folder_.write("run/manifest.json", manifest.dump());
+  EXPECT_EQ(run(config_, true).cells, 2U);
+}
+
 TEST_F(Resume, ANewRunDoesNotOverwriteAnOldOne) {
   run(config_);
   EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { run(config_); }),

@@ -48,6 +48,16 @@ class HungUpTerminal {
   bool works_ = false;
 };
 
+TEST(Input, AByteOrderMarkOfATextIsSkipped) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("a", "\xEF\xBB\xBFone\n\xEF\xBB\xBFtwo");
+  EXPECT_EQ(read_text_input(file), "one\n\xEF\xBB\xBFtwo");
+  EXPECT_EQ(read_input(file), "\xEF\xBB\xBFone\n\xEF\xBB\xBFtwo") << "bytes are not a text";
+  InputStream lines(file);
+  EXPECT_EQ(lines.line(), "one");
+  EXPECT_EQ(lines.line(), "\xEF\xBB\xBFtwo");
+}
+
 TEST(Input, IsReadWhole) {
   const TemporaryFolder folder;
   std::string text(300000, 'x');

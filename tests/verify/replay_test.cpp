@@ -32,6 +32,37 @@ TEST(ShellQuoted, GivesTheShellBackEveryCharacter) {
   }
 }
 
+TEST(ShellQuoted, GivesBashBackWhatIsNotPrintable) {
+  const TemporaryFolder folder;
+  const std::string out = (folder.path() / "out").string();
+  for (const std::string word : {"esc\x1B[31m.nff", "C\xE1mara", "it's\n\\x41 \xFF",
+                                 "\x07"
+                                 "ab"}) {
+    const std::string line = "printf %s " + shell_quoted(word) + " > '" + out + "'";
+    const std::string script = folder.write("script", line).string();
+    ASSERT_EQ(std::system(("bash '" + script + "'").c_str()), 0) << line;
+    EXPECT_EQ(read_text(out), word);
+  }
+}
+
+TEST(ReplayCommand, OpensTheFileThatWasOpened) {
+  const TemporaryFolder folder;
+  const std::string file =
+      folder
+          .write("esc\x1B.nff",
+                 "v\nfrom 0 0 5\nat 0 0 0\nup 0 1 0\nangle 45\nhither 1\nresolution 8 8\n"
+                 "s 0 0 0 1\n")
+          .string();
+  const scenes::Scene scene = scenes::load_scene(file);
+  EXPECT_EQ(scene.name, (folder.path() / "esc\\x1b.nff").string());
+  const rays::ImageOfRays image{scene.cameras.front(), {32, 20}, 1};
+  const accel::PrimaryRays rays(image.camera, 32, 20, 1);
+  const accel::StructureChoice samet = accel::registry().choose(parse_spec("samet"));
+  EXPECT_EQ(
+      ReplayCommand("beambench", scene, image, samet, rays).of(0),
+      "beambench trace " + shell_quoted(file) + " --accel samet --pixel 0,0 --resolution 32x20");
+}
+
 TEST(ReplayCommand, NamesWhatIsNotTheDefault) {
   scenes::Scene scene = scenes::load_scene("tetra:n=1");
   scene.cameras.push_back(scene.cameras.front());

@@ -16,6 +16,7 @@
 #include "harness/bench/record/cell_record.hpp"
 #include "harness/bench/record/machine.hpp"
 #include "harness/rays/fingerprint.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::bench {
 namespace {
@@ -86,7 +87,7 @@ Json measurement_json(const Manifest& manifest) {
 Json plugins_json(const std::vector<plugin::LoadedPlugin>& plugins) {
   Json list = Json::array();
   for (const plugin::LoadedPlugin& plugin : plugins) {
-    list.push_back({{"file", plugin.file},
+    list.push_back({{"file", name_of_path(plugin.file)},
                     {"hash", rays::hex_digits(plugin.hash)},
                     {"description", plugin.description},
                     {"compiler", plugin.compiler},

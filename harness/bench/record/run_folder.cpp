@@ -9,9 +9,12 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
+#include "scenes/core/printable.hpp"
 #include "scenes/core/shell_word.hpp"
 
 namespace beambench::bench {
@@ -33,18 +36,15 @@ void make_folder(const fs::path& path) {
   }
 }
 
+constexpr const char* kRemedy =
+    "remove a cell's file to have the cell measured again, or begin a new run with -o";
+
 Json parse_file(const fs::path& path) {
-  constexpr const char* kRemedy =
-      "remove a cell's file to have the cell measured again, or begin a new run with -o";
   try {
-    Json document =
-        Json::parse(read_input(path, kLargestFile), nullptr, /*allow_exceptions=*/false);
-    if (!document.is_discarded()) return document;
+    return read_json_file<Json>(path);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}; {}", error.what(), kRemedy));
   }
-  throw InputError(fmt::format("cannot read '{}', which a run should have left whole; {}",
-                               path.string(), kRemedy));
 }
 
 void remove_left_behind(const fs::path& folder) {
@@ -64,7 +64,7 @@ bool holds_run(const fs::path& path) {
 /// A member of a manifest as text, whatever it is; empty where there is none.
 std::string member(const Json& manifest, const char* pointer) {
   const Json::json_pointer place(pointer);
-  return manifest.contains(place) ? manifest.at(place).dump() : "";
+  return manifest.contains(place) ? json_text(manifest.at(place), -1) : "";
 }
 
 /// The hashes of a manifest's plug-ins or scenes, by file or name.
@@ -87,20 +87,23 @@ void merge_columns(Columns& columns, const Row& row) {
   }
 }
 
-std::string value_text(const Row& value) {
+/// A value as a CSV field.
+std::string field_of(const Row& value) {
   if (value.is_null()) return "";
-  if (value.is_string()) return value.get<std::string>();
+  if (value.is_string()) return csv_field(value.get<std::string>());
   if (value.is_number_float()) return fmt::format("{}", value.get<double>());
-  return value.dump();
+  return json_text(value, -1);
 }
 
 std::string csv_line(const std::vector<std::string>& fields) {
-  std::string text;
-  for (const std::string& field : fields) {
-    if (&field != fields.data()) text += ',';
-    text += csv_field(field);
-  }
-  return text + '\n';
+  return fmt::format("{}\n", fmt::join(fields, ","));
+}
+
+std::string csv_header(const Columns& columns) {
+  std::vector<std::string> fields;
+  fields.reserve(columns.size());
+  for (const std::string& column : columns) fields.push_back(csv_field(column));
+  return csv_line(fields);
 }
 
 std::string csv_line(const Columns& columns, const Row& row) {
@@ -108,7 +111,7 @@ std::string csv_line(const Columns& columns, const Row& row) {
   fields.reserve(columns.size());
   for (const std::string& column : columns) {
     const auto found = row.find(column);
-    fields.push_back(found == row.end() ? std::string() : value_text(*found));
+    fields.push_back(found == row.end() ? std::string() : field_of(*found));
   }
   return csv_line(fields);
 }
@@ -160,7 +163,7 @@ RunFolder RunFolder::open(const fs::path& path) {
 Json RunFolder::read_json(const std::string& name) const { return parse_file(path_ / name); }
 
 void RunFolder::write_json(const std::string& name, const Json& document) const {
-  write_text(name, document.dump(2) + '\n');
+  write_text(name, json_text(document) + '\n');
 }
 
 void RunFolder::write_text(const std::string& name, const std::string& text) const {
@@ -169,7 +172,7 @@ void RunFolder::write_text(const std::string& name, const std::string& text) con
 
 void RunFolder::add_cell(const Json& cell) {
   const std::string file = cell.at("key").get<std::string>() + ".json";
-  write_file(path_ / kCells / file, cell.dump(2) + '\n');
+  write_file(path_ / kCells / file, json_text(cell) + '\n');
   const Row& row = cell.at("row");
   const std::size_t columns_before = columns_.size();
   merge_columns(columns_, row);
@@ -180,7 +183,8 @@ void RunFolder::add_cell(const Json& cell) {
 
 void RunFolder::for_each_cell(const CellVisitor& visit) const {
   for (const auto& [index, place] : cells_) {
-    visit(parse_file(path_ / kCells / place.file));
+    const fs::path file = path_ / kCells / place.file;
+    read_as_written(file.string(), kRemedy, [&] { visit(parse_file(file)); });
   }
 }
 
@@ -211,7 +215,8 @@ void RunFolder::load_cells() {
       throw InputError(fmt::format("'{}' is not a cell of a run: it has no '{}'; remove it",
                                    entry.path().string(), member));
     }
-    remember(cell, entry.path().filename().string());
+    read_as_written(entry.path().string(), kRemedy,
+                    [&] { remember(cell, entry.path().filename().string()); });
   }
 }
 
@@ -224,7 +229,7 @@ void RunFolder::write_results() {
   columns_.clear();
   for_each_cell([&](const Json& cell) { merge_columns(columns_, cell.at("row")); });
   write_file(results(), [&](std::ostream& out) {
-    const std::string header = csv_line(columns_);
+    const std::string header = csv_header(columns_);
     header_bytes_ = header.size();
     out << header;
     for_each_cell([&](const Json& cell) {
@@ -235,7 +240,9 @@ void RunFolder::write_results() {
   });
 }
 
-void require_same_run(const RunFolder& folder, const nlohmann::json& config, const Json& now) {
+namespace {
+
+void require_same(const RunFolder& folder, const nlohmann::json& config, const Json& now) {
   const auto refuse = [&](const std::string& reason) {
     throw InputError(fmt::format("cannot resume '{}': {}; begin a new run with -o",
                                  folder.path().string(), reason));
@@ -263,7 +270,7 @@ void require_same_run(const RunFolder& folder, const nlohmann::json& config, con
   for (const auto& [file, hash] : hashes(then, "plugins", "file")) {
     const auto found = plugins.find(file);
     if (found == plugins.end()) {
-      refuse(fmt::format("it was begun with --plugin {}", shell_quoted(file)));
+      refuse(fmt::format("it was begun with --plugin {}", shell_quoted(path_of_name(file))));
     } else if (found->second != hash) {
       refuse(fmt::format("the plug-in {} has changed since", file));
     }
@@ -272,15 +279,27 @@ void require_same_run(const RunFolder& folder, const nlohmann::json& config, con
   for (const auto& [name, hash] : hashes(now, "scenes", "name")) {
     const auto found = earlier.find(name);
     if (found != earlier.end() && found->second != hash) {
-      refuse(fmt::format("the scene {} has changed since", Json(name).dump()));
+      refuse(fmt::format("the scene {} has changed since", json_text(Json(name), -1)));
     }
   }
 }
 
+}  // namespace
+
+void require_same_run(const RunFolder& folder, const nlohmann::json& config, const Json& now) {
+  read_as_written((folder.path() / kManifest).string(), "begin a new run with -o",
+                  [&] { require_same(folder, config, now); });
+}
+
 std::string csv_field(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
+  constexpr std::string_view kFormulaOrApostrophe = "=+-@\t\r'";
+  std::string guarded(text);
+  if (!text.empty() && kFormulaOrApostrophe.find(text.front()) != std::string_view::npos) {
+    guarded.insert(0, 1, '\'');
+  }
+  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return guarded;
   std::string field = "\"";
-  for (const char letter : text) {
+  for (const char letter : guarded) {
     if (letter == '"') field += '"';
     field += letter;
   }
@@ -290,7 +309,7 @@ std::string csv_field(std::string_view text) {
 std::string csv_table(std::span<const Row> rows) {
   Columns columns;
   for (const Row& row : rows) merge_columns(columns, row);
-  std::string text = csv_line(columns);
+  std::string text = csv_header(columns);
   for (const Row& row : rows) text += csv_line(columns, row);
   return text;
 }

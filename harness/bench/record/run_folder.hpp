@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <set>
 #include <span>
@@ -42,7 +43,8 @@ class RunFolder {
   void add_cell(const nlohmann::ordered_json& cell);
   /// Makes results.csv from the cells: a kill may have come between a cell and its row.
   void write_results();
-  /// Reads the finished cells, one by one, in the order of the plan.
+  /// Reads the finished cells, one by one, in the order of the plan. Throws InputError naming the
+  /// cell's file where `visit` finds a value missing or of another type.
   void for_each_cell(const CellVisitor& visit) const;
 
  private:
@@ -76,7 +78,9 @@ void require_same_run(const RunFolder& folder, const nlohmann::json& config,
                       const nlohmann::ordered_json& manifest);
 
 /// A text as a CSV field: in quotes, inner quotes doubled, when it holds a comma, quote or line
-/// end.
+/// end. One that begins with a character at which a spreadsheet takes it for a formula (=, +, -, @,
+/// tab, carriage return), or with an apostrophe, gets an apostrophe before it, which readers drop
+/// (scripts/beambench_report/base/csv_texts.py).
 std::string csv_field(std::string_view text);
 
 /// Header and rows, lines ending with a line feed. The columns are those of the first row; columns

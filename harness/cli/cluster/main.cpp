@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "harness/base/messages.hpp"
+#include "harness/base/process_start.hpp"
 #include "harness/bench/record/machine.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cluster/mpi_session.hpp"
@@ -222,6 +223,7 @@ int run_process(int argc, char** argv, MpiSession& session, Transport& transport
 
 int main(int argc, char** argv) {
   using namespace beambench;
+  base::prepare_process();
   cluster::MpiSession session(argc, argv, cli::timeout_of(argc, argv));
   cluster::MpiTransport transport(cluster::MpiTransport::Waiting::kSleeping);
   return cli::run_process(argc, argv, session, transport);

@@ -13,10 +13,12 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/base/messages.hpp"
+#include "harness/base/process_start.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cluster/simulation/simulate.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/core/json_text.hpp"
 
 namespace beambench::cli {
 namespace {
@@ -137,7 +139,7 @@ void replay(const ReplayRequest& request, const char* program) {
   }
   const SimulatedRun result = simulate(cluster_of(request.cluster, request.consumers + 1), costs,
                                        request.build_seconds, request.options, program);
-  fmt::print("{}\n", to_json(costs, request.build_seconds, result).dump(1));
+  fmt::print("{}\n", json_text(to_json(costs, request.build_seconds, result), 1));
 }
 
 void add_replay_options(CLI::App& app, ReplayRequest& request) {
@@ -210,7 +212,7 @@ void trace_split(const SplitRequest& request, const char* program) {
   job.samples = request.image.samples;
   const SimulatedSplit result = simulate_split(cluster_of(request.cluster, request.processes), job,
                                                whole, request.scale, program);
-  fmt::print("{}\n", to_json(*whole, result).dump(1));
+  fmt::print("{}\n", json_text(to_json(*whole, result), 1));
 }
 
 void add_split_options(CLI::App& app, SplitRequest& request) {
@@ -283,6 +285,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace beambench;
+  base::prepare_process();
   try {
     return cli::run(argc, argv);
   } catch (const InputError& error) {

@@ -85,7 +85,7 @@ double sum(const std::vector<TaskCost>& tasks, Value value) {
 
 std::string read_tasks(const std::filesystem::path& path) {
   try {
-    return read_input(path, kLargestFile);
+    return read_text_input(path, kLargestFile);
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}; {}", error.what(), kRemedy));
   }

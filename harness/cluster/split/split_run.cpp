@@ -14,6 +14,7 @@
 #include "harness/render/picture/image_file.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
 
 namespace beambench::cluster {
 namespace {
@@ -79,7 +80,7 @@ SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
     render::write_image(request.picture,
                         render::shade(state.worker->scene(), rays, hits, request.shading));
   }
-  if (!request.report.empty()) write_file(request.report, to_json(run).dump(2) + "\n");
+  if (!request.report.empty()) write_file(request.report, json_text(to_json(run)) + "\n");
   return run;
 }
 

@@ -13,6 +13,7 @@
 #include "harness/verify/selftest/test_scenes.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
 #include "scenes/formats/mesh/obj_writer.hpp"
 #include "scenes/formats/nff/nff_writer.hpp"
 
@@ -133,7 +134,7 @@ std::size_t write_kit(const fs::path& folder, const SelftestEffort& effort, Prim
   });
   write_file(folder / "README.md", kReadme);
   const nlohmann::ordered_json index{{"seed", effort.seed}, {"cases", cases}};
-  write_file(folder / kIndex, index.dump(2) + '\n');  // last: a kit that has it is complete
+  write_file(folder / kIndex, json_text(index) + '\n');  // last: a kit that has it is complete
   return cases.size();
 }
 
@@ -144,8 +145,7 @@ std::vector<KitCase> read_kit(const fs::path& folder) {
                                  file.string(), problem));
   };
   if (!fs::exists(file)) fail("there is no such file, so the folder holds no kit");
-  const auto json =
-      nlohmann::ordered_json::parse(read_input(file, kLargestDocument), nullptr, false);
+  const auto json = read_json_file<nlohmann::ordered_json>(file);
   if (!json.is_object() || !json.contains("cases") || !json["cases"].is_array()) {
     fail("it is no list of cases");
   }

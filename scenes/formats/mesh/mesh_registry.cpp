@@ -9,8 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
+#include "scenes/core/json_text.hpp"
 #include "scenes/core/nearest_name.hpp"
+#include "scenes/core/printable.hpp"
 #include "scenes/formats/mesh/mesh_cache.hpp"
 #include "scenes/formats/mesh/mesh_file.hpp"
 #include "scenes/scene_builder.hpp"
@@ -41,9 +42,18 @@ std::string suggestion(std::string_view name, const std::vector<std::string>& na
       there));
 }
 
+constexpr std::string_view kRemedy = "correct it, or run scripts/meshes again";
+
 [[noreturn]] void refuse_entry(const fs::path& entry, std::string_view why) {
-  throw InputError(
-      fmt::format("{}: {}; correct it, or run scripts/meshes again", entry.string(), why));
+  throw InputError(fmt::format("{}: {}; {}", entry.string(), why, kRemedy));
+}
+
+Json read_json(const fs::path& entry) {
+  try {
+    return read_json_file<Json>(entry);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}; {}", error.what(), kRemedy));
+  }
 }
 
 /// A text of an entry; the other one where it is not given.
@@ -134,7 +144,7 @@ GivenView read_view(const Json& json, const Orientation& orientation, const fs::
 }
 
 RegisteredMesh read_entry(const std::string& name, const fs::path& entry) {
-  const Json json = Json::parse(read_input(entry, kLargestDocument), nullptr, false);
+  const Json json = read_json(entry);
   if (!json.is_object()) refuse_entry(entry, "it is not a JSON object");
   RegisteredMesh mesh;
   mesh.name = name;
@@ -148,7 +158,7 @@ RegisteredMesh read_entry(const std::string& name, const fs::path& entry) {
     refuse_entry(entry, "'up' and 'front' must be two different axes; give both");
   }
   mesh.view = read_view(json, mesh.orientation, entry);
-  mesh.about = text_of(json, "about", "", entry);
+  mesh.about = printable(text_of(json, "about", "", entry));
   return mesh;
 }
 

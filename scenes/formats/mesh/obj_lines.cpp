@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "scenes/core/error.hpp"
+#include "scenes/core/printable.hpp"
 
 namespace beambench::scenes::mesh {
 namespace {
@@ -54,7 +55,7 @@ void require_coordinate(std::string_view word, std::size_t line) {
   if (is_number(word.starts_with('+') ? word.substr(1) : word)) return;
   refuse_line(line, fmt::format("a vertex has the coordinate '{}', but must have numbers from -1e9 "
                                 "to 1e9",
-                                word.substr(0, 40)));
+                                excerpt(word)));
 }
 
 /// `7`, `7/1`, `7//3`, `-1/-1/-1`: what comes before the slash.
@@ -66,7 +67,7 @@ void require_corner(std::string_view word, std::size_t line) {
   if (error == std::errc() && end == digits.data() + digits.size() && number != 0) return;
   refuse_line(line, fmt::format("a face has the corner '{}', but must have numbers of vertices, "
                                 "which count from 1",
-                                word.substr(0, 40)));
+                                excerpt(word)));
 }
 
 bool is_digit(char letter) { return letter >= '0' && letter <= '9'; }

@@ -16,6 +16,7 @@
 #include "scenes/camera.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
+#include "scenes/core/printable.hpp"
 #include "scenes/formats/nff/nff_tokens.hpp"
 #include "scenes/scene_builder.hpp"
 
@@ -253,12 +254,13 @@ void NffReader::skip_unknown() {
   if (any_command_ && tokens_.at_number()) {
     tokens_.refuse(unknown.line, fmt::format("the number '{}' stands where a command should; the "
                                              "command at line {} takes fewer numbers",
-                                             unknown.text, command_.line));
+                                             excerpt(unknown.text), command_.line));
   }
   while (!tokens_.at_end() && !next_command()) tokens_.take();
   const std::string end =
       tokens_.at_end() ? "the end of the file" : fmt::format("line {}", tokens_.peek().line);
-  note(unknown.line, fmt::format("unknown word '{}'", unknown.text), ", skipped up to " + end);
+  note(unknown.line, fmt::format("unknown word '{}'", excerpt(unknown.text)),
+       ", skipped up to " + end);
 }
 
 /// Reports something in spite of which the file can be read.
@@ -407,7 +409,7 @@ NffResult parse_nff(std::string_view text, const std::string& file, ReadOptions 
 }
 
 NffResult read_nff(const std::filesystem::path& path, ReadOptions options) {
-  const std::string text = read_input(path, kLargestFile);
+  const std::string text = read_text_input(path, kLargestFile);
   try {
     return parse_nff(text, path.string(), options);
   } catch (const std::bad_alloc&) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "scenes/core/error.hpp"
+#include "scenes/core/printable.hpp"
 #include "scenes/scene_builder.hpp"
 
 namespace beambench::scenes::nff {
@@ -41,8 +42,8 @@ Number parse(std::string_view word) {
 
 }  // namespace
 
-NffTokens::NffTokens(std::string_view text, std::string file)
-    : file_(std::move(file)), position_(text.data()), end_(text.data() + text.size()) {
+NffTokens::NffTokens(std::string_view text, std::string_view file)
+    : file_(printable(file)), position_(text.data()), end_(text.data() + text.size()) {
   token_.starts_line = true;  // of the nothing before the first token
   advance();
 }
@@ -98,7 +99,7 @@ Number NffTokens::take_number(std::string_view what) {
   const auto number = parse<Number>(token_.text);
   if (!(std::abs(number) <= static_cast<Number>(kLargestNumber))) {
     refuse(token_.line, fmt::format("'{}' stands where {} should be a number from -1e9 to 1e9",
-                                    token_.text, what));
+                                    excerpt(token_.text), what));
   }
   advance();
   return number;
@@ -117,7 +118,8 @@ long NffTokens::integer(std::string_view what) {
   const NffToken token = token_;
   const auto real = take_number<double>(what);
   if (real != std::floor(real)) {
-    refuse(token.line, fmt::format("'{}' stands where {} should be an integer", token.text, what));
+    refuse(token.line,
+           fmt::format("'{}' stands where {} should be an integer", excerpt(token.text), what));
   }
   return static_cast<long>(real);
 }

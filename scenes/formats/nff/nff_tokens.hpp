@@ -25,7 +25,7 @@ struct NffToken {
 class NffTokens {
  public:
   /// The text must outlive this object; `file` is used in messages.
-  NffTokens(std::string_view text, std::string file);
+  NffTokens(std::string_view text, std::string_view file);
 
   const std::string& file() const { return file_; }
   const NffToken& peek() const { return token_; }

@@ -5,7 +5,6 @@ repetitions.csv, a line for each repetition: `line` is that of its cell in resul
 is line 1. From it paired ratios and the noise of a calibration can be computed again.
 """
 
-import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -16,7 +15,8 @@ from typing import Literal
 
 import pandas as pd
 
-from beambench_report.base.files import Problem, write_whole
+from beambench_report.base.csv_texts import csv_of
+from beambench_report.base.files import Problem, load_json, write_text
 from beambench_report.base.ratio import Ratio, median_of, paired_ratio, unpaired_ratio
 from beambench_report.base.records import read_run
 
@@ -113,7 +113,7 @@ def _without_gaps(repetition: Repetition) -> Repetition:
 def opened_cell(path: Path) -> Iterator[dict]:
     """A file of DIRECTORY/cells. Raises Problem where it is not what the block takes it for."""
     try:
-        yield json.loads(path.read_text("utf-8"))
+        yield load_json(path)
     except (ValueError, KeyError, TypeError) as error:
         raise Problem(
             f"{path}: is not a cell of a run ({type(error).__name__}: {error}); remove it"
@@ -190,7 +190,5 @@ def write_repetitions(run: Path, output: Path | None = None) -> Path:
     columns = ["line", "round", *_FIGURES]
     whole = pd.DataFrame(table, columns=columns).sort_values(["line", "round"])
 
-    def write(path: Path) -> None:
-        whole.dropna(axis="columns", how="all").to_csv(path, index=False, float_format="%.6g")
-
-    return write_whole(output or run / REPETITIONS, write)
+    text = csv_of(whole.dropna(axis="columns", how="all"), float_format="%.6g")
+    return write_text(output or run / REPETITIONS, text)

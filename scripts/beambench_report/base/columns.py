@@ -138,7 +138,10 @@ def as_markdown(known: Dictionary) -> str:
     introduction = (
         f"Schema version {known.schema_version}. A row is a cell of a sweep: one structure with "
         "one set of parameters, tracing one set of rays. The file is UTF-8 with one header row "
-        "and quotes as in RFC 4180. An empty field was not measured; `null` is a structure's name."
+        "and quotes as in RFC 4180. An empty field was not measured; `null` is a structure's name. "
+        "A text that a spreadsheet would take for a formula (it begins with `=`, `+`, `-` or `@`) "
+        "has an apostrophe before it, and so has one that begins with an apostrophe. In the names "
+        "of files, `\\x1b` is a byte that cannot be printed, and two backslashes are one."
     )
     lines = [
         "# The columns of results.csv",

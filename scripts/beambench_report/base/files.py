@@ -10,8 +10,12 @@ import subprocess
 import sys
 from collections.abc import Callable, Collection, Sequence
 from pathlib import Path
+from typing import Any
 
 import pandas as pd
+
+from beambench_report.base.csv_texts import unguarded
+from beambench_report.base.printable import printable
 
 ROOT = Path(__file__).resolve().parents[3]
 """The top of the repository."""
@@ -23,7 +27,7 @@ class Problem(Exception):  # noqa: N818 (invalid arguments are no programming er
 
 def say(text: str) -> None:
     """Reports progress or a warning on standard error."""
-    print(text, file=sys.stderr, flush=True)
+    print(printable(text), file=sys.stderr, flush=True)
 
 
 def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
@@ -59,13 +63,25 @@ def read_table(
     missing = [column for column in columns if column not in rows]
     if missing:
         raise Problem(f"{path}: it has no column '{missing[0]}'; {remedy}")
-    return rows
+    return unguarded(rows)
+
+
+def load_json(path: Path) -> Any:  # noqa: ANN401 (as of json.loads)
+    """What a JSON file holds; a byte order mark is skipped.
+
+    Raises ValueError where it is no JSON or nests too deep for a parser, OSError where it cannot
+    be read.
+    """
+    try:
+        return json.loads(path.read_text("utf-8-sig"))
+    except RecursionError:
+        raise ValueError("its lists and objects nest too deep") from None
 
 
 def read_json(path: Path) -> object:
     """What a JSON file holds; None where there is no file. Raises Problem where it is no JSON."""
     try:
-        return json.loads(path.read_text("utf-8"))
+        return load_json(path)
     except FileNotFoundError:
         return None
     except ValueError as error:

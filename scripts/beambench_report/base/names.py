@@ -1,5 +1,6 @@
 """What plots and files call the contenders and the views of a run."""
 
+import os
 import re
 from collections.abc import Iterable
 
@@ -37,6 +38,17 @@ def view_titles(rows: pd.DataFrame) -> pd.Series:
     if rows["ray_kind"].nunique() > 1:
         titles += ", " + rows["ray_kind"] + " rays"
     return titles
+
+
+def path_of_name(name: str) -> str:
+    """The path of the file that records name so: `\\x1b` is a byte, two backslashes are one.
+
+    Names of files are made by `name_of_path` (scenes/core/printable.hpp).
+    """
+    pieces = re.split(rb"\\(\\|x[0-9a-f]{2})", name.encode())
+    for i in range(1, len(pieces), 2):
+        pieces[i] = bytes.fromhex(pieces[i][1:].decode()) if len(pieces[i]) > 1 else pieces[i]
+    return os.fsdecode(b"".join(pieces))
 
 
 def file_stems(titles: Iterable[str]) -> dict[str, str]:

@@ -8,6 +8,7 @@ import pandas as pd
 from pandas.api.types import is_bool_dtype, is_numeric_dtype
 
 from beambench_report.base.columns import COUNTER_SUFFIX, RENAMED_COLUMNS, dictionary
+from beambench_report.base.csv_texts import unguarded
 from beambench_report.base.files import Problem
 from beambench_report.base.names import contender_labels, view_titles
 
@@ -127,9 +128,10 @@ def _read_csv(path: Path) -> pd.DataFrame:
     texts[VERSION_COLUMN] = str
     try:
         # `null` is the name of a structure, so that only an empty field means "not measured".
-        return pd.read_csv(
+        rows = pd.read_csv(
             path, dtype=texts, keep_default_na=False, na_values=[""], low_memory=False
-        ).rename(columns=RENAMED_COLUMNS)
+        )
+        return unguarded(rows).rename(columns=RENAMED_COLUMNS)
     except FileNotFoundError:
         raise Problem(f"{path}: there is no such file; {_remedy(path.parent)}") from None
     except (OSError, UnicodeDecodeError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:

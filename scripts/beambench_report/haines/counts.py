@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.files import ROOT, read_table, say, write_whole
+from beambench_report.base.csv_texts import csv_of
+from beambench_report.base.files import ROOT, read_table, say, write_text
 from beambench_report.havran.census import census_of
 
 PUBLISHED = ROOT / "results/haines/tests.csv"
@@ -42,7 +43,7 @@ def measure_tests(folder: Path, program: Path) -> Path:
             work = census_of(file, program, scene, contender)["work"]
             rows += [(contender, scene, kind, work[f"{kind}_tests"]) for kind in KINDS]
     table = pd.DataFrame(rows, columns=list(_COLUMNS))
-    return write_whole(folder / "tests.csv", lambda pending: table.to_csv(pending, index=False))
+    return write_text(folder / "tests.csv", csv_of(table))
 
 
 def _by_scene(rows: pd.DataFrame) -> Tests:

@@ -6,7 +6,8 @@ from typing import NamedTuple
 
 import pandas as pd
 
-from beambench_report.base.files import ROOT, read_table, write_whole
+from beambench_report.base.csv_texts import csv_of
+from beambench_report.base.files import ROOT, read_table, write_text
 
 PUBLISHED = ROOT / "results/havran/counts.csv"
 
@@ -42,4 +43,4 @@ def write_counts(path: Path, counts: Iterable[tuple[Case, str, dict[str, float]]
         for quantity, value in quantities.items()
     ]
     table = pd.DataFrame(rows)
-    return write_whole(path, lambda pending: table.to_csv(pending, index=False))
+    return write_text(path, csv_of(table))

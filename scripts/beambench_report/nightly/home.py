@@ -1,7 +1,6 @@
 """Where nightly runs are stored: a folder with the history, and a folder for each run."""
 
 import fcntl
-import json
 import os
 import re
 import shutil
@@ -11,7 +10,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
-from beambench_report.base.files import ROOT, Problem, read_json
+from beambench_report.base.files import ROOT, Problem, load_json, read_json
 from beambench_report.base.records import FAULTLESS_VERDICTS
 from beambench_report.history.store import recorded_folders
 
@@ -99,8 +98,9 @@ def adopt(home: Home, run: Path, run_id: str) -> Path:
 
 def is_finished(run: Path) -> bool:
     """Did the run come to its end?"""
-    manifest = read_json(run / "manifest.json") or {}
-    return bool(manifest.get("finished_utc")) and (run / "results.csv").exists()
+    manifest = read_json(run / "manifest.json")
+    ended = isinstance(manifest, dict) and bool(manifest.get("finished_utc"))
+    return ended and (run / "results.csv").exists()
 
 
 def abandon(run: Path) -> Path:
@@ -134,6 +134,6 @@ def prune(home: Home, keep: int = KEEP_SAMPLES) -> list[Path]:
 
 def _was_right(path: Path) -> bool:
     try:
-        return json.loads(path.read_text("utf-8"))["row"]["verdict"] in FAULTLESS_VERDICTS
+        return load_json(path)["row"]["verdict"] in FAULTLESS_VERDICTS
     except (ValueError, KeyError, TypeError):
         return False

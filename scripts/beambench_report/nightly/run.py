@@ -1,11 +1,10 @@
 """One night: measure, record, test for regressions, report."""
 
-import json
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
-from beambench_report.base.files import INTERRUPTED, Problem, run_in_foreground, say
+from beambench_report.base.files import INTERRUPTED, Problem, load_json, run_in_foreground, say
 from beambench_report.base.records import read_run
 from beambench_report.history.alarms import doubt, find_alarms, sentence
 from beambench_report.history.night import night_of
@@ -93,7 +92,7 @@ def report_alarms(alarms: list[Alarm], series: int) -> None:
 
 def describe(request: Request) -> str:
     """What a night would do."""
-    sweep = json.loads(request.sweep.read_text("utf-8"))
+    sweep = load_json(request.sweep)
     runs = request.home.finished()
     lines = [
         f"sweep      {request.sweep} ({sweep.get('budget_seconds', 0) / 60:.0f} min)",

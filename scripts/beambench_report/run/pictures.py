@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.image import imread
 
 from beambench_report.base.files import Problem, output_of, write_whole
-from beambench_report.base.names import file_stems
+from beambench_report.base.names import file_stems, path_of_name
 from beambench_report.base.records import OK, Run, read_run
 from beambench_report.run.sheet_layout import (
     HEADING,
@@ -67,7 +67,8 @@ def _heatmap_structure(run: Run, scene: str) -> str | None:
 
 
 def _render(beambench: Path, scene: str, structure: str, output: Path, *options: str) -> None:
-    command = [str(beambench), "render", scene, "--accel", structure, "-o", str(output), *options]
+    command = [str(beambench), "render", path_of_name(scene), "--accel", structure]
+    command += ["-o", str(output), *options]
     try:
         status = subprocess.run(command, check=False).returncode
     except OSError as error:

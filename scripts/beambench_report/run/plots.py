@@ -5,8 +5,9 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from beambench_report.base.csv_texts import csv_of
 from beambench_report.base.figure import Plot, house_style, write_plot
-from beambench_report.base.files import write_text, write_whole
+from beambench_report.base.files import load_json, write_text
 from beambench_report.base.names import PLOT_INDEX
 from beambench_report.base.records import Run
 from beambench_report.run.break_even import break_even_table
@@ -67,9 +68,7 @@ def write_plots(directory: Path) -> list[Path]:
             plots.append(plot)
     _remove_former(folder, {plot.stem for plot in plots})
     table = break_even_table(measured.run)
-    paths.append(
-        write_whole(folder / "break-even.csv", lambda path: table.to_csv(path, index=False))
-    )
+    paths.append(write_text(folder / "break-even.csv", csv_of(table)))
     readme = _readme(measured.run, plots)
     for name, text in (("README.md", readme), (PLOT_INDEX, _index(plots))):
         paths.append(write_text(folder / name, text))
@@ -79,7 +78,7 @@ def write_plots(directory: Path) -> list[Path]:
 def _remove_former(folder: Path, stems: set[str]) -> None:
     """The figures that the index there lists and that were not drawn again."""
     try:
-        former = {entry["stem"] for entry in json.loads((folder / PLOT_INDEX).read_text("utf-8"))}
+        former = {entry["stem"] for entry in load_json(folder / PLOT_INDEX)}
     except (OSError, ValueError, TypeError, KeyError):
         return
     for stem in former - stems:

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from beambench_report.base.figure import structure_color
+from beambench_report.base.files import load_json
 from beambench_report.base.names import view_titles
 from beambench_report.base.records import size_of
 from beambench_report.history.alarms import SHARE, doubt, sentence
@@ -160,7 +161,7 @@ def read_mismatches(directory: Path) -> list[Mismatch]:
     if not index.exists():
         return []
     found = []
-    for entry in json.loads(index.read_text("utf-8")):
+    for entry in load_json(index):
         images = tuple(
             (data_uri(index.with_name(entry[kind])), caption)
             for kind, caption in (

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeVar
 
-from beambench_report.base.files import Problem, output_of, write_text
+from beambench_report.base.files import Problem, load_json, output_of, write_text
 from beambench_report.base.published import primitives_by_scene, read_published
 from beambench_report.base.quantities import DASH, number
 from beambench_report.thesis.paper.evidence import published_evidence
@@ -27,7 +27,7 @@ Read = TypeVar("Read")
 def _read(path: Path, take: Callable[[dict], Read]) -> Read | None:
     """What is taken from a file; None where there is none, or it is not what was printed."""
     try:
-        return take(json.loads(path.read_text("utf-8")))
+        return take(load_json(path))
     except (OSError, ValueError, KeyError, TypeError):
         return None
 

@@ -1,11 +1,11 @@
 """Beams of what planar mirrors show, the thesis's future work: of `beambench mirrors --json`."""
 
-import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from beambench_report.base.files import load_json
 from beambench_report.base.quantities import number
 from beambench_report.thesis.paper.printed import scene_title
 from beambench_report.thesis.paper.section import Section, section_table
@@ -37,7 +37,7 @@ def read_mirrors(files: Iterable[Path]) -> tuple[list[MirrorRun], list[str]]:
     found, unread = [], []
     for file in files:
         try:
-            found.append(_run_of(json.loads(file.read_text("utf-8"))))
+            found.append(_run_of(load_json(file)))
         except (ValueError, KeyError, TypeError, OSError) as error:
             unread.append(f"{file}: is not what `beambench mirrors --json` prints ({error})")
     return found, unread

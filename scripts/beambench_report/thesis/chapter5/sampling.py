@@ -1,6 +1,5 @@
 """Object-space sampling, the thesis's future work: the output of `beambench sampling --json`."""
 
-import json
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -14,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 from beambench_report.base.figure import Look, Plot, new_figure
-from beambench_report.base.files import Problem
+from beambench_report.base.files import Problem, load_json
 from beambench_report.base.names import file_stems
 from beambench_report.base.palette import INK, SOFT, structure_color
 from beambench_report.base.quantities import DASH, number
@@ -107,7 +106,7 @@ class Comparison:
 def read_comparison(path: Path) -> Comparison:
     """Raises Problem where the file is not what `beambench sampling --json` prints."""
     try:
-        source = json.loads(path.read_text("utf-8"))
+        source = load_json(path)
         points = tuple(_point(entry) for entry in source["results"])
         if not points:
             raise ValueError("no results")

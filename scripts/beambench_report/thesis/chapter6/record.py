@@ -10,7 +10,8 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.files import Problem, output_of, read_json, write_text
+from beambench_report.base.csv_texts import csv_of
+from beambench_report.base.files import Problem, load_json, output_of, read_json, write_text
 from beambench_report.base.quantities import markdown_table
 from beambench_report.thesis.chapter6.machines import Recorded
 
@@ -71,7 +72,7 @@ def record(folder: Path, program: Path, pictures: list[Picture], repeats: int) -
             runs = [_record_once(program, picture, work) for _ in range(repeats)]
             rows = _medians([rows for rows, _ in runs])
             path = tasks_file(folder, picture.scene, work)
-            written.append(write_text(path, rows.to_csv(index=False)))
+            written.append(write_text(path, csv_of(rows)))
             recorded = Recorded(
                 statistics.median_high(one["each"][0]["build_seconds"] for _, one in runs),
                 float(rows["walk_seconds"].sum()),
@@ -99,7 +100,7 @@ def read_recorded(folder: Path) -> dict[tuple[str, str], Recorded]:
     """Sums by scene and kind of work. Raises Problem where nothing was recorded."""
     path = folder / "recorded.json"
     try:
-        sums = json.loads(path.read_text("utf-8"))
+        sums = load_json(path)
     except (OSError, ValueError):
         raise Problem(
             f"{path}: it is not there or not JSON; write it with: "
@@ -153,7 +154,7 @@ def measure(folder: Path, program: Path, pictures: list[Picture], repeats: int) 
         if len(hashes) != 1:
             raise Problem(f"{picture.scene}: {len(hashes)} different pictures; that is a fault")
     folder.mkdir(parents=True, exist_ok=True)
-    return [write_text(folder / MEASURED, pd.DataFrame(rows).to_csv(index=False))]
+    return [write_text(folder / MEASURED, csv_of(pd.DataFrame(rows)))]
 
 
 def measured_section(folder: Path) -> str | None:
@@ -227,4 +228,4 @@ def _run_mpi(program: Path, picture: Picture, processes: int, options: tuple[str
             remedy="install it with: scripts/setup cluster",
             env={**os.environ, **ENVIRONMENT},
         )
-        return json.loads(report.read_text("utf-8"))
+        return load_json(report)

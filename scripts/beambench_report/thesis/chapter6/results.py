@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pandas as pd
 
+from beambench_report.base.csv_texts import csv_of
 from beambench_report.base.files import read_table, write_text
 
 SIMULATIONS = "simulations.csv"
@@ -64,4 +65,4 @@ def write_results(folder: Path, results: list[dict[str, object]]) -> list[Path]:
 
 def write_rows(path: Path, rows: pd.DataFrame) -> Path:
     """Writes a table with six significant digits."""
-    return write_text(path, rows.to_csv(index=False, float_format="%.6g", lineterminator="\n"))
+    return write_text(path, csv_of(rows, float_format="%.6g"))

@@ -5,7 +5,6 @@ A folder of censuses holds two files that `beambench census --json` printed, of 
 with one shadow cache for the picture (`--shadows cache --order scan` and `--order beams`).
 """
 
-import json
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,7 @@ from typing import Any
 import pandas as pd
 
 from beambench_report.base.columns import COUNTER_SUFFIX
-from beambench_report.base.files import Problem
+from beambench_report.base.files import Problem, load_json
 from beambench_report.base.names import parameter_items
 from beambench_report.base.published import FINEST, primitives_by_scene
 from beambench_report.base.records import read_run, size_of
@@ -234,7 +233,7 @@ def census_work(folder: Path) -> pd.DataFrame:
 def _scenes(path: Path, order: str) -> dict[str, dict[str, Any]]:
     """The thesis's scenes in a file, by their plain names."""
     try:
-        source = json.loads(path.read_text("utf-8"))
+        source = load_json(path)
         if (source["shadows"], source["order"]) != ("cache", order):
             raise ValueError(f"not counted with --shadows cache --order {order}")
         named = {str(entry["scene"]).split(":")[0]: entry for entry in source["scenes"]}

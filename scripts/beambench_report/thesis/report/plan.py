@@ -7,7 +7,7 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
-from beambench_report.base.files import ROOT, Problem, write_text
+from beambench_report.base.files import ROOT, Problem, load_json, write_text
 from beambench_report.base.published import rays
 
 
@@ -189,7 +189,7 @@ def read_sweep(name: str, folder: Path = FOLDER) -> Sweep:
     """Reads FOLDER/NAME.json. Raises Problem where there is none."""
     path = folder / f"{name}.json"
     try:
-        return Sweep(name, json.loads(path.read_text("utf-8")))
+        return Sweep(name, load_json(path))
     except FileNotFoundError:
         raise Problem(f"{path}: there is no such file; restore it with git") from None
     except ValueError as error:
@@ -286,7 +286,7 @@ def read_plan(directory: Path) -> Plan:
     """Reads what `keep_plan` wrote. Raises Problem where that cannot be read."""
     path = directory / _PLAN
     try:
-        source = json.loads(path.read_text("utf-8"))
+        source = load_json(path)
         sweeps = tuple(Sweep(entry["name"], entry["sweep"]) for entry in source["sweeps"])
         shown = set(source["figures"]) | set(_figures_of({sweep.name for sweep in sweeps}))
         return Plan(

@@ -4,7 +4,7 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from beambench_report.base.files import INTERRUPTED, run_in_foreground, say, write_text
+from beambench_report.base.files import INTERRUPTED, load_json, run_in_foreground, say, write_text
 from beambench_report.base.quantities import duration_in_words
 from beambench_report.base.records import TIMED_VERDICTS
 from beambench_report.thesis.report.plan import Plan, Sweep
@@ -55,10 +55,11 @@ def run_sweeps(plan: Plan, directory: Path, beambench: Path) -> Outcome:
 def state_of(folder: Path) -> str:
     """`finished`, `begun` or `waiting`: what the folder of a sweep's run holds."""
     try:
-        manifest = json.loads((folder / "manifest.json").read_text("utf-8"))
+        manifest = load_json(folder / "manifest.json")
     except (FileNotFoundError, ValueError):
         return "waiting"
-    return "finished" if manifest.get("finished_utc") else "begun"
+    ended = isinstance(manifest, dict) and manifest.get("finished_utc")
+    return "finished" if ended else "begun"
 
 
 def describe(plan: Plan, directory: Path | None = None) -> str:
@@ -96,7 +97,7 @@ def _run(sweep: Sweep, directory: Path, beambench: Path, *, resume: bool) -> int
 
 def _has_wrong_cells(folder: Path) -> bool:
     for path in folder.glob("cells/*.json"):
-        row = json.loads(path.read_text("utf-8"))["row"]
+        row = load_json(path)["row"]
         if row["verdict"] not in TIMED_VERDICTS:
             return True
     return False

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+from beambench_report.base.csv_texts import guarded
 from beambench_report.base.figure import house_style, structure_color, write_plot
 from beambench_report.base.files import write_text, write_whole
 from beambench_report.base.quantities import DASH, markdown_table, number
@@ -75,7 +76,7 @@ def _write_rows(cells: Cells, path: Path) -> Path:
             writer.writerow(["row", "file", "line", "cell", "repetitions", "verdict"])
             for cell in cells.cells:
                 place = (cell.number, f"{cell.run}/results.csv", cell.line, cell.name)
-                writer.writerow([*place, cell.repetitions, cell.verdict])
+                writer.writerow(map(guarded, (*place, cell.repetitions, cell.verdict)))
 
     return write_whole(path, write)
 
