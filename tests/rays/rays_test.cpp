@@ -1,14 +1,23 @@
 // Rays beside the primary ones: made, verified, saved and loaded.
 
+#include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <numbers>
 #include <numeric>
+#include <optional>
+#include <string>
+#include <thread>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/ray_file.hpp"
@@ -19,6 +28,7 @@
 #include "harness/verify/differ.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/core/process_memory.hpp"
 #include "scenes/planar_mirrors.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/embree_modes.hpp"
@@ -520,6 +530,25 @@ TEST_F(RayFile, ThatIsDamagedIsRefused) {
   EXPECT_TRUE(scenes::says(refusal(), {"some.rays", "bytes of rays"}));
   write(whole + "x");
   EXPECT_TRUE(scenes::says(refusal(), {"some.rays", "bytes of rays"}));
+}
+
+/// The header of a pipe may claim gigabytes of rays that never come.
+TEST_F(RayFile, ThroughAPipeTakesNoMoreMemoryThanWhatCame) {
+  const std::filesystem::path pipe = folder_.path() / "pipe.rays";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const int writer = ::open(pipe.c_str(), O_RDWR | O_CLOEXEC);
+  const std::string header = "beambench-rays 1\n{\"query\": \"closest\", \"rays\": 268435456}\n";
+  ASSERT_EQ(::write(writer, header.data(), header.size()), static_cast<ssize_t>(header.size()));
+  const auto before = mapped_data_bytes();
+  std::optional<std::uint64_t> meanwhile;
+  std::thread closing([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));  // by then the reader waits
+    meanwhile = mapped_data_bytes();
+    ::close(writer);
+  });
+  EXPECT_NE(scenes::thrown_message([&] { read_ray_file(pipe); }), "(nothing thrown)");
+  closing.join();
+  EXPECT_LT(meanwhile.value_or(0), before.value_or(0) + (std::uint64_t{1} << 30U));
 }
 
 TEST_F(RayFile, ThatIsNoneIsRefused) {
