@@ -1,4 +1,5 @@
-"""Processes of the cluster program that are killed: the picture is right, or a message comes."""
+"""Processes of the cluster program that are killed or stopped: the picture is right, or a message
+comes."""
 
 from __future__ import annotations
 
@@ -15,7 +16,8 @@ from beambench_report.thesis.chapter6.record import ENVIRONMENT
 
 PROGRAM = "beambench-cluster"
 _RUNS = 5
-_TIMEOUT = 5  # seconds, of the producer
+_TIMEOUT = 5  # seconds, of --timeout
+_SIGNALS = (signal.SIGKILL, signal.SIGSTOP)
 _ENDING = 60  # seconds: that, mpirun's own, and those of a busy machine
 _WORK = ["balls:n=2", "--shade", "whitted", "--depth", "6", "--resolution", "320x240"]
 
@@ -26,7 +28,7 @@ def is_possible(beambench: Path) -> bool:
 
 
 def kill_cluster(beambench: Path, folder: Path, random: Random, programs: Programs) -> Tally:
-    """One process of three is killed in each of some runs."""
+    """One process of three is killed or stopped in each of some runs."""
     tally = Tally()
     right = folder / "right.png"
 
@@ -43,10 +45,10 @@ def kill_cluster(beambench: Path, folder: Path, random: Random, programs: Progra
         run = begun(picture)
         ended = run.wait(random.uniform(0, whole))
         if ended is None and (victims := _processes(run)):
-            _kill(random.choice(victims))
+            _send(random.choice(_SIGNALS), random.choice(victims))
             tally.kills += 1
         if run.wait(whole + _TIMEOUT + _ENDING) is None:
-            tally.faults.append("it hung after a process was killed")
+            tally.faults.append("it hung after a process was killed or stopped")
             run.end()
         ended = finished(run, tally)
         whole_picture = picture.exists() and picture.read_bytes() == right.read_bytes()
@@ -69,6 +71,6 @@ def _processes(run: Program) -> list[int]:
     return [child for child, name in names.items() if name.startswith(PROGRAM[:15])]
 
 
-def _kill(process: int) -> None:
+def _send(what: signal.Signals, process: int) -> None:
     with contextlib.suppress(ProcessLookupError):
-        os.kill(process, signal.SIGKILL)
+        os.kill(process, what)
