@@ -19,7 +19,7 @@ inline constexpr std::size_t kMinPencil = 16;
 /// Which of some virtual eyes a ray comes through; kNoEye for a ray that was refracted or that a
 /// curved mirror reflected, and for one with few others.
 using EyeIndex = std::uint16_t;
-inline constexpr EyeIndex kNoEye = ~EyeIndex{0};
+inline constexpr EyeIndex kNoEye = static_cast<EyeIndex>(~EyeIndex{0});
 
 /// The mirror rays of a part of a wave by their virtual eyes: each eye with enough rays is a
 /// pencil; the other rays follow. Rays of an eye, and those without, stay in their order.

@@ -126,7 +126,7 @@ def _findings(
     """One for each message with which the target ends when it is given the input again."""
     messages = set()
     for file in sorted(path for kind in _FAULTS for path in faults.glob(kind))[:_MOST_REPEATED]:
-        ended = programs.run([target.program, file], _REPEATING, faults, environment)
+        ended = programs.run([target.program, *_LIMITS, file], _REPEATING, faults, environment)
         message = _message(ended)
         if message not in messages:
             messages.add(message)
