@@ -86,10 +86,10 @@ bool is_scene_file(std::string_view spec);
 /// A scene by what the user typed: a catalogue name with parameters (`balls:n=4`), a registered
 /// mesh (`mesh:dragon`), or a path to a mesh (by its ending), to a file that a plug-in reads (see
 /// scene_readers()) or an NFF file (anything else with a slash, or the ending .nff). `Scene::name`
-/// is the canonical label of a catalogue's scene, the text itself of all others. Throws InputError:
-/// unknown name (with the nearest and all valid ones), parameter out of range, file missing or
-/// malformed. What a file's reader skipped or repaired is appended to `warnings` when given; the
-/// options are for files.
+/// is the canonical label of a catalogue's scene, the text as `name_of_path` shows it of all
+/// others. Throws InputError: unknown name (with the nearest and all valid ones), parameter out of
+/// range, file missing or malformed. What a file's reader skipped or repaired is appended to
+/// `warnings` when given, a printable line each; the options are for files.
 Scene load_scene(std::string_view spec, std::vector<std::string>* warnings = nullptr,
                  ReadOptions options = {});
 

@@ -26,7 +26,7 @@ struct Light {
 /// which checks all of it: no NaN, no infinity, no coordinate beyond 1e9, no degenerate primitive.
 /// Everything is indexed by 32 bits. Treat it as read-only once built.
 struct Scene {
-  std::string name;
+  std::string name;             ///< printable; of a file, `path_of_name` leads back to its path
   std::vector<Camera> cameras;  ///< never empty; the first is the default
   glm::vec3 background{0.0F};
   std::vector<Light> lights;

@@ -165,7 +165,7 @@ Camera fitted_camera(const Bounds& bounds) {
 
 }  // namespace
 
-SceneBuilder::SceneBuilder(std::string name) { scene_.name = printable(name); }
+SceneBuilder::SceneBuilder(std::string_view name) { scene_.name = printable(name); }
 
 void SceneBuilder::set_surface(const Surface& surface) {
   const Subject subject{"surface {}", scene_.surfaces.size()};

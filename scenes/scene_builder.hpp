@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include <glm/vec3.hpp>
 
@@ -39,7 +40,7 @@ struct Repairs {
 /// and line put them in front of the message.
 class SceneBuilder {
  public:
-  explicit SceneBuilder(std::string name);
+  explicit SceneBuilder(std::string_view name);
 
   /// Primitives added from now on have this surface. The first default is a white matte one.
   void set_surface(const Surface& surface);
@@ -47,7 +48,8 @@ class SceneBuilder {
   void add_light(const glm::dvec3& position, const glm::dvec3& color = glm::dvec3(1.0));
   /// Throws when the angle is not in (0, 180), from == at, up is parallel to the view, or the
   /// resolution is not from 1x1 to 65535x65535, or the name is not one line of text without '#' and
-  /// without blanks at its ends.
+  /// without blanks at its ends. The
+  /// scene has the name as `printable` shows it.
   void add_camera(const Camera& camera);
 
   /// A negative radius means seen from the inside only; 0 is refused.

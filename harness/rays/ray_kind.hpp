@@ -61,7 +61,8 @@ struct RayChoice {
   RayKind kind = RayKind::kPrimary;  ///< of a file: whatever was saved
   std::uint64_t seed = 0;            ///< of a random kind; 0 for the others
   std::filesystem::path file;        ///< empty: the rays are made
-  /// As records and commands name it: `shadow`, `diffuse`, `diffuse:seed=7`, or the file's path.
+  /// As records and commands name it: `shadow`, `diffuse`, `diffuse:seed=7`, or the file's name
+  /// (`name_of_path`).
   std::string label = "primary";
 
   friend bool operator==(const RayChoice&, const RayChoice&) = default;

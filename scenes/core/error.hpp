@@ -2,6 +2,7 @@
 // The errors that users and plug-ins cause.
 
 #include <stdexcept>
+#include <string>
 
 namespace beambench {
 
@@ -10,14 +11,17 @@ namespace beambench {
 /// remedy; the command line prints it and exits with 2.
 class InputError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// Keeps the message as one printable line, however long and whatever is quoted in it
+  /// (`message_line`): it goes to terminals, records and pages.
+  explicit InputError(const std::string& message);
 };
 
 /// A plug-in broke its contract: it threw, or returned nothing or an invalid value. The message is
 /// one sentence that names the plug-in and its part; the command line prints it and exits with 1.
 class PluginError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  /// Keeps the message as `InputError` does.
+  explicit PluginError(const std::string& message);
 };
 
 }  // namespace beambench

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include "scenes/core/error.hpp"
 #include "scenes/core/shell_word.hpp"
 
 namespace beambench {
@@ -58,6 +59,12 @@ TEST(MessageLine, KeepsBothEndsOfALongMessage) {
   EXPECT_TRUE(line.starts_with("a.nff:7: 'xxx"));
   EXPECT_TRUE(line.ends_with("x' is no number; correct it"));
   EXPECT_NE(line.find(" ... "), std::string::npos);
+}
+
+TEST(MessageLine, IsWhatErrorsHold) {
+  EXPECT_STREQ(InputError("no scene '\033]0;title\x07\xFF'").what(),
+               "no scene '\\x1b]0;title\\x07\\xff'");
+  EXPECT_STREQ(PluginError("two\nlines").what(), "two lines");
 }
 
 TEST(NameOfPath, LeadsBackToThePath) {
