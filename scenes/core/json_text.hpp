@@ -20,8 +20,8 @@ namespace beambench {
 template <class Json>
 Json parse_json(std::string_view text, const std::string& file);
 
-/// What a JSON file of at most 64 MiB holds; a byte order mark is skipped. Throws InputError as `read_text_input` and
-/// `parse_json` do.
+/// What a JSON file of at most 64 MiB holds; a byte order mark is skipped. Throws InputError as
+/// `read_text_input` and `parse_json` do.
 template <class Json>
 Json read_json_file(const std::filesystem::path& path);
 

@@ -51,8 +51,9 @@ class HungUpTerminal {
 TEST(Input, AByteOrderMarkOfATextIsSkipped) {
   const TemporaryFolder folder;
   const fs::path file = folder.write("a", "\xEF\xBB\xBFone\n\xEF\xBB\xBFtwo");
-  EXPECT_EQ(read_text_input(file), "one\n\xEF\xBB\xBFtwo");
-  EXPECT_EQ(read_input(file), "\xEF\xBB\xBFone\n\xEF\xBB\xBFtwo") << "bytes are not a text";
+  EXPECT_EQ(read_text_input(file, kLargestFile), "one\n\xEF\xBB\xBFtwo");
+  EXPECT_EQ(read_input(file, kLargestFile), "\xEF\xBB\xBFone\n\xEF\xBB\xBFtwo")
+      << "bytes are not a text";
   InputStream lines(file);
   EXPECT_EQ(lines.line(), "one");
   EXPECT_EQ(lines.line(), "\xEF\xBB\xBFtwo");
