@@ -3,6 +3,7 @@
 
 #include "harness/bench/record/manifest.hpp"
 
+#include <chrono>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -23,16 +24,12 @@ std::string changed(const nlohmann::ordered_json& manifest, std::string_view inp
   return result.dump();
 }
 
-nlohmann::ordered_json manifest_of_now() {
-  const bench::Manifest manifest{};
-  return to_json(manifest);
-}
-
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fuzz::ScratchFolder folder;
-  static const nlohmann::ordered_json now = manifest_of_now();
+  static const nlohmann::ordered_json now =
+      to_json(bench::begin_manifest("fuzz", {}, -1, 1, std::chrono::seconds(0)));
   folder.write("manifest.json", changed(now, fuzz::text_of(data, size)));
   folder.write("config.json", "{}");
   fuzz::accepted([] {
