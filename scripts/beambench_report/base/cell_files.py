@@ -15,7 +15,7 @@ from typing import Literal
 
 import pandas as pd
 
-from beambench_report.base.csv_texts import csv_of
+from beambench_report.base.csv_texts import csv_of, unguarded
 from beambench_report.base.files import Problem, load_json, write_text
 from beambench_report.base.ratio import Ratio, median_of, paired_ratio, unpaired_ratio
 from beambench_report.base.records import read_run
@@ -84,7 +84,7 @@ def published_repetitions(directory: Path) -> list[tuple[Row, list[Repetition]]]
     if not path.is_file():
         return []
     try:
-        table = pd.read_csv(path)
+        table = unguarded(pd.read_csv(path))
         by_line = {
             int(line): own.drop(columns="line").to_dict("records")
             for line, own in table.groupby("line", sort=False)

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from beambench_report.base.csv_texts import csv_of
+from beambench_report.base.csv_texts import csv_of, unguarded
 from beambench_report.base.files import Problem, load_json, output_of, read_json, write_text
 from beambench_report.base.quantities import markdown_table
 from beambench_report.thesis.chapter6.machines import Recorded
@@ -161,7 +161,7 @@ def measured_section(folder: Path) -> str | None:
     """The page's section on this machine; None where nothing was measured."""
     if not (folder / MEASURED).is_file():
         return None
-    rows = pd.read_csv(folder / MEASURED, keep_default_na=False)
+    rows = unguarded(pd.read_csv(folder / MEASURED, keep_default_na=False))
     first = rows.iloc[0]
     alone = rows[rows["processes"] == 1].drop_duplicates("scene").set_index("scene")["seconds"]
     lines = (
