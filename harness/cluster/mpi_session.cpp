@@ -53,7 +53,7 @@ class Deadline {
 
 }  // namespace
 
-/// Messages of their own communicator, which only this thread uses.
+/// In a communicator of its own. The thread alone uses it until `end`.
 class MpiSession::SignsOfLife {
  public:
   explicit SignsOfLife(double timeout)
@@ -62,7 +62,7 @@ class MpiSession::SignsOfLife {
     MPI_Comm_rank(processes_, &self_);
     int count = 0;
     MPI_Comm_size(processes_, &count);
-    if (self_ != kProducer) count = kProducer + 1;  // it hears of the producer alone
+    if (!is_producer()) count = kProducer + 1;  // it hears of the producer alone
     for (ProcessId process = 0; process < count; ++process) {
       if (process != self_) others_.push_back({process, Clock::now()});
     }
@@ -77,11 +77,13 @@ class MpiSession::SignsOfLife {
 
   void allow_silence() { silence_is_allowed_ = true; }
 
-  /// On the producer: tells the others. On the others: waits for that.
+  bool is_producer() const { return self_ == kProducer; }
+
+  /// The producer tells the other processes that all is written; these wait for it to do so.
   void end() {
     thread_.request_stop();
     thread_.join();
-    if (self_ == kProducer) return send(kOver);
+    if (is_producer()) return send(kOver);
     Clock::time_point last_sent = Clock::now();
     for (receive(); !is_over_; receive()) {
       require_others();
@@ -166,11 +168,9 @@ MpiSession::~MpiSession() {
     return;
   }
   signs_->end();
-  int self = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &self);
   // The producer, which knows that all is written, is the first to give up.
   const Deadline deadline(
-      self == kProducer ? timeout_ : 2.0 * timeout_,
+      signs_->is_producer() ? timeout_ : 2.0 * timeout_,
       fmt::format("a process did not end within {} s; what was asked for is written", timeout_),
       base::kSuccess);
   MPI_Finalize();

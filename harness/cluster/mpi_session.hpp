@@ -16,8 +16,8 @@ class MpiSession {
  public:
   /// `timeout`: seconds until MPI has started, of silence after that, and until MPI has ended.
   MpiSession(int& argc, char**& argv, double timeout);
-  /// The producer's tells the others that it has written everything, for which they wait here; then
-  /// all end MPI.
+  /// The producer announces that it has written everything, for which the other processes wait
+  /// here; then all end MPI.
   ~MpiSession();
   MpiSession(const MpiSession&) = delete;
   MpiSession& operator=(const MpiSession&) = delete;

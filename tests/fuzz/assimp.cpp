@@ -40,7 +40,7 @@ bool prepare() {
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const fuzz::ScratchFolder folder;
   static const bool prepared = prepare();
-  fuzz::require(prepared, "a child cannot be told what to forget");
+  fuzz::require(prepared, "the handler of forked processes cannot be registered");
   const std::string_view text = fuzz::text_of(data, size);
   const std::size_t line = text.find('\n');
   if (line == std::string_view::npos) return 0;
