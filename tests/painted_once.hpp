@@ -1,7 +1,6 @@
 #pragma once
 // Images by beams, sample by sample: each belongs to one beam, whatever the beams are cut by.
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -18,6 +17,7 @@
 #include "accel/exhaustive/exhaustive.hpp"
 #include "scenes/core/random.hpp"
 #include "scenes/scene.hpp"
+#include "tests/random_view.hpp"
 
 namespace beambench::testing {
 
@@ -77,24 +77,9 @@ PaintWatch expect_painted_once(const scenes::Scene& scene, const Tracer& tracer,
   return watch;
 }
 
-/// A camera outside, inside or in the middle planes of the scene's box, in a random direction.
+/// A random view, narrow or wide.
 inline scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
-  const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
-  const glm::vec3 size = scene.bounds.upper - scene.bounds.lower;
-  const float reach = std::max({size.x, size.y, size.z, 1e-3F});
-  const float spread = random.below(2) == 0 ? 0.4F : 2.5F;
-  scenes::Camera camera;
-  for (int axis = 0; axis < 3; ++axis) {
-    camera.from[axis] = middle[axis];
-    if (random.below(4) != 0) {
-      camera.from[axis] += reach * static_cast<float>(random.uniform(-spread, spread));
-    }
-    camera.at[axis] = middle[axis];
-    if (random.below(4) != 0) {
-      camera.at[axis] += reach * static_cast<float>(random.uniform(-0.5, 0.5));
-    }
-  }
-  if (camera.from == camera.at) camera.at.x += reach;
+  scenes::Camera camera = random_view(scene, random);
   const glm::vec3 view = camera.at - camera.from;
   camera.up = {0.0F, 1.0F, 0.0F};
   if (std::abs(view.x) + std::abs(view.z) < 1e-3F * std::abs(view.y)) {

@@ -17,6 +17,7 @@
 #include "scenes/scene_builder.hpp"
 #include "tests/only_target.hpp"
 #include "tests/random_scene.hpp"
+#include "tests/random_view.hpp"
 
 namespace beambench::accel {
 namespace {
@@ -24,24 +25,8 @@ namespace {
 using testing::random_ray;
 using testing::random_scene;
 
-/// A camera outside, inside or in the middle planes of the scene's box, in a random direction.
 scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
-  const glm::vec3 middle = 0.5F * (scene.bounds.lower + scene.bounds.upper);
-  const glm::vec3 size = scene.bounds.upper - scene.bounds.lower;
-  const float reach = std::max({size.x, size.y, size.z, 1e-3F});
-  const float spread = random.below(2) == 0 ? 0.4F : 2.5F;
-  scenes::Camera camera;
-  for (int axis = 0; axis < 3; ++axis) {
-    camera.from[axis] = middle[axis];
-    camera.at[axis] = middle[axis];
-    if (random.below(4) != 0) {
-      camera.from[axis] += reach * static_cast<float>(random.uniform(-spread, spread));
-    }
-    if (random.below(4) != 0) {
-      camera.at[axis] += reach * static_cast<float>(random.uniform(-0.5, 0.5));
-    }
-  }
-  if (camera.at == camera.from) camera.at.z -= reach;
+  scenes::Camera camera = testing::random_view(scene, random);
   const glm::vec3 view = glm::abs(camera.at - camera.from);
   camera.up = glm::vec3(0.0F);
   camera.up[view.y < view.x || view.y < view.z ? 1 : 0] = 1.0F;
