@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -18,7 +19,11 @@
 #include "harness/base/progress.hpp"
 #include "harness/bench/record/machine.hpp"
 #include "harness/cli/commands.hpp"
+#include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
+#include "harness/cli/verify_hits.hpp"
+#include "harness/verify/minimize.hpp"
+#include "harness/verify/selftest/hit_comparison.hpp"
 #include "harness/verify/selftest/kit.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
@@ -32,7 +37,8 @@ struct Request {
   std::string structures = "all";
   std::string json;
   verify::SelftestEffort effort;
-  std::string kit;  ///< folder; empty: none is written
+  std::string minimize;  ///< folder; empty: nothing is reduced
+  std::string kit;       ///< folder; empty: none is written
   std::string primitives = "polygons";
 };
 
@@ -41,6 +47,8 @@ struct CheckedProperty {
   std::string structure;
   const verify::Check* check;
   verify::CheckOutcome outcome;
+  std::string case_folder{};  ///< where its wrong hit was written, reduced; empty: nowhere
+  std::string minimal{};      ///< one line on that
 };
 
 std::string_view verdict_of(const verify::CheckOutcome& outcome) {
@@ -69,6 +77,29 @@ std::vector<CheckedProperty> check_all(const std::vector<verify::Subject>& subje
   return checked;
 }
 
+/// Reduces the wrong hits of the checks that failed.
+void minimize_failures(const std::string& folder, std::vector<CheckedProperty>& checked) {
+  base::Progress progress(std::ranges::count_if(checked, [](const CheckedProperty& property) {
+    return property.outcome.failed.has_value();
+  }));
+  for (CheckedProperty& property : checked) {
+    if (!property.outcome.failed) continue;
+    const verify::FailedInput& failed = *property.outcome.failed;
+    const auto minimal = verify::minimize(failed.scene, failed.input, failed.wrong,
+                                          verify::wrong_by_comparison(failed.structure), progress);
+    if (!minimal) {
+      property.minimal = "not reduced: the hits are right when they are asked for again";
+      continue;
+    }
+    const auto place = std::filesystem::path(folder) /
+                       file_stem(fmt::format("{}-{}", property.structure, property.check->name));
+    verify::write_case(place, *minimal, failed.scene.name, failed.structure.short_label());
+    property.case_folder = place.string();
+    property.minimal = case_text(place, *minimal);
+  }
+  progress.clear();
+}
+
 void print(const std::vector<CheckedProperty>& checked) {
   TextTable table({"structure", "check", "rays", "verdict"}, 2);
   for (const CheckedProperty& property : checked) {
@@ -81,6 +112,7 @@ void print(const std::vector<CheckedProperty>& checked) {
     if (property.outcome.passed()) continue;
     fmt::print("\n{}: {} ({}):\n  {}\n", property.structure, property.check->name,
                property.check->claim, property.outcome.failure);
+    if (!property.minimal.empty()) fmt::print("  {}\n", property.minimal);
   }
 }
 
@@ -119,6 +151,7 @@ void write_json(const Request& request, const std::vector<CheckedProperty>& chec
   nlohmann::ordered_json out{{"beambench", bench::build_info().version},
                              {"seed", request.effort.seed},
                              {"scenes", request.effort.scenes},
+                             {"rays", request.effort.rays},
                              {"passed", passed},
                              {"structures", nlohmann::ordered_json::array()},
                              {"checks", nlohmann::ordered_json::array()}};
@@ -132,7 +165,8 @@ void write_json(const Request& request, const std::vector<CheckedProperty>& chec
                              {"claim", property.check->claim},
                              {"rays", property.outcome.rays},
                              {"passed", property.outcome.passed()},
-                             {"failure", property.outcome.failure}});
+                             {"failure", property.outcome.failure},
+                             {"case", property.case_folder}});
   }
   write_file(request.json, json_text(out) + '\n');
 }
@@ -166,7 +200,8 @@ int selftest(const Request& request) {
   for (accel::StructureChoice& choice : accel::registry().choose_list(request.structures)) {
     subjects.emplace_back(std::move(choice));
   }
-  const std::vector<CheckedProperty> checked = check_all(subjects, request.effort);
+  std::vector<CheckedProperty> checked = check_all(subjects, request.effort);
+  if (!request.minimize.empty()) minimize_failures(request.minimize, checked);
   const bool passed = std::ranges::all_of(
       checked, [](const CheckedProperty& property) { return property.outcome.passed(); });
   print(checked);
@@ -185,11 +220,24 @@ void add_selftest_command(CLI::App& app, int& exit_code) {
                            ->add_option("--accel", request->structures,
                                         "Structures: NAME:parameter=value,... or all")
                            ->capture_default_str();
-  command->add_option("--scenes", request->effort.scenes, "Number of random scenes")
+  command
+      ->add_option("--scenes", request->effort.scenes,
+                   "Number of random scenes, of each check that makes them")
       ->check(CLI::Range(1, 100'000))
       ->capture_default_str();
   command->add_option("--seed", request->effort.seed, "Seed of the first random scene")
       ->capture_default_str();
+  command
+      ->add_option("--rays", request->effort.rays,
+                   "Rays, about, for each random scene: more find rarer faults")
+      ->check(CLI::Range(20, 1'000'000))
+      ->capture_default_str();
+  CLI::Option* minimize =
+      command
+          ->add_option("--minimize", request->minimize,
+                       "Reduce each wrong hit to the fewest primitives and one ray, and write them "
+                       "to this folder")
+          ->type_name("DIR");
   CLI::Option* json =
       command->add_option("--json", request->json, "Also write the results to this file");
   CLI::Option* kit = command
@@ -202,7 +250,7 @@ void add_selftest_command(CLI::App& app, int& exit_code) {
                    "What the scenes of --export are made of: spheres, cones, polygons, or all")
       ->capture_default_str()
       ->needs(kit);
-  for (CLI::Option* option : {accel, json}) kit->excludes(option);
+  for (CLI::Option* option : {accel, json, minimize}) kit->excludes(option);
   command->footer(
       "Hits are compared with those of exhaustive search, bit for bit; those of a structure with\n"
       "arithmetic of its own by the differ's classes. A structure without parameters after its "

@@ -125,16 +125,6 @@ std::string subject_of(const VerifyHitsRequest& request, const std::string& hits
   return request.structure ? request.structure->short_label() : printable(hits);
 }
 
-/// `folder/NAME`: one line on what an error was reduced to.
-std::string case_text(const std::filesystem::path& folder, const verify::MinimalCase& minimal) {
-  return fmt::format("reduced to {} and {}, in {}{}",
-                     base::counted(minimal.primitives.size(), "primitive"),
-                     base::counted(minimal.input.size(), "ray"), printable(folder.string()),
-                     minimal.repeated ? ""
-                                      : ": what the answers name; with --command it is traced "
-                                        "again, which shows whether these are enough");
-}
-
 VerifiedClaims verify_case(const VerifyHitsRequest& request, const scenes::Scene& scene,
                            const verify::KitCase& files,
                            const std::optional<verify::Tracer>& tracer, base::Progress& progress) {
@@ -176,11 +166,21 @@ void require_outputs(const VerifyHitsRequest& request) {
 
 }  // namespace
 
+std::string case_text(const std::filesystem::path& folder, const verify::MinimalCase& minimal) {
+  return fmt::format("reduced to {} and {}, in {}{}",
+                     base::counted(minimal.primitives.size(), "primitive"),
+                     base::counted(minimal.input.size(), "ray"), printable(folder.string()),
+                     minimal.repeated ? ""
+                                      : ": what the answers name; with --command it is traced "
+                                        "again, which shows whether these are enough");
+}
+
 std::string minimized_text(const std::string& folder, const std::string& name,
                            const scenes::Scene& scene, const rays::TraceInput& input,
                            const verify::DiffReport& report, const verify::Tracer& tracer,
                            const std::string& subject, base::Progress& progress) {
-  const auto minimal = verify::minimize(scene, input, report.examples.front(), tracer, progress);
+  const auto minimal = verify::minimize(scene, input, report.examples.front(),
+                                        verify::wrong_by_differ(tracer), progress);
   if (!minimal) return "not reduced: the answer is right when the same rays are traced again";
   const auto place = std::filesystem::path(folder) / file_stem(name);
   verify::write_case(place, *minimal, scene.name, subject);

@@ -1,6 +1,7 @@
 #pragma once
 // `beambench verify SCENE --rays FILE --hits FILE`, `--command COMMAND`, and `--kit DIR`.
 
+#include <filesystem>
 #include <optional>
 #include <string>
 
@@ -30,6 +31,9 @@ struct VerifyHitsRequest {
 int verify_hits(const VerifyHitsRequest& request);
 /// The same of all scenes of a kit.
 int verify_kit(const VerifyHitsRequest& request);
+
+/// One line on what an error was reduced to, in that folder.
+std::string case_text(const std::filesystem::path& folder, const verify::MinimalCase& minimal);
 
 /// Reduces a structure's first error and writes the case below `folder`; returns what to print of
 /// it.

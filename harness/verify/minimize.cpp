@@ -40,43 +40,25 @@ std::vector<accel::Ray> rays_of(const rays::TraceInput& input) {
   return rays;
 }
 
-/// Asks the tracer over parts of a scene and of an input.
+/// Asks for wrong answers over parts of a scene and of an input.
 class Trial {
  public:
-  Trial(const scenes::Scene& scene, const Tracer& tracer, base::Progress& progress)
-      : scene_(scene), tracer_(tracer), progress_(progress) {}
+  Trial(const scenes::Scene& scene, const FindWrong& find_wrong, base::Progress& progress)
+      : scene_(scene), find_wrong_(find_wrong), progress_(progress) {}
 
-  /// A wrong answer over these primitives; nothing where all are right, the tracer refuses, or it
-  /// was asked too often.
+  /// A wrong answer over these primitives; nothing where all are right, or it was asked too often.
   std::optional<Mismatch> wrong(std::span<const scenes::PrimitiveId> ids,
                                 const rays::TraceInput& input) {
     if (runs_ == kMaxRuns) return std::nullopt;
     ++runs_;
     progress_.advance(static_cast<double>(runs_) / kMaxRuns);
-    const scenes::Scene part = scenes::subset(scene_, ids);
-    try {
-      const DiffReport report = verify_tracer(part, input, tracer_);
-      if (report.count(DiffClass::kStructureError) == 0) return std::nullopt;
-      return report.examples.front();
-    } catch (const InvalidClaim& error) {
-      Mismatch found{};
-      found.index = error.index;
-      found.ray = input.ray(error.index);
-      found.query = input.query();
-      found.diff_class = DiffClass::kStructureError;
-      found.reason = "invalid hit: it has a number that no hit has";
-      return found;
-    } catch (const InputError&) {  // over this part it fails in another way
-      return std::nullopt;
-    } catch (const PluginError&) {
-      return std::nullopt;
-    }
+    return find_wrong_(scenes::subset(scene_, ids), input);
   }
   std::size_t runs() const { return runs_; }
 
  private:
   const scenes::Scene& scene_;
-  const Tracer& tracer_;
+  const FindWrong& find_wrong_;
   base::Progress& progress_;
   std::size_t runs_ = 0;
 };
@@ -147,11 +129,34 @@ DiffReport verify_tracer(const scenes::Scene& scene, const rays::TraceInput& inp
   return verifier.finish();
 }
 
+FindWrong wrong_by_differ(Tracer tracer) {
+  return [tracer = std::move(tracer)](const scenes::Scene& scene,
+                                      const rays::TraceInput& input) -> std::optional<Mismatch> {
+    try {
+      const DiffReport report = verify_tracer(scene, input, tracer);
+      if (report.count(DiffClass::kStructureError) == 0) return std::nullopt;
+      return report.examples.front();
+    } catch (const InvalidClaim& error) {
+      Mismatch found{};
+      found.index = error.index;
+      found.ray = input.ray(error.index);
+      found.query = input.query();
+      found.diff_class = DiffClass::kStructureError;
+      found.reason = "invalid hit: it has a number that no hit has";
+      return found;
+    } catch (const InputError&) {  // over this part it fails in another way
+      return std::nullopt;
+    } catch (const PluginError&) {
+      return std::nullopt;
+    }
+  };
+}
+
 std::optional<MinimalCase> minimize(const scenes::Scene& scene, const rays::TraceInput& input,
-                                    const Mismatch& wrong, const Tracer& tracer,
+                                    const Mismatch& wrong, const FindWrong& find_wrong,
                                     base::Progress& progress) {
   progress.start(fmt::format("reducing ray {} over {}", wrong.index, scene.name));
-  Trial trial(scene, tracer, progress);
+  Trial trial(scene, find_wrong, progress);
   std::vector<scenes::PrimitiveId> all(scene.primitives.size());
   std::iota(all.begin(), all.end(), 0U);
 

@@ -28,6 +28,14 @@ Tracer tracer_of(const accel::StructureChoice& structure);
 DiffReport verify_tracer(const scenes::Scene& scene, const rays::TraceInput& input,
                          const Tracer& tracer);
 
+/// The first wrong answer that a subject gives for an input over a scene, which is a part of the
+/// one that it failed over. Nothing where all are right, or where the subject fails in another way.
+using FindWrong =
+    std::function<std::optional<Mismatch>(const scenes::Scene& scene, const rays::TraceInput&)>;
+
+/// By the differ: the first structure error.
+FindWrong wrong_by_differ(Tracer tracer);
+
 /// A wrong answer, over a part of a scene.
 struct MinimalCase {
   scenes::Scene scene;
@@ -35,15 +43,16 @@ struct MinimalCase {
   /// One ray; more where it takes them all, as an image whose rays are traced together.
   rays::TraceInput input;
   Mismatch mismatch;     ///< of a ray of `input`
-  std::size_t runs = 0;  ///< of the tracer
+  std::size_t runs = 0;  ///< of the subject
   bool repeated = true;  ///< false: not traced again, what is left is what the answers name
 };
 
 /// Takes rays, then primitives away as long as some answer stays wrong (Zeller and Hildebrandt,
 /// "Simplifying and isolating failure-inducing input", IEEE TSE 28(2), 2002), by at most 2,000
-/// runs. Nothing where the tracer, asked again, is right. `progress` gets one cell.
+/// runs of `find_wrong`. Nothing where the subject, asked again, is right. `progress` gets one
+/// cell.
 std::optional<MinimalCase> minimize(const scenes::Scene& scene, const rays::TraceInput& input,
-                                    const Mismatch& wrong, const Tracer& tracer,
+                                    const Mismatch& wrong, const FindWrong& find_wrong,
                                     base::Progress& progress);
 
 /// The ray and the primitives that its answers name, for answers that nobody can be asked for

@@ -12,7 +12,12 @@ from beambench_campaign.record import Record
 from beambench_report.base.files import Problem, output_of
 
 SCENES = 20
-"""Random ones in a piece; the scenes that are made to be hard come besides."""
+"""Random ones of each of the three checks that make them; the scenes that are made to be hard come
+besides."""
+RAYS = 4000
+"""For each random scene, about."""
+CHECKS = ("random scenes", "scene families", "views")
+"""Those that make random scenes, each its own for every seed."""
 FIRST_SEED = 100_000
 """Above the seeds of the tests."""
 
@@ -29,22 +34,34 @@ def trace(beambench: Path, structure: str, seed: int, record: Record, programs: 
         file = Path(name) / "selftest.json"
         command: list[str | Path] = [
             *(beambench, "selftest", "--accel", structure),
-            *("--scenes", str(SCENES), "--seed", str(seed)),
+            *("--scenes", str(SCENES), "--rays", str(RAYS), "--seed", str(seed)),
         ]
-        done = programs.run([*command, "--json", file])
+        cases = Path(name) / "cases"
+        done = programs.run([*command, "--json", file, "--minimize", cases])
         title = f"rays-{structure}-{seed}"
         if done.code in (0, 1) and file.exists():
             checks = json.loads(file.read_text("utf-8"))["checks"]
             findings = [
-                record.keep(file, f"{title}.json", f"{check['check']}: {check['failure']}", command)
+                _kept(check, file, title, command, record)
                 for check in checks
                 if not check["passed"]
             ]
             rays = sum(check["rays"] for check in checks)
         else:
             rays, findings = 0, [_cut_off(file, title, done.code, done.errors, command, record)]
-    counts = {"scenes": SCENES, "rays": rays}
+    counts = {"scenes": SCENES * len(CHECKS), "rays": rays}
     return Piece("rays", structure, seed, counts, round(done.cpu_seconds, 1), {}, findings)
+
+
+def _kept(
+    check: dict, file: Path, title: str, command: list[str | Path], record: Record
+) -> Finding:
+    """The failure, reduced where it is a wrong hit."""
+    message = f"{check['check']}: {check['failure']}"
+    if check["case"]:
+        stem = f"{title}-{check['check']}"
+        return record.keep(Path(check["case"]), stem, message, command)
+    return record.keep(file, f"{title}.json", message, command)
 
 
 def _cut_off(
@@ -57,5 +74,5 @@ def _cut_off(
 
 
 def next_seed(record: Record, structure: str) -> int:
-    """The first one of which no random scene was made yet."""
+    """One from which on no random scene was made yet."""
     return FIRST_SEED + record.total("rays", structure, "scenes")

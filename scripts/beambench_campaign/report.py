@@ -23,7 +23,8 @@ _INTRODUCTION = """\
 Inputs, rays and kills at random, as `scripts/campaign` makes them; each row is the sum of the
 pieces of one subject. `fuzz`: readers, by mutated inputs under the address and undefined-behavior
 sanitizers (`bsp`: by a loop in Python); edges and features are libFuzzer's of the last piece.
-`rays`: the self-test of a structure over random scenes and the scenes that are made to be hard.
+`rays`: the self-test of a structure over random scenes and the scenes that are made to be hard, by
+single rays, images, and batches with pencils, from cameras anywhere.
 `kills`: a sweep, nightly runs and the cluster program, by signals at random moments.
 
 """

@@ -16,6 +16,7 @@ from random import Random
 import pytest
 
 from beambench_campaign import night_kills, quake3_maps
+from beambench_campaign import rays as random_rays
 from beambench_campaign.__main__ import main
 from beambench_campaign.libfuzzer import status
 from beambench_campaign.piece import Piece, Task
@@ -237,13 +238,40 @@ def test_mutations_follow_from_the_seed() -> None:
 
 
 @needs_binary
-def test_rays_are_counted_with_new_seeds(record: Record) -> None:
+def test_rays_are_counted_with_new_seeds(record: Record, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(random_rays, "RAYS", 100)
     arguments = ["--only", "samet", "--minutes", "0", "--beambench", BINARY]
     for _ in range(2):
         assert campaign(record, "rays", *arguments) == 0
     first, second = record.pieces()
     assert second["seed"] == first["seed"] + first["counts"]["scenes"]
     assert first["counts"]["rays"] > 1000
+
+
+def test_a_wrong_hit_is_kept_as_it_was_reduced(record: Record, tmp_path: Path) -> None:
+    """By a program that reports what `beambench selftest --minimize` does."""
+    program = tmp_path / "beambench"
+    program.write_text(
+        """#!/bin/sh
+while [ $# -gt 1 ]; do
+  case $1 in --json) json=$2;; --minimize) dir=$2;; esac
+  shift
+done
+mkdir -p "$dir/samet-views"
+echo case > "$dir/samet-views/scene.nff"
+cat > "$json" <<END
+{"checks": [{"check": "views", "rays": 7, "passed": false, "failure": "a hit",
+             "case": "$dir/samet-views"}]}
+END
+exit 1
+"""
+    )
+    program.chmod(0o755)
+    done = random_rays.trace(program, "samet", 5, record, Programs())
+    (found,) = done.findings
+    assert found.message == "views: a hit"
+    assert (record.findings / found.file / "scene.nff").read_text() == "case\n"
+    assert "--seed 5" in found.command
 
 
 @needs_binary

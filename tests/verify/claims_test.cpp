@@ -29,7 +29,7 @@ struct Traced {
     Random random(7);
     const accel::PrimaryRays image(scene.cameras.front(), 40, 30, 1);
     image.for_each(0, 30, [&](std::size_t, const accel::Ray& ray) { rays.push_back(ray); });
-    for (const accel::Ray& ray : random_rays(scene, random)) {
+    for (const accel::Ray& ray : random_rays(scene, 300, random)) {
       if (!is_edge_on(scene, ray)) rays.push_back(ray);
     }
     const accel::exhaustive::Exhaustive exhaustive(scene);

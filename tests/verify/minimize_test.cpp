@@ -52,7 +52,7 @@ MinimalCase reduced(const scenes::Scene& scene, const rays::TraceInput& input,
   const DiffReport report = verify_tracer(scene, input, tracer);
   EXPECT_GT(report.count(DiffClass::kStructureError), 0U);
   base::Progress progress(1);
-  auto found = minimize(scene, input, report.examples.front(), tracer, progress);
+  auto found = minimize(scene, input, report.examples.front(), wrong_by_differ(tracer), progress);
   EXPECT_TRUE(found.has_value());
   return std::move(*found);
 }
@@ -104,7 +104,8 @@ TEST_F(Minimize, NothingIsReducedThatIsRightTheNextTime) {
   const Tracer wrong = losing([](auto&, auto&, auto&, std::size_t) { return true; });
   const DiffReport report = verify_tracer(scene_, list_, wrong);
   base::Progress progress(1);
-  EXPECT_FALSE(minimize(scene_, list_, report.examples.front(), exhaustive(), progress));
+  EXPECT_FALSE(
+      minimize(scene_, list_, report.examples.front(), wrong_by_differ(exhaustive()), progress));
 }
 
 TEST_F(Minimize, NumbersThatNoHitHasAreFaultsToo) {
@@ -121,7 +122,7 @@ TEST_F(Minimize, NumbersThatNoHitHasAreFaultsToo) {
     if (exhaustive()(scene_, list_).occluded.empty()) first.ray = list_.ray(list_.size() / 2);
   }
   base::Progress progress(1);
-  const auto found = minimize(scene_, list_, first, wrong, progress);
+  const auto found = minimize(scene_, list_, first, wrong_by_differ(wrong), progress);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->primitives.size(), 1U);
 }

@@ -12,6 +12,8 @@
 #include <gtest/gtest.h>
 
 #include "accel/exhaustive/exhaustive.hpp"
+#include "harness/verify/minimize.hpp"
+#include "harness/verify/selftest/hit_comparison.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::verify {
@@ -107,9 +109,13 @@ accel::StructureInfo faulty(Fault fault) {
           }};
 }
 
-CheckOutcome outcome_of(std::string_view name, Fault fault) {
-  const accel::StructureInfo info = faulty(fault);
-  const Subject subject(accel::StructureChoice(info, Parameters(info.name, info.parameters, {})));
+Subject subject_of(const accel::StructureInfo& info) {
+  return Subject(accel::StructureChoice(info, Parameters(info.name, info.parameters, {})));
+}
+
+/// `info` must outlive what failed.
+CheckOutcome outcome_of(std::string_view name, const accel::StructureInfo& info) {
+  const Subject subject = subject_of(info);
   for (const Check& check : selftest_checks()) {
     if (check.name == name) return run_check(check, subject, {.seed = 1, .scenes = 20});
   }
@@ -117,9 +123,14 @@ CheckOutcome outcome_of(std::string_view name, Fault fault) {
   return {};
 }
 
+std::string failure_of(std::string_view name, Fault fault) {
+  const accel::StructureInfo info = faulty(fault);
+  return outcome_of(name, info).failure;
+}
+
 TEST(Selftest, PassesWhatIsRight) {
   for (const Check& check : selftest_checks()) {
-    EXPECT_EQ(outcome_of(check.name, Fault::kNone).failure, "") << check.name;
+    EXPECT_EQ(failure_of(check.name, Fault::kNone), "") << check.name;
   }
 }
 
@@ -140,7 +151,7 @@ TEST(Selftest, TracesThePrimitivesThatAreTaken) {
        {PrimitiveKinds{.cones = false}, PrimitiveKinds{false, true, false},
         PrimitiveKinds{true, false, false}, PrimitiveKinds{false, false, true}}) {
     const accel::StructureInfo info = picky(takes);
-    const Subject subject(accel::StructureChoice(info, Parameters(info.name, info.parameters, {})));
+    const Subject subject = subject_of(info);
     EXPECT_EQ(subject.kinds().names(), takes.names());
     for (const Check& check : selftest_checks()) {
       if (!applies(check, subject)) {
@@ -164,9 +175,11 @@ TEST(Selftest, FindsAFaultByEachCheck) {
       {"scene families", Fault::kNoCones},
       {"scene families", Fault::kHighestIdAtTies},
       {"scene families", Fault::kImageUpsideDown},
-      {"scene families", Fault::kNoCones},
-      {"scene families", Fault::kHighestIdAtTies},
-      {"scene families", Fault::kImageUpsideDown},
+      {"views", Fault::kNoCones},
+      {"views", Fault::kHighestIdAtTies},
+      {"views", Fault::kImageUpsideDown},
+      {"views", Fault::kAnyHitAlways},
+      {"views", Fault::kOtherInLists},
       {"smallest scenes", Fault::kNoCones},
       {"images", Fault::kImageUpsideDown},
       {"faces, edges, corners", Fault::kHighestIdAtTies},
@@ -181,13 +194,58 @@ TEST(Selftest, FindsAFaultByEachCheck) {
       {"explanation", Fault::kExplainsAnother},
   };
   for (const auto& [check, fault] : expected) {
-    EXPECT_NE(outcome_of(check, fault).failure, "")
-        << check << ", fault " << static_cast<int>(fault);
+    EXPECT_NE(failure_of(check, fault), "") << check << ", fault " << static_cast<int>(fault);
   }
   for (const Check& check : selftest_checks()) {
     EXPECT_TRUE(
         std::ranges::any_of(expected, [&](const auto& one) { return check.name == one.first; }))
         << check.name << " has never been seen to fail";
+  }
+}
+
+TEST(Selftest, WrongHitsAreReducedToTheRayAndThePrimitivesThatTheyTake) {
+  const accel::StructureInfo info = faulty(Fault::kNoCones);
+  for (const char* name : {"random scenes", "scene families", "views", "heap"}) {
+    const CheckOutcome outcome = outcome_of(name, info);
+    if (name == std::string("heap")) {  // of spheres: it is right
+      EXPECT_FALSE(outcome.failed.has_value());
+      continue;
+    }
+    ASSERT_TRUE(outcome.failed.has_value()) << name;
+    base::Progress progress(1);
+    const auto minimal =
+        minimize(outcome.failed->scene, outcome.failed->input, outcome.failed->wrong,
+                 wrong_by_comparison(outcome.failed->structure), progress);
+    ASSERT_TRUE(minimal.has_value()) << name;
+    EXPECT_EQ(minimal->scene.cones.size(), 1U) << name;
+    EXPECT_EQ(minimal->scene.primitives.size(), 1U) << name;
+    EXPECT_TRUE(minimal->input.size() == 1 || minimal->input.image() != nullptr) << name;
+  }
+}
+
+TEST(Selftest, AFaultOfTheWholeImageIsReducedToItsPrimitives) {
+  const accel::StructureInfo info = faulty(Fault::kImageUpsideDown);
+  const CheckOutcome outcome = outcome_of("views", info);
+  ASSERT_TRUE(outcome.failed.has_value());
+  base::Progress progress(1);
+  const auto minimal = minimize(outcome.failed->scene, outcome.failed->input, outcome.failed->wrong,
+                                wrong_by_comparison(outcome.failed->structure), progress);
+  ASSERT_TRUE(minimal.has_value());
+  EXPECT_NE(minimal->input.image(), nullptr);
+  EXPECT_EQ(minimal->scene.primitives.size(), 1U);
+}
+
+TEST(Selftest, MoreRaysAreTracedWhereMoreAreWanted) {
+  const accel::StructureInfo info = faulty(Fault::kNone);
+  const Subject subject = subject_of(info);
+  for (const Check& check : selftest_checks()) {
+    const bool random =
+        check.name == "random scenes" || check.name == "scene families" || check.name == "views";
+    if (!random) continue;
+    const auto few = run_check(check, subject, {.seed = 1, .scenes = 7, .rays = 100});
+    const auto many = run_check(check, subject, {.seed = 1, .scenes = 7, .rays = 1000});
+    EXPECT_GE(few.rays, 7U * 60U) << check.name;
+    EXPECT_GE(many.rays, few.rays + 7U * 600U) << check.name;
   }
 }
 

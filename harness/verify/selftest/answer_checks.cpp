@@ -1,18 +1,18 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <span>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <glm/geometric.hpp>
 
 #include "accel/core/accelerator.hpp"
 #include "accel/core/registry.hpp"
-#include "accel/exhaustive/exhaustive.hpp"
-#include "harness/verify/describe.hpp"
-#include "harness/verify/differ.hpp"
+#include "harness/rays/trace_input.hpp"
+#include "harness/verify/selftest/hit_comparison.hpp"
 #include "harness/verify/selftest/selftest.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
 #include "scenes/catalogue.hpp"
@@ -21,109 +21,8 @@
 namespace beambench::verify {
 namespace {
 
-/// What the differ finds wrong with the results for an input. Rays that are aimed at edges and
-/// corners graze, however many they are.
-std::string wrong_by_the_differ(const scenes::Scene& scene, const rays::TraceInput& input,
-                                const rays::TraceResults& results, accel::Conformance conformance,
-                                bool may_graze) {
-  const DiffReport report = verify_results(ReferenceHits(scene, input), results, conformance);
-  if (is_right(report.verdict) || (report.verdict == Verdict::kGrazes && may_graze)) return "";
-  std::string text = fmt::format(
-      "the differ's verdict is '{}': {} of {} rays wrong, {} grazes", to_string(report.verdict),
-      report.count(DiffClass::kStructureError), report.rays, report.count(DiffClass::kGraze));
-  if (!report.examples.empty()) text += "; " + describe(scene, input, report.examples.front());
-  return text;
-}
-
-/// The right results over a scene, by what the structure claims: every bit those of exhaustive
-/// search, or right by the differ's classes. Each method returns the first wrong answer in a
-/// sentence, empty when all are right. The scene outlives it.
-class HitComparison {
- public:
-  HitComparison(const scenes::Scene& scene, accel::Conformance conformance)
-      : scene_(&scene), exhaustive_(scene), conformance_(conformance) {}
-
-  /// Closest and any hits of single rays. Where every bit must be equal, each ray is also traced
-  /// with its end, and with its beginning, exactly where it hits.
-  std::string single_rays(const accel::Accelerator& structure,
-                          std::span<const accel::Ray> rays) const {
-    if (conformance_ != accel::Conformance::kBitExact) return by_the_differ(structure, rays);
-    for (const accel::Ray& ray : rays) {
-      if (std::string wrong = same_bits(structure, ray); !wrong.empty()) return wrong;
-      const auto hit = exhaustive_.closest_hit(ray, nullptr);
-      if (!hit) continue;
-      accel::Ray ends_there = ray;
-      ends_there.t_max = hit->t;
-      accel::Ray begins_there = ray;
-      begins_there.t_min = hit->t;
-      for (const accel::Ray& cut : {ends_there, begins_there}) {
-        if (std::string wrong = same_bits(structure, cut); !wrong.empty()) return wrong;
-      }
-    }
-    return "";
-  }
-
-  /// The closest hits of an image, as a whole. `may_graze`: more grazes than the differ's budget
-  /// are right, as they are where the camera lies on a surface.
-  std::string image(const accel::Accelerator& structure, const accel::PrimaryRays& rays,
-                    bool may_graze) const {
-    const rays::TraceInput input(rays);
-    const rays::TraceResults results = traced(structure, input);
-    if (conformance_ != accel::Conformance::kBitExact) {
-      return wrong_by_the_differ(*scene_, input, results, conformance_, may_graze);
-    }
-    const auto& found = std::get<accel::HitBuffer>(results);
-    accel::HitBuffer expected(rays.width(), rays.height(), rays.samples());
-    exhaustive_.trace(rays, expected, nullptr);
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-      if (found.t()[i] == expected.t()[i] && found.primitive()[i] == expected.primitive()[i])
-        continue;
-      return fmt::format("{}: {} hits {} first, not {}", rays::place_text(input, i),
-                         show(input.ray(i)), show(expected.get(i)),
-                         show(accel::Hit{found.t()[i], found.primitive()[i]}));
-    }
-    return "";
-  }
-
-  std::size_t count_hits(std::span<const accel::Ray> rays) const {
-    std::size_t hits = 0;
-    for (const accel::Ray& ray : rays) hits += exhaustive_.any_hit(ray, nullptr) ? 1 : 0;
-    return hits;
-  }
-
- private:
-  std::string same_bits(const accel::Accelerator& structure, const accel::Ray& ray) const {
-    const auto expected = exhaustive_.closest_hit(ray, nullptr);
-    const auto found = structure.closest_hit(ray, nullptr);
-    if (found != expected) {
-      return fmt::format("{} hits {} first, not {}", show(ray), show(expected), show(found));
-    }
-    const bool any = structure.any_hit(ray, nullptr);
-    if (any != expected.has_value()) {
-      return fmt::format("{} {}, but any_hit returns {}", show(ray),
-                         expected ? "hits something" : "hits nothing", any);
-    }
-    return "";
-  }
-
-  std::string by_the_differ(const accel::Accelerator& structure,
-                            std::span<const accel::Ray> rays) const {
-    for (const rays::Query query : {rays::Query::kClosestHit, rays::Query::kAnyHit}) {
-      const rays::TraceInput input(rays::RaySet{{{rays.begin(), rays.end()}}, "selftest", query});
-      const rays::TraceResults results = traced(structure, input);
-      std::string wrong =
-          wrong_by_the_differ(*scene_, input, results, conformance_, /*may_graze=*/true);
-      if (!wrong.empty()) return wrong;
-    }
-    return "";
-  }
-
-  const scenes::Scene* scene_;
-  accel::exhaustive::Exhaustive exhaustive_;
-  accel::Conformance conformance_;
-};
-
 constexpr std::uint64_t kMaxPrimitives = 60;
+
 /// Null where the structure refuses the scene, as it may do with what it cannot do.
 std::unique_ptr<accel::Accelerator> build(const accel::StructureChoice& choice,
                                           const scenes::Scene& scene) {
@@ -134,18 +33,62 @@ std::unique_ptr<accel::Accelerator> build(const accel::StructureChoice& choice,
   }
 }
 
-/// Adds the outcome of one scene.
-void add(CheckOutcome& outcome, std::size_t rays, const std::string& where, std::string wrong) {
+/// The outcome for one scene.
+void add(CheckOutcome& outcome, std::size_t rays, const scenes::Scene& scene,
+         const accel::StructureChoice& choice, const std::string& where,
+         std::optional<WrongHits> wrong) {
   outcome.rays += rays;
-  if (!wrong.empty()) outcome.failure = fmt::format("{}: {}", where, wrong);
+  if (!wrong) return;
+  outcome.failure = fmt::format("{}: {}", where, wrong->what);
+  outcome.failed = FailedInput{scene, choice, std::move(wrong->input), wrong->first};
 }
 
 CheckOutcome check_rays(const Subject& subject, const SceneWithRays& made) {
   CheckOutcome outcome;
   const auto structure = subject.build(made.scene);
-  add(outcome, made.rays.size(), made.scene.name,
+  add(outcome, made.rays.size(), made.scene, subject.choice(), made.scene.name,
       HitComparison(made.scene, subject.conformance()).single_rays(*structure, made.rays));
   return outcome;
+}
+
+/// Embree returns hits that do not lie on the polygon; only exact arithmetic can do better.
+void leave_out_edge_on(const Subject& subject, const scenes::Scene& scene,
+                       std::vector<accel::Ray>& rays) {
+  if (subject.conformance() != accel::Conformance::kTolerance) return;
+  std::erase_if(rays, [&](const accel::Ray& ray) { return is_edge_on(scene, ray); });
+}
+
+/// A scene for a camera anywhere: of any primitives, or of the families.
+scenes::Scene scene_to_view(PrimitiveKinds kinds, Random& random) {
+  const std::uint64_t seed = random.bits();
+  scenes::Scene scene =
+      random.below(2) == 0
+          ? family_scene(seed, kinds)
+          : random_scene(seed, static_cast<int>(1 + random.below(kMaxPrimitives)), kinds);
+  add_lights(scene, random);
+  return scene;
+}
+
+/// Of about `rays` pixels, the width below, at and above that of a register.
+rays::ImageOfRays image_to_view(const scenes::Scene& scene, std::uint64_t rays, Random& random) {
+  const double side = std::sqrt(static_cast<double>(rays));
+  const int width = 4 + static_cast<int>(side * random.uniform(0.5, 1.5));
+  const int height = 3 + static_cast<int>(static_cast<double>(rays) / width);
+  return {random_camera(scene, random), {width, height}, random.below(4) == 0 ? 5 : 1};
+}
+
+/// Without rays that lie in the plane of a polygon, where these prove nothing.
+rays::TraceInput worth_tracing(const Subject& subject, const scenes::Scene& scene,
+                               rays::TraceInput input) {
+  std::vector<accel::Ray> rays;
+  for (std::size_t i = 0; i < input.size(); ++i) rays.push_back(input.ray(i));
+  leave_out_edge_on(subject, scene, rays);
+  if (rays.size() == input.size()) return input;
+  rays::RaySet set;
+  set.rays = std::move(rays);
+  set.label = input.label();
+  set.query = input.query();
+  return rays::TraceInput(std::move(set));
 }
 
 }  // namespace
@@ -177,10 +120,10 @@ CheckOutcome check_random_scenes(const Subject& subject, const SelftestEffort& e
       ++refused;
       continue;
     }
-    const std::vector<accel::Ray> rays = random_rays(scene, random);
+    const std::vector<accel::Ray> rays = random_rays(scene, effort.rays, random);
     const HitComparison comparison(scene, subject.conformance());
     hits += comparison.count_hits(rays);
-    add(outcome, rays.size(),
+    add(outcome, rays.size(), scene, choice,
         fmt::format("random scene of seed {} with {} primitives, {}", seed, primitives,
                     choice.short_label()),
         comparison.single_rays(*structure, rays));
@@ -207,19 +150,45 @@ CheckOutcome check_scene_families(const Subject& subject, const SelftestEffort& 
     const auto structure = build(choice, scene);
     if (structure == nullptr) continue;  // check_random_scenes counts these
     const HitComparison comparison(scene, subject.conformance());
-    std::vector<accel::Ray> rays = random_rays(scene, random);
-    // Embree returns hits that do not lie on the polygon; only exact arithmetic can do better.
-    if (subject.conformance() == accel::Conformance::kTolerance) {
-      std::erase_if(rays, [&](const accel::Ray& ray) { return is_edge_on(scene, ray); });
-    }
+    std::vector<accel::Ray> rays = random_rays(scene, effort.rays, random);
+    leave_out_edge_on(subject, scene, rays);
     // Below, at and above the width of a register.
     const int width = static_cast<int>(8 + random.below(30));
     const accel::PrimaryRays image(scene.cameras.front(), width, 20, 1);
     const std::string where = fmt::format("{} (scene of the families, seed {}), {}", scene.name,
                                           seed, choice.short_label());
-    add(outcome, image.count(), where, comparison.image(*structure, image, /*may_graze=*/true));
+    add(outcome, image.count(), scene, choice, where,
+        comparison.whole(*structure, image, /*may_graze=*/true));
     if (outcome.passed()) {
-      add(outcome, rays.size(), where, comparison.single_rays(*structure, rays));
+      add(outcome, rays.size(), scene, choice, where, comparison.single_rays(*structure, rays));
+    }
+  }
+  return outcome;
+}
+
+CheckOutcome check_views(const Subject& subject, const SelftestEffort& effort) {
+  static constexpr std::array kKinds{"primary", "shadow", "mirror", "reflection", "diffuse"};
+  CheckOutcome outcome;
+  for (std::uint64_t i = 0; i < effort.scenes; ++i) {
+    const std::uint64_t seed = effort.seed + i;
+    Random random(~seed);  // other numbers than those of the scene
+    const scenes::Scene scene = scene_to_view(subject.kinds(), random);
+    const accel::StructureChoice choice = subject.vary(random);
+    const auto structure = build(choice, scene);
+    if (structure == nullptr) continue;  // check_random_scenes counts these
+    const rays::ImageOfRays image = image_to_view(scene, effort.rays, random);
+    const HitComparison comparison(scene, subject.conformance());
+    for (const char* kind : kKinds) {
+      try {
+        const rays::TraceInput input = worth_tracing(
+            subject, scene, rays::make_trace_input(scene, image, rays::parse_ray_choice(kind)));
+        add(outcome, input.size(), scene, choice,
+            fmt::format("{} rays over {} (view of seed {}), {}", kind, scene.name, seed,
+                        choice.short_label()),
+            comparison.whole(*structure, input, /*may_graze=*/true));
+      } catch (const rays::NoRaysError&) {  // it sees nothing, or no mirror
+      }
+      if (!outcome.passed()) return outcome;
     }
   }
   return outcome;
@@ -237,8 +206,9 @@ CheckOutcome check_images(const Subject& subject, const SelftestEffort& effort) 
     const auto structure = subject.build(scene);
     for (const int samples : {1, 5}) {
       const accel::PrimaryRays rays(scene.cameras.front(), 41, 33, samples);
-      add(outcome, rays.count(), fmt::format("{} with {} samples a pixel", scene.name, samples),
-          HitComparison(scene, subject.conformance()).image(*structure, rays, /*may_graze=*/false));
+      add(outcome, rays.count(), scene, subject.choice(),
+          fmt::format("{} with {} samples a pixel", scene.name, samples),
+          HitComparison(scene, subject.conformance()).whole(*structure, rays, /*may_graze=*/false));
       if (!outcome.passed()) return outcome;
     }
   }
@@ -251,10 +221,10 @@ CheckOutcome check_smallest_scenes(const Subject& subject, const SelftestEffort&
     if (!subject.kinds().include(scene)) continue;
     Random random(effort.seed);
     std::vector<accel::Ray> rays{accel::Ray{}};
-    if (!scene.primitives.empty()) rays = random_rays(scene, random);
-    const CheckOutcome found = check_rays(subject, {std::move(scene), std::move(rays)});
-    outcome.rays += found.rays;
-    outcome.failure = found.failure;
+    if (!scene.primitives.empty()) rays = random_rays(scene, effort.rays, random);
+    CheckOutcome found = check_rays(subject, {std::move(scene), std::move(rays)});
+    found.rays += outcome.rays;
+    outcome = std::move(found);
     if (!outcome.passed()) break;
   }
   return outcome;

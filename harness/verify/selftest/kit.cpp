@@ -56,7 +56,7 @@ void for_each_scene(const SelftestEffort& effort, PrimitiveKinds kinds,
     const accel::PrimaryRays image(made.scene.cameras.front(), 24, 20, 1);
     image.for_each(0, image.height(),
                    [&](std::size_t, const accel::Ray& ray) { made.rays.push_back(ray); });
-    const std::vector<accel::Ray> more = random_rays(made.scene, random);
+    const std::vector<accel::Ray> more = random_rays(made.scene, effort.rays, random);
     made.rays.insert(made.rays.end(), more.begin(), more.end());
     visit(std::move(made));
   };

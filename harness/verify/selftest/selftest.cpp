@@ -6,13 +6,17 @@
 namespace beambench::verify {
 
 std::span<const Check> selftest_checks() {
-  static constexpr std::array<Check, 14> kChecks{{
+  static constexpr std::array<Check, 15> kChecks{{
       {"random scenes", "spheres, cones and polygons anywhere, at any of its parameters", false,
        false, check_random_scenes},
       {"scene families",
        "flat cones, eyes on surfaces, touching spheres, tiny scale, coplanar polygons, needles, "
        "nested surfaces: images and rays",
        false, false, check_scene_families},
+      {"views",
+       "cameras and lights anywhere: images, and the shadow, mirrored and scattered rays of what "
+       "they see, with their pencils",
+       false, false, check_views},
       {"smallest scenes", "nothing, one sphere, one cone, one triangle without depth", false, false,
        check_smallest_scenes},
       {"images", "the images of five scenes, with one and five samples a pixel", false, false,

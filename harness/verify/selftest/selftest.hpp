@@ -7,20 +7,34 @@
 #include <string>
 #include <string_view>
 
+#include "accel/core/registry.hpp"
+#include "harness/rays/trace_input.hpp"
 #include "harness/rays/trace_results.hpp"
+#include "harness/verify/diff_report.hpp"
 #include "harness/verify/selftest/subject.hpp"
+#include "scenes/scene.hpp"
 
 namespace beambench::verify {
 
 /// How hard it is tested. The same numbers give the same scenes and rays everywhere.
 struct SelftestEffort {
   std::uint64_t seed = 1;
-  std::uint64_t scenes = 60;  ///< random ones
+  std::uint64_t scenes = 60;  ///< random ones, of each check that makes them
+  std::uint64_t rays = 300;   ///< about so many for each of these
+};
+
+/// What a structure gets wrong hits for: what `minimize` starts from.
+struct FailedInput {
+  scenes::Scene scene;
+  accel::StructureChoice structure;
+  rays::TraceInput input;
+  Mismatch wrong;  ///< of a ray of `input`
 };
 
 struct CheckOutcome {
-  std::uint64_t rays = 0;  ///< traced
-  std::string failure;     ///< the first fault, in a sentence; empty: none
+  std::uint64_t rays = 0;               ///< traced
+  std::string failure;                  ///< the first fault, in a sentence; empty: none
+  std::optional<FailedInput> failed{};  ///< where it is a wrong hit
 
   bool passed() const { return failure.empty(); }
 };
@@ -54,8 +68,8 @@ rays::TraceResults traced(const accel::Accelerator& structure, const rays::Trace
                           accel::WorkCounters* counters = nullptr);
 
 /// Of hits.
-RunCheck check_random_scenes, check_scene_families, check_images, check_smallest_scenes,
-    check_faces_edges_corners, check_heap, check_degenerate_rays;
+RunCheck check_random_scenes, check_scene_families, check_views, check_images,
+    check_smallest_scenes, check_faces_edges_corners, check_heap, check_degenerate_rays;
 /// Of all else.
 RunCheck check_lists, check_counting, check_two_builds, check_threads, check_counters,
     check_statistics, check_explanation;

@@ -247,12 +247,37 @@ accel::Ray random_ray(const scenes::Scene& scene, Random& random) {
   return ray;
 }
 
-std::vector<accel::Ray> random_rays(const scenes::Scene& scene, Random& random) {
-  constexpr int kRays = 300;
+std::vector<accel::Ray> random_rays(const scenes::Scene& scene, std::uint64_t count,
+                                    Random& random) {
   std::vector<accel::Ray> rays;
-  rays.reserve(kRays);
-  for (int i = 0; i < kRays; ++i) rays.push_back(random_ray(scene, random));
+  rays.reserve(count);
+  for (std::uint64_t i = 0; i < count; ++i) rays.push_back(random_ray(scene, random));
   return rays;
+}
+
+scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
+  scenes::Camera camera;
+  camera.from = glm::vec3(random_origin(scene, random));
+  const glm::dvec3 from(camera.from);
+  const glm::dvec3 direction = glm::normalize(random_direction(scene, from, random));
+  // No shorter than floats can tell from nothing where the camera is.
+  const double reach =
+      std::max<double>(glm::length(glm::dvec3(scene.bounds.extent())), 1e-3 * glm::length(from));
+  camera.at = glm::vec3(from + direction * reach);
+  int across = 0;
+  for (int axis = 1; axis < 3; ++axis) {
+    if (std::abs(direction[axis]) < std::abs(direction[across])) across = axis;
+  }
+  camera.up = glm::vec3(0.0F);
+  camera.up[across] = random.below(2) == 0 ? 1.0F : -1.0F;
+  camera.angle = static_cast<float>(random.uniform(5.0, 150.0));
+  return camera;
+}
+
+void add_lights(scenes::Scene& scene, Random& random) {
+  for (int i = 0; i < 2; ++i) {
+    scene.lights.push_back({.position = glm::vec3(random_origin(scene, random))});
+  }
 }
 
 bool is_edge_on(const scenes::Scene& scene, const accel::Ray& ray) {

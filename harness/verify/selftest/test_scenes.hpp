@@ -28,8 +28,16 @@ scenes::Scene random_scene(std::uint64_t seed, int primitives, PrimitiveKinds ki
 /// interval.
 accel::Ray random_ray(const scenes::Scene& scene, Random& random);
 
-/// Three hundred of them.
-std::vector<accel::Ray> random_rays(const scenes::Scene& scene, Random& random);
+/// So many of them.
+std::vector<accel::Ray> random_rays(const scenes::Scene& scene, std::uint64_t count,
+                                    Random& random);
+
+/// A camera where such a ray may begin, that looks where it may go, with an angle of 5 to 150
+/// degrees.
+scenes::Camera random_camera(const scenes::Scene& scene, Random& random);
+
+/// Adds two lights where such rays may begin.
+void add_lights(scenes::Scene& scene, Random& random);
 
 /// Does the ray lie in the plane of a polygon, as far as float knows? Where it meets that polygon
 /// is then decided by rounding alone.
