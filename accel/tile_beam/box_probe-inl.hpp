@@ -49,6 +49,25 @@ class BoxProbe {
     met.lanes &= (LaneBits{1} << count) - 1;
   }
 
+  /// The children of a node whose cones of normals all look away from the eye, from wherever in the
+  /// box (Shirmun and Abi-Ezzi 1993). Children without a cone may be among them.
+  HWY_INLINE LaneBits turned_away(const TileNode& node) const {
+    return for_each_register([&](std::size_t lane) {
+      Floats along = hn::Zero(Tag());  // the axis, at least, over the box
+      Floats farthest = hn::Zero(Tag());
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const Floats lower = from_eye(node.boxes, axis, lane, eye_[static_cast<int>(axis)]);
+        const Floats upper = from_eye(node.boxes, axis + 3, lane, eye_[static_cast<int>(axis)]);
+        const Floats normal = load(&node.cones.axis[axis][lane]);
+        along = hn::Add(along, hn::Min(hn::Mul(normal, lower), hn::Mul(normal, upper)));
+        farthest = hn::Add(farthest, hn::Max(hn::Mul(lower, lower), hn::Mul(upper, upper)));
+      }
+      return hn::And(
+          hn::Gt(along, hn::Zero(Tag())),
+          hn::Gt(hn::Mul(along, along), hn::Mul(farthest, load(&node.cones.sine_squared[lane]))));
+    });
+  }
+
  private:
   HWY_INLINE Mask probe_register(const TileBoxes& boxes, std::size_t lane, float farthest,
                                  Met& met) const {

@@ -107,12 +107,29 @@ class LeafPacker {
   void add_triangle(std::uint32_t item) {
     const scenes::Scene& scene = pieces_->scene;
     auto& meshlets = made_.blocks.meshlets;
-    const scenes::Triangle& triangle = scene.triangles[pieces_->pieces[item].index];
+    const std::uint32_t index = pieces_->pieces[item].index;
+    const scenes::Triangle& triangle = scene.triangles[index];
     if (!goes_on(TileChild::Kind::kMeshlet) || !append(meshlets.back(), scene, triangle)) {
       begin(TileChild::Kind::kMeshlet, meshlets.size());
       append(meshlets.emplace_back(), scene, triangle);
     }
+    note_solid(index);
     made_.packed.back().box.include(pieces_->boxes[item]);
+  }
+
+  /// Marks the triangle added last, the scene's `index`, where it is part of a solid.
+  void note_solid(std::uint32_t index) {
+    const Solids& solids = pieces_->solids;
+    if (solids.solids.empty() || solids.of_triangle[index] == Solids::kNone) return;
+    Meshlet& meshlet = made_.blocks.meshlets.back();
+    const std::uint32_t bit = 1U << (meshlet.triangle_count - 1);
+    meshlet.solid |= bit;
+    const SolidMeshlet is_in{solids.of_triangle[index],
+                             static_cast<std::uint32_t>(made_.blocks.meshlets.size() - 1)};
+    if (solids.solids[is_in.solid].inward) meshlet.clockwise |= bit;
+    if (made_.solid_meshlets.empty() || made_.solid_meshlets.back() != is_in) {
+      made_.solid_meshlets.push_back(is_in);
+    }
   }
 
   void add_sphere(std::uint32_t item) {
@@ -161,6 +178,7 @@ class Joining {
       end_.spheres += blocks.spheres.size();
       end_.cones += blocks.cones.size();
       end_.packed += part.made().packed.size();
+      end_.solid_meshlets += part.made().solid_meshlets.size();
       end_.leaves += part.made().first.size() - 1;
     }
     require_index(scene, std::max({end_.meshlets, end_.spheres, end_.cones}));
@@ -172,6 +190,7 @@ class Joining {
     whole.blocks.spheres.resize(end_.spheres);
     whole.blocks.cones.resize(end_.cones);
     whole.packed.resize(end_.packed);
+    whole.solid_meshlets.resize(end_.solid_meshlets);
     whole.first.resize(end_.leaves + 1);
     whole.first.back() = static_cast<std::uint32_t>(end_.packed);
     tbb::parallel_for(std::size_t{0}, parts_->size(),
@@ -186,6 +205,7 @@ class Joining {
     std::size_t spheres = 0;
     std::size_t cones = 0;
     std::size_t packed = 0;
+    std::size_t solid_meshlets = 0;
     std::size_t leaves = 0;
 
     std::size_t of(TileChild::Kind kind) const {
@@ -207,6 +227,11 @@ class Joining {
       const std::size_t index = child.index() + begin.of(child.kind());
       whole.packed[begin.packed + i] = {TileChild(child.kind(), static_cast<std::uint32_t>(index)),
                                         part.packed[i].box};
+    }
+    for (std::size_t i = 0; i < part.solid_meshlets.size(); ++i) {
+      const auto [solid, meshlet] = part.solid_meshlets[i];
+      whole.solid_meshlets[begin.solid_meshlets + i] = {
+          solid, static_cast<std::uint32_t>(meshlet + begin.meshlets)};
     }
     for (std::size_t i = 0; i + 1 < part.first.size(); ++i) {
       whole.first[begin.leaves + i] = static_cast<std::uint32_t>(begin.packed + part.first[i]);

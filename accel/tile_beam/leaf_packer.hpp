@@ -26,6 +26,7 @@ struct PackedLeaf {
 /// The blocks of several leaves.
 struct PackedLeaves {
   TileBlocks blocks;
+  std::vector<SolidMeshlet> solid_meshlets;
   std::vector<PackedLeaf> packed;    ///< leaf by leaf
   std::vector<std::uint32_t> first;  ///< of each leaf, in `packed`; one more for the end
 
@@ -34,9 +35,10 @@ struct PackedLeaves {
   }
 };
 
-/// The pieces of a scene and their boxes.
+/// The pieces of a scene, their boxes, and the solids that triangles form.
 struct TilePieces {
   const scenes::Scene& scene;
+  const Solids& solids;
   std::span<const TilePiece> pieces;
   std::span<const scenes::Bounds> boxes;
 };

@@ -19,11 +19,12 @@
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
-/// Triangles that need double, one by one.
-inline void draw_exactly(const Meshlet& meshlet, std::size_t first, Mask which,
+/// Triangles that need double, one by one. `triangle_of(lane)` is the number of a lane's.
+template <class TriangleOf>
+inline void draw_exactly(const Meshlet& meshlet, TriangleOf triangle_of, Mask which,
                          const TileRays& rays, TileImage& image) {
   for (LaneBits left = bits_of(which); left != 0; left &= left - 1) {
-    const std::size_t triangle = first + static_cast<std::size_t>(std::countr_zero(left));
+    const std::size_t triangle = triangle_of(static_cast<std::size_t>(std::countr_zero(left)));
     const std::array<glm::vec3, 3> corners{meshlet.corner(0, triangle), meshlet.corner(1, triangle),
                                            meshlet.corner(2, triangle)};
     const auto exact = exact_triangle(rays.view, corners);
@@ -106,14 +107,31 @@ HWY_INLINE void draw_triangles(const TriangleImages& images, const scenes::Primi
   draw_large(stored, primitives, hn::AndNot(listed, rest), images.acute, image);
 }
 
-/// Draws a meshlet. What lies behind `farthest` (1/t) is not drawn.
-inline void draw_meshlet(const Meshlet& meshlet, const TileRays& rays, float farthest,
-                         TileImage& image) {
+/// Draws a meshlet. What lies behind `farthest` (1/t) is not drawn, nor are backs of the triangles
+/// in `hidden`.
+inline void draw_meshlet(const Meshlet& meshlet, std::uint32_t hidden, const TileRays& rays,
+                         float farthest, TileImage& image) {
   ProjectedVertices projected;
   project_vertices(meshlet, rays.view, projected);
+  if (hidden != 0 && projected.none_needs_double) {
+    Survivors survivors;
+    find_survivors(meshlet, HiddenBacks(meshlet, hidden, rays.view), projected, rays.view,
+                   survivors);
+    for (std::size_t first = 0; first < survivors.count; first += kLanes) {
+      const TriangleImages images =
+          project_triangles(survivors.from(first), projected, rays.view, farthest);
+      draw_exactly(
+          meshlet, [&](std::size_t lane) { return survivors.triangle(first + lane); },
+          images.needs_exact, rays, image);
+      draw_triangles(images, survivors.primitives.data() + first, image);
+    }
+    return;
+  }
   for (std::size_t first = 0; first < meshlet.triangle_count; first += kLanes) {
-    const TriangleImages images = project_triangles(meshlet, projected, first, rays.view, farthest);
-    draw_exactly(meshlet, first, images.needs_exact, rays, image);
+    const TriangleImages images =
+        project_triangles(TriangleCorners::from(meshlet, first), projected, rays.view, farthest);
+    draw_exactly(
+        meshlet, [&](std::size_t lane) { return first + lane; }, images.needs_exact, rays, image);
     draw_triangles(images, meshlet.primitives.data() + first, image);
   }
 }

@@ -89,8 +89,12 @@ HWY_INLINE void resolve_four(const TileImage& image, int column, int row, const 
     return reciprocal(d, hn::Load(d, &image.inverse_t[place]));
   });
   write_blocks<kStreamed>(
-      from, height, place_of_row, buffer.primitive(),
-      [&](auto d, std::size_t place) { return hn::Load(d, &image.primitive[place]); });
+      from, height, place_of_row, buffer.primitive(), [&](auto d, std::size_t place) {
+        const hn::Rebind<float, decltype(d)> depths;
+        const auto is_hit = hn::Gt(hn::Load(depths, &image.inverse_t[place]), hn::Zero(depths));
+        return hn::IfThenElse(hn::RebindMask(d, is_hit), hn::Load(d, &image.primitive[place]),
+                              hn::Set(d, scenes::kNoPrimitive));
+      });
 }
 
 /// Writes the samples of a tile from a column on, one by one.
@@ -99,8 +103,10 @@ inline void resolve_rest(const TileImage& image, const TileView& view, int first
   for (int y = 0; y < view.height; ++y) {
     for (int x = first; x < view.width; ++x) {
       const std::size_t to = buffer.index(view.left + x, view.top + y, 0);
-      buffer.t()[to] = 1.0F / image.inverse_t[TileImage::place(x, y)];
-      buffer.primitive()[to] = image.primitive[TileImage::place(x, y)];
+      const std::size_t at = TileImage::place(x, y);
+      buffer.t()[to] = 1.0F / image.inverse_t[at];
+      buffer.primitive()[to] =
+          image.inverse_t[at] > 0.0F ? image.primitive[at] : scenes::kNoPrimitive;
     }
   }
 }
@@ -149,7 +155,8 @@ inline void resolve_samples(TileImage& image, const SampleRaster& raster, const 
                              [&](int x, std::size_t index) {
                                const std::size_t at = TileImage::place(x, y);
                                buffer.t()[index] = t[at];
-                               buffer.primitive()[index] = image.primitive[at];
+                               buffer.primitive()[index] =
+                                   t[at] < kInfinity ? image.primitive[at] : scenes::kNoPrimitive;
                              });
     }
   }

@@ -83,12 +83,13 @@ void trace_tiles(const TileKernels& kernels, const TileHierarchy& hierarchy,
                  HitBuffer& buffer, Counting& counting) {
   tbb::enumerable_thread_specific<ThreadState<Counting>> states;
   const TiledImage tiled(rays, hierarchy.bounds);
+  const VisibleBacks backs(hierarchy, scene, rays.eye(), rays.count());
   const auto draw = [&](int begin, int end) {
     ThreadState<Counting>& own = states.local();
     for (int number = begin; number < end; ++number) {
       tiled.for_each_of(number, [&](const SampleRaster& raster, const TileView& view) {
-        kernels.drawing<Counting>().draw({hierarchy, scene, rays, raster}, view, *own.image, buffer,
-                                         own.counting);
+        kernels.drawing<Counting>().draw({hierarchy, scene, rays, raster, backs}, view, *own.image,
+                                         buffer, own.counting);
       });
     }
     hwy::FlushStream();
@@ -208,6 +209,13 @@ void answer(const SeenBatch& seen, bool toward, bool parallel, Counting& countin
   for (const State& state : states) counting.add(state.counting);
 }
 
+std::size_t solid_bytes(const TileHierarchy& hierarchy) {
+  const Solids& solids = hierarchy.solids;
+  return solids.solids.capacity() * sizeof(Solid) +
+         (solids.triangles.capacity() + solids.of_triangle.capacity()) * sizeof(std::uint32_t) +
+         hierarchy.solid_meshlets.capacity() * sizeof(SolidMeshlet);
+}
+
 }  // namespace
 
 void TileBeam::closest_hits(const RayBatch& batch, HitBuffer& buffer,
@@ -258,11 +266,12 @@ std::vector<BeamPlace> TileBeam::beam_places(const PrimaryRays& rays) const {
   std::vector<BeamPlace> places(rays.count());
   const HitBuffer numbers(rays.width(), rays.height(), rays.samples());
   const TiledImage tiled(rays, hierarchy_.bounds);
+  const VisibleBacks backs(hierarchy_, *scene_, rays.eye(), rays.count());
   const auto image = std::make_unique_for_overwrite<TileImage>();
   std::uint32_t beam = 0;
   const auto record = [&](const SampleRaster& raster, const TileView& view) {
     HandOverRecorder recorder(TileImage::kSamples);
-    record_tile({hierarchy_, *scene_, rays, raster}, view, *image, recorder);
+    record_tile({hierarchy_, *scene_, rays, raster, backs}, view, *image, recorder);
     for (int y = 0; y < view.height; ++y) {
       for (const SampleRaster::Place& place : raster.places) {
         raster.for_each_of_row(
@@ -306,6 +315,9 @@ std::vector<ParameterInfo> TileBeam::parameters() {
       integer_parameter("max_leaf", defaults.max_leaf, 1, 32, "most primitives of a leaf"),
       flag_parameter("parallel", defaults.parallel,
                      "build, and trace images and batches, on all cores; the hits are the same"),
+      flag_parameter("backface_culling", defaults.backface_culling,
+                     "in images, leave out the backs of closed surfaces that are proven to hide "
+                     "them; what is open is traced as without it"),
       isa_parameter()};
 }
 
@@ -313,6 +325,7 @@ TileHierarchyOptions TileBeam::options_from(const Parameters& parameters) {
   TileHierarchyOptions options;
   options.max_leaf = static_cast<std::uint32_t>(parameters.integer("max_leaf"));
   options.parallel = parameters.flag("parallel");
+  options.backface_culling = parameters.flag("backface_culling");
   return options;
 }
 
@@ -327,11 +340,13 @@ Statistics TileBeam::statistics() const {
   statistics.bytes = hierarchy_.nodes.capacity() * sizeof(TileNode) +
                      hierarchy_.meshlets.capacity() * sizeof(Meshlet) +
                      hierarchy_.spheres.capacity() * sizeof(SphereBlock) +
-                     hierarchy_.cones.capacity() * sizeof(ConeBlock);
+                     hierarchy_.cones.capacity() * sizeof(ConeBlock) + solid_bytes(hierarchy_);
   statistics.instruction_set = instruction_set();
   statistics.image_rays = ImageRays::kOwn;
   statistics.more = {{"cost", hierarchy_.cost},
-                     {"meshlets", static_cast<double>(hierarchy_.meshlets.size())}};
+                     {"meshlets", static_cast<double>(hierarchy_.meshlets.size())},
+                     {"solids", static_cast<double>(hierarchy_.solids.solids.size())},
+                     {"solid_triangles", static_cast<double>(hierarchy_.solids.triangles.size())}};
   hierarchy_.visits.append_to(statistics);
   return statistics;
 }

@@ -1,9 +1,14 @@
 #include "accel/tile_beam/tile_hierarchy.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
+
+#include <glm/geometric.hpp>
 
 #include "accel/bvh/bvh_builder.hpp"
 #include "accel/bvh/padded_bounds.hpp"
@@ -43,6 +48,46 @@ Pieces pieces_of(const scenes::Scene& scene) {
   return all;
 }
 
+/// A cone about directions.
+struct NormalCone {
+  glm::dvec3 axis;  ///< of length 1
+  double half_angle;
+};
+
+/// A wider cone tells little, and one of a right angle nothing.
+std::optional<NormalCone> usable(const NormalCone& cone) {
+  constexpr double kWidest = 1.5;
+  return cone.half_angle < kWidest ? std::optional(cone) : std::nullopt;
+}
+
+double angle_between(const glm::dvec3& a, const glm::dvec3& b) {
+  return std::acos(std::clamp(glm::dot(a, b), -1.0, 1.0));
+}
+
+/// About the outward normals of a meshlet's triangles, where all are those of solids.
+std::optional<NormalCone> normal_cone(const Meshlet& meshlet) {
+  constexpr double kRounding = 1e-3;  // more than that of normals and of their cosines in float
+  if (std::popcount(meshlet.solid) != static_cast<int>(meshlet.triangle_count)) return std::nullopt;
+  std::array<glm::vec3, Meshlet::kMaxTriangles> normals;
+  glm::vec3 sum(0.0F);
+  for (std::size_t t = 0; t < meshlet.triangle_count; ++t) {
+    const glm::dvec3 first(meshlet.corner(0, t));
+    const glm::dvec3 across = glm::cross(glm::dvec3(meshlet.corner(1, t)) - first,
+                                         glm::dvec3(meshlet.corner(2, t)) - first);
+    // The square of the length may be beyond a float's range.
+    const auto normal = glm::vec3(across * (1.0 / std::sqrt(glm::dot(across, across))));
+    normals[t] = (meshlet.clockwise >> t & 1U) != 0 ? -normal : normal;
+    sum += normals[t];
+  }
+  const glm::vec3 axis = glm::normalize(sum);
+  float least_cosine = 1.0F;
+  for (std::size_t t = 0; t < meshlet.triangle_count; ++t) {
+    least_cosine = std::min(least_cosine, glm::dot(normals[t], axis));
+  }
+  if (!(least_cosine > 0.0F)) return std::nullopt;  // nor where normals cancel: NaN
+  return usable({glm::dvec3(axis), std::acos(static_cast<double>(least_cosine)) + kRounding});
+}
+
 /// Turns the binary hierarchy over a scene's pieces into the wide one.
 class Builder {
  public:
@@ -57,7 +102,9 @@ class Builder {
     binary_ = bvh::build_bvh(all.boxes, binary);
     wide_.cost = bvh::sah_cost(binary_, binary);
     wide_.visits = ExpectedVisits(scene.bounds);
-    pack({scene, all.pieces, all.boxes}, options.parallel);
+    if (options.backface_culling) wide_.solids = find_solids(scene);
+    pack({scene, wide_.solids, all.pieces, all.boxes}, options.parallel);
+    wide_.solids.of_triangle = {};  // known by the meshlets from here on
     wide_.nodes.reserve(binary_.nodes.size() / 16 + 1);
     const Made root = convert(0, 1);
     wide_.root = root.child;
@@ -71,7 +118,16 @@ class Builder {
     TileChild child;
     scenes::Bounds box;
     std::uint32_t leaves;
+    std::optional<NormalCone> cone{};  ///< where there are solids' triangles alone
   };
+
+  Made leaf_of(const PackedLeaf& packed) const {
+    Made made{packed.child, packed.box, 1};
+    if (packed.child.kind() == TileChild::Kind::kMeshlet) {
+      made.cone = normal_cone(wide_.meshlets[packed.child.index()]);
+    }
+    return made;
+  }
 
   /// Packs all leaves, in the order of nodes, and numbers them: `first` of a leaf's node becomes
   /// its number.
@@ -87,6 +143,8 @@ class Builder {
     }
     packed_ = pack_leaves(pieces, leaves, parallel);
     static_cast<TileBlocks&>(wide_) = std::move(packed_.blocks);
+    wide_.solid_meshlets = std::move(packed_.solid_meshlets);
+    std::ranges::sort(wide_.solid_meshlets);
   }
 
   /// The recursion is bounded by kMaxBvhDepth.
@@ -110,24 +168,43 @@ class Builder {
 
   Made convert_leaf(std::span<const PackedLeaf> packed, std::uint32_t depth) {
     wide_.depth = std::max(wide_.depth, packed.size() == 1 ? depth : depth + 1);
-    if (packed.size() == 1) return {packed[0].child, packed[0].box, 1};
+    if (packed.size() == 1) return leaf_of(packed[0]);
     const auto index = static_cast<std::uint32_t>(wide_.nodes.size());
     wide_.nodes.emplace_back();
     std::array<Made, kTileLanes> made{};
     for (std::size_t lane = 0; lane < packed.size(); ++lane) {
-      made[lane] = {packed[lane].child, packed[lane].box, 1};
+      made[lane] = leaf_of(packed[lane]);
     }
     return fill(index, std::span(made).first(packed.size()));
   }
 
+  /// Around the cones of all children, where each has one.
+  static std::optional<NormalCone> joined_cone(std::span<const Made> made) {
+    NormalCone joined{};
+    for (const Made& child : made) {
+      if (!child.cone) return std::nullopt;
+      joined.axis += child.cone->axis;
+    }
+    joined.axis = glm::normalize(joined.axis);
+    for (const Made& child : made) {
+      joined.half_angle = std::max(
+          joined.half_angle, child.cone->half_angle + angle_between(child.cone->axis, joined.axis));
+    }
+    return usable(joined);
+  }
+
   Made fill(std::uint32_t index, std::span<const Made> made) {
     TileNode& node = wide_.nodes[index];
-    Made whole{TileChild(TileChild::Kind::kNode, index), {}, 0};
+    Made whole{TileChild(TileChild::Kind::kNode, index), {}, 0, joined_cone(made)};
     node.count = static_cast<std::uint32_t>(made.size());
     for (std::size_t lane = 0; lane < made.size(); ++lane) {
       node.boxes.set(lane, made[lane].box);
       node.children[lane] = made[lane].child;
       node.leaves[lane] = made[lane].leaves;
+      if (made[lane].cone) {
+        node.cones.set(lane, made[lane].cone->axis, made[lane].cone->half_angle);
+        node.cone_lanes |= 1U << lane;
+      }
       whole.box.include(made[lane].box);
       whole.leaves += made[lane].leaves;
     }
@@ -140,6 +217,16 @@ class Builder {
 };
 
 }  // namespace
+
+void TileCones::set(std::size_t lane, const glm::dvec3& along, double half_angle) {
+  // By more than the rounding of the test, so that what is left out is turned away beyond doubt.
+  constexpr double kWider = 1.001;
+  constexpr double kLeast = 1e-6;
+  for (int i = 0; i < 3; ++i)
+    axis[static_cast<std::size_t>(i)][lane] = static_cast<float>(along[i]);
+  const double sine = std::sin(half_angle);
+  sine_squared[lane] = static_cast<float>(kWider * sine * sine + kLeast);
+}
 
 TileHierarchy build_tile_hierarchy(const scenes::Scene& scene,
                                    const TileHierarchyOptions& options) {

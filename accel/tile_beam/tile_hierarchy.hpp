@@ -4,9 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "accel/core/expected_visits.hpp"
 #include "accel/core/large_pages.hpp"
+#include "accel/tile_beam/solids.hpp"
 #include "scenes/bounds.hpp"
 #include "scenes/scene.hpp"
 
@@ -54,11 +56,21 @@ struct alignas(64) TileBoxes {
   }
 };
 
+/// Where the fronts of a child's triangles look: a cone about all normals.
+struct alignas(64) TileCones {
+  std::array<std::array<float, kTileLanes>, 3> axis;
+  std::array<float, kTileLanes> sine_squared;  ///< of half its angle, rounded up
+
+  void set(std::size_t lane, const glm::dvec3& along, double half_angle);
+};
+
 struct alignas(64) TileNode {
   TileBoxes boxes;
+  TileCones cones;
   std::array<TileChild, kTileLanes> children;
   std::array<std::uint32_t, kTileLanes> leaves;  ///< of each child, itself included
   std::uint32_t count;
+  std::uint32_t cone_lanes;  ///< bit i: child i has nothing but solids' triangles, and a cone
 };
 
 /// A few neighboring triangles and the corners that they share: each corner is projected once.
@@ -72,7 +84,9 @@ struct alignas(64) Meshlet {
       primitives;  ///< the polygons that the triangles belong to
   std::uint32_t vertex_count;
   std::uint32_t triangle_count;
-  float extent;  ///< longest side of the box of all
+  float extent;             ///< longest side of the box of all
+  std::uint32_t solid;      ///< bit i: triangle i is part of a `Solid`
+  std::uint32_t clockwise;  ///< bit i: its corners go round clockwise, seen from outside
 
   glm::vec3 corner(std::size_t which, std::size_t triangle) const {
     const std::size_t vertex = corners[which][triangle];
@@ -103,13 +117,23 @@ struct TileBlocks {
   std::size_t count() const { return meshlets.size() + spheres.size() + cones.size(); }
 };
 
+/// A meshlet that has triangles of a solid.
+struct SolidMeshlet {
+  std::uint32_t solid;
+  std::uint32_t meshlet;
+
+  friend auto operator<=>(const SolidMeshlet&, const SolidMeshlet&) = default;
+};
+
 /// A hierarchy over a scene's triangles, spheres and cones. Boxes are widened by
 /// `overlap_tolerance`.
 struct TileHierarchy : TileBlocks {
-  LargePageVector<TileNode> nodes;
+  LargePageVector<TileNode> nodes;  ///< children after their parents
   TileChild root{};
-  scenes::Bounds bounds;    ///< of everything, widened
-  std::uint32_t depth = 0;  ///< nodes on the longest path to a leaf, leaf included
+  Solids solids;                             ///< whose backs are left out; none: no backs are
+  std::vector<SolidMeshlet> solid_meshlets;  ///< ascending
+  scenes::Bounds bounds;                     ///< of everything, widened
+  std::uint32_t depth = 0;                   ///< nodes on the longest path to a leaf, leaf included
   std::uint64_t references = 0;
   ExpectedVisits visits;
   double cost = 0.0;  ///< of the binary hierarchy it was made from: see sah_cost
@@ -123,8 +147,9 @@ struct TileHierarchy : TileBlocks {
 inline constexpr std::size_t kMaxTileDepth = 97;
 
 struct TileHierarchyOptions {
-  std::uint32_t max_leaf = 32;  ///< most primitives of a leaf
-  bool parallel = false;        ///< build, and trace images, on all cores
+  std::uint32_t max_leaf = 32;   ///< most primitives of a leaf
+  bool parallel = false;         ///< build, and trace images, on all cores
+  bool backface_culling = true;  ///< leave out what cannot be seen of solids in images
 };
 
 /// Throws InputError when the scene needs more than TileChild::kIndices leaves of a kind.

@@ -37,7 +37,7 @@ struct TileImage {
   }
 
   alignas(64) std::array<float, kSamples> inverse_t;
-  alignas(64) std::array<scenes::PrimitiveId, kSamples> primitive;
+  alignas(64) std::array<scenes::PrimitiveId, kSamples> primitive;  ///< not set where 1/t is 0
   /// The smallest 1/t of a cell, valid unless `stale` marks the cell.
   std::array<float, std::size_t{kHzColumns} * kHzRows> farthest;
   std::array<std::uint32_t, kHzRows> stale;  ///< one bit per cell of a row

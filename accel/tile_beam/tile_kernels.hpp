@@ -12,6 +12,7 @@
 #include "accel/tile_beam/tile_hierarchy.hpp"
 #include "accel/tile_beam/tile_image.hpp"
 #include "accel/tile_beam/tile_view.hpp"
+#include "accel/tile_beam/visible_backs.hpp"
 
 namespace beambench::accel::tile_beam {
 
@@ -29,6 +30,7 @@ struct TilePicture {
   const scenes::Scene& scene;
   const PrimaryRays& rays;
   const SampleRaster& raster;
+  const VisibleBacks& backs;
 };
 
 /// Draws one tile of a picture; the image is its memory. Where the buffer is large, hits may be

@@ -41,7 +41,6 @@ HWY_INLINE void keep_nearer(TileImage& image, std::size_t at, Floats inverse_t, 
 
 inline void clear(TileImage& image, const TileView& view) {
   std::fill(image.inverse_t.begin(), image.inverse_t.end(), 0.0F);
-  std::fill(image.primitive.begin(), image.primitive.end(), scenes::kNoPrimitive);
   std::fill(image.farthest.begin(), image.farthest.end(), 0.0F);
   image.stale.fill(0);
   image.touched = true;

@@ -26,6 +26,7 @@ RasterView::RasterView(const SampleRaster& raster, const PrimaryRays& rays,
   const glm::dvec3 along = down * (per_angle_y * per_angle_y);
   x = across - depth * glm::dot(across, origin);
   y = along - depth * glm::dot(along, origin);
+  mirrored = glm::dot(glm::cross(x, y), depth) < 0.0;
   for (int axis = 0; axis < 3; ++axis) {
     const double from = eye[axis];
     reach =
@@ -45,6 +46,7 @@ TileView::TileView(const RasterView& raster, int tile_left, int tile_top, int ti
       exact_depth(raster.depth),
       right(raster.right),
       down(raster.down),
+      mirrored(raster.mirrored),
       per_angle_x(raster.per_angle_x),
       per_angle_y(raster.per_angle_y) {
   x = exact_x;

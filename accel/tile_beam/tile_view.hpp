@@ -30,6 +30,7 @@ struct RasterView {
   glm::dvec3 down;
   double per_angle_x;  ///< samples per unit of |direction|
   double per_angle_y;
+  bool mirrored;       ///< what goes round clockwise is seen to go round the other way
   double reach = 0.0;  ///< no point of the scene is farther from the eye along any axis
 };
 
@@ -53,6 +54,7 @@ struct TileView {
   glm::vec3 origin;  ///< direction of sample (0, 0)
   glm::vec3 right;
   glm::vec3 down;
+  bool mirrored;  ///< as `RasterView::mirrored`
 
   /// Corners farther than this from the tile's first sample make the float edge functions of their
   /// triangles too inaccurate. In samples per unit of |direction|.

@@ -35,6 +35,7 @@ class TileWalk {
       : hierarchy_(&picture.hierarchy),
         scene_(&picture.scene),
         rays_{picture.rays, picture.raster, view},
+        backs_(&picture.backs),
         view_(&view),
         probe_(view),
         image_(&image),
@@ -85,14 +86,17 @@ class TileWalk {
     } else if (entry.crowded) {
       hand_over(entry);
     } else {
-      push_children(hierarchy_->nodes[entry.child.index()]);
+      push_children(entry.child.index());
     }
   }
 
-  HWY_INLINE void push_children(const TileNode& node) {
+  HWY_INLINE void push_children(std::uint32_t number) {
+    const TileNode& node = hierarchy_->nodes[number];
     counting_->add(Counter::kBoxTests, node.count);
     BoxProbe::Met met;
     probe_.probe(node.boxes, node.count, farthest_, met);
+    const LaneBits fronts = met.lanes & backs_->hidden_lanes(*hierarchy_, number);
+    if (fronts != 0) met.lanes &= ~(fronts & probe_.turned_away(node));
     const std::size_t first = size_;
     for (LaneBits left = met.lanes; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
@@ -127,7 +131,8 @@ class TileWalk {
       case TileChild::Kind::kMeshlet: {
         const Meshlet& meshlet = hierarchy_->meshlets[entry.child.index()];
         counting_->add_tests(scenes::PrimitiveKind::kPolygon, meshlet.triangle_count);
-        draw_meshlet(meshlet, rays_, farthest_, *image_);
+        draw_meshlet(meshlet, backs_->hidden(*hierarchy_, entry.child.index()), rays_, farthest_,
+                     *image_);
         break;
       }
       case TileChild::Kind::kSpheres: {
@@ -179,6 +184,7 @@ class TileWalk {
   const TileHierarchy* hierarchy_;
   const scenes::Scene* scene_;
   TileRays rays_;
+  const VisibleBacks* backs_;
   const TileView* view_;
   BoxProbe probe_;
   TileImage* image_;

@@ -122,10 +122,6 @@ HWY_INLINE void paint_list(const BlockList& list, const StoredImages& images,
     for (std::size_t first = 0; first < TileImage::kBlockSamples; first += kLanes) {
       const Floats i = kColumnPlaces.at(column, first);
       const Floats j = kRowPlaces.at(row, first);
-#ifdef PLANE
-      if (hn::AllFalse(Tag(), hn::Gt(line(3, i, j), load(image.inverse_t.data() + block + first))))
-        continue;
-#endif
       const Floats edge = hn::Min(line(0, i, j), hn::Min(line(1, i, j), line(2, i, j)));
       keep_nearer(image, block + first, line(3, i, j), hn::Ge(edge, hn::Zero(Tag())),
                   primitives[lane]);

@@ -20,6 +20,7 @@ struct ProjectedVertices {
   alignas(64) std::array<float, Meshlet::kMaxVertices> y;
   /// 1 / depth; -1 for those whose triangles need double: behind the eye, or far beside the tile.
   alignas(64) std::array<float, Meshlet::kMaxVertices> inverse_t;
+  bool none_needs_double;  ///< no vertex has -1
 };
 
 HWY_INLINE void project_vertices(const Meshlet& meshlet, const TileView& view,
@@ -29,6 +30,7 @@ HWY_INLINE void project_vertices(const Meshlet& meshlet, const TileView& view,
   const Points to_y = all_of(view.y);
   const Points to_depth = all_of(view.depth);
   const Floats guard = all(view.guard);
+  projected.none_needs_double = true;
   for (std::size_t i = 0; i < meshlet.vertex_count; i += kLanes) {
     const Points p{hn::Sub(load(&meshlet.vertices[0][i]), eye.x),
                    hn::Sub(load(&meshlet.vertices[1][i]), eye.y),
@@ -42,6 +44,8 @@ HWY_INLINE void project_vertices(const Meshlet& meshlet, const TileView& view,
     store(x, &projected.x[i]);
     store(y, &projected.y[i]);
     store(hn::IfThenElse(in_guard_band, inverse_t, all(-1.0F)), &projected.inverse_t[i]);
+    const Mask beyond_last = hn::Not(hn::FirstN(Tag(), meshlet.vertex_count - i));
+    projected.none_needs_double &= hn::AllTrue(Tag(), hn::Or(in_guard_band, beyond_last));
   }
 }
 
@@ -91,25 +95,118 @@ HWY_INLINE Lines edge_between(Floats x0, Floats y0, Floats x1, Floats y1, Floats
   return {hn::Mul(a, sign), hn::Mul(b, sign), hn::Mul(twice, hn::Mul(all(-0.5F), sign))};
 }
 
-/// Of the triangles of a meshlet from `first` on. Those that hold no sample, or that lie behind
-/// `farthest` (1/t) everywhere, are in neither mask.
-HWY_INLINE TriangleImages project_triangles(const Meshlet& meshlet,
-                                            const ProjectedVertices& projected, std::size_t first,
+/// Triangles of a meshlet, one for each lane: the numbers of their corners.
+struct TriangleCorners {
+  Ints corner0;
+  Ints corner1;
+  Ints corner2;
+  Mask present;
+
+  /// Those from `first` on.
+  static HWY_INLINE TriangleCorners from(const Meshlet& meshlet, std::size_t first) {
+    const hn::Rebind<std::uint8_t, Tag> bytes;
+    const auto corner = [&](std::size_t which) {
+      return hn::PromoteTo(IntTag(), hn::LoadU(bytes, meshlet.corners[which].data() + first));
+    };
+    return {corner(0), corner(1), corner(2), hn::FirstN(Tag(), meshlet.triangle_count - first)};
+  }
+};
+
+/// The triangles whose backs cannot be seen: bits for those that show them where their area on the
+/// screen is positive, and where it is negative.
+struct HiddenBacks {
+  std::uint32_t positive;
+  std::uint32_t negative;
+
+  HWY_INLINE HiddenBacks(const Meshlet& meshlet, std::uint32_t hidden, const TileView& view)
+      : positive(hidden & (view.mirrored ? meshlet.clockwise : ~meshlet.clockwise)),
+        negative(hidden & ~positive) {}
+};
+
+/// Triangles that are left of a meshlet's.
+struct Survivors {
+  static constexpr std::size_t kRoom = Meshlet::kMaxTriangles + 16;  // for a register at the end
+
+  /// The numbers of the corners in the three lower bytes, that of the triangle in the highest.
+  alignas(64) std::array<std::int32_t, kRoom> corners;
+  alignas(64) std::array<scenes::PrimitiveId, kRoom> primitives;
+  std::size_t count = 0;
+
+  HWY_INLINE TriangleCorners from(std::size_t first) const {
+    const Ints packed = hn::Load(IntTag(), corners.data() + first);
+    const Ints byte = hn::Set(IntTag(), 255);
+    return {hn::And(packed, byte), hn::And(hn::ShiftRight<8>(packed), byte),
+            hn::And(hn::ShiftRight<16>(packed), byte), hn::FirstN(Tag(), count - first)};
+  }
+  std::size_t triangle(std::size_t number) const {
+    return static_cast<std::uint32_t>(corners[number]) >> 24U;
+  }
+};
+
+/// The triangles that show no hidden back and whose box holds a sample. No vertex needs double.
+/// A back is one whose area says so beyond what its corners' rounding can do: up to `box_slack`
+/// each.
+HWY_INLINE void find_survivors(const Meshlet& meshlet, const HiddenBacks& backs,
+                               const ProjectedVertices& projected, const TileView& view,
+                               Survivors& survivors) {
+  const Table32 xs(projected.x.data());
+  const Table32 ys(projected.y.data());
+  const Floats slack = all(view.box_slack);
+  const Floats none = hn::Zero(Tag());
+  for (std::size_t first = 0; first < meshlet.triangle_count; first += kLanes) {
+    const TriangleCorners corners = TriangleCorners::from(meshlet, first);
+    const Floats x0 = xs.at(corners.corner0), x1 = xs.at(corners.corner1),
+                 x2 = xs.at(corners.corner2);
+    const Floats y0 = ys.at(corners.corner0), y1 = ys.at(corners.corner1),
+                 y2 = ys.at(corners.corner2);
+    const Floats x_low = hn::Min(x0, hn::Min(x1, x2));
+    const Floats x_high = hn::Max(x0, hn::Max(x1, x2));
+    const Floats y_low = hn::Min(y0, hn::Min(y1, y2));
+    const Floats y_high = hn::Max(y0, hn::Max(y1, y2));
+    const Floats left = hn::Ceil(hn::Max(hn::Sub(x_low, slack), none));
+    const Floats top = hn::Ceil(hn::Max(hn::Sub(y_low, slack), none));
+    const Floats right = hn::Min(hn::Add(x_high, slack), all(static_cast<float>(view.width - 1)));
+    const Floats bottom = hn::Min(hn::Add(y_high, slack), all(static_cast<float>(view.height - 1)));
+    const Mask holds_sample = hn::And(hn::Le(left, right), hn::Le(top, bottom));
+
+    const Floats dx1 = hn::Sub(x1, x0), dx2 = hn::Sub(x2, x0);
+    const Floats dy1 = hn::Sub(y1, y0), dy2 = hn::Sub(y2, y0);
+    const Floats area = hn::MulSub(dx1, dy2, hn::Mul(dx2, dy1));
+    const Floats side = hn::Max(hn::Sub(x_high, x_low), hn::Sub(y_high, y_low));
+    const Floats doubtful = hn::MulAdd(hn::Mul(side, side), hn::Mul(side, all(view.sliver)),
+                                       hn::Mul(side, all(8.0F * view.box_slack)));
+    const Mask back =
+        hn::Or(hn::And(mask_of(backs.positive >> first), hn::Gt(area, doubtful)),
+               hn::And(mask_of(backs.negative >> first), hn::Lt(area, hn::Neg(doubtful))));
+    const Mask left_over = hn::AndNot(back, hn::And(corners.present, holds_sample));
+    const Ints number = hn::Iota(IntTag(), static_cast<int>(first));
+    const Ints packed =
+        hn::Or(hn::Or(corners.corner0, hn::ShiftLeft<8>(corners.corner1)),
+               hn::Or(hn::ShiftLeft<16>(corners.corner2), hn::ShiftLeft<24>(number)));
+    hn::CompressStore(packed, hn::RebindMask(IntTag(), left_over), IntTag(),
+                      survivors.corners.data() + survivors.count);
+    const hn::RebindToUnsigned<Tag> ids;
+    survivors.count += hn::CompressStore(hn::LoadU(ids, meshlet.primitives.data() + first),
+                                         hn::RebindMask(ids, left_over), ids,
+                                         survivors.primitives.data() + survivors.count);
+  }
+}
+
+/// Triangles that hold no sample, or that lie behind `farthest` (1/t) everywhere, are in neither
+/// mask.
+HWY_INLINE TriangleImages project_triangles(const TriangleCorners& corners,
+                                            const ProjectedVertices& projected,
                                             const TileView& view, float farthest) {
-  const hn::Rebind<std::uint8_t, Tag> bytes;
-  const auto corner = [&](std::size_t which) {
-    return hn::PromoteTo(IntTag(), hn::LoadU(bytes, meshlet.corners[which].data() + first));
-  };
-  const Ints corner0 = corner(0);
-  const Ints corner1 = corner(1);
-  const Ints corner2 = corner(2);
   const Table32 xs(projected.x.data());
   const Table32 ys(projected.y.data());
   const Table32 inverse_ts(projected.inverse_t.data());
-  const Floats x0 = xs.at(corner0), x1 = xs.at(corner1), x2 = xs.at(corner2);
-  const Floats y0 = ys.at(corner0), y1 = ys.at(corner1), y2 = ys.at(corner2);
-  const Floats z0 = inverse_ts.at(corner0), z1 = inverse_ts.at(corner1),
-               z2 = inverse_ts.at(corner2);
+  const Floats x0 = xs.at(corners.corner0), x1 = xs.at(corners.corner1),
+               x2 = xs.at(corners.corner2);
+  const Floats y0 = ys.at(corners.corner0), y1 = ys.at(corners.corner1),
+               y2 = ys.at(corners.corner2);
+  const Floats z0 = inverse_ts.at(corners.corner0), z1 = inverse_ts.at(corners.corner1),
+               z2 = inverse_ts.at(corners.corner2);
+  const Mask present = corners.present;
 
   TriangleImages images;
   const Floats x_low = hn::Min(x0, hn::Min(x1, x2));
@@ -126,7 +223,6 @@ HWY_INLINE TriangleImages project_triangles(const Meshlet& meshlet,
       hn::Floor(hn::Min(hn::Add(y_high, slack), all(static_cast<float>(view.height - 1))));
   images.nearest = hn::Max(z0, hn::Max(z1, z2));
 
-  const Mask present = hn::FirstN(Tag(), meshlet.triangle_count - first);
   const Mask in_guard_band = hn::Gt(hn::Min(z0, hn::Min(z1, z2)), none);
   const Mask in_tile =
       hn::And(hn::And(hn::Le(images.left, images.right), hn::Le(images.top, images.bottom)),

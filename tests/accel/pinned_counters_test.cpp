@@ -112,7 +112,12 @@ INSTANTIATE_TEST_SUITE_P(Structures, PinnedWork, ::testing::Values(
     Row{"kd-tree", "escena1", {{"confirmed_tests", 2283}, {"empty_leaves", 281}, {"leaves", 3633}, {"primitive_tests", 203'259}, {"traversal_steps", 13'095}}},
     Row{"kd-tree:builder=median", "tetra:n=6", {{"confirmed_tests", 2221}, {"empty_leaves", 16'095}, {"leaves", 22'045}, {"primitive_tests", 31'818}, {"traversal_steps", 104'686}}},
     Row{"kd-tree:builder=median", "balls:n=4", {{"confirmed_tests", 8777}, {"empty_leaves", 35'790}, {"leaves", 71'278}, {"primitive_tests", 1'657'914}, {"traversal_steps", 328'526}}},
-    Row{"kd-tree:builder=median", "escena1", {{"confirmed_tests", 2918}, {"empty_leaves", 1175}, {"leaves", 15'684}, {"primitive_tests", 15'059}, {"traversal_steps", 83'455}}}
+    Row{"kd-tree:builder=median", "escena1", {{"confirmed_tests", 2918}, {"empty_leaves", 1175}, {"leaves", 15'684}, {"primitive_tests", 15'059}, {"traversal_steps", 83'455}}},
+    Row{"tile-beam", "tetra:n=6", {{"beams", 1}, {"box_tests", 272}, {"leaves", 256}, {"primitive_tests", 4096}, {"traversal_steps", 273}}},
+    Row{"tile-beam", "bumpy:triangles=50700", {{"beams", 1}, {"box_tests", 2362}, {"leaves", 1389}, {"primitive_tests", 30'245}, {"traversal_steps", 1651}}},
+    Row{"tile-beam", "closed-room:detail=4", {{"beams", 1}, {"box_tests", 346}, {"leaves", 221}, {"primitive_tests", 5077}, {"traversal_steps", 281}}},
+    Row{"tile-beam:backface_culling=false", "bumpy:triangles=50700", {{"beams", 1}, {"box_tests", 2368}, {"leaves", 1695}, {"primitive_tests", 36'114}, {"traversal_steps", 1959}}},
+    Row{"tile-beam:backface_culling=false", "closed-room:detail=4", {{"beams", 1}, {"box_tests", 346}, {"leaves", 247}, {"primitive_tests", 5552}, {"traversal_steps", 307}}}
   ), row_name);
 // clang-format on
 
