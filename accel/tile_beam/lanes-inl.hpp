@@ -49,6 +49,15 @@ HWY_INLINE Mask mask_of(LaneBits bits) {
   return hn::LoadMaskBits(Tag(), reinterpret_cast<const std::uint8_t*>(&word));
 }
 
+/// Stores the values of the lanes of `mask` one after the other, and something behind them: there
+/// must be room for a whole register. Returns their number. A compression to memory, which is what
+/// Highway's CompressStore is on AVX-512, is slow on some processors (AMD's Zen 4).
+template <class D>
+HWY_INLINE std::size_t compress_store(D d, hn::Vec<D> values, hn::Mask<D> mask, hn::TFromD<D>* to) {
+  hn::StoreU(hn::Compress(values, mask), d, to);
+  return hn::CountTrue(d, mask);
+}
+
 /// 1 / values, to within two roundings; infinity for 0, and 0 for infinity.
 template <class D>
 HWY_INLINE hn::Vec<D> reciprocal(D d, hn::Vec<D> values) {

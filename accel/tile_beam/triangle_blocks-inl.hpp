@@ -77,8 +77,8 @@ HWY_INLINE void list_blocks(const TriangleImages& images, const BlockBoxes& boxe
     const Mask met = hn::And(listed, hn::Ge(edge, hn::Zero(Tag())));
     const Ints place = hn::Or(hn::ShiftLeft<TileImage::kWidthBits>(hn::ConvertTo(IntTag(), j)),
                               hn::ShiftLeft<2>(hn::ConvertTo(IntTag(), i)));
-    list.count += hn::CompressStore(hn::Or(place, lane), hn::RebindMask(IntTag(), met), IntTag(),
-                                    list.entries.data() + list.count);
+    list.count += compress_store(IntTag(), hn::Or(place, lane), hn::RebindMask(IntTag(), met),
+                                 list.entries.data() + list.count);
     i = hn::Add(i, four);
     const Mask row_ends = hn::Gt(i, boxes.right);
     i = hn::IfThenElse(row_ends, boxes.left, i);

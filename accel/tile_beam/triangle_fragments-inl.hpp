@@ -42,10 +42,10 @@ HWY_INLINE void collect_fragments(const TriangleImages& images, Mask small, Frag
     const Floats edge =
         hn::Min(images.edge0.at(i, j), hn::Min(images.edge1.at(i, j), images.edge2.at(i, j)));
     const Mask hit = hn::And(small, hn::Ge(edge, hn::Zero(Tag())));
-    hn::CompressStore(where, hn::RebindMask(IntTag(), hit), IntTag(),
-                      fragments.where.data() + fragments.count);
-    fragments.count += hn::CompressStore(images.plane.at(i, j), hit, Tag(),
-                                         fragments.inverse_t.data() + fragments.count);
+    compress_store(IntTag(), where, hn::RebindMask(IntTag(), hit),
+                   fragments.where.data() + fragments.count);
+    fragments.count += compress_store(Tag(), images.plane.at(i, j), hit,
+                                      fragments.inverse_t.data() + fragments.count);
     i = hn::Add(i, one);
     const Mask row_ends = hn::Gt(i, images.right);
     where = hn::Add(hn::Add(where, hn::Set(IntTag(), 16)),

@@ -183,12 +183,12 @@ HWY_INLINE void find_survivors(const Meshlet& meshlet, const HiddenBacks& backs,
     const Ints packed =
         hn::Or(hn::Or(corners.corner0, hn::ShiftLeft<8>(corners.corner1)),
                hn::Or(hn::ShiftLeft<16>(corners.corner2), hn::ShiftLeft<24>(number)));
-    hn::CompressStore(packed, hn::RebindMask(IntTag(), left_over), IntTag(),
-                      survivors.corners.data() + survivors.count);
+    compress_store(IntTag(), packed, hn::RebindMask(IntTag(), left_over),
+                   survivors.corners.data() + survivors.count);
     const hn::RebindToUnsigned<Tag> ids;
-    survivors.count += hn::CompressStore(hn::LoadU(ids, meshlet.primitives.data() + first),
-                                         hn::RebindMask(ids, left_over), ids,
-                                         survivors.primitives.data() + survivors.count);
+    survivors.count += compress_store(ids, hn::LoadU(ids, meshlet.primitives.data() + first),
+                                      hn::RebindMask(ids, left_over),
+                                      survivors.primitives.data() + survivors.count);
   }
 }
 

@@ -209,7 +209,7 @@ def test_a_sweep_measures_it_and_the_manifest_says_what_it_was(
 def test_the_self_test_ends_with_a_verdict(template: Path, faulty: Path, tmp_path: Path) -> None:
     done = call("--plugin", template, "selftest", "--accel", "mine", "--scenes", "10")
     assert done.returncode == 0, done.stdout
-    assert done.stdout.splitlines()[-1] == "mine: ok, passes all 14 checks"
+    assert done.stdout.splitlines()[-1] == "mine: ok, passes all 15 checks"
 
     def faulty_test(fault: str) -> subprocess.CompletedProcess[str]:
         return call("--plugin", faulty, "selftest", "--accel", "faulty", "--scenes", "10",

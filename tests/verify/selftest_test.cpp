@@ -14,6 +14,7 @@
 #include "accel/exhaustive/exhaustive.hpp"
 #include "harness/verify/minimize.hpp"
 #include "harness/verify/selftest/hit_comparison.hpp"
+#include "harness/verify/selftest/test_scenes.hpp"
 #include "scenes/core/error.hpp"
 
 namespace beambench::verify {
@@ -162,6 +163,18 @@ TEST(Selftest, TracesThePrimitivesThatAreTaken) {
       EXPECT_EQ(outcome.failure, "") << check.name << " over " << takes.names().front();
       EXPECT_TRUE(outcome.rays > 0 || check.name == "statistics") << check.name;
     }
+  }
+}
+
+/// Snapping leaves one primitive in a hundred degenerate. Over an empty scene, places are not
+/// numbers.
+TEST(Selftest, RandomScenesAreNotEmptyAndTheirRaysAreNumbers) {
+  for (std::uint64_t seed = 102'500; seed < 104'500; ++seed) {
+    const scenes::Scene scene = random_scene(seed, 1);
+    ASSERT_FALSE(scene.primitives.empty()) << seed;
+    Random random(seed);
+    for (const accel::Ray& ray : random_rays(scene, 20, random)) accel::require_valid(ray);
+    accel::require_valid(accel::PrimaryRays(random_camera(scene, random), 1, 1, 1).ray(0, 0, 0));
   }
 }
 

@@ -232,6 +232,7 @@ scenes::Scene random_scene(std::uint64_t seed, int primitives, PrimitiveKinds ki
   scenes::SceneBuilder builder(fmt::format("random {}", seed));
   Sculptor sculptor(seed, kinds, builder);
   for (int i = 0; i < primitives; ++i) sculptor.add_primitive();
+  while (builder.primitive_count() == 0) sculptor.add_primitive();  // all were degenerate
   return std::move(builder).build();
 }
 

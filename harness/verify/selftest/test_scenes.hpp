@@ -16,7 +16,8 @@ namespace beambench::verify {
 /// Uniform in [-1, 1]^3.
 glm::dvec3 point_in_cube(Random& random);
 
-/// A scene of spheres, triangles, concave polygons and cones in and around the cube [-1, 1]^3. Of
+/// A scene of one or more spheres, triangles, concave polygons and cones in and around the cube
+/// [-1, 1]^3, fewer than `primitives` where some would be degenerate. Of
 /// every four seeds one gives coordinates that are multiples of 1/8 (coplanar polygons, shared
 /// edges and exact ties), one repeats primitives, one lies far from the origin of the coordinates.
 /// `kinds` leaves some kinds of primitives out.
