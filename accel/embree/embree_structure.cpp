@@ -26,8 +26,9 @@ Coherence parse_coherence(const std::string& name) {
 class EmbreeStructure : public Accelerator {
  public:
   EmbreeStructure(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
-                  const TraceMode& mode, Coherence coherence, const std::string& isa, int threads)
-      : scene_(scene, quality, robust, isa, threads),
+                  const TraceMode& mode, Coherence coherence, const std::string& isa,
+                  ConeGeometry cones, int threads)
+      : scene_(scene, quality, robust, isa, cones, threads),
         trace_image_(image_tracers(targets_of(isa)).*mode.image),
         list_(list_tracers(targets_of(isa)).*mode.list),
         coherence_(coherence),
@@ -35,15 +36,11 @@ class EmbreeStructure : public Accelerator {
 
   std::optional<Hit> closest_hit(const Ray& ray, WorkCounters*) const override {
     Context context(coherence_ != Coherence::kNone);
-    RTCRayHit query = to_embree_query(ray);
-    intersect(scene_.get(), context, query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return Hit{query.ray.tfar, scene_.owner(query.hit.geomID, query.hit.primID)};
+    return scene_.closest_hit(context, ray);
   }
   bool any_hit(const Ray& ray, WorkCounters*) const override {
     Context context(coherence_ != Coherence::kNone);
-    RTCRay query = to_embree(ray);
-    return occluded(scene_.get(), context, query);
+    return scene_.any_hit(context, ray);
   }
   void trace(const PrimaryRays& rays, HitBuffer& buffer, WorkCounters*) const override {
     Context context(coherence_ != Coherence::kNone);
@@ -73,6 +70,7 @@ class EmbreeStructure : public Accelerator {
     statistics.library_version = "Embree " + embree_version();
     statistics.more = {{"triangles", static_cast<double>(scene_.triangle_count())},
                        {"sphere_points", static_cast<double>(scene_.sphere_count())},
+                       {"curves", static_cast<double>(scene_.curve_count())},
                        {"user_primitives", static_cast<double>(scene_.user_count())}};
     return statistics;
   }
@@ -123,6 +121,10 @@ void register_embree(Registry& registry) {
                          "flags neighboring rays as coherent for Embree, which packets then do not "
                          "give up; auto: those of images and of any-hit queries, but not the "
                          "closest hits of lists"),
+        choice_parameter("cones", "callbacks", {"callbacks", "curves"},
+                         "cones tested exactly by callbacks, one ray at a time, or as Embree's "
+                         "linear curves, which it closes by disks at both ends and tests in single "
+                         "precision: fast, and wrong where an open end would be looked into"),
         isa_parameter()},
        [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
          const std::string& isa = parameters.choice("isa");
@@ -130,7 +132,10 @@ void register_embree(Registry& registry) {
          return std::make_unique<EmbreeStructure>(
              scene, parse_quality(parameters.choice("quality")), parameters.flag("robust"),
              find_mode(parameters.choice("mode")), parse_coherence(parameters.choice("coherent")),
-             isa, workload.threads);
+             isa,
+             parameters.choice("cones") == "curves" ? ConeGeometry::kCurves
+                                                    : ConeGeometry::kCallbacks,
+             workload.threads);
        }});
 }
 

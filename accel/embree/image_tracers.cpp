@@ -13,6 +13,7 @@
 #include <hwy/highway.h>
 
 #include "accel/embree/packet_owners-inl.hpp"
+#include "accel/embree/unit_directions-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::embree::HWY_NAMESPACE {
@@ -187,30 +188,33 @@ void trace_blocks(const OwnerTable& owners, const PrimaryRays& rays, const Band&
 template <int N>
 void trace_packets(const NativeScene& scene, Context& context, const PrimaryRays& rays,
                    const Band& band, HitBuffer& buffer) {
-  trace_blocks<N>(scene.owners(), rays, band, buffer,
-                  [&](typename Packet<N>::Query& query, const int* valid) {
-                    intersect(valid, scene.get(), context, query);
-                  });
+  trace_blocks<N>(
+      scene.owners(), rays, band, buffer, [&](typename Packet<N>::Query& query, const int* valid) {
+        trace_packet<N>(scene, query.ray, [&] { intersect(valid, scene.get(), context, query); });
+      });
 }
 
 void trace_single(const NativeScene& scene, Context& context, const PrimaryRays& rays,
                   const Band& band, HitBuffer& buffer) {
   constexpr int kLanes = 16;
   RTCRayHit one = to_embree_query({.origin = rays.eye()});
+  const auto trace_each = [&](Packet<kLanes>::Query& query, const int* valid) {
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (valid[lane] == 0) continue;
+      one.ray.dir_x = query.ray.dir_x[lane];
+      one.ray.dir_y = query.ray.dir_y[lane];
+      one.ray.dir_z = query.ray.dir_z[lane];
+      one.ray.tfar = kInfinity;
+      one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      intersect(scene.get(), context, one);
+      query.ray.tfar[lane] = one.ray.tfar;
+      query.hit.geomID[lane] = one.hit.geomID;
+      query.hit.primID[lane] = one.hit.primID;
+    }
+  };
   trace_blocks<kLanes>(scene.owners(), rays, band, buffer,
                        [&](Packet<kLanes>::Query& query, const int* valid) {
-                         for (int lane = 0; lane < kLanes; ++lane) {
-                           if (valid[lane] == 0) continue;
-                           one.ray.dir_x = query.ray.dir_x[lane];
-                           one.ray.dir_y = query.ray.dir_y[lane];
-                           one.ray.dir_z = query.ray.dir_z[lane];
-                           one.ray.tfar = kInfinity;
-                           one.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-                           intersect(scene.get(), context, one);
-                           query.ray.tfar[lane] = one.ray.tfar;
-                           query.hit.geomID[lane] = one.hit.geomID;
-                           query.hit.primID[lane] = one.hit.primID;
-                         }
+                         trace_packet<kLanes>(scene, query.ray, [&] { trace_each(query, valid); });
                        });
 }
 
@@ -239,7 +243,9 @@ void trace_stream(const NativeScene& scene, Context& context, const PrimaryRays&
       const unsigned count = each_block([&](const Block& block, int x, Block::Query& query) {
         block.aim(x, query, valid.data());
       });
-      intersect_stream(scene.get(), context, queries.data(), count);
+      trace_packets_at_once<kLanes>(
+          scene, queries, count, [](Block::Query & query) -> auto& { return query.ray; },
+          [&] { intersect_stream(scene.get(), context, queries.data(), count); });
       each_block([&](const Block& block, int x, const Block::Query& query) {
         block.write(scene.owners(), query, x, buffer);
       });

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "accel/core/pick_target.hpp"
@@ -13,6 +14,7 @@
 #include <hwy/highway.h>
 
 #include "accel/embree/packet_owners-inl.hpp"
+#include "accel/embree/unit_directions-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::embree::HWY_NAMESPACE {
@@ -118,19 +120,16 @@ void write(const Rays& rays, std::size_t first, std::size_t count,
 void closest_hits_single(const NativeScene& scene, Context& context, std::span<const Ray> rays,
                          HitBuffer& buffer) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    RTCRayHit query = to_embree_query(rays[i]);
-    intersect(scene.get(), context, query);
-    const scenes::PrimitiveId owner = scene.owner(query.hit.geomID, query.hit.primID);
-    buffer.t()[i] = owner == scenes::kNoPrimitive ? kInfinity : query.ray.tfar;
-    buffer.primitive()[i] = owner;
+    const std::optional<Hit> hit = scene.closest_hit(context, rays[i]);
+    buffer.t()[i] = hit ? hit->t : kInfinity;
+    buffer.primitive()[i] = hit ? hit->primitive : scenes::kNoPrimitive;
   }
 }
 
 void any_hits_single(const NativeScene& scene, Context& context, std::span<const Ray> rays,
                      std::span<std::uint8_t> answers) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    RTCRay query = to_embree(rays[i]);
-    answers[i] = occluded(scene.get(), context, query) ? 1 : 0;
+    answers[i] = scene.any_hit(context, rays[i]) ? 1 : 0;
   }
 }
 
@@ -166,7 +165,7 @@ template <int N>
 void closest_hits_in_packets(const NativeScene& scene, Context& context, std::span<const Ray> rays,
                              HitBuffer& buffer) {
   closest_hits_by_packets<N>(scene.owners(), rays, buffer, [&](const int* valid, auto& query) {
-    intersect(valid, scene.get(), context, query);
+    trace_packet<N>(scene, query.ray, [&] { intersect(valid, scene.get(), context, query); });
   });
 }
 
@@ -174,7 +173,7 @@ template <int N>
 void any_hits_in_packets(const NativeScene& scene, Context& context, std::span<const Ray> rays,
                          std::span<std::uint8_t> answers) {
   any_hits_by_packets<N>(rays, answers, [&](const int* valid, auto& query) {
-    intersect_any(valid, scene.get(), context, query);
+    trace_packet<N>(scene, query, [&] { intersect_any(valid, scene.get(), context, query); });
   });
 }
 
@@ -209,7 +208,11 @@ void closest_hits_in_streams(const NativeScene& scene, Context& context, std::sp
   for (Query& query : queries) prepare(query.ray);
   trace_streams(
       rays, queries, [](const Ray* some, Query& query) { aim<kStreamLanes>(some, query); },
-      [&](unsigned count) { intersect_stream(scene.get(), context, queries.data(), count); },
+      [&](unsigned count) {
+        trace_packets_at_once<kStreamLanes>(
+            scene, queries, count, [](Query & query) -> auto& { return query.ray; },
+            [&] { intersect_stream(scene.get(), context, queries.data(), count); });
+      },
       [&](const Query& query, std::size_t first, std::size_t count) {
         write<kStreamLanes>(scene.owners(), query, first, count, buffer);
       });
@@ -222,7 +225,11 @@ void any_hits_in_streams(const NativeScene& scene, Context& context, std::span<c
   for (Query& query : queries) prepare(query);
   trace_streams(
       rays, queries, [](const Ray* some, Query& query) { fill_lanes<kStreamLanes>(some, query); },
-      [&](unsigned count) { intersect_any_stream(scene.get(), context, queries.data(), count); },
+      [&](unsigned count) {
+        trace_packets_at_once<kStreamLanes>(
+            scene, queries, count, [](Query & query) -> auto& { return query; },
+            [&] { intersect_any_stream(scene.get(), context, queries.data(), count); });
+      },
       [&](const Query& query, std::size_t first, std::size_t count) {
         write(query, first, count, answers);
       });

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <tbb/global_control.h>
 
@@ -31,9 +32,9 @@ bool is_count(const std::vector<scenes::PrimitiveId>& ids) {
 }  // namespace
 
 NativeScene::NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
-                         const std::string& isa, int threads)
+                         const std::string& isa, ConeGeometry cones, int threads)
     : device_(device_config(isa, threads).c_str()),
-      user_(scene),
+      user_(scene, cones),
       scene_(rtcNewScene(device_.get())) {
   // Embree uses the largest thread count of all its living devices; this limits it to one.
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
@@ -45,15 +46,20 @@ NativeScene::NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bo
     owners_.ids.push_back(triangle.primitive);
   if (!scene.triangles.empty()) attach(kTriangles, make_triangles(scene), quality);
 
-  owners_.first[kSpheres] = static_cast<std::uint32_t>(owners_.ids.size());
-  for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-    const scenes::Primitive& primitive = scene.primitives[id];
-    if (primitive.kind == scenes::PrimitiveKind::kSphere && !is_user_primitive(scene, primitive)) {
-      owners_.ids.push_back(id);
+  const auto append = [&](scenes::PrimitiveKind kind) {
+    for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
+      const scenes::Primitive& primitive = scene.primitives[id];
+      if (primitive.kind == kind && !is_user_primitive(scene, primitive, cones)) {
+        owners_.ids.push_back(id);
+      }
     }
-  }
-  owners_.first[kUser] = static_cast<std::uint32_t>(owners_.ids.size());
+    return static_cast<std::uint32_t>(owners_.ids.size());
+  };
+  owners_.first[kSpheres] = static_cast<std::uint32_t>(owners_.ids.size());
+  owners_.first[kCurves] = append(scenes::PrimitiveKind::kSphere);
+  owners_.first[kUser] = append(scenes::PrimitiveKind::kCone);
   if (sphere_count() > 0) attach(kSpheres, make_spheres(scene), quality);
+  if (curve_count() > 0) attach(kCurves, make_curves(scene), quality);
 
   owners_.ids.insert(owners_.ids.end(), user_.ids().begin(), user_.ids().end());
   if (user_count() > 0) attach(kUser, user_.make(device_.get()), quality);
@@ -61,6 +67,25 @@ NativeScene::NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bo
 
   rtcCommitScene(scene_.get());
   device_.check("building over " + scene.name);
+}
+
+std::optional<Hit> NativeScene::closest_hit(Context& context, const Ray& ray) const {
+  const RayForScene scaled = for_scene(ray);
+  RTCRayHit query = to_embree_query(scaled.ray);
+  intersect(scene_.get(), context, query);
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return Hit{query.ray.tfar / scaled.length, owner(query.hit.geomID, query.hit.primID)};
+}
+
+bool NativeScene::any_hit(Context& context, const Ray& ray) const {
+  RTCRay query = to_embree(for_scene(ray).ray);
+  return occluded(scene_.get(), context, query);
+}
+
+NativeScene::RayForScene NativeScene::for_scene(const Ray& ray) const {
+  if (curve_count() == 0) return {ray, 1.0F};
+  const float length = glm::length(ray.direction);
+  return {{ray.origin, ray.t_min * length, ray.direction / length, ray.t_max * length}, length};
 }
 
 void NativeScene::attach(GeometryId id, const GeometryHandle& geometry, RTCBuildQuality quality) {
@@ -95,10 +120,28 @@ GeometryHandle NativeScene::make_spheres(const scenes::Scene& scene) {
   return geometry;
 }
 
+GeometryHandle NativeScene::make_curves(const scenes::Scene& scene) {
+  GeometryHandle geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_CONE_LINEAR_CURVE));
+  auto* const ends =
+      new_buffer<glm::vec4>(geometry, RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, 2 * curve_count());
+  auto* const first_ends =
+      new_buffer<unsigned>(geometry, RTC_BUFFER_TYPE_INDEX, RTC_FORMAT_UINT, curve_count());
+  device_.check("building over " + scene.name);
+  for (std::size_t i = 0; i < curve_count(); ++i) {
+    const scenes::PrimitiveId id = owners_.ids[owners_.first[kCurves] + i];
+    const scenes::Cone& cone = scene.cones[scene.primitives[id].index];
+    ends[2 * i] = glm::vec4(cone.base, cone.base_radius);
+    ends[2 * i + 1] = glm::vec4(cone.apex, cone.apex_radius);
+    first_ends[i] = static_cast<unsigned>(2 * i);
+  }
+  return geometry;
+}
+
 std::string NativeScene::geometry_types() const {
   std::vector<const char*> types;
   if (triangle_count() > 0) types.push_back("triangles");
   if (sphere_count() > 0) types.push_back("points");
+  if (curve_count() > 0) types.push_back("curves");
   if (user_count() > 0) types.push_back("callbacks");
   return fmt::format("{}", fmt::join(types, "+"));
 }

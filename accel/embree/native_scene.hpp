@@ -3,9 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "accel/core/ray.hpp"
+#include "accel/embree/api.hpp"
 #include "accel/embree/device.hpp"
 #include "accel/embree/user_geometry.hpp"
 #include "scenes/scene.hpp"
@@ -13,11 +16,11 @@
 namespace beambench::accel::embree {
 
 /// The ids of the geometries in Embree.
-enum GeometryId : unsigned { kTriangles, kSpheres, kUser, kGeometryCount };
+enum GeometryId : unsigned { kTriangles, kSpheres, kCurves, kUser, kGeometryCount };
 
 /// The owners of Embree's primitives: the scene's primitives.
 struct OwnerTable {
-  /// Primitive ids of the three geometries' primitives, one geometry after the other.
+  /// Primitive ids of the geometries' primitives, one geometry after the other.
   std::vector<scenes::PrimitiveId> ids;
   /// Where each geometry begins in `ids`.
   std::array<std::uint32_t, kGeometryCount> first{};
@@ -25,17 +28,20 @@ struct OwnerTable {
 };
 
 /// Polygons are Embree triangles (the scene's own triangulation), hollow spheres are sphere points,
-/// the rest is user geometry. The device is its own, with one build thread, so that build times
-/// compare with structures that build on one and memory is counted exactly. Making the device is
-/// part of the build: 0.05 ms.
+/// cones by choice linear curves, the rest is user geometry. The device is its own, with one build
+/// thread, so that build times compare with structures that build on one and memory is counted
+/// exactly. Making the device is part of the build: 0.05 ms.
 class NativeScene {
  public:
-  /// `isa` is a value of `isa_parameter`. While the scene lives, TBB has no more than `threads`
-  /// threads (0: one for each core).
+  /// `isa` is a value of `isa_parameter`; `cones` chooses what is tested by Embree's curves. While
+  /// the scene lives, TBB has no more than `threads` threads (0: one for each core).
   NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
-              const std::string& isa, int threads = 1);
+              const std::string& isa, ConeGeometry cones, int threads = 1);
 
   RTCScene get() const { return scene_.get(); }
+  /// The hit of one ray, which must pass `require_valid`; the same as Embree's packets find.
+  std::optional<Hit> closest_hit(Context& context, const Ray& ray) const;
+  bool any_hit(Context& context, const Ray& ray) const;
   /// The primitive that was hit; kNoPrimitive for RTC_INVALID_GEOMETRY_ID.
   scenes::PrimitiveId owner(unsigned geometry, unsigned primitive) const {
     return geometry == RTC_INVALID_GEOMETRY_ID ? scenes::kNoPrimitive
@@ -45,17 +51,28 @@ class NativeScene {
   const OwnerTable& owners() const { return owners_; }
 
   std::size_t triangle_count() const { return owners_.first[kSpheres]; }
-  std::size_t sphere_count() const { return owners_.first[kUser] - owners_.first[kSpheres]; }
+  std::size_t sphere_count() const { return owners_.first[kCurves] - owners_.first[kSpheres]; }
+  /// Where there are any, rays must have directions of unit length: Embree 3 presumes it of the
+  /// rays that meet these (kernels/geometry/coneline_intersector.h, where the square of the length
+  /// is missing in the coefficient A).
+  std::size_t curve_count() const { return owners_.first[kUser] - owners_.first[kCurves]; }
   std::size_t user_count() const { return user_.ids().size(); }
-  /// Of the scene, joined by '+': "triangles"; "points", which are spheres; "callbacks" of user
-  /// geometry, for cones and for spheres seen from the inside only.
+  /// Of the scene, joined by '+': "triangles"; "points", which are spheres; "curves", which are
+  /// cones; "callbacks" of user geometry, for cones and for spheres seen from the inside only.
   std::string geometry_types() const;
   std::uint64_t bytes() const;
 
  private:
+  /// A ray as Embree gets it, whose t are `length` times as large.
+  struct RayForScene {
+    Ray ray;
+    float length;
+  };
+  RayForScene for_scene(const Ray& ray) const;
   void attach(GeometryId id, const GeometryHandle& geometry, RTCBuildQuality quality);
   GeometryHandle make_triangles(const scenes::Scene& scene);
   GeometryHandle make_spheres(const scenes::Scene& scene);
+  GeometryHandle make_curves(const scenes::Scene& scene);
 
   Device device_;
   UserGeometry user_;

@@ -32,19 +32,26 @@ std::optional<double> hit(const scenes::Scene& scene, scenes::PrimitiveId id, co
 
 }  // namespace
 
-bool is_user_primitive(const scenes::Scene& scene, const scenes::Primitive& primitive) {
-  return primitive.kind == scenes::PrimitiveKind::kCone ||
-         (primitive.kind == scenes::PrimitiveKind::kSphere &&
-          scene.spheres[primitive.index].inside_only);
+bool is_user_primitive(const scenes::Scene& scene, const scenes::Primitive& primitive,
+                       ConeGeometry cones) {
+  switch (primitive.kind) {
+    case scenes::PrimitiveKind::kCone:
+      return cones == ConeGeometry::kCallbacks || scene.cones[primitive.index].inside_only;
+    case scenes::PrimitiveKind::kSphere:
+      return scene.spheres[primitive.index].inside_only;
+    case scenes::PrimitiveKind::kPolygon:
+      break;
+  }
+  return false;
 }
 
-UserGeometry::UserGeometry(const scenes::Scene& scene)
+UserGeometry::UserGeometry(const scenes::Scene& scene, ConeGeometry cones)
     : scene_(scene),
       pad_(static_cast<float>(4.0 * 0x1p-23 *
                               (scene.bounds.largest_coordinate() +
                                kCameraDistance * glm::length(glm::dvec3(scene.bounds.extent()))))) {
   for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
-    if (is_user_primitive(scene, scene.primitives[id])) ids_.push_back(id);
+    if (is_user_primitive(scene, scene.primitives[id], cones)) ids_.push_back(id);
   }
 }
 

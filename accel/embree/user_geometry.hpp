@@ -1,6 +1,6 @@
 #pragma once
-// Primitives that Embree has no type for, as its user geometry: cones, and spheres that are seen
-// from the inside only.
+// Primitives that Embree has no type for, as its user geometry: spheres that are seen from the
+// inside only, and cones, whose ends are open, unless they are taken as its curves.
 
 #include <vector>
 
@@ -9,10 +9,15 @@
 
 namespace beambench::accel::embree {
 
+/// How cones are given to Embree: tested exactly by callbacks, or as its linear curves, which are
+/// closed by disks at both ends and tested in single precision. Those seen from the inside only are
+/// tested by callbacks in any case.
+enum class ConeGeometry { kCallbacks, kCurves };
+
 /// The user primitives of a scene; Embree calls back into it, so it may not move.
 class UserGeometry {
  public:
-  explicit UserGeometry(const scenes::Scene& scene);
+  UserGeometry(const scenes::Scene& scene, ConeGeometry cones);
   UserGeometry(const UserGeometry&) = delete;
   UserGeometry& operator=(const UserGeometry&) = delete;
   ~UserGeometry() = default;
@@ -33,6 +38,7 @@ class UserGeometry {
 };
 
 /// Does `primitive` go into the user geometry of a scene?
-bool is_user_primitive(const scenes::Scene& scene, const scenes::Primitive& primitive);
+bool is_user_primitive(const scenes::Scene& scene, const scenes::Primitive& primitive,
+                       ConeGeometry cones);
 
 }  // namespace beambench::accel::embree

@@ -274,6 +274,56 @@ TEST_P(EmbreeModes, TraceListsOfAnyLengthOnEveryInstructionSet) {
   }
 }
 
+/// As the curves of cones are, in single precision: t to some roundings of the ray's way, and
+/// another primitive where two are that near.
+void expect_as_exact(const Accelerator& exact, const Ray& ray, const std::optional<Hit>& hit,
+                     std::size_t& unlike) {
+  const auto expected = exact.closest_hit(ray, nullptr);
+  if (hit.has_value() != expected.has_value() ||
+      (hit && std::abs(hit->t - expected->t) > 1e-4F * expected->t)) {
+    ++unlike;  // a ray that touches
+  }
+}
+
+// Curves presume directions of unit length, and those of images and lists have any length.
+TEST_P(EmbreeModes, ConesAsCurvesAreHitWhereTheyAreByRaysOfAnyLength) {
+  const scenes::Scene scene = scenes::load_scene("rings:n=2");
+  const auto structure = embree(mode() + ",cones=curves", scene);
+  const auto exact = registry().choose(parse_spec("exhaustive")).build(scene);
+  EXPECT_EQ(structure->statistics().library_geometry, "triangles+points+curves");
+  std::size_t unlike = 0;
+  const PrimaryRays image(scene.cameras.front(), 61, 47, 1);
+  HitBuffer hits(61, 47, 1);
+  structure->trace(image, hits, nullptr);
+  for (int y = 0; y < 47; ++y) {
+    for (int x = 0; x < 61; ++x) {
+      expect_as_exact(*exact, image.ray(x, y, 0), hits.get(hits.index(x, y, 0)), unlike);
+    }
+  }
+  Random random(3);
+  std::vector<Ray> rays;  // from where no end of a cylinder can be seen
+  for (int i = 0; i < 1000; ++i) {
+    Ray& one = rays.emplace_back(
+        image.ray(static_cast<int>(random.below(61)), static_cast<int>(random.below(47)), 0));
+    const auto longer = static_cast<float>(random.uniform(0.2, 5.0));
+    one.direction *= longer;
+    if (i % 3 == 0) one.t_max = static_cast<float>(random.uniform(2.0, 6.0)) / longer;
+    if (i % 5 == 0) one.t_min = static_cast<float>(random.uniform(0.0, 2.0)) / longer;
+  }
+  HitBuffer closest(1000, 1, 1);
+  std::vector<std::uint8_t> any(1000, 255);
+  structure->closest_hits({rays}, closest, nullptr);
+  structure->any_hits({rays}, any, nullptr);
+  std::size_t any_unlike = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    expect_as_exact(*exact, rays[i], closest.get(i), unlike);
+    expect_as_exact(*exact, rays[i], structure->closest_hit(rays[i], nullptr), unlike);
+    any_unlike += (any[i] != 0) != exact->any_hit(rays[i], nullptr) ? 1U : 0U;
+  }
+  EXPECT_LE(unlike, 8U);
+  EXPECT_LE(any_unlike, 3U);
+}
+
 TEST_P(EmbreeModes, MissEverythingInAnEmptyScene) {
   const scenes::Scene scene = scenes::SceneBuilder("empty").build();
   const auto structure = embree(mode(), scene);
@@ -372,6 +422,15 @@ TEST(Embree, OfEachInstructionSetEveryModeGivesTheHitsOfSingleRays) {
       }
     }
   }
+}
+
+TEST(Embree, ConesAsCurvesAreClosedAndThoseFromInsideStayCallbacks) {
+  const scenes::Scene scene = row_of_primitives();
+  const auto structure = embree("cones=curves", scene);
+  EXPECT_EQ(structure->statistics().library_geometry, "triangles+points+curves+callbacks");
+  const Ray into_the_end = ray({6.0F, 0.0F, -3.0F}, {0.0F, 0.0F, 2.0F});
+  EXPECT_EQ(structure->closest_hit(into_the_end, nullptr), (Hit{1.0F, 2}));
+  EXPECT_FALSE(embree("cones=callbacks", scene)->closest_hit(into_the_end, nullptr).has_value());
 }
 
 TEST(Embree, NamesTheTypesOfItsGeometry) {
