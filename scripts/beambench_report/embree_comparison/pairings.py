@@ -51,6 +51,8 @@ class Pairing:
     embree: Trace
     ratio: Ratio
     second_ratio: Ratio | None
+    unculled_ratio: Ratio | None
+    """The first ratio where tile beams draw the backs of solids, too; None where not measured."""
     run_id: str
     commit: str
     machine: str
@@ -101,20 +103,11 @@ def _image(row: Row) -> tuple:
 def _pairing(
     isa: str, tiles: Sequence[Row], modes: Sequence[Row], files: Mapping[Identity, CellFile]
 ) -> Pairing:
-    row, mode = (min(rows, key=lambda row: row["trace_ms_median"]) for rows in (tiles, modes))
+    mode = _fastest(modes)
+    unculled = [row for row in tiles if not _is_culled(row)]
+    row = _fastest([row for row in tiles if _is_culled(row)] or unculled)
     tile, embree = _trace(row, "tile-beam"), _trace(mode, _mode_name(mode))
-    ratio, second = None, None
-    tile_file, embree_file = files.get(identity(row)), files.get(identity(mode))
-    if tile_file and embree_file:
-        over, under = _shading(mode), _shading(row)
-        ratio = paired_ratio(
-            _without(over, embree_file.trace_ms), _without(under, tile_file.trace_ms)
-        )
-        second = paired_ratio(
-            _without(over, embree_file.warm_ms), _without(under, tile_file.warm_ms)
-        )
-    if second is None and embree.second and tile.second:
-        second = Ratio(embree.second / tile.second)
+    ratio, second = _ratios(mode, row, files)
     commit = f"{row['commit'][:12]}{' (modified)' if row['dirty'] == 'true' else ''}"
     return Pairing(
         str(row["ray_kind"]),
@@ -127,13 +120,41 @@ def _pairing(
         isa,
         tile,
         embree,
-        ratio or unpaired_ratio(embree.first, tile.first),
+        ratio,
         second,
+        _ratios(mode, _fastest(unculled), files)[0] if unculled else None,
         str(row["run_id"]),
         commit,
         str(row["machine_id"]),
         f"run {row['run_id']}, commit {commit}, machine {row['machine_id'][:8]}",
     )
+
+
+def _fastest(rows: Iterable[Row]) -> Row:
+    return min(rows, key=lambda row: row["trace_ms_median"])
+
+
+def _is_culled(row: Row) -> bool:
+    """Are the backs of solids left out? By default they are."""
+    return parameter_items(row["parameters"]).get("backface_culling") != "false"
+
+
+def _ratios(mode: Row, row: Row, files: Mapping[Identity, CellFile]) -> tuple[Ratio, Ratio | None]:
+    """Of first and of second traces, paired by rounds where single repetitions are there."""
+    ratio, second = None, None
+    over, under = files.get(identity(mode)), files.get(identity(row))
+    if over and under:
+        shading = _shading(mode), _shading(row)
+        ratio = paired_ratio(
+            _without(shading[0], over.trace_ms), _without(shading[1], under.trace_ms)
+        )
+        second = paired_ratio(
+            _without(shading[0], over.warm_ms), _without(shading[1], under.warm_ms)
+        )
+    embree, tile = _trace(mode, ""), _trace(row, "")
+    if second is None and embree.second and tile.second:
+        second = Ratio(embree.second / tile.second)
+    return ratio or unpaired_ratio(embree.first, tile.first), second
 
 
 def _shading(row: Row) -> float:

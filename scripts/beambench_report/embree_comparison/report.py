@@ -1,7 +1,7 @@
 """The targets and what was measured, as Markdown with plots."""
 
 from collections import Counter
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from beambench_report.base.figure import house_style, write_plot
@@ -21,6 +21,12 @@ _COMPARED = (
     "same rays. Shadow rays and rays from mirrors are lists in which those of a light or a mirror "
     "are marked as a pencil; both get the same list. The fastest mode is the one of the smallest "
     "median."
+)
+_CLOSED = (
+    "**Closedness.** While it builds, `tile-beam` proves of which triangles solids are made, and "
+    "leaves out their backs, which no eye outside can see. This uses that they are closed, which "
+    "Embree is not given. Ratios without it (`backface_culling=false`), of the same run, stand "
+    "below each geometric mean and in the last table; the targets hold for the default."
 )
 _TRACES = (
     "**Which trace.** The ratios in the tables, and the targets, are of the first trace after a "
@@ -73,7 +79,8 @@ def as_markdown(found: Sequence[Pairing], plots: Sequence[str] = ()) -> str:
     how = _PAIRED if all(paired) else _SOME_PAIRED if any(paired) else _NOT_PAIRED
     intervals = f"**Intervals.** In brackets: the 95% interval of the ratio. {how}{_DECIDED}"
     lines = ["# Tile beams against Embree: a frustum rasterizer beside a general ray tracer", ""]
-    for text in (_COMPARED, _TRACES, intervals, *(f"![{plot}]({plot})" for plot in plots)):
+    closed = [_CLOSED] if any(one.unculled_ratio for one in found) else []
+    for text in (_COMPARED, *closed, _TRACES, intervals, *(f"![{plot}]({plot})" for plot in plots)):
         lines += [text, ""]
     lines += [*(f"- {origin}" for origin in dict.fromkeys(one.origin for one in found)), ""]
     single = [one for one in found if one.samples == 1]
@@ -144,15 +151,22 @@ def _group_table(group: Group, found: Sequence[Pairing], part: float) -> list[st
             lines.append(
                 ["*target of the mean*", *(f"*at least {targets[size]:g}*" for size in sizes)]
             )
-        lines.append(["geometric mean, second traces", *_second_means(group, at, sizes)])
+        of_others = {
+            "geometric mean, second traces": [one.second_ratio for one in at.values()],
+            "geometric mean, backs of solids drawn": [one.unculled_ratio for one in at.values()],
+        }
+        for title, ratios in of_others.items():
+            if any(ratios):
+                found_at = list(zip(at, ratios, strict=True))
+                lines.append([title, *_means_of(group, found_at, sizes)])
     return markdown_table(["scene", *sizes], lines, range(1, len(sizes) + 1))
 
 
-def _second_means(
-    group: Group, at: Mapping[tuple[str, str], Pairing], sizes: Sequence[str]
+def _means_of(
+    group: Group, found: Sequence[tuple[tuple[str, str], Ratio | None]], sizes: Sequence[str]
 ) -> Iterable[str]:
     for size in sizes:
-        ratios = [one.second_ratio for (_, there), one in at.items() if there == size]
+        ratios = [ratio for (_, there), ratio in found if there == size]
         yield _mean(group, [ratio for ratio in ratios if ratio is not None], None)
 
 
@@ -173,7 +187,8 @@ def _mean(group: Group, ratios: Sequence[Ratio], target: float | None) -> str:
 def _every(found: Sequence[Pairing]) -> list[str]:
     heads = (
         "rays, scene, resolution, samples, primitives, limited to, fastest mode, Embree ms, "
-        "tile-beam ms, ratio, ratio of second traces, Embree's build ms, tile-beam's build ms"
+        "tile-beam ms, ratio, ratio of second traces, ratio with the backs of solids, "
+        "Embree's build ms, tile-beam's build ms"
     ).split(", ")
     rows = (
         (
@@ -188,12 +203,13 @@ def _every(found: Sequence[Pairing]) -> list[str]:
             number(one.tile.first.value),
             _text(one.ratio),
             "" if one.second_ratio is None else _text(one.second_ratio),
+            "" if one.unculled_ratio is None else _text(one.unculled_ratio),
             number(one.embree.build),
             number(one.tile.build),
         )
         for one in found
     )
-    return ["## All rays", "", *markdown_table(heads, rows, (3, 4, *range(7, 13)))]
+    return ["## All rays", "", *markdown_table(heads, rows, (3, 4, *range(7, 14)))]
 
 
 def _text(ratio: Ratio, target: float | None = None) -> str:
