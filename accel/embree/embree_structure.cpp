@@ -93,6 +93,16 @@ const TraceMode& find_mode(const std::string& name) {
   return *std::ranges::find(trace_modes(), name, &TraceMode::name);
 }
 
+ParameterInfo cones_parameter() {
+  ParameterInfo parameter = choice_parameter(
+      "cones", "callbacks", {"callbacks", "curves"},
+      "cones tested exactly by callbacks, one ray at a time, or as Embree's linear "
+      "curves, which it closes by disks at both ends and tests in single "
+      "precision: fast, and wrong where an open end would be looked into");
+  parameter.changes_hits = true;
+  return parameter;
+}
+
 RTCBuildQuality parse_quality(const std::string& name) {
   if (name == "low") return RTC_BUILD_QUALITY_LOW;
   if (name == "medium") return RTC_BUILD_QUALITY_MEDIUM;
@@ -121,11 +131,7 @@ void register_embree(Registry& registry) {
                          "flags neighboring rays as coherent for Embree, which packets then do not "
                          "give up; auto: those of images and of any-hit queries, but not the "
                          "closest hits of lists"),
-        choice_parameter("cones", "callbacks", {"callbacks", "curves"},
-                         "cones tested exactly by callbacks, one ray at a time, or as Embree's "
-                         "linear curves, which it closes by disks at both ends and tests in single "
-                         "precision: fast, and wrong where an open end would be looked into"),
-        isa_parameter()},
+        cones_parameter(), isa_parameter()},
        [](const scenes::Scene& scene, const Parameters& parameters, const Workload& workload) {
          const std::string& isa = parameters.choice("isa");
          require_isa(isa);

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstddef>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -73,20 +76,14 @@ class LeafPacker {
     made_.blocks.cones.reserve(leaves * scene.cones.size() / pieces);
   }
 
+  /// `items` are ascending.
   void pack(std::span<const std::uint32_t> items) {
-    const auto each_of = [&](scenes::PrimitiveKind kind, auto&& add) {
-      for (const std::uint32_t item : items) {
-        if (pieces_->pieces[item].kind == kind) add(item);
-      }
-    };
-    each_of(scenes::PrimitiveKind::kPolygon, [&](std::uint32_t item) { add_triangle(item); });
-    each_of(scenes::PrimitiveKind::kSphere, [&](std::uint32_t item) { add_sphere(item); });
-    each_of(scenes::PrimitiveKind::kCone, [&](std::uint32_t item) { add_cone(item); });
-    for (std::size_t i = made_.first.back(); i < made_.packed.size(); ++i) {
-      const PackedLeaf& leaf = made_.packed[i];
-      if (leaf.child.kind() != TileChild::Kind::kMeshlet) continue;
-      const glm::vec3 sides = leaf.box.extent();
-      made_.blocks.meshlets[leaf.child.index()].extent = std::max({sides.x, sides.y, sides.z});
+    for (const auto kind : {scenes::PrimitiveKind::kPolygon, scenes::PrimitiveKind::kSphere,
+                            scenes::PrimitiveKind::kCone}) {
+      of_kind_.clear();
+      std::ranges::copy_if(items, std::back_inserter(of_kind_),
+                           [&](std::uint32_t item) { return pieces_->pieces[item].kind == kind; });
+      if (!of_kind_.empty()) pack_blocks(kind, of_kind_);
     }
     made_.first.push_back(static_cast<std::uint32_t>(made_.packed.size()));
   }
@@ -94,51 +91,94 @@ class LeafPacker {
   PackedLeaves& made() { return made_; }
 
  private:
-  /// Is the leaf's last block of that kind?
-  bool goes_on(TileChild::Kind kind) const {
-    return made_.packed.size() > made_.first.back() && made_.packed.back().child.kind() == kind;
+  /// Items of one kind into one block or, where they do not fit, halved where they lie apart most:
+  /// in the order of the scene, the boxes of a leaf's blocks would overlap.
+  void pack_blocks(scenes::PrimitiveKind kind, std::span<std::uint32_t> items) {
+    if (pack_block(kind, items)) return;
+    const auto half = static_cast<std::ptrdiff_t>(items.size() / 2);
+    const auto center = [&](std::uint32_t item) {
+      const scenes::Bounds& box = pieces_->boxes[item];
+      return box.lower + box.upper;  // twice
+    };
+    scenes::Bounds centers;
+    for (const std::uint32_t item : items) centers.include(center(item));
+    const glm::vec3 sides = centers.extent();
+    const int axis = sides.x >= std::max(sides.y, sides.z) ? 0 : sides.y >= sides.z ? 1 : 2;
+    std::nth_element(items.begin(), items.begin() + half, items.end(),
+                     [&](std::uint32_t a, std::uint32_t b) {
+                       return std::pair(center(a)[axis], a) < std::pair(center(b)[axis], b);
+                     });
+    for (const auto part : {items.first(items.size() / 2), items.subspan(items.size() / 2)}) {
+      std::ranges::sort(part);
+      pack_blocks(kind, part);
+    }
   }
 
-  void begin(TileChild::Kind kind, std::size_t index) {
+  /// False, and nothing added, when they do not fit.
+  bool pack_block(scenes::PrimitiveKind kind, std::span<const std::uint32_t> items) {
+    scenes::Bounds box;
+    for (const std::uint32_t item : items) box.include(pieces_->boxes[item]);
+    switch (kind) {
+      case scenes::PrimitiveKind::kPolygon:
+        return pack_triangles(items, box);
+      case scenes::PrimitiveKind::kSphere:
+        if (items.size() > kTileLanes) return false;
+        begin(TileChild::Kind::kSpheres, made_.blocks.spheres.size(), box);
+        made_.blocks.spheres.emplace_back();
+        for (const std::uint32_t item : items) add_sphere(item);
+        return true;
+      case scenes::PrimitiveKind::kCone:
+        if (items.size() > kTileLanes) return false;
+        begin(TileChild::Kind::kCones, made_.blocks.cones.size(), box);
+        made_.blocks.cones.emplace_back();
+        for (const std::uint32_t item : items) add_cone(item);
+        return true;
+    }
+    return false;
+  }
+
+  void begin(TileChild::Kind kind, std::size_t index, const scenes::Bounds& box) {
     require_index(pieces_->scene, index);
-    made_.packed.push_back({TileChild(kind, static_cast<std::uint32_t>(index)), {}});
+    made_.packed.push_back({TileChild(kind, static_cast<std::uint32_t>(index)), box});
   }
 
-  void add_triangle(std::uint32_t item) {
+  bool pack_triangles(std::span<const std::uint32_t> items, const scenes::Bounds& box) {
     const scenes::Scene& scene = pieces_->scene;
     auto& meshlets = made_.blocks.meshlets;
-    const std::uint32_t index = pieces_->pieces[item].index;
-    const scenes::Triangle& triangle = scene.triangles[index];
-    if (!goes_on(TileChild::Kind::kMeshlet) || !append(meshlets.back(), scene, triangle)) {
-      begin(TileChild::Kind::kMeshlet, meshlets.size());
-      append(meshlets.emplace_back(), scene, triangle);
+    Meshlet& meshlet = meshlets.emplace_back();
+    for (const std::uint32_t item : items) {
+      if (append(meshlet, scene, scene.triangles[pieces_->pieces[item].index])) continue;
+      meshlets.pop_back();
+      return false;
     }
-    note_solid(index);
-    made_.packed.back().box.include(pieces_->boxes[item]);
+    const glm::vec3 sides = box.extent();
+    meshlet.extent = std::max({sides.x, sides.y, sides.z});
+    begin(TileChild::Kind::kMeshlet, meshlets.size() - 1, box);
+    note_solids(items);
+    return true;
   }
 
-  /// Marks the triangle added last, the scene's `index`, where it is part of a solid.
-  void note_solid(std::uint32_t index) {
+  /// Marks the triangles of the last meshlet that are parts of solids.
+  void note_solids(std::span<const std::uint32_t> items) {
     const Solids& solids = pieces_->solids;
-    if (solids.solids.empty() || solids.of_triangle[index] == Solids::kNone) return;
+    if (solids.solids.empty()) return;
     Meshlet& meshlet = made_.blocks.meshlets.back();
-    const std::uint32_t bit = 1U << (meshlet.triangle_count - 1);
-    meshlet.solid |= bit;
-    const SolidMeshlet is_in{solids.of_triangle[index],
-                             static_cast<std::uint32_t>(made_.blocks.meshlets.size() - 1)};
-    if (solids.solids[is_in.solid].inward) meshlet.clockwise |= bit;
-    if (made_.solid_meshlets.empty() || made_.solid_meshlets.back() != is_in) {
-      made_.solid_meshlets.push_back(is_in);
+    const auto number = static_cast<std::uint32_t>(made_.blocks.meshlets.size() - 1);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      const std::uint32_t solid = solids.of_triangle[pieces_->pieces[items[i]].index];
+      if (solid == Solids::kNone) continue;
+      const std::uint32_t bit = 1U << i;
+      meshlet.solid |= bit;
+      if (solids.solids[solid].inward) meshlet.clockwise |= bit;
+      const SolidMeshlet is_in{solid, number};
+      if (made_.solid_meshlets.empty() || made_.solid_meshlets.back() != is_in) {
+        made_.solid_meshlets.push_back(is_in);
+      }
     }
   }
 
   void add_sphere(std::uint32_t item) {
-    auto& spheres = made_.blocks.spheres;
-    if (!goes_on(TileChild::Kind::kSpheres) || spheres.back().count == kTileLanes) {
-      begin(TileChild::Kind::kSpheres, spheres.size());
-      spheres.emplace_back();
-    }
-    SphereBlock& block = spheres.back();
+    SphereBlock& block = made_.blocks.spheres.back();
     const scenes::Sphere& sphere = pieces_->scene.spheres[pieces_->pieces[item].index];
     const std::size_t lane = block.count++;
     for (int axis = 0; axis < 3; ++axis) {
@@ -147,23 +187,17 @@ class LeafPacker {
     block.radius[lane] = sphere.radius;
     block.primitives[lane] = pieces_->pieces[item].primitive;
     if (sphere.inside_only) block.inside_only |= 1U << lane;
-    made_.packed.back().box.include(pieces_->boxes[item]);
   }
 
   void add_cone(std::uint32_t item) {
-    auto& cones = made_.blocks.cones;
-    if (!goes_on(TileChild::Kind::kCones) || cones.back().count == kTileLanes) {
-      begin(TileChild::Kind::kCones, cones.size());
-      cones.emplace_back();
-    }
-    ConeBlock& block = cones.back();
+    ConeBlock& block = made_.blocks.cones.back();
     const std::size_t lane = block.count++;
     block.boxes.set(lane, pieces_->boxes[item]);
     block.primitives[lane] = pieces_->pieces[item].primitive;
-    made_.packed.back().box.include(pieces_->boxes[item]);
   }
 
   const TilePieces* pieces_;
+  std::vector<std::uint32_t> of_kind_;  ///< of the leaf being packed: kept for its memory
   PackedLeaves made_;
 };
 

@@ -101,6 +101,7 @@ constexpr auto kInterfaceChanges = std::to_array<std::string_view>({
     "a RayBatch has the sample of each ray, its pencils the virtual eye's image, and "
     "structures say where rays are in their beams",
     "statistics() names a library and its version, and add_tests counts tests by kind of primitive",
+    "a parameter says whether its values may change hits",
 });
 static_assert(kInterfaceChanges.size() == kPluginInterface - 1);
 

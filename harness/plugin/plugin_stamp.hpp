@@ -16,7 +16,7 @@ namespace beambench::plugin {
 /// Incremented when an installed header changes so that a plug-in made with the old one would fail:
 /// a virtual function, a type, the meaning of a call. load_plugin.cpp lists what each version
 /// changed.
-inline constexpr std::uint32_t kPluginInterface = 5;
+inline constexpr std::uint32_t kPluginInterface = 6;
 
 /// Identifies the build of a plug-in. The first two members never move.
 struct PluginStamp {

@@ -36,6 +36,7 @@ struct ParameterInfo {
   double maximum = 0.0;
   std::vector<std::string> choices;  ///< of a choice
   std::string description;           ///< one sentence, units included
+  bool changes_hits = false;  ///< what is not the default may give wrong hits: not self-tested
 };
 
 ParameterInfo integer_parameter(std::string name, std::int64_t default_value, std::int64_t minimum,

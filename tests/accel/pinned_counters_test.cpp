@@ -115,7 +115,8 @@ INSTANTIATE_TEST_SUITE_P(Structures, PinnedWork, ::testing::Values(
     Row{"kd-tree:builder=median", "escena1", {{"confirmed_tests", 2918}, {"empty_leaves", 1175}, {"leaves", 15'684}, {"primitive_tests", 15'059}, {"traversal_steps", 83'455}}},
     Row{"tile-beam", "tetra:n=6", {{"beams", 1}, {"box_tests", 272}, {"leaves", 256}, {"primitive_tests", 4096}, {"traversal_steps", 273}}},
     Row{"tile-beam", "bumpy:triangles=50700", {{"beams", 1}, {"box_tests", 2362}, {"leaves", 1389}, {"primitive_tests", 30'245}, {"traversal_steps", 1651}}},
-    Row{"tile-beam", "closed-room:detail=4", {{"beams", 1}, {"box_tests", 346}, {"leaves", 221}, {"primitive_tests", 5077}, {"traversal_steps", 281}}},
+    Row{"tile-beam", "soup:triangles=100000", {{"beams", 1}, {"box_tests", 17'824}, {"leaves", 13'301}, {"primitive_tests", 99'983}, {"traversal_steps", 17'812}}},
+    Row{"tile-beam", "closed-room:detail=4", {{"beams", 1}, {"box_tests", 346}, {"leaves", 224}, {"primitive_tests", 5083}, {"traversal_steps", 284}}},
     Row{"tile-beam:backface_culling=false", "bumpy:triangles=50700", {{"beams", 1}, {"box_tests", 2368}, {"leaves", 1695}, {"primitive_tests", 36'114}, {"traversal_steps", 1959}}},
     Row{"tile-beam:backface_culling=false", "closed-room:detail=4", {{"beams", 1}, {"box_tests", 346}, {"leaves", 247}, {"primitive_tests", 5552}, {"traversal_steps", 307}}}
   ), row_name);
@@ -151,9 +152,9 @@ std::string pencil_row_name(const ::testing::TestParamInfo<PencilRow>& info) {
 INSTANTIATE_TEST_SUITE_P(TileBeam, PinnedPencilWork, ::testing::Values(
     PencilRow{"shadow", "teapot:n=3", {{"beams", 11}, {"box_tests", 272}, {"leaves", 115}, {"primitive_tests", 85'280}, {"traversal_steps", 161}}},
     PencilRow{"mirror", "teapot:n=3", {{"beams", 6}, {"box_tests", 166}, {"leaves", 68}, {"primitive_tests", 24'972}, {"traversal_steps", 99}}},
-    PencilRow{"shadow", "closed-room:detail=4", {{"beams", 25}, {"box_tests", 8193}, {"handed_over_rays", 219}, {"leaves", 901}, {"primitive_tests", 434'890}, {"traversal_steps", 1816}}},
-    PencilRow{"mirror", "closed-room:detail=4", {{"beams", 22}, {"box_tests", 136'646}, {"handed_over_rays", 63}, {"leaves", 8153}, {"primitive_tests", 311'166}, {"traversal_steps", 21'252}}},
-    PencilRow{"shadow", "balls:n=2", {{"beams", 22}, {"box_tests", 164}, {"leaves", 106}, {"primitive_tests", 80'896}, {"traversal_steps", 144}}}
+    PencilRow{"shadow", "closed-room:detail=4", {{"beams", 25}, {"box_tests", 8193}, {"handed_over_rays", 219}, {"leaves", 908}, {"primitive_tests", 431'642}, {"traversal_steps", 1823}}},
+    PencilRow{"mirror", "closed-room:detail=4", {{"beams", 22}, {"box_tests", 136'646}, {"handed_over_rays", 63}, {"leaves", 8373}, {"primitive_tests", 311'118}, {"traversal_steps", 21'472}}},
+    PencilRow{"shadow", "balls:n=2", {{"beams", 22}, {"box_tests", 164}, {"leaves", 104}, {"primitive_tests", 81'200}, {"traversal_steps", 142}}}
   ), pencil_row_name);
 // clang-format on
 

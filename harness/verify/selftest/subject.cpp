@@ -37,6 +37,7 @@ std::string small_integer(const ParameterInfo& parameter, Random& random) {
 /// A value to try; empty: the default.
 std::string random_value(const ParameterInfo& parameter, Random& random) {
   using Type = ParameterInfo::Type;
+  if (parameter.changes_hits) return "";
   switch (parameter.type) {
     case Type::kIntegerOrAuto:
       if (random.below(4) == 0) return "auto";
