@@ -1,0 +1,61 @@
+#pragma once
+// A cone for the samples of a tile: an equation whose coefficients are linear on the screen.
+
+#include <optional>
+
+#include "accel/tile_beam/sample_raster.hpp"
+#include "accel/tile_beam/tile_view.hpp"
+#include "scenes/primitive.hpp"
+
+namespace beambench::accel::tile_beam {
+
+/// A function of a ray's direction: `first` at the tile's sample (0, 0), `right` more for each
+/// column and `down` more for each row.
+struct ScreenLinear {
+  float first;
+  float right;
+  float down;
+};
+
+/// How rays from one eye meet a cone frustum. Lengths are in units of the distance from the eye
+/// within which all of the cone lies, so that scenes of any size have the same rounding, and
+/// w = 1/t is the unknown. Let E be the eye seen from the frustum's middle, at height H along the
+/// axis and at the distance X beside it; x be the direction from the axis to the eye, y at right
+/// angles to it and to the axis; C and S the cosine and sine of the angle between the surface and
+/// the axis. The ray's point, multiplied by w, then has
+///
+///   along x       X w + d.x
+///   along y       d.y
+///   height        h = H w + d.axis
+///   C x radius    R w + S d.axis         with R that at the height of the eye
+///
+/// and is on the surface where C^2 (square of the distance from the axis) equals the square of the
+/// last, so  c w^2 + 2 b w + a = 0  with a constant c, and b that is linear in the direction.
+/// b^2 - a c is a product of two linear functions where the eye is outside the (infinite, double)
+/// cone: those of the two planes through the eye that touch it, the lines that are its silhouette.
+/// Where the eye is inside, it is the sum of the squares of two.
+struct ConeEquation {
+  ScreenLinear beside;       ///< C d.x
+  ScreenLinear across;       ///< C d.y
+  ScreenLinear along;        ///< d.axis
+  ScreenLinear half_linear;  ///< b
+  ScreenLinear first_side;   ///< of b^2 - a c: the first factor, or what is squared
+  ScreenLinear second_side;
+  float eye_beside;        ///< C X
+  float eye_height;        ///< H
+  float eye_radius;        ///< R
+  float sine;              ///< S; negative where the apex has the smaller radius
+  float half_length;       ///< the frustum reaches from -half_length to half_length
+  float inverse_constant;  ///< 1 / c
+  float per_length;        ///< 1 / the unit of lengths
+  bool outside;            ///< the eye is, of the double cone
+  float least_side;        ///< sides nearer to 0 than this are 0 to within rounding
+  float least_root;        ///< b +- its root, likewise: the other root is then inaccurate
+};
+
+/// The equation for a tile of a raster. None for the cones that float is too coarse for: flat ones
+/// and short ones, and those that the eye touches.
+std::optional<ConeEquation> cone_equation(const scenes::Cone& cone, const SampleRaster& raster,
+                                          const TileView& view);
+
+}  // namespace beambench::accel::tile_beam
