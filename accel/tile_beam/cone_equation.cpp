@@ -66,23 +66,23 @@ std::optional<ConeEquation> cone_equation(const scenes::Cone& cone, const Sample
   const glm::dvec3 corner = raster.origin + raster.right * static_cast<double>(view.left) +
                             raster.down * static_cast<double>(view.top);
   const auto linear = [&](const glm::dvec3& gradient) {
-    return ScreenLinear{static_cast<float>(glm::dot(gradient, corner)),
-                        static_cast<float>(glm::dot(gradient, raster.right)),
-                        static_cast<float>(glm::dot(gradient, raster.down))};
+    return TileLine{static_cast<float>(glm::dot(gradient, raster.right)),
+                    static_cast<float>(glm::dot(gradient, raster.down)),
+                    static_cast<float>(glm::dot(gradient, corner))};
   };
-  // b^2 - a c = C^2 ((R d.x - S X d.axis)^2 - c d.y^2).
-  const glm::dvec3 toward = cosine * eye_radius * x - sine * eye_beside * axis;
+  // b^2 - a c = (C R d.x - S C X d.axis)^2 - c (C d.y)^2, where eye_beside is C X. The first
+  // square's root is positive toward all points whose radius is.
+  const glm::dvec3 toward = sine * eye_beside * axis - cosine * eye_radius * x;
   const glm::dvec3 sideways = cosine * std::sqrt(std::abs(constant)) * y;
   const bool outside = constant > 0.0;
 
-  const glm::dvec3 last = corner + raster.right * static_cast<double>(view.width) +
-                          raster.down * static_cast<double>(view.height);
-  const double longest_squared =
-      std::max({glm::dot(corner, corner), glm::dot(last, last),
-                glm::dot(last - raster.right * static_cast<double>(view.width),
-                         last - raster.right * static_cast<double>(view.width)),
-                glm::dot(last - raster.down * static_cast<double>(view.height),
-                         last - raster.down * static_cast<double>(view.height))});
+  const glm::dvec3 across = raster.right * static_cast<double>(view.width);
+  const glm::dvec3 down = raster.down * static_cast<double>(view.height);
+  double longest_squared = 0.0;  // of all directions
+  for (const glm::dvec3& direction :
+       {corner, corner + across, corner + down, corner + across + down}) {
+    longest_squared = std::max(longest_squared, glm::dot(direction, direction));
+  }
   const double side =
       std::sqrt((glm::dot(toward, toward) + glm::dot(sideways, sideways)) * longest_squared);
 
@@ -91,8 +91,8 @@ std::optional<ConeEquation> cone_equation(const scenes::Cone& cone, const Sample
   equation.across = linear(cosine * y);
   equation.along = linear(axis);
   equation.half_linear = linear(cosine * eye_beside * x - sine * eye_radius * axis);
-  equation.first_side = linear(outside ? toward - sideways : toward);
-  equation.second_side = linear(outside ? toward + sideways : sideways);
+  equation.sides = {linear(outside ? toward - sideways : toward),
+                    linear(outside ? toward + sideways : sideways)};
   equation.eye_beside = static_cast<float>(eye_beside);
   equation.eye_height = static_cast<float>(eye_height);
   equation.eye_radius = static_cast<float>(eye_radius);

@@ -1,6 +1,7 @@
 #pragma once
 // A cone for the samples of a tile: an equation whose coefficients are linear on the screen.
 
+#include <array>
 #include <optional>
 
 #include "accel/tile_beam/sample_raster.hpp"
@@ -8,14 +9,6 @@
 #include "scenes/primitive.hpp"
 
 namespace beambench::accel::tile_beam {
-
-/// A function of a ray's direction: `first` at the tile's sample (0, 0), `right` more for each
-/// column and `down` more for each row.
-struct ScreenLinear {
-  float first;
-  float right;
-  float down;
-};
 
 /// How rays from one eye meet a cone frustum. Lengths are in units of the distance from the eye
 /// within which all of the cone lies, so that scenes of any size have the same rounding, and
@@ -31,26 +24,26 @@ struct ScreenLinear {
 ///
 /// and is on the surface where C^2 (square of the distance from the axis) equals the square of the
 /// last, so  c w^2 + 2 b w + a = 0  with a constant c, and b that is linear in the direction.
-/// b^2 - a c is a product of two linear functions where the eye is outside the (infinite, double)
-/// cone: those of the two planes through the eye that touch it, the lines that are its silhouette.
-/// Where the eye is inside, it is the sum of the squares of two.
+/// Where the eye is outside the (infinite, double) cone, b^2 - a c is a product of two linear
+/// functions: those of the planes through the eye that touch it, which are the lines of its
+/// silhouette. Both are positive between these lines, on the side on which radii are. Where the eye
+/// is inside, b^2 - a c is the sum of the squares of two linear functions.
 struct ConeEquation {
-  ScreenLinear beside;       ///< C d.x
-  ScreenLinear across;       ///< C d.y
-  ScreenLinear along;        ///< d.axis
-  ScreenLinear half_linear;  ///< b
-  ScreenLinear first_side;   ///< of b^2 - a c: the first factor, or what is squared
-  ScreenLinear second_side;
-  float eye_beside;        ///< C X
-  float eye_height;        ///< H
-  float eye_radius;        ///< R
-  float sine;              ///< S; negative where the apex has the smaller radius
-  float half_length;       ///< the frustum reaches from -half_length to half_length
-  float inverse_constant;  ///< 1 / c
-  float per_length;        ///< 1 / the unit of lengths
-  bool outside;            ///< the eye is, of the double cone
-  float least_side;        ///< sides nearer to 0 than this are 0 to within rounding
-  float least_root;        ///< b +- its root, likewise: the other root is then inaccurate
+  TileLine beside;                ///< C d.x
+  TileLine across;                ///< C d.y
+  TileLine along;                 ///< d.axis
+  TileLine half_linear;           ///< b
+  std::array<TileLine, 2> sides;  ///< the factors of b^2 - a c, or what is squared
+  float eye_beside;               ///< C X
+  float eye_height;               ///< H
+  float eye_radius;               ///< R
+  float sine;                     ///< S; negative where the apex has the smaller radius
+  float half_length;              ///< the frustum reaches from -half_length to half_length
+  float inverse_constant;         ///< 1 / c
+  float per_length;               ///< 1 / the unit of lengths
+  bool outside;                   ///< the eye is, of the double cone
+  float least_side;               ///< sides nearer to 0 than this are 0 to within rounding
+  float least_root;               ///< b +- its root, likewise: the other root is then inaccurate
 };
 
 /// The equation for a tile of a raster. None for the cones that float is too coarse for: flat ones

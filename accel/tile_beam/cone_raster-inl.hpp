@@ -14,6 +14,7 @@
 #include "accel/tile_beam/box_probe-inl.hpp"
 #include "accel/tile_beam/cone_equation.hpp"
 #include "accel/tile_beam/ray_raster-inl.hpp"
+#include "accel/tile_beam/row_ends-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
@@ -28,12 +29,9 @@ inline constexpr float kAtRim = 0x1p-18F;
 /// Boxes of no more samples than this take less time ray by ray.
 inline constexpr int kFewSamples = 2;
 
-/// A function on the screen at the samples of one row, for each register of a block.
-HWY_INLINE Floats start_of_row(const ScreenLinear& function, Floats j) {
-  return hn::MulAdd(all(function.down), j, all(function.first));
-}
-HWY_INLINE Floats at_column(const ScreenLinear& function, Floats row_start, Floats i) {
-  return hn::MulAdd(all(function.right), i, row_start);
+/// A linear function at the first samples of a row, in the lanes of a register of a block.
+HWY_INLINE Floats start_of_row(const TileLine& line, Floats j) {
+  return hn::MulAdd(all(line.y), j, all(line.constant));
 }
 
 /// What is known of rays where they meet the infinite cone.
@@ -45,94 +43,139 @@ struct ConeRoot {
 /// Directions in the axes of a `ConeEquation`.
 struct ConeDirections {
   Floats beside;
-  Floats across_squared;
+  Floats across;
   Floats along;
-  Floats radius;  ///< sine x along
 };
 
-/// Is the root w a point of the frustum? The point is computed and compared with the surface: an
-/// inaccurate root, which is rare, is found to be beside it.
-HWY_INLINE ConeRoot classify(const ConeEquation& cone, const ConeDirections& d, Floats w) {
-  const Floats beside = hn::MulAdd(all(cone.eye_beside), w, d.beside);
-  const Floats radius = hn::MulAdd(all(cone.eye_radius), w, d.radius);
-  const Floats height = hn::MulAdd(all(cone.eye_height), w, d.along);
-  // The difference of the squares is the distance from the surface times twice the radius.
-  const Floats off =
-      hn::Abs(hn::NegMulAdd(radius, radius, hn::MulAdd(beside, beside, d.across_squared)));
-  const Mask on = hn::Le(off, hn::Mul(hn::Mul(all(2.0F * kOnSurface), w), hn::Abs(radius)));
-  const Floats beyond = hn::NegMulAdd(all(cone.half_length), w, hn::Abs(height));
-  const Floats rim = hn::Mul(all(kAtRim), w);
-  // All of the cone has w >= 1, and no root is so inaccurate that its w would come out below 1/2.
-  const Mask seen = hn::Ge(w, all(0.5F));
-  const Mask inside = hn::And(on, hn::Le(beyond, hn::Neg(rim)));
-  const Mask outside = hn::And(on, hn::Ge(beyond, rim));
-  return {hn::And(seen, inside), hn::AndNot(hn::Or(inside, outside), seen)};
-}
+/// Draws a cone into the tile's blocks.
+template <bool kOutside>
+class ConePainter {
+ public:
+  ConePainter(const ConeEquation& cone, bool inside_only, scenes::PrimitiveId primitive,
+              float nearest)
+      : cone_(cone), primitive_(primitive), nearest_(nearest), inside_only_(inside_only) {}
 
-/// Draws one cone into the blocks of a box. `exact(column, row, samples)` decides the samples of a
-/// block whose bits are set by the canonical test.
-template <bool kOutside, class Exact>
-HWY_INLINE void draw_cone(const ConeEquation& cone, bool inside_only, scenes::PrimitiveId primitive,
-                          const SampleRectangle& box, float nearest, TileImage& image,
-                          Exact exact) {
-  const Floats none = hn::Zero(Tag());
-  const Mask enters = hn::Eq(all(inside_only ? 1.0F : 0.0F), none);  // and not only leaves
-  for (int row = box.top >> 2; row <= box.bottom >> 2; ++row) {
+  /// `exact(column, row, samples)` gets the samples of a block that rounding decides, as bits.
+  template <class Exact>
+  HWY_INLINE void paint(const SampleRectangle& box, TileImage& image, Exact exact) const {
+    const int first_column = box.left >> 2;
+    const int last_column = box.right >> 2;
+    const int first_row = box.top >> 2;
+    const int last_row = box.bottom >> 2;
+    if (!kOutside || (last_column - first_column + 1) * (last_row - first_row + 1) <= kFewBlocks) {
+      for (int row = first_row; row <= last_row; ++row) {
+        paint_row(row, first_column, last_column, image, exact);
+      }
+      return;
+    }
+    std::array<TileLine, 2> sides = cone_.sides;
+    for (TileLine& side : sides) side.constant += cone_.least_side;
+    const RowEnds ends(sides, first_column, last_column);
+    for (int row = first_row; row <= last_row; ++row) {
+      paint_row(row, ends.first(row), ends.last(row), image, exact);
+    }
+  }
+
+ private:
+  static constexpr int kFewBlocks = 8;  ///< finding the ends of rows would cost more than it saves
+
+  template <class Exact>
+  HWY_INLINE void paint_row(int row, int first_column, int last_column, TileImage& image,
+                            Exact exact) const {
     for (std::size_t first = 0; first < TileImage::kBlockSamples; first += kLanes) {
       const Floats j = hn::Add(block_y(first), all(static_cast<float>(4 * row)));
-      const Floats first_side = start_of_row(cone.first_side, j);
-      const Floats second_side = start_of_row(cone.second_side, j);
-      for (int column = box.left >> 2; column <= box.right >> 2; ++column) {
-        const Floats i = hn::Add(block_x(first), all(static_cast<float>(4 * column)));
-        const Floats side = at_column(cone.first_side, first_side, i);
-        const Floats other = at_column(cone.second_side, second_side, i);
-        const Floats square =
-            kOutside ? hn::Mul(side, other) : hn::MulAdd(side, side, hn::Mul(other, other));
-        const Mask touched = hn::Le(hn::Min(hn::Abs(side), hn::Abs(other)), all(cone.least_side));
-        const std::size_t at = TileImage::block(column, row) + first;
-        const Mask met = hn::And(hn::Or(hn::Ge(square, none), touched),
-                                 hn::Le(load(&image.inverse_t[at]), all(nearest)));
-        if (hn::AllFalse(Tag(), met)) continue;
-
-        const Floats root = hn::Sqrt(hn::Max(square, none));
-        const Floats b = at_column(cone.half_linear, start_of_row(cone.half_linear, j), i);
-        const Mask enters_first = hn::Lt(b, none);
-        const Floats q = hn::Neg(hn::Add(b, hn::CopySign(root, b)));
-        ConeDirections d;
-        d.beside = at_column(cone.beside, start_of_row(cone.beside, j), i);
-        const Floats across = at_column(cone.across, start_of_row(cone.across, j), i);
-        d.across_squared = hn::Mul(across, across);
-        d.along = at_column(cone.along, start_of_row(cone.along, j), i);
-        d.radius = hn::Mul(all(cone.sine), d.along);
-
-        // The two roots, c w = q and a = w q, of which one is where the ray enters.
-        const Floats w1 = hn::Mul(q, all(cone.inverse_constant));
-        const ConeRoot one = classify(cone, d, w1);
-        const Mask hit1 = hn::And(one.hit, hn::Or(hn::Not(enters_first), enters));
-        Mask doubtful =
-            hn::Or(hn::Or(touched, one.doubtful), hn::Le(hn::Abs(q), all(cone.least_root)));
-        Mask hit = hit1;
-        Floats w = w1;
-        if (!hn::AllTrue(Tag(),
-                         hn::Or(hn::Not(met), hn::Or(doubtful, hn::And(hit1, enters_first))))) {
-          const Floats a =
-              hn::NegMulAdd(d.radius, d.radius, hn::MulAdd(d.beside, d.beside, d.across_squared));
-          const Floats w2 = hn::Div(a, q);
-          const ConeRoot two = classify(cone, d, w2);
-          const Mask hit2 = hn::And(two.hit, hn::Or(enters_first, enters));
-          const Mask decided = hn::And(hit1, enters_first);
-          doubtful = hn::Or(doubtful, hn::AndNot(decided, two.doubtful));
-          w = hn::IfThenElse(hn::And(hit2, hn::Or(hn::Not(hit1), hn::Gt(w2, w1))), w2, w1);
-          hit = hn::Or(hit1, hit2);
+      const Floats side0 = start_of_row(cone_.sides[0], j);
+      const Floats side1 = start_of_row(cone_.sides[1], j);
+      const Floats half_linear = start_of_row(cone_.half_linear, j);
+      const Floats beside = start_of_row(cone_.beside, j);
+      const Floats across = start_of_row(cone_.across, j);
+      const Floats along = start_of_row(cone_.along, j);
+      Floats i = hn::Add(block_x(first), all(static_cast<float>(4 * first_column)));
+      std::size_t at = TileImage::block(first_column, row) + first;
+      for (int column = first_column; column <= last_column;
+           ++column, i = hn::Add(i, all(4.0F)), at += TileImage::kBlockSamples) {
+        const Floats a_side = hn::MulAdd(all(cone_.sides[0].x), i, side0);
+        const Floats b_side = hn::MulAdd(all(cone_.sides[1].x), i, side1);
+        Mask met = hn::Le(load(&image.inverse_t[at]), all(nearest_));
+        Mask doubtful = mask_of(0);
+        Floats square;
+        if constexpr (kOutside) {
+          const Floats inner = hn::Min(a_side, b_side);
+          met = hn::And(met, hn::Ge(inner, all(-cone_.least_side)));
+          doubtful = hn::Le(inner, all(cone_.least_side));
+          square = hn::Max(hn::Mul(a_side, b_side), hn::Zero(Tag()));
+        } else {
+          square = hn::MulAdd(a_side, a_side, hn::Mul(b_side, b_side));
         }
-        keep_nearer(image, at, hn::Mul(w, all(cone.per_length)),
-                    hn::And(met, hn::AndNot(doubtful, hit)), primitive);
-        const LaneBits left = bits_of(hn::And(met, doubtful));
+        if (hn::AllFalse(Tag(), met)) continue;
+        const Floats b = hn::MulAdd(all(cone_.half_linear.x), i, half_linear);
+        ConeDirections d;
+        d.beside = hn::MulAdd(all(cone_.beside.x), i, beside);
+        d.across = hn::MulAdd(all(cone_.across.x), i, across);
+        d.along = hn::MulAdd(all(cone_.along.x), i, along);
+        const LaneBits left = paint_block(d, b, square, met, doubtful, at, image);
         if (left != 0) exact(column, row, left << first);
       }
     }
   }
-}
+
+  /// Returns the samples of a register that rounding decides, which are not painted.
+  HWY_INLINE LaneBits paint_block(const ConeDirections& d, Floats b, Floats square, Mask met,
+                                  Mask doubtful, std::size_t at, TileImage& image) const {
+    const Floats across_squared = hn::Mul(d.across, d.across);
+    const Floats radius = hn::Mul(all(cone_.sine), d.along);
+    const auto classify = [&](Floats w) { return met_at(w, d, across_squared, radius); };
+    // The roots q / c and a / q, without cancellation: with b < 0 the ray enters at the first.
+    const Floats q = hn::Neg(hn::Add(b, hn::CopySign(hn::Sqrt(square), b)));
+    const Mask approaches = hn::Lt(b, hn::Zero(Tag()));
+    const Mask enters = hn::Eq(all(inside_only_ ? 1.0F : 0.0F), hn::Zero(Tag()));
+    Floats w = hn::Mul(q, all(cone_.inverse_constant));
+    const ConeRoot first = classify(w);
+    Mask hit = hn::And(first.hit, hn::Or(hn::Not(approaches), enters));
+    doubtful = hn::Or(hn::Or(doubtful, first.doubtful), hn::Le(hn::Abs(q), all(cone_.least_root)));
+    // Nothing precedes an entry: the other root is farther, or not on the frustum.
+    const Mask decided = hn::Or(doubtful, hn::And(hit, approaches));
+    if (!hn::AllFalse(Tag(), hn::AndNot(decided, met))) {
+      const Floats a =
+          hn::NegMulAdd(radius, radius, hn::MulAdd(d.beside, d.beside, across_squared));
+      const Floats other = hn::Div(a, q);
+      const ConeRoot second = classify(other);
+      const Mask hit_there = hn::AndNot(decided, hn::And(second.hit, hn::Or(approaches, enters)));
+      doubtful = hn::Or(doubtful, hn::AndNot(decided, second.doubtful));
+      const Mask nearer = hn::And(hit_there, hn::Or(hn::Not(hit), hn::Gt(other, w)));
+      w = hn::IfThenElse(nearer, other, w);
+      hit = hn::Or(hit, hit_there);
+    }
+    keep_nearer(image, at, hn::Mul(w, all(cone_.per_length)),
+                hn::And(met, hn::AndNot(doubtful, hit)), primitive_);
+    return bits_of(hn::And(met, doubtful));
+  }
+
+  /// Is the root w a point of the frustum? The point is computed and compared with the surface: an
+  /// inaccurate root, which is rare, is found to be beside it.
+  HWY_INLINE ConeRoot met_at(Floats w, const ConeDirections& d, Floats across_squared,
+                             Floats along_radius) const {
+    const Floats beside = hn::MulAdd(all(cone_.eye_beside), w, d.beside);
+    const Floats radius = hn::MulAdd(all(cone_.eye_radius), w, along_radius);
+    const Floats height = hn::MulAdd(all(cone_.eye_height), w, d.along);
+    // The difference of the squares is the distance from the surface times twice the radius.
+    const Floats off =
+        hn::Abs(hn::NegMulAdd(radius, radius, hn::MulAdd(beside, beside, across_squared)));
+    const Mask on = hn::Le(off, hn::Mul(hn::Mul(all(2.0F * kOnSurface), w), hn::Abs(radius)));
+    const Floats beyond = hn::NegMulAdd(all(cone_.half_length), w, hn::Abs(height));
+    const Floats rim = hn::Mul(all(kAtRim), w);
+    // All of the cone has w >= 1, and no root is so inaccurate that its w would come out below 1/2.
+    const Mask seen = hn::Ge(w, all(0.5F));
+    const Mask inside = hn::And(on, hn::Le(beyond, hn::Neg(rim)));
+    const Mask outside = hn::And(on, hn::Ge(beyond, rim));
+    return {hn::And(seen, inside), hn::AndNot(hn::Or(inside, outside), seen)};
+  }
+
+  const ConeEquation& cone_;
+  scenes::PrimitiveId primitive_;
+  float nearest_;
+  bool inside_only_;
+};
 
 /// Draws the cones of a block, the nearest first. What lies behind `farthest` (1/t) is not drawn.
 inline void draw_cones(const ConeBlock& block, const scenes::Scene& scene, const TileRays& rays,
@@ -161,9 +204,10 @@ inline void draw_cones(const ConeBlock& block, const scenes::Scene& scene, const
         }
       };
       if (equation->outside) {
-        draw_cone<true>(*equation, cone.inside_only, primitive, box, nearest, image, exact);
+        ConePainter<true>(*equation, cone.inside_only, primitive, nearest).paint(box, image, exact);
       } else {
-        draw_cone<false>(*equation, cone.inside_only, primitive, box, nearest, image, exact);
+        ConePainter<false>(*equation, cone.inside_only, primitive, nearest)
+            .paint(box, image, exact);
       }
     }
     mark_stale(image, box);
