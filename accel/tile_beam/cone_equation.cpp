@@ -31,9 +31,10 @@ std::optional<ConeEquation> cone_equation(const scenes::Cone& cone, const Sample
                                           const TileView& view) {
   const glm::dvec3 base(cone.base);
   const glm::dvec3 whole_axis = glm::dvec3(cone.apex) - base;
-  const double length = glm::length(whole_axis);
+  const double length_squared = glm::dot(whole_axis, whole_axis);
+  const double length = std::sqrt(length_squared);
   const double taper = static_cast<double>(cone.apex_radius) - cone.base_radius;
-  const double slant = std::hypot(length, taper);
+  const double slant = std::sqrt(length_squared + taper * taper);
   const double cosine = length / slant;
   if (cosine < kFlat) return std::nullopt;
   const double sine = taper / slant;
@@ -41,7 +42,7 @@ std::optional<ConeEquation> cone_equation(const scenes::Cone& cone, const Sample
 
   const glm::dvec3 from_middle = glm::dvec3(view.eye) - (base + 0.5 * whole_axis);
   const double widest = std::max(cone.base_radius, cone.apex_radius);
-  const double unit = glm::length(from_middle) + std::hypot(0.5 * length, widest);
+  const double unit = glm::length(from_middle) + std::sqrt(0.25 * length_squared + widest * widest);
   const double per_length = 1.0 / unit;
   const double half_length = 0.5 * length * per_length;
   if (half_length < kShort) return std::nullopt;

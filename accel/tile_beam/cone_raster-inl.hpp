@@ -7,7 +7,10 @@
 #define ACCEL_TILE_BEAM_CONE_RASTER_INL
 #endif
 
+#include <array>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 
 #include "accel/core/intersect_cone.hpp"
@@ -15,6 +18,7 @@
 #include "accel/tile_beam/cone_equation.hpp"
 #include "accel/tile_beam/ray_raster-inl.hpp"
 #include "accel/tile_beam/row_ends-inl.hpp"
+#include "accel/tile_beam/tile_hierarchy.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
@@ -178,8 +182,11 @@ class ConePainter {
 };
 
 /// Draws the cones of a block, the nearest first. What lies behind `farthest` (1/t) is not drawn.
-inline void draw_cones(const ConeBlock& block, const scenes::Scene& scene, const TileRays& rays,
-                       const BoxProbe& probe, float farthest, TileImage& image) {
+/// Returns how many samples needed the canonical test because rounding would have decided them.
+inline std::uint64_t draw_cones(const ConeBlock& block, const scenes::Scene& scene,
+                                const TileRays& rays, const BoxProbe& probe, float farthest,
+                                TileImage& image) {
+  std::uint64_t doubtful = 0;
   BoxProbe::Met met;
   probe.probe(block.boxes, block.count, farthest, met);
   for (LaneBits left = met.lanes; left != 0;) {
@@ -197,6 +204,7 @@ inline void draw_cones(const ConeBlock& block, const scenes::Scene& scene, const
       draw_by_rays(rays, box, nearest, primitive, image, intersect);
     } else {
       const auto exact = [&](int column, int row, LaneBits samples) {
+        doubtful += static_cast<std::uint64_t>(std::popcount(samples));
         for (; samples != 0; samples &= samples - 1) {
           const int sample = std::countr_zero(samples);
           draw_by_ray(rays, 4 * column + (sample & 3), 4 * row + (sample >> 2), nearest, primitive,
@@ -212,6 +220,7 @@ inline void draw_cones(const ConeBlock& block, const scenes::Scene& scene, const
     }
     mark_stale(image, box);
   }
+  return doubtful;
 }
 
 }  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
