@@ -102,7 +102,7 @@ std::optional<ConeEquation> cone_equation(const scenes::Cone& cone, const Sample
   equation.inverse_constant = static_cast<float>(1.0 / constant);
   equation.per_length = static_cast<float>(per_length);
   equation.outside = outside;
-  equation.least_side = outside ? static_cast<float>(0x1p-20 * side) : -1.0F;
+  equation.least_side = static_cast<float>(0x1p-20 * side);
   equation.least_root = static_cast<float>(0x1p-18 * longest_squared);
   return equation;
 }

@@ -42,7 +42,7 @@ struct ConeEquation {
   float inverse_constant;         ///< 1 / c
   float per_length;               ///< 1 / the unit of lengths
   bool outside;                   ///< the eye is, of the double cone
-  float least_side;               ///< sides nearer to 0 than this are 0 to within rounding
+  float least_side;               ///< seen from outside, sides nearer to 0 may have either sign
   float least_root;               ///< b +- its root, likewise: the other root is then inaccurate
 };
 

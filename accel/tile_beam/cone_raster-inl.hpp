@@ -137,8 +137,8 @@ class ConePainter {
     const ConeRoot first = classify(w);
     Mask hit = hn::And(first.hit, hn::Or(hn::Not(approaches), enters));
     doubtful = hn::Or(hn::Or(doubtful, first.doubtful), hn::Le(hn::Abs(q), all(cone_.least_root)));
-    // Nothing precedes an entry: the other root is farther, or not on the frustum.
-    const Mask decided = hn::Or(doubtful, hn::And(hit, approaches));
+    // Both are met only where the ray approaches, and then the first is the nearer.
+    const Mask decided = hn::Or(doubtful, hit);
     if (!hn::AllFalse(Tag(), hn::AndNot(decided, met))) {
       const Floats a =
           hn::NegMulAdd(radius, radius, hn::MulAdd(d.beside, d.beside, across_squared));
@@ -146,8 +146,7 @@ class ConePainter {
       const ConeRoot second = classify(other);
       const Mask hit_there = hn::AndNot(decided, hn::And(second.hit, hn::Or(approaches, enters)));
       doubtful = hn::Or(doubtful, hn::AndNot(decided, second.doubtful));
-      const Mask nearer = hn::And(hit_there, hn::Or(hn::Not(hit), hn::Gt(other, w)));
-      w = hn::IfThenElse(nearer, other, w);
+      w = hn::IfThenElse(hit_there, other, w);
       hit = hn::Or(hit, hit_there);
     }
     keep_nearer(image, at, hn::Mul(w, all(cone_.per_length)),
