@@ -12,21 +12,21 @@ namespace beambench::accel::tile_beam {
 
 /// How rays from one eye meet a cone frustum. Lengths are in units of the distance from the eye
 /// within which all of the cone lies, so that scenes of any size have the same rounding, and
-/// w = 1/t is the unknown. Let E be the eye seen from the frustum's middle, at height H along the
+/// w = 1/t is the unknown. Seen from the frustum's middle, let the eye be at height H along the
 /// axis and at the distance X beside it; x be the direction from the axis to the eye, y at right
 /// angles to it and to the axis; C and S the cosine and sine of the angle between the surface and
-/// the axis. The ray's point, multiplied by w, then has
+/// the axis. The point of a ray in direction d, multiplied by w, then has
 ///
 ///   along x       X w + d.x
 ///   along y       d.y
-///   height        h = H w + d.axis
+///   height        H w + d.axis
 ///   C x radius    R w + S d.axis         with R that at the height of the eye
 ///
 /// and is on the surface where C^2 (square of the distance from the axis) equals the square of the
 /// last, so  c w^2 + 2 b w + a = 0  with a constant c, and b that is linear in the direction.
 /// Where the eye is outside the (infinite, double) cone, b^2 - a c is a product of two linear
 /// functions: those of the planes through the eye that touch it, which are the lines of its
-/// silhouette. Both are positive between these lines, on the side on which radii are. Where the eye
+/// silhouette. Both are positive between these lines, where the radius is positive. Where the eye
 /// is inside, b^2 - a c is the sum of the squares of two linear functions.
 struct ConeEquation {
   TileLine beside;                ///< C d.x
@@ -43,7 +43,7 @@ struct ConeEquation {
   float per_length;               ///< 1 / the unit of lengths
   bool outside;                   ///< the eye is, of the double cone
   float least_side;               ///< seen from outside, sides nearer to 0 may have either sign
-  float least_root;               ///< b +- its root, likewise: the other root is then inaccurate
+  float least_root;               ///< where |b| + sqrt(b^2 - a c) is less, w is too inaccurate
 };
 
 /// The equation for a tile of a raster. None for the cones that float is too coarse for: flat ones
