@@ -14,13 +14,6 @@
 
 namespace beambench::accel::tile_beam {
 
-/// x * i + y * j + constant at sample (i, j) of a tile.
-struct TileLine {
-  float x;
-  float y;
-  float constant;
-};
-
 /// The condition for a sample of the box to hit a triangle: no edge is negative. The plane then
 /// gives 1/t.
 struct ExactTriangle {

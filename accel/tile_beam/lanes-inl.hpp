@@ -81,6 +81,17 @@ HWY_INLINE LaneBits for_each_register(Test test) {
   return bits;
 }
 
+/// The lane of the largest value among some.
+template <std::size_t kValues>
+HWY_INLINE std::size_t largest_of(const std::array<float, kValues>& values, LaneBits lanes) {
+  auto largest = static_cast<std::size_t>(std::countr_zero(lanes));
+  for (lanes &= lanes - 1; lanes != 0; lanes &= lanes - 1) {
+    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
+    if (values[lane] > values[largest]) largest = lane;
+  }
+  return largest;
+}
+
 /// Three coordinates per lane.
 struct Points {
   Floats x;

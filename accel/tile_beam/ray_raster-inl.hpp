@@ -23,19 +23,26 @@ struct TileRays {
   HWY_INLINE Ray at(int x, int y) const { return raster.ray(rays, view.left + x, view.top + y); }
 };
 
-/// `intersect(ray)` returns t or kMiss for a CanonicalRay. Samples of `box` that are nearer already
-/// than 1/t = `nearest` are left out.
+/// Draws one sample, unless it is nearer already than 1/t = `nearest`. `intersect(ray)` returns t
+/// or kMiss for a CanonicalRay.
+template <class Intersect>
+HWY_INLINE void draw_by_ray(const TileRays& rays, int x, int y, float nearest,
+                            scenes::PrimitiveId primitive, TileImage& image, Intersect intersect) {
+  const std::size_t at = TileImage::place(x, y);
+  if (image.inverse_t[at] > nearest) return;
+  const float t = intersect(CanonicalRay(rays.at(x, y)));
+  if (!is_hit(t) || !(inverse_of(t) > image.inverse_t[at])) return;
+  image.inverse_t[at] = inverse_of(t);
+  image.primitive[at] = primitive;
+}
+
+/// Draws the samples of `box` so.
 template <class Intersect>
 HWY_INLINE void draw_by_rays(const TileRays& rays, const SampleRectangle& box, float nearest,
                              scenes::PrimitiveId primitive, TileImage& image, Intersect intersect) {
   for (int y = box.top; y <= box.bottom; ++y) {
     for (int x = box.left; x <= box.right; ++x) {
-      const std::size_t at = TileImage::place(x, y);
-      if (image.inverse_t[at] > nearest) continue;
-      const float t = intersect(CanonicalRay(rays.at(x, y)));
-      if (!is_hit(t) || !(inverse_of(t) > image.inverse_t[at])) continue;
-      image.inverse_t[at] = inverse_of(t);
-      image.primitive[at] = primitive;
+      draw_by_ray(rays, x, y, nearest, primitive, image, intersect);
     }
   }
 }

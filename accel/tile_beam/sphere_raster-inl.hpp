@@ -7,7 +7,6 @@
 #define ACCEL_TILE_BEAM_SPHERE_RASTER_INL
 #endif
 
-#include <bit>
 #include <cmath>
 
 #include "accel/core/intersect_sphere.hpp"
@@ -141,16 +140,6 @@ HWY_INLINE void draw_sphere(const glm::vec3& from_eye, float radius, bool inside
   }
 }
 
-/// The lane of the nearest sphere among some.
-inline std::size_t nearest_of(const SphereBoxes& boxes, LaneBits lanes) {
-  auto nearest = static_cast<std::size_t>(std::countr_zero(lanes));
-  for (lanes &= lanes - 1; lanes != 0; lanes &= lanes - 1) {
-    const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-    if (boxes.nearest[lane] > boxes.nearest[nearest]) nearest = lane;
-  }
-  return nearest;
-}
-
 /// Is the eye so near to a sphere's surface that float cannot decide its side? Half of the hits at
 /// t = 0 would be lost.
 HWY_INLINE bool is_at_eye(const glm::vec3& from_eye, float radius) {
@@ -167,7 +156,7 @@ inline void draw_spheres(const SphereBlock& block, const scenes::Scene& scene, c
   SphereBoxes boxes;
   see_spheres(block, view, boxes);
   for (LaneBits left = boxes.seen; left != 0;) {
-    const std::size_t lane = nearest_of(boxes, left);
+    const std::size_t lane = largest_of(boxes.nearest, left);
     left &= ~(LaneBits{1} << lane);
     const float nearest = boxes.nearest[lane] * (1.0F + 0x1p-18F);
     if (nearest < farthest) return;

@@ -7,7 +7,7 @@
 #define ACCEL_TILE_BEAM_STORED_IMAGES_INL
 #endif
 
-#include "accel/tile_beam/exact_triangle.hpp"
+#include "accel/tile_beam/tile_view.hpp"
 #include "accel/tile_beam/triangle_setup-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();

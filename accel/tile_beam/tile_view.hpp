@@ -16,6 +16,13 @@ inline constexpr int kTileHeight = 128;
 /// more than those made in float may err, so that no gap is left between the two.
 inline constexpr double kEdgeWidening = 0x1.8p-22;
 
+/// x * i + y * j + constant at sample (i, j) of a tile.
+struct TileLine {
+  float x;
+  float y;
+  float constant;
+};
+
 /// How a raster's camera projects points to the screen, in double. A point p relative to the eye
 /// has the view depth w = depth . p and lies on the screen at sample (x . p / w, y . p / w).
 struct RasterView {

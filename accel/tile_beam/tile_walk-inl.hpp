@@ -144,7 +144,8 @@ class TileWalk {
       case TileChild::Kind::kCones: {
         const ConeBlock& block = hierarchy_->cones[entry.child.index()];
         counting_->add_tests(scenes::PrimitiveKind::kCone, block.count);
-        draw_cones(block, *scene_, rays_, probe_, farthest_, *image_);
+        counting_->add("doubtful_samples",
+                       draw_cones(block, *scene_, rays_, probe_, farthest_, *image_));
         break;
       }
       case TileChild::Kind::kNode:

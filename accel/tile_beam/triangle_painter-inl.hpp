@@ -7,51 +7,12 @@
 #define ACCEL_TILE_BEAM_TRIANGLE_PAINTER_INL
 #endif
 
-#include <cmath>
-
-#include "accel/tile_beam/exact_triangle.hpp"
+#include "accel/tile_beam/row_ends-inl.hpp"
 #include "accel/tile_beam/tile_raster-inl.hpp"
 #include "accel/tile_beam/triangle_setup-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
-
-/// Of each row of blocks, those between the edges: the others lie outside one of them.
-class RowEnds {
- public:
-  HWY_INLINE RowEnds(const std::array<TileLine, 3>& edges, int first_column, int last_column) {
-    for (std::size_t row = 0; row < TileImage::kBlockRows; row += kLanes) {
-      const Floats top = hn::Iota(Tag(), static_cast<float>(row));
-      Floats low = all(static_cast<float>(4 * first_column));
-      Floats high = all(static_cast<float>(4 * last_column + 3));
-      for (const TileLine& edge : edges) {
-        // The largest value on a column of the first block, and a little for rounding.
-        const float largest = edge.constant + (edge.y > 0.0F ? 3.0F * edge.y : 0.0F) +
-                              0x1p-21F * (std::abs(edge.constant) + std::abs(kTileHeight * edge.y));
-        const Floats value = hn::MulAdd(all(4.0F * edge.y), top, all(largest));
-        constexpr float kLevel = 1e-30F;  // such an edge ends no row
-        constexpr float kSlack = 0.0625F;
-        if (edge.x > kLevel) {
-          low = hn::Max(low, hn::MulAdd(value, all(-1.0F / edge.x), all(-kSlack)));
-        } else if (edge.x < -kLevel) {
-          high = hn::Min(high, hn::MulAdd(value, all(-1.0F / edge.x), all(kSlack)));
-        }
-      }
-      const auto block_of = [](Floats sample) {
-        return hn::ShiftRight<2>(hn::ConvertTo(IntTag(), hn::Floor(sample)));
-      };
-      hn::Store(block_of(hn::Min(low, all(1e6F))), IntTag(), &first_[row]);
-      hn::Store(block_of(hn::Max(high, all(-4.0F))), IntTag(), &last_[row]);
-    }
-  }
-
-  int first(int row) const { return first_[static_cast<std::size_t>(row)]; }
-  int last(int row) const { return last_[static_cast<std::size_t>(row)]; }
-
- private:
-  alignas(64) std::array<std::int32_t, TileImage::kBlockRows> first_;
-  alignas(64) std::array<std::int32_t, TileImage::kBlockRows> last_;
-};
 
 /// Draws one triangle by blocks.
 class BlockPainter {
