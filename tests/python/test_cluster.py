@@ -67,6 +67,21 @@ def test_pictures_of_hits_are_the_sequential_ones(tmp_path: Path) -> None:
         assert one.read_bytes() == several.read_bytes()
 
 
+def test_files_go_where_links_and_pipes_lead(tmp_path: Path) -> None:
+    report, tasks = tmp_path / "run.json", tmp_path / "tasks.csv"
+    (tmp_path / "target").write_text("old")
+    report.symlink_to("target")
+    os.mkfifo(tasks)
+    reader = os.open(tasks, os.O_RDONLY | os.O_NONBLOCK)
+    run = mpirun("-n", 1, CLUSTER, "tetra:n=1", *SMALL, "--report", report, "--tasks", tasks)
+    assert run.returncode == 0, run.stderr
+    assert report.is_symlink()
+    assert json.loads((tmp_path / "target").read_text())
+    assert tasks.is_fifo()
+    assert os.read(reader, 1 << 20).startswith(b"task,")
+    os.close(reader)
+
+
 def test_the_record_adds_up(tmp_path: Path) -> None:
     report_file, task_file = tmp_path / "run.json", tmp_path / "tasks.csv"
     run = mpirun(
