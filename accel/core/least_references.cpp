@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -113,16 +114,21 @@ double least_references(const scenes::Scene& scene, const CellGrid& grid) {
 
 // So many references for each primitive that computing their least number takes no time beside
 // them; small scenes have made the first of them in some milliseconds.
-ReferenceLimit::ReferenceLimit(std::uint64_t most, const scenes::Scene& scene, const CellGrid& grid)
+ReferenceLimit::ReferenceLimit(std::uint64_t most, const scenes::Scene& scene,
+                               std::function<bool()> will_exceed)
     : most_(most),
       next_(std::min(most, (std::uint64_t{1} << 16U) + 64 * scene.primitives.size())),
-      scene_(&scene),
-      grid_(&grid) {}
+      will_exceed_(std::move(will_exceed)) {}
+
+ReferenceLimit::ReferenceLimit(std::uint64_t most, const scenes::Scene& scene, const CellGrid& grid)
+    : ReferenceLimit(most, scene, [most, &scene, &grid] {
+        return least_references(scene, grid) > static_cast<double>(most);
+      }) {}
 
 bool ReferenceLimit::is_too_much(std::uint64_t made) {
   if (next_ < most_) {
     next_ = most_;
-    if (least_references(*scene_, *grid_) > static_cast<double>(most_)) return true;
+    if (will_exceed_()) return true;
   }
   return made > most_;
 }

@@ -1,7 +1,9 @@
 #pragma once
 // References predicted while they are made, so that too many are refused early.
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 
 #include <glm/vec3.hpp>
 
@@ -20,15 +22,17 @@ double least_cells(const scenes::Scene& scene, scenes::PrimitiveId id, const glm
 /// `least_cells`. Of a large sphere it is two thirds of them, of a large triangle a third or more.
 double least_references(const scenes::Scene& scene, const CellGrid& grid);
 
-/// Watches the references of a structure while they are made. What would have fit is never refused.
+/// Watches the references of a structure while they are made.
 class ReferenceLimit {
  public:
   /// No more than `most`.
   explicit ReferenceLimit(std::uint64_t most) : most_(most), next_(most) {}
-  /// No more than `most`, of all finest cells of a grid over the whole scene. Scene and grid
-  /// outlive it. As soon as there are many references for each primitive, `least_references` is
-  /// computed, so that what is certain to exceed the limit ends there; scenes of small primitives
-  /// never pay for it.
+  /// No more than `most`. As soon as there are many references for each primitive, `will_exceed` is
+  /// asked once whether there will be more, so that what is too much ends there; scenes of small
+  /// primitives never pay for it. It must not say so of what fits.
+  ReferenceLimit(std::uint64_t most, const scenes::Scene& scene, std::function<bool()> will_exceed);
+  /// No more than `most`, of all finest cells of a grid over the whole scene: `least_references` of
+  /// them are certain. Scene and grid outlive it.
   ReferenceLimit(std::uint64_t most, const scenes::Scene& scene, const CellGrid& grid);
 
   /// Will there be more than the limit, now that so many have been made?
@@ -39,8 +43,7 @@ class ReferenceLimit {
 
   std::uint64_t most_;
   std::uint64_t next_;  ///< beyond which the next question is decided
-  const scenes::Scene* scene_ = nullptr;
-  const CellGrid* grid_ = nullptr;
+  std::function<bool()> will_exceed_;
 };
 
 }  // namespace beambench::accel

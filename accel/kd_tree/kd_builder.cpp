@@ -14,6 +14,8 @@
 
 #include "accel/bvh/clip.hpp"
 #include "accel/bvh/padded_bounds.hpp"
+#include "accel/core/expected_references.hpp"
+#include "accel/core/least_references.hpp"
 #include "accel/core/tolerance.hpp"
 #include "accel/kd_tree/kd_tree.hpp"
 #include "accel/kd_tree/split_events.hpp"
@@ -97,7 +99,8 @@ class Builder {
         tolerance_(overlap_tolerance(scene)),
         pieces_(bvh::collect_pieces(scene)),
         sides_(pieces_.size()),
-        most_splits_(options.depth_for(pieces_.size())) {}
+        most_splits_(options.depth_for(pieces_.size())),
+        limit_(options.max_references, scene, [this] { return will_exceed(); }) {}
 
   KdTree build() {
     tree_.scene_bounds = scene_.bounds;
@@ -117,7 +120,7 @@ class Builder {
     // Hits lie within the tolerance of the bounds: the root must hold them.
     tree_.root = bvh::padded(scene_.bounds, 2.0 * tolerance_);
     begin();
-    subdivide({0, 0, static_cast<std::uint32_t>(pieces_.size()), 0, tree_.root});
+    subdivide(root());
     tree_.cost /= bvh::half_area(tree_.root);
     tree_.nodes.shrink_to_fit();
     tree_.blocks.shrink_to_fit();
@@ -137,6 +140,10 @@ class Builder {
   };
 
   enum Side : std::uint8_t { kBelow, kAbove, kBoth };
+
+  using EventLists = std::array<std::vector<SplitEvent>, 3>;
+
+  Pending root() const { return {0, 0, static_cast<std::uint32_t>(pieces_.size()), 0, tree_.root}; }
 
   void begin() {
     const std::size_t count = 2 * pieces_.size();
@@ -183,14 +190,52 @@ class Builder {
     tree_.cost += bvh::half_area(pending.cell);
     tree_.visits.add_node(pending.cell);
 
-    Pending below{children, pending.first_event, 0, pending.splits + 1,
-                  lower_cell(pending.cell, node)};
-    Pending above{children + 1, end_, 0, pending.splits + 1, upper_cell(pending.cell, node)};
-    distribute(pending, split, below, above);
+    const auto [below, above] = distribute(pending, split, node);
     end_ = above.first_event + above.events();
     subdivide(below);
     subdivide(above);
     end_ = above.first_event;
+  }
+
+  /// Will there be too many references? A builder of its own divides nodes that are kept apart.
+  bool will_exceed() const {
+    struct Node {
+      Pending place;
+      EventLists events;
+      std::size_t size() const { return place.count; }
+    };
+    Builder builder(scene_, options_);
+    builder.tree_.root = tree_.root;
+    builder.begin();
+    const auto taken = [&builder](const Pending& pending) {
+      Node node{pending, {}};
+      for (int axis = 0; axis < 3; ++axis) {
+        const std::span<SplitEvent> events = builder.list(axis, pending);
+        node.events[static_cast<std::size_t>(axis)].assign(events.begin(), events.end());
+      }
+      return node;
+    };
+    const auto divide = [&](const Node& node) -> std::optional<std::vector<Node>> {
+      Pending pending = node.place;
+      pending.first_event = 0;
+      builder.end_ = pending.events();
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto& events = node.events[static_cast<std::size_t>(axis)];
+        std::copy(events.begin(), events.end(), builder.list(axis, 0));
+      }
+      const Split split = builder.best_split(pending);
+      if (split.axis < 0) return std::nullopt;
+      std::vector<Node> children;
+      const KdNode planes = KdNode::interior(static_cast<std::size_t>(split.axis), split.plane, 0);
+      for (const Pending& child : builder.distribute(pending, split, planes)) {
+        if (child.count > 0) children.push_back(taken(child));
+      }
+      return children;
+    };
+    const Node root = taken(builder.root());
+    return surely_more_than(options_.max_references, [&](Random& random) {
+      return expected_references(root, divide, random).leaves;
+    });
   }
 
   Split best_split(const Pending& pending) {
@@ -230,8 +275,12 @@ class Builder {
     }
   }
 
-  /// Hands the items of a node down to its children.
-  void distribute(const Pending& pending, const Split& split, Pending& below, Pending& above) {
+  /// Hands the items of a node down to its children, which are returned.
+  std::array<Pending, 2> distribute(const Pending& pending, const Split& split,
+                                    const KdNode& node) {
+    Pending below{node.children(), pending.first_event, 0, pending.splits + 1,
+                  lower_cell(pending.cell, node)};
+    Pending above{node.children() + 1, end_, 0, pending.splits + 1, upper_cell(pending.cell, node)};
     classify(pending, split);
     require_events(end_ + pending.events());
     for (auto& events : events_below_) events.clear();
@@ -248,6 +297,7 @@ class Builder {
       below.count = static_cast<std::uint32_t>((kept_below + events_below_[slot].size()) / 2);
       above.count = static_cast<std::uint32_t>((kept_above + events_above_[slot].size()) / 2);
     }
+    return {below, above};
   }
 
   /// Finds on which side of the plane each item is. It begins before it ends.
@@ -286,8 +336,6 @@ class Builder {
             static_cast<std::size_t>(to_above - first_above)};
   }
 
-  using EventLists = std::array<std::vector<SplitEvent>, 3>;
-
   /// Adds the events of an item's part in a cell; none where it does not reach into it.
   void clip_into(std::uint32_t item, const scenes::Bounds& cell, EventLists& lists) const {
     const Box wider{glm::dvec3(cell.lower) - tolerance_, glm::dvec3(cell.upper) + tolerance_};
@@ -321,7 +369,7 @@ class Builder {
     ++tree_.leaves;
     if (pending.count == 0) ++tree_.empty_leaves;
     tree_.references += pending.count;
-    if (tree_.references > options_.max_references) {
+    if (limit_.exceeded(tree_.references)) {
       fail_too_many("references", options_.max_references);
     }
     leaf_items_.clear();
@@ -366,6 +414,7 @@ class Builder {
   std::vector<std::uint32_t> leaf_items_;  ///< of the leaf being made
   std::vector<bvh::Piece> leaf_pieces_;
   int most_splits_;
+  ReferenceLimit limit_;
   KdTree tree_;
 };
 

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
+#include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/common.hpp>
@@ -80,6 +83,35 @@ std::array<std::size_t, 8> NodeDivision::distribute(const OctreeCell& cell, cons
     }
   }
   return ends;
+}
+
+ExpectedReferences NodeDivision::expected_references(int level, Random& random) const {
+  struct Node {
+    OctreeCell cell;
+    std::vector<scenes::PrimitiveId> primitives;
+    std::size_t size() const { return primitives.size(); }
+  };
+  Node top{root(), std::vector<scenes::PrimitiveId>(scene_->primitives.size())};
+  std::iota(top.primitives.begin(), top.primitives.end(), scenes::PrimitiveId{0});
+  std::vector<scenes::PrimitiveId> lists;
+  std::vector<std::uint8_t> octants;
+  const auto divide = [&](const Node& node) -> std::optional<std::vector<Node>> {
+    if (node.cell.level >= level || !divides(node.cell, node.size())) return std::nullopt;
+    const glm::ivec3 planes = split(node.cell, node.primitives);
+    const auto ends = distribute(node.cell, planes, node.primitives, octants, lists);
+    std::vector<Node> children;
+    std::ptrdiff_t begin = 0;
+    for (std::uint32_t octant = 0; octant < 8; ++octant) {
+      const auto end = static_cast<std::ptrdiff_t>(ends[octant]);
+      if (begin < end) {
+        children.push_back(
+            {node.cell.child(planes, octant), {lists.begin() + begin, lists.begin() + end}});
+      }
+      begin = end;
+    }
+    return children;
+  };
+  return accel::expected_references(std::move(top), divide, random);
 }
 
 /// The children that a primitive of the node belongs to, as a bit mask.

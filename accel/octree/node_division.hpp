@@ -10,7 +10,9 @@
 #include <glm/vec3.hpp>
 
 #include "accel/core/cell_grid.hpp"
+#include "accel/core/expected_references.hpp"
 #include "accel/octree/octree.hpp"
+#include "scenes/core/random.hpp"
 #include "scenes/primitive.hpp"
 #include "scenes/scene.hpp"
 
@@ -62,6 +64,9 @@ class NodeDivision {
                                         std::span<const scenes::PrimitiveId> primitives,
                                         std::vector<std::uint8_t>& octants,
                                         std::vector<scenes::PrimitiveId>& lists) const;
+
+  /// An estimate for the octree that is divided no deeper than `level`.
+  ExpectedReferences expected_references(int level, Random& random) const;
 
   /// Throws the InputError that names `max_references`.
   [[noreturn]] void fail_too_many_references() const;

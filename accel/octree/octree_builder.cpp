@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "accel/core/expected_references.hpp"
 #include "accel/core/least_references.hpp"
 #include "accel/octree/node_division.hpp"
 #include "accel/octree/octree.hpp"
@@ -62,12 +63,19 @@ class OctreeBuilder {
   }
 
  private:
-  /// Where every occupied node is divided down to the finest cells, these foretell the references.
+  /// Where every occupied node is divided down to the finest cells, these foretell the references;
+  /// elsewhere they are estimated.
   ReferenceLimit limit() const {
-    const bool all_divided = options_.max_objects == 0 && part_ == nullptr &&
-                             options_.planes == OctreeOptions::Planes::kMedian;
-    if (!all_divided) return ReferenceLimit(options_.max_references);
-    return {options_.max_references, scene_, division_.grid()};
+    const std::uint64_t most = options_.max_references;
+    if (part_ != nullptr) return ReferenceLimit(most);
+    if (options_.max_objects == 0 && options_.planes == OctreeOptions::Planes::kMedian) {
+      return {most, scene_, division_.grid()};
+    }
+    return {most, scene_, [this, most] {
+              return surely_more_than(most, [this](Random& random) {
+                return division_.expected_references(options_.max_level, random).leaves;
+              });
+            }};
   }
   void begin() {
     octree_.grid_ = division_.grid();

@@ -4,13 +4,21 @@
 #include <numeric>
 #include <utility>
 
+#include "accel/core/expected_references.hpp"
+
 namespace beambench::accel::octree {
 
 OnDemandOctree::OnDemandOctree(const scenes::Scene& scene, const OctreeOptions& options)
-    : options_(options), division_(scene, options_) {
+    : options_(options), division_(scene, options_), limit_(options_.max_references, scene, [this] {
+        return surely_more_than(options_.max_references, [this](Random& random) {
+          return division_.expected_references(options_.built_level, random).lists;
+        });
+      }) {
   root_.references.resize(scene.primitives.size());
   std::iota(root_.references.begin(), root_.references.end(), scenes::PrimitiveId{0});
   divide_to(root_, root_cell(), options_.built_level);
+  // What is divided from now on, and how much of it, is for the rays to say.
+  limit_ = ReferenceLimit(options_.max_references);
 }
 
 void OnDemandOctree::divide_to(const OnDemandNode& node, const OctreeCell& cell, int level) const {
@@ -36,7 +44,7 @@ const Children& OnDemandOctree::divide(const OnDemandNode& node, const OctreeCel
   }
   const std::lock_guard lock(publishing_);
   if (const Children* earlier = node.children.load(std::memory_order_acquire)) return *earlier;
-  if (references_made_ + lists.size() > options_.max_references) {
+  if (limit_.exceeded(references_made_ + lists.size())) {
     division_.fail_too_many_references();
   }
   references_made_ += lists.size();

@@ -14,6 +14,7 @@
 
 #include "accel/core/cell_grid.hpp"
 #include "accel/core/cell_ray.hpp"
+#include "accel/core/least_references.hpp"
 #include "accel/core/overlap.hpp"
 #include "accel/core/statistics.hpp"
 #include "accel/octree/descend.hpp"
@@ -89,6 +90,7 @@ class OnDemandOctree {
   mutable std::mutex publishing_;
   mutable std::vector<std::unique_ptr<const Children>> divided_;
   mutable std::uint64_t references_made_ = 0;
+  mutable ReferenceLimit limit_;
 };
 
 /// A node of an octree on demand with the box that it spans. A node that must be divided is when

@@ -48,9 +48,13 @@ std::size_t place_of_name(std::string_view what, std::string_view name,
       fmt::format("unknown {} '{}'; choose from: {}", what, excerpt(name), fmt::join(names, ", ")));
 }
 
+void print_message(std::FILE* stream, std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stream);
+  std::fflush(stream);
+}
+
 int report_error(std::string_view program, std::string_view message, int exit_code) {
-  const std::string line = fmt::format("{}: {}\n", program, message_line(message));
-  std::fputs(line.c_str(), stderr);  // where it cannot be written, there is nowhere to say so
+  print_message(stderr, fmt::format("{}: {}\n", program, message_line(message)));
   return exit_code;
 }
 

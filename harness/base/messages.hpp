@@ -2,6 +2,7 @@
 // Messages to the user, and exit codes.
 
 #include <cstddef>
+#include <cstdio>
 #include <exception>
 #include <span>
 #include <string>
@@ -33,6 +34,10 @@ std::vector<std::string> aligned(std::span<const std::vector<std::string>> lines
 /// The place of a name among those of a kind, `what`. Throws InputError listing them.
 std::size_t place_of_name(std::string_view what, std::string_view name,
                           std::span<const std::string_view> names);
+
+/// Writes text on a stream of messages (stderr), at once. Where it cannot be written (a full disk),
+/// nobody is told and nothing is thrown: what is computed is worth more than what is said about it.
+void print_message(std::FILE* stream, std::string_view text);
 
 /// Prints `program: message` on stderr as one printable line (`message_line`), and returns
 /// `exit_code`.

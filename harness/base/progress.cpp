@@ -7,6 +7,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "harness/base/messages.hpp"
 #include "scenes/core/printable.hpp"
 
 namespace beambench::base {
@@ -61,8 +62,7 @@ void Progress::finish(std::string_view result) {
   if (terminal_) {
     draw(0.0);
   } else {
-    fmt::print(stream_, "[{}/{}] {}: {}\n", done_, cells_, name_, result);
-    std::fflush(stream_);
+    print_message(stream_, fmt::format("[{}/{}] {}: {}\n", done_, cells_, name_, result));
   }
 }
 
@@ -72,8 +72,7 @@ void Progress::skip(std::size_t cells) {
 
 void Progress::say(std::string_view line) {
   clear();
-  fmt::print(stream_, "{}\n", line);
-  std::fflush(stream_);
+  print_message(stream_, fmt::format("{}\n", line));
 }
 
 void Progress::draw(double part) {
@@ -88,15 +87,13 @@ void Progress::draw(double part) {
                                  std::min(done_ + 1, cells_), cells_, remaining, name_);
   // A line that runs over the edge could not be wiped.
   line.resize(std::min(line.size(), columns_of(stream_) - 1));
-  fmt::print(stream_, "{}{}", kWipe, line);
-  std::fflush(stream_);
+  print_message(stream_, kWipe + line);
   drawn_ = true;
 }
 
 void Progress::clear() {
   if (!drawn_) return;
-  fmt::print(stream_, "{}", kWipe);
-  std::fflush(stream_);
+  print_message(stream_, kWipe);
   drawn_ = false;
 }
 

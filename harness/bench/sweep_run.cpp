@@ -138,7 +138,9 @@ class SweepRun {
       manifest_.uncontrolled.push_back(*warning);
     }
     manifest_.measurement.hardware_problem = counters_.problem();
-    for (const std::string& line : preflight(manifest_)) fmt::print(messages_, "{}\n", line);
+    for (const std::string& line : preflight(manifest_)) {
+      base::print_message(messages_, fmt::format("{}\n", line));
+    }
     folder_.write_json("manifest.json", to_json(manifest_));
     options_.begun(folder_.path());
     const base::Stopwatch watch;
@@ -322,7 +324,9 @@ class SweepRun {
     manifest_.finished_utc = utc_now();
     const std::vector<Overhead> overheads = largest_overheads(cells);
     manifest_.overhead = to_json(overheads);
-    if (!overheads.empty()) fmt::print(messages_, "{}\n", describe(overheads));
+    if (!overheads.empty()) {
+      base::print_message(messages_, fmt::format("{}\n", describe(overheads)));
+    }
     if (!overheads.empty() && overheads.front().part > kWantedOverhead) {
       manifest_.uncontrolled.push_back(fmt::format("The {}.", describe(overheads)));
     }

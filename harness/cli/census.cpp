@@ -273,8 +273,9 @@ void census(const Request& request) {
   }
   progress.clear();
   if (!request.pictures.empty()) {
-    fmt::print(stderr, "{} in the folder '{}'\n", base::counted(results.size(), "picture"),
-               printable(request.pictures));
+    base::print_message(
+        stderr, fmt::format("{} in the folder '{}'\n", base::counted(results.size(), "picture"),
+                            printable(request.pictures)));
   }
   request.json ? print_json(request, results) : print_text(request, results);
 }

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/base/messages.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "scenes/core/error.hpp"
@@ -37,8 +38,8 @@ void export_scene(const Request& request) {
   write_file(request.file, [&](std::ostream& file) {
     obj ? scenes::mesh::write_obj(scene, file) : scenes::nff::write_nff(scene, file);
   });
-  fmt::print(stderr, "{}: {}, {} primitives\n", printable(request.file), scene.name,
-             scene.primitives.size());
+  base::print_message(stderr, fmt::format("{}: {}, {} primitives\n", printable(request.file),
+                                          scene.name, scene.primitives.size()));
 }
 
 }  // namespace

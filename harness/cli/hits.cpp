@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/base/messages.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/rays/hit_check.hpp"
@@ -49,8 +50,8 @@ void write_hits(const Request& request) {
   rays::write_hit_file(
       request.file, results,
       {{"scene", scene.name}, {"structure", choice.short_label()}, {"rays", input.label()}});
-  fmt::print(stderr, "{}: {} hits of {} by {}\n", printable(request.file), input.size(), scene.name,
-             choice.short_label());
+  base::print_message(stderr, fmt::format("{}: {} hits of {} by {}\n", printable(request.file),
+                                          input.size(), scene.name, choice.short_label()));
 }
 
 }  // namespace

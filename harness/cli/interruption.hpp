@@ -62,8 +62,7 @@ class Interruption {
     const std::lock_guard lock(mutex_);
     ::flockfile(stderr);  // for good: nothing follows the last line
     const char* wipe = ::isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";
-    fmt::print(stderr, "{}{}\n", wipe, last_line_);
-    std::fflush(stderr);
+    base::print_message(stderr, fmt::format("{}{}\n", wipe, last_line_));
     std::error_code ignored;
     if (!folder_to_remove_.empty()) std::filesystem::remove_all(folder_to_remove_, ignored);
     std::_Exit(base::kInterrupted);

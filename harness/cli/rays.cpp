@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/base/messages.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cli/text.hpp"
@@ -71,7 +72,7 @@ void print_facts(const Request& request, const scenes::Scene& scene, const rays:
     fmt::print("  hash       {}\n", rays::hex_digits(rays::fingerprint(input)));
   }
   if (const auto warning = rays::share_warning(input, hits)) {
-    fmt::print(stderr, "beambench: warning: {}\n", *warning);
+    base::print_message(stderr, fmt::format("beambench: warning: {}\n", *warning));
   }
 }
 

@@ -92,8 +92,10 @@ bench::Plan selected_plan(const bench::SweepConfig& config,
                           const bench::GoogleBenchmark& benchmark) {
   bench::Plan plan = bench::make_plan(config);
   if (plan.merged > 0) {
-    fmt::print(stderr, "{} cells that the configuration has more than once are measured once\n",
-               plan.merged);
+    base::print_message(
+        stderr,
+        fmt::format("{} cells that the configuration has more than once are measured once\n",
+                    plan.merged));
   }
   const std::set<std::string> selected = benchmark.select(cell_names(plan));
   bench::filter_cells(plan, [&](const bench::CellId& id) { return selected.contains(id.name()); });
@@ -101,7 +103,7 @@ bench::Plan selected_plan(const bench::SweepConfig& config,
 }
 
 int report(const bench::SweepOutcome& outcome) {
-  fmt::print(stderr, "\n{}", outcome.summary);
+  base::print_message(stderr, fmt::format("\n{}", outcome.summary));
   fmt::print("{}\n", outcome.results.string());
   return bench::exit_code_of(outcome);
 }
@@ -143,7 +145,9 @@ int run(RunRequest request, plugin::Activity& activity) {
   Interruption interruption("interrupted; nothing was measured yet");
   continue_after_crashed_cells(request, activity);
   const bench::BenchmarkFlags flags = bench::parse_benchmark_flags(request.benchmark_flags);
-  for (const std::string& note : flags.notes) fmt::print(stderr, "{}\n", note);
+  for (const std::string& note : flags.notes) {
+    base::print_message(stderr, fmt::format("{}\n", note));
+  }
   bench::SweepConfig config = bench::read_sweep(config_path(request), accel::registry());
   if (flags.repetitions) override_repetitions(config, *flags.repetitions);
   const bench::GoogleBenchmark benchmark(flags);

@@ -9,6 +9,7 @@
 
 #include "accel/beam/beam_tracer.hpp"
 #include "accel/core/registry.hpp"
+#include "harness/base/messages.hpp"
 #include "harness/base/stopwatch.hpp"
 #include "harness/cluster/consumer.hpp"
 #include "harness/cluster/image_worker.hpp"
@@ -153,7 +154,9 @@ ClusterRun lead(const ClusterRequest& request, Transport& transport) {
                          ProcessId process, std::span<const std::byte> ready_report) mutable {
     run.ready_reports[static_cast<std::size_t>(process)] =
         read_ready_report(process, ready_report, mine);
-    if (--missing == 0) fmt::print(stderr, "beambench-cluster: all consumers are ready\n");
+    if (--missing == 0) {
+      base::print_message(stderr, "beambench-cluster: all consumers are ready\n");
+    }
   };
   Result result(*state, request.job.light);
   ImageWorker own = state->worker();
@@ -187,7 +190,7 @@ void set_up_producer(Transport& transport,
     throw;
   }
   for (const std::string& warning : warnings) {
-    fmt::print(stderr, "beambench-cluster: {}\n", warning);
+    base::print_message(stderr, fmt::format("beambench-cluster: {}\n", warning));
   }
 }
 

@@ -18,6 +18,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from beambench_meshes.recipes import RECIPES
+from beambench_report.base.formulas import guarded
 
 _RAYS = "primary,shadow,ao:samples=2,path:bounces=2"
 _SIZE = "160x120"
@@ -63,7 +64,7 @@ def main() -> int:
         for number, (mesh, camera) in enumerate(every, 1):
             print(f"[{number}/{len(every)}] mesh:{mesh}, {camera}", flush=True)
             for cell in _cells(program, mesh, camera):
-                rows.writerow(cell)
+                rows.writerow({name: guarded(value) for name, value in cell.items()})
     pending.rename(output)
     return 0
 

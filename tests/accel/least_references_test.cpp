@@ -9,15 +9,18 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
 #include <glm/vec3.hpp>
 #include <gtest/gtest.h>
 
 #include "accel/core/registry.hpp"
 #include "accel/grid/eager_voxels.hpp"
 #include "accel/grid/grid_layout.hpp"
+#include "accel/octree/node_division.hpp"
 #include "accel/octree/octree.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/core/random.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/random_scene.hpp"
 
@@ -27,6 +30,14 @@ namespace {
 scenes::Scene one_sphere() {
   scenes::SceneBuilder builder("one sphere");
   builder.add_sphere({1.0, 2.0, 3.0}, 2.0);
+  return std::move(builder).build();
+}
+
+/// Two spheres so close to each other that the finest cells on them hold both.
+scenes::Scene two_spheres() {
+  scenes::SceneBuilder builder("two spheres");
+  builder.add_sphere({1.0, 2.0, 3.0}, 2.0);
+  builder.add_sphere({1.0, 2.0, 3.0}, 1.99999);
   return std::move(builder).build();
 }
 
@@ -100,16 +111,83 @@ TEST(ReferenceLimit, RefusesNothingThatFits) {
   }
 }
 
-/// One sphere has hundreds of millions of references in the finest cells. The time is that of a
+/// So many references are made that they are estimated, and as many as there are may be there.
+TEST(ReferenceLimit, RefusesNothingThatFitsByEstimates) {
+  const scenes::Scene spheres = two_spheres();
+  for (const std::string tree :
+       {"gargantini:max_level=8,max_objects=1", "gargantini:max_level=8,planes=cost",
+        "kd-tree:builder=median,max_depth=22,max_objects=1"}) {
+    SCOPED_TRACE(tree);
+    const auto with_limit = [&](std::uint64_t most) {
+      const std::string spec = fmt::format("{},max_references={}", tree, most);
+      return registry().choose(parse_spec(spec)).build(spheres)->statistics().references;
+    };
+    const std::uint64_t references = with_limit(50'000'000);
+    EXPECT_GT(references, 100'000U);
+    EXPECT_EQ(with_limit(references), references);
+    EXPECT_THROW(with_limit(references - 1), InputError);
+  }
+}
+
+/// The mean of many estimates is the number of references.
+TEST(ExpectedReferences, AreRightOnAverage) {
+  for (const char* name : {"escena1", "tetra:n=4", "jacks:n=2"}) {
+    SCOPED_TRACE(name);
+    const scenes::Scene scene = scenes::load_scene(name);
+    octree::OctreeOptions options;
+    options.max_level = 8;
+    options.max_objects = 2;
+    const octree::NodeDivision division(scene, options);
+    Random random(1);
+    ExpectedReferences sum;
+    constexpr int kEstimates = 100;
+    for (int i = 0; i < kEstimates; ++i) {
+      const ExpectedReferences one = division.expected_references(options.max_level, random);
+      sum.leaves += one.leaves / kEstimates;
+      sum.lists += one.lists / kEstimates;
+    }
+    const auto references = static_cast<double>(octree::Octree(scene, options).reference_count());
+    EXPECT_GT(references, 5000.0) << "so many are not counted one by one";
+    EXPECT_NEAR(sum.leaves, references, 0.03 * references);
+    EXPECT_GT(sum.lists, sum.leaves);
+  }
+}
+
+/// Of estimates that differ as much as they can: one in a thousand has all.
+TEST(SurelyMoreThan, IsNotDeceivedByFewLargeEstimates) {
+  for (const std::uint64_t most : {1'000, 1'000'000}) {
+    const auto all = static_cast<double>(most);
+    EXPECT_FALSE(surely_more_than(
+        most, [all](Random& random) { return random.below(1000) == 0 ? 1000.0 * all : 0.0; }));
+    EXPECT_FALSE(surely_more_than(most, [all](Random&) { return all; }));
+    EXPECT_TRUE(surely_more_than(most, [all](Random&) { return 5.0 * all; }));
+  }
+}
+
+/// The spheres have hundreds of millions of references in the finest cells. The time is that of a
 /// debug build under a sanitizer; without the prediction it would be minutes there.
 TEST(ReferenceLimit, IsKnownToBeExceededEarly) {
-  const scenes::Scene scene = one_sphere();
-  for (const char* spec :
-       {"samet:max_level=13", "samet:max_level=16", "samet-net:max_level=16",
-        "glassner:max_level=15", "gargantini:max_level=16", "beam:max_level=16",
-        "samet:max_level=16,assign=bbox",
-        "voxel-grid:resolution=1200,max_voxels=2000000000,max_references=1000000",
-        "hierarchical-grid:resolution=1200,max_voxels=2000000000,max_references=1000000"}) {
+  const scenes::Scene sphere = one_sphere();
+  const scenes::Scene spheres = two_spheres();
+  for (const auto& [spec, scene] : std::vector<std::pair<std::string, const scenes::Scene&>>{
+           {"samet:max_level=13", sphere},
+           {"samet:max_level=16", sphere},
+           {"samet-net:max_level=16", sphere},
+           {"glassner:max_level=15", sphere},
+           {"gargantini:max_level=16", sphere},
+           {"beam:max_level=16", sphere},
+           {"samet:max_level=16,assign=bbox", sphere},
+           {"samet:max_level=16,max_objects=1", spheres},
+           {"beam:max_level=16,max_objects=1", spheres},
+           {"gargantini:max_level=16,planes=cost", sphere},
+           {"gargantini:max_level=16,planes=cost,max_objects=1", spheres},
+           {"gargantini:max_level=16,build=on-demand,built_level=16", sphere},
+           {"gargantini:max_level=16,build=on-demand,built_level=15,planes=cost", spheres},
+           {"kd-tree:builder=median,max_depth=60,max_objects=0", sphere},
+           {"kd-tree:builder=median,max_depth=50", spheres},
+           {"voxel-grid:resolution=1200,max_voxels=2000000000,max_references=1000000", sphere},
+           {"hierarchical-grid:resolution=1200,max_voxels=2000000000,max_references=1000000",
+            sphere}}) {
     SCOPED_TRACE(spec);
     const auto begin = std::chrono::steady_clock::now();
     std::string message;

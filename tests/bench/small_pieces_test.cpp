@@ -96,6 +96,17 @@ TEST(Progress, IsARedrawnLineOnATerminalAndLeavesNothingBehind) {
   EXPECT_TRUE(text.ends_with("\r\033[K"));
 }
 
+TEST(Progress, ThatCannotBeWrittenChangesNothing) {
+  for (const bool terminal : {false, true}) {
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> full(std::fopen("/dev/full", "w"),
+                                                               &std::fclose);
+    ASSERT_TRUE(full);
+    base::Progress progress(2, full.get(), terminal);
+    EXPECT_NO_THROW(two_cells(progress));
+    EXPECT_NO_THROW(progress.say("a warning"));
+  }
+}
+
 TEST(Progress, StaysWithinOneLineOfTheTerminal) {
   const std::string name(300, 'x');
   const std::string text = written(true, [&](base::Progress& progress) { progress.start(name); });

@@ -67,6 +67,22 @@ def test_pictures_of_hits_are_the_sequential_ones(tmp_path: Path) -> None:
         assert one.read_bytes() == several.read_bytes()
 
 
+def test_files_go_where_links_and_pipes_lead(tmp_path: Path) -> None:
+    report, tasks = tmp_path / "run.json", tmp_path / "tasks.csv"
+    (tmp_path / "target").write_text("old")
+    report.symlink_to("target")
+    os.mkfifo(tasks)
+    with (tmp_path / "read").open("w") as read:
+        reader = subprocess.Popen(["timeout", "60", "cat", tasks], stdout=read)
+        run = mpirun("-n", 1, CLUSTER, "tetra:n=1", *SMALL, "--report", report, "--tasks", tasks)
+        assert run.returncode == 0, run.stderr
+        assert reader.wait() == 0
+    assert tasks.is_fifo()
+    assert (tmp_path / "read").read_text().startswith("task,")
+    assert report.is_symlink()
+    assert json.loads((tmp_path / "target").read_text())
+
+
 def test_the_record_adds_up(tmp_path: Path) -> None:
     report_file, task_file = tmp_path / "run.json", tmp_path / "tasks.csv"
     run = mpirun(

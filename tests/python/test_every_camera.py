@@ -16,7 +16,7 @@ _PROGRAM = """#!/usr/bin/env python3
 import json, sys
 arguments = sys.argv
 scene = arguments[arguments.index("verify") + 1]
-cell = {"scene": scene, "ray_kind": "ao:samples=2", "structure": "sah-bvh", "parameters": "a=1,b=2",
+cell = {"scene": scene, "ray_kind": "ao:samples=2", "structure": "=1+1", "parameters": "a=1,b=2",
         "verdict": "ok", "rays": 9, "hits": 4, "agree": 9, "tie": 0, "graze": 0,
         "structure_error": 0, "embree_error": 0, "disputes": []}
 with open(arguments[arguments.index("--json") + 1], "w") as file:
@@ -48,6 +48,7 @@ def test_each_camera_has_its_rows(repository: Path, tmp_path: Path) -> None:
     assert {("mesh:aneurysm", "tunnel"), ("mesh:cat", "top")} <= set(VIEWS)
     assert {row["verdict"] for row in rows} == {"ok", "error"}
     assert rows[0]["parameters"] == "a=1,b=2"
+    assert {row["structure"] for row in rows} == {"'=1+1"}, "no cell is a formula"
 
 
 def test_what_the_program_refuses_is_passed_on(repository: Path, tmp_path: Path) -> None:

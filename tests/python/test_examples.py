@@ -207,7 +207,7 @@ def test_invalid_input_is_refused_in_a_sentence(
 def measured(tmp_path: Path, script: str, *words: str | Path) -> subprocess.CompletedProcess[str]:
     command = "{beambench} hits {scene} --rays {rays} -o {hits}"
     programs = [
-        {"name": "right", "version": "1", "command": command},
+        {"name": "right", "version": "=1", "command": command},
         {"name": "blind", "version": "1", "command": f"{command} --accel null"},
         {"name": "missing", "command": "{build}/there-is-none {mesh} {rays} {hits}"},
     ]
@@ -231,6 +231,7 @@ def test_the_table_has_a_row_for_each_program_that_runs(tmp_path: Path) -> None:
         ("blind", "axis", "grazes"),  # every target lies on the boundary of its primitive
     ]
     assert {row["program_hits"] for row in rows[2:]} == {"0"}
+    assert {row["version"] for row in rows} == {"'=1", "1"}, "no cell is a formula"
     manifest = json.loads((out / "manifest.json").read_text())
     assert list(manifest["left_out"]) == ["missing"]
 

@@ -309,7 +309,45 @@ def test_closed_streams_change_no_exit_code(tmp_path: Path, closed: str) -> None
         return subprocess.run(["bash", "-c", line], cwd=tmp_path, check=False).returncode
 
     assert code("scene no-such-scene") == 2
-    if closed == "2>/dev/full":
-        return
     assert code("export tetra:n=1 -o tetra.nff") == 0
     assert (tmp_path / "tetra.nff").read_text().startswith("# tetra")
+
+
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        "run sweep.json -o out",
+        "verify tetra:n=1 --accel samet --resolution 8x8",
+        "rays tetra:n=1 --resolution 8x8 -o a.rays",
+        "hits tetra:n=1 --rays rays.rays -o a.hits",
+        "render tetra:n=1 --accel samet --resolution 8x8 -o a.png",
+        "stats tetra:n=1 --accel samet --resolution 8x8",
+        "time tetra:n=1 --accel samet --resolution 8x8",
+        "census tetra:n=1 --resolution 8x8 --pictures pictures",
+        "sampling tetra:n=1 --resolution 8x8",
+        "mirrors tetra:n=1 --resolution 8x8",
+        "selftest --accel samet --scenes 1",
+        "scene skipped.nff",
+    ],
+    ids=lambda arguments: arguments.split()[0],
+)
+def test_progress_that_cannot_be_written_fails_nothing(tmp_path: Path, arguments: str) -> None:
+    (tmp_path / "sweep.json").write_text(sweep_of("tetra:n=1"))
+    (tmp_path / "skipped.nff").write_text("unknown\ns 0 0 0 1\n")
+    line = f'"{BINARY}" rays tetra:n=1 --resolution 8x8 -o rays.rays && "{BINARY}" {arguments}'
+    for end in ("", " 2>/dev/full"):
+        command = line.replace(" out", f" out{len(end)}") + end
+        done = subprocess.run(["bash", "-c", command], cwd=tmp_path, check=False)
+        assert done.returncode == 0, end
+
+
+# A manifest
+
+
+def test_a_manifest_that_nests_too_deep_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "sweep.json").write_text(sweep_of("tetra:n=1"))
+    assert run_bytes("run", "sweep.json", "-o", "out", cwd=tmp_path).returncode == 0
+    for text in (DEEP, DEEP + "]" * 400_000):
+        (tmp_path / "out" / "manifest.json").write_text(text)
+        done = beambench("run", "--resume", "out", cwd=tmp_path)
+        refused(done, ["manifest.json", "64 levels"])

@@ -28,6 +28,11 @@ import numpy as np
 
 HERE = Path(__file__).resolve().parent
 REPOSITORY = HERE.parents[2]
+# Any Python that has numpy runs this, not only that of .venv, which finds the package by itself.
+sys.path.append(str(REPOSITORY / "scripts"))
+
+from beambench_report.base.formulas import guarded  # noqa: E402 (found by the line before)
+
 SCENES = [
     "tetera",
     "tetra:n=5",
@@ -253,11 +258,11 @@ class Measurement:
 
 
 def write_table(path: Path, columns: list[str], rows: list[dict[str, Any]]) -> None:
-    """A CSV file of these columns."""
+    """A CSV file of these columns, no text of which is a formula to a spreadsheet."""
     with path.open("w", newline="", encoding="utf-8") as table:
         writer = csv.DictWriter(table, columns, extrasaction="ignore", lineterminator="\n")
         writer.writeheader()
-        writer.writerows(rows)
+        writer.writerows({name: guarded(value) for name, value in row.items()} for row in rows)
 
 
 def summary(rows: list[dict[str, Any]]) -> list[dict[str, Any]]:

@@ -1,21 +1,9 @@
-"""Texts of CSV files, none of which a spreadsheet may take for a formula.
-
-A text that begins with one of `=+-@`, a tab or a carriage return, or with an apostrophe, has an
-apostrophe before it. beambench writes results.csv like that, too
-(harness/bench/record/run_folder.cpp).
-"""
+"""Tables as CSV files, no text of which a spreadsheet takes for a formula, and read back."""
 
 import pandas as pd
 from pandas.api.types import is_string_dtype
 
-_FIRST_OF_FORMULAS = ("=", "+", "-", "@", "\t", "\r", "'")
-
-
-def guarded(value: object) -> object:
-    """A cell as it is written: numbers stay as they are."""
-    if isinstance(value, str) and value.startswith(_FIRST_OF_FORMULAS):
-        return f"'{value}"
-    return value
+from beambench_report.base.formulas import guarded
 
 
 def unguarded(table: pd.DataFrame) -> pd.DataFrame:

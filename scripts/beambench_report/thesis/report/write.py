@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from beambench_report.base.csv_texts import guarded
 from beambench_report.base.figure import house_style, structure_color, write_plot
 from beambench_report.base.files import write_text, write_whole
+from beambench_report.base.formulas import guarded
 from beambench_report.base.quantities import DASH, markdown_table, number
 from beambench_report.run.html import data_uri, environment
 from beambench_report.thesis.chapter5.best import BestTable, Choice

@@ -1,0 +1,15 @@
+"""Cells of CSV files that no spreadsheet takes for a formula; needs nothing but Python."""
+
+_FIRST_OF_FORMULAS = ("=", "+", "-", "@", "\t", "\r", "'")
+
+
+def guarded(value: object) -> object:
+    """A cell as it is written: numbers stay as they are.
+
+    A text that begins with one of `=+-@`, a tab or a carriage return, or with an apostrophe, has an
+    apostrophe before it. beambench writes results.csv like that, too
+    (harness/bench/record/run_folder.cpp).
+    """
+    if isinstance(value, str) and value.startswith(_FIRST_OF_FORMULAS):
+        return f"'{value}"
+    return value
