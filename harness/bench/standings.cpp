@@ -28,6 +28,8 @@ bool is_reference(const std::string& structure) {
 
 std::string text(const Json& row, const char* column) { return row.at(column).get<std::string>(); }
 
+std::string machine_of(const Json& row) { return row.value("machine_id", ""); }
+
 std::optional<double> figure(const Json& row, const std::string& column) {
   const auto found = row.find(column);
   return found == row.end() || found->is_null() ? std::nullopt
@@ -52,6 +54,7 @@ class Names {
       const Json& row = cell.at("row");
       cameras_[text(row, "scene")].insert(text(row, "camera"));
       samples_.insert(row.at("samples").get<int>());
+      machines_.insert(machine_of(row));
       kinds_.insert(text(row, "ray_kind"));
       for (const auto& [name, value] : parameters_of(row)) {
         values_[text(row, "structure")][name].insert(value);
@@ -69,6 +72,13 @@ class Names {
   }
 
   std::string view(const Json& row) const {
+    constexpr std::size_t kShownDigits = 8;
+    const std::string machine = machine_of(row).substr(0, kShownDigits);
+    return subject(row) + (machines_.size() > 1 ? ", machine " + machine : "");
+  }
+
+  /// A view, whichever machine measured it.
+  std::string subject(const Json& row) const {
     std::string title = shown_scene(text(row, "scene"));
     const auto has_several = [](const auto& entry) { return entry.second.size() > 1; };
     if (std::ranges::any_of(cameras_, has_several)) title += ", camera " + text(row, "camera");
@@ -81,6 +91,7 @@ class Names {
   std::map<std::string, std::set<std::string>> cameras_;
   std::set<int> samples_;
   std::set<std::string> kinds_;
+  std::set<std::string> machines_;
   std::map<std::string, std::map<std::string, std::set<std::string>>> values_;
 };
 
@@ -128,7 +139,7 @@ std::string why_absent(const std::string& structure, const Json& row,
 /// The cells of a view, by contender.
 using ViewCells = std::vector<std::pair<std::string, const Json*>>;
 
-Standings of_view(const std::string& view, const ViewCells& all,
+Standings of_view(const std::string& view, const Names& names, const ViewCells& all,
                   const std::map<std::string, std::string>& structures,
                   std::span<const Exclusion> exclude) {
   const auto rays = [](const auto& entry) {
@@ -142,6 +153,7 @@ Standings of_view(const std::string& view, const ViewCells& all,
   const Json& first = finest.begin()->second->at("row");
   Standings result{
       view,
+      names.subject(first),
       fmt::format("{}x{}", first.at("width").get<int>(), first.at("height").get<int>()),
       text(first, "ray_kind"),
       most,
@@ -339,22 +351,29 @@ std::vector<Standings> standings(std::span<const Json> cells, std::span<const Ex
   }
   std::vector<Standings> result;
   for (const auto& [title, own] : views) {
-    result.push_back(of_view(title, own, structures, exclude));
+    result.push_back(of_view(title, names, own, structures, exclude));
   }
   return result;
 }
 
 std::vector<OverallStandings> overall(std::span<const Standings> views) {
+  std::map<std::string, std::uint64_t> most;  // rays of each view, whichever machine traced them
+  for (const Standings& view : views) {
+    if (!view.ranked.empty()) most[view.subject] = std::max(most[view.subject], view.rays);
+  }
+  const auto counts = [&](const Standings& view) {
+    return !view.ranked.empty() && view.rays == most.at(view.subject);
+  };
   std::vector<OverallStandings> result;
   for (const Standings& view : views) {
-    if (view.ranked.empty() ||
+    if (!counts(view) ||
         std::ranges::find(result, view.ray_kind, &OverallStandings::ray_kind) != result.end()) {
       continue;
     }
     std::vector<const Standing*> ranked, references;
     int count = 0;
     for (const Standings& one : views) {
-      if (one.ray_kind != view.ray_kind || one.ranked.empty()) continue;
+      if (one.ray_kind != view.ray_kind || !counts(one)) continue;
       ++count;
       for (const Standing& standing : one.ranked) ranked.push_back(&standing);
       for (const Standing& standing : one.references) references.push_back(&standing);

@@ -38,10 +38,13 @@ struct LeftOut {
   std::string reason;
 };
 
-/// The contenders of one view (scene, camera, samples, kind of rays) at its highest resolution.
+/// The contenders of one view (scene, camera, samples, kind of rays) at the highest resolution that
+/// one machine measured: times of two machines are not compared.
 struct Standings {
-  std::string view;  ///< the scene, with camera, samples and kind of rays where a run has several
-  std::string size;  ///< `1280x1024`
+  /// The scene, with camera, samples, kind of rays and machine where a run has several.
+  std::string view;
+  std::string subject;  ///< the same without the machine
+  std::string size;     ///< `1280x1024`
   std::string ray_kind;
   std::uint64_t rays;
   std::vector<Standing> ranked;      ///< the fastest first; empty where no hits were correct
@@ -84,7 +87,8 @@ std::optional<TimeRatio> paired_trace_ratio(const nlohmann::ordered_json& over,
 std::vector<Standings> standings(std::span<const nlohmann::ordered_json> cells,
                                  std::span<const Exclusion> exclude);
 
-/// Of each kind of rays. The views' noise is independent, so that the distances to the ends of
+/// Of each kind of rays. Where several machines measured a view, one at each resolution, the
+/// highest resolution counts. The views' noise is independent, so that the distances to the ends of
 /// their intervals add up in quadrature.
 std::vector<OverallStandings> overall(std::span<const Standings> views);
 

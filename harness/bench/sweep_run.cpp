@@ -2,25 +2,27 @@
 
 #include <algorithm>
 #include <array>
-#include <ostream>
+#include <optional>
 #include <sstream>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "harness/base/messages.hpp"
 #include "harness/base/progress.hpp"
 #include "harness/base/stopwatch.hpp"
 #include "harness/bench/contender.hpp"
+#include "harness/bench/division.hpp"
 #include "harness/bench/measurement.hpp"
+#include "harness/bench/outcome.hpp"
 #include "harness/bench/plan.hpp"
 #include "harness/bench/record/manifest.hpp"
 #include "harness/bench/record/run_folder.hpp"
 #include "harness/bench/task.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
 #include "scenes/core/json_text.hpp"
 #include "scenes/core/random.hpp"
 
@@ -62,45 +64,6 @@ std::string result_line(const CellRecord& cell, const Row& row) {
                      to_string(*cell.stop_reason));
 }
 
-/// The members of an object that are among the names.
-template <class Names>
-Json members(const Json& object, const Names& names) {
-  Json found = Json::object();
-  for (const char* name : names) {
-    if (const auto member = object.find(name); member != object.end()) found[name] = *member;
-  }
-  return found;
-}
-
-/// A cell's file with what standings, overheads and doubts read.
-Json summary_of(const Json& cell) {
-  constexpr std::array kRow{"scene",
-                            "camera",
-                            "structure",
-                            "parameters",
-                            "width",
-                            "height",
-                            "samples",
-                            "ray_kind",
-                            "rays",
-                            "primitives",
-                            "query_path",
-                            "verdict",
-                            "build_ms_median",
-                            "trace_ms_median",
-                            "trace_ms_ci_low",
-                            "trace_ms_ci_high",
-                            "harness_ms",
-                            "stop_reason"};
-  Json summary = members(cell, std::array{"key", "name", "message"});
-  summary["row"] = members(cell.at("row"), kRow);
-  Json& repetitions = summary["repetitions"] = Json::array();
-  for (const Json& each : cell.at("repetitions")) {
-    repetitions.push_back(members(each, std::array{"round", "trace_ms"}));
-  }
-  return summary;
-}
-
 /// A group's name without what is at its default.
 std::string shown(const CellGroup& group) {
   std::string name = group.name();
@@ -114,6 +77,10 @@ void shuffle(std::vector<Contender>& contenders, Random& random) {
   }
 }
 
+std::optional<ShardFacts> facts_of(const std::optional<PlannedShard>& shard) {
+  return shard ? std::optional(shard->facts) : std::nullopt;
+}
+
 class SweepRun {
  public:
   SweepRun(const SweepConfig& config, Plan plan, const GoogleBenchmark& benchmark,
@@ -123,8 +90,9 @@ class SweepRun {
         options_(options),
         messages_(messages),
         core_(config.threads == 1 ? pinnable_core() : -1),
-        manifest_(
-            begin_manifest(config.name, scene_facts(plan), core_, config.threads, config.warm_up)),
+        manifest_(begin_manifest(config.name,
+                                 options.shard ? options.shard->scenes : scene_facts(plan), core_,
+                                 config.threads, config.warm_up, facts_of(options.shard))),
         folder_(open_folder()),
         plan_(unfinished(std::move(plan))),
         progress_(plan_.cell_count(), messages) {}
@@ -147,7 +115,7 @@ class SweepRun {
     record_crashed_cells();
     std::size_t cells_left = plan_.cell_count();
     for (CellGroup& group : plan_.groups) {
-      const double left_ms = std::max(1e3 * config_.budget_seconds - watch.milliseconds(), 0.0);
+      const double left_ms = std::max(1e3 * budget_seconds() - watch.milliseconds(), 0.0);
       run_group(group, left_ms / static_cast<double>(cells_left));
       cells_left -= group.cells.size();
       group.scene.reset();
@@ -179,6 +147,13 @@ class SweepRun {
     });
     folder.write_results();
     return folder;
+  }
+
+  /// A cell has the same allowance in a shard as in a run of the whole sweep.
+  double budget_seconds() const {
+    if (!manifest_.shard) return config_.budget_seconds;
+    return config_.budget_seconds * static_cast<double>(manifest_.shard->cells) /
+           static_cast<double>(manifest_.shard->cells_of_sweep);
   }
 
   Plan unfinished(Plan plan) const {
@@ -317,7 +292,7 @@ class SweepRun {
   SweepOutcome close() {
     folder_.write_results();  // whose columns are then in the order of the plan
     return read_as_written((folder_.path() / "cells").string(), "remove the file that is at fault",
-                           [&] { return summarize(summaries()); });
+                           [&] { return summarize(summaries(folder_)); });
   }
 
   SweepOutcome summarize(const std::vector<Json>& cells) {
@@ -330,46 +305,15 @@ class SweepRun {
     if (!overheads.empty() && overheads.front().part > kWantedOverhead) {
       manifest_.uncontrolled.push_back(fmt::format("The {}.", describe(overheads)));
     }
-    write_file(folder_.path() / "google-benchmark.json", [&](std::ostream& out) {
-      write_google_benchmark_json(out, benchmark_context(),
-                                  [&](const CellVisitor& visit) { folder_.for_each_cell(visit); });
-    });
-    folder_.write_json("manifest.json", to_json(manifest_));
-    SweepOutcome outcome{};
-    outcome.results = folder_.results();
-    outcome.cells = cells.size();
-    outcome.doubts = doubts_about_times(manifest_, cells);
-    outcome.standings = standings(cells, config_.exclude);
-    for (const Json& cell : cells) {
-      const auto is = [&](verify::Verdict verdict) {
-        return cell.at("row").at("verdict") == verify::to_string(verdict);
-      };
-      if (is(verify::Verdict::kNoRays)) {
-        ++outcome.without_rays;
-      } else if (!is(verify::Verdict::kOk) && !is(verify::Verdict::kBaseline)) {
-        ++outcome.failed;
-      }
-    }
-    outcome.summary = describe(outcome.standings) + "\n" + describe_verdicts(outcome);
-    folder_.write_text("summary.txt", outcome.summary);
+    const Json manifest = to_json(manifest_);
+    write_benchmark_file(folder_, manifest);
+    folder_.write_json("manifest.json", manifest);
+    SweepOutcome outcome =
+        conclude(folder_, cells,
+                 doubts_about_times(manifest_.measurement.noise, manifest_.machine.load, cells),
+                 config_.exclude);
+    outcome.is_part = manifest_.shard.has_value();
     return outcome;
-  }
-
-  /// Of each cell what the conclusions of a run are drawn from: a tenth of it.
-  std::vector<Json> summaries() const {
-    std::vector<Json> cells;
-    folder_.for_each_cell([&](const Json& cell) { cells.push_back(summary_of(cell)); });
-    return cells;
-  }
-
-  Json benchmark_context() const {
-    // The host's name stays out of records; library_build_type is of Google Benchmark alone.
-    return {{"host_name", manifest_.machine.id},
-            {"beambench_run_id", manifest_.run.run_id},
-            {"beambench_commit", manifest_.run.commit},
-            {"beambench_dirty", manifest_.run.dirty},
-            {"beambench_build_type", manifest_.run.build_type},
-            {"beambench_isa", manifest_.run.isa}};
   }
 
   const SweepConfig& config_;
@@ -389,32 +333,6 @@ class SweepRun {
 SweepOutcome run_sweep(const SweepConfig& config, Plan plan, const GoogleBenchmark& benchmark,
                        const SweepOptions& options, std::FILE* messages) {
   return SweepRun(config, std::move(plan), benchmark, options, messages).run();
-}
-
-std::string describe_verdicts(const SweepOutcome& outcome) {
-  const std::size_t measured = outcome.cells - outcome.without_rays;
-  std::string out;
-  if (outcome.failed > 0) {
-    out = fmt::format("Hits:  {} of {} wrong or not built; these have no times\n", outcome.failed,
-                      base::counted(outcome.cells, "cell"));
-  } else {
-    out = fmt::format("Hits:  {}, all verified\n", base::counted(measured, "cell"));
-  }
-  if (outcome.without_rays > 0) {
-    out += fmt::format("Rays:  {} of {} have no rays over their scenes\n", outcome.without_rays,
-                       base::counted(outcome.cells, "cell"));
-  }
-  if (measured > outcome.failed) {
-    out += outcome.doubts.empty()
-               ? "Times: measured on a quiet machine, as precisely as wanted\n"
-               : fmt::format("Times: to be taken with care: {}\n", fmt::join(outcome.doubts, "; "));
-  }
-  return out;
-}
-
-int exit_code_of(const SweepOutcome& outcome) {
-  if (outcome.without_rays == outcome.cells) return base::kInvalidInput;  // nothing was measured
-  return outcome.failed > 0 ? base::kMismatch : base::kSuccess;
 }
 
 }  // namespace beambench::bench

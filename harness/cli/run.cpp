@@ -2,6 +2,8 @@
 
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,7 +12,10 @@
 #include <nlohmann/json.hpp>
 
 #include "harness/base/messages.hpp"
+#include "harness/bench/division.hpp"
+#include "harness/bench/outcome.hpp"
 #include "harness/bench/record/run_folder.hpp"
+#include "harness/bench/record/shard.hpp"
 #include "harness/bench/sweep_run.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/interruption.hpp"
@@ -26,6 +31,7 @@ struct RunRequest {
   std::string config;
   std::string output;
   std::string resume;
+  std::optional<std::string> shard;
   bool dry_run = false;
   bool json = false;
   std::vector<std::string> benchmark_flags;
@@ -87,9 +93,30 @@ nlohmann::ordered_json to_json(const bench::Plan& plan) {
   return {{"cells", cells}};
 }
 
-/// The cells of the configuration that --benchmark_filter selects.
-bench::Plan selected_plan(const bench::SweepConfig& config,
-                          const bench::GoogleBenchmark& benchmark) {
+/// The shard that is to be measured: the requested one, or that of the run to be resumed.
+std::optional<bench::Shard> shard_of(const RunRequest& request) {
+  if (request.shard) return bench::parse_shard(*request.shard);
+  if (request.resume.empty()) return std::nullopt;
+  const std::filesystem::path file = std::filesystem::path(request.resume) / "manifest.json";
+  const auto facts = read_as_written(file.string(), "begin a new run with -o", [&] {
+    return bench::shard_of_manifest(read_json_file<nlohmann::ordered_json>(file));
+  });
+  return facts ? std::optional(facts->shard) : std::nullopt;
+}
+
+/// A shard is found complete by its number of cells.
+void refuse_filtered_shard(const bench::BenchmarkFlags& flags) {
+  for (const std::string& flag : flags.passed_on) {
+    if (!flag.starts_with("--benchmark_filter")) continue;
+    throw InputError(
+        fmt::format("{}: a shard is measured whole; leave the flag out, or write a sweep of the "
+                    "cells that are wanted",
+                    flag));
+  }
+}
+
+/// All cells of the configuration.
+bench::Plan whole_plan(const bench::SweepConfig& config) {
   bench::Plan plan = bench::make_plan(config);
   if (plan.merged > 0) {
     base::print_message(
@@ -97,9 +124,23 @@ bench::Plan selected_plan(const bench::SweepConfig& config,
         fmt::format("{} cells that the configuration has more than once are measured once\n",
                     plan.merged));
   }
+  return plan;
+}
+
+/// Leaves the cells of one shard, and reports how many.
+bench::PlannedShard reduce_to_shard(bench::Plan& plan, const bench::SweepConfig& config,
+                                    const bench::Shard& shard) {
+  bench::PlannedShard planned = bench::keep_shard(plan, config, shard);
+  fmt::print(stderr, "shard {}: {} of {}, {:.0f}% of the estimated work\n", bench::to_string(shard),
+             planned.facts.cells, base::counted(planned.facts.cells_of_sweep, "cell"),
+             100.0 * planned.share);
+  return planned;
+}
+
+/// Leaves the cells that --benchmark_filter selects.
+void select_cells(bench::Plan& plan, const bench::GoogleBenchmark& benchmark) {
   const std::set<std::string> selected = benchmark.select(cell_names(plan));
   bench::filter_cells(plan, [&](const bench::CellId& id) { return selected.contains(id.name()); });
-  return plan;
 }
 
 int report(const bench::SweepOutcome& outcome) {
@@ -138,6 +179,7 @@ void continue_after_crashed_cells(RunRequest& request, const plugin::Activity& a
   if (activity.crashed_cells().empty()) return;
   request.config.clear();
   request.output.clear();
+  request.shard.reset();
   request.resume = activity.read(plugin::Activity::Line::kRunFolder);
 }
 
@@ -150,8 +192,13 @@ int run(RunRequest request, plugin::Activity& activity) {
   }
   bench::SweepConfig config = bench::read_sweep(config_path(request), accel::registry());
   if (flags.repetitions) override_repetitions(config, *flags.repetitions);
+  bench::SweepOptions options = options_of(request, activity);
+  const std::optional<bench::Shard> shard = shard_of(request);
+  if (shard) refuse_filtered_shard(flags);
   const bench::GoogleBenchmark benchmark(flags);
-  bench::Plan plan = selected_plan(config, benchmark);
+  bench::Plan plan = whole_plan(config);
+  if (shard) options.shard = reduce_to_shard(plan, config, *shard);
+  select_cells(plan, benchmark);
   if (request.dry_run || flags.list) {
     if (request.json) fmt::print("{}\n", json_text(to_json(plan)));
     for (const std::string& name : cell_names(plan)) {
@@ -159,8 +206,8 @@ int run(RunRequest request, plugin::Activity& activity) {
     }
     return base::kSuccess;
   }
-  return report(run_resumable(config, std::move(plan), benchmark, options_of(request, activity),
-                              activity, interruption));
+  return report(run_resumable(config, std::move(plan), benchmark, std::move(options), activity,
+                              interruption));
 }
 
 }  // namespace
@@ -173,10 +220,17 @@ void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity) 
   CLI::Option* output =
       command->add_option("-o,--output", request->output,
                           "Folder for the record (default: results/runs/<time>-<name>)");
+  CLI::Option* resume =
+      command
+          ->add_option("--resume", request->resume,
+                       "Resume the run in this folder; finished cells are not repeated")
+          ->excludes(output);
   command
-      ->add_option("--resume", request->resume,
-                   "Resume the run in this folder; finished cells are not repeated")
-      ->excludes(output);
+      ->add_option("--shard", request->shard,
+                   "Only shard K of N: a fair part of the sweep, by the estimated time, to be "
+                   "measured on another machine than the others; 'beambench merge' joins them")
+      ->type_name("K/N")
+      ->excludes(resume);
   CLI::Option* dry_run =
       command->add_flag("--dry-run", request->dry_run, "Print the names of the cells and stop");
   command
@@ -192,7 +246,8 @@ void add_run_command(CLI::App& app, int& exit_code, plugin::Activity& activity) 
       "Examples:\n"
       "  beambench run harness/bench/sweeps/quick.json\n"
       "  beambench run harness/bench/sweeps/quick.json -o my-run --benchmark_filter=tetra.*samet\n"
-      "  beambench run --resume my-run");
+      "  beambench run --resume my-run\n"
+      "  beambench run harness/bench/sweeps/quick.json --shard 2/4 -o shards/2");
   command->callback([command, request, &activity, &exit_code] {
     request->benchmark_flags = command->remaining();
     exit_code = run(*request, activity);

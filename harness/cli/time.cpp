@@ -12,6 +12,8 @@
 #include <nlohmann/json.hpp>
 
 #include "accel/core/registry.hpp"
+#include "harness/bench/outcome.hpp"
+#include "harness/bench/standings.hpp"
 #include "harness/bench/sweep_run.hpp"
 #include "harness/cli/commands.hpp"
 #include "harness/cli/inputs.hpp"

@@ -17,6 +17,7 @@
 #include "accel/core/registry.hpp"
 #include "harness/bench/config.hpp"
 #include "harness/bench/google_benchmark.hpp"
+#include "harness/bench/outcome.hpp"
 #include "harness/bench/plan.hpp"
 #include "harness/bench/sweep_run.hpp"
 #include "harness/python/bindings.hpp"

@@ -157,6 +157,32 @@ TEST(Standings, MeansAreGeometricAndCountVictories) {
   EXPECT_EQ(all.views, 2);
 }
 
+Json on_machine(Json cell, const std::string& machine) {
+  cell["row"]["machine_id"] = machine;
+  return cell;
+}
+
+TEST(Standings, TimesOfTwoMachinesAreNotCompared) {
+  // At 1000 rays one machine, at 4000 another, where the order is the other one.
+  const std::vector<Json> cells{
+      on_machine(cell_of({"samet", rounds(1.0)}), "0123456789abcdef"),
+      on_machine(cell_of({"embree", rounds(2.0)}), "0123456789abcdef"),
+      on_machine(cell_of({"samet", rounds(9.0)}, "escena1", 4000), "fedcba9876543210"),
+      on_machine(cell_of({"embree", rounds(3.0)}, "escena1", 4000), "fedcba9876543210")};
+  const auto views = standings(cells, {});
+  ASSERT_EQ(views.size(), 2U);
+  EXPECT_EQ(views[0].view, "escena1, machine 01234567");
+  EXPECT_NEAR(views[0].behind()->ratio.value, 2.0, 1e-12);
+  EXPECT_EQ(views[1].view, "escena1, machine fedcba98");
+  EXPECT_NEAR(views[1].behind()->ratio.value, 3.0, 1e-12);
+  EXPECT_EQ(views[0].subject, "escena1");
+  EXPECT_EQ(views[1].subject, "escena1");
+  // Means are over the highest resolution of each view, as in a run on one machine.
+  const OverallStandings all = overall(views).at(0);
+  EXPECT_EQ(all.views, 1);
+  EXPECT_EQ(all.means[0].contender, "embree");
+}
+
 TEST(Standings, AViewWithoutTimesSaysSo) {
   const std::vector<Json> cells{cell_of({"samet", {}, 0.0, "", "error"})};
   const auto views = standings(cells, {});

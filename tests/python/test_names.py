@@ -36,6 +36,7 @@ def test_a_parameter_that_only_some_variants_have_is_shown() -> None:
 def views(**columns: list[object]) -> pd.DataFrame:
     count = len(next(iter(columns.values())))
     plain = {"scene": "a", "camera": "default", "samples": 1.0, "ray_kind": "primary"}
+    plain |= {"machine_id": "0123456789abcdef"}
     return pd.DataFrame({name: [value] * count for name, value in plain.items()} | columns)
 
 
@@ -47,6 +48,10 @@ def views(**columns: list[object]) -> pd.DataFrame:
         (views(samples=[1.0, 5.0]), ["a, 1 samples", "a, 5 samples"]),
         (views(ray_kind=["primary", "shadow"]), ["a, primary rays", "a, shadow rays"]),
         (views(scene=["a", "b"], camera=["x", "y"]), ["a", "b"]),
+        (
+            views(machine_id=["0123456789abcdef", "fedcba9876543210"]),
+            ["a, machine 01234567", "a, machine fedcba98"],
+        ),
     ],
 )
 def test_a_title_says_what_tells_views_apart(rows: pd.DataFrame, titles: list[str]) -> None:

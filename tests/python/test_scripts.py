@@ -30,7 +30,7 @@ def call(*command: str | Path, directory: Path) -> subprocess.CompletedProcess[s
     )
 
 
-@pytest.mark.parametrize("script", ["run", "test", "meshes", "setup"])
+@pytest.mark.parametrize("script", ["run", "test", "meshes", "setup", "shard", "slurm"])
 def test_help_is_given(script: str, repository: Path) -> None:
     result = call(repository / "scripts" / script, "--help", directory=repository)
     assert result.returncode == 0

@@ -134,12 +134,15 @@ std::string state_line(const Manifest& manifest) {
 }
 
 /// `20240531-140709.417-default`: sorts by time; milliseconds, since small runs take less than a
-/// second and no two may have one name.
-std::string new_run_id(const std::string& sweep) {
+/// second and no two may have one name. Shards may begin in one millisecond:
+/// `20240531-140709.417-default-shard-2-of-4`.
+std::string new_run_id(const std::string& sweep, const std::optional<ShardFacts>& shard) {
   const auto now = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
   const auto milliseconds = now.time_since_epoch().count() % 1000;
-  return fmt::format("{:%Y%m%d-%H%M%S}.{:03}-{}",
-                     fmt::gmtime(std::chrono::system_clock::to_time_t(now)), milliseconds, sweep);
+  return fmt::format(
+      "{:%Y%m%d-%H%M%S}.{:03}-{}{}", fmt::gmtime(std::chrono::system_clock::to_time_t(now)),
+      milliseconds, sweep,
+      shard ? fmt::format("-shard-{}-of-{}", shard->shard.number, shard->shard.count) : "");
 }
 
 std::optional<Overhead> overhead_of(const Json& cell) {
@@ -183,21 +186,23 @@ void continue_with(Manifest& now, const Json& before) {
 }
 
 Json to_json(const Manifest& manifest) {
-  return {{"record_version", kRecordVersion},
-          {"run_id", manifest.run.run_id},
-          {"sweep", manifest.sweep},
-          {"time_utc", manifest.begun_utc},
-          {"finished_utc", text_or_null(manifest.finished_utc)},
-          {"program", program_json(manifest)},
-          {"plugins", plugins_json(manifest.plugins)},
-          {"machine", machine_json(manifest.machine)},
-          {"measurement", measurement_json(manifest)},
-          {"scenes", scenes_json(manifest.scenes)},
-          {"harness_overhead", manifest.overhead},
-          {"uncontrolled", manifest.uncontrolled},
-          {"part_begun_utc", manifest.part_begun_utc},
-          {"earlier_parts", manifest.earlier_parts},
-          {"notes", {kLibraryNote}}};
+  Json json{{"record_version", kRecordVersion},
+            {"run_id", manifest.run.run_id},
+            {"sweep", manifest.sweep},
+            {"time_utc", manifest.begun_utc},
+            {"finished_utc", text_or_null(manifest.finished_utc)},
+            {"program", program_json(manifest)},
+            {"plugins", plugins_json(manifest.plugins)},
+            {"machine", machine_json(manifest.machine)},
+            {"measurement", measurement_json(manifest)},
+            {"scenes", scenes_json(manifest.scenes)},
+            {"harness_overhead", manifest.overhead},
+            {"uncontrolled", manifest.uncontrolled},
+            {"part_begun_utc", manifest.part_begun_utc},
+            {"earlier_parts", manifest.earlier_parts},
+            {"notes", {kLibraryNote}}};
+  if (manifest.shard) json["shard"] = to_json(*manifest.shard);
+  return json;
 }
 
 std::optional<std::string> noise_warning(const std::optional<double>& noise) {
@@ -208,7 +213,8 @@ std::optional<std::string> noise_warning(const std::optional<double>& noise) {
       100.0 * *noise);
 }
 
-std::vector<std::string> doubts_about_times(const Manifest& manifest, std::span<const Json> cells) {
+std::vector<std::string> doubts_about_times(const std::optional<double>& noise, double load,
+                                            std::span<const Json> cells) {
   constexpr double kMostArePrecise = 0.8;
   constexpr std::size_t kLeastForInterval = 6;
   std::size_t timed = 0, imprecise = 0, without_interval = 0;
@@ -219,11 +225,11 @@ std::vector<std::string> doubts_about_times(const Manifest& manifest, std::span<
     if (cell.at("repetitions").size() < kLeastForInterval) ++without_interval;
   }
   std::vector<std::string> doubts;
-  if (const auto& noise = manifest.measurement.noise; noise && *noise > kNoisy) {
+  if (noise && *noise > kNoisy) {
     doubts.push_back(fmt::format("equal work took up to {:.0f}% longer than usual", 100 * *noise));
   }
-  if (manifest.machine.load > kIdleLoad) {
-    doubts.push_back(fmt::format("other work was running (load {:.2f})", manifest.machine.load));
+  if (load > kIdleLoad) {
+    doubts.push_back(fmt::format("other work was running (load {:.2f})", load));
   }
   if (static_cast<double>(timed - imprecise) < kMostArePrecise * static_cast<double>(timed)) {
     doubts.push_back(fmt::format("{} of {} less precise than wanted", imprecise,
@@ -246,13 +252,15 @@ std::vector<std::string> preflight(const Manifest& manifest) {
 }
 
 Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes, int core,
-                        int threads, std::chrono::duration<double> warm_up) {
+                        int threads, std::chrono::duration<double> warm_up,
+                        std::optional<ShardFacts> shard) {
   const BuildInfo& build = build_info();
   Manifest manifest;
   manifest.machine = inspect_machine();
   manifest.sweep = sweep;
   manifest.begun_utc = manifest.part_begun_utc = utc_now();
-  manifest.run = {new_run_id(sweep),
+  manifest.shard = shard;
+  manifest.run = {new_run_id(sweep, shard),
                   std::string(build.commit),
                   build.dirty,
                   manifest.machine.id,

@@ -11,6 +11,7 @@
 
 #include "harness/bench/record/cell_record.hpp"
 #include "harness/bench/record/machine.hpp"
+#include "harness/bench/record/shard.hpp"
 #include "harness/plugin/load_plugin.hpp"
 
 namespace beambench::bench {
@@ -42,8 +43,9 @@ struct Manifest {
   Machine machine;
   MeasurementFacts measurement;
   std::vector<plugin::LoadedPlugin> plugins;
-  std::vector<SceneFacts> scenes;
-  nlohmann::ordered_json overhead;        ///< of the harness, by `null`; null where it is not known
+  std::vector<SceneFacts> scenes;   ///< of the sweep; of a shard, those of the other shards, too
+  std::optional<ShardFacts> shard;  ///< nothing: the run is the whole sweep
+  nlohmann::ordered_json overhead;  ///< of the harness, by `null`; null where it is not known
   std::vector<std::string> uncontrolled;  ///< sentences
   /// The conditions of the parts before the run was cut off and resumed.
   nlohmann::ordered_json earlier_parts = nlohmann::ordered_json::array();
@@ -57,9 +59,10 @@ nlohmann::ordered_json to_json(const Manifest& manifest);
 /// A sentence where equal work took too unequal times before the run (`noise`).
 std::optional<std::string> noise_warning(const std::optional<double>& noise);
 
-/// Why the times of finished cells (their JSON files) are worth little: noise, other work, missed
-/// precision, too few repetitions for an interval. Clauses; none where nothing speaks against them.
-std::vector<std::string> doubts_about_times(const Manifest& manifest,
+/// Why the times of finished cells (their JSON files) are worth little: noise of equal work, other
+/// work (a load average), missed precision, too few repetitions for an interval. Clauses; none
+/// where nothing speaks against them.
+std::vector<std::string> doubts_about_times(const std::optional<double>& noise, double load,
                                             std::span<const nlohmann::ordered_json> cells);
 
 /// Two lines on the machine, and a warning in plain words for each thing that could not be
@@ -67,10 +70,11 @@ std::vector<std::string> doubts_about_times(const Manifest& manifest,
 std::vector<std::string> preflight(const Manifest& manifest);
 
 /// The manifest of a new run of the sweep of that name, whose timed code is pinned to `core` (-1:
-/// to none) and runs on that many threads, after a warm-up. The rest is read from this program, the
-/// machine and Embree.
+/// to none) and runs on that many threads, after a warm-up; `shard` is the part of the sweep that
+/// the run is. The rest is read from this program, the machine and Embree.
 Manifest begin_manifest(const std::string& sweep, std::vector<SceneFacts> scenes, int core,
-                        int threads, std::chrono::duration<double> warm_up);
+                        int threads, std::chrono::duration<double> warm_up,
+                        std::optional<ShardFacts> shard = std::nullopt);
 
 /// The harness's own share of a trace (`harness_ms`) in the cell where it is the largest part of
 /// the contender's time, among those of one query path.

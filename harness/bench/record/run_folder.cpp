@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "harness/bench/record/shard.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/files.hpp"
 #include "scenes/core/json_text.hpp"
@@ -170,13 +171,19 @@ void RunFolder::write_text(const std::string& name, const std::string& text) con
   write_file(path_ / name, text);
 }
 
-void RunFolder::add_cell(const Json& cell) {
+bool RunFolder::keep(const Json& cell) {
   const std::string file = cell.at("key").get<std::string>() + ".json";
   write_file(path_ / kCells / file, json_text(cell) + '\n');
+  return remember(cell, file);
+}
+
+void RunFolder::take_cell(const Json& cell) { keep(cell); }
+
+void RunFolder::add_cell(const Json& cell) {
   const Row& row = cell.at("row");
   const std::size_t columns_before = columns_.size();
   merge_columns(columns_, row);
-  const bool fits = remember(cell, file) && columns_.size() == columns_before &&
+  const bool fits = keep(cell) && columns_.size() == columns_before &&
                     insert_row(cell.at("index").get<std::size_t>(), csv_line(columns_, row));
   if (!fits) write_results();
 }
@@ -265,6 +272,7 @@ void require_same(const RunFolder& folder, const nlohmann::json& config, const J
     refuse(
         "it was begun by another build of beambench, from changed sources or with other options");
   }
+  if (is_merged(then)) refuse("it was merged from the shards of a sweep, and is complete");
   if (differs("/machine/id")) refuse("it was begun on another machine");
   const auto plugins = hashes(now, "plugins", "file");
   for (const auto& [file, hash] : hashes(then, "plugins", "file")) {
@@ -285,6 +293,31 @@ void require_same(const RunFolder& folder, const nlohmann::json& config, const J
 }
 
 }  // namespace
+
+std::string program_difference(const Json& first, const Json& second) {
+  const auto differs = [&](const char* pointer) {
+    return member(first, pointer) != member(second, pointer);
+  };
+  if (differs("/program/commit")) {
+    return fmt::format("one is by beambench of commit {}, the other of {}",
+                       member(first, "/program/commit"), member(second, "/program/commit"));
+  }
+  if (differs("/program/executable_hash")) {
+    return "they are by two builds of beambench, from other sources or with other options";
+  }
+  if (hashes(first, "plugins", "file") != hashes(second, "plugins", "file")) {
+    return "they were run with other plug-ins";
+  }
+  const auto scenes = hashes(first, "scenes", "name");
+  for (const auto& [name, hash] : hashes(second, "scenes", "name")) {
+    const auto found = scenes.find(name);
+    if (found != scenes.end() && found->second != hash) {
+      return fmt::format("the scene {} is not the same in both (scene hashes {} and {})",
+                         json_text(Json(name), -1), found->second, hash);
+    }
+  }
+  return "";
+}
 
 void require_same_run(const RunFolder& folder, const nlohmann::json& config, const Json& now) {
   read_as_written((folder.path() / kManifest).string(), "begin a new run with -o",

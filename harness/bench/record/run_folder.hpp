@@ -1,6 +1,7 @@
 #pragma once
 // The folder of a run: one file for each finished cell, and all that is derived from them.
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -38,9 +39,15 @@ class RunFolder {
   void write_json(const std::string& name, const nlohmann::ordered_json& document) const;
   void write_text(const std::string& name, const std::string& text) const;
 
+  /// Whether a cell is finished, by its `CellId::key`.
   bool has_cell(const std::string& key) const { return keys_.contains(key); }
+  /// Of the finished cells.
+  const std::set<std::string>& keys() const { return keys_; }
+  std::size_t cell_count() const { return cells_.size(); }
   /// Keeps a finished cell and brings results.csv up to date.
   void add_cell(const nlohmann::ordered_json& cell);
+  /// Keeps a finished cell as one of many: `write_results` is to be called after the last.
+  void take_cell(const nlohmann::ordered_json& cell);
   /// Makes results.csv from the cells: a kill may have come between a cell and its row.
   void write_results();
   /// Reads the finished cells, one by one, in the order of the plan. Throws InputError naming the
@@ -56,6 +63,8 @@ class RunFolder {
   };
 
   void load_cells();
+  /// Writes a cell's file; returns what `remember` does.
+  bool keep(const nlohmann::ordered_json& cell);
   /// Returns whether it is a new one.
   bool remember(const nlohmann::ordered_json& cell, const std::string& file);
   bool insert_row(std::size_t index, const std::string& row);
@@ -70,6 +79,11 @@ class RunFolder {
 
 /// Throws InputError when a folder holds no run that could be resumed.
 void require_run(const std::filesystem::path& folder);
+
+/// What differs between the runs of two manifests and makes their cells incomparable, in a clause:
+/// the program, the plug-ins or a scene that both have; empty where nothing does.
+std::string program_difference(const nlohmann::ordered_json& first,
+                               const nlohmann::ordered_json& second);
 
 /// Throws InputError when the run in `folder` was made with another configuration, by another
 /// program or machine, with other plug-ins or with a scene that has changed since: its cells and

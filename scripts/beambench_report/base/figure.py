@@ -19,6 +19,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from beambench_report.base.files import write_text, write_whole
+from beambench_report.base.names import machine_label
 from beambench_report.base.palette import GRID, INK, SOFT, structure_color
 from beambench_report.base.svg import compact
 
@@ -130,9 +131,10 @@ def svg_of(plot: Plot) -> str:
 def _source(rows: pd.DataFrame) -> str:
     first = rows.iloc[0]
     modified = " (modified)" if first["dirty"] == "true" else ""
+    machines = ", ".join(machine_label(one) for one in dict.fromkeys(rows["machine_id"]))
     return (
         f"Run {first['run_id']}, commit {first['commit'][:12]}{modified}, "
-        f"machine {first['machine_id'][:8]}, threads {first['threads']:.0f}."
+        f"{machines}, threads {first['threads']:.0f}."
     )
 
 

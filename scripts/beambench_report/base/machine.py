@@ -155,7 +155,13 @@ class Machine:
     """Empty where no manifest is beside the run."""
 
     def differs_from(self, other: Machine) -> bool:
-        """Are they different machines, as far as both are known?"""
+        """Are they different machines, as far as both are known?
+
+        Several machines are different even from themselves: another run of theirs may have
+        measured a cell on another one.
+        """
+        if max(len(self.ids), len(other.ids)) > 1:
+            return True
         both_known = self.processor and other.processor
         return self.ids != other.ids or bool(both_known and self.processor != other.processor)
 
@@ -163,6 +169,19 @@ class Machine:
         """As people read it."""
         ids = " and ".join(self.ids)
         return f"{ids} ({self.processor})" if self.processor else ids
+
+
+def require_one_machine(rows: pd.DataFrame, folder: Path) -> None:
+    """Raises Problem where the rows of FOLDER are of several machines.
+
+    For tables that divide the times of different views by one another.
+    """
+    ids = sorted(set(rows["machine_id"]))
+    if len(ids) > 1:
+        raise Problem(
+            f"{folder}: its rows are of {len(ids)} machines ({', '.join(ids)}), and here the times "
+            "of different scenes and resolutions are compared; measure the sweep on one machine"
+        )
 
 
 def machine_of(rows: pd.DataFrame, folder: Path) -> Machine:

@@ -29,6 +29,18 @@ def contender_labels(rows: pd.DataFrame) -> pd.Series:
 
 
 def view_titles(rows: pd.DataFrame) -> pd.Series:
+    """`subjects`, and the machine where a run has several: only its own times are compared."""
+    if rows["machine_id"].nunique() < 2:
+        return subjects(rows)
+    return subjects(rows) + ", " + rows["machine_id"].map(machine_label)
+
+
+def machine_label(machine_id: str) -> str:
+    """What titles and captions call a machine."""
+    return f"machine {machine_id[:8]}"
+
+
+def subjects(rows: pd.DataFrame) -> pd.Series:
     """What the rays see: the scene, and camera, samples and ray kind where a run has several."""
     titles = rows["scene"].copy()
     if (rows.groupby("scene")["camera"].nunique() > 1).any():

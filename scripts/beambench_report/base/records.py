@@ -10,7 +10,7 @@ from pandas.api.types import is_bool_dtype, is_numeric_dtype
 from beambench_report.base.columns import COUNTER_SUFFIX, RENAMED_COLUMNS, dictionary
 from beambench_report.base.csv_texts import unguarded
 from beambench_report.base.files import Problem
-from beambench_report.base.names import contender_labels, view_titles
+from beambench_report.base.names import contender_labels, subjects, view_titles
 
 # The columns without which there is nothing to show.
 NEEDED_COLUMNS = (
@@ -33,8 +33,9 @@ FAULTLESS_VERDICTS = (*TIMED_VERDICTS, NO_RAYS)
 class Run:
     """One run: one row per cell, as in results.csv, and the names that plots and pages use.
 
-    Columns added to those of the file: `contender` (label of structure and parameters), `view`
-    (title of what the rays see) and `timed` (do the row's times count?).
+    Columns added to those of the file: `contender` (label of structure and parameters), `subject`
+    (title of what the rays see), `view` (the same on one machine: what is compared) and `timed` (do
+    the row's times count?).
     """
 
     directory: Path
@@ -118,6 +119,7 @@ def read_run(directory: Path) -> Run:
 
     rows = rows.copy()  # in one piece: pandas warns of many columns that were set one by one
     rows["contender"] = contender_labels(rows)
+    rows["subject"] = subjects(rows)
     rows["view"] = view_titles(rows)
     rows["timed"] = rows["verdict"].isin(TIMED_VERDICTS) & rows["total_ms_median"].notna()
     return Run(directory, rows)

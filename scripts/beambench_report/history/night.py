@@ -127,6 +127,11 @@ def views_of(rows: pd.DataFrame) -> list[tuple]:
     return list(zip(*(rows[name].tolist() for name in VIEW), strict=True))
 
 
+def comparable(rows: pd.DataFrame) -> list[tuple]:
+    """The view and the machine of each row: what rows with comparable times have in common."""
+    return list(zip(views_of(rows), rows["machine_id"], strict=True))
+
+
 def cycles(rows: pd.DataFrame) -> pd.Series:
     """What each row is compared by: the total in clock cycles during which its thread ran.
 

@@ -18,7 +18,7 @@ from beambench_report.base.files import Problem
 from beambench_report.base.machine import Machine, machine_of
 from beambench_report.base.ratio import Median, Ratio, median_of, unpaired_ratio
 from beambench_report.base.records import NO_RAYS, contenders_with_times, read_run
-from beambench_report.history.night import cell_titles, keys_of, views_of
+from beambench_report.history.night import cell_titles, comparable, keys_of, views_of
 
 Key = tuple
 Contender = tuple[str, str]
@@ -166,7 +166,7 @@ def _figures(file: _File, reference: Contender | None) -> dict[Key, tuple[Median
             key: (median_of(row, "total"), asked)
             for key, row, asked in zip(keys, rows, inputs, strict=True)
         }
-    views, contenders = views_of(timed), _contenders(timed)
+    views, contenders = comparable(timed), _contenders(timed)
     bases = {
         view: row
         for view, who, row in zip(views, contenders, rows, strict=True)

@@ -43,7 +43,7 @@ def pack(run: Run, own: Mapping[str, Column] | None = None) -> AllCells:
     rows = run.rows
     columns = [_named(name, _texts(rows, name)) for name in _NAMES]
     same = []
-    for name in rows.columns.drop(["contender", "view", "timed"]):
+    for name in rows.columns.drop(["contender", "subject", "view", "timed"]):
         series = rows[name]
         entry = own.get(name) or dictionary().find(name) or _unknown(series)
         first = series.iloc[0]

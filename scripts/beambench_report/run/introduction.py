@@ -32,8 +32,9 @@ def tiles(run: Run, manifest: Manifest) -> list[Tile]:
     of_references = run.rows["structure"].isin(REFERENCES)
     references = list(dict.fromkeys(run.rows.loc[of_references, "contender"]))
     contenders = run.rows.loc[~of_references, "contender"].nunique()
+    views = run.rows["subject"].nunique()
     made = [
-        Tile(f"{len(run.views):,}", _plural("view", len(run.views)), "view"),
+        Tile(f"{views:,}", _plural("view", views), "view"),
         Tile(f"{contenders:,}", _plural("contender", contenders), "contender"),
     ]
     if references:

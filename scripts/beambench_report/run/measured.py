@@ -10,6 +10,7 @@ import pandas as pd
 
 from beambench_report.base.cell_files import CellFile, Identity, identity, read_cell_files
 from beambench_report.base.figure import Look, looks
+from beambench_report.base.names import machine_label
 from beambench_report.base.quantities import number
 from beambench_report.base.ratio import interval_rank, median_of
 from beambench_report.base.records import REFERENCES, Run, finest_rays, read_run
@@ -100,7 +101,11 @@ def by_kind(rows: pd.DataFrame, views: Iterable[str]) -> dict[str, list[str]]:
 
 
 def short_title(rows: pd.DataFrame, view: str) -> str:
-    """A view beside others of its kind: its scene, and its camera where the scene has several."""
+    """A view beside others of its kind: its scene; where there are several, camera and machine."""
     own = rows[rows["view"] == view].iloc[0]
-    cameras = rows.loc[rows["scene"] == own["scene"], "camera"].nunique()
-    return f"{own['scene']}, camera {own['camera']}" if cameras > 1 else own["scene"]
+    parts = [own["scene"]]
+    if rows.loc[rows["scene"] == own["scene"], "camera"].nunique() > 1:
+        parts.append(f"camera {own['camera']}")
+    if rows["machine_id"].nunique() > 1:
+        parts.append(machine_label(own["machine_id"]))
+    return ", ".join(parts)

@@ -13,7 +13,14 @@ from beambench_report.base.ratio import Ratio
 from beambench_report.base.svg import hover
 from beambench_report.run.measured import Measured, between
 from beambench_report.run.panels import MOST_ROWS, finish, panels_with_legend
-from beambench_report.run.standings import Mean, Overall, Standing, Standings, overall
+from beambench_report.run.standings import (
+    Mean,
+    Overall,
+    Standing,
+    Standings,
+    counted,
+    overall,
+)
 
 _MOST_DOTS = 150  # with a hover title each; beyond, one title for all dots of a row
 _GAP = 1.1  # rows between contenders and references
@@ -35,7 +42,7 @@ def overalls(measured: Measured) -> list[Plot]:
 
 
 def _overall(measured: Measured, one: Overall, stem: str) -> Plot:
-    standings = [s for s in measured.standings if s.ray_kind == one.ray_kind and s.ranked]
+    standings = [s for s in counted(measured.standings) if s.ray_kind == one.ray_kind]
     means = one.means[:MOST_ROWS]
     rows = [*enumerate(means)]
     rows += [(len(means) + _GAP + place, mean) for place, mean in enumerate(one.references)]

@@ -13,7 +13,7 @@ from beambench_report.base.files import Problem, write_text
 from beambench_report.base.quantities import markdown_table, number
 from beambench_report.base.records import OK, read_run
 
-_VIEW = ["scene", "camera", "width", "height", "ray_kind"]
+_VIEW = ["scene", "camera", "width", "height", "ray_kind", "machine_id"]
 _TIME = "trace_net_ms_median"
 
 
@@ -34,7 +34,9 @@ def _text(rows: pd.DataFrame, base: str) -> str:
     kinds = list(dict.fromkeys(rows["ray_kind"]))
     scenes = list(dict.fromkeys(rows["scene"]))
     contenders = list(dict.fromkeys(rows["contender"]))
-    build = correct.groupby(["contender", "scene"])["build_ms_median"].first()
+    first_machine = correct.groupby("scene")["machine_id"].transform("first")
+    on_one = correct[correct["machine_id"] == first_machine]
+    build = on_one.groupby(["contender", "scene"])["build_ms_median"].first()
     body = []
     for contender in contenders:
         own = ratios[ratios["contender"] == contender]

@@ -52,6 +52,8 @@ class Standings:
     """The contenders of one view at its highest resolution."""
 
     view: str
+    subject: str
+    """The view, whichever machine measured it."""
     ray_kind: str
     size: str
     rays: int
@@ -139,8 +141,21 @@ def standings(
 
 def overall(every: Sequence[Standings]) -> list[Overall]:
     """Of each kind of rays, in the order of the views."""
-    kinds = dict.fromkeys(one.ray_kind for one in every if one.ranked)
-    return [_of_kind(kind, [s for s in every if s.ray_kind == kind and s.ranked]) for kind in kinds]
+    found = counted(every)
+    kinds = dict.fromkeys(one.ray_kind for one in found)
+    return [_of_kind(kind, [one for one in found if one.ray_kind == kind]) for kind in kinds]
+
+
+def counted(every: Sequence[Standings]) -> list[Standings]:
+    """Those that means are over: those with times.
+
+    Of a view that several machines measured, one at each resolution, the highest.
+    """
+    most: dict[str, int] = {}
+    for one in every:
+        if one.ranked:
+            most[one.subject] = max(one.rays, most.get(one.subject, 0))
+    return [one for one in every if one.ranked and one.rays == most[one.subject]]
 
 
 def without_times(every: Sequence[Standings]) -> list[str]:
@@ -180,6 +195,7 @@ def _of_view(
 
     return Standings(
         view,
+        first["subject"],
         first["ray_kind"],
         size_of(first),
         int(first["rays"]),

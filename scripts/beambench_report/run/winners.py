@@ -17,7 +17,7 @@ from beambench_report.base.files import Problem, write_text
 from beambench_report.base.quantities import markdown_table, number
 from beambench_report.base.records import REFERENCES, contenders_with_times, read_run
 
-_VIEW = ["scene", "camera", "width", "height"]
+_VIEW = ["scene", "camera", "width", "height", "machine_id"]
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ def races(rows: pd.DataFrame) -> list[Race]:
     timed = contenders_with_times(rows)
     timed = timed[~timed["structure"].isin(REFERENCES)]
     found = []
-    for (scene, _, _, _, kind), group in timed.groupby([*_VIEW, "ray_kind"], sort=False):
+    for (scene, _, _, _, _, kind), group in timed.groupby([*_VIEW, "ray_kind"], sort=False):
         best = group.loc[group.groupby("structure")["trace_ms_median"].idxmin()]
         best = best.sort_values("trace_ms_median")
         ratio = best["trace_ms_median"] / best["trace_ms_median"].iloc[0]

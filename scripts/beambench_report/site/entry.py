@@ -28,7 +28,7 @@ from beambench_report.base.records import (
     contenders_with_times,
     size_of,
 )
-from beambench_report.history.night import counters_of, views_of
+from beambench_report.history.night import comparable, counters_of
 from beambench_report.run.outcome import doubts_about_times
 from beambench_report.run.standings import overall, standings
 
@@ -165,7 +165,7 @@ def _cells(
     run: Run, files: Mapping[Identity, CellFile], reference: tuple[str, str] | None
 ) -> tuple[Cell, ...]:
     rows = run.rows.to_dict("records")
-    views, work = views_of(run.rows), counters_of(run.rows)
+    views, work = comparable(run.rows), counters_of(run.rows)
     bases = {
         view: row
         for view, row in zip(views, rows, strict=True)

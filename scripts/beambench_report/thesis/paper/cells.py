@@ -11,6 +11,7 @@ import pandas as pd
 
 from beambench_report.base.columns import COUNTER_SUFFIX
 from beambench_report.base.files import Problem
+from beambench_report.base.machine import require_one_machine
 from beambench_report.base.names import parameter_items
 from beambench_report.base.published import RESOLUTIONS, primitives_by_scene
 from beambench_report.base.records import read_run, size_of
@@ -118,6 +119,7 @@ def read_cells(directory: Path, names: Iterable[str]) -> Cells:
             continue
         try:
             rows = read_run(folder).rows
+            require_one_machine(rows, folder)
         except Problem as problem:
             unread.append(str(problem))
             continue

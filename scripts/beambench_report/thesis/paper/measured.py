@@ -13,6 +13,7 @@ import pandas as pd
 
 from beambench_report.base.columns import COUNTER_SUFFIX
 from beambench_report.base.files import Problem, load_json
+from beambench_report.base.machine import require_one_machine
 from beambench_report.base.names import parameter_items
 from beambench_report.base.published import FINEST, primitives_by_scene
 from beambench_report.base.records import read_run, size_of
@@ -49,7 +50,7 @@ _BEAM_COUNTS = ("beams", "beams_nonterminal", "beams_occupied", "beams_made", "b
 def measured_evidence(directories: Sequence[Path]) -> Evidence:
     """The rows of one or more runs that are of the thesis's scenes and contenders, and were right.
 
-    Raises Problem where a run cannot be read.
+    Raises Problem where a run cannot be read, or is of several machines.
     """
     parts = [_evidence_of(directory) for directory in directories]
     if not parts:
@@ -64,6 +65,7 @@ def measured_evidence(directories: Sequence[Path]) -> Evidence:
 
 def _evidence_of(directory: Path) -> Evidence:
     rows = read_run(directory).rows
+    require_one_machine(rows, directory)
     rows = rows[rows["timed"] & rows["ray_kind"].eq("primary")]
     rows = rows[rows["camera"].eq(rows.groupby("scene")["camera"].transform("first"))]
     times: list[dict[str, object]] = []

@@ -1,0 +1,56 @@
+// beambench merge: joins the shards of a sweep.
+
+#include "harness/bench/merge.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "harness/bench/outcome.hpp"
+#include "harness/cli/commands.hpp"
+#include "harness/cli/interruption.hpp"
+
+namespace beambench::cli {
+namespace {
+
+struct MergeRequest {
+  std::vector<std::string> shards;
+  std::string output;
+};
+
+int merge(const MergeRequest& request) {
+  const Interruption interruption("interrupted; nothing was written, and the shards are as before");
+  const std::vector<std::filesystem::path> shards(request.shards.begin(), request.shards.end());
+  const bench::SweepOutcome outcome = bench::merge_shards(shards, request.output, stderr);
+  fmt::print(stderr, "\n{}", outcome.summary);
+  fmt::print("{}\n", outcome.results.string());
+  return bench::exit_code_of(outcome);
+}
+
+}  // namespace
+
+void add_merge_command(CLI::App& app, int& exit_code) {
+  CLI::App* command =
+      app.add_subcommand("merge", "Join the shards of a sweep, which 'run --shard' measured");
+  const auto request = std::make_shared<MergeRequest>();
+  command->add_option("DIR", request->shards, "The folders of all shards, in any order")
+      ->required();
+  command
+      ->add_option("-o,--output", request->output,
+                   "Folder for the record of the whole sweep; it must not exist yet")
+      ->required();
+  command->footer(
+      "Each row keeps the machine that it was measured on; times of two machines are not "
+      "compared.\n"
+      "Examples:\n"
+      "  beambench run harness/bench/sweeps/quick.json --shard 1/2 -o first\n"
+      "  beambench run harness/bench/sweeps/quick.json --shard 2/2 -o second\n"
+      "  beambench merge first second -o whole");
+  command->callback([request, &exit_code] { exit_code = merge(*request); });
+}
+
+}  // namespace beambench::cli
