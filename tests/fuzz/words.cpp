@@ -44,6 +44,7 @@ void check_rays(std::string_view text) {
   const auto choices = fuzz::accepted([&] { return rays::parse_ray_choices(text); });
   if (!choices) return;
   for (const rays::RayChoice& choice : *choices) {
+    if (!choice.file.empty()) continue;  // its label is the file's name as it is shown
     fuzz::require(rays::parse_ray_choice(choice.label) == choice, "a label stands for other rays");
   }
 }
