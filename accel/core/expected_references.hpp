@@ -17,11 +17,11 @@ struct ExpectedReferences {
   double lists = 0.0;   ///< of all nodes but the root
 };
 
-/// Estimates them from the nodes of a random part of the tree, which is divided level by level: of
-/// more than 128 nodes of a level, as many are kept, each with a probability that its references
-/// tell, and stand for the others. The mean over all random numbers is the number of references
-/// (Knuth, "Estimating the efficiency of backtrack programs", Mathematics of Computation 29(129),
-/// 1975, with one node of each level; more of them differ less).
+/// Estimates them from a random sample of the tree's nodes, level by level: of more than 128 nodes
+/// of a level, about 128 are sampled with a probability proportional to their references, and are
+/// weighted accordingly. The estimate is unbiased (Knuth, "Estimating the efficiency of backtrack
+/// programs", Mathematics of Computation 29(129), 1975, who samples one node of each level; more of
+/// them have less variance).
 /// `Node` has `size()`, its references; `divide(node)` returns those children of a node that refer
 /// to something, or nullopt where it is a leaf.
 template <class Node, class Divide>
@@ -72,11 +72,11 @@ ExpectedReferences expected_references(Node root, Divide divide, Random& random)
   return expected;
 }
 
-/// Is the number that an estimate has as its mean more than that, as far as chance can tell? True
-/// is returned of a number that is not with a probability below 4^-16 (one in four billion),
-/// whatever the estimate: each of 16 must be above four times the limit, and by Markov's inequality
-/// it is with a probability below 1/4. A number of little more than the limit is not told. The
-/// random numbers are the same each time; of what fits, one estimate is made or few.
+/// Does the expected value of an unbiased, nonnegative estimate exceed `most`? A false positive has
+/// a probability below 4^-16 (one in four billion), whatever the distribution: each of 16 estimates
+/// must exceed four times the limit, which by Markov's inequality has a probability below 1/4. An
+/// excess below that factor is not detected. The random numbers are the same each time; where the
+/// limit is kept, one estimate is made or few.
 template <class Estimate>
 bool surely_more_than(std::uint64_t most, Estimate estimate) {
   constexpr int kEstimates = 16;

@@ -29,6 +29,17 @@ bool is_count(const std::vector<scenes::PrimitiveId>& ids) {
   return std::ranges::all_of(ids, [&](scenes::PrimitiveId id) { return id == expected++; });
 }
 
+/// Gives a ray a direction of unit length; its t become `length` times as large, which is returned.
+float make_unit(RTCRay& ray) {
+  const float length = glm::length(glm::vec3(ray.dir_x, ray.dir_y, ray.dir_z));
+  ray.dir_x /= length;
+  ray.dir_y /= length;
+  ray.dir_z /= length;
+  ray.tnear *= length;
+  ray.tfar *= length;
+  return length;
+}
+
 }  // namespace
 
 NativeScene::NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bool robust,
@@ -70,22 +81,17 @@ NativeScene::NativeScene(const scenes::Scene& scene, RTCBuildQuality quality, bo
 }
 
 std::optional<Hit> NativeScene::closest_hit(Context& context, const Ray& ray) const {
-  const RayForScene scaled = for_scene(ray);
-  RTCRayHit query = to_embree_query(scaled.ray);
+  RTCRayHit query = to_embree_query(ray);
+  const float length = curve_count() == 0 ? 1.0F : make_unit(query.ray);
   intersect(scene_.get(), context, query);
   if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return Hit{query.ray.tfar / scaled.length, owner(query.hit.geomID, query.hit.primID)};
+  return Hit{query.ray.tfar / length, owner(query.hit.geomID, query.hit.primID)};
 }
 
 bool NativeScene::any_hit(Context& context, const Ray& ray) const {
-  RTCRay query = to_embree(for_scene(ray).ray);
+  RTCRay query = to_embree(ray);
+  if (curve_count() != 0) make_unit(query);
   return occluded(scene_.get(), context, query);
-}
-
-NativeScene::RayForScene NativeScene::for_scene(const Ray& ray) const {
-  if (curve_count() == 0) return {ray, 1.0F};
-  const float length = glm::length(ray.direction);
-  return {{ray.origin, ray.t_min * length, ray.direction / length, ray.t_max * length}, length};
 }
 
 void NativeScene::attach(GeometryId id, const GeometryHandle& geometry, RTCBuildQuality quality) {

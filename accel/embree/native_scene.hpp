@@ -63,12 +63,6 @@ class NativeScene {
   std::uint64_t bytes() const;
 
  private:
-  /// A ray as Embree gets it, whose t are `length` times as large.
-  struct RayForScene {
-    Ray ray;
-    float length;
-  };
-  RayForScene for_scene(const Ray& ray) const;
   void attach(GeometryId id, const GeometryHandle& geometry, RTCBuildQuality quality);
   GeometryHandle make_triangles(const scenes::Scene& scene);
   GeometryHandle make_spheres(const scenes::Scene& scene);

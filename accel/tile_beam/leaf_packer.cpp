@@ -122,17 +122,9 @@ class LeafPacker {
       case scenes::PrimitiveKind::kPolygon:
         return pack_triangles(items, box);
       case scenes::PrimitiveKind::kSphere:
-        if (items.size() > kTileLanes) return false;
-        begin(TileChild::Kind::kSpheres, made_.blocks.spheres.size(), box);
-        made_.blocks.spheres.emplace_back();
-        for (const std::uint32_t item : items) add_sphere(item);
-        return true;
+        return pack_lanes(TileChild::Kind::kSpheres, made_.blocks.spheres, items, box);
       case scenes::PrimitiveKind::kCone:
-        if (items.size() > kTileLanes) return false;
-        begin(TileChild::Kind::kCones, made_.blocks.cones.size(), box);
-        made_.blocks.cones.emplace_back();
-        for (const std::uint32_t item : items) add_cone(item);
-        return true;
+        return pack_lanes(TileChild::Kind::kCones, made_.blocks.cones, items, box);
     }
     return false;
   }
@@ -140,6 +132,17 @@ class LeafPacker {
   void begin(TileChild::Kind kind, std::size_t index, const scenes::Bounds& box) {
     require_index(pieces_->scene, index);
     made_.packed.push_back({TileChild(kind, static_cast<std::uint32_t>(index)), box});
+  }
+
+  /// Spheres or cones.
+  template <class Blocks>
+  bool pack_lanes(TileChild::Kind kind, Blocks& blocks, std::span<const std::uint32_t> items,
+                  const scenes::Bounds& box) {
+    if (items.size() > kTileLanes) return false;
+    begin(kind, blocks.size(), box);
+    auto& block = blocks.emplace_back();
+    for (const std::uint32_t item : items) add(block, item);
+    return true;
   }
 
   bool pack_triangles(std::span<const std::uint32_t> items, const scenes::Bounds& box) {
@@ -177,8 +180,7 @@ class LeafPacker {
     }
   }
 
-  void add_sphere(std::uint32_t item) {
-    SphereBlock& block = made_.blocks.spheres.back();
+  void add(SphereBlock& block, std::uint32_t item) {
     const scenes::Sphere& sphere = pieces_->scene.spheres[pieces_->pieces[item].index];
     const std::size_t lane = block.count++;
     for (int axis = 0; axis < 3; ++axis) {
@@ -189,8 +191,7 @@ class LeafPacker {
     if (sphere.inside_only) block.inside_only |= 1U << lane;
   }
 
-  void add_cone(std::uint32_t item) {
-    ConeBlock& block = made_.blocks.cones.back();
+  void add(ConeBlock& block, std::uint32_t item) {
     const std::size_t lane = block.count++;
     block.boxes.set(lane, pieces_->boxes[item]);
     block.primitives[lane] = pieces_->pieces[item].primitive;

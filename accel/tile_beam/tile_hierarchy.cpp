@@ -54,7 +54,7 @@ struct NormalCone {
   double half_angle;
 };
 
-/// A wider cone tells little, and one of a right angle nothing.
+/// A wider cone culls little, and one of a right angle nothing.
 std::optional<NormalCone> usable(const NormalCone& cone) {
   constexpr double kWidest = 1.5;
   return cone.half_angle < kWidest ? std::optional(cone) : std::nullopt;

@@ -36,7 +36,7 @@ std::size_t place_of_name(std::string_view what, std::string_view name,
                           std::span<const std::string_view> names);
 
 /// Writes text on a stream of messages (stderr), at once. Where it cannot be written (a full disk),
-/// nobody is told and nothing is thrown: what is computed is worth more than what is said about it.
+/// the failure is ignored: a result is worth more than the messages about it.
 void print_message(std::FILE* stream, std::string_view text);
 
 /// Prints `program: message` on stderr as one printable line (`message_line`), and returns

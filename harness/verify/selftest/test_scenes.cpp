@@ -261,7 +261,7 @@ scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
   camera.from = glm::vec3(random_origin(scene, random));
   const glm::dvec3 from(camera.from);
   const glm::dvec3 direction = glm::normalize(random_direction(scene, from, random));
-  // No shorter than floats can tell from nothing where the camera is.
+  // No shorter than what a float can represent at the distance of the camera from the origin.
   const double reach =
       std::max<double>(glm::length(glm::dvec3(scene.bounds.extent())), 1e-3 * glm::length(from));
   camera.at = glm::vec3(from + direction * reach);
