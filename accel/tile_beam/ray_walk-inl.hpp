@@ -9,8 +9,12 @@
 
 #include <bit>
 #include <optional>
+#include <span>
+
+#include <hwy/cache_control.h>
 
 #include "accel/bvh/probe_ray.hpp"
+#include "accel/core/hit_buffer.hpp"
 #include "accel/core/intersect.hpp"
 #include "accel/core/trace_step.hpp"
 #include "accel/tile_beam/lanes-inl.hpp"
@@ -94,6 +98,9 @@ class MeshletProbe {
   alignas(64) std::array<float, Meshlet::kMaxVertices> t_;
 };
 
+/// Rays that are on their way together.
+inline constexpr std::size_t kRaysAtOnce = 8;
+
 /// The entries still to be visited: the bits of where the ray enters them, which order as the
 /// floats do, above the child's. The nearest is on top.
 class WaitingChildren {
@@ -110,6 +117,9 @@ class WaitingChildren {
   }
   /// Those pushed from here on are sorted among themselves.
   void begin_siblings() { sorted_from_ = size_; }
+  TileChild top() const {
+    return TileChild::from_bits(static_cast<std::uint32_t>(entries_[size_ - 1]));
+  }
   TileChild pop(float& enter_t) {
     const std::uint64_t entry = entries_[--size_];
     enter_t = std::bit_cast<float>(static_cast<std::uint32_t>(entry >> 32U));
@@ -158,39 +168,170 @@ HWY_INLINE bool visit_leaf(const TileHierarchy& hierarchy, const scenes::Scene& 
                                                   : test_each(hierarchy.cones[leaf.index()]);
 }
 
-/// Traverses the hierarchy below `from`, nearest child first.
-template <class Counting, class FarEnd, class Visit>
-void walk_ray(const TileHierarchy& hierarchy, const scenes::Scene& scene, TileChild from,
-              const Ray& ray, const CanonicalRay& canonical, Counting& counting, FarEnd t_max,
-              Visit visit) {
-  const bvh::ProbeRay probe(ray, hierarchy.bounds);
-  WaitingChildren waiting;
-  waiting.push(ray.t_min, from);
-  while (!waiting.empty()) {
+/// What is asked of a ray, and what was found.
+struct ClosestQuery {
+  explicit ClosestQuery(const Ray& query) : best(query) {}
+
+  const CanonicalRay& ray() const { return best.ray; }
+  float t_max() const { return best.ray.t_max; }
+  /// Takes the result of a canonical test; returns whether that ends the traversal.
+  bool take(float t, scenes::PrimitiveId primitive) {
+    best.keep(t, primitive);
+    return false;
+  }
+  std::optional<Hit> result() const { return best.result(); }
+
+  ClosestHit best;
+};
+
+struct AnyQuery {
+  explicit AnyQuery(const Ray& query) : canonical(query) {}
+
+  const CanonicalRay& ray() const { return canonical; }
+  float t_max() const { return canonical.t_max; }
+  bool take(float t, scenes::PrimitiveId) {
+    found = is_hit(t);
+    return found;
+  }
+  bool result() const { return found; }
+
+  CanonicalRay canonical;
+  bool found = false;
+};
+
+/// A ray on its way through the hierarchy, the nearest child first.
+template <class Query>
+class RayWalk {
+ public:
+  RayWalk(const TileHierarchy& hierarchy, TileChild from, const Ray& ray)
+      : query_(ray), probe_(ray, hierarchy.bounds) {
+    waiting_.push(ray.t_min, from);
+  }
+
+  /// Visits one node or leaf. Returns whether there is more.
+  template <class Counting>
+  HWY_INLINE bool step(const TileHierarchy& hierarchy, const scenes::Scene& scene,
+                       Counting& counting) {
     float enter = 0.0F;
-    const TileChild at = waiting.pop(enter);
-    if (enter > t_max() * bvh::ProbeRay::kWider) continue;
+    const TileChild at = waiting_.pop(enter);
+    if (enter > query_.t_max() * bvh::ProbeRay::kWider) return !waiting_.empty();
     counting.add(Counter::kTraversalSteps);
     counting.enter([&] {
       return TraceStep{.place = at.kind() == TileChild::Kind::kNode ? "node" : "leaf",
                        .index = at.index(),
                        .t_enter = enter,
-                       .t_exit = t_max()};
+                       .t_exit = query_.t_max()};
     });
     if (at.kind() != TileChild::Kind::kNode) {
       counting.add(Counter::kLeaves);
-      if (visit_leaf(hierarchy, scene, at, probe, canonical, counting, t_max, visit)) return;
-      continue;
+      const bool ended = visit_leaf(
+          hierarchy, scene, at, probe_, query_.ray(), counting, [&] { return query_.t_max(); },
+          [&](float t, scenes::PrimitiveId primitive) { return query_.take(t, primitive); });
+      return !ended && !waiting_.empty();
     }
     const TileNode& node = hierarchy.nodes[at.index()];
     counting.add(Counter::kBoxTests, node.count);
     alignas(64) std::array<float, kTileLanes> enter_t;
-    waiting.begin_siblings();
-    for (LaneBits met = meet_boxes(node, probe, t_max(), enter_t.data()); met != 0;
+    waiting_.begin_siblings();
+    for (LaneBits met = meet_boxes(node, probe_, query_.t_max(), enter_t.data()); met != 0;
          met &= met - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(met));
-      waiting.push(enter_t[lane], node.children[lane]);
+      waiting_.push(enter_t[lane], node.children[lane]);
     }
+    return !waiting_.empty();
+  }
+
+  /// Where the next step goes.
+  TileChild next() const { return waiting_.top(); }
+  auto result() const { return query_.result(); }
+
+ private:
+  Query query_;
+  bvh::ProbeRay probe_;
+  WaitingChildren waiting_;
+};
+
+template <class Query, class Counting>
+auto answer_below(const TileHierarchy& hierarchy, const scenes::Scene& scene, TileChild from,
+                  const Ray& ray, Counting& counting) {
+  RayWalk<Query> walk(hierarchy, from, ray);
+  while (walk.step(hierarchy, scene, counting)) {
+  }
+  return walk.result();
+}
+
+/// Asks for what a ray's next step needs of the memory.
+HWY_INLINE void prefetch_for_ray(const TileHierarchy& hierarchy, TileChild child) {
+  const auto fetch = [](const auto& block, std::size_t bytes) {
+    const auto* const from = reinterpret_cast<const std::uint8_t*>(&block);
+    for (std::size_t i = 0; i < bytes; i += 64) hwy::Prefetch(from + i);
+  };
+  if (child.kind() == TileChild::Kind::kNode) {
+    const TileNode& node = hierarchy.nodes[child.index()];
+    fetch(node.boxes, sizeof(TileBoxes));
+    fetch(node.children, sizeof(node.children));
+    fetch(node.count, sizeof(node.count));
+  } else if (child.kind() == TileChild::Kind::kMeshlet) {
+    fetch(hierarchy.meshlets[child.index()], sizeof(Meshlet));
+  }
+}
+
+/// A traversal under way, and the caller's number of its ray.
+template <class Query>
+struct NumberedWalk {
+  NumberedWalk(std::size_t own, const TileHierarchy& hierarchy, TileChild from, const Ray& ray)
+      : number(own), walk(hierarchy, from, ray) {}
+
+  std::size_t number;
+  RayWalk<Query> walk;
+};
+
+/// Answers rays, several of them at once: in a hierarchy larger than the caches nearly each step of
+/// a single ray waits for the memory, and meanwhile the others go on. As `answer_rays_below`.
+template <class Query, class Counting, class Next, class Done>
+void interleave_rays_below(const TileHierarchy& hierarchy, const scenes::Scene& scene,
+                           TileChild from, Counting& counting, Next next, Done done) {
+  std::array<std::optional<NumberedWalk<Query>>, kRaysAtOnce> rays;
+  std::array<std::size_t, kRaysAtOnce> walking;  // places in `rays`
+  std::size_t count = 0;
+  Ray ray;
+  std::size_t number = 0;
+  while (count < kRaysAtOnce && next(ray, number)) {
+    rays[count].emplace(number, hierarchy, from, ray);
+    walking[count] = count;
+    ++count;
+  }
+  while (count > 0) {
+    for (std::size_t i = 0; i < count;) {
+      NumberedWalk<Query>& one = *rays[walking[i]];
+      if (one.walk.step(hierarchy, scene, counting)) {
+        prefetch_for_ray(hierarchy, one.walk.next());
+        ++i;
+        continue;
+      }
+      done(one.number, one.walk.result());
+      if (next(ray, number)) {
+        rays[walking[i]].emplace(number, hierarchy, from, ray);
+        ++i;
+      } else {
+        walking[i] = walking[--count];
+      }
+    }
+  }
+}
+
+/// Answers rays in any order. `next(ray, number)` sets the next ray and a number of the caller's,
+/// or returns false; `done(number, result)` gets its answer.
+template <class Query, class Counting, class Next, class Done>
+void answer_rays_below(const TileHierarchy& hierarchy, const scenes::Scene& scene, TileChild from,
+                       Counting& counting, Next next, Done done) {
+  if (hierarchy.interleaves_rays) {
+    return interleave_rays_below<Query>(hierarchy, scene, from, counting, next, done);
+  }
+  Ray ray;
+  std::size_t number = 0;
+  while (next(ray, number)) {
+    done(number, answer_below<Query>(hierarchy, scene, from, ray, counting));
   }
 }
 
@@ -198,14 +339,14 @@ void walk_ray(const TileHierarchy& hierarchy, const scenes::Scene& scene, TileCh
 template <class Counting>
 std::optional<Hit> closest_below(const TileHierarchy& hierarchy, const scenes::Scene& scene,
                                  TileChild from, const Ray& ray, Counting& counting) {
-  ClosestHit best(ray);
-  walk_ray(
-      hierarchy, scene, from, ray, best.ray, counting, [&] { return best.ray.t_max; },
-      [&](float t, scenes::PrimitiveId primitive) {
-        best.keep(t, primitive);
-        return false;
-      });
-  return best.result();
+  return answer_below<ClosestQuery>(hierarchy, scene, from, ray, counting);
+}
+
+/// Is there a hit below `from`?
+template <class Counting>
+bool any_below(const TileHierarchy& hierarchy, const scenes::Scene& scene, TileChild from,
+               const Ray& ray, Counting& counting) {
+  return answer_below<AnyQuery>(hierarchy, scene, from, ray, counting);
 }
 
 template <class Counting>
@@ -214,25 +355,48 @@ std::optional<Hit> closest(const TileHierarchy& hierarchy, const scenes::Scene& 
   return closest_below(hierarchy, scene, hierarchy.root, ray, counting);
 }
 
-/// Is there a hit below `from`?
-template <class Counting>
-bool any_below(const TileHierarchy& hierarchy, const scenes::Scene& scene, TileChild from,
-               const Ray& ray, Counting& counting) {
-  const CanonicalRay canonical(ray);
-  bool found = false;
-  walk_ray(
-      hierarchy, scene, from, ray, canonical, counting, [&] { return ray.t_max; },
-      [&](float t, scenes::PrimitiveId) {
-        found = is_hit(t);
-        return found;
-      });
-  return found;
-}
-
 template <class Counting>
 bool any(const TileHierarchy& hierarchy, const scenes::Scene& scene, const Ray& ray,
          Counting& counting) {
   return any_below(hierarchy, scene, hierarchy.root, ray, counting);
+}
+
+/// Calls `done(i, result)` for each ray of a list, in any order, but for those that ProbeRay cannot
+/// probe. Returns whether there are some of these.
+template <class Query, class Counting, class Done>
+bool answer_list(const TileHierarchy& hierarchy, const scenes::Scene& scene,
+                 std::span<const Ray> rays, Counting& counting, Done done) {
+  std::size_t following = 0;
+  bool some_left = false;
+  const auto next = [&](Ray& ray, std::size_t& i) {
+    for (; following < rays.size(); ++following) {
+      if (bvh::ProbeRay::can_probe(rays[following])) {
+        i = following++;
+        ray = rays[i];
+        return true;
+      }
+      some_left = true;
+    }
+    return false;
+  };
+  answer_rays_below<Query>(hierarchy, scene, hierarchy.root, counting, next, done);
+  return some_left;
+}
+
+template <class Counting>
+bool closest_of_list(const TileHierarchy& hierarchy, const scenes::Scene& scene,
+                     std::span<const Ray> rays, HitBuffer& buffer, std::size_t first,
+                     Counting& counting) {
+  return answer_list<ClosestQuery>(
+      hierarchy, scene, rays, counting,
+      [&](std::size_t i, const std::optional<Hit>& hit) { buffer.set(first + i, hit); });
+}
+
+template <class Counting>
+bool any_of_list(const TileHierarchy& hierarchy, const scenes::Scene& scene,
+                 std::span<const Ray> rays, std::span<std::uint8_t> hits, Counting& counting) {
+  return answer_list<AnyQuery>(hierarchy, scene, rays, counting,
+                               [&](std::size_t i, bool hit) { hits[i] = hit ? 1 : 0; });
 }
 
 }  // namespace beambench::accel::tile_beam::HWY_NAMESPACE

@@ -174,11 +174,13 @@ struct QueryState {
 };
 
 /// Answers the rays of a batch. `some(rays, first, unit, counting)` answers the first rays of those
-/// of a pencil; `single(i, counting)` all other rays, and those of which `is_undecided(i)` holds
-/// then. `parallel`: parts are distributed among all cores; answers and counts are the same.
-template <class Counting, class Some, class Undecided, class Single>
+/// of a pencil, and `single(i, counting)` those of them of which `is_undecided(i)` holds then;
+/// `list(range, counting)` answers all other rays but those that ProbeRay cannot probe, and returns
+/// whether there are some, which `single` answers. `parallel`: parts are distributed among all
+/// cores; answers and counts are the same.
+template <class Counting, class Some, class Undecided, class List, class Single>
 void answer(const SeenBatch& seen, bool toward, bool parallel, Counting& counting, Some some,
-            Undecided is_undecided, Single single) {
+            Undecided is_undecided, List list, Single single) {
   using State = QueryState<Counting>;
   const auto answer_pencil = [&](RayRange left, State& state) {
     if (!state.unit) state.unit = std::make_unique_for_overwrite<PencilUnit>();
@@ -195,7 +197,10 @@ void answer(const SeenBatch& seen, bool toward, bool parallel, Counting& countin
   };
   const auto answer_range = [&](const RayRange& range, State& state) {
     if (range.pencil != nullptr) return answer_pencil(range, state);
-    for (std::size_t i = 0; i < range.count; ++i) single(range.first + i, state.counting);
+    if (!list(range, state.counting)) return;
+    for (std::size_t i = range.first; i < range.first + range.count; ++i) {
+      if (!bvh::ProbeRay::can_probe(seen.batch.rays[i])) single(i, state.counting);
+    }
   };
   const std::vector<RayRange> ranges = ranges_of(seen.batch, toward);
   tbb::enumerable_thread_specific<State> states;
@@ -229,6 +234,11 @@ void TileBeam::closest_hits(const RayBatch& batch, HitBuffer& buffer,
           return pencil_kernels_->queries<Counting>().closest_hits(rays, unit, buffer, first, own);
         },
         [&](std::size_t i) { return std::isnan(buffer.t()[i]); },
+        [&](const RayRange& range, Counting& own) {
+          return kernels_->lists<Counting>().closest_hits(
+              hierarchy_, *scene_, batch.rays.subspan(range.first, range.count), buffer,
+              range.first, own);
+        },
         [&](std::size_t i, Counting& own) { buffer.set(i, find_closest(batch.rays[i], own)); });
   });
 }
@@ -245,6 +255,11 @@ void TileBeam::any_hits(const RayBatch& batch, std::span<std::uint8_t> hits,
               rays, unit, hits.subspan(first, rays.rays.size()), own);
         },
         [&](std::size_t i) { return hits[i] == kUndecided; },
+        [&](const RayRange& range, Counting& own) {
+          return kernels_->lists<Counting>().any_hits(hierarchy_, *scene_,
+                                                      batch.rays.subspan(range.first, range.count),
+                                                      hits.subspan(range.first, range.count), own);
+        },
         [&](std::size_t i, Counting& own) { hits[i] = find_any(batch.rays[i], own) ? 1 : 0; });
   });
 }
@@ -337,10 +352,7 @@ Statistics TileBeam::statistics() const {
   statistics.leaves = hierarchy_.leaves();
   statistics.references = hierarchy_.references;
   statistics.depth = hierarchy_.depth;
-  statistics.bytes = hierarchy_.nodes.capacity() * sizeof(TileNode) +
-                     hierarchy_.meshlets.capacity() * sizeof(Meshlet) +
-                     hierarchy_.spheres.capacity() * sizeof(SphereBlock) +
-                     hierarchy_.cones.capacity() * sizeof(ConeBlock) + solid_bytes(hierarchy_);
+  statistics.bytes = hierarchy_.bytes() + solid_bytes(hierarchy_);
   statistics.instruction_set = instruction_set();
   statistics.image_rays = ImageRays::kOwn;
   statistics.more = {{"cost", hierarchy_.cost},

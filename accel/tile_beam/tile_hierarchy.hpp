@@ -133,6 +133,7 @@ struct TileHierarchy : TileBlocks {
   Solids solids;                             ///< whose backs are left out; none: no backs are
   std::vector<SolidMeshlet> solid_meshlets;  ///< ascending
   scenes::Bounds bounds;                     ///< of everything, widened
+  bool interleaves_rays = false;             ///< it is so large that single rays go together
   std::uint32_t depth = 0;                   ///< nodes on the longest path to a leaf, leaf included
   std::uint64_t references = 0;
   ExpectedVisits visits;
@@ -140,6 +141,11 @@ struct TileHierarchy : TileBlocks {
 
   bool empty() const { return references == 0; }
   std::size_t leaves() const { return count(); }
+  /// Of nodes and leaves.
+  std::size_t bytes() const {
+    return nodes.capacity() * sizeof(TileNode) + meshlets.capacity() * sizeof(Meshlet) +
+           spheres.capacity() * sizeof(SphereBlock) + cones.capacity() * sizeof(ConeBlock);
+  }
 };
 
 /// The maximum number of nodes from the root to a leaf: the binary hierarchy's, and one for a leaf

@@ -28,10 +28,15 @@ constexpr TileRayQueries<Counting> queries() {
   return {closest<Counting>, any<Counting>};
 }
 
+template <class Counting>
+constexpr TileListQueries<Counting> lists() {
+  return {closest_of_list<Counting>, any_of_list<Counting>};
+}
+
 const TileKernels& tile_kernels() {
-  static constexpr TileKernels kKernels{queries<NoCounting>(),   queries<WorkCounters>(),
-                                        queries<StepRecorder>(), {draw<NoCounting>},
-                                        {draw<WorkCounters>},    HWY_TARGET};
+  static constexpr TileKernels kKernels{
+      queries<NoCounting>(), queries<WorkCounters>(), queries<StepRecorder>(), lists<NoCounting>(),
+      lists<WorkCounters>(), {draw<NoCounting>},      {draw<WorkCounters>},    HWY_TARGET};
   return kKernels;
 }
 

@@ -1,8 +1,10 @@
 #pragma once
 // Tiles and rays through the hierarchy, compiled for several instruction sets.
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "accel/core/hit_buffer.hpp"
 #include "accel/core/primary_rays.hpp"
@@ -22,6 +24,18 @@ template <class Counting>
 struct TileRayQueries {
   std::optional<Hit> (*closest)(const TileHierarchy&, const scenes::Scene&, const Ray&, Counting&);
   bool (*any)(const TileHierarchy&, const scenes::Scene&, const Ray&, Counting&);
+};
+
+/// Those of lists of rays, for hierarchies that are not empty. Rays that ProbeRay cannot probe are
+/// left out; they return whether there are some.
+template <class Counting>
+struct TileListQueries {
+  /// The hits are written from `first` of the buffer on.
+  bool (*closest_hits)(const TileHierarchy&, const scenes::Scene&, std::span<const Ray>,
+                       HitBuffer& buffer, std::size_t first, Counting&);
+  /// 1 for a hit and 0 for none.
+  bool (*any_hits)(const TileHierarchy&, const scenes::Scene&, std::span<const Ray>,
+                   std::span<std::uint8_t> hits, Counting&);
 };
 
 /// What is drawn, and from where.
@@ -44,12 +58,18 @@ struct TileDrawing {
 struct TileKernels : TileRayQueries<NoCounting>,
                      TileRayQueries<WorkCounters>,
                      TileRayQueries<StepRecorder>,
+                     TileListQueries<NoCounting>,
+                     TileListQueries<WorkCounters>,
                      TileDrawing<NoCounting>,
                      TileDrawing<WorkCounters> {
   std::int64_t target;  ///< HWY_TARGET: hwy::TargetName gives its name
 
   template <class Counting>
   const TileRayQueries<Counting>& queries() const {
+    return *this;
+  }
+  template <class Counting>
+  const TileListQueries<Counting>& lists() const {
     return *this;
   }
   template <class Counting>

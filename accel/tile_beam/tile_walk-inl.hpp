@@ -157,20 +157,31 @@ class TileWalk {
   /// Single rays for the remaining samples.
   void hand_over(const Entry& entry) {
     if (!image_->touched) clear(*image_, *view_);
-    for (int y = entry.where.top; y <= entry.where.bottom; ++y) {
-      for (int x = entry.where.left; x <= entry.where.right; ++x) {
-        const std::size_t at = TileImage::place(x, y);
-        if (image_->inverse_t[at] > entry.nearest) continue;
-        note_handed_over(*counting_, at);
-        Ray ray = rays_.at(x, y);
-        ray.t_max = 1.0F / image_->inverse_t[at];
-        const auto hit = closest_below(*hierarchy_, *scene_, entry.child, ray, *counting_);
-        if (!hit) continue;
-        image_->inverse_t[at] = inverse_of(hit->t);
-        image_->primitive[at] = hit->primitive;
+    const SampleRectangle& where = entry.where;
+    int x = where.left - 1;
+    int y = where.top;
+    const auto next = [&](Ray& ray, std::size_t& at) {
+      for (;;) {
+        if (++x > where.right) {
+          x = where.left;
+          ++y;
+        }
+        if (y > where.bottom) return false;
+        at = TileImage::place(x, y);
+        if (image_->inverse_t[at] <= entry.nearest) break;
       }
-    }
-    changed(entry.where);
+      note_handed_over(*counting_, at);
+      ray = rays_.at(x, y);
+      ray.t_max = 1.0F / image_->inverse_t[at];
+      return true;
+    };
+    const auto done = [&](std::size_t at, const std::optional<Hit>& hit) {
+      if (!hit) return;
+      image_->inverse_t[at] = inverse_of(hit->t);
+      image_->primitive[at] = hit->primitive;
+    };
+    answer_rays_below<ClosestQuery>(*hierarchy_, *scene_, entry.child, *counting_, next, done);
+    changed(where);
   }
 
   /// Updates the whole tile's depth now and then, when it may have grown by much.

@@ -1,0 +1,245 @@
+// The groups of blocks of a part of a pencil: their bounds, and which rays may still be hit.
+
+#if defined(ACCEL_TILE_BEAM_PENCIL_GROUPS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ACCEL_TILE_BEAM_PENCIL_GROUPS_INL
+#undef ACCEL_TILE_BEAM_PENCIL_GROUPS_INL
+#else
+#define ACCEL_TILE_BEAM_PENCIL_GROUPS_INL
+#endif
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+
+#include "accel/tile_beam/pencil_shapes-inl.hpp"
+#include "accel/tile_beam/pencil_unit.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
+
+/// Rays toward the apex: a hit ends a ray.
+struct AnyHitPolicy {
+  static constexpr bool kClosest = false;
+  static constexpr bool kFar = false;
+  static constexpr bool kDense = false;
+  /// Leaves for each ray from which on single rays take less time, measured.
+  static constexpr float kHandoverLeaves = 1.0F;
+};
+/// The same from an apex so far away that float is not sure of a hit close to a ray's origin:
+/// these are confirmed.
+struct FarAnyHitPolicy : AnyHitPolicy {
+  static constexpr bool kFar = true;
+};
+/// The same for rays so close together that float is not sure of many hits at a triangle's edge
+/// either: these are confirmed, too.
+struct DenseAnyHitPolicy : FarAnyHitPolicy {
+  static constexpr bool kDense = true;
+};
+/// Rays away from the apex: a hit brings the ray's end nearer.
+struct ClosestHitPolicy {
+  static constexpr bool kClosest = true;
+  static constexpr bool kFar = false;
+  static constexpr bool kDense = false;
+  static constexpr float kHandoverLeaves = 3.0F;
+};
+
+/// Bounds on a side of the cube, by `Bound`.
+using SideBounds = std::array<float, 6>;
+enum Bound : std::size_t { kLowU, kHighU, kLowV, kHighV, kLowW, kHighW };
+
+/// Lanes whose bounds overlap those of `within` (sign clear).
+template <bool kClosest>
+HWY_INLINE Floats apart(const SeenBounds& bounds, const PencilBounds& within) {
+  const Floats aside =
+      either(hn::Sub(bounds.high_u, all(within.low_u)), hn::Sub(all(within.high_u), bounds.low_u),
+             hn::Sub(bounds.high_v, all(within.low_v)));
+  const Floats behind = hn::Sub(bounds.high_w, all(within.least_w));
+  const Floats rest = hn::Sub(all(within.high_v), bounds.low_v);
+  if constexpr (kClosest) {
+    return either(aside, hn::Or(behind, rest), hn::Sub(all(within.most_origin_w), bounds.low_w));
+  } else {
+    return either(aside, behind, rest);
+  }
+}
+
+/// What is known of the groups of a unit while its part goes through the hierarchy.
+template <class Policy>
+class PencilGroups {
+ public:
+  /// The groups of the unit as they are before the first test.
+  explicit PencilGroups(PencilUnit& unit) : unit_(&unit) {
+    for (std::size_t group = 0; group < PencilUnit::kGroups; ++group) {
+      if (group < unit_->groups) {
+        int rays = 0;
+        for (std::size_t i = 0; i < 16; ++i) {
+          rays += std::popcount(std::uint32_t{unit_->alive[group * 16 + i]});
+        }
+        unit_->group_rays[group] = static_cast<float>(rays);
+        bound_group(group);
+        unit_->group_area[group] = (unit_->group_high_u[group] - unit_->group_low_u[group]) *
+                                   (unit_->group_high_v[group] - unit_->group_low_v[group]);
+      } else {
+        drop_group(group);
+      }
+    }
+    bound_all();
+  }
+
+  /// A bit for each that has a ray which may still be hit.
+  std::uint32_t alive() const { return unit_->groups_alive; }
+  /// Of all of these.
+  const PencilBounds& all_bounds() const { return all_; }
+  PencilBounds bounds_of(std::size_t group) const {
+    return {unit_->group_low_u[group],  unit_->group_high_u[group], unit_->group_low_v[group],
+            unit_->group_high_v[group], unit_->group_w[group],      unit_->group_origin_w[group]};
+  }
+
+  /// The groups from which bounds may be seen.
+  HWY_INLINE std::uint32_t groups_in(const SideBounds& bounds) const {
+    std::uint32_t bits = 0;
+    for (std::size_t lane = 0; lane < unit_->groups; lane += kLanes) {
+      Floats out = either(hn::Sub(load(&unit_->group_high_u[lane]), all(bounds[kLowU])),
+                          hn::Sub(all(bounds[kHighU]), load(&unit_->group_low_u[lane])),
+                          hn::Sub(load(&unit_->group_high_v[lane]), all(bounds[kLowV])));
+      out = either(out, hn::Sub(all(bounds[kHighV]), load(&unit_->group_low_v[lane])),
+                   hn::Sub(all(bounds[kHighW]), load(&unit_->group_w[lane])));
+      if constexpr (kClosest) {
+        out = hn::Or(out, hn::Sub(load(&unit_->group_origin_w[lane]), all(bounds[kLowW])));
+      }
+      bits |= bits_of(hn::Not(is_negative(out))) << lane;
+    }
+    return bits;
+  }
+
+  /// The blocks of a group that something within bounds may be seen from.
+  HWY_INLINE LaneBits blocks_in(std::size_t group, const SideBounds& bounds) const {
+    const LaneBits blocks = for_each_register([&](std::size_t lane) {
+      const std::size_t at = group * 16 + lane;
+      Floats out = either(hn::Sub(load(&unit_->high_u[at]), all(bounds[kLowU])),
+                          hn::Add(load(&unit_->minus_low_u[at]), all(bounds[kHighU])),
+                          hn::Sub(load(&unit_->high_v[at]), all(bounds[kLowV])));
+      out = either(out, hn::Add(load(&unit_->minus_low_v[at]), all(bounds[kHighV])),
+                   hn::Add(load(&unit_->minus_w[at]), all(bounds[kHighW])));
+      return hn::Not(is_negative(out));
+    });
+    return blocks & unit_->group_blocks[group];
+  }
+
+  /// Notes which rays of a block were hit. Returns the bit of its group if that matters for bounds.
+  HWY_INLINE std::uint32_t note(std::size_t place, LaneBits hits) {
+    const std::size_t group = place / 16;
+    if constexpr (kClosest) {
+      const auto found = static_cast<std::uint32_t>(hits != 0);
+      changed_blocks_[group] =
+          static_cast<std::uint16_t>(changed_blocks_[group] | found << (place % 16));
+      return found << group;
+    } else {
+      const LaneBits alive = unit_->alive[place] & ~hits;
+      unit_->alive[place] = static_cast<std::uint16_t>(alive);
+      return static_cast<std::uint32_t>(alive == 0) << group;
+    }
+  }
+
+  /// Bounds anew the groups for which `note` returned a bit.
+  void update(std::uint32_t changed) {
+    const std::uint32_t before = unit_->groups_alive;
+    bool shrunk = false;
+    for (std::uint32_t left = changed & before; left != 0; left &= left - 1) {
+      const auto group = static_cast<std::size_t>(std::countr_zero(left));
+      if constexpr (kClosest) {
+        for (LaneBits blocks = changed_blocks_[group]; blocks != 0; blocks &= blocks - 1) {
+          find_farthest(group * 16 + static_cast<std::size_t>(std::countr_zero(blocks)));
+        }
+        changed_blocks_[group] = 0;
+      } else {
+        LaneBits dead = 0;
+        for (std::size_t i = 0; i < 16; ++i) {
+          dead |= static_cast<LaneBits>(unit_->alive[group * 16 + i] == 0) << i;
+        }
+        dead &= unit_->group_blocks[group];
+        for (LaneBits some = dead; some != 0; some &= some - 1) {
+          unit_->high_u[group * 16 + static_cast<std::size_t>(std::countr_zero(some))] = -kInfinity;
+        }
+        unit_->group_blocks[group] = static_cast<std::uint16_t>(unit_->group_blocks[group] & ~dead);
+        if (unit_->group_blocks[group] == 0) {
+          drop_group(group);
+          shrunk = true;
+          continue;
+        }
+      }
+      bound_group(group);
+    }
+    if (kClosest || shrunk) bound_all();
+  }
+
+ private:
+  static constexpr bool kClosest = Policy::kClosest;
+
+  HWY_INLINE void drop_group(std::size_t group) {
+    unit_->group_blocks[group] = 0;
+    unit_->group_low_u[group] = unit_->group_low_v[group] = unit_->group_w[group] = kInfinity;
+    unit_->group_high_u[group] = unit_->group_high_v[group] = -kInfinity;
+    unit_->group_origin_w[group] = -kInfinity;
+    unit_->groups_alive &= ~(1U << group);
+  }
+
+  HWY_INLINE void bound_group(std::size_t group) {
+    const std::size_t first = group * 16;
+    Floats low_u = all(-kInfinity), high_u = low_u, low_v = low_u, high_v = low_u, w = low_u,
+           origin_w = low_u;
+    for (std::size_t lane = 0; lane < 16; lane += kLanes) {
+      const Mask in = lanes_of(unit_->group_blocks[group], lane);
+      const auto most = [&](Floats& sum, const auto& values) {
+        sum = hn::Max(sum, hn::IfThenElse(in, load(&values[first + lane]), all(-kInfinity)));
+      };
+      most(low_u, unit_->minus_low_u);
+      most(high_u, unit_->high_u);
+      most(low_v, unit_->minus_low_v);
+      most(high_v, unit_->high_v);
+      most(w, unit_->minus_w);
+      if constexpr (kClosest) most(origin_w, unit_->origin_w_top);
+    }
+    unit_->group_low_u[group] = -most_of(low_u);
+    unit_->group_high_u[group] = most_of(high_u);
+    unit_->group_low_v[group] = -most_of(low_v);
+    unit_->group_high_v[group] = most_of(high_v);
+    unit_->group_w[group] = -most_of(w);
+    if constexpr (kClosest) unit_->group_origin_w[group] = most_of(origin_w);
+  }
+
+  HWY_INLINE void bound_all() {
+    Floats low_u = all(kInfinity), high_u = all(-kInfinity), low_v = low_u, high_v = high_u,
+           w = low_u, origin_w = high_u;
+    for (std::size_t lane = 0; lane < PencilUnit::kGroups; lane += kLanes) {
+      low_u = hn::Min(low_u, load(&unit_->group_low_u[lane]));
+      high_u = hn::Max(high_u, load(&unit_->group_high_u[lane]));
+      low_v = hn::Min(low_v, load(&unit_->group_low_v[lane]));
+      high_v = hn::Max(high_v, load(&unit_->group_high_v[lane]));
+      w = hn::Min(w, load(&unit_->group_w[lane]));
+      if constexpr (kClosest) origin_w = hn::Max(origin_w, load(&unit_->group_origin_w[lane]));
+    }
+    all_ = {least_of(low_u), most_of(high_u), least_of(low_v),
+            most_of(high_v), least_of(w),     kClosest ? most_of(origin_w) : kInfinity};
+  }
+
+  /// The smallest w that is left to beat in a block.
+  HWY_INLINE void find_farthest(std::size_t place) {
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    Floats least = all(kInfinity);
+    for (std::size_t lane = 0; lane < PencilUnit::kBlock; lane += kLanes) {
+      least = hn::Min(least, hn::IfThenElse(lanes_of(unit_->alive[place], lane),
+                                            load(&unit_->w[block + lane]), all(kInfinity)));
+    }
+    unit_->minus_w[place] = -least_of(least);
+  }
+
+  PencilUnit* unit_;
+  PencilBounds all_{};
+  std::array<std::uint16_t, PencilUnit::kGroups> changed_blocks_{};  ///< closest hits
+};
+
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,201 @@
+// Which blocks of a part of a pencil are to be tested against which shapes of a leaf.
+
+#if defined(ACCEL_TILE_BEAM_PENCIL_PAIRS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ACCEL_TILE_BEAM_PENCIL_PAIRS_INL
+#undef ACCEL_TILE_BEAM_PENCIL_PAIRS_INL
+#else
+#define ACCEL_TILE_BEAM_PENCIL_PAIRS_INL
+#endif
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "accel/tile_beam/pencil_groups-inl.hpp"
+#include "accel/tile_beam/pencil_shapes-inl.hpp"
+#include "accel/tile_beam/pencil_unit.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
+
+/// Numbers of a shape, all lanes alike, or of as many shapes as there are lanes; likewise blocks.
+struct OneShape {
+  const SeenShapes& shapes;
+  std::size_t shape;
+  HWY_INLINE Floats operator()(std::size_t row) const { return all(shapes.rows[row][shape]); }
+};
+struct SomeShapes {
+  const SeenShapes& shapes;
+  std::size_t lane;
+  HWY_INLINE Floats operator()(std::size_t row) const { return shapes.at(row, lane); }
+};
+struct OneBlock {
+  std::size_t place;
+  HWY_INLINE Floats operator()(const float* values) const { return all(values[place]); }
+};
+struct SomeBlocks {
+  std::size_t place;
+  HWY_INLINE Floats operator()(const float* values) const { return load(values + place); }
+};
+
+/// Finds them by the bounds of groups, then by those of blocks, a triangle's edges and its plane.
+template <class Policy>
+class PencilPairs {
+ public:
+  PencilPairs(const PencilUnit& unit, const PencilGroups<Policy>& groups, const SeenShapes& shapes)
+      : unit_(&unit), groups_(&groups), shapes_(&shapes) {}
+
+  /// Finds the pairs of some groups and `count` shapes of a leaf within bounds.
+  template <bool kTriangles>
+  HWY_INLINE void find(const SideBounds& bounds, std::uint32_t groups, std::size_t count) {
+    list_candidates(bounds, groups, count);
+    test_blocks<kTriangles>(count);
+  }
+  /// Those found last: place of the block * SeenShapes::kMost + shape.
+  std::span<const std::uint32_t> found() const { return {pairs_.data(), count_}; }
+
+ private:
+  static constexpr bool kClosest = Policy::kClosest;
+
+  using Numbers = hn::Vec<hn::RebindToUnsigned<Tag>>;
+
+  /// Writes the numbers of some lanes one after the other, and returns how many. A whole register
+  /// is written: storing a part of it takes some processors a hundred cycles.
+  static HWY_INLINE std::size_t append(Numbers numbers, Mask which, std::uint32_t* to) {
+    const hn::RebindToUnsigned<Tag> d;
+    const auto mask = hn::RebindMask(d, which);
+    hn::StoreU(hn::Compress(numbers, mask), d, to);
+    return hn::CountTrue(d, mask);
+  }
+
+  /// Which shapes are to be tested with which blocks: of each group either all blocks against some
+  /// shapes, or all shapes against some blocks, whatever is fewer.
+  HWY_INLINE void list_candidates(const SideBounds& bounds, std::uint32_t groups,
+                                  std::size_t count) {
+    const hn::RebindToUnsigned<Tag> d;
+    std::size_t by_shape_count = 0;
+    std::size_t by_block_count = 0;
+    const std::size_t shape_registers = (count + kLanes - 1) / kLanes;
+    for (; groups != 0; groups &= groups - 1) {
+      const auto group = static_cast<std::size_t>(std::countr_zero(groups));
+      const std::size_t first = group * 16;
+      const LaneBits blocks = groups_->blocks_in(group, bounds);
+      const PencilBounds within = groups_->bounds_of(group);
+      LaneBits shapes = 0;
+      for (std::size_t lane = 0; lane < count; lane += kLanes) {
+        const SeenBounds seen{
+            shapes_->at(SeenShapes::kLowU, lane), shapes_->at(SeenShapes::kHighU, lane),
+            shapes_->at(SeenShapes::kLowV, lane), shapes_->at(SeenShapes::kHighV, lane),
+            shapes_->at(SeenShapes::kLowW, lane), shapes_->at(SeenShapes::kHighW, lane)};
+        shapes |= bits_of(hn::Not(is_negative(apart<kClosest>(seen, within)))) << lane;
+      }
+      shapes &= shapes_->present;
+      // Both lists grow without a branch: the one that is not chosen by nothing.
+      const std::size_t registers_of_group = 16 / kLanes;
+      const bool by_block = static_cast<std::size_t>(std::popcount(blocks)) * shape_registers <
+                            static_cast<std::size_t>(std::popcount(shapes)) * registers_of_group;
+      const LaneBits some_blocks = by_block ? blocks : 0;
+      const LaneBits some_shapes = by_block || blocks == 0 ? 0 : shapes;
+      for (std::size_t lane = 0; lane < 16; lane += kLanes) {
+        by_block_count += append(hn::Iota(d, static_cast<std::uint32_t>(first + lane)),
+                                 lanes_of(some_blocks, lane), &by_block_[by_block_count]);
+      }
+      for (std::size_t lane = 0; lane < count; lane += kLanes) {
+        by_shape_count +=
+            append(hn::Iota(d, static_cast<std::uint32_t>(group * SeenShapes::kMost + lane)),
+                   lanes_of(some_shapes, lane), &by_shape_[by_shape_count]);
+      }
+    }
+    by_shape_count_ = by_shape_count;
+    by_block_count_ = by_block_count;
+  }
+
+  /// Lanes where the shape can hit no ray of the block have their sign set.
+  template <bool kTriangles, class Shape, class Block>
+  HWY_INLINE Floats misses(Shape shape, Block block) const {
+    const PencilUnit& unit = *unit_;
+    Floats out = either(hn::Sub(block(unit.high_u.data()), shape(SeenShapes::kLowU)),
+                        hn::Add(block(unit.minus_low_u.data()), shape(SeenShapes::kHighU)),
+                        hn::Sub(block(unit.high_v.data()), shape(SeenShapes::kLowV)));
+    const Floats minus_w = block(unit.minus_w.data());
+    out = either(out, hn::Add(block(unit.minus_low_v.data()), shape(SeenShapes::kHighV)),
+                 hn::Add(minus_w, shape(SeenShapes::kHighW)));
+    if constexpr (kClosest) {
+      out = hn::Or(out, hn::Sub(block(unit.origin_w_top.data()), shape(SeenShapes::kLowW)));
+    }
+    if constexpr (kTriangles) {
+      const Floats middle_u = block(unit.middle_u.data());
+      const Floats middle_v = block(unit.middle_v.data());
+      const Floats half_u = block(unit.half_u.data());
+      const Floats half_v = block(unit.half_v.data());
+      // The largest value of a line over the block.
+      const auto largest = [&](std::size_t row, std::size_t magnitudes, Floats constant) {
+        return hn::MulAdd(
+            shape(row), middle_u,
+            hn::MulAdd(shape(row + 1), middle_v,
+                       hn::MulAdd(shape(magnitudes), half_u,
+                                  hn::MulAdd(shape(magnitudes + 1), half_v, constant))));
+      };
+      const auto edge = [&](std::size_t k) {
+        return largest(SeenShapes::kEdge0 + 3 * k, SeenShapes::kMagnitudes + 2 * k,
+                       shape(SeenShapes::kEdge0 + 3 * k + 2));
+      };
+      out = either(out, edge(0), edge(1));
+      out = either(out, edge(2),
+                   largest(SeenShapes::kPlane, SeenShapes::kMagnitudes + 6,
+                           hn::MulAdd(shape(SeenShapes::kDistance), minus_w,
+                                      shape(SeenShapes::kPlane + 2))));
+    }
+    return out;
+  }
+
+  /// Lists the pairs of a block and a shape whose rays are to be tested.
+  template <bool kTriangles>
+  HWY_INLINE void test_blocks(std::size_t shapes) {
+    const hn::RebindToUnsigned<Tag> d;
+    std::size_t count = 0;
+    const std::size_t by_shapes = by_shape_count_;
+    const std::size_t by_blocks = by_block_count_;
+    constexpr auto kMost = static_cast<std::uint32_t>(SeenShapes::kMost);
+    for (std::size_t i = 0; i < by_shapes; ++i) {
+      const std::size_t shape = by_shape_[i] % kMost;
+      const std::size_t first = by_shape_[i] / kMost * 16;
+      for (std::size_t lane = 0; lane < 16; lane += kLanes) {
+        const Mask hit = hn::Not(
+            is_negative(misses<kTriangles>(OneShape{*shapes_, shape}, SomeBlocks{first + lane})));
+        const auto pair = hn::ShiftLeft<5>(hn::Iota(d, static_cast<std::uint32_t>(first + lane)));
+        count += append(hn::Or(pair, hn::Set(d, static_cast<std::uint32_t>(shape))), hit,
+                        &pairs_[count]);
+      }
+    }
+    for (std::size_t i = 0; i < by_blocks; ++i) {
+      const std::uint32_t place = by_block_[i];
+      for (std::size_t lane = 0; lane < shapes; lane += kLanes) {
+        const Mask hit =
+            hn::AndNot(is_negative(misses<kTriangles>(SomeShapes{*shapes_, lane}, OneBlock{place})),
+                       lanes_of(shapes_->present >> lane, 0));
+        count += append(hn::Iota(d, place * kMost + static_cast<std::uint32_t>(lane)), hit,
+                        &pairs_[count]);
+      }
+    }
+    count_ = count;
+  }
+
+  const PencilUnit* unit_;
+  const PencilGroups<Policy>* groups_;
+  const SeenShapes* shapes_;
+  std::size_t by_shape_count_ = 0;
+  std::size_t by_block_count_ = 0;
+  std::size_t count_ = 0;
+  /// Room for a register behind the last.
+  std::array<std::uint32_t, PencilUnit::kGroups * SeenShapes::kMost + 16> by_shape_;
+  std::array<std::uint32_t, PencilUnit::kPlaces + 16> by_block_;
+  std::array<std::uint32_t, PencilUnit::kPlaces * SeenShapes::kMost + 16> pairs_;
+};
+
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

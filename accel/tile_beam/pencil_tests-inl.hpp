@@ -1,0 +1,375 @@
+// The tests of the rays of a block against a shape of a leaf.
+
+#if defined(ACCEL_TILE_BEAM_PENCIL_TESTS_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef ACCEL_TILE_BEAM_PENCIL_TESTS_INL
+#undef ACCEL_TILE_BEAM_PENCIL_TESTS_INL
+#else
+#define ACCEL_TILE_BEAM_PENCIL_TESTS_INL
+#endif
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "accel/core/intersect.hpp"
+#include "accel/tile_beam/pencil_groups-inl.hpp"
+#include "accel/tile_beam/pencil_pairs-inl.hpp"
+#include "accel/tile_beam/pencil_shapes-inl.hpp"
+#include "accel/tile_beam/pencil_single_rays-inl.hpp"
+#include "accel/tile_beam/pencil_unit.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace beambench::accel::tile_beam::HWY_NAMESPACE {
+
+/// Tests pairs of a block and a shape, and notes the hits. Each function returns the groups that
+/// changed.
+template <class Policy, class Counting>
+class PencilTests {
+ public:
+  PencilTests(const scenes::Scene& scene, const PencilPart& part, PencilUnit& unit,
+              PencilGroups<Policy>& groups, PencilSingleRays<Policy, Counting>& single_rays,
+              const SeenShapes& shapes)
+      : scene_(&scene),
+        part_(&part),
+        unit_(&unit),
+        groups_(&groups),
+        single_rays_(&single_rays),
+        shapes_(&shapes) {}
+
+  HWY_INLINE std::uint32_t test_triangles(std::span<const std::uint32_t> pairs,
+                                          const Meshlet& meshlet) {
+    const LaneBits special = shapes_->exact | shapes_->by_rays;
+    std::uint32_t changed = 0;  // in a register: the next test would wait for it in memory
+    for (const std::uint32_t pair : pairs) {
+      const std::size_t place = pair / SeenShapes::kMost;
+      const std::size_t shape = pair % SeenShapes::kMost;
+      if ((special >> shape & 1U) != 0) [[unlikely]] {
+        changed |= test_specially(place, shape, meshlet);
+      } else {
+        Unsure unsure;
+        LaneBits hits = test_triangle(place, shape, meshlet.primitives[shape], unsure);
+        if (Policy::kFar && unsure.depth != 0) [[unlikely]] {
+          hits = confirmed(place, hits, unsure.depth, crosses_plane_of(meshlet, shape));
+        }
+        if (Policy::kDense && (unsure.edge & hits) != 0) [[unlikely]] {
+          hits = decided_by_rays(place, hits, unsure.edge);
+        }
+        changed |= groups_->note(place, hits);
+      }
+    }
+    return changed;
+  }
+
+  HWY_INLINE std::uint32_t test_spheres(std::span<const std::uint32_t> pairs,
+                                        const SphereBlock& block) {
+    std::uint32_t changed = 0;
+    for (const std::uint32_t pair : pairs) {
+      const std::size_t place = pair / SeenShapes::kMost;
+      const std::size_t shape = pair % SeenShapes::kMost;
+      const scenes::PrimitiveId id = block.primitives[shape];
+      const auto intersect = [&](const CanonicalRay& ray) {
+        return intersect_sphere(ray, scene_->spheres[scene_->primitives[id].index]);
+      };
+      if ((shapes_->by_rays >> shape & 1U) != 0) {
+        changed |= test_by_rays(place, id, intersect);
+      } else {
+        const bool around = (shapes_->around >> shape & 1U) != 0;
+        const bool inside_only = (block.inside_only >> shape & 1U) != 0;
+        LaneBits hits = test_sphere(place, shape, around, inside_only, id);
+        if (Policy::kFar && hits != 0) {
+          hits = confirmed(place, hits, unsure_of_sphere(place, shape),
+                           [&](const Ray& ray) { return is_hit(intersect(CanonicalRay(ray))); });
+        }
+        changed |= groups_->note(place, hits);
+      }
+    }
+    return changed;
+  }
+
+  HWY_INLINE std::uint32_t test_cones(std::span<const std::uint32_t> pairs,
+                                      const ConeBlock& block) {
+    std::uint32_t changed = 0;
+    for (const std::uint32_t pair : pairs) {
+      const scenes::PrimitiveId id = block.primitives[pair % SeenShapes::kMost];
+      const scenes::Cone& cone = scene_->cones[scene_->primitives[id].index];
+      changed |= test_by_rays(pair / SeenShapes::kMost, id,
+                              [&](const CanonicalRay& ray) { return intersect_cone(ray, cone); });
+    }
+    return changed;
+  }
+
+ private:
+  static constexpr bool kClosest = Policy::kClosest;
+
+  /// Hits of a triangle that float is not sure of.
+  struct Unsure {
+    LaneBits depth = 0;  ///< close to a ray's origin
+    LaneBits edge = 0;   ///< close to an edge, which was moved outward
+  };
+
+  /// The rays of a block that hit a triangle, and which of these hits are uncertain.
+  HWY_INLINE LaneBits test_triangle(std::size_t place, std::size_t shape,
+                                    scenes::PrimitiveId primitive, Unsure& unsure) {
+    const OneShape of{*shapes_, shape};
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    return for_each_register([&](std::size_t lane) {
+      const Floats u = load(&unit_->u[block + lane]);
+      const Floats v = load(&unit_->v[block + lane]);
+      const Floats w = load(&unit_->w[block + lane]);
+      const auto line = [&](std::size_t row, Floats constant) {
+        return hn::MulAdd(of(row), u, hn::MulAdd(of(row + 1), v, constant));
+      };
+      const auto edge = [&](std::size_t k) {
+        return line(SeenShapes::kEdge0 + 3 * k, of(SeenShapes::kEdge0 + 3 * k + 2));
+      };
+      const Floats outside = either(edge(0), edge(1), edge(2));
+      const Floats distance = of(SeenShapes::kDistance);
+      if constexpr (kClosest) {
+        const Floats plane = line(SeenShapes::kPlane, of(SeenShapes::kPlane + 2));
+        const Floats before = hn::NegMulAdd(distance, w, plane);
+        const Floats after = hn::MulSub(distance, load(&unit_->origin_w[block + lane]), plane);
+        const Mask hit = hn::AndNot(is_negative(either(outside, before, after)),
+                                    lanes_of(unit_->alive[place], lane));
+        if (!hn::AllFalse(Tag(), hit)) {
+          keep(block + lane, hit, hn::Div(plane, distance), w, primitive);
+        }
+        return hit;
+      } else {
+        const Floats beyond =
+            line(SeenShapes::kPlane, hn::NegMulAdd(distance, w, of(SeenShapes::kPlane + 2)));
+        const Mask hit = hn::Not(is_negative(hn::Or(outside, beyond)));
+        if constexpr (Policy::kFar) {
+          const Floats clearly = hn::NegMulAdd(hn::Mul(distance, w), all(kDepthRounding), beyond);
+          const Mask close = hn::And(hit, is_negative(clearly));
+          unsure.depth |= (bits_of(close) << lane) & unit_->alive[place];
+        }
+        if constexpr (Policy::kDense) {
+          const auto inside = [&](std::size_t k) {
+            const std::size_t row = SeenShapes::kMagnitudes + 2 * k;
+            return hn::NegMulAdd(hn::Add(of(row), of(row + 1)), all(kEdgeRounding), edge(k));
+          };
+          const Mask at_edge = hn::And(hit, is_negative(either(inside(0), inside(1), inside(2))));
+          unsure.edge |= (bits_of(at_edge) << lane) & unit_->alive[place];
+        }
+        return hit;
+      }
+    });
+  }
+
+  /// Any hits, of which those at an edge are decided by single rays through the whole hierarchy:
+  /// where triangles share the edge, another test of one of them alone could lose the ray between.
+  LaneBits decided_by_rays(std::size_t place, LaneBits hits, LaneBits unsure) {
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    for (LaneBits left = hits & unsure; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      if (!single_rays_->is_hit(block + lane)) hits &= ~(LaneBits{1} << lane);
+    }
+    return hits;
+  }
+
+  /// A triangle that float is too coarse for.
+  std::uint32_t test_specially(std::size_t place, std::size_t shape, const Meshlet& meshlet) {
+    const scenes::PrimitiveId primitive = meshlet.primitives[shape];
+    if ((shapes_->exact >> shape & 1U) == 0) {
+      return test_by_rays(place, primitive, [&](const CanonicalRay& ray) {
+        return intersect_triangle(ray, meshlet.corner(0, shape), meshlet.corner(1, shape),
+                                  meshlet.corner(2, shape));
+      });
+    }
+    Unsure unsure;
+    LaneBits hits = test_exact_triangle(place, shapes_->exact_triangle[shape], primitive, unsure);
+    if (Policy::kFar) hits = confirmed(place, hits, hits, crosses_plane_of(meshlet, shape));
+    // Seen edge-on, a sliver is not wider than its edges were moved.
+    if (!kClosest) hits = decided_by_rays(place, hits, unsure.edge);
+    return groups_->note(place, hits);
+  }
+
+  /// Of depth alone: where triangles share an edge, one must not be tested in float and the other
+  /// in double for which of them a ray passes.
+  static auto crosses_plane_of(const Meshlet& meshlet, std::size_t shape) {
+    return [&meshlet, shape](const Ray& ray) {
+      return crosses_plane(
+          ray, {meshlet.corner(0, shape), meshlet.corner(1, shape), meshlet.corner(2, shape)});
+    };
+  }
+
+  /// The hits to be confirmed: where the ray begins within the roundings of its depth of the
+  /// surface.
+  LaneBits unsure_of_sphere(std::size_t place, std::size_t shape) const {
+    const OneShape of{*shapes_, shape};
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    return for_each_register([&](std::size_t lane) {
+      const Floats depth = hn::Div(all(1.0F), load(&unit_->w[block + lane]));
+      const Points begin{
+          hn::MulSub(load(&unit_->u[block + lane]), depth, of(SeenShapes::kCenter)),
+          hn::MulSub(load(&unit_->v[block + lane]), depth, of(SeenShapes::kCenter + 1)),
+          hn::Sub(depth, of(SeenShapes::kCenter + 2))};
+      const Floats reach = hn::MulAdd(depth, all(kDepthRounding), of(SeenShapes::kRadius));
+      return hn::Lt(dot(begin, begin), hn::Mul(reach, reach));
+    });
+  }
+
+  /// Any hits, of which `is_hit_by(ray)` decides some.
+  template <class IsHit>
+  LaneBits confirmed(std::size_t place, LaneBits hits, LaneBits unsure, IsHit is_hit_by) const {
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    for (LaneBits left = hits & unsure & unit_->alive[place]; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      if (!is_hit_by(part_->rays[unit_->ray_at(block + lane)])) hits &= ~(LaneBits{1} << lane);
+    }
+    return hits;
+  }
+
+  LaneBits test_exact_triangle(std::size_t place, const ExactApexTriangle& triangle,
+                               scenes::PrimitiveId primitive, Unsure& unsure) {
+    const hn::CappedTag<double, 8> d;
+    const hn::Rebind<float, decltype(d)> half;
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    LaneBits hits = 0;
+    alignas(64) std::array<float, PencilUnit::kBlock> found_w;
+    for (std::size_t lane = 0; lane < PencilUnit::kBlock; lane += hn::Lanes(d)) {
+      const auto u = hn::PromoteTo(d, hn::Load(half, &unit_->u[block + lane]));
+      const auto v = hn::PromoteTo(d, hn::Load(half, &unit_->v[block + lane]));
+      const auto w = hn::PromoteTo(d, hn::Load(half, &unit_->w[block + lane]));
+      const auto line = [&](const glm::dvec3& numbers) {
+        return hn::MulAdd(hn::Set(d, numbers.x), u,
+                          hn::MulAdd(hn::Set(d, numbers.y), v, hn::Set(d, numbers.z)));
+      };
+      const auto none = hn::Zero(d);
+      const auto plane = line(triangle.plane);
+      const auto distance = hn::Set(d, triangle.distance);
+      const std::array edges{line(triangle.edges[0]), line(triangle.edges[1]),
+                             line(triangle.edges[2])};
+      auto hit = hn::And(hn::And(hn::Ge(edges[0], none), hn::Ge(edges[1], none)),
+                         hn::And(hn::Ge(edges[2], none), hn::Gt(plane, hn::Mul(distance, w))));
+      const auto within = [&](auto place, double low, double high) {
+        return hn::And(hn::Ge(place, hn::Set(d, low)), hn::Le(place, hn::Set(d, high)));
+      };
+      hit = hn::And(hit, hn::And(within(u, triangle.low.x, triangle.high.x),
+                                 within(v, triangle.low.y, triangle.high.y)));
+      if constexpr (kClosest) {
+        const auto origin_w = hn::PromoteTo(d, hn::Load(half, &unit_->origin_w[block + lane]));
+        hit = hn::And(hit, hn::Lt(plane, hn::Mul(distance, origin_w)));
+        hn::Store(hn::DemoteTo(half, hn::Div(plane, distance)), half, &found_w[lane]);
+      }
+      const auto bits = [&](auto mask) {
+        std::array<std::uint8_t, 8> stored{};
+        hn::StoreMaskBits(d, mask, stored.data());
+        return static_cast<LaneBits>(stored[0]) << lane;
+      };
+      hits |= bits(hit);
+      for (std::size_t k = 0; k < 3; ++k) {
+        unsure.edge |= bits(hn::Lt(edges[k], hn::Set(d, triangle.clear[k])));
+      }
+    }
+    hits &= unit_->alive[place];
+    if constexpr (kClosest) {
+      for (std::size_t lane = 0; lane < PencilUnit::kBlock; lane += kLanes) {
+        const Floats w = load(&unit_->w[block + lane]);
+        keep(block + lane, lanes_of(hits >> lane, 0), load(&found_w[lane]), w, primitive);
+      }
+    }
+    return hits;
+  }
+
+  /// In units of z: a ray's line is s (u, v, 1). Which side of the surface a ray begins on decides
+  /// which of the two roots are within the ray, and is known better than the roots: rays begin at
+  /// some distance from surfaces. As the canonical test does, the discriminant is taken from the
+  /// line's point nearest the center (Haines et al., Ray Tracing Gems, 2019).
+  HWY_INLINE LaneBits test_sphere(std::size_t place, std::size_t shape, bool around,
+                                  bool inside_only, scenes::PrimitiveId primitive) {
+    const OneShape of{*shapes_, shape};
+    const Points center{of(SeenShapes::kCenter), of(SeenShapes::kCenter + 1),
+                        of(SeenShapes::kCenter + 2)};
+    const Floats radius = of(SeenShapes::kRadius);
+    const Floats square = hn::Mul(radius, radius);
+    const std::size_t block = unit_->slot[place] * PencilUnit::kBlock;
+    const auto only = [](bool condition) {
+      return hn::Gt(all(condition ? 1.0F : 0.0F), hn::Zero(Tag()));
+    };
+    return for_each_register([&](std::size_t lane) {
+      const std::size_t at = block + lane;
+      const Points direction{load(&unit_->u[at]), load(&unit_->v[at]), all(1.0F)};
+      const Floats per_square = hn::Div(all(1.0F), dot(direction, direction));
+      const Floats middle = hn::Mul(dot(direction, center), per_square);
+      const auto from_center = [&](Floats s) -> Points {
+        return {hn::MulSub(direction.x, s, center.x), hn::MulSub(direction.y, s, center.y),
+                hn::Sub(s, center.z)};
+      };
+      const Points nearest = from_center(middle);
+      const Floats left_over = hn::Sub(square, dot(nearest, nearest));
+      const Mask meets = hn::Ge(left_over, hn::Zero(Tag()));
+      const Floats origin_w = load(kClosest ? &unit_->origin_w[at] : &unit_->w[at]);
+      const Floats origin = hn::Div(all(1.0F), origin_w);
+      const Points begin = from_center(origin);
+      const Mask inside = hn::Lt(dot(begin, begin), square);
+      if constexpr (kClosest) {
+        const Mask ahead = hn::Or(inside, hn::And(meets, hn::Gt(middle, origin)));
+        const Floats half = hn::Sqrt(hn::Mul(hn::Max(left_over, hn::Zero(Tag())), per_square));
+        const Mask leaves = hn::Or(inside, only(inside_only));
+        const Floats root =
+            hn::Max(hn::Add(middle, hn::IfThenElse(leaves, half, hn::Neg(half))), origin);
+        const Floats found = hn::Div(all(1.0F), root);
+        const Floats w = load(&unit_->w[at]);
+        const Mask hit =
+            hn::And(hn::And(ahead, hn::Gt(found, w)), lanes_of(unit_->alive[place], lane));
+        if (!hn::AllFalse(Tag(), hit)) keep(at, hit, found, w, primitive);
+        return hit;
+      } else {
+        // Toward the apex: what is passed on the way, or left.
+        const Mask passes =
+            hn::And(meets, hn::And(hn::Lt(middle, origin), hn::Gt(middle, hn::Zero(Tag()))));
+        if (around) return inside_only ? only(false) : hn::Not(inside);
+        return hn::Or(inside, passes);
+      }
+    });
+  }
+
+  /// `intersect(ray)` returns t or kMiss for a CanonicalRay.
+  template <class Intersect>
+  std::uint32_t test_by_rays(std::size_t place, scenes::PrimitiveId primitive,
+                             Intersect intersect) {
+    const std::size_t block = unit_->slot[place];
+    LaneBits hits = 0;
+    for (LaneBits left = unit_->alive[place]; left != 0; left &= left - 1) {
+      const auto lane = static_cast<std::size_t>(std::countr_zero(left));
+      const Ray& ray = part_->rays[unit_->ray_at(block * PencilUnit::kBlock + lane)];
+      const float t = intersect(CanonicalRay(ray));
+      if (!is_hit(t)) continue;
+      if constexpr (kClosest) {
+        if (!single_rays_->keeps(block * PencilUnit::kBlock + lane, ray, {t, primitive})) continue;
+      }
+      hits |= LaneBits{1} << lane;
+    }
+    return groups_->note(place, hits);
+  }
+
+  /// Closest hits.
+  HWY_INLINE void keep(std::size_t at, Mask hit, Floats found, Floats w,
+                       scenes::PrimitiveId primitive) {
+    const hn::RebindToUnsigned<Tag> ids;
+    store(hn::IfThenElse(hit, found, w), &unit_->w[at]);
+    hn::Store(hn::IfThenElse(hn::RebindMask(ids, hit), hn::Set(ids, primitive),
+                             hn::Load(ids, &unit_->primitive[at])),
+              ids, &unit_->primitive[at]);
+  }
+
+  /// Sixteen roundings of a depth.
+  static constexpr float kDepthRounding = 0x1p-20F;
+  /// By how much an edge was moved outward, and as much again on the inside.
+  static constexpr float kEdgeRounding = 0x1p-22F;
+
+  const scenes::Scene* scene_;
+  const PencilPart* part_;
+  PencilUnit* unit_;
+  PencilGroups<Policy>* groups_;
+  PencilSingleRays<Policy, Counting>* single_rays_;
+  const SeenShapes* shapes_;
+};
+
+}  // namespace beambench::accel::tile_beam::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif
