@@ -4,6 +4,7 @@ Files are written beside their place and renamed, so that none is ever incomplet
 stay links: what they lead to is replaced. Devices and pipes are written into.
 """
 
+import contextlib
 import json
 import signal
 import subprocess
@@ -26,8 +27,9 @@ class Problem(Exception):  # noqa: N818 (invalid arguments are no programming er
 
 
 def say(text: str) -> None:
-    """Reports progress or a warning on standard error."""
-    print(printable(text), file=sys.stderr, flush=True)
+    """Reports progress or a warning on standard error; where that is full, the work goes on."""
+    with contextlib.suppress(OSError):
+        print(printable(text), file=sys.stderr, flush=True)
 
 
 def write_whole(path: Path, write: Callable[[Path], object]) -> Path:

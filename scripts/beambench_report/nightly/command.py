@@ -1,10 +1,9 @@
 """The command `python -m beambench_report nightly`, which scripts/nightly calls."""
 
 import argparse
-import sys
 from pathlib import Path
 
-from beambench_report.base.files import ROOT, Problem, write_text
+from beambench_report.base.files import ROOT, Problem, say, write_text
 from beambench_report.base.records import read_run
 from beambench_report.history.nights import read_nights
 from beambench_report.history.store import History, rebuild
@@ -166,7 +165,7 @@ def _calibrate(options: argparse.Namespace) -> int:
         options.nights,
         options.slowdowns,
         effort,
-        report=lambda text: print(text, file=sys.stderr, flush=True),
+        report=say,
     )
     print(result.summary())
     if options.output:

@@ -12,7 +12,6 @@ on one side of 1 by chance, and some intervals exclude 1 together. Cells are the
 together, by Holm's correction, and the ratio of all of them is made turn by turn.
 """
 
-import sys
 from dataclasses import dataclass
 from math import inf, sqrt
 from pathlib import Path
@@ -22,7 +21,7 @@ import pandas as pd
 from scipy import stats
 
 from beambench_report.base.cell_files import IDENTITY
-from beambench_report.base.files import Problem, output_of
+from beambench_report.base.files import Problem, output_of, say
 from beambench_report.base.ratio import Ratio, paired_ratio
 from beambench_report.base.records import BASELINE, NO_RAYS, TIMED_VERDICTS, read_run
 from beambench_report.history.night import cell_titles, cycles, keys_of
@@ -140,7 +139,7 @@ def measure_in_turns(
         for which in order:
             folder = directory / f"{'ab'[which]}-{turn + 1:02d}"
             if not (folder / "results.csv").exists():
-                print(f"== turn {turn + 1} of {turns}: {'AB'[which]}", file=sys.stderr, flush=True)
+                say(f"== turn {turn + 1} of {turns}: {'AB'[which]}")
                 command = [str(programs[which]), "run", str(sweep), "-o", str(folder)]
                 output_of(command, success=(0, 1))
             folders[which].append(folder)
