@@ -60,7 +60,7 @@ class Record:
                 "machine": self._machine,
             }
             pieces = [*self.pieces(), asdict(piece) | facts]
-            write_text(self.file, json.dumps({"version": VERSION, "pieces": pieces}, indent=1))
+            write_text(self.file, as_json(pieces))
 
     def keep(self, source: Path, name: str, message: str, command: list[str | Path]) -> Finding:
         """Copies what belongs to a finding; `source` in its command becomes the copy."""
@@ -72,6 +72,12 @@ class Record:
             shutil.copy(source, kept)
         words = [kept if word == source else word for word in command]
         return Finding(kept.name, message, shlex.join(_shown(word) for word in words))
+
+
+def as_json(pieces: list[dict]) -> str:
+    """A record of pieces, one a line."""
+    lines = ",\n".join(json.dumps(piece) for piece in pieces)
+    return f'{{"version": {VERSION}, "pieces": [\n{lines}\n]}}\n'
 
 
 def _shown(word: str | Path) -> str:

@@ -7,6 +7,7 @@ import io
 from collections import defaultdict
 from pathlib import Path
 
+from beambench_campaign.record import as_json
 from beambench_report.base.files import Problem, write_text
 
 _COUNTS = ("executions", "scenes", "rays", "kills", "runs")
@@ -31,7 +32,10 @@ single rays, images, and batches with pencils, from cameras anywhere.
 
 
 def write_report(pieces: list[dict], folder: Path) -> list[Path]:
-    """Writes campaigns.md and campaigns.csv. Raises Problem where no piece was recorded."""
+    """Writes campaigns.md, campaigns.csv, and the record, from which campaigns elsewhere go on.
+
+    Raises Problem where no piece was recorded.
+    """
     if not pieces:
         raise Problem("there is no record yet; scripts/campaign fuzz, rays or kills makes one")
     folder.mkdir(parents=True, exist_ok=True)
@@ -39,6 +43,7 @@ def write_report(pieces: list[dict], folder: Path) -> list[Path]:
     return [
         write_text(folder / "campaigns.md", _markdown(rows, pieces)),
         write_text(folder / "campaigns.csv", _csv(rows)),
+        write_text(folder / "record.json", as_json(pieces)),
     ]
 
 
@@ -86,6 +91,10 @@ def _markdown(rows: list[dict[str, object]], pieces: list[dict]) -> str:
             *(f"{float(str(row['cpu_seconds'])) / 3600:.2f}", *numbers),
         )
         lines.append("| " + " | ".join(str(cell) for cell in cells) + " |")
+    lines += [
+        "",
+        "In all: " + "; ".join(_total(command, rows) for command in _commands(rows)) + ".",
+    ]
     machines = "; ".join(dict.fromkeys(piece["machine"] for piece in pieces))
     commits = ", ".join(dict.fromkeys(piece["commit"][:7] for piece in pieces))
     lines += ["", f"Machines: {machines}. Commits: {commits}.", "", "## Findings", ""]
@@ -97,6 +106,21 @@ def _markdown(rows: list[dict[str, object]], pieces: list[dict]) -> str:
     ]
     lines += findings or ["None."]
     return _INTRODUCTION + "\n".join(lines) + "\n"
+
+
+def _commands(rows: list[dict[str, object]]) -> list[str]:
+    return list(dict.fromkeys(str(row["command"]) for row in rows))
+
+
+def _total(command: str, rows: list[dict[str, object]]) -> str:
+    """Of the subjects of a command."""
+    ours = [row for row in rows if row["command"] == command]
+
+    def total(what: str) -> float:
+        return sum(float(str(row[what])) for row in ours)
+
+    amount = ", ".join(f"{total(what):,.0f} {what}" for what in _COUNTS if total(what))
+    return f"{command}, {amount} in {total('cpu_seconds') / 3600:.2f} hours of processor time"
 
 
 def _plain(text: str) -> str:

@@ -117,9 +117,11 @@ def test_the_report_has_a_row_for_each_subject_and_each_finding(record: Record) 
     finding = record.keep(source, "samet 1", "wrong | `hit`\n", command)
     assert finding.command.endswith("findings/samet-1")
     record.add(Piece("rays", "beam", 1, {"rays": 2}, 0.5, {}, [finding]))
-    markdown, table = write_report(record.pieces(), record.folder / "report")
+    markdown, table, again = write_report(record.pieces(), record.folder / "report")
     assert "| rays | `samet` | 1 | 1 scenes, 1,234,567 rays | 0.00 |" in markdown.read_text()
     assert "wrong | 'hit'" in markdown.read_text()
+    assert "In all: rays, 1 scenes, 1,234,569 rays in 0.00 hours" in markdown.read_text()
+    assert Record(again.parent).pieces() == record.pieces()
     assert table.read_text().splitlines()[1].startswith("rays,beam,1,0,0,2,0,0,0.5,")
 
 
