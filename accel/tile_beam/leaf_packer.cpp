@@ -71,9 +71,11 @@ class LeafPacker {
     const scenes::Scene& scene = pieces_->scene;
     made_.packed.reserve(leaves);
     made_.first.reserve(leaves + 1);
-    made_.blocks.meshlets.reserve(leaves * scene.triangles.size() / pieces);
-    made_.blocks.spheres.reserve(leaves * scene.spheres.size() / pieces);
-    made_.blocks.cones.reserve(leaves * scene.cones.size() / pieces);
+    // For some leaves need several blocks; room that is not used is never touched.
+    const std::size_t blocks = leaves + leaves / 2;
+    made_.blocks.meshlets.reserve(blocks * scene.triangles.size() / pieces);
+    made_.blocks.spheres.reserve(blocks * scene.spheres.size() / pieces);
+    made_.blocks.cones.reserve(blocks * scene.cones.size() / pieces);
   }
 
   /// `items` are ascending.

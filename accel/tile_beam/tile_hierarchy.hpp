@@ -141,10 +141,10 @@ struct TileHierarchy : TileBlocks {
 
   bool empty() const { return references == 0; }
   std::size_t leaves() const { return count(); }
-  /// Of nodes and leaves.
+  /// Of nodes and leaves. What is reserved behind them was never touched.
   std::size_t bytes() const {
-    return nodes.capacity() * sizeof(TileNode) + meshlets.capacity() * sizeof(Meshlet) +
-           spheres.capacity() * sizeof(SphereBlock) + cones.capacity() * sizeof(ConeBlock);
+    return nodes.size() * sizeof(TileNode) + meshlets.size() * sizeof(Meshlet) +
+           spheres.size() * sizeof(SphereBlock) + cones.size() * sizeof(ConeBlock);
   }
 };
 
