@@ -7,9 +7,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-# What is no statement of a measurement: expressions, code, targets of links, comments.
+# What is no statement of a measurement: expressions, code, targets of links, comments, and what
+# kind of interval it is.
 _COMPUTED = re.compile(
-    r"\{\{.*?\}\}|\{%.*?%\}|\{#.*?#\}|```.*?```|``.*?``|`[^`\n]*`|\]\([^)]*\)|<!--.*?-->", re.DOTALL
+    r"\{\{.*?\}\}|\{%.*?%\}|\{#.*?#\}|```.*?```|``.*?``|`[^`\n]*`|\]\([^)]*\)|<!--.*?-->"
+    r"|95% (?:prediction )?intervals?",
+    re.DOTALL,
 )
 _UNITS = "times|ms|ns|s|min|h|MB|GB|KB|bytes|cells|rays|percent|points"
 _FIGURE = re.compile(

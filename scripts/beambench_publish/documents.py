@@ -18,7 +18,7 @@ from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, TemplateError
 
-from beambench_publish.figures.formats import FILTERS, cited
+from beambench_publish.figures.formats import FILTERS, cited, holds
 from beambench_publish.figures.origins import made, origins
 from beambench_publish.reports import REPORTS
 from beambench_report.base.files import ROOT, Problem, write_text
@@ -104,7 +104,7 @@ def _rendered(published: Path) -> Iterator[Document]:
         autoescape=False,
     )
     environment.filters |= FILTERS
-    environment.globals["cited"] = cited
+    environment.globals |= {"cited": cited, "holds": holds}
     known = _Folders(published)
     for template in sorted(published.rglob(f"*.md{SUFFIX}")):
         name = str(template.relative_to(published))
@@ -129,7 +129,8 @@ def _render(environment: Environment, template: Path, name: str, known: _Folders
         raise Problem(f"{template}{f':{line}' if line else ''}: {error.message}") from None
     except (KeyError, ValueError, TypeError, ZeroDivisionError) as error:
         line = _line_of(error, template)
-        raise Problem(f"{template}{f':{line}' if line else ''}: {error!r}") from None
+        what = error if isinstance(error, ValueError) else repr(error)
+        raise Problem(f"{template}{f':{line}' if line else ''}: {what}") from None
     title, _, rest = text.partition("\n")
     return f"{title}\n{note}{rest}"
 

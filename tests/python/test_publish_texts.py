@@ -80,6 +80,16 @@ def test_an_unknown_figure_names_template_and_line(copied: Path) -> None:
         differences(copied)
 
 
+def test_a_sentence_that_is_not_so_any_more_is_found(copied: Path) -> None:
+    template = copied / "structures/README.md.j2"
+    sentence = "# Title\n\n{}The best is `tile-beam`.\n"
+    template.write_text(sentence.format("{{ holds(order[0] == 'tile-beam') }}"), "utf-8")
+    assert documents(copied)[0].text().endswith("\nThe best is `tile-beam`.\n")
+    template.write_text(sentence.format("{{ holds(order[0] == 'samet') }}"), "utf-8")
+    with pytest.raises(Problem, match=r"README\.md\.j2:3: what this sentence says does not"):
+        documents(copied)[0].text()
+
+
 # What has no row is not stated
 
 

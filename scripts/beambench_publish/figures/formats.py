@@ -18,6 +18,12 @@ def short(value: float | Ratio) -> str:
     return number(_value(value))
 
 
+def brief(value: float | Ratio) -> str:
+    """As tables of many ratios have it: 0.97, 2.4, 24."""
+    known = _value(value)
+    return f"{known:.{2 if known < 0.995 else 1 if known < 9.95 else 0}f}"
+
+
 def count(value: float) -> str:
     """A whole number, thousands marked."""
     whole = round(_value(value))
@@ -49,11 +55,18 @@ def cited(figure: str) -> str:
     return figure
 
 
+def holds(condition: object) -> str:
+    """Nothing, where what a sentence says without a figure is so. Raises ValueError otherwise."""
+    if not condition:
+        raise ValueError("what this sentence says does not follow from the rows any more")
+    return ""
+
+
 def _value(value: float | Ratio) -> float:
     """Of what a template does not know, an error that names it: hence the sum."""
     return value.value if isinstance(value, Ratio) else value + 0
 
 
 FILTERS: dict[str, Callable[..., str]] = {
-    one.__name__: one for one in (fixed, short, count, percent, signed_percent, interval)
+    one.__name__: one for one in (fixed, short, brief, count, percent, signed_percent, interval)
 }
