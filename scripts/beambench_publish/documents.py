@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import cache
+from functools import cache, partial
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -20,7 +20,7 @@ from jinja2 import Environment, FileSystemLoader, StrictUndefined, TemplateError
 
 from beambench_publish.figures.formats import FILTERS, cited, holds
 from beambench_publish.figures.origins import made, origins
-from beambench_publish.reports import REPORTS
+from beambench_publish.reports import report, report_names
 from beambench_report.base.files import ROOT, Problem, write_text
 
 PUBLISHED = ROOT / "results/published"
@@ -88,10 +88,10 @@ def _difference(document: Document) -> Difference | None:
 
 
 def _reports(published: Path) -> Iterator[Document]:
-    for name, report in REPORTS.items():
+    for name in report_names():
         path = published / name
-        if path.parent.is_dir() and path.is_file():
-            yield Document(path, path.parent, lambda path=path, report=report: report(path.parent))
+        if path.parent.is_dir():
+            yield Document(path, path.parent, partial(report, name, path.parent))
 
 
 def _rendered(published: Path) -> Iterator[Document]:

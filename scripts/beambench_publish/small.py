@@ -8,9 +8,11 @@ from pathlib import Path
 
 from PIL import Image
 
+from beambench_publish.images import with_small_images
 from beambench_report.base.cell_files import REPETITIONS, write_repetitions
+from beambench_report.base.files import write_text
 
-_COLORS = 128
+_COLORS = 256
 _NOT_COMMITTED = ("google-benchmark.json", "report.html")
 
 
@@ -27,11 +29,18 @@ def make_small(folder: Path) -> None:
     for name in _NOT_COMMITTED:
         for file in folder.rglob(name):
             file.unlink()
+    make_images_small(folder)
+
+
+def make_images_small(folder: Path) -> None:
+    """Of a plot the SVG stays, a picture gets a palette; texts show what is left."""
     for picture in sorted(folder.rglob("*.png")):
         if picture.with_suffix(".svg").is_file():
             picture.unlink()
         else:
             with_palette(picture)
+    for text in folder.rglob("*.md"):
+        write_text(text, with_small_images(text.read_text("utf-8"), text.parent))
 
 
 def with_palette(picture: Path) -> None:
@@ -43,7 +52,10 @@ def with_palette(picture: Path) -> None:
         opaque = Image.new("RGB", image.size, "white")
         opaque.paste(image.convert("RGB"), mask=image.getchannel("A") if has_alpha else None)
     pending = picture.with_name(f".pending-{picture.name}")
-    opaque.quantize(_COLORS).save(pending, "PNG", optimize=True)
+    palette = opaque.quantize(_COLORS)
+    # Dithered, or curved surfaces have steps.
+    small = opaque.quantize(palette=palette, dither=Image.Dither.FLOYDSTEINBERG)
+    small.save(pending, "PNG", optimize=True)
     if pending.stat().st_size < picture.stat().st_size:
         pending.replace(picture)
     else:

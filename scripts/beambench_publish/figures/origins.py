@@ -6,6 +6,7 @@ import re
 from dataclasses import dataclass
 from pathlib import Path
 
+from beambench_publish.progress import RECORD
 from beambench_report.base.files import Problem, read_json
 
 
@@ -31,8 +32,21 @@ class Origin:
 
 
 def origins(folder: Path) -> list[Origin]:
-    """Of every run in a published folder, by path. Raises Problem for a manifest without them."""
-    return [_origin(manifest, folder) for manifest in sorted(folder.rglob("manifest.json"))]
+    """Of every run in a published folder, by path; of a folder without runs, its record's.
+
+    Raises Problem for a manifest without them.
+    """
+    found = [_origin(manifest, folder) for manifest in sorted(folder.rglob("manifest.json"))]
+    return found or _of_record(folder / RECORD)
+
+
+def _of_record(file: Path) -> list[Origin]:
+    source = read_json(file)
+    if not isinstance(source, dict):
+        return []
+    own = source["made_by"]
+    names = ("commit", "machine_id", "cpu", "cores", "embree")
+    return [Origin("", *(own[name] for name in names), "", own["noise"])]
 
 
 def machine_in_words(processor: str) -> str:
