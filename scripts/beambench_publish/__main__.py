@@ -119,12 +119,22 @@ def _make(plan: Plan, options: argparse.Namespace, setting: Setting) -> int:
             say(f"== {folder.name} is left as it is: {lack}")
         else:
             progress = _made(folder, given, options)
-            wrong = wrong or bool(progress.wrong)
-            write_documents(options.published)
+            has_texts = _write_texts(options.published)
+            wrong = wrong or bool(progress.wrong) or not has_texts
             _commit(folder, setting, options)
     site = write_site([options.published], options.aside / "site")
     say(f"{size_in_words(size(options.published))} are published; look at {site}")
     return 1 if wrong else 0
+
+
+def _write_texts(published: Path) -> bool:
+    """Were they written? A sentence that the new rows do not bear out is to be changed by hand."""
+    try:
+        write_documents(published)
+    except Problem as problem:
+        say(f"the texts were not written: {problem}; edit it, then: scripts/publish --texts")
+        return False
+    return True
 
 
 def _made(folder: Folder, given: Given, options: argparse.Namespace) -> Progress:

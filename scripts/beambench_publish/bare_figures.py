@@ -11,7 +11,7 @@ from pathlib import Path
 # kind of interval it is.
 _COMPUTED = re.compile(
     r"\{\{.*?\}\}|\{%.*?%\}|\{#.*?#\}|```.*?```|``.*?``|`[^`\n]*`|\]\([^)]*\)|<!--.*?-->"
-    r"|95% (?:prediction )?intervals?|section [\d.]+\d",
+    r"|95% (?:prediction )?intervals?|(?:section|tables?|figures?) \d[\d.]*(?: and \d[\d.]*)?",
     re.DOTALL,
 )
 _UNITS = "times|ms|ns|s|min|h|MB|GB|KB|bytes|cells|rays|percent|points"

@@ -18,8 +18,11 @@ from typing import Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined, TemplateError
 
+from beambench_publish.figures.every import counted
+from beambench_publish.figures.files import plot
 from beambench_publish.figures.formats import FILTERS, cited, holds
 from beambench_publish.figures.origins import made, origins
+from beambench_publish.layout import laid_out
 from beambench_publish.reports import report, report_names
 from beambench_report.base.files import ROOT, Problem, write_text
 
@@ -104,7 +107,7 @@ def _rendered(published: Path) -> Iterator[Document]:
         autoescape=False,
     )
     environment.filters |= FILTERS
-    environment.globals |= {"cited": cited, "holds": holds}
+    environment.globals |= {"cited": cited, "holds": holds, "plot": plot}
     known = _Folders(published)
     for template in sorted(published.rglob(f"*.md{SUFFIX}")):
         name = str(template.relative_to(published))
@@ -117,22 +120,22 @@ def _rendered(published: Path) -> Iterator[Document]:
 
 def _render(environment: Environment, template: Path, name: str, known: _Folders) -> str:
     folder = template.parent
-    own = known.all() if folder == known.published else known.of(folder.name)
     note = (
         f"<!-- Written by `scripts/publish --texts` from {template.name} and the rows here: "
         "edit that. -->\n"
     )
     try:
+        own = known.all() if folder == known.published else known.of(folder.name)
         text = environment.get_template(name).render(own | {"made": made, "folder": folder})
     except TemplateError as error:
         line = getattr(error, "lineno", None) or _line_of(error, template)
         raise Problem(f"{template}{f':{line}' if line else ''}: {error.message}") from None
-    except (KeyError, ValueError, TypeError, ZeroDivisionError) as error:
+    except (KeyError, ValueError, TypeError, ZeroDivisionError, IndexError) as error:
         line = _line_of(error, template)
         what = error if isinstance(error, ValueError) else repr(error)
         raise Problem(f"{template}{f':{line}' if line else ''}: {what}") from None
     title, _, rest = text.partition("\n")
-    return f"{title}\n{note}{rest}"
+    return f"{title}\n{note}{laid_out(rest)}"
 
 
 def _line_of(error: BaseException, template: Path) -> int | None:
@@ -159,8 +162,10 @@ class _Folders:
         return computed | {"origins": origins(folder)}
 
     def all(self) -> dict[str, Any]:
+        """For the page over all of them."""
         names = sorted(one.name for one in self.published.iterdir() if one.is_dir())
-        return {"folders": names} | {_identifier(name): _Lazy(self, name) for name in names}
+        lazy = {_identifier(name): _Lazy(self, name) for name in names}
+        return {"folders": names, "every": counted(self.published)} | lazy
 
 
 class _Lazy:

@@ -96,6 +96,12 @@ def test_every_planned_command_has_its_options() -> None:
         assert all(option in printed for option in options), command
 
 
+def test_what_is_kept_is_there(repository: Path) -> None:
+    for folder in read_plan().folders:
+        for name in folder.keep:
+            assert (repository / "results/published" / folder.name / name).is_file(), name
+
+
 def test_changes_replace_members_of_the_sweep() -> None:
     (sweep,) = (
         step

@@ -16,6 +16,7 @@ from beambench_publish.documents import (
     module_of,
     write_documents,
 )
+from beambench_publish.layout import laid_out
 from beambench_report.base.files import Problem
 
 
@@ -88,6 +89,18 @@ def test_a_sentence_that_is_not_so_any_more_is_found(copied: Path) -> None:
     template.write_text(sentence.format("{{ holds(order[0] == 'samet') }}"), "utf-8")
     with pytest.raises(Problem, match=r"README\.md\.j2:3: what this sentence says does not"):
         documents(copied)[0].text()
+
+
+def test_lines_are_broken_anew() -> None:
+    words = "word " * 40
+    text = f"{words}\n12.5 ms\n\n| a | {words}|\n- {words}\n  {words}\n- b\n```\n{words}\n```\n# T"
+    lines = laid_out(text).split("\n")
+    assert max(len(line) for line in lines if line[0:1] not in ("|", "w")) <= 120
+    assert "12.5 ms" in lines[1]
+    assert lines[2] == ""
+    assert lines[3].startswith("| a | word")
+    assert [line[:6] for line in lines[4:8]] == ["- word", "  word", "  word", "  word"]
+    assert lines[-5:] == ["- b", "```", words.rstrip(), "```", "# T"]
 
 
 # What has no row is not stated

@@ -55,6 +55,10 @@ def test_the_finding_of_the_root_readme(repository: Path, published: Path) -> No
     assert f"only {large:.2f} times as long at 1280x1024" in text
 
 
+def test_the_findings_are_one_page(published: Path) -> None:
+    assert len((published / "README.md").read_text("utf-8").splitlines()) <= 200
+
+
 MOST_BYTES = 20_000_000
 """Of all that is published: it is in every clone."""
 

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 from beambench_publish.figures.cells import Cells
-from beambench_publish.figures.files import plot
 
 _LEVELS = ("6", "7", "8")
 _THESIS, _HANDOVER = "0", "48"
@@ -16,7 +15,6 @@ def figures(folder: Path) -> dict[str, Any]:
     """How many times as fast the beams are as Samet's rays, by level and by option."""
     cells = Cells(folder)
     return {
-        "levels_plot": plot(folder, "plots/by-max-level"),
         "scenes": cells.scenes,
         "sizes": cells.sizes,
         "cells": len(cells.rows),

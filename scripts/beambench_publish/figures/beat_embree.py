@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 from beambench_publish.figures.comparison import figures_of, read_pairings
-from beambench_publish.figures.files import plot
 from beambench_publish.reports import BEAT_EMBREE
 
 _MILLION = "bumpy:triangles=1000000"
@@ -32,6 +31,5 @@ def figures(folder: Path) -> dict[str, Any]:
             "tile_beam": [one.tile.build for one in million],
             "embree": [one.embree.build for one in million],
         },
-        "scaling_plot": plot(folder, "beat-embree-scaling"),
         "fastest": sorted({one.embree.contender for one in found if one.isa == "best"}),
     }

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 from beambench_publish.figures.cells import Cells
-from beambench_publish.figures.files import plot
 from beambench_report.base.cell_files import read_cell_files
 from beambench_report.base.machine import read_exclusions
 from beambench_report.base.records import Run, read_run
@@ -40,7 +39,6 @@ def figures(folder: Path) -> dict[str, Any]:
             size: cells.ratio(*_LEVEL_6, "total", scene=_TETRA, size=size) for size in cells.sizes
         },
         "again": _again(folder),
-        "overall_plot": plot(folder, "plots/overall"),
     }
 
 

@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 from beambench_publish.figures.cells import Cells
-from beambench_publish.figures.files import plot
 from beambench_publish.figures.net_ratios import net_ratios
 
 _BASE = "embree:robust=true"
@@ -27,7 +26,6 @@ def figures(folder: Path) -> dict[str, Any]:
     cells = Cells(folder)
     return {
         "scenes": cells.scenes,
-        "primary_plot": plot(folder, "plots/overall-primary"),
         "size": cells.sizes[0],
         "cells": len(cells.rows),
         "wrong": len(cells.wrong),

@@ -1,4 +1,4 @@
-"""results/published/thesis-earlier: levels chosen automatically, samples per pixel."""
+"""results/published/thesis-earlier: samples per pixel."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any
 
 from beambench_report.base.files import Problem, read_json
-from beambench_report.thesis.chapter5.levels import levels_of_runs
 
 
 def figures(folder: Path) -> dict[str, Any]:
@@ -14,12 +13,9 @@ def figures(folder: Path) -> dict[str, Any]:
     files = sorted((folder / "sampling").glob("*.json"))
     return {
         "sampling": {file.stem: _nearest(file) for file in files},
-        "methods": _METHODS,
-        "levels": levels_of_runs([folder / "levels"], None),
     }
 
 
-_METHODS = {"object": "number chosen by the leaf", "image": "by contrast in the picture"}
 _THESIS, _NINE = "5", "9"
 
 
