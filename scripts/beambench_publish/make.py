@@ -19,6 +19,8 @@ from beambench_report.base.files import INTERRUPTED, ROOT, Problem, read_json, s
 from beambench_report.base.quantities import duration_in_words
 
 WRONG_HITS = 1
+_FIRST_TEMPLATES = Path(__file__).parent / "templates"
+"""Of the pages of folders that were not published yet."""
 
 Run = Callable[[Sequence[str], Path | None], int]
 """Runs a program, its standard output into a file or nowhere; returns its exit code."""
@@ -143,6 +145,9 @@ def _publish(folder: Folder, progress: Progress, published: Path) -> None:
         if source.is_file() and not target.is_file():
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(source, target)
+    first = _FIRST_TEMPLATES / f"{folder.name}.md.j2"
+    if first.is_file() and not (progress.folder / "README.md.j2").is_file():
+        shutil.copy(first, progress.folder / "README.md.j2")
     former = published.with_name(f".former-{published.name}")
     shutil.rmtree(former, ignore_errors=True)
     if published.exists():

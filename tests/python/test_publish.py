@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import os
+import re
 import shutil
 import subprocess
 from collections.abc import Iterator, Sequence
@@ -15,7 +16,9 @@ import pytest
 from PIL import Image
 
 from beambench_publish.__main__ import main
-from beambench_publish.make import Interrupted, Place, make_folder
+from beambench_publish.bare_figures import bare_figures
+from beambench_publish.documents import write_documents
+from beambench_publish.make import Interrupted, Place, make_folder, run_program
 from beambench_publish.needs import Given, missing
 from beambench_publish.plan import Command, Folder, Sweep, as_table, read_plan
 from beambench_publish.progress import RECORD, is_published, progress_of
@@ -251,6 +254,27 @@ def test_a_command_that_resumes_is_resumed(place: Place) -> None:
     fake = Fake()
     make_folder(folder, replace(place, run=fake), HERE)
     assert fake.calls[1][1] == "go-on"
+
+
+@needs_binary
+def test_a_folder_that_is_new_gets_its_page(place: Place) -> None:
+    """By a real run, as short as its page allows: it has intervals, and two groups of scenes."""
+    (folder,) = read_plan().only(["embree-4"]).folders
+    (sweep,) = folder.steps
+    assert isinstance(sweep, Sweep)
+    short = {"scenes": ["tetra:n=6", "balls:n=2"], "resolutions": ["320x200"], "budget_seconds": 1}
+    short |= {"repetitions": {"minimum": 6, "maximum": 6}, "warm_up_seconds": 0}
+    folder = replace(folder, steps=(replace(sweep, changes=sweep.changes | short),))
+    make_folder(folder, replace(place, beambench=BINARY, run=run_program), HERE)
+    published = place.published / "embree-4"
+    files = {file.name for file in published.iterdir()}
+    assert files >= {"README.md.j2", "config.json", "manifest.json", "repetitions.csv", RECORD}
+    assert not files & {"cells", "google-benchmark.json"}
+    assert read_json(published / "config.json")["name"] == "embree-4"
+    assert published / "README.md" in write_documents(place.published)
+    text = (published / "README.md").read_text("utf-8")
+    assert re.search(r"\| tetra, 4 k \| [\d.]+ \([\d.]+ to [\d.]+\) \|", text)
+    assert list(bare_figures(published / "README.md.j2")) == []
 
 
 # What it needs
