@@ -13,7 +13,7 @@ from beambench_publish.documents import PUBLISHED, differences, write_documents
 from beambench_publish.make import Interrupted, Place, make_folder
 from beambench_publish.needs import Debian13, Given, missing, plugins_for
 from beambench_publish.plan import Folder, Plan, as_table, read_plan
-from beambench_publish.progress import Progress, is_published, progress_of
+from beambench_publish.progress import Progress, is_published, progress_of, seconds_of
 from beambench_publish.setting import Setting, git, preflight, require_clean
 from beambench_publish.small import size
 from beambench_report.base.files import ROOT, Problem, say
@@ -69,7 +69,7 @@ def _run(options: argparse.Namespace) -> int:
     beambench = options.beambench.absolute()
     if options.plan:
         setting = preflight(beambench) if beambench.is_file() else None
-        print(as_table(plan, _states(plan, options, setting)))
+        print(as_table(plan, _states(plan, options, setting), _took(plan, options.published)))
         return 0
     return _make(plan, options, preflight(beambench))
 
@@ -100,6 +100,12 @@ def _states(plan: Plan, options: argparse.Namespace, setting: Setting | None) ->
         elif begun:
             states[folder.name] = f"{len(begun.seconds)} of {len(folder.steps)} steps are done"
     return states
+
+
+def _took(plan: Plan, published: Path) -> dict[str, float]:
+    """The seconds that the published folders took."""
+    known = {folder.name: seconds_of(published / folder.name) for folder in plan.folders}
+    return {name: seconds for name, seconds in known.items() if seconds is not None}
 
 
 def _make(plan: Plan, options: argparse.Namespace, setting: Setting) -> int:

@@ -117,18 +117,23 @@ def read_plan(path: Path = PLAN) -> Plan:
         raise Problem(f"{path}: is not a plan ({error!r}); restore it with git") from None
 
 
-def as_table(plan: Plan, states: dict[str, str]) -> str:
-    """The plan as people read it; `states` says what is there of each folder."""
+def as_table(plan: Plan, states: dict[str, str], took: dict[str, float]) -> str:
+    """The plan as people read it.
+
+    `states` says what is there of each folder, `took` the seconds that the published one took.
+    """
     rows = [
         (
             one.name,
             one.title,
             f"{one.seconds / 60:.1f}{' (apart)' if one.is_apart else ''}",
+            f"{took[one.name] / 60:.1f}" if one.name in took else "",
             states.get(one.name, ""),
         )
         for one in plan.folders
     ]
-    lines = markdown_table(("folder", "what", "minutes", "state"), rows, right=(2,))
+    heads = ("folder", "what", "minutes", "took", "state")
+    lines = markdown_table(heads, rows, right=(2, 3))
     return "\n".join([*lines, "", f"{plan.minutes:.0f} minutes in all, but for what is apart"])
 
 

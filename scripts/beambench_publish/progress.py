@@ -8,6 +8,7 @@ from pathlib import Path
 
 from beambench_publish.setting import Setting
 from beambench_report.base.files import read_json, write_text
+from beambench_report.base.machine import read_manifest
 
 RECORD = "published.json"
 """In a published folder: the commit, the machine and its state, and what each step took."""
@@ -55,6 +56,16 @@ def progress_of(folder: Path, setting: Setting) -> Progress | None:
     if not isinstance(source, dict) or not setting.is_of(source.get("made_by", {})):
         return None
     return Progress(folder, source["made_by"], source["seconds"], source["wrong"])
+
+
+def seconds_of(folder: Path) -> float | None:
+    """What a published folder took: by its record, else by the manifests of its runs."""
+    source = read_json(folder / RECORD)
+    if isinstance(source, dict):
+        return sum(source["seconds"])
+    manifests = [read_manifest(file.parent) for file in folder.rglob("manifest.json")]
+    known = [one.seconds for one in manifests if one is not None and one.seconds is not None]
+    return sum(known) if known else None
 
 
 def is_published(folder: Path, setting: Setting) -> bool:

@@ -21,7 +21,7 @@ from beambench_publish.documents import write_documents
 from beambench_publish.make import Interrupted, Place, make_folder, run_program
 from beambench_publish.needs import Given, missing
 from beambench_publish.plan import Command, Folder, Sweep, as_table, read_plan
-from beambench_publish.progress import RECORD, is_published, progress_of
+from beambench_publish.progress import RECORD, is_published, progress_of, seconds_of
 from beambench_publish.setting import Setting, preflight, require_clean, same_sources
 from beambench_publish.small import make_small, size
 from beambench_report.__main__ import _parser as parser_of_reports
@@ -127,10 +127,19 @@ def test_some_folders_alone() -> None:
 
 
 def test_the_table_states_minutes_and_what_is_apart() -> None:
-    text = as_table(read_plan(), {"census": "complete"})
-    assert "| census | " in text
-    assert "| complete |" in text
+    text = as_table(read_plan(), {"census": "complete"}, {"census": 90.0})
+    (line,) = (line for line in text.splitlines() if line.startswith("| census | "))
+    assert line.endswith("| 1.5 | complete |")
     assert "(apart)" in text
+
+
+def test_what_a_folder_took_is_known_from_its_record_or_manifests(tmp_path: Path) -> None:
+    (tmp_path / "a").mkdir()
+    times = {"time_utc": "2026-11-24T00:00:00Z", "finished_utc": "2026-11-24T00:01:30Z"}
+    (tmp_path / "a/manifest.json").write_text(json.dumps(times))
+    assert seconds_of(tmp_path) == 90
+    (tmp_path / RECORD).write_text('{"seconds": [1.5, 2]}')
+    assert seconds_of(tmp_path) == 3.5
 
 
 # Making a folder
