@@ -53,3 +53,23 @@ def test_the_finding_of_the_root_readme(repository: Path, published: Path) -> No
     text = " ".join((repository / "README.md").read_text("utf-8").split())
     assert f"takes {small:.1f} times as long as single rays" in text
     assert f"only {large:.2f} times as long at 1280x1024" in text
+
+
+def test_the_findings_are_one_page(published: Path) -> None:
+    assert len((published / "README.md").read_text("utf-8").splitlines()) <= 200
+
+
+MOST_BYTES = 20_000_000
+"""Of all that is published: it is in every clone."""
+
+
+def test_what_is_published_is_small(published: Path) -> None:
+    sizes = {file: file.stat().st_size for file in published.rglob("*") if file.is_file()}
+    largest = sorted(sizes, key=lambda file: -sizes[file])[:5]
+    assert sum(sizes.values()) <= MOST_BYTES, [str(file) for file in largest]
+
+
+def test_no_plot_is_there_twice(published: Path) -> None:
+    """Of a plot the SVG is committed, which is a fifth of the PNG."""
+    twice = [plot for plot in published.rglob("*.png") if plot.with_suffix(".svg").is_file()]
+    assert twice == []

@@ -1,0 +1,1 @@
+"""Makes everything in results/published: the runs, and the texts from their committed rows."""

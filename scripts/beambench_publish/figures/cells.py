@@ -1,0 +1,87 @@
+"""The rows of one published run, and ratios of its contenders with their intervals."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from pathlib import Path
+from typing import Literal
+
+import pandas as pd
+
+from beambench_report.base.cell_files import CellFile, Identity, ratio_of, read_cell_files
+from beambench_report.base.files import Problem
+from beambench_report.base.names import parameter_items
+from beambench_report.base.ratio import Ratio, geometric_mean
+from beambench_report.base.records import read_run
+
+Phase = Literal["total", "trace"]
+
+
+class Cells:
+    """A contender is named as sweeps do, by what tells it apart: `samet:max_level=6`."""
+
+    def __init__(self, folder: Path) -> None:
+        """Raises Problem where FOLDER/results.csv cannot be read."""
+        self.folder = folder
+        rows = read_run(folder).rows
+        sizes = rows["width"].map("{:.0f}".format) + "x" + rows["height"].map("{:.0f}".format)
+        self.rows = rows.assign(size=sizes, scene=rows["scene"])
+
+    @cached_property
+    def _files(self) -> dict[Identity, CellFile]:
+        return read_cell_files(self.folder)
+
+    def having(self, contender: str = "", **columns: str) -> pd.DataFrame:
+        """The rows of a contender, or of all, with these values; none is no error."""
+        rows = self.rows
+        for name, value in columns.items():
+            rows = rows[rows[name] == value]
+        return rows[self._is(rows, contender)] if contender else rows
+
+    def row(self, contender: str, **columns: str) -> pd.Series:
+        """The only such row that has times. Raises Problem where there is none, or several."""
+        found = self.having(contender, **columns)
+        found = found[found["timed"]]
+        if len(found) != 1:
+            raise Problem(
+                f"{self.folder}/results.csv: {len(found)} rows with times are {contender} at "
+                f"{columns}, and one was expected; name what tells it apart"
+            )
+        return found.iloc[0]
+
+    def ratio(self, over: str, under: str, phase: Phase = "trace", **columns: str) -> Ratio:
+        """A contender's time over another one's: paired where the repetitions are published."""
+        both = (self.row(contender, **columns) for contender in (over, under))
+        return ratio_of(phase, *both, self._files)
+
+    def mean(
+        self, over: str, under: str, scenes: Sequence[str], phase: Phase = "trace", **columns: str
+    ) -> Ratio:
+        """The geometric mean of `ratio` over some scenes."""
+        return geometric_mean(
+            [self.ratio(over, under, phase, scene=scene, **columns) for scene in scenes]
+        )
+
+    @property
+    def scenes(self) -> list[str]:
+        """In the order of the rows."""
+        return list(dict.fromkeys(self.rows["scene"]))
+
+    @property
+    def sizes(self) -> list[str]:
+        """The resolutions, the lowest first."""
+        return list(dict.fromkeys(self.rows.sort_values("rays")["size"]))
+
+    @property
+    def wrong(self) -> pd.DataFrame:
+        """The rows whose hits are not correct."""
+        return self.rows[~self.rows["verdict"].isin(("ok", "baseline", "no_rays"))]
+
+    @staticmethod
+    def _is(rows: pd.DataFrame, contender: str) -> pd.Series:
+        structure, _, text = contender.partition(":")
+        wanted = parameter_items(text).items()
+        return (rows["structure"] == structure) & rows["parameters"].map(
+            lambda own: wanted <= parameter_items(own).items()
+        )

@@ -1,0 +1,36 @@
+"""All published rows together: for the page over all of them."""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+
+_RIGHT = ("ok", "baseline", "no_rays")
+
+
+@dataclass(frozen=True)
+class Counted:
+    """Cells, and those whose hits are wrong by structure."""
+
+    cells: int
+    wrong: dict[str, int]
+
+    @property
+    def all_wrong(self) -> int:
+        """Of whichever structure."""
+        return sum(self.wrong.values())
+
+
+def counted(published: Path) -> Counted:
+    """Of every results.csv of a run."""
+    cells, wrong = 0, {}
+    for file in sorted(published.rglob("results.csv")):
+        with file.open(encoding="utf-8", newline="") as table:
+            for row in csv.DictReader(table):
+                if "structure" not in row:
+                    break
+                cells += 1
+                if row["verdict"] not in _RIGHT:
+                    wrong[row["structure"]] = wrong.get(row["structure"], 0) + 1
+    return Counted(cells, wrong)

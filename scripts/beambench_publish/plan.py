@@ -1,0 +1,158 @@
+"""What is published, in which order, by which commands, and how long each takes: plan.json."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from beambench_report.base.files import ROOT, Problem, load_json
+from beambench_report.base.quantities import markdown_table
+
+PLAN = Path(__file__).parent / "plan.json"
+SWEEPS = ROOT / "harness/bench/sweeps"
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A sweep that beambench runs, into a folder of its own; cut off, it is resumed."""
+
+    source: Path
+    into: str
+    seconds: float
+    changes: dict[str, Any] = field(default_factory=dict)
+    """What replaces members of the sweep's file, so that all of it fits the time."""
+
+    @property
+    def words(self) -> str:
+        """What the plan shows."""
+        changed = f", with other {', '.join(self.changes)}" if self.changes else ""
+        return f"beambench run {self.source.name}{changed}"
+
+    def config(self) -> dict[str, Any]:
+        """The sweep as it is run. Raises Problem where its file cannot be read."""
+        try:
+            config = load_json(self.source)
+        except (OSError, ValueError) as error:
+            raise Problem(f"{self.source}: cannot be read as a sweep: {error}") from None
+        return {name: value for name, value in config.items() if name != "$schema"} | self.changes
+
+
+@dataclass(frozen=True)
+class Command:
+    """A program with arguments, in which {folder} and other names are replaced."""
+
+    words_of: tuple[str, ...]
+    seconds: float
+    resume: tuple[str, ...] = ()
+    """What continues it when it was cut off; empty: it is begun anew."""
+    into: str = ""
+    """The file that gets its standard output; empty: nothing is kept of it."""
+
+    @property
+    def words(self) -> str:
+        """What the plan shows."""
+        named = [word for word in self.words_of if not word.startswith("{folder}")]
+        text = " ".join(named).replace("{python} -m ", "").replace("{beambench}", "beambench")
+        return text.replace(" --beambench beambench", "").split(" --program")[0]
+
+
+Step = Sweep | Command
+
+
+@dataclass(frozen=True)
+class Folder:
+    """A folder of results/published, which one commit on one machine makes."""
+
+    name: str
+    title: str
+    steps: tuple[Step, ...]
+    needs: str = ""
+    """`meshes`, `debian-13` or `libraries`: what must be there, else it is left as it is."""
+    embree: str = ""
+    """The major version of Embree that it takes; empty: any."""
+    keep: tuple[str, ...] = ()
+    """Files of an earlier commit that no step makes; the texts name their commit."""
+    is_apart: bool = False
+    """Is its time not part of the whole?"""
+
+    @property
+    def seconds(self) -> float:
+        """How long it may take."""
+        return sum(step.seconds for step in self.steps)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """All of it, in order."""
+
+    folders: tuple[Folder, ...]
+    most_minutes: float
+
+    @property
+    def minutes(self) -> float:
+        """How long all may take, but for what is apart."""
+        return sum(one.seconds for one in self.folders if not one.is_apart) / 60
+
+    def only(self, names: Iterable[str]) -> Plan:
+        """Some of its folders; all, if none is named. Raises Problem for an unknown one."""
+        wanted = list(names)
+        known = [one.name for one in self.folders]
+        for name in wanted:
+            if name not in known:
+                raise Problem(f"no folder '{name}' is planned, only {', '.join(known)}")
+        if not wanted:
+            return self
+        return Plan(tuple(one for one in self.folders if one.name in wanted), self.most_minutes)
+
+
+def read_plan(path: Path = PLAN) -> Plan:
+    """Raises Problem where the file is no plan."""
+    try:
+        source = load_json(path)
+        folders = tuple(_folder(entry) for entry in source["folders"])
+        return Plan(folders, source["most_minutes"])
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise Problem(f"{path}: is not a plan ({error!r}); restore it with git") from None
+
+
+def as_table(plan: Plan, states: dict[str, str], took: dict[str, float]) -> str:
+    """The plan as people read it.
+
+    `states` says what is there of each folder, `took` the seconds that the published one took.
+    """
+    rows = [
+        (
+            one.name,
+            one.title,
+            f"{one.seconds / 60:.1f}{' (apart)' if one.is_apart else ''}",
+            f"{took[one.name] / 60:.1f}" if one.name in took else "",
+            states.get(one.name, ""),
+        )
+        for one in plan.folders
+    ]
+    heads = ("folder", "what", "minutes", "took", "state")
+    lines = markdown_table(heads, rows, right=(2, 3))
+    return "\n".join([*lines, "", f"{plan.minutes:.0f} minutes in all, but for what is apart"])
+
+
+def _folder(entry: dict[str, Any]) -> Folder:
+    return Folder(
+        entry["name"],
+        entry["title"],
+        tuple(_step(step) for step in entry["steps"]),
+        entry.get("needs", ""),
+        entry.get("embree", ""),
+        tuple(entry.get("keep", ())),
+        "apart" in entry,
+    )
+
+
+def _step(entry: dict[str, Any]) -> Step:
+    if "sweep" in entry:
+        name = entry["sweep"]
+        source = ROOT / name if "/" in name else SWEEPS / f"{name}.json"
+        return Sweep(source, entry["into"], entry["seconds"], entry.get("changes", {}))
+    words = tuple(entry["print"] if "print" in entry else entry["command"])
+    return Command(words, entry["seconds"], tuple(entry.get("resume", ())), entry.get("into", ""))

@@ -1,0 +1,116 @@
+"""Which commit and machine make a folder, and whether the tree is fit for it."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+import tempfile
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from beambench_report.base.files import ROOT, Problem, output_of, read_json
+
+_KEPT_APART = "results/published"
+_LOOKS_BUSY = 0.05
+_SWEEP = {
+    "name": "preflight",
+    "scenes": ["escena2"],
+    "structures": ["null"],
+    "resolutions": ["64x48"],
+    "repetitions": {"minimum": 1, "maximum": 1},
+    "budget_seconds": 1,
+}
+
+
+@dataclass(frozen=True)
+class Setting:
+    """Of what the built program measures now."""
+
+    commit: str
+    dirty: bool
+    machine_id: str
+    cpu: str
+    cores: int
+    embree: str
+    noise: float
+    """How much longer than usual the slowest twentieth of equal work took just now."""
+    load: float
+
+    @property
+    def warnings(self) -> list[str]:
+        """What makes times worth less."""
+        found = []
+        if self.noise > _LOOKS_BUSY:
+            found.append(f"equal work takes up to {self.noise:.0%} longer than usual")
+        if self.load > 1:
+            found.append(f"other work is running (load {self.load:.2f})")
+        return found
+
+    def is_of(self, other: dict[str, object]) -> bool:
+        """Were this machine and the same sources at work in what `as_record` kept?"""
+        return other.get("machine_id") == self.machine_id and same_sources(
+            str(other.get("commit", "")), self.commit
+        )
+
+    def as_record(self) -> dict[str, object]:
+        """For the file that a folder keeps."""
+        return asdict(self)
+
+
+def preflight(beambench: Path) -> Setting:
+    """Runs a cell that takes a second, whose manifest says all of it.
+
+    Raises Problem where the program cannot be run.
+    """
+    with tempfile.TemporaryDirectory() as folder:
+        sweep, run = Path(folder) / "preflight.json", Path(folder) / "run"
+        sweep.write_text(json.dumps(_SWEEP), "utf-8")
+        output_of([str(beambench), "run", str(sweep), "-o", str(run)], remedy="run scripts/setup")
+        source = read_json(run / "manifest.json")
+    try:
+        program, machine, measured = (source[key] for key in ("program", "machine", "measurement"))
+        return Setting(
+            program["commit"],
+            bool(program["dirty"]),
+            machine["id"],
+            machine["cpu"],
+            machine["cores"],
+            program["libraries"]["embree"],
+            float(measured["noise"]),
+            float(machine["load_average"]),
+        )
+    except (TypeError, KeyError) as error:
+        raise Problem(f"{beambench}: its manifest lacks {error}; run scripts/setup") from None
+
+
+def require_clean(setting: Setting, root: Path = ROOT) -> None:
+    """Raises Problem for uncommitted changes, and for a program of other sources.
+
+    results/published may change: it is what a publication writes.
+    """
+    changed = git("status", "--porcelain", "--", ".", f":!{_KEPT_APART}", root=root)
+    if changed:
+        raise Problem(
+            f"there are changes that are not committed: {changed.splitlines()[0].strip()}"
+        )
+    if setting.dirty:
+        raise Problem("the program was built from a changed tree; run scripts/setup")
+    head = git("rev-parse", "HEAD", root=root)
+    if not same_sources(setting.commit, head, root):
+        raise Problem(
+            f"the program is of commit {setting.commit[:7]} and the tree of {head[:7]}, which "
+            "differ in more than results/published; run scripts/setup"
+        )
+
+
+def same_sources(one: str, other: str, root: Path = ROOT) -> bool:
+    """Do two commits differ at most in what is published?"""
+    if one == other:
+        return True
+    command = ["git", "-C", str(root), "diff", "--quiet", one, other, "--", ".", f":!{_KEPT_APART}"]
+    return subprocess.run(command, capture_output=True, check=False).returncode == 0
+
+
+def git(*arguments: str, root: Path = ROOT) -> str:
+    """What git prints. Raises Problem where it fails."""
+    return output_of(["git", "-C", str(root), *arguments], remedy="install git").strip()

@@ -1,0 +1,154 @@
+"""What the texts of results/published state is what their committed rows give."""
+
+from __future__ import annotations
+
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+
+from beambench_publish.bare_figures import bare_figures
+from beambench_publish.documents import (
+    PUBLISHED,
+    differences,
+    documents,
+    module_of,
+    write_documents,
+)
+from beambench_publish.layout import laid_out
+from beambench_report.base.files import Problem
+
+
+@pytest.fixture
+def copied(tmp_path: Path) -> Path:
+    """A folder of published runs with one of them, which may be spoiled."""
+    shutil.copytree(PUBLISHED / "structures", tmp_path / "structures")
+    return tmp_path
+
+
+def test_every_text_states_what_its_rows_give() -> None:
+    assert [str(one) for one in differences()] == []
+
+
+def test_there_are_templates_and_reports() -> None:
+    found = {str(one.path.relative_to(PUBLISHED)) for one in documents()}
+    assert {"structures/README.md", "structures/winners.md"} <= found
+
+
+def test_a_wrong_digit_in_a_text_is_found(copied: Path) -> None:
+    text = copied / "structures/README.md"
+    stated = text.read_text("utf-8")
+    figures = list(re.finditer(r"(?<=\| )\d+\.\d\d", stated))
+    assert len(figures) > 20
+    for figure in figures[::9]:
+        last = figure.end() - 1
+        digit = (int(stated[last]) + 1) % 10
+        text.write_text(f"{stated[:last]}{digit}{stated[last + 1 :]}", "utf-8")
+        (found,) = differences(copied)
+        assert found.file == text
+        assert found.line == stated.count("\n", 0, last) + 1
+        assert f"{digit}" in found.stated
+    text.write_text(stated, "utf-8")
+    assert differences(copied) == []
+
+
+def test_a_wrong_digit_in_the_rows_is_found(copied: Path) -> None:
+    table = copied / "structures/results.csv"
+    head, *rows = table.read_text("utf-8").splitlines()
+    place = head.split(",").index("trace_ms_median") - len(head.split(","))
+    row = next(i for i, row in enumerate(rows) if ",kd-tree," in row and ",primary," in row)
+    fields = rows[row].split(",")
+    fields[place] = f"{10 * float(fields[place])}"
+    rows[row] = ",".join(fields)
+    table.write_text("\n".join([head, *rows]) + "\n", "utf-8")
+    assert {one.file.name for one in differences(copied)} == {"README.md", "winners.md"}
+
+
+def test_the_command_writes_what_differs_and_nothing_else(copied: Path) -> None:
+    text = copied / "structures/README.md"
+    right = text.read_text("utf-8")
+    text.write_text("nothing\n", "utf-8")
+    assert write_documents(copied) == [text]
+    assert text.read_text("utf-8") == right
+    assert write_documents(copied) == []
+
+
+def test_an_unknown_figure_names_template_and_line(copied: Path) -> None:
+    template = copied / "structures/README.md.j2"
+    template.write_text("# Title\n\nIt takes {{ nothing | fixed }} ms.\n", "utf-8")
+    with pytest.raises(Problem, match=r"README\.md\.j2:3: 'nothing' is undefined"):
+        differences(copied)
+
+
+def test_a_sentence_that_is_not_so_any_more_is_found(copied: Path) -> None:
+    template = copied / "structures/README.md.j2"
+    sentence = "# Title\n\n{}The best is `tile-beam`.\n"
+    template.write_text(sentence.format("{{ holds(order[0] == 'tile-beam') }}"), "utf-8")
+    assert documents(copied)[0].text().endswith("\nThe best is `tile-beam`.\n")
+    template.write_text(sentence.format("{{ holds(order[0] == 'samet') }}"), "utf-8")
+    with pytest.raises(Problem, match=r"README\.md\.j2:3: what this sentence says does not"):
+        documents(copied)[0].text()
+
+
+def test_lines_are_broken_anew() -> None:
+    words = "word " * 40
+    text = f"{words}\n12.5 ms\n\n| a | {words}|\n- {words}\n  {words}\n- b\n```\n{words}\n```\n# T"
+    lines = laid_out(text).split("\n")
+    assert max(len(line) for line in lines if line[0:1] not in ("|", "w")) <= 120
+    assert "12.5 ms" in lines[1]
+    assert lines[2] == ""
+    assert lines[3].startswith("| a | word")
+    assert [line[:6] for line in lines[4:8]] == ["- word", "  word", "  word", "  word"]
+    assert lines[-5:] == ["- b", "```", words.rstrip(), "```", "# T"]
+
+
+# What has no row is not stated
+
+
+def templates() -> list[Path]:
+    return sorted(PUBLISHED.rglob("*.md.j2"))
+
+
+@pytest.mark.parametrize("template", templates(), ids=lambda path: path.parent.name)
+def test_templates_state_no_figure_of_their_own(template: Path) -> None:
+    assert [str(one) for one in bare_figures(template)] == []
+
+
+@pytest.mark.parametrize("template", templates(), ids=lambda path: path.parent.name)
+def test_a_template_belongs_to_a_module(template: Path) -> None:
+    if template.parent != PUBLISHED:
+        assert module_of(template.parent.name)
+
+
+@pytest.mark.parametrize(
+    ("sentence", "figure"),
+    [
+        ("It takes 1.4 times as long.", "1.4"),
+        ("It takes 3 times as long.", "3 times"),
+        ("A third, 33%, are occluded.", "33%"),
+        ("Of 2,088 cells", "2,088"),
+        ("| `samet` | 4.57 |", "4.57"),
+        ("within 45 s", "45 s"),
+    ],
+)
+def test_a_figure_that_is_not_computed_is_found(tmp_path: Path, sentence: str, figure: str) -> None:
+    template = tmp_path / "README.md.j2"
+    template.write_text(f"# Title\n{{{{ value }}}}\n{sentence}\n", "utf-8")
+    (found,) = bare_figures(template)
+    assert (found.line, found.figure) == (3, figure)
+
+
+@pytest.mark.parametrize(
+    "sentence",
+    [
+        "It takes {{ ratio | fixed(2) }} times as long at 1280x1024 (`max_level=6`, `pad=0.5`).",
+        "`--seconds 1.5` and [a link](../a-1.5.md), C12, SPD, the fifteen scenes of 1999.",
+        "The thesis states {{ cited('0.75') }}.",
+        "{% set digits = 2.5 %}",
+    ],
+)
+def test_what_is_no_measurement_is_left_alone(tmp_path: Path, sentence: str) -> None:
+    template = tmp_path / "README.md.j2"
+    template.write_text(f"# Title\n{sentence}\n", "utf-8")
+    assert list(bare_figures(template)) == []
