@@ -18,11 +18,13 @@
 #include <hwy/highway.h>
 
 #include "accel/bvh/probe_blocks-inl.hpp"
+#include "accel/core/compress-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::bvh::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+using accel::HWY_NAMESPACE::compress;
 
 /// The children whose boxes the ray may meet before `limit`, which is enlarged by kWider, and where
 /// it enters them.
@@ -102,7 +104,7 @@ class WaitingStack {
         const auto* references = reinterpret_cast<const std::uint32_t*>(node.children.data());
         const std::array<std::uint8_t, 8> lanes{static_cast<std::uint8_t>(rest)};
         const auto mask = hn::LoadMaskBits(bits, lanes.data());
-        hn::StoreU(hn::Compress(hn::LoadU(bits, references), mask), bits,
+        hn::StoreU(compress(bits, hn::LoadU(bits, references), mask), bits,
                    references_.data() + size_);
         size_ += static_cast<std::size_t>(std::popcount(rest));
       } else {
@@ -128,7 +130,7 @@ class WaitingStack {
                   hn::Set(bits, 7));
       const auto wanted = hn::And(hn::Shr(hn::Set(bits, met), lanes), hn::Set(bits, 1));
       const auto table =
-          hn::IndicesFromVec(bits, hn::Compress(lanes, hn::Ne(wanted, hn::Zero(bits))));
+          hn::IndicesFromVec(bits, compress(bits, lanes, hn::Ne(wanted, hn::Zero(bits))));
       const auto* enter = reinterpret_cast<const std::uint32_t*>(enter_t);
       const auto* references = reinterpret_cast<const std::uint32_t*>(node.children.data());
       hn::StoreU(hn::TableLookupLanes(hn::LoadU(bits, enter), table), bits,

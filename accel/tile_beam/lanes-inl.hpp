@@ -15,10 +15,13 @@
 
 #include <hwy/highway.h>
 
+#include "accel/core/compress-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
+using accel::HWY_NAMESPACE::compress;
 
 /// Sixteen lanes where the registers have them, otherwise several registers of fewer.
 using Tag = hn::CappedTag<float, 16>;
@@ -54,7 +57,7 @@ HWY_INLINE Mask mask_of(LaneBits bits) {
 /// Highway's CompressStore is on AVX-512, is slow on some processors (AMD's Zen 4).
 template <class D>
 HWY_INLINE std::size_t compress_store(D d, hn::Vec<D> values, hn::Mask<D> mask, hn::TFromD<D>* to) {
-  hn::StoreU(hn::Compress(values, mask), d, to);
+  hn::StoreU(compress(d, values, mask), d, to);
   return hn::CountTrue(d, mask);
 }
 

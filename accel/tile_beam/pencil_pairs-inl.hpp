@@ -61,13 +61,10 @@ class PencilPairs {
 
   using Numbers = hn::Vec<hn::RebindToUnsigned<Tag>>;
 
-  /// Writes the numbers of some lanes one after the other, and returns how many. A whole register
-  /// is written: storing a part of it takes some processors a hundred cycles.
+  /// Writes the numbers of some lanes one after the other, and returns how many.
   static HWY_INLINE std::size_t append(Numbers numbers, Mask which, std::uint32_t* to) {
     const hn::RebindToUnsigned<Tag> d;
-    const auto mask = hn::RebindMask(d, which);
-    hn::StoreU(hn::Compress(numbers, mask), d, to);
-    return hn::CountTrue(d, mask);
+    return compress_store(d, numbers, hn::RebindMask(d, which), to);
   }
 
   /// Which shapes are to be tested with which blocks: of each group either all blocks against some
