@@ -17,12 +17,14 @@ SIMULATOR = BINARY.resolve().with_name("beambench-cluster-simulated")
 needs_simulator = pytest.mark.skipif(
     not SIMULATOR.is_file(), reason="beambench-cluster-simulated was not built: no libsimgrid-dev"
 )
+DIVISIONS = ("primitives", "cost", "interleaved", "bisection", "scattered")
 ASKED = ["--accel", "beam:max_level=6", "--split", "3", "--resolution", "80x60"]
 
 
-def simulated(processes: int, *arguments: str) -> dict:
+def simulated(processes: int, *arguments: str, level: str = "3") -> dict:
+    asked = [level if each == "3" else each for each in ASKED]
     done = subprocess.run(
-        [SIMULATOR, "split", "tetra:n=4", *ASKED, "--processes", str(processes), *arguments],
+        [SIMULATOR, "split", "tetra:n=4", *asked, "--processes", str(processes), *arguments],
         capture_output=True,
         text=True,
         check=True,
@@ -53,12 +55,35 @@ def test_parts_give_the_picture_of_the_whole() -> None:
 
 
 @needs_simulator
+@pytest.mark.parametrize("level", ["2", "4", "6"])
+def test_every_division_gives_the_picture_of_the_whole(level: str) -> None:
+    """Most of a tetrahedron's cells are empty: beams and rays pass them in any process."""
+    whole = simulated(1)["result_hash"]
+    for division in DIVISIONS:
+        run = simulated(6, "--division", division, level=level)
+        assert run["result_hash"] == whole, division
+
+
 @needs_mpi
-def test_the_real_program_finds_the_same_and_hands_over_the_same(tmp_path: Path) -> None:
+def test_another_division_is_refused_with_the_names() -> None:
+    run = mpirun("-n", 1, CLUSTER, "tetra:n=4", "--split", "3", "--division", "halves")
+    assert run.returncode == 2
+    assert all(name in run.stderr for name in ("halves", *DIVISIONS))
+    alone = mpirun("-n", 1, CLUSTER, "tetra:n=4", "--division", "cost")
+    assert alone.returncode == 2
+    assert "--split" in alone.stderr
+
+
+@needs_simulator
+@needs_mpi
+@pytest.mark.parametrize("division", ["primitives", "scattered"])
+def test_the_real_program_finds_the_same_and_hands_over_the_same(
+    tmp_path: Path, division: str
+) -> None:
     report = tmp_path / "run.json"
-    run = mpirun("-n", 3, CLUSTER, "tetra:n=4", *ASKED, "--report", report)
+    run = mpirun("-n", 3, CLUSTER, "tetra:n=4", *ASKED, "--division", division, "--report", report)
     assert run.returncode == 0, run.stderr
-    real, simulation = json.loads(report.read_text()), simulated(3)
+    real, simulation = json.loads(report.read_text()), simulated(3, "--division", division)
     assert simulation["result_hash"] == real["result_hash"]
     for here, there in zip(simulation["processes"], real["each"], strict=True):
         for quantity in ("primitives", "beams_out", "rays_out"):
@@ -85,6 +110,7 @@ def test_wrong_requests_are_refused() -> None:
         (["no-such-scene"], "no-such-scene"),
         (["tetra:n=2", "--split", "7", "--accel", "beam:max_level=4"], "max_level"),
         (["tetra:n=2", "--accel", "sah-bvh"], "sah-bvh"),
+        (["tetra:n=2", "--division", "halves"], "interleaved"),
     ):
         done = subprocess.run(
             [SIMULATOR, "split", *arguments],
