@@ -57,11 +57,14 @@ struct OctreeOptions {
 /// are rounded, where they lie anywhere.
 CellGrid octree_grid(const scenes::Scene& scene, const OctreeOptions& options);
 
-/// A part of an octree, where a scene is divided among several processes: all cells of `level`
-/// exist, and those that are not `own` are empty leaves, whatever is in them.
+/// A part of an octree, where a scene is divided among several processes: its cells of `level` that
+/// are not `own` are empty leaves, whatever is in them.
 struct OctreePart {
   int level;  ///< not deeper than the octree's `max_level`
   std::function<bool(const glm::ivec3& cell)> own;
+  /// Must a node of `size` cells along each axis, from `first` on, be divided? Then all cells of
+  /// `level` in it that are such nodes exist, whether this part has primitives there or not.
+  std::function<bool(const glm::ivec3& first, std::int32_t size)> divided;
 };
 
 /// A node: interior (its eight children are consecutive, child i at first + i, i = x + 2 y + 4 z)

@@ -144,7 +144,9 @@ class OctreeBuilder {
            !part_->own(pending.cell.corner / pending.cell.size);
   }
   bool must_be_split(const Pending& pending) const {
-    return part_ != nullptr && pending.cell.level < part_->level;
+    if (part_ == nullptr || pending.cell.level >= part_->level) return false;
+    const std::int32_t size = 1 << (part_->level - pending.cell.level);
+    return part_->divided(pending.cell.corner / pending.cell.size * size, size);
   }
 
   void make_leaf(std::uint32_t node, std::span<const scenes::PrimitiveId> primitives) {

@@ -2,8 +2,13 @@
 // one finds.
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <map>
 #include <mutex>
+#include <numeric>
+#include <random>
 #include <set>
 #include <thread>
 #include <vector>
@@ -11,7 +16,10 @@
 #include <gtest/gtest.h>
 
 #include "harness/cluster/image_worker.hpp"
+#include "harness/cluster/split/cell_costs.hpp"
+#include "harness/cluster/split/division.hpp"
 #include "harness/cluster/split/part_member.hpp"
+#include "harness/cluster/split/scene_split.hpp"
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/catalogue.hpp"
@@ -32,17 +40,45 @@ accel::beam::BeamOptions options_with(int max_level, std::int64_t handover = 0) 
   return options;
 }
 
+constexpr std::array kDivisions{Division::kPrimitives, Division::kCost, Division::kInterleaved,
+                                Division::kBisection, Division::kScattered};
+
+SceneSplit split_of(const scenes::Scene& scene, int max_level, int level, Division division,
+                    int processes) {
+  const accel::PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
+  return split_scene(scene, options_with(max_level).octree, rays, level, division, processes);
+}
+
+TEST(Division, HasANameEach) {
+  ASSERT_EQ(division_names().size(), kDivisions.size());
+  for (const Division division : kDivisions) {
+    EXPECT_EQ(parse_division(division_names()[static_cast<std::size_t>(division)]), division);
+  }
+  EXPECT_THROW(parse_division("halves"), InputError);
+}
+
 TEST(SceneSplit, GivesEveryCellToOneProcessAndWorkToEach) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=4");
-  for (const int processes : {1, 2, 3, 7}) {
-    const SceneSplit split(scene, options_with(6).octree, 4, processes);
-    ASSERT_EQ(split.cell_count(), 512U);
-    std::map<ProcessId, int> cells;
-    for (std::uint32_t i = 0; i < split.cell_count(); ++i) {
-      EXPECT_EQ(split.index(split.cell(i)), i);
-      ++cells[split.owner(i)];
+  for (const Division division : kDivisions) {
+    for (const int processes : {1, 2, 3, 7}) {
+      const SceneSplit split = split_of(scene, 6, 4, division, processes);
+      ASSERT_EQ(split.cells().count(), 512U);
+      std::map<ProcessId, int> cells;
+      for (std::uint32_t i = 0; i < split.cells().count(); ++i) {
+        EXPECT_EQ(split.cells().index(split.cells().cell(i)), i);
+        ++cells[split.owner(i)];
+      }
+      EXPECT_EQ(cells.size(), static_cast<std::size_t>(processes));
+      EXPECT_EQ(cells.begin()->first, 0);
+      EXPECT_EQ(cells.rbegin()->first, processes - 1);
     }
-    EXPECT_EQ(cells.size(), static_cast<std::size_t>(processes));
+  }
+}
+
+TEST(SceneSplit, IsBalancedByPrimitives) {
+  const scenes::Scene scene = scenes::load_scene("tetra:n=4");
+  for (const int processes : {2, 3, 7}) {
+    const SceneSplit split = split_of(scene, 6, 4, Division::kPrimitives, processes);
     std::vector<std::size_t> sizes;
     for (ProcessId process = 0; process < processes; ++process) {
       sizes.push_back(part_of(scene, split, process).global.size());
@@ -52,10 +88,93 @@ TEST(SceneSplit, GivesEveryCellToOneProcessAndWorkToEach) {
   }
 }
 
+TEST(Division, DoesNotGiveAProcessMoreThanItsShareAndOneCell) {
+  const LevelCells cells(4);
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::mt19937 random(seed);
+    CellLoads loads{std::vector<std::uint32_t>(512), std::vector<double>(512)};
+    for (std::size_t i = 0; i < 512; ++i) {
+      loads.primitives[i] = static_cast<std::uint32_t>(1 + random() % 3);
+      loads.costs[i] = static_cast<double>(random() % 1000);
+    }
+    const double total = std::accumulate(loads.costs.begin(), loads.costs.end(), 0.0);
+    for (const Division division : {Division::kCost, Division::kScattered}) {
+      const auto owners = divide(cells, loads, division, 8);
+      std::vector<double> sums(8);
+      std::vector<double> primitives(8);
+      for (std::size_t i = 0; i < 512; ++i) {
+        sums[owners[i]] += loads.costs[i];
+        primitives[owners[i]] += loads.primitives[i];
+      }
+      EXPECT_LT(std::ranges::max(sums), total / 8 + 1000.0);
+      EXPECT_GT(std::ranges::min(sums), total / 8 - 1000.0);
+      if (division == Division::kScattered) {
+        const double all = std::accumulate(primitives.begin(), primitives.end(), 0.0);
+        EXPECT_LT(std::ranges::max(primitives), 1.05 * all / 8 + 3.0);
+      }
+    }
+  }
+}
+
+TEST(Division, BisectsIntoBoxesOfCells) {
+  const LevelCells cells(4);
+  CellLoads loads{std::vector<std::uint32_t>(512, 1), std::vector<double>(512, 1.0)};
+  loads.costs[0] = 300.0;
+  for (const int processes : {1, 2, 5, 8}) {
+    const auto owners = divide(cells, loads, Division::kBisection, processes);
+    for (int process = 0; process < processes; ++process) {
+      glm::ivec3 lower(8);
+      glm::ivec3 upper(-1);
+      int count = 0;
+      for (std::uint32_t i = 0; i < 512; ++i) {
+        if (owners[i] != process) continue;
+        lower = glm::min(lower, cells.cell(i));
+        upper = glm::max(upper, cells.cell(i));
+        ++count;
+      }
+      ASSERT_GT(count, 0);
+      const glm::ivec3 size = upper - lower + 1;
+      EXPECT_EQ(count, size.x * size.y * size.z);
+    }
+  }
+}
+
+TEST(Division, DealsCellsWithPrimitivesInTurn) {
+  const LevelCells cells(3);
+  CellLoads loads{std::vector<std::uint32_t>(64), {}};
+  for (const std::uint32_t i : {1U, 5U, 17U, 20U, 33U, 60U, 63U}) loads.primitives[i] = 9;
+  const auto owners = divide(cells, loads, Division::kInterleaved, 3);
+  std::array<int, 3> full{};
+  for (std::uint32_t i = 0; i < 64; ++i) full[owners[i]] += loads.primitives[i] > 0 ? 1 : 0;
+  EXPECT_EQ(full, (std::array{3, 2, 2}));
+}
+
+TEST(SampledCosts, AreWhereTheRaysAre) {
+  const scenes::Scene scene = scenes::load_scene("tetra:n=4");
+  const SceneCells contents(scene, options_with(6).octree, 4);
+  const auto costs = [&](int width, int height) {
+    const accel::PrimaryRays rays(scene.cameras.front(), width, height, 1);
+    return sampled_costs(scene, options_with(6).octree, rays, contents);
+  };
+  const std::vector<double> found = costs(200, 200);
+  EXPECT_EQ(found, costs(200, 200));
+  EXPECT_GT(std::ranges::max(found), 0.0);
+  for (std::uint32_t i = 0; i < found.size(); ++i) {
+    EXPECT_GE(found[i], 0.0);
+    if (contents.is_empty(i)) {
+      EXPECT_EQ(found[i], 0.0);
+    }
+  }
+  // As many rays of the sample, each for four times as many of the image.
+  const std::vector<double> finer = costs(400, 400);
+  EXPECT_GT(std::accumulate(finer.begin(), finer.end(), 0.0),
+            std::accumulate(found.begin(), found.end(), 0.0));
+}
+
 TEST(ScenePart, IsTheSameGeometryUnderLocalIds) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     const scenes::Scene scene = verify::random_scene(seed, 60);
-    const SceneSplit split(scene, options_with(5).octree, 3, 3);
+    const SceneSplit split = split_of(scene, 5, 3, Division::kInterleaved, 3);
     std::set<scenes::PrimitiveId> all;
     for (ProcessId process = 0; process < 3; ++process) {
       const ScenePart part = part_of(scene, split, process);
@@ -79,9 +198,10 @@ TEST(ScenePart, IsTheSameGeometryUnderLocalIds) {
 accel::HitBuffer traced_in_parts(const scenes::Scene& scene,
                                  const accel::beam::BeamOptions& options,
                                  const accel::PrimaryRays& rays, int level, int processes,
-                                 unsigned seed, std::vector<PartReport>* reports = nullptr) {
+                                 unsigned seed, Division division = Division::kPrimitives,
+                                 std::vector<PartReport>* reports = nullptr) {
   LocalNetwork network(processes, seed, 0.0003);
-  const SceneSplit split(scene, options.octree, level, processes);
+  const SceneSplit split = split_scene(scene, options.octree, rays, level, division, processes);
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
   std::mutex mutex;
   const auto trace = [&](ProcessId self) {
@@ -118,8 +238,12 @@ TEST(SplitScene, GivesTheHitsOfOneProcessBitForBit) {
     accel::beam::BeamTracer(scene, options).trace(rays, expected, nullptr);
     for (const int processes : {1, 2, 5}) {
       const int level = 2 + static_cast<int>(seed) % 4;
-      EXPECT_TRUE(traced_in_parts(scene, options, rays, level, processes, seed) == expected)
-          << "seed " << seed << ", level " << level << ", " << processes << " processes";
+      for (const Division division : kDivisions) {
+        EXPECT_TRUE(traced_in_parts(scene, options, rays, level, processes, seed, division) ==
+                    expected)
+            << "seed " << seed << ", level " << level << ", " << processes << " processes, "
+            << division_names()[static_cast<std::size_t>(division)];
+      }
     }
   }
 }
@@ -137,7 +261,9 @@ TEST(SplitScene, SeesTheSameFromInside) {
     const accel::PrimaryRays rays(camera, 60, 60, 1);
     accel::HitBuffer expected(60, 60, 1);
     accel::beam::BeamTracer(scene, options_with(5)).trace(rays, expected, nullptr);
-    EXPECT_TRUE(traced_in_parts(scene, options_with(5), rays, 3, 4, 1) == expected);
+    for (const Division division : kDivisions) {
+      EXPECT_TRUE(traced_in_parts(scene, options_with(5), rays, 3, 4, 1, division) == expected);
+    }
   }
 }
 
@@ -145,7 +271,7 @@ TEST(SplitScene, AccountsForWhatCrossed) {
   const scenes::Scene scene = verify::random_scene(2, 200);
   const accel::PrimaryRays rays(scene.cameras.front(), 80, 60, 1);
   std::vector<PartReport> reports;
-  traced_in_parts(scene, options_with(6), rays, 3, 3, 1, &reports);
+  traced_in_parts(scene, options_with(6), rays, 3, 3, 1, Division::kPrimitives, &reports);
   Traffic out;
   Traffic in;
   std::uint64_t travelers = 0;
@@ -182,7 +308,7 @@ TEST(SplitScene, EndsWithAnErrorWhereAProcessIsSilent) {
   const scenes::Scene scene = verify::random_scene(2, 60);
   const accel::beam::BeamOptions options = options_with(5);
   const accel::PrimaryRays rays(scene.cameras.front(), 60, 60, 1);
-  const SceneSplit split(scene, options.octree, 3, 2);
+  const SceneSplit split = split_of(scene, 5, 3, Division::kPrimitives, 2);
   LocalNetwork network(2, 1, 0.0);
   network.mute_after(1, 1);  // it says that it is ready
   std::jthread other([&] {
@@ -204,7 +330,7 @@ TEST(SplitScene, RefusesOptionsThatNeedTheWholeImage) {
   const accel::PrimaryRays rays(scene.cameras.front(), 10, 10, 5);
   LocalNetwork network(1, 1, 0.0);
   accel::beam::BeamOptions options = options_with(3);
-  const SceneSplit split(scene, options.octree, 4, 1);
+  const SceneSplit split = split_of(scene, 4, 4, Division::kPrimitives, 1);
   Outbox outbox(network.at(0), split);
   const auto make = [&] {
     const PartWorker worker(part_of(scene, split, 0), split, 0, options, rays, outbox);

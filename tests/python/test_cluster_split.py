@@ -9,6 +9,7 @@ from pathlib import Path
 import pytest
 
 from beambench_report.__main__ import main
+from beambench_report.thesis.chapter6 import divisions
 from beambench_report.thesis.chapter6.split import SCENES, read_split, split_plot, split_section
 from cluster import CLUSTER, mpirun, needs_mpi
 from program import BINARY
@@ -17,12 +18,14 @@ SIMULATOR = BINARY.resolve().with_name("beambench-cluster-simulated")
 needs_simulator = pytest.mark.skipif(
     not SIMULATOR.is_file(), reason="beambench-cluster-simulated was not built: no libsimgrid-dev"
 )
+DIVISIONS = ("primitives", "cost", "interleaved", "bisection", "scattered")
 ASKED = ["--accel", "beam:max_level=6", "--split", "3", "--resolution", "80x60"]
 
 
-def simulated(processes: int, *arguments: str) -> dict:
+def simulated(processes: int, *arguments: str, level: str = "3") -> dict:
+    asked = [level if each == "3" else each for each in ASKED]
     done = subprocess.run(
-        [SIMULATOR, "split", "tetra:n=4", *ASKED, "--processes", str(processes), *arguments],
+        [SIMULATOR, "split", "tetra:n=4", *asked, "--processes", str(processes), *arguments],
         capture_output=True,
         text=True,
         check=True,
@@ -53,12 +56,35 @@ def test_parts_give_the_picture_of_the_whole() -> None:
 
 
 @needs_simulator
+@pytest.mark.parametrize("level", ["2", "4", "6"])
+def test_every_division_gives_the_picture_of_the_whole(level: str) -> None:
+    """Most of a tetrahedron's cells are empty: beams and rays pass them in any process."""
+    whole = simulated(1)["result_hash"]
+    for division in DIVISIONS:
+        run = simulated(6, "--division", division, level=level)
+        assert run["result_hash"] == whole, division
+
+
 @needs_mpi
-def test_the_real_program_finds_the_same_and_hands_over_the_same(tmp_path: Path) -> None:
+def test_another_division_is_refused_with_the_names() -> None:
+    run = mpirun("-n", 1, CLUSTER, "tetra:n=4", "--split", "3", "--division", "halves")
+    assert run.returncode == 2
+    assert all(name in run.stderr for name in ("halves", *DIVISIONS))
+    alone = mpirun("-n", 1, CLUSTER, "tetra:n=4", "--division", "cost")
+    assert alone.returncode == 2
+    assert "--split" in alone.stderr
+
+
+@needs_simulator
+@needs_mpi
+@pytest.mark.parametrize("division", ["primitives", "scattered"])
+def test_the_real_program_finds_the_same_and_hands_over_the_same(
+    tmp_path: Path, division: str
+) -> None:
     report = tmp_path / "run.json"
-    run = mpirun("-n", 3, CLUSTER, "tetra:n=4", *ASKED, "--report", report)
+    run = mpirun("-n", 3, CLUSTER, "tetra:n=4", *ASKED, "--division", division, "--report", report)
     assert run.returncode == 0, run.stderr
-    real, simulation = json.loads(report.read_text()), simulated(3)
+    real, simulation = json.loads(report.read_text()), simulated(3, "--division", division)
     assert simulation["result_hash"] == real["result_hash"]
     for here, there in zip(simulation["processes"], real["each"], strict=True):
         for quantity in ("primitives", "beams_out", "rays_out"):
@@ -85,6 +111,7 @@ def test_wrong_requests_are_refused() -> None:
         (["no-such-scene"], "no-such-scene"),
         (["tetra:n=2", "--split", "7", "--accel", "beam:max_level=4"], "max_level"),
         (["tetra:n=2", "--accel", "sah-bvh"], "sah-bvh"),
+        (["tetra:n=2", "--division", "halves"], "interleaved"),
     ):
         done = subprocess.run(
             [SIMULATOR, "split", *arguments],
@@ -136,12 +163,31 @@ def test_the_table_has_speed_ups_and_the_page_shows_them(tmp_path: Path) -> None
     page = split_section(rows)
     assert "| 6 s | 2.0 (1.00) | 4.0 (1.00) |" in page
     assert "| tetra:n=7 | 4 |" in page
+    assert_divisions_are_compared(tmp_path)
     labels = [line.get_label() for line in split_plot(rows).figure.axes[0].lines]
     assert labels[: len(SCENES)] == [each.scene for each in SCENES]
     answers = tmp_path / "split-answers.jsonl"
     remembered = answers.read_text("utf-8")
     assert divide(tmp_path, tmp_path / "simulator") == 0
     assert answers.read_text("utf-8") == remembered
+
+
+def assert_divisions_are_compared(folder: Path) -> None:
+    rows = divisions.read_divisions(folder)
+    assert rows is not None
+    of_scene = rows[rows["scene"].eq("tetra:n=8")]
+    assert list(zip(of_scene["division"], of_scene["processes"], strict=True)) == [
+        ("primitives", 1),
+        *((division, 4) for division in DIVISIONS),
+    ]
+    assert (rows["speed_up"] == rows["processes"]).all()
+    # 1 s of work in each process, of 6 s that one of them takes.
+    assert list(of_scene["busy_share"]) == pytest.approx([1 / 6] + [4 / 6] * len(DIVISIONS), 1e-5)
+    page = divisions.divisions_section(rows)
+    assert "| tetra:n=8 | scattered | 4 | 1500.0 | 4.0 | 1.00 | 1.00 | 0.67 |" in page
+    panels = divisions.divisions_plot(rows).figure.axes
+    assert len(panels) == 2 * len(divisions.SCENES)
+    assert [line.get_label() for line in panels[0].lines] == list(DIVISIONS)
 
 
 def test_another_picture_is_a_fault(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -14,10 +14,12 @@
 #include "harness/base/messages.hpp"
 #include "harness/base/process_start.hpp"
 #include "harness/bench/record/machine.hpp"
+#include "harness/cli/cluster/division_option.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cluster/mpi_session.hpp"
 #include "harness/cluster/mpi_transport.hpp"
 #include "harness/cluster/run.hpp"
+#include "harness/cluster/split/division.hpp"
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/rays/trace_input.hpp"
@@ -52,6 +54,7 @@ struct Options {
   std::string shading = "preview";
   WhittedRequest whitted;
   std::string work = "beams";
+  std::string division = "primitives";
 };
 
 void add_timeout_option(CLI::App& app, double& seconds) {
@@ -97,6 +100,7 @@ void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
                  "Divide the scene instead: each process has the primitives in its share of the "
                  "octree's cells of this level; beams and rays are handed over at borders")
       ->check(CLI::Range(2, 7));
+  add_division_option(app, typed.division)->needs("--split");
   app.add_option("--block", request.block_size, "Side of a block in pixels")
       ->capture_default_str()
       ->check(CLI::Range(1, 4096));
@@ -142,6 +146,7 @@ void fill(const Options& typed, ClusterRequest& request) {
   job.light = request.shading == render::Shading::kWhitted;
   job.whitted = whitted_options(typed.whitted);
   job.heartbeat_interval = std::min(1.0, 0.25 * request.producer.timeout);
+  job.division = parse_division(typed.division);
   if (job.split_level > 0) require_hits_alone(request);
   if (!request.picture.empty()) render::image_format(request.picture);
   for (const std::string& file : {request.picture, request.report, request.tasks}) {

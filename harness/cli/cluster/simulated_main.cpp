@@ -14,8 +14,10 @@
 
 #include "harness/base/messages.hpp"
 #include "harness/base/process_start.hpp"
+#include "harness/cli/cluster/division_option.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cluster/simulation/simulate.hpp"
+#include "harness/cluster/split/division.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/json_text.hpp"
@@ -173,6 +175,7 @@ void add_replay_options(CLI::App& app, ReplayRequest& request) {
 struct SplitRequest {
   Job job;
   ImageRequest image;
+  std::string division = "primitives";
   int processes = 8;
   TimeScale scale;
   ClusterOptions cluster;
@@ -207,6 +210,7 @@ Json to_json(const scenes::Scene& whole, const SimulatedSplit& run) {
 void trace_split(const SplitRequest& request, const char* program) {
   const auto whole = std::make_shared<const scenes::Scene>(open_scene(request.job.scene));
   Job job = request.job;
+  job.division = parse_division(request.division);
   job.resolution = chosen_resolution(request.image).value_or(job.resolution);
   job.camera = request.image.view.camera;
   job.samples = request.image.samples;
@@ -225,6 +229,7 @@ void add_split_options(CLI::App& app, SplitRequest& request) {
                  "Level of the octree's cells that are distributed")
       ->capture_default_str()
       ->check(CLI::Range(2, 7));
+  add_division_option(app, request.division);
   app.add_option("--processes", request.processes, "Number of parts")
       ->capture_default_str()
       ->check(CLI::Range(1, 1024));

@@ -237,7 +237,8 @@ PartState::PartState(std::shared_ptr<const scenes::Scene> whole, const Job& job,
                      Transport& transport)
     : options(accel::beam::BeamOptions::from(beam_choice(job).parameters())),
       rays(job_image(job, *whole).rays()),
-      split(*whole, options.octree, job.split_level, transport.processes()),
+      split(split_scene(*whole, options.octree, rays, job.split_level, job.division,
+                        transport.processes())),
       outbox(transport, split) {
   ScenePart part = part_of(*whole, split, transport.self());
   whole.reset();

@@ -20,16 +20,15 @@ auto members(Ray& ray) requires std::same_as<std::remove_const_t<Ray>, RayHandof
 
 constexpr accel::Hit kNothing{accel::kInfinity, scenes::kNoPrimitive};
 
-accel::octree::OctreePart own_cells(const SceneSplit& split, ProcessId self) {
-  return {split.level(), [&split, self](const glm::ivec3& cell) {
-            return split.owner(split.index(cell)) == self;
-          }};
+/// In finest cells of the octree.
+std::int32_t cell_size(const accel::octree::Octree& octree, const SceneSplit& split) {
+  return octree.grid().cells.x / split.cells().along();
 }
 
 accel::octree::OctreeCursor cursor_of_cell(const accel::octree::Octree& octree,
                                            const SceneSplit& split, std::uint32_t cell) {
-  const std::int32_t finest = octree.grid().cells.x / split.cells();
-  return accel::octree::cursor_of(octree, split.cell(cell) * finest, finest);
+  const std::int32_t finest = cell_size(octree, split);
+  return accel::octree::cursor_of(octree, split.cells().cell(cell) * finest, finest);
 }
 
 accel::beam::BeamOptions checked(const accel::beam::BeamOptions& options, const SceneSplit& split) {
@@ -37,7 +36,7 @@ accel::beam::BeamOptions checked(const accel::beam::BeamOptions& options, const 
     throw InputError(
         "a divided scene needs continue=rays and share_corners=false, which are the defaults");
   }
-  if (options.octree.max_level < split.level()) {
+  if (options.octree.max_level < split.cells().level()) {
     throw InputError(
         "the cells of --split are deeper than max_level; choose a fixed max_level that is not "
         "less than the level of the cells");
@@ -82,8 +81,8 @@ Handoff read_handoff(ByteReader& reader, const accel::beam::EyeView& view) {
 ForeignLeaves::ForeignLeaves(const accel::octree::Octree& octree, const SceneSplit& split,
                              ProcessId self)
     : cells_(octree.nodes().size(), kOwn) {
-  for (std::uint32_t cell = 0; cell < split.cell_count(); ++cell) {
-    if (split.owner(cell) == self) continue;
+  for (std::uint32_t cell = 0; cell < split.cells().count(); ++cell) {
+    if (!split.is_foreign(cell, self)) continue;
     cells_[cursor_of_cell(octree, split, cell).index()] = cell;
   }
 }
@@ -130,9 +129,21 @@ PartWorker::PartWorker(ScenePart part, const SceneSplit& split, ProcessId self,
       watch_(tracer_.octree(), foreign_),
       painter_(part_.scene, tracer_, tracer_.options(), view_, rays, sight_, found_here_, {},
                watch_) {
-  queue_.border = this;
   accel::beam::begin_beams(tracer_.octree(), view_, view_.screen(), queue_);
-  beginning_ = false;
+  keep_own_beams();
+  queue_.border = this;
+}
+
+/// A beam is begun by the owner of the cell where it begins.
+void PartWorker::keep_own_beams() {
+  accel::beam::BeamStack begun;
+  accel::beam::BeamStep step;
+  while (!queue_.waiting.empty()) {
+    queue_.waiting.pop(step);
+    const glm::ivec3 cell = step.beam.corner / cell_size(tracer_.octree(), *split_);
+    if (split_->owner(split_->cells().index(cell)) == self_) begun.push(step.kind, step.beam);
+  }
+  queue_.waiting = std::move(begun);
 }
 
 void PartWorker::take(const BeamHandoff& beam) {
@@ -146,17 +157,28 @@ void PartWorker::take(const RayHandoff& ray) {
   waiting_.push_back(ray);
 }
 
+/// Beams first: they bring work to others.
 PartWork PartWorker::work() {
-  if (!waiting_.empty()) {
-    for (std::size_t i = 0; i < kRaysAtOnce && !waiting_.empty(); ++i) {
-      const RayHandoff ray = waiting_.front();
-      waiting_.pop_front();
-      trace_ray(ray);
-    }
+  if (!entering_.empty() || !queue_.waiting.empty()) {
+    walk();
+    return PartWork::kWalking;
+  }
+  if (!ended_.empty()) {
+    paint_ended();
     return PartWork::kTesting;
   }
-  std::size_t walked = 0;
-  for (; walked < kBeamsAtOnce && (!entering_.empty() || has_next()); ++walked) {
+  if (waiting_.empty()) return PartWork::kNone;
+  for (std::size_t i = 0; i < kRaysAtOnce && !waiting_.empty(); ++i) {
+    const RayHandoff ray = waiting_.front();
+    waiting_.pop_front();
+    trace_ray(ray);
+  }
+  return PartWork::kTesting;
+}
+
+void PartWorker::walk() {
+  accel::beam::BeamStep step;
+  for (std::size_t walked = 0; walked < kBeamsAtOnce; ++walked) {
     if (!entering_.empty()) {
       const BeamHandoff& beam = entering_.front();
       accel::beam::enter_node(view_, beam.face,
@@ -165,34 +187,28 @@ PartWork PartWorker::work() {
       entering_.pop_front();
       continue;
     }
-    const bool gone = next_->kind == accel::BeamKind::kLeaving || is_foreign(next_->beam);
-    const auto end = gone ? std::nullopt : end_of(*next_, tracer_, *rays_);
-    if (end && walked > 0) break;
-    if (end) {
-      paint(*end, next_->beam, painter_);
-      collect_samples();
-    } else if (!gone) {
-      accel::beam::continue_beam(tracer_.octree(), view_, next_->beam, queue_);
+    if (queue_.waiting.empty()) return;
+    queue_.waiting.pop(step);
+    if (step.kind == accel::BeamKind::kLeaving) continue;
+    if (end_of(step, tracer_, *rays_)) {
+      ended_.push(step.kind, step.beam);
+    } else {
+      accel::beam::continue_beam(tracer_.octree(), view_, step.beam, queue_);
     }
-    next_.reset();
-    if (end) return PartWork::kTesting;
   }
-  return walked > 0 ? PartWork::kWalking : PartWork::kNone;
 }
 
-/// Fills `next_` if there is a beam.
-bool PartWorker::has_next() {
-  if (next_) return true;
-  if (queue_.waiting.empty()) return false;
-  queue_.waiting.pop(next_.emplace());
-  return true;
+void PartWorker::paint_ended() {
+  accel::beam::BeamStep step;
+  ended_.pop(step);
+  if (const auto end = end_of(step, tracer_, *rays_)) paint(*end, step.beam, painter_);
+  collect_samples();
 }
 
-/// A beam that begins in a foreign leaf is begun by its owner.
 bool PartWorker::takes(std::uint32_t leaf, const accel::beam::Crossing& face,
                        const accel::beam::Beam& beam) {
   const auto cell = foreign_.cell_at(leaf);
-  if (cell && !beginning_) outbox_->hand_over(BeamHandoff{*cell, face, beam});
+  if (cell) outbox_->hand_over(BeamHandoff{*cell, face, beam});
   return cell.has_value();
 }
 
@@ -248,7 +264,7 @@ accel::Hit PartWorker::global(const std::optional<accel::Hit>& local) const {
 }
 
 void PartWorker::require_own(std::uint32_t cell) const {
-  if (cell >= split_->cell_count() || split_->owner(cell) != self_) {
+  if (cell >= split_->cells().count() || split_->owner(cell) != self_) {
     throw ProtocolError("a handoff for a cell of another process");
   }
 }

@@ -49,7 +49,8 @@ class Outbox {
   void hand_over(const BeamHandoff& beam);
   void hand_over(const RayHandoff& ray);
 
-  static constexpr std::size_t kLarge = 1 << 15;  ///< makes a message worth sending early
+  /// Makes a message worth sending early: while a process works on, others can begin.
+  static constexpr std::size_t kLarge = 1 << 11;
   /// Sends the messages of at least that many bytes, by default all that are not empty.
   void send(std::size_t least = 1);
 
@@ -164,11 +165,9 @@ class PartWorker : private accel::beam::BeamBorder {
 
   bool takes(std::uint32_t leaf, const accel::beam::Crossing& face,
              const accel::beam::Beam& beam) override;
-  bool has_next();
-  /// The leaf of the camera may be another process's.
-  bool is_foreign(const accel::beam::Beam& beam) const {
-    return foreign_.cell_at(beam.node).has_value();
-  }
+  void keep_own_beams();
+  void walk();
+  void paint_ended();
   void trace_ray(const RayHandoff& ray);
   void collect_samples();
   void require_own(std::uint32_t cell) const;
@@ -188,9 +187,8 @@ class PartWorker : private accel::beam::BeamBorder {
   accel::HitBuffer found_;       ///< by the whole scene's
   BorderWatch watch_;
   accel::beam::BeamPainter<BorderWatch, accel::beam::WholeImage> painter_;
-  bool beginning_ = true;
   accel::beam::BeamQueue queue_;
-  std::optional<accel::beam::BeamStep> next_;  ///< popped from the queue
+  accel::beam::BeamStack ended_;  ///< whose samples are to be traced
   std::deque<BeamHandoff> entering_;
   std::deque<RayHandoff> waiting_;
 };

@@ -1,11 +1,10 @@
 #include "harness/cluster/split/scene_split.hpp"
 
-#include <algorithm>
-#include <numeric>
 #include <utility>
 #include <vector>
 
 #include "accel/core/tolerance.hpp"
+#include "harness/cluster/split/cell_costs.hpp"
 #include "scenes/subset.hpp"
 
 namespace beambench::cluster {
@@ -21,54 +20,60 @@ void for_each_cell(const accel::CellRange& range, Visit visit) {
   }
 }
 
-std::uint32_t morton(const glm::ivec3& cell) {
-  std::uint32_t code = 0;
-  for (unsigned bit = 0; bit < 7; ++bit) {
-    for (unsigned axis = 0; axis < 3; ++axis) {
-      const auto coordinate = static_cast<std::uint32_t>(cell[static_cast<int>(axis)]);
-      code |= (coordinate >> bit & 1U) << (3 * bit + axis);
-    }
-  }
-  return code;
-}
-
 }  // namespace
 
-SceneSplit::SceneSplit(const scenes::Scene& scene, const accel::octree::OctreeOptions& options,
-                       int level, int processes)
-    : level_(level), cells_(1 << (level - 1)) {
+SceneCells::SceneCells(const scenes::Scene& scene, const accel::octree::OctreeOptions& options,
+                       int level)
+    : cells_(level), primitives_(cells_.count()) {
   accel::octree::OctreeOptions coarse = options;
   coarse.max_level = level;
   const accel::CellGrid grid = accel::octree::octree_grid(scene, coarse);
-  const auto count = static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_) *
-                     static_cast<std::size_t>(cells_);
-  // A little for each cell, so that empty ones are distributed, too.
-  std::vector<double> weight(count, 0.01);
   ranges_.reserve(scene.primitives.size());
   for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     ranges_.push_back(accel::cell_range(grid, scenes::primitive_bounds(scene, id),
                                         accel::overlap_tolerance(scene)));
-    for_each_cell(ranges_.back(), [&](const glm::ivec3& cell) { weight[index(cell)] += 1.0; });
+    for_each_cell(ranges_.back(),
+                  [&](const glm::ivec3& cell) { ++primitives_[cells_.index(cell)]; });
   }
-  std::vector<std::uint32_t> order(count);
-  std::iota(order.begin(), order.end(), 0U);
-  std::ranges::sort(order, {}, [&](std::uint32_t i) { return morton(cell(i)); });
-  const double total = std::accumulate(weight.begin(), weight.end(), 0.0);
-  owners_.resize(count);
-  double before = 0.0;
-  for (const std::uint32_t i : order) {
-    const double middle = (before + 0.5 * weight[i]) / total;
-    owners_[i] = static_cast<std::uint16_t>(
-        std::min(processes - 1, static_cast<int>(middle * static_cast<double>(processes))));
-    before += weight[i];
+}
+
+bool SceneCells::is_empty(const glm::ivec3& first, std::int32_t size) const {
+  for (int z = first.z; z < first.z + size; ++z) {
+    for (int y = first.y; y < first.y + size; ++y) {
+      for (int x = first.x; x < first.x + size; ++x) {
+        if (!is_empty(cells_.index({x, y, z}))) return false;
+      }
+    }
   }
+  return true;
 }
 
 bool SceneSplit::reaches(ProcessId process, scenes::PrimitiveId id) const {
   bool found = false;
-  for_each_cell(ranges_[id],
-                [&](const glm::ivec3& cell) { found = found || owner(index(cell)) == process; });
+  for_each_cell(contents_.range(id), [&](const glm::ivec3& cell) {
+    found = found || owner(cells().index(cell)) == process;
+  });
   return found;
+}
+
+SceneSplit split_scene(const scenes::Scene& scene, const accel::octree::OctreeOptions& options,
+                       const accel::PrimaryRays& rays, int level, Division division,
+                       int processes) {
+  SceneCells contents(scene, options, level);
+  CellLoads loads{contents.primitives(), {}};
+  if (needs_costs(division)) loads.costs = sampled_costs(scene, options, rays, contents);
+  std::vector<std::uint16_t> owners = divide(contents.cells(), loads, division, processes);
+  return {std::move(contents), std::move(owners)};
+}
+
+accel::octree::OctreePart own_cells(const SceneSplit& split, ProcessId process) {
+  return {split.cells().level(),
+          [&split, process](const glm::ivec3& cell) {
+            return split.owner(split.cells().index(cell)) == process;
+          },
+          [&split](const glm::ivec3& first, std::int32_t size) {
+            return !split.contents().is_empty(first, size);
+          }};
 }
 
 ScenePart part_of(const scenes::Scene& scene, const SceneSplit& split, ProcessId process) {

@@ -1,6 +1,7 @@
 #include "harness/cluster/split/split_run.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <utility>
 
@@ -8,6 +9,7 @@
 
 #include "harness/bench/record/machine.hpp"
 #include "harness/cluster/run.hpp"
+#include "harness/cluster/split/division.hpp"
 #include "harness/cluster/split/part_member.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/hit_check.hpp"
@@ -107,6 +109,7 @@ nlohmann::ordered_json to_json(const SplitRun& run) {
             {"samples", run.job.samples},
             {"work", "parts"},
             {"cells_level", run.job.split_level},
+            {"division", division_names()[static_cast<std::size_t>(run.job.division)]},
             {"processes", run.reports.size()},
             {"seconds", run.seconds},
             {"result_hash", fmt::format("{:016x}", run.result_hash)},

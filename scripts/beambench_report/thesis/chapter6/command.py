@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 
 from beambench_report.base.files import Problem
+from beambench_report.thesis.chapter6.divisions import simulate_divisions
 from beambench_report.thesis.chapter6.record import SCENES, Picture, measure, record
 from beambench_report.thesis.chapter6.report import write_report
 from beambench_report.thesis.chapter6.simulate import simulate, simulations
@@ -71,9 +72,11 @@ def run_step(options: argparse.Namespace) -> list[Path]:
         return simulate(options.folder, options.program, plan, options.jobs)
     if options.step == "split":
         _resolution(options.resolution)
-        return simulate_split(
-            options.folder, options.program, options.resolution, options.repeats, options.most
-        )
+        asked = (options.program, options.resolution, options.repeats, options.most)
+        return [
+            *simulate_split(options.folder, *asked),
+            *simulate_divisions(options.folder, *asked),
+        ]
     return write_report(options.folder)
 
 

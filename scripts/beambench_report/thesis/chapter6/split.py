@@ -47,12 +47,12 @@ SCENES = (
     Divided("tetra:n=7", "beam:max_level=7"),
     Divided("bumpy:triangles=200000", "beam:max_level=7"),
 )
-_CLUSTERS = {OLD: (SWITCHED, MESSAGES_OF_1999), TODAY: (MODERN, MESSAGES_OF_TODAY)}
+CLUSTERS = {OLD: (SWITCHED, MESSAGES_OF_1999), TODAY: (MODERN, MESSAGES_OF_TODAY)}
 
 
 # The table: a row for each simulated run, the median of several. Seconds of the processor are this
 # machine's, sums over all processes.
-_COLUMNS = (
+COLUMNS = (
     "era",
     "scene",
     "structure",
@@ -95,19 +95,23 @@ def simulate_split(
             for parts in (parts for parts in PARTS if parts <= most):
                 what = f"\r{era}: {divided.scene} in {parts} parts   "
                 print(what, end="", file=sys.stderr, flush=True)
-                arguments = _arguments(era, divided, parts, slow, resolution)
-                runs = [
-                    cache.result([str(repeat), *arguments], [str(program), "split", *arguments])
-                    for repeat in range(repeats)
-                ]
-                # The run whose tracing took the median.
-                runs.sort(key=lambda run: run["traced_seconds"])
-                results.append(runs[len(runs) // 2])
-            rows += [_row(era, divided, resolution, result, results[0]) for result in results]
+                arguments = arguments_of(era, divided, parts, slow, resolution)
+                results.append(median_run(cache, program, arguments, repeats))
+            rows += [row_of(era, divided, resolution, result, results[0]) for result in results]
     print(file=sys.stderr)
-    _require_one_picture(rows)
-    table = pd.DataFrame(rows, columns=list(_COLUMNS))
+    require_one_picture(rows)
+    table = pd.DataFrame(rows, columns=list(COLUMNS))
     return [write_rows(folder / SPLIT, table)]
+
+
+def median_run(cache: ResultCache, program: Path, arguments: list[str], repeats: int) -> dict:
+    """Of several, the one whose tracing took the median."""
+    runs = [
+        cache.result([str(repeat), *arguments], [str(program), "split", *arguments])
+        for repeat in range(repeats)
+    ]
+    runs.sort(key=lambda run: run["traced_seconds"])
+    return runs[len(runs) // 2]
 
 
 def read_split(folder: Path) -> pd.DataFrame | None:
@@ -117,14 +121,14 @@ def read_split(folder: Path) -> pd.DataFrame | None:
         return None
     remedy = "write it with: python -m beambench_report cluster split DIR"
     types = {"era": str, "result_hash": str}
-    return read_table(path, _COLUMNS, remedy, types)
+    return read_table(path, COLUMNS, remedy, types)
 
 
-def _arguments(
+def arguments_of(
     era: str, divided: Divided, parts: int, slow: Slowness, resolution: str
 ) -> list[str]:
     """The simulator's."""
-    network, messages = _CLUSTERS[era]
+    network, messages = CLUSTERS[era]
     return [
         divided.scene,
         *("--accel", divided.structure),
@@ -139,13 +143,15 @@ def _arguments(
     ]
 
 
-def _total(result: dict, quantity: str) -> float:
+def total(result: dict, quantity: str) -> float:
+    """Sum over all processes."""
     return sum(process[quantity] for process in result["processes"])
 
 
-def _row(
+def row_of(
     era: str, divided: Divided, resolution: str, result: dict, alone: dict
 ) -> dict[str, object]:
+    """A row of the table; speed-up is that over `alone`."""
     processes = result["processes"]
     speed_up = alone["traced_seconds"] / result["traced_seconds"]
     busiest = max(process["busy"] for process in processes)
@@ -158,15 +164,15 @@ def _row(
         "traced_seconds": result["traced_seconds"],
         "speed_up": speed_up,
         "efficiency": speed_up / len(processes),
-        "balance": _total(result, "busy") / len(processes) / busiest,
+        "balance": total(result, "busy") / len(processes) / busiest,
         "build_seconds": median(process["build_seconds"] for process in processes),
-        "walk_cpu_seconds": _total(result, "walk_seconds"),
-        "test_cpu_seconds": _total(result, "test_seconds"),
-        "take_cpu_seconds": _total(result, "take_seconds"),
-        "messages": int(_total(result, "messages_out")),
-        "bytes": int(_total(result, "bytes_out")),
-        "beams_handed": int(_total(result, "beams_out")),
-        "rays_handed": int(_total(result, "rays_out")),
+        "walk_cpu_seconds": total(result, "walk_seconds"),
+        "test_cpu_seconds": total(result, "test_seconds"),
+        "take_cpu_seconds": total(result, "take_seconds"),
+        "messages": int(total(result, "messages_out")),
+        "bytes": int(total(result, "bytes_out")),
+        "beams_handed": int(total(result, "beams_out")),
+        "rays_handed": int(total(result, "rays_out")),
         "primitives": result["primitives"],
         "largest_primitives": max(process["primitives"] for process in processes),
         "largest_bytes": max(process["bytes"] for process in processes),
@@ -174,7 +180,8 @@ def _row(
     }
 
 
-def _require_one_picture(rows: list[dict[str, object]]) -> None:
+def require_one_picture(rows: list[dict[str, object]]) -> None:
+    """Raises Problem where rows of a scene have different pictures."""
     pictures: dict[str, str] = {}
     for row in rows:
         if pictures.setdefault(row["scene"], row["result_hash"]) != row["result_hash"]:
@@ -200,11 +207,11 @@ def split_plot(rows: pd.DataFrame) -> Plot:
         panel.plot(of_era["processes"], of_era["processes"], **IDEAL)
         panel.set_yscale("log", base=2)
         panel.yaxis.set_major_formatter("{x:.0f}")
-        name_panel(panel, f"Speed-up, {_machines(era)}", "parts", f"times {HIGHER}")
+        name_panel(panel, f"Speed-up, {name_of_machines(era)}", "parts", f"times {HIGHER}")
     last = rows[rows["era"].eq(eras[-1])]
     for index, (_, group) in enumerate(last.groupby("scene", sort=False)):
         look = line_look(index)
-        memory.plot(group["processes"], 100 * _share_of_memory(group), **look)
+        memory.plot(group["processes"], 100 * share_of_memory(group), **look)
         crossed.plot(group["processes"], 1e-6 * group["bytes"], **look)
     name_panel(memory, "Scene and octree of the largest part", "parts", f"% of the whole {LOWER}")
     memory.plot(last["processes"], 100 / last["processes"], **IDEAL)
@@ -240,11 +247,12 @@ def split_section(rows: pd.DataFrame) -> str:
     )
 
 
-def _machines(era: str) -> str:
+def name_of_machines(era: str) -> str:
+    """Of an era, with their network."""
     return "1999, 100 Mbit/s" if era == OLD else f"{era}, 10 Gbit/s"
 
 
-def _share_of_memory(group: pd.DataFrame) -> pd.Series:
+def share_of_memory(group: pd.DataFrame) -> pd.Series:
     """Of what one process has."""
     return group["largest_bytes"] / group["largest_bytes"].iloc[0]
 
@@ -255,7 +263,7 @@ def _speed_ups(rows: pd.DataFrame) -> str:
     for (era, scene), group in rows.groupby(["era", "scene"], sort=False):
         first, *others = group.itertuples()
         speed_ups = (f"{each.speed_up:.1f} ({each.efficiency:.2f})" for each in others)
-        lines.append((_machines(era), scene, f"{first.traced_seconds:.3g} s", *speed_ups))
+        lines.append((name_of_machines(era), scene, f"{first.traced_seconds:.3g} s", *speed_ups))
     heads = ["machines", "scene", "1 part", *(f"{n} parts" for n in parts[1:])]
     title = "Seconds of one part, and speed-up (in brackets: efficiency):\n"
     return "\n".join([title, *markdown_table(heads, lines), ""])
@@ -267,7 +275,7 @@ def _costs(rows: pd.DataFrame) -> str:
     lines = []
     for scene, group in last.groupby("scene", sort=False):
         work = group["walk_cpu_seconds"] + group["test_cpu_seconds"] + group["take_cpu_seconds"]
-        shares = zip(work / work.iloc[0], _share_of_memory(group), strict=True)
+        shares = zip(work / work.iloc[0], share_of_memory(group), strict=True)
         for each, (work_share, memory_share) in zip(group.itertuples(), shares, strict=True):
             lines.append(
                 (
@@ -286,8 +294,8 @@ def _costs(rows: pd.DataFrame) -> str:
     heads = "scene, parts, work, balance, messages, MB, beams, rays, "
     heads += "primitives of the largest part, its memory"
     title = (
-        f"What it costs ({_machines(last['era'].iloc[0])}). Work: processor time of tracing, of "
-        "what one part takes. Balance: how busy a machine is on average, of what the busiest "
-        "is.\n"
+        f"What it costs ({name_of_machines(last['era'].iloc[0])}). Work: processor time of "
+        "tracing, of what one part takes. Balance: how busy a machine is on average, of what the "
+        "busiest is.\n"
     )
     return "\n".join([title, *markdown_table(heads.split(", "), lines), ""])
