@@ -7,7 +7,7 @@
 
 #include "accel/core/registry.hpp"
 #include "harness/cluster/messages.hpp"
-#include "harness/cluster/split/division.hpp"
+#include "harness/cluster/split/scene_division.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/render/shadows.hpp"
 #include "scenes/scene.hpp"
@@ -25,8 +25,8 @@ struct Job {
   render::WhittedOptions whitted;
   int split_level =
       0;  ///< level of the cells that divide the scene; 0: every process has all of it
-  Division division = Division::kPrimitives;  ///< of those cells among the processes
-  double heartbeat_interval = 1.0;            ///< seconds between heartbeats in long tasks
+  SceneDivision division = SceneDivision::kPrimitives;  ///< of those cells among the processes
+  double heartbeat_interval = 1.0;  ///< seconds between heartbeats in long tasks
 };
 
 /// The structure of a job with its parameters. Throws InputError where it is not `beam`.

@@ -17,8 +17,8 @@
 
 #include "harness/cluster/image_worker.hpp"
 #include "harness/cluster/split/cell_costs.hpp"
-#include "harness/cluster/split/division.hpp"
 #include "harness/cluster/split/part_member.hpp"
+#include "harness/cluster/split/scene_division.hpp"
 #include "harness/cluster/split/scene_split.hpp"
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/rays/fingerprint.hpp"
@@ -40,26 +40,27 @@ accel::beam::BeamOptions options_with(int max_level, std::int64_t handover = 0) 
   return options;
 }
 
-constexpr std::array kDivisions{Division::kPrimitives, Division::kCost, Division::kInterleaved,
-                                Division::kBisection, Division::kScattered};
+constexpr std::array kDivisions{SceneDivision::kPrimitives, SceneDivision::kCost,
+                                SceneDivision::kInterleaved, SceneDivision::kBisection,
+                                SceneDivision::kScattered};
 
-SceneSplit split_of(const scenes::Scene& scene, int max_level, int level, Division division,
+SceneSplit split_of(const scenes::Scene& scene, int max_level, int level, SceneDivision division,
                     int processes) {
   const accel::PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
   return split_scene(scene, options_with(max_level).octree, rays, level, division, processes);
 }
 
-TEST(Division, HasANameEach) {
+TEST(SceneDivision, HasANameEach) {
   ASSERT_EQ(division_names().size(), kDivisions.size());
-  for (const Division division : kDivisions) {
-    EXPECT_EQ(parse_division(division_names()[static_cast<std::size_t>(division)]), division);
+  for (const SceneDivision division : kDivisions) {
+    EXPECT_EQ(parse_scene_division(division_names()[static_cast<std::size_t>(division)]), division);
   }
-  EXPECT_THROW(parse_division("halves"), InputError);
+  EXPECT_THROW(parse_scene_division("halves"), InputError);
 }
 
 TEST(SceneSplit, GivesEveryCellToOneProcessAndWorkToEach) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=4");
-  for (const Division division : kDivisions) {
+  for (const SceneDivision division : kDivisions) {
     for (const int processes : {1, 2, 3, 7}) {
       const SceneSplit split = split_of(scene, 6, 4, division, processes);
       ASSERT_EQ(split.cells().count(), 512U);
@@ -78,7 +79,7 @@ TEST(SceneSplit, GivesEveryCellToOneProcessAndWorkToEach) {
 TEST(SceneSplit, IsBalancedByPrimitives) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=4");
   for (const int processes : {2, 3, 7}) {
-    const SceneSplit split = split_of(scene, 6, 4, Division::kPrimitives, processes);
+    const SceneSplit split = split_of(scene, 6, 4, SceneDivision::kPrimitives, processes);
     std::vector<std::size_t> sizes;
     for (ProcessId process = 0; process < processes; ++process) {
       sizes.push_back(part_of(scene, split, process).global.size());
@@ -88,7 +89,7 @@ TEST(SceneSplit, IsBalancedByPrimitives) {
   }
 }
 
-TEST(Division, DoesNotGiveAProcessMoreThanItsShareAndOneCell) {
+TEST(SceneDivision, DoesNotGiveAProcessMoreThanItsShareAndOneCell) {
   const LevelCells cells(4);
   for (unsigned seed = 0; seed < 20; ++seed) {
     std::mt19937 random(seed);
@@ -98,7 +99,7 @@ TEST(Division, DoesNotGiveAProcessMoreThanItsShareAndOneCell) {
       loads.costs[i] = static_cast<double>(random() % 1000);
     }
     const double total = std::accumulate(loads.costs.begin(), loads.costs.end(), 0.0);
-    for (const Division division : {Division::kCost, Division::kScattered}) {
+    for (const SceneDivision division : {SceneDivision::kCost, SceneDivision::kScattered}) {
       const auto owners = divide(cells, loads, division, 8);
       std::vector<double> sums(8);
       std::vector<double> primitives(8);
@@ -108,7 +109,7 @@ TEST(Division, DoesNotGiveAProcessMoreThanItsShareAndOneCell) {
       }
       EXPECT_LT(std::ranges::max(sums), total / 8 + 1000.0);
       EXPECT_GT(std::ranges::min(sums), total / 8 - 1000.0);
-      if (division == Division::kScattered) {
+      if (division == SceneDivision::kScattered) {
         const double all = std::accumulate(primitives.begin(), primitives.end(), 0.0);
         EXPECT_LT(std::ranges::max(primitives), 1.05 * all / 8 + 3.0);
       }
@@ -116,12 +117,12 @@ TEST(Division, DoesNotGiveAProcessMoreThanItsShareAndOneCell) {
   }
 }
 
-TEST(Division, BisectsIntoBoxesOfCells) {
+TEST(SceneDivision, BisectsIntoBoxesOfCells) {
   const LevelCells cells(4);
   CellLoads loads{std::vector<std::uint32_t>(512, 1), std::vector<double>(512, 1.0)};
   loads.costs[0] = 300.0;
   for (const int processes : {1, 2, 5, 8}) {
-    const auto owners = divide(cells, loads, Division::kBisection, processes);
+    const auto owners = divide(cells, loads, SceneDivision::kBisection, processes);
     for (int process = 0; process < processes; ++process) {
       glm::ivec3 lower(8);
       glm::ivec3 upper(-1);
@@ -139,11 +140,11 @@ TEST(Division, BisectsIntoBoxesOfCells) {
   }
 }
 
-TEST(Division, DealsCellsWithPrimitivesInTurn) {
+TEST(SceneDivision, DealsCellsWithPrimitivesInTurn) {
   const LevelCells cells(3);
   CellLoads loads{std::vector<std::uint32_t>(64), {}};
   for (const std::uint32_t i : {1U, 5U, 17U, 20U, 33U, 60U, 63U}) loads.primitives[i] = 9;
-  const auto owners = divide(cells, loads, Division::kInterleaved, 3);
+  const auto owners = divide(cells, loads, SceneDivision::kInterleaved, 3);
   std::array<int, 3> full{};
   for (std::uint32_t i = 0; i < 64; ++i) full[owners[i]] += loads.primitives[i] > 0 ? 1 : 0;
   EXPECT_EQ(full, (std::array{3, 2, 2}));
@@ -174,7 +175,7 @@ TEST(SampledCosts, AreWhereTheRaysAre) {
 TEST(ScenePart, IsTheSameGeometryUnderLocalIds) {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     const scenes::Scene scene = verify::random_scene(seed, 60);
-    const SceneSplit split = split_of(scene, 5, 3, Division::kInterleaved, 3);
+    const SceneSplit split = split_of(scene, 5, 3, SceneDivision::kInterleaved, 3);
     std::set<scenes::PrimitiveId> all;
     for (ProcessId process = 0; process < 3; ++process) {
       const ScenePart part = part_of(scene, split, process);
@@ -198,7 +199,7 @@ TEST(ScenePart, IsTheSameGeometryUnderLocalIds) {
 accel::HitBuffer traced_in_parts(const scenes::Scene& scene,
                                  const accel::beam::BeamOptions& options,
                                  const accel::PrimaryRays& rays, int level, int processes,
-                                 unsigned seed, Division division = Division::kPrimitives,
+                                 unsigned seed, SceneDivision division = SceneDivision::kPrimitives,
                                  std::vector<PartReport>* reports = nullptr) {
   LocalNetwork network(processes, seed, 0.0003);
   const SceneSplit split = split_scene(scene, options.octree, rays, level, division, processes);
@@ -238,7 +239,7 @@ TEST(SplitScene, GivesTheHitsOfOneProcessBitForBit) {
     accel::beam::BeamTracer(scene, options).trace(rays, expected, nullptr);
     for (const int processes : {1, 2, 5}) {
       const int level = 2 + static_cast<int>(seed) % 4;
-      for (const Division division : kDivisions) {
+      for (const SceneDivision division : kDivisions) {
         EXPECT_TRUE(traced_in_parts(scene, options, rays, level, processes, seed, division) ==
                     expected)
             << "seed " << seed << ", level " << level << ", " << processes << " processes, "
@@ -261,7 +262,7 @@ TEST(SplitScene, SeesTheSameFromInside) {
     const accel::PrimaryRays rays(camera, 60, 60, 1);
     accel::HitBuffer expected(60, 60, 1);
     accel::beam::BeamTracer(scene, options_with(5)).trace(rays, expected, nullptr);
-    for (const Division division : kDivisions) {
+    for (const SceneDivision division : kDivisions) {
       EXPECT_TRUE(traced_in_parts(scene, options_with(5), rays, 3, 4, 1, division) == expected);
     }
   }
@@ -271,7 +272,7 @@ TEST(SplitScene, AccountsForWhatCrossed) {
   const scenes::Scene scene = verify::random_scene(2, 200);
   const accel::PrimaryRays rays(scene.cameras.front(), 80, 60, 1);
   std::vector<PartReport> reports;
-  traced_in_parts(scene, options_with(6), rays, 3, 3, 1, Division::kPrimitives, &reports);
+  traced_in_parts(scene, options_with(6), rays, 3, 3, 1, SceneDivision::kPrimitives, &reports);
   Traffic out;
   Traffic in;
   std::uint64_t travelers = 0;
@@ -308,7 +309,7 @@ TEST(SplitScene, EndsWithAnErrorWhereAProcessIsSilent) {
   const scenes::Scene scene = verify::random_scene(2, 60);
   const accel::beam::BeamOptions options = options_with(5);
   const accel::PrimaryRays rays(scene.cameras.front(), 60, 60, 1);
-  const SceneSplit split = split_of(scene, 5, 3, Division::kPrimitives, 2);
+  const SceneSplit split = split_of(scene, 5, 3, SceneDivision::kPrimitives, 2);
   LocalNetwork network(2, 1, 0.0);
   network.mute_after(1, 1);  // it says that it is ready
   std::jthread other([&] {
@@ -330,7 +331,7 @@ TEST(SplitScene, RefusesOptionsThatNeedTheWholeImage) {
   const accel::PrimaryRays rays(scene.cameras.front(), 10, 10, 5);
   LocalNetwork network(1, 1, 0.0);
   accel::beam::BeamOptions options = options_with(3);
-  const SceneSplit split = split_of(scene, 4, 4, Division::kPrimitives, 1);
+  const SceneSplit split = split_of(scene, 4, 4, SceneDivision::kPrimitives, 1);
   Outbox outbox(network.at(0), split);
   const auto make = [&] {
     const PartWorker worker(part_of(scene, split, 0), split, 0, options, rays, outbox);

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from beambench_report.__main__ import main
-from beambench_report.thesis.chapter6 import divisions
+from beambench_report.thesis.chapter6 import scene_divisions
 from beambench_report.thesis.chapter6.split import SCENES, read_split, split_plot, split_section
 from cluster import CLUSTER, mpirun, needs_mpi
 from program import BINARY
@@ -173,7 +173,7 @@ def test_the_table_has_speed_ups_and_the_page_shows_them(tmp_path: Path) -> None
 
 
 def assert_divisions_are_compared(folder: Path) -> None:
-    rows = divisions.read_divisions(folder)
+    rows = scene_divisions.read_scene_divisions(folder)
     assert rows is not None
     of_scene = rows[rows["scene"].eq("tetra:n=8")]
     assert list(zip(of_scene["division"], of_scene["processes"], strict=True)) == [
@@ -183,10 +183,10 @@ def assert_divisions_are_compared(folder: Path) -> None:
     assert (rows["speed_up"] == rows["processes"]).all()
     # 1 s of work in each process, of 6 s that one of them takes.
     assert list(of_scene["busy_share"]) == pytest.approx([1 / 6] + [4 / 6] * len(DIVISIONS), 1e-5)
-    page = divisions.divisions_section(rows)
+    page = scene_divisions.scene_divisions_section(rows)
     assert "| tetra:n=8 | scattered | 4 | 1500.0 | 4.0 | 1.00 | 1.00 | 0.67 |" in page
-    panels = divisions.divisions_plot(rows).figure.axes
-    assert len(panels) == 2 * len(divisions.SCENES)
+    panels = scene_divisions.scene_divisions_plot(rows).figure.axes
+    assert len(panels) == 2 * len(scene_divisions.SCENES)
     assert [line.get_label() for line in panels[0].lines] == list(DIVISIONS)
 
 

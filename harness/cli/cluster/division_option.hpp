@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "harness/cluster/split/division.hpp"
+#include "harness/cluster/split/scene_division.hpp"
 
 namespace beambench::cli {
 
-/// Adds --division; `name` has its default. `cluster::parse_division` reads it.
+/// Adds --division; `name` has its default. `cluster::parse_scene_division` reads it.
 inline CLI::Option* add_division_option(CLI::App& app, std::string& name) {
   return app
       .add_option("--division", name,

@@ -19,7 +19,7 @@
 #include "harness/cluster/mpi_session.hpp"
 #include "harness/cluster/mpi_transport.hpp"
 #include "harness/cluster/run.hpp"
-#include "harness/cluster/split/division.hpp"
+#include "harness/cluster/split/scene_division.hpp"
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/rays/trace_input.hpp"
@@ -146,7 +146,7 @@ void fill(const Options& typed, ClusterRequest& request) {
   job.light = request.shading == render::Shading::kWhitted;
   job.whitted = whitted_options(typed.whitted);
   job.heartbeat_interval = std::min(1.0, 0.25 * request.producer.timeout);
-  job.division = parse_division(typed.division);
+  job.division = parse_scene_division(typed.division);
   if (job.split_level > 0) require_hits_alone(request);
   if (!request.picture.empty()) render::image_format(request.picture);
   for (const std::string& file : {request.picture, request.report, request.tasks}) {

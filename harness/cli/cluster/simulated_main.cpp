@@ -17,7 +17,7 @@
 #include "harness/cli/cluster/division_option.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cluster/simulation/simulate.hpp"
-#include "harness/cluster/split/division.hpp"
+#include "harness/cluster/split/scene_division.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/json_text.hpp"
@@ -210,7 +210,7 @@ Json to_json(const scenes::Scene& whole, const SimulatedSplit& run) {
 void trace_split(const SplitRequest& request, const char* program) {
   const auto whole = std::make_shared<const scenes::Scene>(open_scene(request.job.scene));
   Job job = request.job;
-  job.division = parse_division(request.division);
+  job.division = parse_scene_division(request.division);
   job.resolution = chosen_resolution(request.image).value_or(job.resolution);
   job.camera = request.image.view.camera;
   job.samples = request.image.samples;

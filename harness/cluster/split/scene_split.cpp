@@ -57,7 +57,7 @@ bool SceneSplit::reaches(ProcessId process, scenes::PrimitiveId id) const {
 }
 
 SceneSplit split_scene(const scenes::Scene& scene, const accel::octree::OctreeOptions& options,
-                       const accel::PrimaryRays& rays, int level, Division division,
+                       const accel::PrimaryRays& rays, int level, SceneDivision division,
                        int processes) {
   SceneCells contents(scene, options, level);
   CellLoads loads{contents.primitives(), {}};

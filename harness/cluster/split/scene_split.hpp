@@ -8,7 +8,7 @@
 #include "accel/core/cell_grid.hpp"
 #include "accel/core/primary_rays.hpp"
 #include "accel/octree/octree.hpp"
-#include "harness/cluster/split/division.hpp"
+#include "harness/cluster/split/scene_division.hpp"
 #include "harness/cluster/transport.hpp"
 #include "scenes/scene.hpp"
 
@@ -64,7 +64,8 @@ class SceneSplit {
 
 /// Divides a scene by what tracing `rays` costs, where the division depends on that.
 SceneSplit split_scene(const scenes::Scene& scene, const accel::octree::OctreeOptions& options,
-                       const accel::PrimaryRays& rays, int level, Division division, int processes);
+                       const accel::PrimaryRays& rays, int level, SceneDivision division,
+                       int processes);
 
 /// The part of an octree that a process has: all cells that hold something exist, as leaves where
 /// they are another's.

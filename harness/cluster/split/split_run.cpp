@@ -9,8 +9,8 @@
 
 #include "harness/bench/record/machine.hpp"
 #include "harness/cluster/run.hpp"
-#include "harness/cluster/split/division.hpp"
 #include "harness/cluster/split/part_member.hpp"
+#include "harness/cluster/split/scene_division.hpp"
 #include "harness/rays/fingerprint.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/render/picture/image_file.hpp"

@@ -4,9 +4,9 @@ import argparse
 from pathlib import Path
 
 from beambench_report.base.files import Problem
-from beambench_report.thesis.chapter6.divisions import simulate_divisions
 from beambench_report.thesis.chapter6.record import SCENES, Picture, measure, record
 from beambench_report.thesis.chapter6.report import write_report
+from beambench_report.thesis.chapter6.scene_divisions import simulate_scene_divisions
 from beambench_report.thesis.chapter6.simulate import simulate, simulations
 from beambench_report.thesis.chapter6.split import simulate_split
 
@@ -75,7 +75,7 @@ def run_step(options: argparse.Namespace) -> list[Path]:
         asked = (options.program, options.resolution, options.repeats, options.most)
         return [
             *simulate_split(options.folder, *asked),
-            *simulate_divisions(options.folder, *asked),
+            *simulate_scene_divisions(options.folder, *asked),
         ]
     return write_report(options.folder)
 

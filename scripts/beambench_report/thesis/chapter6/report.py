@@ -8,11 +8,6 @@ import pandas as pd
 from beambench_report.base.figure import house_style, write_plot
 from beambench_report.base.files import write_text
 from beambench_report.base.quantities import markdown_table, number
-from beambench_report.thesis.chapter6.divisions import (
-    divisions_plot,
-    divisions_section,
-    read_divisions,
-)
 from beambench_report.thesis.chapter6.machines import Slowness, thesis_seconds
 from beambench_report.thesis.chapter6.plots import cluster_plots
 from beambench_report.thesis.chapter6.record import measured_section, read_recorded
@@ -21,6 +16,11 @@ from beambench_report.thesis.chapter6.results import (
     THESIS_OPTIONS,
     read_processes,
     read_simulations,
+)
+from beambench_report.thesis.chapter6.scene_divisions import (
+    read_scene_divisions,
+    scene_divisions_plot,
+    scene_divisions_section,
 )
 from beambench_report.thesis.chapter6.simulate import OLD, OPTIONS, STATIONS, TODAY, slowness_of
 from beambench_report.thesis.chapter6.split import read_split, split_plot, split_section
@@ -33,15 +33,15 @@ def write_report(folder: Path) -> list[Path]:
     simulations = read_simulations(folder)
     recorded = read_recorded(folder)
     split = read_split(folder)
-    divisions = read_divisions(folder)
+    scene_divisions = read_scene_divisions(folder)
     measured = measured_section(folder)
     written = []
     with house_style():
         plots = cluster_plots(simulations, read_processes(folder))
         if split is not None:
             plots.append(split_plot(split))
-        if divisions is not None:
-            plots.append(divisions_plot(divisions))
+        if scene_divisions is not None:
+            plots.append(scene_divisions_plot(scene_divisions))
         for plot in plots:
             written += write_plot(plot, folder)
     shown = {plot.stem: f"![{plot.summary}]({plot.stem}.png)\n" for plot in plots}
@@ -73,7 +73,7 @@ def write_report(folder: Path) -> list[Path]:
             "building alone.\n",
             _assumptions(simulations),
             *([split_section(split)] if split is not None else []),
-            *([divisions_section(divisions)] if divisions is not None else []),
+            *([scene_divisions_section(scene_divisions)] if scene_divisions is not None else []),
             *([measured] if measured is not None else []),
         ]
     )

@@ -1,4 +1,4 @@
-#include "harness/cluster/split/division.hpp"
+#include "harness/cluster/split/scene_division.hpp"
 
 #include <algorithm>
 #include <array>
@@ -181,12 +181,13 @@ Owners scattered(std::span<const std::uint32_t> order, std::span<const double> w
 }
 
 /// Plus a little for each cell, so that empty ones are distributed, too.
-std::vector<double> weights_of(const CellLoads& loads, Division division) {
+std::vector<double> weights_of(const CellLoads& loads, SceneDivision division) {
   std::vector<double> weights(loads.primitives.begin(), loads.primitives.end());
   if (needs_costs(division)) weights = loads.costs;
   const double total = std::accumulate(weights.begin(), weights.end(), 1e-9);
-  const double little =
-      division == Division::kPrimitives ? 0.01 : 1e-3 * total / static_cast<double>(weights.size());
+  const double little = division == SceneDivision::kPrimitives
+                            ? 0.01
+                            : 1e-3 * total / static_cast<double>(weights.size());
   for (double& weight : weights) weight += little;
   return weights;
 }
@@ -195,28 +196,28 @@ std::vector<double> weights_of(const CellLoads& loads, Division division) {
 
 std::span<const std::string_view> division_names() { return kNames; }
 
-Division parse_division(std::string_view name) {
-  return static_cast<Division>(base::place_of_name("division", name, kNames));
+SceneDivision parse_scene_division(std::string_view name) {
+  return static_cast<SceneDivision>(base::place_of_name("division", name, kNames));
 }
 
-bool needs_costs(Division division) {
-  return division == Division::kCost || division == Division::kBisection ||
-         division == Division::kScattered;
+bool needs_costs(SceneDivision division) {
+  return division == SceneDivision::kCost || division == SceneDivision::kBisection ||
+         division == SceneDivision::kScattered;
 }
 
 std::vector<std::uint16_t> divide(const LevelCells& cells, const CellLoads& loads,
-                                  Division division, int processes) {
+                                  SceneDivision division, int processes) {
   const std::vector<std::uint32_t> order = in_morton_order(cells);
   const std::vector<double> weights = weights_of(loads, division);
   switch (division) {
-    case Division::kInterleaved:
+    case SceneDivision::kInterleaved:
       return interleaved(order, loads, processes);
-    case Division::kBisection:
+    case SceneDivision::kBisection:
       return Bisection(cells, weights)(processes);
-    case Division::kScattered:
+    case SceneDivision::kScattered:
       return scattered(order, weights, loads, processes);
-    case Division::kPrimitives:
-    case Division::kCost:
+    case SceneDivision::kPrimitives:
+    case SceneDivision::kCost:
       break;
   }
   return runs(order, weights, processes);

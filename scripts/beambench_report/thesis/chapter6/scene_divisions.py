@@ -25,7 +25,7 @@ from beambench_report.thesis.chapter6.split import (
     total,
 )
 
-DIVISIONS_TABLE = "divisions.csv"
+DIVISIONS_TABLE = "scene-divisions.csv"
 DIVISIONS = ("primitives", "cost", "interleaved", "bisection", "scattered")
 PARTS = (4, 16, 64)
 SCENES = (
@@ -38,15 +38,15 @@ SCENES = (
 _COLUMNS = ("division", *COLUMNS, "busy_share")
 
 
-def simulate_divisions(
+def simulate_scene_divisions(
     folder: Path, program: Path, resolution: str, repeats: int, most: int
 ) -> list[Path]:
-    """Writes FOLDER/divisions.csv. The speed-up is that over one part of the same scene.
+    """Writes FOLDER/scene-divisions.csv. The speed-up is that over one part of the same scene.
 
     What was simulated before is not simulated again. Raises Problem where parts give another
     picture than the whole.
     """
-    cache = ResultCache(folder / "divisions-answers.jsonl")
+    cache = ResultCache(folder / "scene-divisions-answers.jsonl")
     rows: list[dict[str, object]] = []
     for divided in SCENES:
 
@@ -67,7 +67,7 @@ def simulate_divisions(
     return [write_rows(folder / DIVISIONS_TABLE, pd.DataFrame(rows, columns=list(_COLUMNS)))]
 
 
-def read_divisions(folder: Path) -> pd.DataFrame | None:
+def read_scene_divisions(folder: Path) -> pd.DataFrame | None:
     """The table; nothing where there is none. Raises Problem where it lacks a column."""
     path = folder / DIVISIONS_TABLE
     if not path.is_file():
@@ -87,11 +87,11 @@ def _row(
     }
 
 
-STEM = "divisions"
+STEM = "scene-divisions"
 _SUMMARY = "ways to divide a scene: efficiency, and memory of the largest part"
 
 
-def divisions_plot(rows: pd.DataFrame) -> Plot:
+def scene_divisions_plot(rows: pd.DataFrame) -> Plot:
     """Efficiency and memory of each division, a column for each scene."""
     scenes = list(dict.fromkeys(rows["scene"]))
     figure, panels = new_figure(PAGE_WIDTH, rows=2, columns=len(scenes))
@@ -117,7 +117,7 @@ def divisions_plot(rows: pd.DataFrame) -> Plot:
     return Plot(STEM, figure, _SUMMARY)
 
 
-def divisions_section(rows: pd.DataFrame) -> str:
+def scene_divisions_section(rows: pd.DataFrame) -> str:
     """Its section of the page, with the figure."""
     lines = []
     for scene, of_scene in rows.groupby("scene", sort=False):

@@ -13,7 +13,7 @@ namespace beambench::cluster {
 /// The ways that the thesis lists (section 2.3.2.2): the space is divided beforehand, so that each
 /// process has as many primitives, or as much work by a sample of the rays; or small cells that are
 /// not neighbors are dealt to a process, as pixels are interlaced.
-enum class Division {
+enum class SceneDivision {
   kPrimitives,   ///< runs of cells in Morton order with equal numbers of primitives
   kCost,         ///< runs of cells in Morton order with equal costs
   kInterleaved,  ///< of the cells with primitives, in Morton order, each process has every n-th
@@ -22,13 +22,13 @@ enum class Division {
                  ///< that has room: 5% more than its share of primitives
 };
 
-/// The names after --division, in the order of `Division`.
+/// The names after --division, in the order of `SceneDivision`.
 std::span<const std::string_view> division_names();
 /// Throws InputError listing the valid names.
-Division parse_division(std::string_view name);
+SceneDivision parse_scene_division(std::string_view name);
 
 /// Does it need the costs of cells?
-bool needs_costs(Division division);
+bool needs_costs(SceneDivision division);
 
 /// The cells of one level of an octree, numbered with x fastest.
 class LevelCells {
@@ -61,6 +61,6 @@ struct CellLoads {
 
 /// The owner of each cell, by its number. The same loads give the same owners.
 std::vector<std::uint16_t> divide(const LevelCells& cells, const CellLoads& loads,
-                                  Division division, int processes);
+                                  SceneDivision division, int processes);
 
 }  // namespace beambench::cluster
