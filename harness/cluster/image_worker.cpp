@@ -59,6 +59,30 @@ Vector get_vector(ByteReader& reader) {
   return vector;
 }
 
+void require_inside(const accel::beam::PixelRect& part, const accel::PrimaryRays& rays) {
+  if (part.width < 1 || part.height < 1 || part.left + part.width > rays.width() ||
+      part.top + part.height > rays.height()) {
+    throw ProtocolError("a block outside of the image");
+  }
+}
+
+/// As wide around as `EyeView::screen` is around the image.
+accel::beam::ImagePolygon outline_of(const accel::beam::PixelRect& part,
+                                     const accel::PrimaryRays& rays,
+                                     const accel::beam::EyeView& view) {
+  const glm::dvec2 border = -view.screen()[0];
+  const glm::dvec2 image(rays.width(), rays.height());
+  const glm::dvec2 low = glm::dvec2(part.left, part.top) / image - border;
+  const glm::dvec2 high =
+      glm::dvec2(part.left + part.width, part.top + part.height) / image + border;
+  accel::beam::ImagePolygon outline;
+  outline.push_back(low);
+  outline.push_back({high.x, low.y});
+  outline.push_back(high);
+  outline.push_back({low.x, high.y});
+  return outline;
+}
+
 }  // namespace
 
 void write_hits(SampleList samples, const accel::HitBuffer& hits, Bytes& bytes) {
@@ -180,6 +204,7 @@ ImageWorker::ImageWorker(const accel::beam::BeamTracer& tracer, const accel::Pri
       rays_(&rays),
       light_(light),
       view_(tracer.octree().grid(), rays),
+      lattices_(sight_.lattices(rays, tracer.options().share_corners)),
       hits_(rays.width(), rays.height(), rays.samples()),
       painter_(tracer.scene(), tracer, tracer.options(), view_, rays, sight_, hits_, {}, decided_) {
 }
@@ -203,10 +228,25 @@ void ImageWorker::perform(std::span<const std::byte> task, Bytes& result,
 
 void ImageWorker::trace(const BeamTask& task) { paint(task.kind, task.beam, painter_); }
 
-void ImageWorker::trace(const BlockTask& block) {
-  if (block.left + block.width > rays_->width() || block.top + block.height > rays_->height()) {
-    throw ProtocolError("a block outside of the image");
+void ImageWorker::trace(const TileTask& tile) {
+  require_inside(tile, *rays_);
+  decided_.want(accel::beam::part_of(lattices_, hits_, tile));
+  accel::beam::BeamQueue queue;
+  accel::beam::begin_beams(tracer_->octree(), view_, outline_of(tile, *rays_, view_), queue);
+  accel::beam::BeamStep step;
+  while (!queue.waiting.empty()) {
+    queue.waiting.pop(step);
+    if (const auto end = end_of(step, *tracer_, *rays_)) {
+      paint(*end, step.beam, painter_);
+    } else if (step.kind != accel::BeamKind::kLeaving) {
+      accel::beam::continue_beam(tracer_->octree(), view_, step.beam, queue);
+    }
   }
+  decided_.want({});
+}
+
+void ImageWorker::trace(const BlockTask& block) {
+  require_inside(block, *rays_);
   for (int y = block.top; y < block.top + block.height; ++y) {
     for (int x = block.left; x < block.left + block.width; ++x) {
       for (int sample = 0; sample < rays_->samples(); ++sample) {

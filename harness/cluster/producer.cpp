@@ -81,7 +81,9 @@ void Producer::wait_for_final_reports() {
 bool Producer::make_parcel() {
   ParcelWriter parcel(next_number_);
   const std::size_t first = report_.tasks.size();
-  while (parcel.items() < options_.batch) {
+  const std::size_t planned = source_->parcel_size();
+  const std::size_t most = planned > 0 ? planned : options_.batch;
+  while (parcel.items() < most) {
     Bytes& bytes = parcel.begin_item();
     const std::size_t begin = bytes.size();
     const base::CpuStopwatch timer;
@@ -96,6 +98,7 @@ bool Producer::make_parcel() {
     TaskReport& task = report_.tasks.emplace_back();
     task.walk_seconds = std::exchange(walked_, 0.0);
     task.task_bytes = bytes.size() - begin;
+    task.estimate_seconds = source_->estimate();
     parcel.end_item();
   }
   if (parcel.items() == 0) return false;

@@ -67,6 +67,7 @@ Json to_json(const ClusterRun& run) {
             {"processes", report.processes.size()},
             {"tasks", report.tasks.size()},
             {"seconds", report.seconds},
+            {"pre_pass_seconds", run.pre_pass_seconds},
             {"producer_busy_share", report.producer_busy_share()},
             {"walk_seconds", report.walk_seconds},
             {"accept_seconds", report.accept_seconds},
@@ -83,14 +84,15 @@ Json to_json(const ClusterRun& run) {
 
 std::string task_table(const ClusterReport& report) {
   std::string table =
-      "task,process,walk_seconds,work_seconds,accept_seconds,samples,task_bytes,result_bytes\n";
+      "task,process,walk_seconds,work_seconds,accept_seconds,samples,task_bytes,result_bytes,"
+      "estimate_seconds\n";
   for (std::size_t i = 0; i < report.tasks.size(); ++i) {
     const TaskReport& task = report.tasks[i];
-    table += fmt::format("{},{},{:.9f},{:.9f},{:.9f},{},{},{}\n", i, task.process,
+    table += fmt::format("{},{},{:.9f},{:.9f},{:.9f},{},{},{},{:.9f}\n", i, task.process,
                          task.walk_seconds, task.work_seconds, task.accept_seconds, task.samples,
-                         task.task_bytes, task.result_bytes);
+                         task.task_bytes, task.result_bytes, task.estimate_seconds);
   }
-  table += fmt::format("end,0,{:.9f},0,0,0,0,0\n", report.last_walk_seconds);
+  table += fmt::format("end,0,{:.9f},0,0,0,0,0,0\n", report.last_walk_seconds);
   return table;
 }
 

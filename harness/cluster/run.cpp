@@ -1,9 +1,11 @@
 #include "harness/cluster/run.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,7 +14,9 @@
 #include "harness/base/messages.hpp"
 #include "harness/base/stopwatch.hpp"
 #include "harness/cluster/consumer.hpp"
+#include "harness/cluster/division.hpp"
 #include "harness/cluster/image_worker.hpp"
+#include "harness/cluster/planned_source.hpp"
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/cluster/tasks.hpp"
 #include "harness/rays/fingerprint.hpp"
@@ -78,9 +82,56 @@ struct WorkerState {
   double build_seconds = 0.0;
 };
 
-std::unique_ptr<TaskSource> make_source(const ClusterRequest& request, const WorkerState& state) {
-  if (!request.blocks) return std::make_unique<BeamSource>(*state.tracer, state.rays);
-  return std::make_unique<BlockSource>(state.rays.width(), state.rays.height(), request.block_size);
+/// The image's parts of a work that is divided before, in their order.
+std::vector<accel::beam::PixelRect> parts_of(const ClusterRequest& request,
+                                             const accel::PrimaryRays& rays) {
+  const int size = request.block_size;
+  switch (request.work) {
+    case Work::kContiguous:
+    case Work::kInterlaced:
+      return blocks_of(rays.width(), rays.height(), rays.width(), 1);
+    case Work::kTiles:
+      return spread(blocks_of(rays.width(), rays.height(), size, size));
+    default:
+      return blocks_of(rays.width(), rays.height(), size, size);
+  }
+}
+
+/// The producer's tasks, and what it took to estimate them.
+struct Plan {
+  std::unique_ptr<TaskSource> source;
+  double pre_pass_seconds = 0.0;
+};
+
+/// For that many consumers.
+Plan make_plan(const ClusterRequest& request, const WorkerState& state, int consumers) {
+  const accel::PrimaryRays& rays = state.rays;
+  if (request.work == Work::kBeams) {
+    return {std::make_unique<BeamSource>(*state.tracer, rays)};
+  }
+  if (request.work == Work::kBlocks) {
+    return {std::make_unique<BlockSource>(rays.width(), rays.height(), request.block_size)};
+  }
+  require_tasks(*state.tracer);
+  const std::vector<accel::beam::PixelRect> parts = parts_of(request, rays);
+  std::vector<Bytes> tasks(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    if (request.work == Work::kTiles) {
+      write_task(TileTask{parts[i]}, tasks[i]);
+    } else {
+      write_task(BlockTask{parts[i]}, tasks[i]);
+    }
+  }
+  std::vector<double> estimates;
+  const base::CpuStopwatch timer;
+  if (request.work == Work::kPrePass) {
+    ImageWorker worker = state.worker();
+    estimates = estimate_costs(parts, worker);
+  }
+  const double seconds = timer.seconds();
+  std::vector<Share> shares =
+      divide(division_of(request.work), tasks.size(), std::max(1, consumers), estimates);
+  return {std::make_unique<PlannedSource>(std::move(tasks), std::move(shares), estimates), seconds};
 }
 
 /// Collects the results.
@@ -130,7 +181,7 @@ ClusterRun describe(const ClusterRequest& request, const WorkerState& state, int
   ClusterRun run;
   run.job = request.job;
   run.job.resolution = state.image.resolution;
-  run.work = request.blocks ? "blocks" : "beams";
+  run.work = name_of(request.work);
   run.batch = request.producer.batch;
   run.in_flight = request.producer.in_flight;
   run.producer_consumes = request.producer.consumes;
@@ -143,12 +194,13 @@ ClusterRun describe(const ClusterRequest& request, const WorkerState& state, int
 
 ClusterRun lead(const ClusterRequest& request, Transport& transport) {
   std::optional<WorkerState> state;
-  std::unique_ptr<TaskSource> source;
+  Plan plan;
   set_up_producer(transport, [&](std::vector<std::string>& warnings) {
     state.emplace(request.job, &warnings);
-    source = make_source(request, *state);
+    plan = make_plan(request, *state, transport.processes() - 1);
   });
   ClusterRun run = describe(request, *state, transport.processes());
+  run.pre_pass_seconds = plan.pre_pass_seconds;
   const auto check = [&, mine = run.ready_reports[kProducer].identity,
                       missing = transport.processes() - 1](
                          ProcessId process, std::span<const std::byte> ready_report) mutable {
@@ -160,7 +212,7 @@ ClusterRun lead(const ClusterRequest& request, Transport& transport) {
   };
   Result result(*state, request.job.light);
   ImageWorker own = state->worker();
-  run.report = Producer(transport, *source, result.sink(), own, check, request.producer).run();
+  run.report = Producer(transport, *plan.source, result.sink(), own, check, request.producer).run();
   run.result_hash = result.hash();
   write_files(request, *state, result, run);
   return run;

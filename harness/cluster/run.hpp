@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "harness/cluster/division.hpp"
 #include "harness/cluster/job.hpp"
 #include "harness/cluster/producer.hpp"
 #include "harness/cluster/report.hpp"
@@ -21,7 +22,7 @@ namespace beambench::cluster {
 struct ClusterRequest {
   Job job;
   ProducerOptions producer;
-  bool blocks = false;
+  Work work = Work::kBeams;
   int block_size = 32;
   render::Shading shading = render::Shading::kPreview;
   std::string picture;  ///< file; empty: none

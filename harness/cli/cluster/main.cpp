@@ -15,6 +15,7 @@
 #include "harness/base/process_start.hpp"
 #include "harness/bench/record/machine.hpp"
 #include "harness/cli/inputs.hpp"
+#include "harness/cluster/division.hpp"
 #include "harness/cluster/mpi_session.hpp"
 #include "harness/cluster/mpi_transport.hpp"
 #include "harness/cluster/run.hpp"
@@ -90,14 +91,18 @@ void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
                  "preview, normals, id, depth: consumers send hits; whitted: they send light")
       ->capture_default_str();
   add_light_options(app, typed.whitted);
-  app.add_option("--work", typed.work, "beams, or blocks of the image traced by individual rays")
+  app.add_option("--work", typed.work,
+                 "beams; blocks of the image traced by individual rays; tiles, blocks whose beams "
+                 "the consumers make themselves; or a static division: contiguous and interlaced "
+                 "rows, windows (interlaced blocks), pre-pass (blocks of equal estimated cost)")
       ->capture_default_str()
-      ->check(CLI::IsMember({"beams", "blocks"}));
+      ->check(CLI::IsMember(
+          {"beams", "blocks", "tiles", "contiguous", "interlaced", "windows", "pre-pass"}));
   app.add_option("--split", request.job.split_level,
                  "Divide the scene instead: each process has the primitives in its share of the "
                  "octree's cells of this level; beams and rays are handed over at borders")
       ->check(CLI::Range(2, 7));
-  app.add_option("--block", request.block_size, "Side of a block in pixels")
+  app.add_option("--block", request.block_size, "Side of a block or tile in pixels")
       ->capture_default_str()
       ->check(CLI::Range(1, 4096));
   app.add_option("--batch", request.producer.batch, "Beams or blocks per message")
@@ -123,15 +128,31 @@ void require_hits_alone(const ClusterRequest& request) {
     throw InputError(
         "with --split no process has the whole scene to shade; give --shade id or --shade depth");
   }
-  if (request.blocks || !request.tasks.empty()) {
+  if (request.work != Work::kBeams || !request.tasks.empty()) {
+    throw InputError("--split divides the scene, not the work; leave out --work and --tasks");
+  }
+}
+
+/// Where the work is divided before, messages have what the division says.
+void require_fitting(const ClusterRequest& request) {
+  const ProducerOptions usual;
+  const ProducerOptions& given = request.producer;
+  if (request.work == Work::kTiles && given.batch != usual.batch) {
+    throw InputError("--work tiles decides how many tiles a message has; leave out --batch");
+  }
+  const bool more = given.batch != usual.batch || given.in_flight != usual.in_flight;
+  if (is_static(request.work) && (more || given.consumes)) {
     throw InputError(
-        "--split divides the scene, not the work; leave out --work blocks and --tasks");
+        fmt::format("--work {} gives each consumer all its work in one message; leave out --batch, "
+                    "--in-flight and --producer-consumes",
+                    name_of(request.work)));
   }
 }
 
 void fill(const Options& typed, ClusterRequest& request) {
   request.shading = render::parse_shading(typed.shading);
-  request.blocks = typed.work == "blocks";
+  request.work = work_named(typed.work).value_or(request.work);
+  require_fitting(request);
   Job& job = request.job;
   job.scene = typed.scene;
   job.structure = choose_one("--accel", typed.structure).label();

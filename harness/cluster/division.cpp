@@ -1,0 +1,153 @@
+#include "harness/cluster/division.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <functional>
+#include <numeric>
+#include <queue>
+#include <stdexcept>
+#include <utility>
+
+namespace beambench::cluster {
+namespace {
+
+constexpr std::array<std::pair<std::string_view, Work>, 7> kNames{{
+    {"beams", Work::kBeams},
+    {"blocks", Work::kBlocks},
+    {"tiles", Work::kTiles},
+    {"contiguous", Work::kContiguous},
+    {"interlaced", Work::kInterlaced},
+    {"windows", Work::kWindows},
+    {"pre-pass", Work::kPrePass},
+}};
+
+std::vector<Share> contiguous(std::size_t tasks, std::size_t shares) {
+  std::vector<Share> divided(shares);
+  for (std::size_t i = 0; i < tasks; ++i) divided[i * shares / tasks].push_back(i);
+  return divided;
+}
+
+std::vector<Share> interlaced(std::size_t tasks, std::size_t shares) {
+  std::vector<Share> divided(shares);
+  for (std::size_t i = 0; i < tasks; ++i) divided[i % shares].push_back(i);
+  return divided;
+}
+
+std::vector<Share> of_equal_cost(std::span<const double> costs, std::size_t shares) {
+  std::vector<std::size_t> costliest_first(costs.size());
+  std::iota(costliest_first.begin(), costliest_first.end(), std::size_t{0});
+  std::ranges::stable_sort(costliest_first, std::greater<>(),
+                           [&](std::size_t task) { return costs[task]; });
+  using Load = std::pair<double, std::size_t>;
+  std::priority_queue<Load, std::vector<Load>, std::greater<>> loads;
+  for (std::size_t share = 0; share < shares; ++share) loads.emplace(0.0, share);
+  std::vector<Share> divided(shares);
+  for (const std::size_t task : costliest_first) {
+    const auto [cost, share] = loads.top();
+    loads.pop();
+    loads.emplace(cost + costs[task], share);
+    divided[share].push_back(task);
+  }
+  for (Share& share : divided) std::ranges::sort(share);
+  return divided;
+}
+
+/// Each consumer's next message has half of its part of what is left. Fewer than `least` tasks are
+/// not worth a message, before the last ones.
+std::vector<Share> falling(std::size_t tasks, std::size_t consumers) {
+  const std::size_t least = std::clamp<std::size_t>(tasks / (consumers * 32), 1, 16);
+  std::vector<Share> divided;
+  for (std::size_t next = 0; next < tasks;) {
+    const std::size_t size = std::max(least, (tasks - next) / (2 * consumers));
+    for (std::size_t i = 0; i < consumers && next < tasks; ++i) {
+      Share& share = divided.emplace_back(std::min(size, tasks - next));
+      std::iota(share.begin(), share.end(), next);
+      next += share.size();
+    }
+  }
+  return divided;
+}
+
+}  // namespace
+
+std::string_view name_of(Work work) {
+  for (const auto& [name, named] : kNames) {
+    if (named == work) return name;
+  }
+  throw std::logic_error("work without a name");
+}
+
+std::optional<Work> work_named(std::string_view name) {
+  for (const auto& [known, work] : kNames) {
+    if (known == name) return work;
+  }
+  return std::nullopt;
+}
+
+bool is_static(Work work) {
+  return work != Work::kBeams && work != Work::kBlocks && work != Work::kTiles;
+}
+
+std::vector<accel::beam::PixelRect> blocks_of(int width, int height, int block_width,
+                                              int block_height) {
+  std::vector<accel::beam::PixelRect> blocks;
+  for (int top = 0; top < height; top += block_height) {
+    for (int left = 0; left < width; left += block_width) {
+      blocks.push_back(
+          {left, top, std::min(block_width, width - left), std::min(block_height, height - top)});
+    }
+  }
+  return blocks;
+}
+
+std::vector<accel::beam::PixelRect> spread(const std::vector<accel::beam::PixelRect>& blocks) {
+  std::vector<accel::beam::PixelRect> order;
+  order.reserve(blocks.size());
+  const auto digits = static_cast<int>(std::bit_width(blocks.size()));
+  for (std::size_t i = 0; order.size() < blocks.size(); ++i) {
+    std::size_t reversed = 0;
+    for (int digit = 0; digit < digits; ++digit) reversed = 2 * reversed + (i >> digit) % 2;
+    if (reversed < blocks.size()) order.push_back(blocks[reversed]);
+  }
+  return order;
+}
+
+std::vector<Share> divide(Division division, std::size_t tasks, int consumers,
+                          std::span<const double> costs) {
+  const auto shares = static_cast<std::size_t>(consumers);
+  const auto divided = [&] {
+    switch (division) {
+      case Division::kContiguous:
+        return contiguous(tasks, shares);
+      case Division::kInterlaced:
+        return interlaced(tasks, shares);
+      case Division::kEqualCost:
+        return of_equal_cost(costs, shares);
+      case Division::kFalling:
+        return falling(tasks, shares);
+    }
+    throw std::logic_error("an unknown division");
+  };
+  std::vector<Share> all = divided();
+  std::erase_if(all, [](const Share& share) { return share.empty(); });
+  return all;
+}
+
+Division division_of(Work work) {
+  switch (work) {
+    case Work::kTiles:
+      return Division::kFalling;
+    case Work::kContiguous:
+      return Division::kContiguous;
+    case Work::kInterlaced:
+    case Work::kWindows:
+      return Division::kInterlaced;
+    case Work::kPrePass:
+      return Division::kEqualCost;
+    default:
+      throw std::logic_error("work that is not divided before");
+  }
+}
+
+}  // namespace beambench::cluster
