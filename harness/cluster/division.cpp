@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <functional>
 #include <numeric>
 #include <queue>
@@ -53,13 +52,13 @@ std::vector<Share> of_equal_cost(std::span<const double> costs, std::size_t shar
   return divided;
 }
 
-/// Each consumer's next message has half of its part of what is left. Fewer than `least` tasks are
-/// not worth a message, before the last ones.
+/// Each consumer's next message has two thirds of its part of what is left, but not less than an
+/// eighth of its part of all: of 1,024 processes, a producer that sends more is what they wait for.
 std::vector<Share> falling(std::size_t tasks, std::size_t consumers) {
-  const std::size_t least = std::clamp<std::size_t>(tasks / (consumers * 32), 1, 16);
+  const std::size_t least = std::max<std::size_t>(1, tasks / (8 * consumers));
   std::vector<Share> divided;
   for (std::size_t next = 0; next < tasks;) {
-    const std::size_t size = std::max(least, (tasks - next) / (2 * consumers));
+    const std::size_t size = std::max(least, 2 * (tasks - next) / (3 * consumers));
     for (std::size_t i = 0; i < consumers && next < tasks; ++i) {
       Share& share = divided.emplace_back(std::min(size, tasks - next));
       std::iota(share.begin(), share.end(), next);
@@ -101,21 +100,28 @@ std::vector<accel::beam::PixelRect> blocks_of(int width, int height, int block_w
   return blocks;
 }
 
-std::vector<accel::beam::PixelRect> spread(const std::vector<accel::beam::PixelRect>& blocks) {
-  std::vector<accel::beam::PixelRect> order;
-  order.reserve(blocks.size());
-  const auto digits = static_cast<int>(std::bit_width(blocks.size()));
-  for (std::size_t i = 0; order.size() < blocks.size(); ++i) {
-    std::size_t reversed = 0;
-    for (int digit = 0; digit < digits; ++digit) reversed = 2 * reversed + (i >> digit) % 2;
-    if (reversed < blocks.size()) order.push_back(blocks[reversed]);
-  }
-  return order;
+TileOrder::TileOrder(int width, int height, int size)
+    : width_(width),
+      height_(height),
+      size_(size),
+      columns_(static_cast<std::size_t>((width + size - 1) / size)),
+      rows_(static_cast<std::size_t>((height + size - 1) / size)) {
+  const auto part = [](double of_all, std::size_t count) {
+    return static_cast<std::size_t>(of_all * static_cast<double>(count));
+  };
+  step_ = part(0.7548776662, rows_) * columns_ + part(0.5698402910, columns_);
+  while (std::gcd(step_, count()) != 1) ++step_;  // or not every tile would have its turn
 }
 
-std::vector<Share> divide(Division division, std::size_t tasks, int consumers,
-                          std::span<const double> costs) {
-  const auto shares = static_cast<std::size_t>(consumers);
+accel::beam::PixelRect TileOrder::operator[](std::size_t i) const {
+  const std::size_t number = i * step_ % count();
+  const int left = static_cast<int>(number % columns_) * size_;
+  const int top = static_cast<int>(number / columns_) * size_;
+  return {left, top, std::min(size_, width_ - left), std::min(size_, height_ - top)};
+}
+
+std::vector<Share> divide(Division division, std::size_t tasks, const Among& among) {
+  const auto shares = static_cast<std::size_t>(among.consumers);
   const auto divided = [&] {
     switch (division) {
       case Division::kContiguous:
@@ -123,7 +129,9 @@ std::vector<Share> divide(Division division, std::size_t tasks, int consumers,
       case Division::kInterlaced:
         return interlaced(tasks, shares);
       case Division::kEqualCost:
-        return of_equal_cost(costs, shares);
+        return of_equal_cost(among.costs, shares);
+      case Division::kBatches:
+        return contiguous(tasks, (tasks + among.batch - 1) / among.batch);
       case Division::kFalling:
         return falling(tasks, shares);
     }

@@ -33,9 +33,27 @@ bool is_static(Work work);
 std::vector<accel::beam::PixelRect> blocks_of(int width, int height, int block_width,
                                               int block_height);
 
-/// In an order in which any part of the list has blocks from all over the image: by the digits of
-/// their numbers reversed (van der Corput 1935).
-std::vector<accel::beam::PixelRect> spread(const std::vector<accel::beam::PixelRect>& blocks);
+/// The blocks of an image in an order in which any that follow each other come from all over the
+/// image: an additive recurrence in both directions (Kronecker; its constants are Roberts's, "The
+/// unreasonable effectiveness of quasirandom sequences", 2018). Known to all processes, so that a
+/// range of numbers stands for its blocks.
+class TileOrder {
+ public:
+  /// Of an image of width x height pixels, in tiles of size x size.
+  TileOrder(int width, int height, int size);
+
+  std::size_t count() const { return columns_ * rows_; }
+  /// The i-th; smaller at the right and lower border.
+  accel::beam::PixelRect operator[](std::size_t i) const;
+
+ private:
+  int width_;
+  int height_;
+  int size_;
+  std::size_t columns_;
+  std::size_t rows_;
+  std::size_t step_;
+};
 
 /// The numbers of the tasks in one message.
 using Share = std::vector<std::size_t>;
@@ -46,15 +64,21 @@ enum class Division {
   kInterlaced,  ///< as many shares as consumers, task i in share i modulo their number
   kEqualCost,   ///< as many shares as consumers: the costliest task left goes to the share with the
                 ///< lowest cost so far (Graham 1969)
-  kFalling      ///< for each consumer a message, then one of half as many tasks, down to a few:
-                ///< few messages, and little work left when the tasks are used up (factoring:
-                ///< Hummel, Schonberg and Flynn 1992)
+  kBatches,     ///< as many in each
+  kFalling      ///< for each consumer a message, then one of fewer tasks: few messages, and little
+                ///< work left when the tasks are used up (factoring: Hummel, Schonberg and Flynn
+                ///< 1992)
 };
 
-/// In the order in which they are to be sent; no share is empty. `costs` are estimates in any unit,
-/// needed for kEqualCost alone.
-std::vector<Share> divide(Division division, std::size_t tasks, int consumers,
-                          std::span<const double> costs);
+/// What some of the divisions need.
+struct Among {
+  int consumers = 1;
+  std::size_t batch = 1;          ///< tasks in a message of kBatches
+  std::span<const double> costs;  ///< of kEqualCost: estimates in any unit
+};
+
+/// In the order in which they are to be sent; no share is empty.
+std::vector<Share> divide(Division division, std::size_t tasks, const Among& among);
 
 /// How the tasks of that work are divided. Not for kBeams and kBlocks, which are not divided
 /// before.

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <variant>
 
+#include "accel/beam/beam_paths.hpp"
+#include "harness/cluster/division.hpp"
 #include "harness/rays/trace_input.hpp"
 
 namespace beambench::cluster {
@@ -57,13 +60,6 @@ Vector get_vector(ByteReader& reader) {
   Vector vector;
   for (int i = 0; i < 3; ++i) vector[i] = reader.get<typename Vector::value_type>();
   return vector;
-}
-
-void require_inside(const accel::beam::PixelRect& part, const accel::PrimaryRays& rays) {
-  if (part.width < 1 || part.height < 1 || part.left + part.width > rays.width() ||
-      part.top + part.height > rays.height()) {
-    throw ProtocolError("a block outside of the image");
-  }
 }
 
 /// As wide around as `EyeView::screen` is around the image.
@@ -211,42 +207,68 @@ ImageWorker::ImageWorker(const accel::beam::BeamTracer& tracer, const accel::Pri
 
 void ImageWorker::perform(std::span<const std::byte> task, Bytes& result,
                           const Heartbeat& heartbeat) {
-  decided_.begin(heartbeat);
-  std::visit([this](const auto& each) { trace(each); }, read_task(task, tracer_->octree(), view_));
+  std::visit(
+      [&](const auto& each) {
+        perform(each, {&result, &heartbeat});
+      },
+      read_task(task, tracer_->octree(), view_));
+}
+
+void ImageWorker::write(const Results& results) {
   // Beams find their samples lattice by lattice; sorted, a pixel's samples are neighbors.
   std::vector<std::uint32_t>& samples = decided_.samples();
   std::ranges::sort(samples);
+  samples_ += samples.size();
   if (light_ == nullptr) {
-    write_hits(samples, hits_, result);
+    write_hits(samples, hits_, *results.bytes);
     return;
   }
-  // A new one for each task, so that the census does not depend on their distribution.
+  // A new one each time, so that the census does not depend on the distribution of tasks.
   render::Whitted::Progress progress = light_->begin();
-  write_colors(samples, hits_, *rays_, *light_, progress, heartbeat, result);
+  write_colors(samples, hits_, *rays_, *light_, progress, *results.heartbeat, *results.bytes);
   census_ += progress.census;
 }
 
-void ImageWorker::trace(const BeamTask& task) { paint(task.kind, task.beam, painter_); }
+void ImageWorker::perform(const BeamTask& task, const Results& results) {
+  decided_.begin(*results.heartbeat);
+  paint(task.kind, task.beam, painter_);
+  write(results);
+}
 
-void ImageWorker::trace(const TileTask& tile) {
-  require_inside(tile, *rays_);
+void ImageWorker::perform(const TileTask& tiles, const Results& results) {
+  if (tiles.size == 0) throw ProtocolError("tiles without pixels");
+  const TileOrder order(rays_->width(), rays_->height(), tiles.size);
+  if (tiles.first + std::size_t{tiles.count} > order.count()) {
+    throw ProtocolError("a tile outside of the image");
+  }
+  for (std::uint32_t i = 0; i < tiles.count; ++i) {
+    decided_.begin(*results.heartbeat);
+    trace_beams_through(order[tiles.first + i]);
+    write(results);
+    (*results.heartbeat)();
+  }
+}
+
+void ImageWorker::trace_beams_through(const accel::beam::PixelRect& tile) {
   decided_.want(accel::beam::part_of(lattices_, hits_, tile));
-  accel::beam::BeamQueue queue;
-  accel::beam::begin_beams(tracer_->octree(), view_, outline_of(tile, *rays_, view_), queue);
+  accel::beam::begin_beams(tracer_->octree(), view_, outline_of(tile, *rays_, view_), queue_);
   accel::beam::BeamStep step;
-  while (!queue.waiting.empty()) {
-    queue.waiting.pop(step);
+  while (!queue_.waiting.empty()) {
+    queue_.waiting.pop(step);
     if (const auto end = end_of(step, *tracer_, *rays_)) {
       paint(*end, step.beam, painter_);
     } else if (step.kind != accel::BeamKind::kLeaving) {
-      accel::beam::continue_beam(tracer_->octree(), view_, step.beam, queue);
+      accel::beam::continue_beam(tracer_->octree(), view_, step.beam, queue_);
     }
   }
   decided_.want({});
 }
 
-void ImageWorker::trace(const BlockTask& block) {
-  require_inside(block, *rays_);
+void ImageWorker::perform(const BlockTask& block, const Results& results) {
+  if (block.left + block.width > rays_->width() || block.top + block.height > rays_->height()) {
+    throw ProtocolError("a block outside of the image");
+  }
+  decided_.begin(*results.heartbeat);
   for (int y = block.top; y < block.top + block.height; ++y) {
     for (int x = block.left; x < block.left + block.width; ++x) {
       for (int sample = 0; sample < rays_->samples(); ++sample) {
@@ -256,6 +278,7 @@ void ImageWorker::trace(const BlockTask& block) {
       }
     }
   }
+  write(results);
 }
 
 void ImageWorker::write_counts(Bytes& bytes) const {

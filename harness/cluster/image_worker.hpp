@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 
 #include "accel/beam/beam_painter.hpp"
+#include "accel/beam/beam_paths.hpp"
 #include "accel/beam/beam_tracer.hpp"
 #include "accel/beam/sample_lattice.hpp"
 #include "accel/core/hit_buffer.hpp"
@@ -102,13 +103,23 @@ class ImageWorker : public TaskWorker {
               const render::Whitted* light);
 
   void perform(std::span<const std::byte> task, Bytes& result, const Heartbeat& heartbeat) override;
+  /// Those in its results so far.
+  std::uint64_t samples() const { return samples_; }
   /// Its census of rays.
   void write_counts(Bytes& bytes) const override;
 
  private:
-  void trace(const BeamTask& task);
-  void trace(const BlockTask& task);
-  void trace(const TileTask& task);
+  /// What the samples of a task need when these are decided.
+  struct Results {
+    Bytes* bytes;
+    const Heartbeat* heartbeat;
+  };
+  void perform(const BeamTask& task, const Results& results);
+  void perform(const BlockTask& task, const Results& results);
+  void perform(const TileTask& task, const Results& results);
+  void trace_beams_through(const accel::beam::PixelRect& tile);
+  /// Of the samples that were decided.
+  void write(const Results& results);
 
   const accel::beam::BeamTracer* tracer_;
   const accel::PrimaryRays* rays_;
@@ -118,7 +129,9 @@ class ImageWorker : public TaskWorker {
   std::vector<accel::beam::SampleLattice> lattices_;
   accel::HitBuffer hits_;
   DecidedSamples decided_;
+  accel::beam::BeamQueue queue_;
   accel::beam::BeamPainter<DecidedSamples, accel::beam::WholeImage> painter_;
+  std::uint64_t samples_ = 0;
   render::RayCensus census_;
 };
 

@@ -23,7 +23,9 @@ struct Job {
   bool light = false;  ///< consumers send light; otherwise hits
   render::WhittedOptions whitted;
   int split_level =
-      0;  ///< level of the cells that divide the scene; 0: every process has all of it
+      0;               ///< level of the cells that divide the scene; 0: every process has all of it
+  std::string work;    ///< what the tasks are, for results that are kept
+  std::string stored;  ///< folder in which every process keeps its results; empty: they are sent
   double heartbeat_interval = 1.0;  ///< seconds between heartbeats in long tasks
 };
 

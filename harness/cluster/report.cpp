@@ -66,6 +66,8 @@ Json to_json(const ClusterRun& run) {
             {"result_hash", fmt::format("{:016x}", run.result_hash)},
             {"processes", report.processes.size()},
             {"tasks", report.tasks.size()},
+            {"stored", run.stored},
+            {"resumed_tasks", run.resumed_tasks},
             {"seconds", report.seconds},
             {"pre_pass_seconds", run.pre_pass_seconds},
             {"producer_busy_share", report.producer_busy_share()},

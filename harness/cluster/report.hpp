@@ -84,6 +84,8 @@ struct ClusterRun {
   std::size_t batch = 1;
   int in_flight = 1;
   bool producer_consumes = false;
+  bool stored = false;                     ///< results stayed with the processes until the end
+  std::size_t resumed_tasks = 0;           ///< of an interrupted run, which were not done again
   double pre_pass_seconds = 0.0;           ///< CPU time of the producer, before the first task
   std::vector<ReadyReport> ready_reports;  ///< by process; the producer's own is the first
   ClusterReport report;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 
 #include "scenes/core/error.hpp"
 
@@ -130,7 +131,19 @@ void write_task(const BeamTask& task, const accel::octree::Octree& octree, Bytes
 }
 
 void write_task(const BlockTask& task, Bytes& bytes) { write_part(kBlock, task, bytes); }
-void write_task(const TileTask& task, Bytes& bytes) { write_part(kTile, task, bytes); }
+void write_task(const TileTask& task, Bytes& bytes) {
+  ByteWriter writer(bytes);
+  writer.put(kTile);
+  writer.put(std::tie(task.first, task.count, task.size));
+}
+
+std::optional<TileTask> read_tiles(std::span<const std::byte> bytes) {
+  ByteReader reader(bytes);
+  if (reader.get<std::uint8_t>() != kTile) return std::nullopt;
+  TileTask tiles{};
+  reader.get(std::tie(tiles.first, tiles.count, tiles.size));
+  return tiles;
+}
 
 std::variant<BeamTask, BlockTask, TileTask> read_task(std::span<const std::byte> bytes,
                                                       const accel::octree::Octree& octree,
@@ -138,7 +151,7 @@ std::variant<BeamTask, BlockTask, TileTask> read_task(std::span<const std::byte>
   ByteReader reader(bytes);
   const auto kind = reader.get<std::uint8_t>();
   if (kind == kBlock) return BlockTask{read_part(reader)};
-  if (kind == kTile) return TileTask{read_part(reader)};
+  if (const auto tiles = read_tiles(bytes)) return *tiles;
   return read_beam(kind, reader, octree, view);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The tasks of consumers, beams or blocks of the image: their sources and their encoding.
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <variant>
@@ -64,13 +65,21 @@ void paint(BeamTask::Kind end, const accel::beam::Beam& beam, Painter& painter) 
 /// Pixels traced by individual rays.
 struct BlockTask : accel::beam::PixelRect {};
 
-/// Pixels traced by beams, which whoever traces them makes itself, from the root on.
-struct TileTask : accel::beam::PixelRect {};
+/// Tiles traced by beams, which whoever traces them makes itself, from the root on: those with the
+/// numbers from `first` on of `TileOrder`.
+struct TileTask {
+  std::uint32_t first;
+  std::uint32_t count;
+  std::uint16_t size;  ///< pixels along a side
+};
 
 /// As bytes. The leaf is named by its code: a beam takes about 150 bytes.
 void write_task(const BeamTask& task, const accel::octree::Octree& octree, Bytes& bytes);
 void write_task(const BlockTask& task, Bytes& bytes);
 void write_task(const TileTask& task, Bytes& bytes);
+
+/// Nothing where the task is another one. Throws ProtocolError where it is cut off.
+std::optional<TileTask> read_tiles(std::span<const std::byte> bytes);
 
 /// The inverse; the same octree gives the same beam bit for bit. Throws ProtocolError for other
 /// bytes.

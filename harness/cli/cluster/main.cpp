@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@
 #include "harness/bench/record/machine.hpp"
 #include "harness/cli/inputs.hpp"
 #include "harness/cluster/division.hpp"
+#include "harness/cluster/kept_results.hpp"
 #include "harness/cluster/mpi_session.hpp"
 #include "harness/cluster/mpi_transport.hpp"
 #include "harness/cluster/run.hpp"
@@ -37,11 +39,13 @@ constexpr const char* kDescription =
     "leaves, the others trace their rays. Start it with mpirun.";
 constexpr const char* kFooter =
     "The picture is that of 'beambench render', bit for bit, with any number of processes.\n"
-    "A process that dies ends the run (exit code not 0, no picture); one that is silent for\n"
+    "A process that dies ends the run (exit code not 0, no picture); the same command with\n"
+    "--resume then goes on with the results that were finished. A process that is silent for\n"
     "--timeout seconds is declared lost, and its work is done by others.\n"
     "Examples:\n"
     "  mpirun -n 3 beambench-cluster balls -o balls.png --shade whitted --samples 5\n"
     "  mpirun -n 5 beambench-cluster tetra:n=8 -o tetra.png --batch 16 --in-flight 2\n"
+    "  mpirun -n 99 beambench-cluster tetra:n=8 -o tetra.png --work tiles --results stored\n"
     "  mpirun -n 3 beambench-cluster escena1 -o escena1.png --report run.json --tasks tasks.csv\n"
     "As root in a container: mpirun --allow-run-as-root --oversubscribe ...";
 
@@ -53,6 +57,8 @@ struct Options {
   std::string shading = "preview";
   WhittedRequest whitted;
   std::string work = "beams";
+  std::string results = "sent";
+  bool resume = false;
 };
 
 void add_timeout_option(CLI::App& app, double& seconds) {
@@ -105,8 +111,10 @@ void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
   app.add_option("--block", request.block_size, "Side of a block or tile in pixels")
       ->capture_default_str()
       ->check(CLI::Range(1, 4096));
-  app.add_option("--batch", request.producer.batch, "Beams or blocks per message")
+  app.add_option("--batch", request.producer.batch,
+                 "Beams or blocks per message; of tiles, if not given, fewer and fewer")
       ->capture_default_str()
+      ->each([&](const std::string&) { request.batch_given = true; })
       ->check(CLI::Range(1, 100000));
   app.add_option("--in-flight", request.producer.in_flight,
                  "Messages that a consumer may hold; 2: the next one is already there")
@@ -114,6 +122,14 @@ void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
       ->check(CLI::Range(1, 64));
   app.add_flag("--producer-consumes", request.producer.consumes,
                "Process 0 works itself while no consumer waits");
+  app.add_option("--results", typed.results,
+                 "sent to process 0; stored: every process keeps its own in FILE.kept, which all "
+                 "must see, and process 0 reads them at the end (with -o FILE)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"sent", "stored"}));
+  app.add_flag("--resume", typed.resume,
+               "Go on with an interrupted run of the same picture, whose finished results are in "
+               "FILE.kept (with -o FILE)");
   add_timeout_option(app, request.producer.timeout);
   app.add_option("--report", request.report,
                  "Write JSON: messages, bytes, busy times of each process");
@@ -137,15 +153,27 @@ void require_hits_alone(const ClusterRequest& request) {
 void require_fitting(const ClusterRequest& request) {
   const ProducerOptions usual;
   const ProducerOptions& given = request.producer;
-  if (request.work == Work::kTiles && given.batch != usual.batch) {
-    throw InputError("--work tiles decides how many tiles a message has; leave out --batch");
-  }
   const bool more = given.batch != usual.batch || given.in_flight != usual.in_flight;
   if (is_static(request.work) && (more || given.consumes)) {
     throw InputError(
         fmt::format("--work {} gives each consumer all its work in one message; leave out --batch, "
                     "--in-flight and --producer-consumes",
                     name_of(request.work)));
+  }
+}
+
+/// In the folder beside the picture; a warning where nobody asked for it.
+void keep_results(const Options& typed, ClusterRequest& request) {
+  Job& job = request.job;
+  if (request.picture.empty() || job.split_level > 0) return;
+  job.work = fmt::format("{}, blocks of {} pixels", name_of(request.work), request.block_size);
+  const bool stored = typed.results == "stored";
+  try {
+    request.kept = std::make_shared<KeptFolder>(request.picture, typed.resume);
+    if (stored) job.stored = request.kept->path();
+  } catch (const InputError& error) {
+    if (typed.resume || stored) throw;
+    base::report_error(kProgram, fmt::format("{}; the run cannot be resumed", error.what()), 0);
   }
 }
 
@@ -163,11 +191,19 @@ void fill(const Options& typed, ClusterRequest& request) {
   job.light = request.shading == render::Shading::kWhitted;
   job.whitted = whitted_options(typed.whitted);
   job.heartbeat_interval = std::min(1.0, 0.25 * request.producer.timeout);
-  if (job.split_level > 0) require_hits_alone(request);
+  const bool kept = typed.resume || typed.results == "stored";
+  if (job.split_level > 0) {
+    if (kept) throw InputError("--split keeps no results; leave out --resume and --results");
+    require_hits_alone(request);
+  }
   if (!request.picture.empty()) render::image_format(request.picture);
   for (const std::string& file : {request.picture, request.report, request.tasks}) {
     if (!file.empty()) require_writable(file);
   }
+  if (kept && request.picture.empty()) {
+    throw InputError("--resume and --results stored need -o FILE, beside which results are kept");
+  }
+  keep_results(typed, request);
 }
 
 /// Nothing after --help or --version. Throws InputError before anything long is begun.
