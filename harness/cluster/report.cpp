@@ -1,9 +1,12 @@
 #include "harness/cluster/report.hpp"
 
+#include <string_view>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "harness/bench/record/machine.hpp"
+#include "harness/cluster/division.hpp"
 #include "harness/cluster/image_worker.hpp"
 
 namespace beambench::cluster {
@@ -38,6 +41,21 @@ Json process_json(const ClusterRun& run, std::size_t process) {
   }
   if (run.job.light && !report.counted.empty()) json["rays"] = to_json(read_census(report.counted));
   return json;
+}
+
+/// What the tasks of a run are, after their number.
+std::string_view tasks_of(const ClusterRun& run) {
+  switch (work_named(run.work).value_or(Work::kBeams)) {
+    case Work::kTiles:
+      return "ranges of tiles";
+    case Work::kContiguous:
+    case Work::kInterlaced:
+      return "rows";
+    case Work::kBeams:
+      return "beams";
+    default:
+      return "blocks";
+  }
 }
 
 }  // namespace
@@ -105,7 +123,7 @@ std::string summary(const ClusterRun& run) {
   return fmt::format(
       "{} {} on {} processes in {:.3f} s; the producer was busy {:.0f}% of that time; it sent {} "
       "messages with {:.2f} MB and received {} with {:.2f} MB",
-      report.tasks.size(), run.work, report.processes.size(), report.seconds,
+      report.tasks.size(), tasks_of(run), report.processes.size(), report.seconds,
       100.0 * report.producer_busy_share(), out.messages, 1e-6 * static_cast<double>(out.bytes),
       back.messages, 1e-6 * static_cast<double>(back.bytes));
 }
