@@ -195,7 +195,7 @@ TaskCosts merged(const TaskCosts& costs, const std::vector<Share>& shares, bool 
 }
 
 bool ReplayedSource::next(Bytes& task) {
-  spend_(std::exchange(before_, 0.0));
+  if (before_ > 0.0) spend_(std::exchange(before_, 0.0));
   const auto number = next_number();
   if (!number) {
     spend_(costs_->last_walk_seconds);
