@@ -53,14 +53,15 @@ std::vector<Share> of_equal_cost(std::span<const double> costs, std::size_t shar
 }
 
 /// A producer can send some thousand messages before the others wait for it. So each consumer's
-/// next message has two thirds of its part of what is left, but not less than an eighth of its part
-/// of all; and no more than a 2,048th of all, so that with few consumers little is lost with one.
+/// next message has three quarters of its part of what is left, but not less than a fifth of its
+/// part of all; and no more than a 1,024th of all, so that with few consumers little is lost with
+/// one.
 std::vector<Share> falling(std::size_t tasks, std::size_t consumers) {
-  const std::size_t most = std::max<std::size_t>(1, tasks / 2048);
-  const std::size_t least = std::clamp<std::size_t>(tasks / (8 * consumers), 1, most);
+  const std::size_t most = std::max<std::size_t>(1, tasks / 1024);
+  const std::size_t least = std::clamp<std::size_t>(tasks / (5 * consumers), 1, most);
   std::vector<Share> divided;
   for (std::size_t next = 0; next < tasks;) {
-    const std::size_t size = std::clamp(2 * (tasks - next) / (3 * consumers), least, most);
+    const std::size_t size = std::clamp(3 * (tasks - next) / (4 * consumers), least, most);
     for (std::size_t i = 0; i < consumers && next < tasks; ++i) {
       Share& share = divided.emplace_back(std::min(size, tasks - next));
       std::iota(share.begin(), share.end(), next);

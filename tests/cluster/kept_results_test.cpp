@@ -93,7 +93,7 @@ TEST_F(KeptResults, LeaveNoFolderWhereThereAreNone) {
 
 ClusterRequest request_for(Work work, const fs::path& picture, bool resume, bool stored) {
   ClusterRequest request;
-  request.job.scene = "balls:n=1";
+  request.job.scene = "tetra:n=3";
   request.job.structure = "beam:max_level=5";
   request.job.resolution = {61, 47};
   request.job.samples = 5;
@@ -128,7 +128,7 @@ TEST_F(KeptResults, GiveTheSamePictureWhereverTheRunWasInterrupted) {
       }
       const ClusterRun rest = run(request_for(work, picture_, true, !stored), 2);
       EXPECT_EQ(rest.result_hash, expected) << name_of(work) << ' ' << stored;
-      EXPECT_GT(rest.resumed_tasks, 0U);
+      EXPECT_GT(rest.resumed_tasks, 0U) << name_of(work) << ' ' << stored;
       EXPECT_GT(rest.report.tasks.size(), 0U);
       EXPECT_FALSE(fs::exists(place_ / "picture.png.kept"));
       EXPECT_TRUE(fs::exists(picture_));

@@ -8,6 +8,7 @@ import pandas as pd
 from beambench_report.base.figure import house_style, write_plot
 from beambench_report.base.files import write_text
 from beambench_report.base.quantities import markdown_table, number
+from beambench_report.thesis.chapter6.divisions import division_plots, divisions_sections
 from beambench_report.thesis.chapter6.machines import Slowness, thesis_seconds
 from beambench_report.thesis.chapter6.plots import cluster_plots
 from beambench_report.thesis.chapter6.record import measured_section, read_recorded
@@ -17,7 +18,14 @@ from beambench_report.thesis.chapter6.results import (
     read_processes,
     read_simulations,
 )
-from beambench_report.thesis.chapter6.simulate import OLD, OPTIONS, STATIONS, TODAY, slowness_of
+from beambench_report.thesis.chapter6.simulate import (
+    DIVISIONS,
+    OLD,
+    OPTIONS,
+    STATIONS,
+    TODAY,
+    slowness_of,
+)
 from beambench_report.thesis.chapter6.split import read_split, split_plot, split_section
 
 _SHOWN = (1, 2, 4, 6, 8, 10, 12, 14)
@@ -32,6 +40,7 @@ def write_report(folder: Path) -> list[Path]:
     written = []
     with house_style():
         plots = cluster_plots(simulations, read_processes(folder))
+        plots += division_plots(simulations)
         if split is not None:
             plots.append(split_plot(split))
         for plot in plots:
@@ -53,6 +62,7 @@ def write_report(folder: Path) -> list[Path]:
             _options(simulations, OLD),
             shown.get(f"many-processes-{TODAY}", ""),
             _options(simulations, TODAY),
+            divisions_sections(simulations, recorded, shown),
             "## Machines that are not equal\n",
             f"{STATIONS - 1} consumers. `every other one half as fast`: seven machines of half "
             "the speed. `five used by others`: half of the time only half of their speed is "
@@ -171,7 +181,7 @@ def _assumptions(simulations: pd.DataFrame) -> str:
         simulations["era"].eq(OLD)
         & simulations["machines"].eq(EQUAL_MACHINES)
         & simulations["consumers"].isin((STATIONS // 2, STATIONS - 1))
-        & ~simulations["options"].isin(set(OPTIONS) - {THESIS_OPTIONS})
+        & ~simulations["options"].isin((OPTIONS.keys() | DIVISIONS.keys()) - {THESIS_OPTIONS})
     ]
     rows = rows.assign(place=rows["network"] + ", " + rows["consumers"].astype(str) + " consumers")
     return _seconds(rows, "place", "efficiency")
