@@ -166,7 +166,11 @@ void require_fitting(const ClusterRequest& request) {
 void keep_results(const Options& typed, ClusterRequest& request) {
   Job& job = request.job;
   if (request.picture.empty() || job.split_level > 0) return;
-  job.work = fmt::format("{}, blocks of {} pixels", name_of(request.work), request.block_size);
+  job.work = name_of(request.work);
+  const bool whole_rows = request.work == Work::kContiguous || request.work == Work::kInterlaced;
+  if (request.work != Work::kBeams && !whole_rows) {
+    job.work += fmt::format(" of {0} x {0} pixels", request.block_size);
+  }
   const bool stored = typed.results == "stored";
   try {
     request.kept = std::make_shared<KeptFolder>(request.picture, typed.resume);
