@@ -24,7 +24,7 @@ _RECORDED_WITH: dict[str, tuple[str, ...]] = {
     BEAMS: ("--work", "beams"),
     BLOCKS: ("--work", "blocks"),
     ROWS: ("--work", "contiguous"),
-    WINDOWS: ("--work", "pre-pass", "--block", "8"),
+    WINDOWS: ("--work", "pre-pass", "--block", "16"),
     TILES: ("--work", "tiles", "--block", "16", "--batch", "1", "--results", "stored"),
 }
 MEASURED = "measured.csv"
