@@ -103,6 +103,8 @@ KeptFile::KeptFile(const fs::path& folder, ProcessId process, const std::string&
     write(bytes);
   } catch (...) {
     ::close(descriptor_);
+    std::error_code ignored;
+    fs::remove(path_, ignored);
     throw;
   }
 }

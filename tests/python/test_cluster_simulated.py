@@ -155,29 +155,36 @@ def shares(path: Path, division: str, *arguments: str) -> list[int]:
 
 @needs_simulator
 def test_a_static_division_is_one_message_for_each_consumer(tmp_path: Path) -> None:
-    works = [0.004] * 25 + [0.001] * 75
-    path = tasks(tmp_path / "t.csv", works)
+    path = tasks(tmp_path / "t.csv", [0.004] * 25 + [0.001] * 75)
     assert shares(path, "contiguous") == [25] * 4
     assert shares(path, "interlaced") == [25] * 4
     assert sorted(shares(path, "equal-cost")) != [25] * 4
-    # What the shares cost is what the slowest of them takes.
-    seconds = {
-        division: simulated(path, "--consumers", "4", "--division", division)["traced_seconds"]
-        for division in ("contiguous", "interlaced", "equal-cost")
-    }
-    assert seconds["contiguous"] == pytest.approx(0.1, rel=0.2)
-    assert seconds["equal-cost"] <= seconds["interlaced"] < 0.6 * seconds["contiguous"]
-    late = simulated(
-        path, "--consumers", "4", "--division", "equal-cost", "--pre-pass-seconds", "0.5"
-    )
-    assert late["traced_seconds"] == pytest.approx(seconds["equal-cost"] + 0.5, rel=0.02)
+
+
+def seconds_of(path: Path, division: str, *arguments: str) -> float:
+    run = simulated(path, "--consumers", "4", "--division", division, *arguments)
+    return run["traced_seconds"]
+
+
+@needs_simulator
+def test_the_slowest_share_is_what_a_static_division_takes(tmp_path: Path) -> None:
+    first = tasks(tmp_path / "first.csv", [0.004] * 25 + [0.001] * 75)
+    every_fourth = tasks(tmp_path / "every.csv", [0.004, 0.001, 0.001, 0.001] * 25)
+    assert seconds_of(first, "contiguous") == pytest.approx(0.1, rel=0.2)
+    assert seconds_of(first, "interlaced") < 0.6 * seconds_of(first, "contiguous")
+    assert seconds_of(every_fourth, "interlaced") == pytest.approx(0.1, rel=0.2)
+    estimated = seconds_of(every_fourth, "equal-cost")
+    assert estimated < 0.6 * seconds_of(every_fourth, "interlaced")
+    late = seconds_of(every_fourth, "equal-cost", "--pre-pass-seconds", "0.5")
+    assert late == pytest.approx(estimated + 0.5, rel=0.02)
 
 
 @needs_simulator
 def test_falling_messages_are_few_and_balance(tmp_path: Path) -> None:
     path = tasks(tmp_path / "t.csv", [0.0001 * (1 + i % 11) for i in range(4096)], walk=1e-6)
-    one_by_one = simulated(path, "--consumers", "16")
-    falling = simulated(path, "--consumers", "16", "--division", "falling", "--stored")
+    cheap = ("--consumers", "16", "--message-seconds", "1e-6", "--latency", "1e-5")
+    one_by_one = simulated(path, *cheap)
+    falling = simulated(path, *cheap, "--division", "falling", "--stored")
     assert falling["messages_from_producer"] < one_by_one["messages_from_producer"] / 3
     assert falling["bytes_to_producer"] < one_by_one["bytes_to_producer"] / 3
     assert falling["traced_seconds"] < 1.1 * falling["work_seconds"] / 16
