@@ -182,7 +182,8 @@ def test_the_slowest_share_is_what_a_static_division_takes(tmp_path: Path) -> No
 @needs_simulator
 def test_falling_messages_are_few_and_balance(tmp_path: Path) -> None:
     path = tasks(tmp_path / "t.csv", [0.0001 * (1 + i % 11) for i in range(4096)], walk=1e-6)
-    cheap = ("--consumers", "16", "--message-seconds", "1e-6", "--latency", "1e-5")
+    costs = ("--message-seconds", "1e-6", "--look-seconds", "1e-6", "--latency", "1e-5")
+    cheap = ("--consumers", "16", *costs)
     one_by_one = simulated(path, *cheap)
     falling = simulated(path, *cheap, "--division", "falling", "--stored")
     assert falling["messages_from_producer"] < one_by_one["messages_from_producer"] / 3

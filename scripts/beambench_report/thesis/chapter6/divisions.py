@@ -99,9 +99,9 @@ def divisions_sections(
             "rows of individual rays that are neighbors (contiguous) or P apart (interlaced), or "
             "windows of 16 x 16 pixels, interlaced or divided by what a pre-pass says they cost. "
             "The pre-pass traces one pixel of each window, all its samples, on process 0, while "
-            "the others wait. Beside them what is given to whoever waits: the thesis's beams, image "
-            "blocks of rays, and tiles, whose beams the consumers make themselves and whose results "
-            "they keep. Efficiency against the sequential beam tracer, process 0 counted.\n",
+            "the others wait. Beside them what is given to whoever waits: the thesis's beams, "
+            "image blocks of rays, and tiles, whose beams the consumers make themselves and whose "
+            "results they keep. Efficiency against the sequential beam tracer, process 0 counted.\n",
             shown.get("divisions", ""),
             _table(rows),
         ]
