@@ -101,7 +101,8 @@ def divisions_sections(
             "The pre-pass traces one pixel of each window, all its samples, on process 0, while "
             "the others wait. Beside them what is given to whoever waits: the thesis's beams, "
             "image blocks of rays, and tiles, whose beams the consumers make themselves and whose "
-            "results they keep. Efficiency against the sequential beam tracer, process 0 counted.\n",
+            "results they keep. Efficiency against the sequential beam tracer, process 0 "
+            "counted.\n",
             shown.get("divisions", ""),
             _table(rows),
         ]
