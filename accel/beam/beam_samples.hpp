@@ -34,12 +34,13 @@ class SampleScan {
       top = std::min(top, corner.y);
       bottom = std::max(bottom, corner.y);
     }
-    const int first_y = first_at_or_after(top * rays_->height() - lattice.offset.y - row_slack_);
+    const int first_y = std::max(
+        lattice.begin.y, first_at_or_after(top * rays_->height() - lattice.offset.y - row_slack_));
     const int last_y =
         last_at_or_before(bottom * rays_->height() - lattice.offset.y + row_slack_, lattice.height);
     const Edges edges(*this, beam, lattice);
     for (int y = first_y; y <= last_y; ++y) {
-      const Row row = edges.row(y, lattice.width);
+      const Row row = edges.row(y, lattice.begin.x, lattice.width);
       if (row.first > row.last) continue;
       // From the ends inward, up to where no cut is near.
       int first = row.first;
@@ -88,8 +89,9 @@ class SampleScan {
       margin_ = scan.view_->rounding();
     }
 
-    Row row(int y, int width) const {
-      double first = 0.0;
+    /// Of the samples from `begin` on.
+    Row row(int y, int begin, int width) const {
+      double first = begin;
       double last = width - 1;
       double sure_first = first;
       double sure_last = last;

@@ -20,4 +20,16 @@ std::vector<SampleLattice> sample_lattices(const PrimaryRays& rays, bool share_c
   return lattices;
 }
 
+std::vector<SampleLattice> part_of(std::span<const SampleLattice> lattices, const HitBuffer& buffer,
+                                   const PixelRect& part) {
+  std::vector<SampleLattice> parts(lattices.begin(), lattices.end());
+  for (SampleLattice& lattice : parts) {
+    lattice.begin = {part.left, part.top};
+    // What is beyond the last pixel, shared corners, belongs to the last part.
+    if (part.left + part.width < buffer.width()) lattice.width = part.left + part.width;
+    if (part.top + part.height < buffer.height()) lattice.height = part.top + part.height;
+  }
+  return parts;
+}
+
 }  // namespace beambench::accel::beam

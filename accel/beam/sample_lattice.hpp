@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -13,8 +14,8 @@
 
 namespace beambench::accel::beam {
 
-/// One sample of every pixel: those at (x, y) + `offset`, x < width, y < height. A sample's hit
-/// belongs to one place of a hit buffer, or to several when pixels share it.
+/// One sample of every pixel: those at (x, y) + `offset`, x < width, y < height, from `begin` on. A
+/// sample's hit belongs to one place of a hit buffer, or to several when pixels share it.
 struct SampleLattice {
   /// The sample of pixel (x - left, y - up).
   struct Place {
@@ -27,6 +28,7 @@ struct SampleLattice {
   int width;
   int height;
   std::vector<Place> places;
+  glm::ivec2 begin{0};
 
   /// Calls `visit(index)` for the places in a buffer that the sample (x, y) belongs to.
   template <class Visit>
@@ -39,6 +41,19 @@ struct SampleLattice {
     }
   }
 };
+
+/// Pixels from (left, top).
+struct PixelRect {
+  int left;
+  int top;
+  int width;
+  int height;
+};
+
+/// The samples of a part of the image. Parts that divide the image divide its samples, those that
+/// pixels share too.
+std::vector<SampleLattice> part_of(std::span<const SampleLattice> lattices, const HitBuffer& buffer,
+                                   const PixelRect& part);
 
 /// A lattice for each sample of a pixel. `share_corners`: samples in the corners of pixels that are
 /// the same point are one sample.

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <optional>
+#include <variant>
 
+#include "accel/beam/beam_paths.hpp"
+#include "harness/cluster/image_division.hpp"
 #include "harness/rays/trace_input.hpp"
 
 namespace beambench::cluster {
@@ -57,6 +60,23 @@ Vector get_vector(ByteReader& reader) {
   Vector vector;
   for (int i = 0; i < 3; ++i) vector[i] = reader.get<typename Vector::value_type>();
   return vector;
+}
+
+/// As wide around as `EyeView::screen` is around the image.
+accel::beam::ImagePolygon outline_of(const accel::beam::PixelRect& part,
+                                     const accel::PrimaryRays& rays,
+                                     const accel::beam::EyeView& view) {
+  const glm::dvec2 border = -view.screen()[0];
+  const glm::dvec2 image(rays.width(), rays.height());
+  const glm::dvec2 low = glm::dvec2(part.left, part.top) / image - border;
+  const glm::dvec2 high =
+      glm::dvec2(part.left + part.width, part.top + part.height) / image + border;
+  accel::beam::ImagePolygon outline;
+  outline.push_back(low);
+  outline.push_back({high.x, low.y});
+  outline.push_back(high);
+  outline.push_back({low.x, high.y});
+  return outline;
 }
 
 }  // namespace
@@ -180,33 +200,75 @@ ImageWorker::ImageWorker(const accel::beam::BeamTracer& tracer, const accel::Pri
       rays_(&rays),
       light_(light),
       view_(tracer.octree().grid(), rays),
+      lattices_(sight_.lattices(rays, tracer.options().share_corners)),
       hits_(rays.width(), rays.height(), rays.samples()),
       painter_(tracer.scene(), tracer, tracer.options(), view_, rays, sight_, hits_, {}, decided_) {
 }
 
 void ImageWorker::perform(std::span<const std::byte> task, Bytes& result,
                           const Heartbeat& heartbeat) {
-  decided_.begin(heartbeat);
-  std::visit([this](const auto& each) { trace(each); }, read_task(task, tracer_->octree(), view_));
+  std::visit(
+      [&](const auto& each) {
+        perform(each, {&result, &heartbeat});
+      },
+      read_task(task, tracer_->octree(), view_));
+}
+
+void ImageWorker::write(const Results& results) {
   // Beams find their samples lattice by lattice; sorted, a pixel's samples are neighbors.
   std::vector<std::uint32_t>& samples = decided_.samples();
   std::ranges::sort(samples);
+  samples_ += samples.size();
   if (light_ == nullptr) {
-    write_hits(samples, hits_, result);
+    write_hits(samples, hits_, *results.bytes);
     return;
   }
-  // A new one for each task, so that the census does not depend on their distribution.
+  // A new one each time, so that the census does not depend on the distribution of tasks.
   render::Whitted::Progress progress = light_->begin();
-  write_colors(samples, hits_, *rays_, *light_, progress, heartbeat, result);
+  write_colors(samples, hits_, *rays_, *light_, progress, *results.heartbeat, *results.bytes);
   census_ += progress.census;
 }
 
-void ImageWorker::trace(const BeamTask& task) { paint(task.kind, task.beam, painter_); }
+void ImageWorker::perform(const BeamTask& task, const Results& results) {
+  decided_.begin(*results.heartbeat);
+  paint(task.kind, task.beam, painter_);
+  write(results);
+}
 
-void ImageWorker::trace(const BlockTask& block) {
+void ImageWorker::perform(const TileTask& tiles, const Results& results) {
+  if (tiles.size == 0) throw ProtocolError("tiles without pixels");
+  const TileOrder order(rays_->width(), rays_->height(), tiles.size);
+  if (tiles.first + std::size_t{tiles.count} > order.count()) {
+    throw ProtocolError("a tile outside of the image");
+  }
+  for (std::uint32_t i = 0; i < tiles.count; ++i) {
+    decided_.begin(*results.heartbeat);
+    trace_beams_through(order[tiles.first + i]);
+    write(results);
+    (*results.heartbeat)();
+  }
+}
+
+void ImageWorker::trace_beams_through(const accel::beam::PixelRect& tile) {
+  decided_.want(accel::beam::part_of(lattices_, hits_, tile));
+  accel::beam::begin_beams(tracer_->octree(), view_, outline_of(tile, *rays_, view_), queue_);
+  accel::beam::BeamStep step;
+  while (!queue_.waiting.empty()) {
+    queue_.waiting.pop(step);
+    if (const auto end = end_of(step, *tracer_, *rays_)) {
+      paint(*end, step.beam, painter_);
+    } else if (step.kind != accel::BeamKind::kLeaving) {
+      accel::beam::continue_beam(tracer_->octree(), view_, step.beam, queue_);
+    }
+  }
+  decided_.want({});
+}
+
+void ImageWorker::perform(const BlockTask& block, const Results& results) {
   if (block.left + block.width > rays_->width() || block.top + block.height > rays_->height()) {
     throw ProtocolError("a block outside of the image");
   }
+  decided_.begin(*results.heartbeat);
   for (int y = block.top; y < block.top + block.height; ++y) {
     for (int x = block.left; x < block.left + block.width; ++x) {
       for (int sample = 0; sample < rays_->samples(); ++sample) {
@@ -216,6 +278,7 @@ void ImageWorker::trace(const BlockTask& block) {
       }
     }
   }
+  write(results);
 }
 
 void ImageWorker::write_counts(Bytes& bytes) const {

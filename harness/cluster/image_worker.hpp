@@ -4,12 +4,15 @@
 #include <cstdint>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
 #include "accel/beam/beam_painter.hpp"
+#include "accel/beam/beam_paths.hpp"
 #include "accel/beam/beam_tracer.hpp"
+#include "accel/beam/sample_lattice.hpp"
 #include "accel/core/hit_buffer.hpp"
 #include "accel/core/primary_rays.hpp"
 #include "harness/cluster/tasks.hpp"
@@ -67,6 +70,13 @@ class ColorSink : public ResultSink {
 /// Records which samples a beam decided.
 class DecidedSamples : public accel::beam::NoBeamWatch {
  public:
+  /// Of beams only the samples of a part of the image are wanted; empty: all.
+  void want(std::vector<accel::beam::SampleLattice> part) { part_ = std::move(part); }
+  std::span<const accel::beam::SampleLattice> chosen(
+      std::span<const accel::beam::SampleLattice> all) const {
+    return part_.empty() ? all : part_;
+  }
+
   /// Clears; `heartbeat` is called from time to time and must outlive the record.
   void begin(const Heartbeat& heartbeat) {
     pulse_ = &heartbeat;
@@ -79,12 +89,13 @@ class DecidedSamples : public accel::beam::NoBeamWatch {
   std::vector<std::uint32_t>& samples() { return samples_; }
 
  private:
+  std::vector<accel::beam::SampleLattice> part_;
   std::vector<std::uint32_t> samples_;
   const Heartbeat* pulse_ = nullptr;
 };
 
 /// Finds the samples of a beam (thesis, section 6.2.3, "BuscarPixel") and traces them, with light
-/// if requested. One for each process.
+/// if requested; of a tile also its beams. One for each process.
 class ImageWorker : public TaskWorker {
  public:
   /// Results are hits, or light where `light` is given. All must outlive this.
@@ -92,21 +103,35 @@ class ImageWorker : public TaskWorker {
               const render::Whitted* light);
 
   void perform(std::span<const std::byte> task, Bytes& result, const Heartbeat& heartbeat) override;
+  /// Those in its results so far.
+  std::uint64_t samples() const { return samples_; }
   /// Its census of rays.
   void write_counts(Bytes& bytes) const override;
 
  private:
-  void trace(const BeamTask& task);
-  void trace(const BlockTask& task);
+  /// What the samples of a task need when these are decided.
+  struct Results {
+    Bytes* bytes;
+    const Heartbeat* heartbeat;
+  };
+  void perform(const BeamTask& task, const Results& results);
+  void perform(const BlockTask& task, const Results& results);
+  void perform(const TileTask& task, const Results& results);
+  void trace_beams_through(const accel::beam::PixelRect& tile);
+  /// Of the samples that were decided.
+  void write(const Results& results);
 
   const accel::beam::BeamTracer* tracer_;
   const accel::PrimaryRays* rays_;
   const render::Whitted* light_;
   accel::beam::EyeView view_;
   accel::beam::WholeImage sight_;
+  std::vector<accel::beam::SampleLattice> lattices_;
   accel::HitBuffer hits_;
   DecidedSamples decided_;
+  accel::beam::BeamQueue queue_;
   accel::beam::BeamPainter<DecidedSamples, accel::beam::WholeImage> painter_;
+  std::uint64_t samples_ = 0;
   render::RayCensus census_;
 };
 

@@ -44,7 +44,8 @@ template <class AJob>
 auto members(AJob& job) requires std::same_as<std::remove_const_t<AJob>, Job> {
   return std::tie(job.scene, job.structure, job.camera, job.resolution.width, job.resolution.height,
                   job.samples, job.light, job.whitted.max_depth, job.whitted.min_weight,
-                  job.whitted.shadows, job.split_level, job.division, job.heartbeat_interval);
+                  job.whitted.shadows, job.split_level, job.division, job.work, job.stored,
+                  job.heartbeat_interval);
 }
 
 /// What is sent of a report behind its host and problem.

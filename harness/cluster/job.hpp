@@ -26,6 +26,8 @@ struct Job {
   int split_level =
       0;  ///< level of the cells that divide the scene; 0: every process has all of it
   SceneDivision division = SceneDivision::kPrimitives;  ///< of those cells among the processes
+  std::string work;    ///< what the tasks are, for results that are kept
+  std::string stored;  ///< folder in which every process keeps its results; empty: they are sent
   double heartbeat_interval = 1.0;  ///< seconds between heartbeats in long tasks
 };
 

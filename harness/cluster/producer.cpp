@@ -81,7 +81,9 @@ void Producer::wait_for_final_reports() {
 bool Producer::make_parcel() {
   ParcelWriter parcel(next_number_);
   const std::size_t first = report_.tasks.size();
-  while (parcel.items() < options_.batch) {
+  const std::size_t planned = source_->parcel_size();
+  const std::size_t most = planned > 0 ? planned : options_.batch;
+  while (parcel.items() < most) {
     Bytes& bytes = parcel.begin_item();
     const std::size_t begin = bytes.size();
     const base::CpuStopwatch timer;
@@ -96,6 +98,7 @@ bool Producer::make_parcel() {
     TaskReport& task = report_.tasks.emplace_back();
     task.walk_seconds = std::exchange(walked_, 0.0);
     task.task_bytes = bytes.size() - begin;
+    task.estimate_seconds = source_->estimate();
     parcel.end_item();
   }
   if (parcel.items() == 0) return false;
@@ -149,7 +152,7 @@ void Producer::do_here(Number number) {
     of(kProducer).busy_seconds += transport_->seconds() - before;
     of(kProducer).cpu_seconds += seconds;
     ++of(kProducer).tasks;
-    take_result(task++, kProducer, {static_cast<float>(seconds), result});
+    take_result(task++, item.bytes, kProducer, {static_cast<float>(seconds), result});
   }
 }
 
@@ -198,15 +201,24 @@ void Producer::take_results(const Message& message) {
   const ParcelReader reader(message.bytes);
   const auto found = open_.find(reader.number());
   if (found == open_.end()) return;  // another process was faster
-  std::size_t task = found->second.first_task;
+  const Parcel parcel = std::move(found->second);
   open_.erase(found);
-  for (const ParcelItem& item : reader.items()) take_result(task++, message.from, item);
+  const ParcelReader tasks(parcel.bytes);
+  if (tasks.items().size() != reader.items().size()) {
+    throw ProtocolError(
+        fmt::format("process {} sent more or fewer results than it had tasks", message.from));
+  }
+  for (std::size_t i = 0; i < reader.items().size(); ++i) {
+    take_result(parcel.first_task + i, tasks.items()[i].bytes, message.from, reader.items()[i]);
+  }
 }
 
-void Producer::take_result(std::size_t task, ProcessId from, const ParcelItem& result) {
+void Producer::take_result(std::size_t number, std::span<const std::byte> task, ProcessId from,
+                           const ParcelItem& result) {
   const base::CpuStopwatch timer;
   const std::size_t samples = sink_->accept(result.bytes);
-  TaskReport& row = report_.tasks.at(task);
+  if (options_.keep) options_.keep(task, result.bytes);
+  TaskReport& row = report_.tasks.at(number);
   row.accept_seconds = timer.seconds();
   row.process = from;
   row.work_seconds = result.note;

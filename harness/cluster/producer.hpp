@@ -20,6 +20,8 @@ struct ProducerOptions {
   bool consumes = false;          ///< performs tasks itself while no consumer waits
   double timeout = 30.0;          ///< seconds after which a silent consumer is declared lost
   double startup_timeout = 60.0;  ///< seconds after which it begins alone if no consumer is ready
+  /// Called with each task and its result, once; may be empty.
+  std::function<void(std::span<const std::byte> task, std::span<const std::byte> result)> keep;
 };
 
 /// The producer of section 6.2: takes a task from its source, sends it to the consumer that has
@@ -62,7 +64,8 @@ class Producer {
   void wait_for_message();
   void handle(const Message& message);
   void take_results(const Message& message);
-  void take_result(std::size_t task, ProcessId from, const ParcelItem& result);
+  void take_result(std::size_t number, std::span<const std::byte> task, ProcessId from,
+                   const ParcelItem& result);
   void declare_silent_lost();
   void shut_down(ProcessId consumer);
   void shut_down_idle();

@@ -1,9 +1,12 @@
 #include "harness/cluster/report.hpp"
 
+#include <string_view>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "harness/bench/record/machine.hpp"
+#include "harness/cluster/image_division.hpp"
 #include "harness/cluster/image_worker.hpp"
 
 namespace beambench::cluster {
@@ -40,6 +43,21 @@ Json process_json(const ClusterRun& run, std::size_t process) {
   return json;
 }
 
+/// What the tasks of a run are, after their number.
+std::string_view tasks_of(const ClusterRun& run) {
+  switch (work_named(run.work).value_or(Work::kBeams)) {
+    case Work::kTiles:
+      return "ranges of tiles";
+    case Work::kContiguous:
+    case Work::kInterlaced:
+      return "rows";
+    case Work::kBeams:
+      return "beams";
+    default:
+      return "blocks";
+  }
+}
+
 }  // namespace
 
 Json to_json(const Traffic& traffic) {
@@ -66,7 +84,10 @@ Json to_json(const ClusterRun& run) {
             {"result_hash", fmt::format("{:016x}", run.result_hash)},
             {"processes", report.processes.size()},
             {"tasks", report.tasks.size()},
+            {"stored", run.stored},
+            {"resumed_tasks", run.resumed_tasks},
             {"seconds", report.seconds},
+            {"pre_pass_seconds", run.pre_pass_seconds},
             {"producer_busy_share", report.producer_busy_share()},
             {"walk_seconds", report.walk_seconds},
             {"accept_seconds", report.accept_seconds},
@@ -83,14 +104,15 @@ Json to_json(const ClusterRun& run) {
 
 std::string task_table(const ClusterReport& report) {
   std::string table =
-      "task,process,walk_seconds,work_seconds,accept_seconds,samples,task_bytes,result_bytes\n";
+      "task,process,walk_seconds,work_seconds,accept_seconds,samples,task_bytes,result_bytes,"
+      "estimate_seconds\n";
   for (std::size_t i = 0; i < report.tasks.size(); ++i) {
     const TaskReport& task = report.tasks[i];
-    table += fmt::format("{},{},{:.9f},{:.9f},{:.9f},{},{},{}\n", i, task.process,
+    table += fmt::format("{},{},{:.9f},{:.9f},{:.9f},{},{},{},{:.9f}\n", i, task.process,
                          task.walk_seconds, task.work_seconds, task.accept_seconds, task.samples,
-                         task.task_bytes, task.result_bytes);
+                         task.task_bytes, task.result_bytes, task.estimate_seconds);
   }
-  table += fmt::format("end,0,{:.9f},0,0,0,0,0\n", report.last_walk_seconds);
+  table += fmt::format("end,0,{:.9f},0,0,0,0,0,0\n", report.last_walk_seconds);
   return table;
 }
 
@@ -101,7 +123,7 @@ std::string summary(const ClusterRun& run) {
   return fmt::format(
       "{} {} on {} processes in {:.3f} s; the producer was busy {:.0f}% of that time; it sent {} "
       "messages with {:.2f} MB and received {} with {:.2f} MB",
-      report.tasks.size(), run.work, report.processes.size(), report.seconds,
+      report.tasks.size(), tasks_of(run), report.processes.size(), report.seconds,
       100.0 * report.producer_busy_share(), out.messages, 1e-6 * static_cast<double>(out.bytes),
       back.messages, 1e-6 * static_cast<double>(back.bytes));
 }

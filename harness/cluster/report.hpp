@@ -48,6 +48,7 @@ struct TaskReport {
   double walk_seconds = 0.0;      ///< CPU time of the producer since the task before
   double work_seconds = 0.0;      ///< CPU time of the task
   double accept_seconds = 0.0;    ///< CPU time of the producer for its result
+  double estimate_seconds = 0.0;  ///< what it was expected to take, where that was estimated
   std::size_t samples = 0;
   std::size_t task_bytes = 0;
   std::size_t result_bytes = 0;
@@ -79,10 +80,13 @@ struct ClusterReport {
 /// All of a run.
 struct ClusterRun {
   Job job;
-  std::string work;  ///< "beams" or "blocks"
+  std::string work;  ///< `name_of(Work)`
   std::size_t batch = 1;
   int in_flight = 1;
   bool producer_consumes = false;
+  bool stored = false;                     ///< results stayed with the processes until the end
+  std::size_t resumed_tasks = 0;           ///< of an interrupted run, which were not done again
+  double pre_pass_seconds = 0.0;           ///< CPU time of the producer, before the first task
   std::vector<ReadyReport> ready_reports;  ///< by process; the producer's own is the first
   ClusterReport report;
   std::uint64_t result_hash = 0;  ///< of the hits, or of the picture's light

@@ -1,9 +1,11 @@
 #include "harness/cluster/run.hpp"
 
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,7 +14,9 @@
 #include "harness/base/messages.hpp"
 #include "harness/base/stopwatch.hpp"
 #include "harness/cluster/consumer.hpp"
+#include "harness/cluster/image_division.hpp"
 #include "harness/cluster/image_worker.hpp"
+#include "harness/cluster/planned_source.hpp"
 #include "harness/cluster/split/split_run.hpp"
 #include "harness/cluster/tasks.hpp"
 #include "harness/rays/fingerprint.hpp"
@@ -67,6 +71,11 @@ struct WorkerState {
             build_seconds,
             structure->statistics().bytes};
   }
+  /// Of results of this picture.
+  std::string key(Job job) const {
+    job.resolution = image.resolution;
+    return picture_key(job, ready_report().identity);
+  }
   ImageWorker worker() const { return {*tracer, rays, light ? &*light : nullptr}; }
 
   scenes::Scene scene;
@@ -78,9 +87,106 @@ struct WorkerState {
   double build_seconds = 0.0;
 };
 
-std::unique_ptr<TaskSource> make_source(const ClusterRequest& request, const WorkerState& state) {
-  if (!request.blocks) return std::make_unique<BeamSource>(*state.tracer, state.rays);
-  return std::make_unique<BlockSource>(state.rays.width(), state.rays.height(), request.block_size);
+/// The producer's tasks, and what it took to estimate them.
+struct Plan {
+  std::unique_ptr<TaskSource> source;
+  double pre_pass_seconds = 0.0;
+};
+
+/// The numbers of the tiles that are not finished.
+std::vector<std::size_t> tiles_left(const TileOrder& order, const TaskSet& finished) {
+  std::vector<bool> done(order.count(), false);
+  for (const Bytes& task : finished) {
+    const auto tiles = read_tiles(task);
+    for (std::size_t i = 0; tiles && i < tiles->count; ++i) done.at(tiles->first + i) = true;
+  }
+  std::vector<std::size_t> left;
+  for (std::size_t i = 0; i < done.size(); ++i) {
+    if (!done[i]) left.push_back(i);
+  }
+  return left;
+}
+
+/// Tiles by their numbers, a range of them in each message.
+Plan plan_tiles(const ClusterRequest& request, const WorkerState& state, int consumers,
+                const TaskSet& finished) {
+  const TileOrder order(state.rays.width(), state.rays.height(), request.block_size);
+  const ImageDivision division =
+      request.batch_given ? ImageDivision::kBatches : ImageDivision::kFalling;
+  const std::vector<std::size_t> left = tiles_left(order, finished);
+  const std::vector<Share> shares =
+      divide(division, left.size(), {consumers, request.producer.batch, {}});
+  std::vector<Bytes> tasks;
+  std::vector<Share> messages;
+  for (const Share& share : shares) {
+    Share& message = messages.emplace_back();
+    // Where some tiles are finished, what is left are several ranges.
+    for (std::size_t i = 0; i < share.size();) {
+      const std::size_t first = left[share[i]];
+      std::size_t count = 1;
+      while (i + count < share.size() && left[share[i] + count] == first + count) ++count;
+      i += count;
+      message.push_back(tasks.size());
+      write_task(TileTask{static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(count),
+                          static_cast<std::uint16_t>(request.block_size)},
+                 tasks.emplace_back());
+    }
+  }
+  return {std::make_unique<PlannedSource>(std::move(tasks), std::move(messages),
+                                          std::vector<double>{})};
+}
+
+/// Rows or blocks of a static division.
+std::vector<accel::beam::PixelRect> parts_of(const ClusterRequest& request,
+                                             const accel::PrimaryRays& rays) {
+  if (request.work == Work::kContiguous || request.work == Work::kInterlaced) {
+    return blocks_of(rays.width(), rays.height(), rays.width(), 1);
+  }
+  return blocks_of(rays.width(), rays.height(), request.block_size, request.block_size);
+}
+
+Plan plan_static(const ClusterRequest& request, const WorkerState& state, int consumers,
+                 const TaskSet& finished) {
+  const std::vector<accel::beam::PixelRect> parts = parts_of(request, state.rays);
+  std::vector<Bytes> tasks(parts.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) write_task(BlockTask{parts[i]}, tasks[i]);
+  std::vector<double> estimates;
+  const base::CpuStopwatch timer;
+  if (request.work == Work::kPrePass) {
+    ImageWorker worker = state.worker();
+    estimates = estimate_costs(parts, worker);
+  }
+  const double seconds = timer.seconds();
+  std::vector<Share> shares =
+      divide(division_of(request.work), tasks.size(), {consumers, 1, estimates});
+  for (Share& share : shares) {
+    std::erase_if(share, [&](std::size_t task) { return finished.contains(tasks[task]); });
+  }
+  std::erase_if(shares, [](const Share& share) { return share.empty(); });
+  return {std::make_unique<PlannedSource>(std::move(tasks), std::move(shares), estimates), seconds};
+}
+
+/// Of the tasks that are not finished.
+Plan make_plan(const ClusterRequest& request, const WorkerState& state, int processes,
+               const TaskSet& finished) {
+  const accel::PrimaryRays& rays = state.rays;
+  const int consumers = std::max(1, processes - 1);
+  require_tasks(*state.tracer);
+  const auto remaining = [&](std::unique_ptr<TaskSource> all) {
+    if (finished.empty()) return Plan{std::move(all)};
+    return Plan{std::make_unique<RemainingSource>(std::move(all), finished)};
+  };
+  switch (request.work) {
+    case Work::kBeams:
+      return remaining(std::make_unique<BeamSource>(*state.tracer, rays));
+    case Work::kBlocks:
+      return remaining(
+          std::make_unique<BlockSource>(rays.width(), rays.height(), request.block_size));
+    case Work::kTiles:
+      return plan_tiles(request, state, consumers, finished);
+    default:
+      return plan_static(request, state, consumers, finished);
+  }
 }
 
 /// Collects the results.
@@ -116,6 +222,85 @@ class Result {
   std::optional<ColorSink> color_sink_;
 };
 
+/// The producer's part in keeping results: it reads those of an interrupted run, and keeps those
+/// that are sent, or collects at the end those that every process kept itself.
+class Keeper {
+ public:
+  /// Results that are there go into the sink. Throws InputError where they are of another picture.
+  /// That none can be kept is a warning, unless all processes are to do so.
+  Keeper(const ClusterRequest& request, const std::string& key, ResultSink& sink,
+         std::vector<std::string>& warnings)
+      : options_(request.producer), folder_(request.kept), key_(key) {
+    stored_ = !request.job.stored.empty();
+    if (!folder_) return;
+    folder_->read(key_, [&](std::span<const std::byte> task, std::span<const std::byte> result) {
+      finished_.emplace(task.begin(), task.end());
+      if (!stored_) sink.accept(result);
+    });
+    if (!finished_.empty()) {
+      warnings.push_back(
+          fmt::format("{} finished tasks of an interrupted run are used", finished_.size()));
+    }
+    try {
+      file_.emplace(folder_->path(), kProducer, key_);
+    } catch (const InputError& error) {
+      if (stored_) throw;
+      warnings.emplace_back(error.what());
+    }
+  }
+
+  const TaskSet& finished() const { return finished_; }
+
+  /// The producer's work, all results being in the sink at the end.
+  ClusterReport produce(Transport& transport, TaskSource& source, ResultSink& sink,
+                        ImageWorker& own, const Producer::Check& check) {
+    if (!stored_) {
+      if (file_) options_.keep = [this](auto task, auto result) { keep(task, result); };
+      return Producer(transport, source, sink, own, check, options_).run();
+    }
+    StoringWorker storing(own, *file_);
+    ReceiptSink receipts;
+    ClusterReport report = Producer(transport, source, receipts, storing, check, options_).run();
+    collect(finished_.size() + report.tasks.size(), sink);
+    return report;
+  }
+
+ private:
+  /// A picture that cannot be resumed is better than none.
+  void keep(std::span<const std::byte> task, std::span<const std::byte> result) {
+    if (!file_) return;
+    try {
+      file_->add(task, result);
+    } catch (const InputError& error) {
+      base::print_message(stderr, fmt::format("beambench-cluster: {}; the run goes on, but cannot "
+                                              "be resumed\n",
+                                              error.what()));
+      file_.reset();
+      folder_->remove();
+    }
+  }
+
+  void collect(std::size_t tasks, ResultSink& sink) const {
+    std::size_t found = 0;
+    folder_->read(key_, [&](std::span<const std::byte>, std::span<const std::byte> result) {
+      sink.accept(result);
+      ++found;
+    });
+    if (found == tasks) return;
+    throw InputError(fmt::format(
+        "{}: it has the results of {} of {} tasks; with --results stored, all processes must see "
+        "the same folder",
+        folder_->path().string(), found, tasks));
+  }
+
+  ProducerOptions options_;
+  std::shared_ptr<KeptFolder> folder_;
+  std::string key_;
+  bool stored_ = false;
+  TaskSet finished_;
+  std::optional<KeptFile> file_;
+};
+
 void write_files(const ClusterRequest& request, const WorkerState& state, const Result& result,
                  const ClusterRun& run) {
   if (!request.picture.empty()) {
@@ -130,7 +315,8 @@ ClusterRun describe(const ClusterRequest& request, const WorkerState& state, int
   ClusterRun run;
   run.job = request.job;
   run.job.resolution = state.image.resolution;
-  run.work = request.blocks ? "blocks" : "beams";
+  run.work = name_of(request.work);
+  run.stored = !request.job.stored.empty();
   run.batch = request.producer.batch;
   run.in_flight = request.producer.in_flight;
   run.producer_consumes = request.producer.consumes;
@@ -143,12 +329,18 @@ ClusterRun describe(const ClusterRequest& request, const WorkerState& state, int
 
 ClusterRun lead(const ClusterRequest& request, Transport& transport) {
   std::optional<WorkerState> state;
-  std::unique_ptr<TaskSource> source;
+  std::optional<Result> result;
+  std::optional<Keeper> keeper;
+  Plan plan;
   set_up_producer(transport, [&](std::vector<std::string>& warnings) {
     state.emplace(request.job, &warnings);
-    source = make_source(request, *state);
+    result.emplace(*state, request.job.light);
+    keeper.emplace(request, state->key(request.job), result->sink(), warnings);
+    plan = make_plan(request, *state, transport.processes(), keeper->finished());
   });
   ClusterRun run = describe(request, *state, transport.processes());
+  run.pre_pass_seconds = plan.pre_pass_seconds;
+  run.resumed_tasks = keeper->finished().size();
   const auto check = [&, mine = run.ready_reports[kProducer].identity,
                       missing = transport.processes() - 1](
                          ProcessId process, std::span<const std::byte> ready_report) mutable {
@@ -158,11 +350,11 @@ ClusterRun lead(const ClusterRequest& request, Transport& transport) {
       base::print_message(stderr, "beambench-cluster: all consumers are ready\n");
     }
   };
-  Result result(*state, request.job.light);
-  ImageWorker own = state->worker();
-  run.report = Producer(transport, *source, result.sink(), own, check, request.producer).run();
-  run.result_hash = result.hash();
-  write_files(request, *state, result, run);
+  ImageWorker worker = state->worker();
+  run.report = keeper->produce(transport, *plan.source, result->sink(), worker, check);
+  run.result_hash = result->hash();
+  write_files(request, *state, *result, run);
+  if (request.kept) request.kept->remove();
   return run;
 }
 
@@ -173,11 +365,18 @@ void follow(Transport& transport) {
   const auto job = set_up_consumer(transport, [&] { return read_job(bytes); });
   if (!job) return;
   if (job->split_level > 0) return follow_split(*job, transport);
-  const auto state =
-      set_up_consumer(transport, [&] { return std::make_unique<WorkerState>(*job); });
+  std::optional<KeptFile> file;
+  const auto state = set_up_consumer(transport, [&] {
+    auto made = std::make_unique<WorkerState>(*job);
+    if (!job->stored.empty()) file.emplace(job->stored, transport.self(), made->key(*job));
+    return made;
+  });
   if (!state) return;
+  const Bytes ready_report = write_ready_report((*state)->ready_report());
   ImageWorker worker = (*state)->worker();
-  consume(transport, worker, job->heartbeat_interval, write_ready_report((*state)->ready_report()));
+  if (!file) return consume(transport, worker, job->heartbeat_interval, ready_report);
+  StoringWorker storing(worker, *file);
+  consume(transport, storing, job->heartbeat_interval, ready_report);
 }
 
 void set_up_producer(Transport& transport,

@@ -2,13 +2,16 @@
 // A whole run: how processes set up, lead and follow.
 
 #include <functional>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
 
+#include "harness/cluster/image_division.hpp"
 #include "harness/cluster/job.hpp"
+#include "harness/cluster/kept_results.hpp"
 #include "harness/cluster/producer.hpp"
 #include "harness/cluster/report.hpp"
 #include "harness/cluster/transport.hpp"
@@ -21,10 +24,14 @@ namespace beambench::cluster {
 struct ClusterRequest {
   Job job;
   ProducerOptions producer;
-  bool blocks = false;
+  Work work = Work::kBeams;
+  bool batch_given = false;  ///< tiles: as many in each message, instead of fewer and fewer
   int block_size = 32;
   render::Shading shading = render::Shading::kPreview;
   std::string picture;  ///< file; empty: none
+  /// Where finished results are kept until the picture is written; may be null, but not with
+  /// `job.stored`.
+  std::shared_ptr<KeptFolder> kept;
   std::string report;
   std::string tasks;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <tuple>
 
 #include "scenes/core/error.hpp"
 
@@ -15,7 +16,25 @@ std::size_t read_count(const Values& values, ByteReader& reader) {
   return count;
 }
 
-constexpr std::uint8_t kBlock = 255;  // in place of a beam's kind
+// In place of a beam's kind.
+constexpr std::uint8_t kBlock = 255;
+constexpr std::uint8_t kTile = 254;
+
+void write_part(std::uint8_t kind, const accel::beam::PixelRect& part, Bytes& bytes) {
+  ByteWriter writer(bytes);
+  writer.put(kind);
+  for (const int number : {part.left, part.top, part.width, part.height}) {
+    writer.put(static_cast<std::uint16_t>(number));
+  }
+}
+
+accel::beam::PixelRect read_part(ByteReader& reader) {
+  accel::beam::PixelRect part{};
+  for (int* number : {&part.left, &part.top, &part.width, &part.height}) {
+    *number = reader.get<std::uint16_t>();
+  }
+  return part;
+}
 
 BeamTask read_beam(std::uint8_t kind, ByteReader& reader, const accel::octree::Octree& octree,
                    const accel::beam::EyeView& view) {
@@ -111,25 +130,29 @@ void write_task(const BeamTask& task, const accel::octree::Octree& octree, Bytes
   write_shape(beam, writer);
 }
 
-void write_task(const BlockTask& task, Bytes& bytes) {
+void write_task(const BlockTask& task, Bytes& bytes) { write_part(kBlock, task, bytes); }
+void write_task(const TileTask& task, Bytes& bytes) {
   ByteWriter writer(bytes);
-  writer.put(kBlock);
-  for (const int number : {task.left, task.top, task.width, task.height}) {
-    writer.put(static_cast<std::uint16_t>(number));
-  }
+  writer.put(kTile);
+  writer.put(std::tie(task.first, task.count, task.size));
 }
 
-std::variant<BeamTask, BlockTask> read_task(std::span<const std::byte> bytes,
-                                            const accel::octree::Octree& octree,
-                                            const accel::beam::EyeView& view) {
+std::optional<TileTask> read_tiles(std::span<const std::byte> bytes) {
+  ByteReader reader(bytes);
+  if (reader.get<std::uint8_t>() != kTile) return std::nullopt;
+  TileTask tiles{};
+  reader.get(std::tie(tiles.first, tiles.count, tiles.size));
+  return tiles;
+}
+
+std::variant<BeamTask, BlockTask, TileTask> read_task(std::span<const std::byte> bytes,
+                                                      const accel::octree::Octree& octree,
+                                                      const accel::beam::EyeView& view) {
   ByteReader reader(bytes);
   const auto kind = reader.get<std::uint8_t>();
-  if (kind != kBlock) return read_beam(kind, reader, octree, view);
-  BlockTask block{};
-  for (int* number : {&block.left, &block.top, &block.width, &block.height}) {
-    *number = reader.get<std::uint16_t>();
-  }
-  return block;
+  if (kind == kBlock) return BlockTask{read_part(reader)};
+  if (const auto tiles = read_tiles(bytes)) return *tiles;
+  return read_beam(kind, reader, octree, view);
 }
 
 std::optional<BeamTask::Kind> end_of(const accel::beam::BeamStep& step,
@@ -143,13 +166,16 @@ std::optional<BeamTask::Kind> end_of(const accel::beam::BeamStep& step,
   return least > 0.0 && samples < least ? std::optional(BeamTask::Kind::kSmall) : std::nullopt;
 }
 
+void require_tasks(const accel::beam::BeamTracer& tracer) {
+  if (tracer.options().continue_with_rays) return;
+  throw InputError(
+      "continue=beams cannot be distributed: what passes a leaf would have to be sent back as a "
+      "beam; use continue=rays");
+}
+
 BeamSource::BeamSource(const accel::beam::BeamTracer& tracer, const accel::PrimaryRays& rays)
     : tracer_(&tracer), rays_(&rays), view_(tracer.octree().grid(), rays) {
-  if (!tracer.options().continue_with_rays) {
-    throw InputError(
-        "continue=beams cannot be distributed: what passes a leaf would have to be sent back as a "
-        "beam; use continue=rays");
-  }
+  require_tasks(tracer);
   accel::beam::begin_beams(tracer.octree(), view_, view_.screen(), queue_);
 }
 
@@ -172,7 +198,9 @@ BlockSource::BlockSource(int width, int height, int size)
 
 bool BlockSource::next(Bytes& task) {
   if (top_ >= height_) return false;
-  write_task({left_, top_, std::min(size_, width_ - left_), std::min(size_, height_ - top_)}, task);
+  write_task(
+      BlockTask{{left_, top_, std::min(size_, width_ - left_), std::min(size_, height_ - top_)}},
+      task);
   left_ += size_;
   if (left_ >= width_) {
     left_ = 0;

@@ -1,6 +1,7 @@
 #pragma once
 // The tasks of consumers, beams or blocks of the image: their sources and their encoding.
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <variant>
@@ -8,6 +9,7 @@
 #include "accel/beam/beam.hpp"
 #include "accel/beam/beam_painter.hpp"
 #include "accel/beam/beam_tracer.hpp"
+#include "accel/beam/sample_lattice.hpp"
 #include "accel/octree/octree_cursor.hpp"
 #include "harness/cluster/messages.hpp"
 #include "harness/cluster/transport.hpp"
@@ -60,31 +62,41 @@ void paint(BeamTask::Kind end, const accel::beam::Beam& beam, Painter& painter) 
   }
 }
 
-/// Pixels from (left, top), traced by individual rays.
-struct BlockTask {
-  int left;
-  int top;
-  int width;
-  int height;
+/// Pixels traced by individual rays.
+struct BlockTask : accel::beam::PixelRect {};
+
+/// Tiles traced by beams, which whoever traces them makes itself, from the root on: those with the
+/// numbers from `first` on of `TileOrder`.
+struct TileTask {
+  std::uint32_t first;
+  std::uint32_t count;
+  std::uint16_t size;  ///< pixels along a side
 };
 
 /// As bytes. The leaf is named by its code: a beam takes about 150 bytes.
 void write_task(const BeamTask& task, const accel::octree::Octree& octree, Bytes& bytes);
 void write_task(const BlockTask& task, Bytes& bytes);
+void write_task(const TileTask& task, Bytes& bytes);
+
+/// Nothing where the task is another one. Throws ProtocolError where it is cut off.
+std::optional<TileTask> read_tiles(std::span<const std::byte> bytes);
 
 /// The inverse; the same octree gives the same beam bit for bit. Throws ProtocolError for other
 /// bytes.
-std::variant<BeamTask, BlockTask> read_task(std::span<const std::byte> bytes,
-                                            const accel::octree::Octree& octree,
-                                            const accel::beam::EyeView& view);
+std::variant<BeamTask, BlockTask, TileTask> read_task(std::span<const std::byte> bytes,
+                                                      const accel::octree::Octree& octree,
+                                                      const accel::beam::EyeView& view);
+
+/// Throws InputError if the tracer continues beams behind occupied leaves: they would have to be
+/// sent back.
+void require_tasks(const accel::beam::BeamTracer& tracer);
 
 /// The traversal of the beams (thesis, section 6.2.2): those in empty leaves continue, those that
 /// leave the scene end, since the image begins as background; those at occupied leaves are the
 /// tasks.
 class BeamSource : public TaskSource {
  public:
-  /// Both must outlive this. Throws InputError if the tracer continues beams behind occupied
-  /// leaves: they would have to be sent back.
+  /// Both must outlive this. Throws as `require_tasks`.
   BeamSource(const accel::beam::BeamTracer& tracer, const accel::PrimaryRays& rays);
 
   bool next(Bytes& task) override;

@@ -2,6 +2,7 @@
 // Messages between processes, and the computing parts of a run: sources of tasks, workers, sinks of
 // results.
 
+#include <cstddef>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -71,6 +72,10 @@ class TaskSource : public Role {
  public:
   /// Appends the next task to a message; false when there are no more.
   virtual bool next(Bytes& task) = 0;
+  /// How many tasks the next message is to have, where the source decides that; 0: where not.
+  virtual std::size_t parcel_size() const { return 0; }
+  /// The seconds that the last task was estimated to take; 0 where it was not.
+  virtual double estimate() const { return 0.0; }
 };
 
 /// Called from time to time within a long task.

@@ -146,7 +146,7 @@ TEST(BlockTask, ComesBack) {
   const accel::PrimaryRays rays(scene.cameras.front(), 64, 48, 1);
   const accel::beam::EyeView view(tracer.octree().grid(), rays);
   Bytes bytes;
-  write_task(BlockTask{1, 16383, 3, 4}, bytes);
+  write_task(BlockTask{{1, 16383, 3, 4}}, bytes);
   const auto block = std::get<BlockTask>(read_task(bytes, tracer.octree(), view));
   EXPECT_EQ(block.left, 1);
   EXPECT_EQ(block.top, 16383);

@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "accel/beam/beam_tracer.hpp"
 #include "harness/cluster/consumer.hpp"
+#include "harness/cluster/image_division.hpp"
 #include "harness/cluster/image_worker.hpp"
 #include "harness/cluster/producer.hpp"
 #include "harness/cluster/run.hpp"
@@ -256,6 +258,36 @@ TEST(Cluster, RunsFromACommandLineToItsEnd) {
   const ClusterRun run = led(lead, request, network);
   EXPECT_EQ(run.result_hash, rays::fingerprint(expected));
   EXPECT_EQ(run.ready_reports[2].identity, run.ready_reports[0].identity);
+}
+
+TEST(Cluster, FindsTheSequentialHitsHoweverTheImageIsDivided) {
+  const scenes::Scene scene = scenes::load_scene("tetra:n=3");
+  for (const char* structure :
+       {"beam:max_level=5", "beam:max_level=5,share_corners=true,handover=40"}) {
+    accel::HitBuffer expected(53, 41, 5);
+    accel::beam::BeamTracer(scene, options_with(5))
+        .trace(accel::PrimaryRays(scene.cameras.front(), 53, 41, 5), expected, nullptr);
+    for (const Work work :
+         {Work::kTiles, Work::kContiguous, Work::kInterlaced, Work::kWindows, Work::kPrePass}) {
+      for (const int processes : {1, 2, 5}) {
+        ClusterRequest request;
+        request.job.scene = "tetra:n=3";
+        request.job.structure = structure;
+        request.job.resolution = {53, 41};
+        request.job.samples = 5;
+        request.work = work;
+        request.block_size = 7;
+        LocalNetwork network(processes, 1, 0.0001);
+        const ClusterRun run = led(lead, request, network);
+        EXPECT_EQ(run.result_hash, rays::fingerprint(expected))
+            << structure << ' ' << name_of(work) << ' ' << processes;
+        // A static division is one message for each consumer, and the end.
+        if (!is_static(work)) continue;
+        const auto consumers = static_cast<std::uint64_t>(processes - 1);
+        EXPECT_EQ(run.report.total(&ProcessReport::from_producer).messages, 2 * consumers);
+      }
+    }
+  }
 }
 
 TEST(Cluster, ShutsAllDownWhereTheSceneIsMissing) {

@@ -8,7 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "harness/cluster/image_division.hpp"
 #include "harness/cluster/simulation/replay.hpp"
+#include "scenes/core/error.hpp"
 #include "tests/cluster/local_network.hpp"
 
 namespace beambench::cluster {
@@ -104,6 +106,40 @@ TEST(Replay, RefusesATaskThatIsNone) {
   ByteWriter(third).put(std::uint32_t{2});
   EXPECT_THROW(worker.perform(third, result, [] {}), ProtocolError);
   EXPECT_THROW(worker.perform(Bytes(2), result, [] {}), ProtocolError);
+}
+
+TEST(Replay, SendsWhatWasPlannedAndFirstSpendsThePrePass) {
+  TaskCosts costs = two_tasks();
+  costs.tasks.push_back({0.3, 3.0, 0.03, 10, 11, 5});
+  Purse purse;
+  ReplayedSource source(costs, purse.spend(), {{2, 0}, {1}}, 7.0);
+  EXPECT_EQ(source.parcel_size(), 2U);
+  std::vector<Bytes> tasks(3);
+  for (Bytes& task : tasks) EXPECT_TRUE(source.next(task));
+  EXPECT_EQ(source.parcel_size(), 0U);
+  EXPECT_FALSE(source.next(tasks[0]));
+  EXPECT_EQ(purse.spent, (std::vector<double>{7.0, 0.3, 0.1, 0.2, 0.4}));
+}
+
+TEST(Replay, OfARangeOfTilesAddsUpWhatEachOfThemTook) {
+  const TaskCosts sent = merged(two_tasks(), {{0, 1}}, false);
+  ASSERT_EQ(sent.tasks.size(), 1U);
+  EXPECT_DOUBLE_EQ(sent.work_seconds(), 3.0);
+  EXPECT_DOUBLE_EQ(sent.accept_seconds(), 0.03);
+  EXPECT_EQ(sent.tasks[0].result_bytes, 803U);
+  EXPECT_EQ(sent.tasks[0].samples, 107U);
+  EXPECT_EQ(sent.tasks[0].task_bytes, 150U);
+  const TaskCosts stored = merged(two_tasks(), {{0, 1}}, true);
+  EXPECT_DOUBLE_EQ(stored.work_seconds(), 3.0);
+  EXPECT_DOUBLE_EQ(stored.accept_seconds(), 0.01);
+  EXPECT_EQ(stored.tasks[0].result_bytes, 800U);
+}
+
+TEST(Replay, NeedsEstimatesForSharesOfEqualCost) {
+  TaskCosts costs = two_tasks();
+  EXPECT_THROW(planned(ImageDivision::kEqualCost, costs, 2), InputError);
+  costs.tasks[1].estimate_seconds = 1.0;
+  EXPECT_EQ(planned(ImageDivision::kEqualCost, costs, 2), (std::vector<Share>{{1}, {0}}));
 }
 
 TEST(ChargedTransport, IsPaidForBySenderAndReceiverAndForLooks) {

@@ -9,7 +9,7 @@ import os
 import signal
 import subprocess
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -44,6 +44,12 @@ def sequential(tmp_path_factory: pytest.TempPathFactory) -> bytes:
         (4, ["--batch", "5", "--in-flight", "2"]),
         (3, ["--producer-consumes"]),
         (3, ["--work", "blocks", "--block", "20"]),
+        (3, ["--work", "tiles", "--block", "20"]),
+        (3, ["--work", "tiles", "--block", "20", "--results", "stored"]),
+        (3, ["--work", "contiguous"]),
+        (3, ["--work", "interlaced"]),
+        (3, ["--work", "windows", "--block", "9"]),
+        (3, ["--work", "pre-pass", "--block", "9"]),
     ],
 )
 def test_the_picture_is_the_sequential_one(
@@ -173,7 +179,65 @@ def test_a_killed_consumer_ends_the_run_without_a_picture(tmp_path: Path) -> Non
     assert done.returncode != 0
     assert "rank 2" in done.stderr  # mpirun says who it was
     assert file.read_text() == "the picture before"
-    assert list(tmp_path.iterdir()) == [file]
+    assert names_in(tmp_path) <= {file.name, f"{file.name}.kept"}
+
+
+def names_in(folder: Path) -> set[str]:
+    return {file.name for file in folder.iterdir()}
+
+
+@pytest.mark.parametrize("victim", ["consumer", "producer", "mpirun"])
+@pytest.mark.parametrize(
+    "work",
+    [
+        ["--work", "beams"],
+        ["--work", "tiles", "--block", "8"],
+        ["--work", "tiles", "--block", "8", "--results", "stored"],
+        ["--work", "interlaced", "--results", "stored"],
+    ],
+    ids=["beams", "tiles", "stored tiles", "stored rows"],
+)
+def test_a_killed_run_is_resumed_with_the_same_picture(
+    tmp_path: Path, victim: str, work: list[str]
+) -> None:
+    file, report = tmp_path / "balls.png", tmp_path / "run.json"
+    asked = [*LONG, *work, "-o", file]
+    run = start("-n", 2, CLUSTER, *asked)
+    consumer = consumer_at_work(run, 1)
+    kept = tmp_path / "balls.png.kept"
+    whole_header = 2000
+    wait_until(lambda: sum(one.stat().st_size for one in kept.iterdir()) > whole_header)
+    pids = {"consumer": consumer, "producer": processes_of(run)[0], "mpirun": run.pid}
+    os.kill(pids[victim], signal.SIGKILL)
+    finish_aborted(run)
+    wait_until(lambda: not Path(f"/proc/{consumer}").exists())
+    assert not file.exists()
+    other = ["balls:n=1", *asked[1:]]
+    refused(mpirun("-n", 2, CLUSTER, *other, "--resume"), ["scene balls:n=1", "--resume"])
+    again = mpirun("-n", 2, CLUSTER, *asked, "--resume", "--report", report)
+    assert again.returncode == 0, again.stderr
+    assert json.loads(report.read_text())["resumed_tasks"] > 0
+    assert names_in(tmp_path) == {"balls.png", "run.json"}
+    one = tmp_path / "one.png"
+    output_of("render", *LONG, "-o", one)
+    assert file.read_bytes() == one.read_bytes()
+
+
+def wait_until(condition: Callable[[], bool]) -> None:
+    end = time.monotonic() + 60
+    while not condition():
+        assert time.monotonic() < end
+        time.sleep(0.01)
+
+
+def test_without_resume_a_run_begins_anew(tmp_path: Path) -> None:
+    file = tmp_path / "tetra.png"
+    kept = tmp_path / "tetra.png.kept"
+    kept.mkdir()
+    (kept / "results-0-0").write_bytes(b"not results")
+    run = mpirun("-n", 2, CLUSTER, "tetra:n=1", *SMALL, "-o", file)
+    assert run.returncode == 0, run.stderr
+    assert names_in(tmp_path) == {"tetra.png"}
 
 
 def test_a_consumer_that_hangs_is_done_without(tmp_path: Path) -> None:
@@ -212,7 +276,7 @@ def test_a_process_stopped_at_any_moment_ends_in_a_picture_or_a_message(
     time.sleep(seconds)
     os.kill(pid, signal.SIGSTOP)
     done = finish_aborted(run)
-    assert list(tmp_path.iterdir()) == [file]
+    assert names_in(tmp_path) <= {file.name, f"{file.name}.kept"}
     if file.read_bytes() == b"the picture before":
         assert done.returncode != 0
         assert "was silent for 1.5 s" in done.stderr or "within 1.5 s" in done.stderr
@@ -248,6 +312,10 @@ def refused(done: subprocess.CompletedProcess[str], words: list[str]) -> None:
         (["tetra", "--samples", "3"], ["3"]),
         (["tetra", "-o", "/no/such/folder/a.png"], ["/no/such/folder"]),
         (["tetra", "--batch", "0"], ["--batch"]),
+        (["tetra", "--work", "interlaced", "--in-flight", "2"], ["interlaced", "--in-flight"]),
+        (["tetra", "--resume"], ["--resume", "-o FILE"]),
+        (["tetra", "--results", "stored"], ["--results stored", "-o FILE"]),
+        (["tetra", "--split", "3", "--resume"], ["--split", "--resume"]),
         (["tetra", "--split", "3", "-o", "a.png"], ["--split", "--shade id"]),
         (["tetra", "--split", "7"], ["max_level"]),
     ],
@@ -309,7 +377,14 @@ def full_disk(tmp_path: Path) -> Iterator[Path]:
 
 def test_a_full_disk_leaves_no_half_picture(full_disk: Path) -> None:
     run = mpirun("-n", 2, CLUSTER, "balls:n=1", *SMALL, "-o", full_disk)
-    refused(run, ["tetra.png", "disk", "full"])
+    assert run.returncode == 2
+    warning, reason = (
+        line for line in run.stderr.splitlines()
+        if line.startswith("beambench-cluster:") and line != READY
+    )  # fmt: skip
+    assert "results cannot be kept" in warning
+    for word in ("tetra.png", "disk", "full"):
+        assert word in reason
     assert full_disk.read_text() == "the picture before"
     assert {file.name for file in full_disk.parent.iterdir()} == {"filler", "tetra.png"}
 

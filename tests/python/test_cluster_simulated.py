@@ -20,9 +20,16 @@ from beambench_report.thesis.chapter6.machines import (
     thesis_seconds,
 )
 from beambench_report.thesis.chapter6.plots import cluster_plots
-from beambench_report.thesis.chapter6.record import SCENES, WORKS, tasks_file
+from beambench_report.thesis.chapter6.record import LARGE, SCENES, WORKS, tasks_file
 from beambench_report.thesis.chapter6.results import read_processes, read_simulations
-from beambench_report.thesis.chapter6.simulate import MACHINES, OPTIONS, simulate, simulations
+from beambench_report.thesis.chapter6.simulate import (
+    DIVISIONS,
+    LARGE_OPTIONS,
+    MACHINES,
+    OPTIONS,
+    simulate,
+    simulations,
+)
 
 BINARIES = Path(
     os.environ.get("BEAMBENCH_BINARY", Path(__file__).parents[2] / "build/release/bin/beambench")
@@ -32,12 +39,15 @@ needs_simulator = pytest.mark.skipif(
     not SIMULATOR.is_file(), reason="beambench-cluster-simulated was not built: no libsimgrid-dev"
 )
 
-HEADER = "task,process,walk_seconds,work_seconds,accept_seconds,samples,task_bytes,result_bytes\n"
+HEADER = (
+    "task,process,walk_seconds,work_seconds,accept_seconds,samples,task_bytes,result_bytes,"
+    "estimate_seconds\n"
+)
 
 
 def tasks(path: Path, works: Sequence[float], walk: float = 1e-4) -> Path:
-    rows = [f"{i},0,{walk},{work},1e-5,100,120,800\n" for i, work in enumerate(works)]
-    path.write_text(HEADER + "".join(rows) + f"end,0,{walk},0,0,0,0,0\n", "utf-8")
+    rows = [f"{i},0,{walk},{work},1e-5,100,120,800,{work}\n" for i, work in enumerate(works)]
+    path.write_text(HEADER + "".join(rows) + f"end,0,{walk},0,0,0,0,0,0\n", "utf-8")
     return path
 
 
@@ -117,12 +127,80 @@ def test_a_slow_producer_is_busy_all_the_time(tmp_path: Path) -> None:
 
 
 @needs_simulator
+@pytest.mark.parametrize("arguments", [*DIVISIONS.values(), *LARGE_OPTIONS.values()])
+def test_every_division_does_all_the_work(tmp_path: Path, arguments: tuple[str, ...]) -> None:
+    path = tasks(tmp_path / "t.csv", [0.002] * 100)
+    run = simulated(path, "--consumers", "5", *arguments)
+    assert sum(one["samples"] for one in run["processes"]) == 100 * 100
+    assert simulated(path, "--consumers", "5", *arguments) == run
+
+
+@needs_simulator
 @pytest.mark.parametrize("arguments", [*OPTIONS.values(), *MACHINES.values()])
 def test_every_option_does_every_task(tmp_path: Path, arguments: tuple[str, ...]) -> None:
     run = simulated(tasks(tmp_path / "t.csv", [0.002] * 100), "--consumers", "5", *arguments)
     assert sum(one["tasks"] for one in run["processes"]) == 100
     again = simulated(tasks(tmp_path / "t.csv", [0.002] * 100), "--consumers", "5", *arguments)
     assert again == run
+
+
+def shares(path: Path, division: str, *arguments: str) -> list[int]:
+    """How many tasks each of four consumers did, all being done."""
+    run = simulated(path, "--consumers", "4", "--division", division, *arguments)
+    each = [one["tasks"] for one in run["processes"][1:]]
+    assert run["messages_from_producer"] == 4 + 4
+    assert sum(each) == run["tasks"]
+    return each
+
+
+@needs_simulator
+def test_a_static_division_is_one_message_for_each_consumer(tmp_path: Path) -> None:
+    path = tasks(tmp_path / "t.csv", [0.004] * 25 + [0.001] * 75)
+    assert shares(path, "contiguous") == [25] * 4
+    assert shares(path, "interlaced") == [25] * 4
+    assert sorted(shares(path, "equal-cost")) != [25] * 4
+
+
+def seconds_of(path: Path, division: str, *arguments: str) -> float:
+    run = simulated(path, "--consumers", "4", "--division", division, *arguments)
+    return run["traced_seconds"]
+
+
+@needs_simulator
+def test_the_slowest_share_is_what_a_static_division_takes(tmp_path: Path) -> None:
+    first = tasks(tmp_path / "first.csv", [0.004] * 25 + [0.001] * 75)
+    every_fourth = tasks(tmp_path / "every.csv", [0.004, 0.001, 0.001, 0.001] * 25)
+    assert seconds_of(first, "contiguous") == pytest.approx(0.1, rel=0.2)
+    assert seconds_of(first, "interlaced") < 0.6 * seconds_of(first, "contiguous")
+    assert seconds_of(every_fourth, "interlaced") == pytest.approx(0.1, rel=0.2)
+    estimated = seconds_of(every_fourth, "equal-cost")
+    assert estimated < 0.6 * seconds_of(every_fourth, "interlaced")
+    late = seconds_of(every_fourth, "equal-cost", "--pre-pass-seconds", "0.5")
+    assert late == pytest.approx(estimated + 0.5, rel=0.02)
+
+
+@needs_simulator
+def test_falling_messages_are_few_and_balance(tmp_path: Path) -> None:
+    path = tasks(tmp_path / "t.csv", [0.0001 * (1 + i % 11) for i in range(4096)], walk=1e-6)
+    costs = ("--message-seconds", "1e-6", "--look-seconds", "1e-6", "--latency", "1e-5")
+    cheap = ("--consumers", "16", *costs)
+    one_by_one = simulated(path, *cheap)
+    falling = simulated(path, *cheap, "--division", "falling", "--stored")
+    assert falling["messages_from_producer"] < one_by_one["messages_from_producer"] / 3
+    assert falling["bytes_to_producer"] < one_by_one["bytes_to_producer"] / 3
+    assert falling["traced_seconds"] < 1.1 * falling["work_seconds"] / 16
+    assert sum(one["samples"] for one in falling["processes"]) == 4096 * 100
+
+
+@needs_simulator
+def test_shares_of_equal_cost_need_estimates(tmp_path: Path) -> None:
+    path = tasks(tmp_path / "t.csv", [0.0] * 5)
+    done = subprocess.run(
+        [SIMULATOR, "cluster", path, "--division", "equal-cost"],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 2
+    assert "--work pre-pass" in done.stderr
 
 
 @needs_simulator
@@ -141,11 +219,11 @@ def test_wrong_files_are_refused_with_their_line(tmp_path: Path) -> None:
     assert "cannot read tasks" in refusal(path)
     path.write_text("a,b\n", "utf-8")
     assert "t.csv:1: there is no column 'task'" in refusal(path)
-    path.write_text(HEADER + "0,0,1,x,0,1,1,1\n", "utf-8")
+    path.write_text(HEADER + "0,0,1,x,0,1,1,1,0\n", "utf-8")
     assert "t.csv:2: work_seconds is 'x'" in refusal(path)
     path.write_text(HEADER + "0,0,1,1\n", "utf-8")
-    assert "t.csv:2: 4 fields where the first line has 8" in refusal(path)
-    path.write_text(HEADER + "0,0,1,1,1,1,1,1\n", "utf-8")
+    assert "t.csv:2: 4 fields where the first line has 9" in refusal(path)
+    path.write_text(HEADER + "0,0,1,1,1,1,1,1,1\n", "utf-8")
     assert "cut off" in refusal(path)
 
 
@@ -172,7 +250,7 @@ def recorded_tasks(folder: Path) -> None:
     """As `cluster record` leaves them."""
     (folder / "tasks").mkdir()
     recorded = {}
-    for scene in SCENES:
+    for scene in (*SCENES, LARGE):
         for work in WORKS:
             tasks(tasks_file(folder, scene, work), [0.001 * (1 + i % 5) for i in range(60)])
             recorded[f"{scene}-{work}"] = {
@@ -223,7 +301,7 @@ def test_all_steps_write_a_page(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert ((rows["efficiency"] > 0) & (rows["efficiency"] <= 1)).all()
     assert main(["cluster", "write", str(tmp_path)]) == 0
     page = (tmp_path / "report.md").read_text("utf-8")
-    for figure in ("figure-6.3", "many-processes-1999", "many-processes-today"):
+    for figure in ("figure-6.3", "many-processes-1999", "many-processes-today", "divisions"):
         assert f"]({figure}.png)" in page
         assert (tmp_path / f"{figure}.svg").is_file()
     capsys.readouterr()

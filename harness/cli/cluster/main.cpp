@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <new>
 #include <optional>
 #include <string>
@@ -16,6 +17,8 @@
 #include "harness/bench/record/machine.hpp"
 #include "harness/cli/cluster/division_option.hpp"
 #include "harness/cli/inputs.hpp"
+#include "harness/cluster/image_division.hpp"
+#include "harness/cluster/kept_results.hpp"
 #include "harness/cluster/mpi_session.hpp"
 #include "harness/cluster/mpi_transport.hpp"
 #include "harness/cluster/run.hpp"
@@ -38,11 +41,13 @@ constexpr const char* kDescription =
     "leaves, the others trace their rays. Start it with mpirun.";
 constexpr const char* kFooter =
     "The picture is that of 'beambench render', bit for bit, with any number of processes.\n"
-    "A process that dies ends the run (exit code not 0, no picture); one that is silent for\n"
+    "A process that dies ends the run (exit code not 0, no picture); the same command with\n"
+    "--resume then goes on with the results that were finished. A process that is silent for\n"
     "--timeout seconds is declared lost, and its work is done by others.\n"
     "Examples:\n"
     "  mpirun -n 3 beambench-cluster balls -o balls.png --shade whitted --samples 5\n"
     "  mpirun -n 5 beambench-cluster tetra:n=8 -o tetra.png --batch 16 --in-flight 2\n"
+    "  mpirun -n 99 beambench-cluster tetra:n=8 -o tetra.png --work tiles --results stored\n"
     "  mpirun -n 3 beambench-cluster escena1 -o escena1.png --report run.json --tasks tasks.csv\n"
     "As root in a container: mpirun --allow-run-as-root --oversubscribe ...";
 
@@ -55,6 +60,8 @@ struct Options {
   WhittedRequest whitted;
   std::string work = "beams";
   std::string division = "primitives";
+  std::string results = "sent";
+  bool resume = false;
 };
 
 void add_timeout_option(CLI::App& app, double& seconds) {
@@ -93,19 +100,25 @@ void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
                  "preview, normals, id, depth: consumers send hits; whitted: they send light")
       ->capture_default_str();
   add_light_options(app, typed.whitted);
-  app.add_option("--work", typed.work, "beams, or blocks of the image traced by individual rays")
+  app.add_option("--work", typed.work,
+                 "beams; blocks of the image traced by individual rays; tiles, blocks whose beams "
+                 "the consumers make themselves; or a static division: contiguous and interlaced "
+                 "rows, windows (interlaced blocks), pre-pass (blocks of equal estimated cost)")
       ->capture_default_str()
-      ->check(CLI::IsMember({"beams", "blocks"}));
+      ->check(CLI::IsMember(
+          {"beams", "blocks", "tiles", "contiguous", "interlaced", "windows", "pre-pass"}));
   app.add_option("--split", request.job.split_level,
                  "Divide the scene instead: each process has the primitives in its share of the "
                  "octree's cells of this level; beams and rays are handed over at borders")
       ->check(CLI::Range(2, 7));
   add_division_option(app, typed.division)->needs("--split");
-  app.add_option("--block", request.block_size, "Side of a block in pixels")
+  app.add_option("--block", request.block_size, "Side of a block or tile in pixels")
       ->capture_default_str()
       ->check(CLI::Range(1, 4096));
-  app.add_option("--batch", request.producer.batch, "Beams or blocks per message")
+  app.add_option("--batch", request.producer.batch,
+                 "Beams or blocks per message; of tiles, if not given, fewer and fewer")
       ->capture_default_str()
+      ->each([&](const std::string&) { request.batch_given = true; })
       ->check(CLI::Range(1, 100000));
   app.add_option("--in-flight", request.producer.in_flight,
                  "Messages that a consumer may hold; 2: the next one is already there")
@@ -113,6 +126,14 @@ void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
       ->check(CLI::Range(1, 64));
   app.add_flag("--producer-consumes", request.producer.consumes,
                "Process 0 works itself while no consumer waits");
+  app.add_option("--results", typed.results,
+                 "sent to process 0; stored: every process keeps its own in FILE.kept, which all "
+                 "must see, and process 0 reads them at the end (with -o FILE)")
+      ->capture_default_str()
+      ->check(CLI::IsMember({"sent", "stored"}));
+  app.add_flag("--resume", typed.resume,
+               "Go on with an interrupted run of the same picture, whose finished results are in "
+               "FILE.kept (with -o FILE)");
   add_timeout_option(app, request.producer.timeout);
   app.add_option("--report", request.report,
                  "Write JSON: messages, bytes, busy times of each process");
@@ -127,15 +148,47 @@ void require_hits_alone(const ClusterRequest& request) {
     throw InputError(
         "with --split no process has the whole scene to shade; give --shade id or --shade depth");
   }
-  if (request.blocks || !request.tasks.empty()) {
+  if (request.work != Work::kBeams || !request.tasks.empty()) {
+    throw InputError("--split divides the scene, not the work; leave out --work and --tasks");
+  }
+}
+
+/// Where the work is divided before, messages have what the division says.
+void require_fitting(const ClusterRequest& request) {
+  const ProducerOptions usual;
+  const ProducerOptions& given = request.producer;
+  const bool more = given.batch != usual.batch || given.in_flight != usual.in_flight;
+  if (is_static(request.work) && (more || given.consumes)) {
     throw InputError(
-        "--split divides the scene, not the work; leave out --work blocks and --tasks");
+        fmt::format("--work {} gives each consumer all its work in one message; leave out --batch, "
+                    "--in-flight and --producer-consumes",
+                    name_of(request.work)));
+  }
+}
+
+/// In the folder beside the picture; a warning where nobody asked for it.
+void keep_results(const Options& typed, ClusterRequest& request) {
+  Job& job = request.job;
+  if (request.picture.empty() || job.split_level > 0) return;
+  job.work = name_of(request.work);
+  const bool whole_rows = request.work == Work::kContiguous || request.work == Work::kInterlaced;
+  if (request.work != Work::kBeams && !whole_rows) {
+    job.work += fmt::format(" of {0} x {0} pixels", request.block_size);
+  }
+  const bool stored = typed.results == "stored";
+  try {
+    request.kept = std::make_shared<KeptFolder>(request.picture, typed.resume);
+    if (stored) job.stored = request.kept->path();
+  } catch (const InputError& error) {
+    if (typed.resume || stored) throw;
+    base::report_error(kProgram, fmt::format("{}; the run cannot be resumed", error.what()), 0);
   }
 }
 
 void fill(const Options& typed, ClusterRequest& request) {
   request.shading = render::parse_shading(typed.shading);
-  request.blocks = typed.work == "blocks";
+  request.work = work_named(typed.work).value_or(request.work);
+  require_fitting(request);
   Job& job = request.job;
   job.scene = typed.scene;
   job.structure = choose_one("--accel", typed.structure).label();
@@ -147,11 +200,19 @@ void fill(const Options& typed, ClusterRequest& request) {
   job.whitted = whitted_options(typed.whitted);
   job.heartbeat_interval = std::min(1.0, 0.25 * request.producer.timeout);
   job.division = parse_scene_division(typed.division);
-  if (job.split_level > 0) require_hits_alone(request);
+  const bool kept = typed.resume || typed.results == "stored";
+  if (job.split_level > 0) {
+    if (kept) throw InputError("--split keeps no results; leave out --resume and --results");
+    require_hits_alone(request);
+  }
   if (!request.picture.empty()) render::image_format(request.picture);
   for (const std::string& file : {request.picture, request.report, request.tasks}) {
     if (!file.empty()) require_writable(file);
   }
+  if (kept && request.picture.empty()) {
+    throw InputError("--resume and --results stored need -o FILE, beside which results are kept");
+  }
+  keep_results(typed, request);
 }
 
 /// Nothing after --help or --version. Throws InputError before anything long is begun.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <new>
 #include <string>
@@ -95,11 +96,16 @@ struct ReplayRequest {
   int consumers = 14;
   double walk_scale = 1.0;
   double work_scale = 1.0;
-  double build_seconds = 0.0;
   double bytes_per_sample = 0.0;
+  std::string division;
   ClusterOptions cluster;
-  ProducerOptions options;
+  Replay replay;
 };
+
+const std::map<std::string, ImageDivision> kDivisions{{"contiguous", ImageDivision::kContiguous},
+                                                      {"interlaced", ImageDivision::kInterlaced},
+                                                      {"equal-cost", ImageDivision::kEqualCost},
+                                                      {"falling", ImageDivision::kFalling}};
 
 Json process_json(std::size_t number, const ProcessReport& process) {
   return {{"process", number},
@@ -111,7 +117,9 @@ Json process_json(std::size_t number, const ProcessReport& process) {
           {"last_seconds", process.last_result}};
 }
 
-Json to_json(const TaskCosts& costs, double build_seconds, const SimulatedRun& run) {
+Json to_json(const Replay& replay, const SimulatedRun& run) {
+  const TaskCosts& costs = replay.costs;
+  const double build_seconds = replay.build_seconds;
   Json processes = Json::array();
   const Traffic down = run.report.total(&ProcessReport::from_producer);
   const Traffic up = run.report.total(&ProcessReport::to_producer);
@@ -134,14 +142,18 @@ Json to_json(const TaskCosts& costs, double build_seconds, const SimulatedRun& r
           {"processes", processes}};
 }
 
-void replay(const ReplayRequest& request, const char* program) {
-  TaskCosts costs = slowed(read_task_costs(request.tasks), request.walk_scale, request.work_scale);
+void run_replay(const ReplayRequest& request, const char* program) {
+  Replay replay = request.replay;
+  TaskCosts& costs = replay.costs;
+  costs = slowed(read_task_costs(request.tasks), request.walk_scale, request.work_scale);
+  replay.pre_pass_seconds *= request.work_scale;
+  if (!request.division.empty()) replay.division = kDivisions.at(request.division);
   if (request.bytes_per_sample > 0.0) {
     costs = with_results_of(request.bytes_per_sample, std::move(costs));
   }
-  const SimulatedRun result = simulate(cluster_of(request.cluster, request.consumers + 1), costs,
-                                       request.build_seconds, request.options, program);
-  fmt::print("{}\n", json_text(to_json(costs, request.build_seconds, result), 1));
+  const SimulatedRun result =
+      simulate(cluster_of(request.cluster, request.consumers + 1), replay, program);
+  fmt::print("{}\n", json_text(to_json(replay, result), 1));
 }
 
 void add_replay_options(CLI::App& app, ReplayRequest& request) {
@@ -155,20 +167,30 @@ void add_replay_options(CLI::App& app, ReplayRequest& request) {
       ->check(kPositive);
   app.add_option("--work-scale", request.work_scale, "... and for all other work")
       ->check(kPositive);
-  app.add_option("--build-seconds", request.build_seconds,
+  app.add_option("--build-seconds", request.replay.build_seconds,
                  "Time of every process to read the scene and build the octree")
       ->check(kNotNegative);
   app.add_option("--sample-bytes", request.bytes_per_sample,
                  "Bytes of a result per sample (default: as recorded)")
       ->check(kPositive);
+  app.add_option("--division", request.division,
+                 "Messages planned before: contiguous, interlaced or equal-cost, one for each "
+                 "consumer; falling, with fewer and fewer tasks (default: --batch tasks each)")
+      ->check(CLI::IsMember(kDivisions));
+  app.add_flag("--stored", request.replay.stored,
+               "Results were recorded with --results stored: one receipt for a falling message");
+  app.add_option("--pre-pass-seconds", request.replay.pre_pass_seconds,
+                 "Recorded time of the producer to estimate costs, before the first task")
+      ->check(kNotNegative);
   add_cluster_options(app, request.cluster);
-  app.add_option("--batch", request.options.batch, "Tasks per message")
+  app.add_option("--batch", request.replay.options.batch, "Tasks per message")
       ->capture_default_str()
       ->check(CLI::Range(1, 1'000'000));
-  app.add_option("--in-flight", request.options.in_flight, "Messages that a consumer may hold")
+  app.add_option("--in-flight", request.replay.options.in_flight,
+                 "Messages that a consumer may hold")
       ->capture_default_str()
       ->check(CLI::Range(1, 1000));
-  app.add_flag("--producer-consumes", request.options.consumes,
+  app.add_flag("--producer-consumes", request.replay.options.consumes,
                "The producer works itself while no consumer waits");
 }
 
@@ -267,7 +289,7 @@ int run(int argc, char** argv) {
   CLI::App* cluster = app.add_subcommand(
       "cluster", "Producer and consumers, replayed from the recorded costs of tasks");
   add_replay_options(*cluster, replayed);
-  cluster->callback([&] { replay(replayed, argv[0]); });
+  cluster->callback([&] { run_replay(replayed, argv[0]); });
   SplitRequest divided;
   divided.job.structure = "beam";
   divided.job.split_level = 4;

@@ -5,9 +5,11 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <span>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,6 +20,7 @@ namespace beambench::cluster {
 namespace {
 
 constexpr std::string_view kRemedy = "'beambench-cluster SCENE --tasks FILE.csv' writes such files";
+constexpr const char* kEstimate = "estimate_seconds";
 constexpr std::string_view kEnd = "end";  // the name of the row after the last task
 
 std::vector<std::string> split(std::string_view line) {
@@ -52,6 +55,7 @@ class Line {
     }
   }
 
+  bool has(const char* column) const { return columns_.contains(column); }
   const std::string& text(const char* column) const { return fields_[columns_.at(column)]; }
   double number(const char* column) const {
     const std::string& field = text(column);
@@ -134,7 +138,8 @@ TaskCosts read_task_costs(const std::filesystem::path& path) {
     } else {
       costs.tasks.push_back({line.number("walk_seconds"), line.number("work_seconds"),
                              line.number("accept_seconds"), line.count("task_bytes"),
-                             line.count("result_bytes"), line.count("samples")});
+                             line.count("result_bytes"), line.count("samples"),
+                             line.has(kEstimate) ? line.number(kEstimate) : 0.0});
     }
   }
   if (!ended) line.fail("the file ends before the row 'end': it was cut off");
@@ -160,15 +165,63 @@ TaskCosts with_results_of(double bytes_per_sample, TaskCosts costs) {
   return costs;
 }
 
+std::vector<Share> planned(ImageDivision division, const TaskCosts& costs, int consumers) {
+  std::vector<double> estimates;
+  for (const TaskCost& task : costs.tasks) estimates.push_back(task.estimate_seconds);
+  if (division == ImageDivision::kEqualCost &&
+      std::ranges::none_of(estimates, [](double seconds) { return seconds > 0.0; })) {
+    throw InputError(
+        "these tasks have no estimates to divide them by; record them with --work pre-pass");
+  }
+  return divide(division, costs.tasks.size(), {consumers, 1, estimates});
+}
+
+TaskCosts merged(const TaskCosts& costs, const std::vector<Share>& shares, bool stored) {
+  TaskCosts merged;
+  merged.last_walk_seconds = costs.last_walk_seconds;
+  for (const Share& share : shares) {
+    // One range of numbers is sent, and, where the results are stored, one receipt.
+    TaskCost& sum = merged.tasks.emplace_back(costs.tasks[share.front()]);
+    for (const std::size_t number : std::span(share).subspan(1)) {
+      const TaskCost& task = costs.tasks[number];
+      sum.work_seconds += task.work_seconds;
+      sum.samples += task.samples;
+      if (stored) continue;
+      sum.accept_seconds += task.accept_seconds;
+      sum.result_bytes += task.result_bytes;
+    }
+  }
+  return merged;
+}
+
 bool ReplayedSource::next(Bytes& task) {
-  if (made_ == costs_->tasks.size()) {
+  if (before_ > 0.0) spend_(std::exchange(before_, 0.0));
+  const auto number = next_number();
+  if (!number) {
     spend_(costs_->last_walk_seconds);
     return false;
   }
-  const TaskCost& cost = costs_->tasks[made_];
+  const TaskCost& cost = costs_->tasks[*number];
   spend_(cost.walk_seconds);
-  put(static_cast<Number>(made_++), cost.task_bytes, task);
+  put(static_cast<Number>(*number), cost.task_bytes, task);
   return true;
+}
+
+std::size_t ReplayedSource::parcel_size() const {
+  return share_ < plan_.size() ? plan_[share_].size() : 0;
+}
+
+std::optional<std::size_t> ReplayedSource::next_number() {
+  if (made_ == costs_->tasks.size()) return std::nullopt;
+  const std::size_t made = made_++;
+  if (plan_.empty()) return made;
+  const Share& share = plan_[share_];
+  const std::size_t number = share[place_];
+  if (++place_ == share.size()) {
+    ++share_;
+    place_ = 0;
+  }
+  return number;
 }
 
 void ReplayedWorker::perform(std::span<const std::byte> task, Bytes& result, const Heartbeat&) {

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "harness/cluster/image_division.hpp"
 #include "harness/cluster/transport.hpp"
 
 namespace beambench::cluster {
@@ -75,6 +77,7 @@ struct TaskCost {
   std::size_t task_bytes;
   std::size_t result_bytes;
   std::size_t samples;
+  double estimate_seconds = 0.0;  ///< what it was expected to take, where that was recorded
 };
 
 struct TaskCosts {
@@ -95,16 +98,35 @@ TaskCosts slowed(TaskCosts costs, double walk, double work);
 /// Sets the size of results to this many bytes per sample, as another program would send.
 TaskCosts with_results_of(double bytes_per_sample, TaskCosts costs);
 
-/// Makes the recorded tasks in their order. A task is its number, padded to the recorded size.
+/// The recorded tasks as messages for that many consumers. Throws InputError for kEqualCost where
+/// no estimates were recorded.
+std::vector<Share> planned(ImageDivision division, const TaskCosts& costs, int consumers);
+
+/// Each share as one task, as the tiles of a range are. `stored`: its results stay with the
+/// consumer, and what was recorded of one is for all of them.
+TaskCosts merged(const TaskCosts& costs, const std::vector<Share>& shares, bool stored);
+
+/// Makes the recorded tasks in their order, or as planned. A task is its number, padded to the
+/// recorded size.
 class ReplayedSource : public TaskSource {
  public:
-  ReplayedSource(const TaskCosts& costs, Spend spend) : costs_(&costs), spend_(std::move(spend)) {}
+  /// Spends `before` seconds before the first task. `plan`: empty if there is none.
+  ReplayedSource(const TaskCosts& costs, Spend spend, std::vector<Share> plan = {},
+                 double before = 0.0)
+      : costs_(&costs), spend_(std::move(spend)), plan_(std::move(plan)), before_(before) {}
   bool next(Bytes& task) override;
+  std::size_t parcel_size() const override;
 
  private:
+  std::optional<std::size_t> next_number();
+
   const TaskCosts* costs_;
   Spend spend_;
+  std::vector<Share> plan_;
+  double before_;
   std::size_t made_ = 0;
+  std::size_t share_ = 0;
+  std::size_t place_ = 0;  ///< in the share
 };
 
 /// Spends the recorded time on a task. A result is the task's number, padded to the recorded size.

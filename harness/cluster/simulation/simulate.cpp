@@ -164,8 +164,7 @@ double run_on(const ClusterModel& cluster, const char* program, const ProcessMai
 }
 
 ClusterReport replay_producer(Transport& transport, const Spend& spend, const TaskCosts& costs,
-                              const ProducerOptions& options) {
-  ReplayedSource source(costs, spend);
+                              const ProducerOptions& options, ReplayedSource& source) {
   ReplayedWorker own(costs, spend);
   ReplayedSink sink(costs, spend);
   const auto welcome = [](ProcessId, std::span<const std::byte>) {};
@@ -197,15 +196,23 @@ PartMember::Meter meter_of(const Spend& spend, const TimeScale& scale, SplitProc
 
 }  // namespace
 
-SimulatedRun simulate(const ClusterModel& cluster, const TaskCosts& costs, double build_seconds,
-                      const ProducerOptions& options, const char* program) {
-  ProducerOptions patient = options;  // no process fails here, and long tasks send no heartbeat
+SimulatedRun simulate(const ClusterModel& cluster, const Replay& replay, const char* program) {
+  const int consumers = std::max(1, static_cast<int>(cluster.speeds.size()) - 1);
+  std::vector<Share> plan;
+  TaskCosts costs = replay.costs;
+  if (replay.division) plan = planned(*replay.division, costs, consumers);
+  if (replay.division == ImageDivision::kFalling) {
+    costs = merged(costs, std::exchange(plan, {}), replay.stored);
+  }
+  ProducerOptions patient =
+      replay.options;  // no process fails here, and long tasks send no heartbeat
   patient.timeout = patient.startup_timeout = Transport::kForever;
   SimulatedRun run;
   run.seconds = run_on(cluster, program, [&](Transport& transport, const Spend& spend) {
-    spend(build_seconds);
+    spend(replay.build_seconds);
     if (transport.self() == kProducer) {
-      run.report = replay_producer(transport, spend, costs, patient);
+      ReplayedSource source(costs, spend, plan, replay.pre_pass_seconds);
+      run.report = replay_producer(transport, spend, costs, patient, source);
     } else {
       ReplayedWorker worker(costs, spend);
       consume(transport, worker, patient.timeout, {});

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "harness/cluster/image_division.hpp"
 #include "harness/cluster/job.hpp"
 #include "harness/cluster/producer.hpp"
 #include "harness/cluster/simulation/replay.hpp"
@@ -37,10 +39,19 @@ struct SimulatedRun {
   ClusterReport report;
 };
 
-/// Runs producer and consumers on the cluster, the producer on the first machine; every process
-/// first builds its octree for `build_seconds` (at speed 1). As `run_on`.
-SimulatedRun simulate(const ClusterModel& cluster, const TaskCosts& costs, double build_seconds,
-                      const ProducerOptions& options, const char* program);
+/// What is replayed. Seconds are those of a machine of speed 1.
+struct Replay {
+  TaskCosts costs;
+  double build_seconds = 0.0;             ///< of every process, for its octree
+  std::optional<ImageDivision> division;  ///< nothing: the tasks in their order, as `options` say
+  bool stored = false;                    ///< results stay with their consumers, see `merged`
+  double pre_pass_seconds = 0.0;          ///< of the producer, before the first task
+  ProducerOptions options;
+};
+
+/// Runs producer and consumers on the cluster, the producer on the first machine. As `run_on`;
+/// throws as `planned`.
+SimulatedRun simulate(const ClusterModel& cluster, const Replay& replay, const char* program);
 
 /// Times of a machine of speed 1 over those of this one.
 struct TimeScale {

@@ -4,7 +4,15 @@ import argparse
 from pathlib import Path
 
 from beambench_report.base.files import Problem
-from beambench_report.thesis.chapter6.record import SCENES, Picture, measure, record
+from beambench_report.thesis.chapter6.record import (
+    BEAMS,
+    LARGE,
+    SCENES,
+    TILES,
+    Picture,
+    measure,
+    record,
+)
 from beambench_report.thesis.chapter6.report import write_report
 from beambench_report.thesis.chapter6.scene_divisions import simulate_scene_divisions
 from beambench_report.thesis.chapter6.simulate import simulate, simulations
@@ -45,6 +53,9 @@ def add_cluster_command(commands: argparse._SubParsersAction, programs: Path) ->
         step.add_argument(
             "--resolution", default="1280x1024", metavar="WxH", help="1280x1024, as in the thesis"
         )
+    first.add_argument(
+        "--large", default="8192x8192", metavar="WxH", help=f"of {LARGE}; 8192x8192, one sample"
+    )
     for step, most, things in ((second, 1024, "processes"), (split, 64, "parts")):
         step.add_argument(
             "--most", type=int, default=most, metavar="N", help=f"no more than N {things}; {most}"
@@ -61,17 +72,20 @@ def run_step(options: argparse.Namespace) -> list[Path]:
     if getattr(options, "repeats", 1) < 1:
         raise Problem("--repeats: expected 1 or more")
     if options.step in ("record", "measure"):
-        width, height = _resolution(options.resolution)
+        width, height = _resolution("--resolution", options.resolution)
         pictures = [Picture(scene, width, height) for scene in SCENES]
-        step = record if options.step == "record" else measure
-        return step(options.folder, options.program, pictures, options.repeats)
+        if options.step == "measure":
+            return measure(options.folder, options.program, pictures, options.repeats)
+        width, height = _resolution("--large", options.large)
+        pictures.append(Picture(LARGE, width, height, samples=1, works=(BEAMS, TILES)))
+        return record(options.folder, options.program, pictures, options.repeats)
     if options.step == "simulate":
         if options.jobs < 1:
             raise Problem("--jobs: expected 1 or more")
         plan = simulations(SCENES, most=options.most)
         return simulate(options.folder, options.program, plan, options.jobs)
     if options.step == "split":
-        _resolution(options.resolution)
+        _resolution("--resolution", options.resolution)
         asked = (options.program, options.resolution, options.repeats, options.most)
         return [
             *simulate_split(options.folder, *asked),
@@ -80,8 +94,8 @@ def run_step(options: argparse.Namespace) -> list[Path]:
     return write_report(options.folder)
 
 
-def _resolution(text: str) -> tuple[int, int]:
+def _resolution(option: str, text: str) -> tuple[int, int]:
     width, _, height = text.partition("x")
     if not (width.isdecimal() and height.isdecimal()):
-        raise Problem(f"--resolution: expected WIDTHxHEIGHT, found '{text}'")
+        raise Problem(f"{option}: expected WIDTHxHEIGHT, found '{text}'")
     return int(width), int(height)

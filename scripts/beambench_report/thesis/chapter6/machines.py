@@ -75,6 +75,7 @@ class Recorded:
     walk_seconds: float
     work_seconds: float
     samples: int  # of the whole picture, leaving beams' included
+    pre_pass_seconds: float = 0.0  # to estimate the costs of windows
 
 
 @dataclass(frozen=True)

@@ -16,9 +16,19 @@ from beambench_report.base.quantities import markdown_table
 from beambench_report.thesis.chapter6.machines import Recorded
 
 SCENES = ("gato-bill", "torre-eiffel")
-BEAMS, BLOCKS = WORKS = ("beams", "blocks")
+LARGE = "tetra:n=8"
+BEAMS, BLOCKS, ROWS, WINDOWS, TILES = WORKS = ("beams", "blocks", "rows", "windows", "tiles")
+# How each kind of work is recorded. Tiles are recorded one by one, and their results are kept by
+# whoever traces them, which the times include.
+_RECORDED_WITH: dict[str, tuple[str, ...]] = {
+    BEAMS: ("--work", "beams"),
+    BLOCKS: ("--work", "blocks"),
+    ROWS: ("--work", "contiguous"),
+    WINDOWS: ("--work", "pre-pass", "--block", "16"),
+    TILES: ("--work", "tiles", "--block", "16", "--batch", "1", "--results", "stored"),
+}
 MEASURED = "measured.csv"
-_COSTS = ["walk_seconds", "work_seconds", "accept_seconds"]
+_COSTS = ["walk_seconds", "work_seconds", "accept_seconds", "estimate_seconds"]
 
 # Setting, processes, and the options of beambench-cluster.
 _SETTINGS: tuple[tuple[str, int, tuple[str, ...]], ...] = (
@@ -50,6 +60,7 @@ class Picture:
     height: int = 1024
     samples: int = 5
     structure: str = "beam:max_level=6"
+    works: tuple[str, ...] = WORKS
 
     def arguments(self) -> list[str]:
         """Those of beambench-cluster."""
@@ -68,7 +79,7 @@ def record(folder: Path, program: Path, pictures: list[Picture], repeats: int) -
     (folder / "answers.jsonl").unlink(missing_ok=True)  # of simulations with other costs
     written, sums = [], {}
     for picture in pictures:
-        for work in WORKS:
+        for work in picture.works:
             runs = [_record_once(program, picture, work) for _ in range(repeats)]
             rows = _medians([rows for rows, _ in runs])
             path = tasks_file(folder, picture.scene, work)
@@ -78,6 +89,7 @@ def record(folder: Path, program: Path, pictures: list[Picture], repeats: int) -
                 float(rows["walk_seconds"].sum()),
                 float(rows["work_seconds"].sum()),
                 picture.width * picture.height * picture.samples,
+                statistics.median(one["pre_pass_seconds"] for _, one in runs),
             )
             sums[f"{picture.scene}-{work}"] = asdict(recorded) | {
                 "tasks": len(rows) - 1,
@@ -108,7 +120,9 @@ def read_recorded(folder: Path) -> dict[tuple[str, str], Recorded]:
         ) from None
     names = ("build_seconds", "walk_seconds", "work_seconds", "samples")
     return {
-        (key.rpartition("-")[0], key.rpartition("-")[2]): Recorded(*(each[n] for n in names))
+        (key.rpartition("-")[0], key.rpartition("-")[2]): Recorded(
+            *(each[n] for n in names), each.get("pre_pass_seconds", 0.0)
+        )
         for key, each in sums.items()
     }
 
@@ -198,8 +212,9 @@ def _record_once(program: Path, picture: Picture, work: str) -> tuple[pd.DataFra
         print(program, picture.scene, work, file=sys.stderr)
         output_of(
             [
-                *(str(program), *picture.arguments(), "--work", work),
-                *("-o", str(place / "picture.png"), "--tasks", str(place / "tasks.csv")),
+                *(str(program), *picture.arguments(), *_RECORDED_WITH[work]),
+                *(("-o", str(place / "picture.png")) if work == TILES else ()),
+                *("--tasks", str(place / "tasks.csv")),
                 *("--report", str(place / "report.json")),
             ],
             remedy="build beambench-cluster first",

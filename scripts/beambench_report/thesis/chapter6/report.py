@@ -8,6 +8,7 @@ import pandas as pd
 from beambench_report.base.figure import house_style, write_plot
 from beambench_report.base.files import write_text
 from beambench_report.base.quantities import markdown_table, number
+from beambench_report.thesis.chapter6.divisions import division_plots, divisions_sections
 from beambench_report.thesis.chapter6.machines import Slowness, thesis_seconds
 from beambench_report.thesis.chapter6.plots import cluster_plots
 from beambench_report.thesis.chapter6.record import measured_section, read_recorded
@@ -22,7 +23,14 @@ from beambench_report.thesis.chapter6.scene_divisions import (
     scene_divisions_plot,
     scene_divisions_section,
 )
-from beambench_report.thesis.chapter6.simulate import OLD, OPTIONS, STATIONS, TODAY, slowness_of
+from beambench_report.thesis.chapter6.simulate import (
+    DIVISIONS,
+    OLD,
+    OPTIONS,
+    STATIONS,
+    TODAY,
+    slowness_of,
+)
 from beambench_report.thesis.chapter6.split import read_split, split_plot, split_section
 
 _SHOWN = (1, 2, 4, 6, 8, 10, 12, 14)
@@ -38,6 +46,7 @@ def write_report(folder: Path) -> list[Path]:
     written = []
     with house_style():
         plots = cluster_plots(simulations, read_processes(folder))
+        plots += division_plots(simulations)
         if split is not None:
             plots.append(split_plot(split))
         if scene_divisions is not None:
@@ -61,6 +70,7 @@ def write_report(folder: Path) -> list[Path]:
             _options(simulations, OLD),
             shown.get(f"many-processes-{TODAY}", ""),
             _options(simulations, TODAY),
+            divisions_sections(simulations, recorded, shown),
             "## Machines that are not equal\n",
             f"{STATIONS - 1} consumers. `every other one half as fast`: seven machines of half "
             "the speed. `five used by others`: half of the time only half of their speed is "
@@ -180,7 +190,7 @@ def _assumptions(simulations: pd.DataFrame) -> str:
         simulations["era"].eq(OLD)
         & simulations["machines"].eq(EQUAL_MACHINES)
         & simulations["consumers"].isin((STATIONS // 2, STATIONS - 1))
-        & ~simulations["options"].isin(set(OPTIONS) - {THESIS_OPTIONS})
+        & ~simulations["options"].isin((OPTIONS.keys() | DIVISIONS.keys()) - {THESIS_OPTIONS})
     ]
     rows = rows.assign(place=rows["network"] + ", " + rows["consumers"].astype(str) + " consumers")
     return _seconds(rows, "place", "efficiency")

@@ -19,6 +19,8 @@ _OF_SIMULATIONS = (
     "accept_seconds speed_up efficiency efficiency_of_consumers producer_busy "
     "messages_from_producer bytes_from_producer messages_to_producer bytes_to_producer"
 ).split()
+# Of the consumers, which are not listed where they are many.
+_PROFILE = ["busy_mean", "busy_max"]
 _OF_PROCESSES = (
     "simulation process role tasks samples busy_seconds wait_seconds last_seconds"
 ).split()
@@ -51,6 +53,15 @@ def write_results(folder: Path, results: list[dict[str, object]]) -> list[Path]:
     rows["speed_up"] = rows["sequential_seconds"] / rows["seconds"]
     rows["efficiency"] = rows["speed_up"] / (rows["consumers"] + 1)
     rows["efficiency_of_consumers"] = rows["speed_up"] / rows["consumers"].clip(lower=1)
+    busy = [
+        pd.Series(
+            [each["busy_seconds"] for each in result["processes"] if each["role"] == "consumer"],
+            dtype=float,
+        )
+        for result in results
+    ]
+    rows["busy_mean"] = [each.mean() for each in busy]
+    rows["busy_max"] = [each.max() for each in busy]
     processes = [
         {"simulation": number} | process
         for number, result in enumerate(results, 1)
@@ -58,7 +69,7 @@ def write_results(folder: Path, results: list[dict[str, object]]) -> list[Path]:
         for process in result["processes"]
     ]
     return [
-        write_rows(folder / SIMULATIONS, rows[_OF_SIMULATIONS]),
+        write_rows(folder / SIMULATIONS, rows[_OF_SIMULATIONS + _PROFILE]),
         write_rows(folder / PROCESSES, pd.DataFrame(processes, columns=_OF_PROCESSES)),
     ]
 

@@ -27,7 +27,16 @@ from beambench_report.thesis.chapter6.machines import (
     Slowness,
     slowness_of_1999,
 )
-from beambench_report.thesis.chapter6.record import BEAMS, BLOCKS, read_recorded, tasks_file
+from beambench_report.thesis.chapter6.record import (
+    BEAMS,
+    BLOCKS,
+    LARGE,
+    ROWS,
+    TILES,
+    WINDOWS,
+    read_recorded,
+    tasks_file,
+)
 from beambench_report.thesis.chapter6.results import EQUAL_MACHINES, THESIS_OPTIONS, write_results
 
 OLD, TODAY = ERAS = ("1999", "today")
@@ -43,6 +52,33 @@ OPTIONS: dict[str, tuple[str, ...]] = {
     "image blocks": (),
     "producer consumes": ("--producer-consumes",),
 }
+# The static divisions of section 2.3.2.1, and tiles whose beams the consumers make themselves. All
+# but tiles trace individual rays.
+DIVISIONS: dict[str, tuple[str, ...]] = {
+    "contiguous rows": ("--division", "contiguous"),
+    "interlaced rows": ("--division", "interlaced"),
+    "interlaced windows": ("--division", "interlaced"),
+    "windows by pre-pass": ("--division", "equal-cost"),
+    "tiles": ("--division", "falling", "--stored"),
+}
+# Of the large picture: where its results go, and messages that are there before they are needed.
+LARGE_OPTIONS: dict[str, tuple[str, ...]] = {
+    "producer's beams": (),
+    "tiles, results sent": ("--division", "falling", "--sample-bytes", "8"),
+    "tiles": DIVISIONS["tiles"],
+    "tiles, two in flight": (*DIVISIONS["tiles"], "--in-flight", "2"),
+}
+_WORK = {
+    "image blocks": BLOCKS,
+    "contiguous rows": ROWS,
+    "interlaced rows": ROWS,
+    "interlaced windows": WINDOWS,
+    "windows by pre-pass": WINDOWS,
+    "tiles, results sent": TILES,
+    "tiles": TILES,
+    "tiles, two in flight": TILES,
+}
+PRE_PASS = "windows by pre-pass"
 MACHINES: dict[str, tuple[str, ...]] = {
     EQUAL_MACHINES: (),
     "every other one half as fast": ("--speeds", "1,0.5"),
@@ -69,17 +105,17 @@ class Simulation:
     @property
     def work(self) -> str:
         """The kind of tasks."""
-        return BLOCKS if self.options == "image blocks" else BEAMS
+        return _WORK.get(self.options, BEAMS)
 
     def arguments(self) -> list[str]:
         """Those of the simulator that do not depend on what was recorded."""
-        pixels = self.era == OLD and not self.own_messages
+        pixels = self.era == OLD and not self.own_messages and self.work != TILES
         return [
             *("--consumers", str(self.consumers)),
             *self.network.arguments(),
             *self.messages.arguments(),
             *(("--sample-bytes", str(BYTES_PER_SAMPLE_OF_1999)) if pixels else ()),
-            *OPTIONS.get(self.options, ()),
+            *(OPTIONS | DIVISIONS | LARGE_OPTIONS).get(self.options, ()),
             *MACHINES[self.machines],
         ]
 
@@ -89,6 +125,8 @@ def simulations(scenes: tuple[str, ...], *, most: int = 1024) -> list[Simulation
     every = [
         *(each for scene in scenes for each in _thesis(scene)),
         *(each for scene in scenes for each in _many(scene)),
+        *(each for scene in scenes for each in _divided(scene)),
+        *_large(),
         *(each for scene in scenes for each in _unlike(scene)),
         *(each for scene in scenes for each in _assumptions(scene)),
     ]
@@ -108,12 +146,34 @@ def _thesis(scene: str) -> list[Simulation]:
     ]
 
 
-def _many(scene: str) -> list[Simulation]:
-    """Where the producer saturates, and what each option changes."""
-    clusters = ((OLD, SWITCHED, MESSAGES_OF_1999), (TODAY, MODERN, MESSAGES_OF_TODAY))
+_CLUSTERS = ((OLD, SWITCHED, MESSAGES_OF_1999), (TODAY, MODERN, MESSAGES_OF_TODAY))
+
+
+def _divided(scene: str) -> list[Simulation]:
+    """Static divisions of the image, and tiles, on both clusters."""
     return [
         Simulation(era, scene, network, messages, consumers, options)
-        for era, network, messages in clusters
+        for era, network, messages in _CLUSTERS
+        for options in DIVISIONS
+        for consumers in (STATIONS // 2, STATIONS - 1, *MANY)
+    ]
+
+
+def _large() -> list[Simulation]:
+    """A picture that is large enough for 1,024 processes."""
+    return [
+        Simulation(era, LARGE, network, messages, consumers, options)
+        for era, network, messages in _CLUSTERS
+        for options in LARGE_OPTIONS
+        for consumers in MANY
+    ]
+
+
+def _many(scene: str) -> list[Simulation]:
+    """Where the producer saturates, and what each option changes."""
+    return [
+        Simulation(era, scene, network, messages, consumers, options)
+        for era, network, messages in _CLUSTERS
         for options in OPTIONS
         for consumers in (STATIONS // 2, STATIONS - 1, *MANY)
     ]
@@ -222,6 +282,9 @@ def _simulate(
         *("--build-seconds", str(build)),
         *simulation.arguments(),
     ]
+    if simulation.options == PRE_PASS:
+        seconds = recorded[simulation.scene, simulation.work].pre_pass_seconds
+        arguments += ["--pre-pass-seconds", str(seconds)]
     tasks = tasks_file(folder, simulation.scene, simulation.work)
     result = cache.result(
         [tasks.name, *arguments], [str(program), "cluster", str(tasks), *arguments]
