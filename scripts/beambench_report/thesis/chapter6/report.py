@@ -54,39 +54,38 @@ def write_report(folder: Path) -> list[Path]:
         for plot in plots:
             written += write_plot(plot, folder)
     shown = {plot.stem: f"![{plot.summary}]({plot.stem}.png)\n" for plot in plots}
-    text = "\n".join(
-        [
-            "# The thesis's cluster, simulated\n",
-            "The MPI program itself runs, its producer, consumers and messages; machines and "
-            "network are SimGrid's, and what a beam costs was recorded.\n",
-            _of_recording(recorded, slowness_of(recorded)),
-            "## Figure 6.3: time, speed-up, efficiency\n",
-            shown.get("figure-6.3", ""),
-            _efficiencies(simulations),
-            "## Figure 6.4: how the work was distributed\n",
-            shown.get("figure-6.4", ""),
-            "## More processes, and what each option changes\n",
-            shown.get(f"many-processes-{OLD}", ""),
-            _options(simulations, OLD),
-            shown.get(f"many-processes-{TODAY}", ""),
-            _options(simulations, TODAY),
-            divisions_sections(simulations, recorded, shown),
-            "## Machines that are not equal\n",
-            f"{STATIONS - 1} consumers. `every other one half as fast`: seven machines of half "
-            "the speed. `five used by others`: half of the time only half of their speed is "
-            "left.\n",
-            _machines(simulations),
-            "## What was assumed\n",
-            "What messages cost the processor in 1999, halved and doubled; results as our own "
-            "program sends them, 8 bytes per sample, where the thesis sends pixels; and the "
-            "thesis's seconds that do not grow with the rays taken for walking alone, or for "
-            "building alone.\n",
-            _assumptions(simulations),
-            *([split_section(split)] if split is not None else []),
-            *([scene_divisions_section(scene_divisions)] if scene_divisions is not None else []),
-            *([measured] if measured is not None else []),
-        ]
-    )
+    sections = [
+        "# The thesis's cluster, simulated\n",
+        "The MPI program itself runs, its producer, consumers and messages; machines and "
+        "network are SimGrid's, and what a beam costs was recorded.\n",
+        _of_recording(recorded, slowness_of(recorded)),
+        "## Figure 6.3: time, speed-up, efficiency\n",
+        shown.get("figure-6.3", ""),
+        _efficiencies(simulations),
+        "## Figure 6.4: how the work was distributed\n",
+        shown.get("figure-6.4", ""),
+        "## More processes, and what each option changes\n",
+        shown.get(f"many-processes-{OLD}", ""),
+        _options(simulations, OLD),
+        shown.get(f"many-processes-{TODAY}", ""),
+        _options(simulations, TODAY),
+        divisions_sections(simulations, recorded, shown),
+        "## Machines that are not equal\n",
+        f"{STATIONS - 1} consumers. `every other one half as fast`: seven machines of half "
+        "the speed. `five used by others`: half of the time only half of their speed is "
+        "left.\n",
+        _machines(simulations),
+        "## What was assumed\n",
+        "What messages cost the processor in 1999, halved and doubled; results as our own "
+        "program sends them, 8 bytes per sample, where the thesis sends pixels; and the "
+        "thesis's seconds that do not grow with the rays taken for walking alone, or for "
+        "building alone.\n",
+        _assumptions(simulations),
+        *([split_section(split)] if split is not None else []),
+        *([scene_divisions_section(scene_divisions)] if scene_divisions is not None else []),
+        *([measured] if measured is not None else []),
+    ]
+    text = "\n".join(section for section in sections if section)
     return [*written, write_text(folder / "report.md", text)]
 
 
