@@ -41,7 +41,7 @@ def write_report(pieces: list[dict], folder: Path) -> list[Path]:
     folder.mkdir(parents=True, exist_ok=True)
     rows = summed(pieces)
     return [
-        write_text(folder / "campaigns.md", _markdown(rows, pieces)),
+        write_text(folder / "campaigns.md", as_markdown(pieces)),
         write_text(folder / "campaigns.csv", _csv(rows)),
         write_text(folder / "record.json", as_json(pieces)),
     ]
@@ -77,7 +77,9 @@ def _csv(rows: list[dict[str, object]]) -> str:
     return text.getvalue()
 
 
-def _markdown(rows: list[dict[str, object]], pieces: list[dict]) -> str:
+def as_markdown(pieces: list[dict]) -> str:
+    """The table of all subjects, and every finding."""
+    rows = summed(pieces)
     lines = [
         "| campaign | subject | pieces | amount | hours of processor time | edges | features "
         "| corpus | findings |",

@@ -8,6 +8,8 @@ from collections.abc import Callable, Sequence
 from functools import partial
 from pathlib import Path
 
+from beambench_campaign.record import Record
+from beambench_campaign.report import as_markdown as as_campaigns
 from beambench_publish.images import with_small_images
 from beambench_report.base.records import read_run
 from beambench_report.embree_comparison.pairings import pairings
@@ -47,6 +49,10 @@ def _thesis(folder: Path) -> str:
     return as_thesis(gather(folder, read_plan(folder), Path()))
 
 
+def _campaigns(folder: Path) -> str:
+    return as_campaigns(Record(folder).pieces())
+
+
 def _levels(folder: Path) -> str:
     """Of the levels that any of the sweeps beside it has."""
     return str(levels_of_runs([file.parent for file in sorted(folder.glob("*/results.csv"))], None))
@@ -72,6 +78,7 @@ _REPORTS: dict[str, Callable[[Path], str]] = {
     "libraries/to-embree.md": partial(_ratios, WATERTIGHT),
     "libraries/to-tinybvh.md": partial(_ratios, "tinybvh"),
     "pencils/report.md": partial(_comparison, PENCILS),
+    "robustness/campaigns.md": _campaigns,
     "structures/winners.md": _winners,
     "thesis-earlier/levels.md": _levels,
     "thesis/report.md": _thesis,
