@@ -23,6 +23,9 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
+/// Time limits until a process that is not the producer has ended.
+constexpr double kLongestEnd = 2.0;
+
 void report(const std::string& message) {
   base::report_error("beambench-cluster", message, base::kInvalidInput);
 }
@@ -150,7 +153,8 @@ class MpiSession::SignsOfLife {
   std::jthread thread_;  // last: it uses the others
 };
 
-MpiSession::MpiSession(int& argc, char**& argv, double timeout) : timeout_(timeout) {
+MpiSession::MpiSession(int& argc, char**& argv, double timeout)
+    : timeout_(timeout), watchdog_(kLongestEnd * timeout) {
   const Deadline deadline(
       timeout,
       fmt::format("the processes did not find each other within {} s; see that every machine runs "
@@ -168,9 +172,10 @@ MpiSession::~MpiSession() {
     return;
   }
   signs_->end();
+  watchdog_.require_end();
   // The producer, which knows that all is written, is the first to give up.
   const Deadline deadline(
-      signs_->is_producer() ? timeout_ : 2.0 * timeout_,
+      signs_->is_producer() ? timeout_ : kLongestEnd * timeout_,
       fmt::format("a process did not end within {} s; what was asked for is written", timeout_),
       base::kSuccess);
   MPI_Finalize();

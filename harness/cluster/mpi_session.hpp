@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "harness/cluster/transport.hpp"
+#include "harness/cluster/watchdog.hpp"
 
 namespace beambench::cluster {
 
@@ -31,6 +32,7 @@ class MpiSession {
  private:
   class SignsOfLife;
   double timeout_;
+  Watchdog watchdog_;
   std::unique_ptr<SignsOfLife> signs_;
 };
 
