@@ -123,10 +123,15 @@ def _minimize(
 def _findings(
     target: Target, faults: Path, record: Record, programs: Programs, environment: dict[str, str]
 ) -> Iterator[Finding]:
-    """One for each message with which the target ends when it is given the input again."""
+    """One for each message with which the target ends when it is given the input again.
+
+    Not for an input that took too long while the machine was busy, and does not any more.
+    """
     messages = set()
     for file in sorted(path for kind in _FAULTS for path in faults.glob(kind))[:_MOST_REPEATED]:
         ended = programs.run([target.program, *_LIMITS, file], _REPEATING, faults, environment)
+        if ended.code == 0 and file.name.startswith("timeout-"):
+            continue
         message = _message(ended)
         if message not in messages:
             messages.add(message)

@@ -203,6 +203,26 @@ def test_a_planted_fault_is_found_and_kept(
     assert finding["command"] in capsys.readouterr().err
 
 
+def test_an_input_that_was_slow_only_once_is_no_finding(record: Record, tmp_path: Path) -> None:
+    """By a program that leaves inputs as libFuzzer does, and fails on none when it gets it again."""
+    program = tmp_path / "fuzz_slow"
+    program.write_text(
+        """#!/bin/sh
+for word; do
+  case $word in -artifact_prefix=*)
+    touch "${word#*=}timeout-1" "${word#*=}crash-1"
+    echo '#100: cov: 20 ft: 33 corp: 5 exec/s 50' >&2 ;;
+  esac
+done
+"""
+    )
+    program.chmod(0o755)
+    arguments = ["--targets", tmp_path, "--only", "slow", "--minutes", "0.01", "--jobs", "1"]
+    assert campaign(record, "fuzz", *arguments) == 1
+    ((finding,),) = [piece["findings"] for piece in record.pieces()]
+    assert finding["file"] == "slow-crash-1"
+
+
 @needs_clang
 def test_maps_are_fuzzed(record: Record, planted: Path) -> None:
     arguments = ["--targets", planted, "--only", "bsp", "--minutes", "0.02"]
