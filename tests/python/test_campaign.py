@@ -204,7 +204,7 @@ def test_a_planted_fault_is_found_and_kept(
 
 
 def test_an_input_that_was_slow_only_once_is_no_finding(record: Record, tmp_path: Path) -> None:
-    """By a program that leaves inputs as libFuzzer does, and fails on none when it gets it again."""
+    """By a program that leaves inputs as libFuzzer does, and fails on none when given one again."""
     program = tmp_path / "fuzz_slow"
     program.write_text(
         """#!/bin/sh
@@ -217,7 +217,7 @@ done
 """
     )
     program.chmod(0o755)
-    arguments = ["--targets", tmp_path, "--only", "slow", "--minutes", "0.01", "--jobs", "1"]
+    arguments = ["--targets", tmp_path, "--only", "slow", "--minutes", "0", "--jobs", "1"]
     assert campaign(record, "fuzz", *arguments) == 1
     ((finding,),) = [piece["findings"] for piece in record.pieces()]
     assert finding["file"] == "slow-crash-1"
