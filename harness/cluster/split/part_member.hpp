@@ -21,6 +21,9 @@ class LostProcess : public InputError {
   using InputError::InputError;
 };
 
+/// A process whose part of the scene nobody else has.
+LostProcess silent_part(ProcessId process, double seconds);
+
 /// What a process had and did.
 struct PartReport {
   std::uint64_t primitives = 0;
@@ -61,8 +64,9 @@ class PartMember {
   /// On process 0: the final reports of the others, by process. The others are shut down even if it
   /// throws.
   std::vector<Bytes> lead();
-  /// On the others: works to the end and sends `result`.
-  void follow(const std::function<Bytes()>& result);
+  /// On the others: works to the end and sends `result`. Returns whether the run began: not where
+  /// process 0 found that the processes do not match.
+  bool follow(const std::function<Bytes()>& result);
 
   /// So far.
   PartReport report() const;
