@@ -21,6 +21,7 @@
 #include "harness/render/whitted_picture.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
 #include "scenes/catalogue.hpp"
+#include "scenes/scene_builder.hpp"
 #include "tests/cluster/followers.hpp"
 #include "tests/cluster/local_network.hpp"
 
@@ -97,6 +98,7 @@ void expect_the_hits_of_one_process(const SceneWithRays& given, int level, int p
   }
 }
 
+/// Every fourth scene has primitives twice: the lowest id of the whole scene is hit.
 TEST(PartTracer, FindsTheHitsOfOneProcessForAnyRay) {
   for (std::uint64_t seed = 0; seed < 16; ++seed) {
     scenes::Scene scene = verify::random_scene(seed, 80);
@@ -114,10 +116,33 @@ TEST(PartTracer, FindsTheHitsOfOneProcessOnBorders) {
   }
 }
 
+/// Two polygons on both sides of a border, nearer to each other than t is exact: equal hits, found
+/// by different processes.
+SceneWithRays ties_across_a_border() {
+  constexpr double kAside = 1e-5;
+  constexpr float kFar = 1000.0F;
+  scenes::SceneBuilder builder("ties");
+  builder.add_light({0.0, 0.0, 5.0});
+  for (const double z : {kAside, -kAside}) {
+    builder.add_polygon(
+        std::array<glm::dvec3, 4>{{{-1, -1, z}, {1, -1, z}, {1, 1, z}, {-1, 1, z}}});
+  }
+  for (const double z : {-0.9, 0.9}) builder.add_sphere({0.0, 0.0, z}, 0.1);
+  SceneWithRays made{std::move(builder).build(), {}};
+  for (const float side : {-1.0F, 1.0F}) {
+    for (int i = 0; i < 64; ++i) {
+      const float x = -0.9F + 0.23F * static_cast<float>(i % 8);
+      const float y = -0.9F + 0.23F * static_cast<float>(i / 8);
+      made.rays.push_back({{x, y, side * kFar}, 0.0F, {0.0F, 0.0F, -side}, accel::kInfinity});
+    }
+  }
+  return made;
+}
+
 TEST(PartTracer, GivesTiesToTheLowestIdOfTheWholeScene) {
-  SceneWithRays heap = verify::heap({});
-  heap.rays.resize(std::min<std::size_t>(heap.rays.size(), 20));
-  expect_the_hits_of_one_process(heap, 3, 3);
+  for (const int processes : {2, 3, 5}) {
+    expect_the_hits_of_one_process(ties_across_a_border(), 2, processes);
+  }
 }
 
 TEST(PartTracer, FindsTheHitsOfOneProcessForDegenerateRays) {
@@ -161,18 +186,66 @@ Drawing drawing_of(scenes::Scene scene, int width, int height, int samples) {
   return {std::move(scene), rays, options, std::move(hits), std::move(picture)};
 }
 
-/// Each process a thread; the hits are there.
+/// Calls `lead(leader)` on process 0, while all others, threads, trace what enters their parts.
+template <class Lead>
+auto led_light(const Parts& parts, LocalNetwork& network, Lead lead) {
+  std::vector<std::jthread> others;
+  for (ProcessId process = 1; process < network.at(kProducer).processes(); ++process) {
+    others.emplace_back([&network, &parts, process] {
+      serve_light(network.at(process), parts.at(process), parts.split(), 1.0);
+    });
+  }
+  LightLeader leader(network.at(kProducer), parts.at(kProducer), parts.split(), 20.0);
+  return lead(leader);
+}
+
+/// The hits are there.
 DrawnLight drawn_in_parts(const Drawing& drawing, int level, SceneDivision division, int processes,
                           unsigned seed) {
   LocalNetwork network(processes, seed, 0.0003);
   const Parts parts(drawing.scene, drawing.options, drawing.rays, level, division, network);
-  std::vector<std::jthread> others;
-  for (ProcessId process = 1; process < processes; ++process) {
-    others.emplace_back(
-        [&, process] { serve_light(network.at(process), parts.at(process), parts.split(), 1.0); });
+  return led_light(parts, network, [&](LightLeader& leader) {
+    return leader.draw(drawing.scene, {}, rays::HitCheck(drawing.scene), drawing.rays,
+                       drawing.hits);
+  });
+}
+
+void expect_the_answers_of_one_process(const SceneWithRays& given, int level, int processes) {
+  const accel::beam::BeamOptions options = options_with(5);
+  const accel::PrimaryRays image(given.scene.cameras.front(), 8, 8, 1);
+  const accel::beam::BeamTracer whole(given.scene, options);
+  const auto count = static_cast<int>(given.rays.size());
+  for (const SceneDivision division : kDivisions) {
+    LocalNetwork network(processes, 1, 0.0003);
+    const Parts parts(given.scene, options, image, level, division, network);
+    led_light(parts, network, [&](LightLeader& leader) {
+      return leader.answer([&](const accel::Accelerator& divided) {
+        accel::HitBuffer found(count, 1, 1);
+        accel::HitBuffer expected(count, 1, 1);
+        divided.closest_hits({given.rays}, found, nullptr);
+        whole.closest_hits({given.rays}, expected, nullptr);
+        EXPECT_TRUE(found == expected) << processes << " processes";
+        std::vector<std::uint8_t> any(given.rays.size());
+        divided.any_hits({given.rays}, any, nullptr);
+        for (std::size_t i = 0; i < any.size(); ++i) {
+          EXPECT_EQ(any[i], whole.any_hit(given.rays[i], nullptr) ? 1 : 0) << "ray " << i;
+        }
+        EXPECT_EQ(divided.closest_hit(given.rays[0], nullptr), expected.get(0));
+        EXPECT_EQ(divided.any_hit(given.rays[0], nullptr), any[0] != 0);
+      });
+    });
   }
-  LightLeader leader(network.at(kProducer), parts.at(kProducer), parts.split(), 20.0);
-  return leader.draw(drawing.scene, {}, rays::HitCheck(drawing.scene), drawing.rays, drawing.hits);
+}
+
+TEST(DividedScene, AnswersAsOneProcess) {
+  for (const int processes : {1, 2, 5}) {
+    expect_the_answers_of_one_process(ties_across_a_border(), 2, processes);
+    expect_the_answers_of_one_process(verify::cubes_on_a_lattice(), 3, processes);
+    scenes::Scene scene = verify::random_scene(5, 80);
+    Random random(5);
+    std::vector<accel::Ray> rays = verify::random_rays(scene, 500, random);
+    expect_the_answers_of_one_process({std::move(scene), std::move(rays)}, 3, processes);
+  }
 }
 
 void expect_the_picture_of_one_process(const Drawing& drawing, int level, unsigned seed) {
@@ -257,6 +330,20 @@ TEST(SplitLight, EndsWithAnErrorForAnInvalidHit) {
   Drawing drawing = drawing_of(with_light(verify::random_scene(2, 60), 2), 20, 20, 1);
   drawing.hits.set(7, accel::Hit{1.0F, 1U << 20U});
   EXPECT_THROW(drawn_in_parts(drawing, 3, SceneDivision::kScattered, 2, 1), rays::InvalidHit);
+}
+
+TEST(SplitLight, HasSignsOfLifeFromProcessesWithoutWork) {
+  const scenes::Scene scene = verify::random_scene(2, 60);
+  const accel::PrimaryRays rays(scene.cameras.front(), 8, 8, 1);
+  LocalNetwork network(2, 1, 0.0);
+  const Parts parts(scene, options_with(5), rays, 3, SceneDivision::kPrimitives, network);
+  std::jthread other([&] { serve_light(network.at(1), parts.at(1), parts.split(), 0.01); });
+  for (int i = 0; i < 3; ++i) {
+    const auto sign = network.at(kProducer).wait(5.0);
+    ASSERT_TRUE(sign);
+    EXPECT_EQ(sign->tag, Tag::kHeartbeat);
+  }
+  network.at(kProducer).send(1, Tag::kEnd, {});
 }
 
 TEST(LightExchange, GivesEachThreadTheHitsOfItsRays) {

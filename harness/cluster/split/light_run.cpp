@@ -19,6 +19,10 @@
 namespace beambench::cluster {
 namespace {
 
+/// Parts of a picture that are drawn at the same time. Their threads mostly wait, for a round of
+/// rays each.
+constexpr int kDrawn = 16;
+
 /// What is sent of a report, in its order.
 template <class Report>
 auto members(Report& report) requires std::same_as<std::remove_const_t<Report>, LightReport> {
@@ -48,10 +52,22 @@ DrawnLight LightLeader::draw(const scenes::Scene& whole, const render::WhittedOp
                              const rays::HitCheck& check, const accel::PrimaryRays& rays,
                              const accel::HitBuffer& hits) {
   const double begin = transport_->seconds();
-  const base::CpuStopwatch timer(CLOCK_PROCESS_CPUTIME_ID);
   std::optional<render::WhittedPicture> picture;
+  std::vector<LightReport> reports = answer([&](const accel::Accelerator& divided) {
+    const render::Whitted tracer(whole, divided, options, check);
+    // More threads than cores: they wait.
+    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, kDrawn);
+    tbb::task_arena arena(kDrawn);
+    picture = arena.execute([&] { return render::whitted_picture(tracer, rays, hits); });
+  });
+  return {std::move(picture->image), picture->census, std::move(reports),
+          transport_->seconds() - begin};
+}
+
+std::vector<LightReport> LightLeader::answer(const Asking& asking) {
+  const base::CpuStopwatch timer(CLOCK_PROCESS_CPUTIME_ID);
   try {
-    picture = drawn(render::Whitted(whole, scene_, options, check), rays, hits);
+    answer_until_done(std::async(std::launch::async, [&] { asking(scene_); }));
   } catch (...) {
     end_others();
     throw;
@@ -60,23 +76,14 @@ DrawnLight LightLeader::draw(const scenes::Scene& whole, const render::WhittedOp
   reports_[kProducer] = report_of(outbox_, relay_);
   reports_[kProducer].cpu_seconds = timer.seconds();
   collect_reports();
-  return {std::move(picture->image), picture->census, std::move(reports_),
-          transport_->seconds() - begin};
+  return std::move(reports_);
 }
 
-/// Other threads draw; this one sends and receives for them.
-render::WhittedPicture LightLeader::drawn(const render::Whitted& tracer,
-                                          const accel::PrimaryRays& rays,
-                                          const accel::HitBuffer& hits) {
+/// Other threads ask; this one sends and receives for them.
+void LightLeader::answer_until_done(std::future<void> asked) {
   constexpr std::chrono::microseconds kMoment(100);
-  auto picture = std::async(std::launch::async, [&] {
-    // More threads than cores: they wait.
-    const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, kDrawn);
-    tbb::task_arena arena(kDrawn);
-    return arena.execute([&] { return render::whitted_picture(tracer, rays, hits); });
-  });
   try {
-    while (picture.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) {
+    while (asked.wait_for(std::chrono::seconds(0)) == std::future_status::timeout) {
       while (const auto message = transport_->poll()) handle(*message);
       require_signs();
       const bool worked = relay_.work();
@@ -86,10 +93,10 @@ render::WhittedPicture LightLeader::drawn(const render::Whitted& tracer,
       outbox_.send(worked ? LightOutbox::kLarge : 1);
     }
   } catch (...) {
-    exchange_.close();  // otherwise the others would wait for ever
+    exchange_.close();  // otherwise who asks would wait for ever
     throw;
   }
-  return picture.get();
+  asked.get();
 }
 
 void LightLeader::handle(const Message& message) {

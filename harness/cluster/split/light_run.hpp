@@ -1,6 +1,8 @@
 #pragma once
 // The light of a picture of a divided scene, once its hits are found.
 
+#include <functional>
+#include <future>
 #include <vector>
 
 #include "accel/core/hit_buffer.hpp"
@@ -48,19 +50,19 @@ class LightLeader {
   LightLeader(Transport& transport, const PartWorker& worker, const SceneSplit& split,
               double timeout);
 
-  /// `hits` are those of `rays` over `whole`. The other processes are shut down at the end, even if
-  /// it throws LostProcess or InvalidHit.
+  /// Calls `asking` in another thread with the divided scene, and has answered what it asks, from
+  /// any number of threads. The other processes are shut down at the end, even if that or `asking`
+  /// throws. Only once. Returns the reports, by process.
+  using Asking = std::function<void(const accel::Accelerator& divided)>;
+  std::vector<LightReport> answer(const Asking& asking);
+
+  /// The picture of a scene by that. `hits` are those of `rays` over `whole`.
   DrawnLight draw(const scenes::Scene& whole, const render::WhittedOptions& options,
                   const rays::HitCheck& check, const accel::PrimaryRays& rays,
                   const accel::HitBuffer& hits);
 
  private:
-  /// Parts of the picture that are drawn at the same time. Their threads mostly wait, for a round
-  /// of rays each.
-  static constexpr int kDrawn = 16;
-
-  render::WhittedPicture drawn(const render::Whitted& tracer, const accel::PrimaryRays& rays,
-                               const accel::HitBuffer& hits);
+  void answer_until_done(std::future<void> asked);
   void handle(const Message& message);
   void require_signs();
   void end_others();
