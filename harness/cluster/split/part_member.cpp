@@ -64,14 +64,13 @@ std::vector<Bytes> PartMember::lead() {
   return std::move(results_);
 }
 
-bool PartMember::follow(const std::function<Bytes()>& result) {
+void PartMember::follow(const std::function<Bytes()>& result) {
   while (!going_ && !over_) {
     if (const auto message = transport_->wait(Transport::kForever)) handle(*message);
   }
   run();
   transport_->send(kProducer, Tag::kFinalReport, result());
   transport_->flush();
-  return going_;
 }
 
 PartReport PartMember::report() const {

@@ -64,9 +64,10 @@ class PartMember {
   /// On process 0: the final reports of the others, by process. The others are shut down even if it
   /// throws.
   std::vector<Bytes> lead();
-  /// On the others: works to the end and sends `result`. Returns whether the run began: not where
-  /// process 0 found that the processes do not match.
-  bool follow(const std::function<Bytes()>& result);
+  /// On the others: works to the end and sends `result`.
+  void follow(const std::function<Bytes()>& result);
+  /// Has the run begun? Not where process 0 found that the processes do not match.
+  bool began() const { return going_; }
 
   /// So far.
   PartReport report() const;

@@ -139,8 +139,8 @@ void follow_split(const Job& job, Transport& transport) {
   PartState& state = *place->state;
   PartMember member(transport, *state.worker, state.outbox, 5.0 * job.heartbeat_interval,
                     [](ProcessId, std::span<const std::byte>) {});
-  const bool ran = member.follow([&] { return write_result(member.report(), *state.worker); });
-  if (ran && job.light) {
+  member.follow([&] { return write_result(member.report(), *state.worker); });
+  if (member.began() && job.light) {
     serve_light(transport, *state.worker, state.split, job.heartbeat_interval);
   }
 }
