@@ -14,12 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json to_json(const render::RayCensus& census) {
-  return {{"eye_hits", census.eye_hits},   {"reflected", census.reflected},
-          {"refracted", census.refracted}, {"secondary_hits", census.secondary_hits},
-          {"shadow", census.shadow},       {"shadow_hidden", census.shadow_hidden}};
-}
-
 Json process_json(const ClusterRun& run, std::size_t process) {
   const ProcessReport& report = run.report.processes[process];
   const ReadyReport& ready_report = run.ready_reports[process];
@@ -59,6 +53,12 @@ std::string_view tasks_of(const ClusterRun& run) {
 }
 
 }  // namespace
+
+nlohmann::ordered_json to_json(const render::RayCensus& census) {
+  return {{"eye_hits", census.eye_hits},   {"reflected", census.reflected},
+          {"refracted", census.refracted}, {"secondary_hits", census.secondary_hits},
+          {"shadow", census.shadow},       {"shadow_hidden", census.shadow_hidden}};
+}
 
 Json to_json(const Traffic& traffic) {
   return {{"messages", traffic.messages}, {"bytes", traffic.bytes}};

@@ -9,6 +9,7 @@
 
 #include "harness/cluster/job.hpp"
 #include "harness/cluster/transport.hpp"
+#include "harness/render/ray_census.hpp"
 
 namespace beambench::cluster {
 
@@ -27,6 +28,7 @@ struct Traffic {
   }
 };
 nlohmann::ordered_json to_json(const Traffic& traffic);
+nlohmann::ordered_json to_json(const render::RayCensus& census);
 
 /// What a process did. Wall times are of the transport's clock.
 struct ProcessReport {

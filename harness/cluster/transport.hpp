@@ -21,10 +21,12 @@ enum class Tag {
   kEnd,          ///< producer: there is no more work
   kFinalReport,  ///< consumer: its report; of a divided scene, with its hits
   // Of a divided scene (split/):
-  kGo,     ///< process 0: all have the same scene; begin
-  kCross,  ///< to any process: beams and rays that enter its part
-  kAsk,    ///< process 0: request for a kCount when idle
-  kCount   ///< the numbers of kCross messages sent and received
+  kGo,      ///< process 0: all have the same scene; begin
+  kCross,   ///< to any process: beams and rays that enter its part
+  kAsk,     ///< process 0: request for a kCount when idle
+  kCount,   ///< the numbers of kCross messages sent and received
+  kLight,   ///< to any process: rays of light that enter its part
+  kAnswers  ///< to process 0: what rays of light have found
 };
 
 /// The rank of a process; 0 is the producer.

@@ -265,8 +265,13 @@ def when_begun(run: subprocess.Popen[str], process: int) -> int:
 SPLIT = ["tetra:n=8", "--split", "3", "--shade", "id", "--resolution", "1600x1200"]
 
 
+SPLIT_LIGHT = [*LONG, "--split", "3"]
+
+
 @pytest.mark.parametrize("process", [0, 2])
-@pytest.mark.parametrize("asked", [LONG, SPLIT], ids=["producer", "split"])
+@pytest.mark.parametrize(
+    "asked", [LONG, SPLIT, SPLIT_LIGHT], ids=["producer", "split", "split light"]
+)
 @pytest.mark.parametrize("seconds", [0.0, 0.2, 0.8])
 def test_a_process_stopped_at_any_moment_ends_in_a_picture_or_a_message(
     tmp_path: Path, process: int, asked: list[str], seconds: float
@@ -318,7 +323,10 @@ def refused(done: subprocess.CompletedProcess[str], words: list[str]) -> None:
         (["tetra", "--resume"], ["--resume", "-o FILE"]),
         (["tetra", "--results", "stored"], ["--results stored", "-o FILE"]),
         (["tetra", "--split", "3", "--resume"], ["--split", "--resume"]),
-        (["tetra", "--split", "3", "-o", "a.png"], ["--split", "--shade id"]),
+        (
+            ["tetra", "--split", "3", "--shade", "whitted", "--shadows", "cache"],
+            ["--split", "--shadows"],
+        ),
         (["tetra", "--split", "7"], ["max_level"]),
     ],
 )

@@ -12,7 +12,7 @@ from beambench_report.__main__ import main
 from beambench_report.thesis.chapter6 import scene_divisions
 from beambench_report.thesis.chapter6.split import SCENES, read_split, split_plot, split_section
 from cluster import CLUSTER, mpirun, needs_mpi
-from program import BINARY
+from program import BINARY, output_of
 
 SIMULATOR = BINARY.resolve().with_name("beambench-cluster-simulated")
 needs_simulator = pytest.mark.skipif(
@@ -89,6 +89,54 @@ def test_the_real_program_finds_the_same_and_hands_over_the_same(
     for here, there in zip(simulation["processes"], real["each"], strict=True):
         for quantity in ("primitives", "beams_out", "rays_out"):
             assert here[quantity] == there[quantity]
+
+
+# Shadows and mirrors; mirrors and glass; polygons with shading normals; textures.
+@needs_mpi
+@pytest.mark.parametrize("scene", ["balls:n=2", "escena2", "bola-espacial", "delfines"])
+def test_its_light_is_that_of_one_process(tmp_path: Path, scene: str) -> None:
+    one = tmp_path / "one.png"
+    asked = ["--shade", "whitted", "--resolution", "90x70", "--samples", "5"]
+    output_of("render", scene, "--accel", "beam", "-o", one, *asked)
+    for processes, level, division in ((2, 3, "scattered"), (3, 4, "primitives"), (3, 2, "cost")):
+        parts, report = tmp_path / "parts.png", tmp_path / "run.json"
+        run = mpirun("-n", processes, CLUSTER, scene, "-o", parts, *asked, "--split", level,
+                     "--division", division, "--report", report)  # fmt: skip
+        assert run.returncode == 0, run.stderr
+        assert parts.read_bytes() == one.read_bytes(), division
+        record = json.loads(report.read_text())
+        lights = [each["light"] for each in record["each"]]
+        assert sum(light["rays_out"] for light in lights) > 0
+        assert record["rays"]["shadow"] > 0
+        # The whole scene is on process 0 alone, once.
+        assert record["shading_bytes"] == record["whole_scene_bytes"]
+        # What was sent are rays, which came, and answers of 12 bytes.
+        received = sum(light["rays_in"]["bytes"] for light in lights)
+        answered = sum(light["answers_out"] for light in lights)
+        assert sum(light["out"]["bytes"] for light in lights) == received + 12 * answered
+
+
+@needs_mpi
+@pytest.mark.parametrize("shading", ["preview", "normals"])
+def test_surfaces_are_those_of_the_whole_scene(tmp_path: Path, shading: str) -> None:
+    one, parts = tmp_path / "one.png", tmp_path / "parts.png"
+    asked = ["--shade", shading, "--resolution", "90x70"]
+    output_of("render", "escena2", "--accel", "beam", "-o", one, *asked)
+    run = mpirun("-n", 3, CLUSTER, "escena2", "-o", parts, *asked, "--split", "3")
+    assert run.returncode == 0, run.stderr
+    assert parts.read_bytes() == one.read_bytes()
+
+
+@needs_mpi
+def test_its_light_is_that_of_the_undivided_run(tmp_path: Path) -> None:
+    hashes = set()
+    for divided in ([], ["--split", "3"]):
+        report = tmp_path / "run.json"
+        run = mpirun("-n", 2, CLUSTER, "gears:n=1", "--shade", "whitted", "--resolution", "80x60",
+                     "--depth", "3", "--report", report, *divided)  # fmt: skip
+        assert run.returncode == 0, run.stderr
+        hashes.add(json.loads(report.read_text())["result_hash"])
+    assert len(hashes) == 1
 
 
 @needs_simulator

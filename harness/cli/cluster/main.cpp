@@ -47,6 +47,7 @@ constexpr const char* kFooter =
     "Examples:\n"
     "  mpirun -n 3 beambench-cluster balls -o balls.png --shade whitted --samples 5\n"
     "  mpirun -n 5 beambench-cluster tetra:n=8 -o tetra.png --batch 16 --in-flight 2\n"
+    "  mpirun -n 3 beambench-cluster balls -o balls.png --shade whitted --split 4\n"
     "  mpirun -n 99 beambench-cluster tetra:n=8 -o tetra.png --work tiles --results stored\n"
     "  mpirun -n 3 beambench-cluster escena1 -o escena1.png --report run.json --tasks tasks.csv\n"
     "As root in a container: mpirun --allow-run-as-root --oversubscribe ...";
@@ -109,7 +110,8 @@ void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
           {"beams", "blocks", "tiles", "contiguous", "interlaced", "windows", "pre-pass"}));
   app.add_option("--split", request.job.split_level,
                  "Divide the scene instead: each process has the primitives in its share of the "
-                 "octree's cells of this level; beams and rays are handed over at borders")
+                 "octree's cells of this level; beams and rays are handed over at borders. Process "
+                 "0 shades, and keeps the whole scene for that, unless --shade is id or depth")
       ->check(CLI::Range(2, 7));
   add_division_option(app, typed.division)->needs("--split");
   app.add_option("--block", request.block_size, "Side of a block or tile in pixels")
@@ -140,13 +142,11 @@ void add_options(CLI::App& app, Options& typed, ClusterRequest& request) {
   app.add_option("--tasks", request.tasks, "Write CSV: cost and size of each beam or block");
 }
 
-/// Shading needs the primitives that were hit.
-void require_hits_alone(const ClusterRequest& request) {
-  const bool needs_scene =
-      request.shading != render::Shading::kId && request.shading != render::Shading::kDepth;
-  if (!request.picture.empty() && needs_scene) {
+void require_divisible(const ClusterRequest& request) {
+  if (request.job.light && request.job.whitted.shadows != render::ShadowMethod::kRays) {
     throw InputError(
-        "with --split no process has the whole scene to shade; give --shade id or --shade depth");
+        "with --split shadow rays are sent in batches, which caches and light buffers do not make; "
+        "leave out --shadows, the picture is the same");
   }
   if (request.work != Work::kBeams || !request.tasks.empty()) {
     throw InputError("--split divides the scene, not the work; leave out --work and --tasks");
@@ -203,7 +203,7 @@ void fill(const Options& typed, ClusterRequest& request) {
   const bool kept = typed.resume || typed.results == "stored";
   if (job.split_level > 0) {
     if (kept) throw InputError("--split keeps no results; leave out --resume and --results");
-    require_hits_alone(request);
+    require_divisible(request);
   }
   if (!request.picture.empty()) render::image_format(request.picture);
   for (const std::string& file : {request.picture, request.report, request.tasks}) {

@@ -25,6 +25,13 @@ auto members(Report& report) requires std::same_as<std::remove_const_t<Report>, 
 
 }  // namespace
 
+LostProcess silent_part(ProcessId process, double seconds) {
+  return LostProcess(
+      fmt::format("process {} was silent for {:.0f} s, and no other has its part of the scene; no "
+                  "picture was made",
+                  process, seconds));
+}
+
 PartMember::PartMember(Transport& transport, PartWorker& worker, Outbox& outbox, double timeout,
                        Check check, Meter meter)
     : transport_(&transport),
@@ -226,10 +233,7 @@ void PartMember::require_heartbeats() {
   for (ProcessId process = kProducer + 1; process < transport_->processes(); ++process) {
     const double silent = now - other(process).last_heard;
     if (other(process).answered || silent <= timeout_) continue;
-    throw LostProcess(
-        fmt::format("process {} was silent for {:.0f} s, and no other has its part "
-                    "of the scene; no picture was made",
-                    process, silent));
+    throw silent_part(process, silent);
   }
 }
 

@@ -21,6 +21,9 @@ class LostProcess : public InputError {
   using InputError::InputError;
 };
 
+/// A process whose part of the scene nobody else has.
+LostProcess silent_part(ProcessId process, double seconds);
+
 /// What a process had and did.
 struct PartReport {
   std::uint64_t primitives = 0;
@@ -63,6 +66,8 @@ class PartMember {
   std::vector<Bytes> lead();
   /// On the others: works to the end and sends `result`.
   void follow(const std::function<Bytes()>& result);
+  /// Has the run begun? Not where process 0 found that the processes do not match.
+  bool began() const { return going_; }
 
   /// So far.
   PartReport report() const;

@@ -18,17 +18,9 @@ auto members(Ray& ray) requires std::same_as<std::remove_const_t<Ray>, RayHandof
   return std::tie(ray.cell, ray.sample, ray.t, ray.best_t, ray.best);
 }
 
-constexpr accel::Hit kNothing{accel::kInfinity, scenes::kNoPrimitive};
-
 /// In finest cells of the octree.
 std::int32_t cell_size(const accel::octree::Octree& octree, const SceneSplit& split) {
   return octree.grid().cells.x / split.cells().along();
-}
-
-accel::octree::OctreeCursor cursor_of_cell(const accel::octree::Octree& octree,
-                                           const SceneSplit& split, std::uint32_t cell) {
-  const std::int32_t finest = cell_size(octree, split);
-  return accel::octree::cursor_of(octree, split.cells().cell(cell) * finest, finest);
 }
 
 accel::beam::BeamOptions checked(const accel::beam::BeamOptions& options, const SceneSplit& split) {
@@ -78,15 +70,6 @@ Handoff read_handoff(ByteReader& reader, const accel::beam::EyeView& view) {
   throw ProtocolError("a handoff is neither a beam nor a ray");
 }
 
-ForeignLeaves::ForeignLeaves(const accel::octree::Octree& octree, const SceneSplit& split,
-                             ProcessId self)
-    : cells_(octree.nodes().size(), kOwn) {
-  for (std::uint32_t cell = 0; cell < split.cells().count(); ++cell) {
-    if (!split.is_foreign(cell, self)) continue;
-    cells_[cursor_of_cell(octree, split, cell).index()] = cell;
-  }
-}
-
 Outbox::Outbox(Transport& transport, const SceneSplit& split)
     : transport_(&transport),
       split_(&split),
@@ -123,6 +106,7 @@ PartWorker::PartWorker(ScenePart part, const SceneSplit& split, ProcessId self,
                                     own_cells(split, self)),
               options),
       foreign_(tracer_.octree(), split, self),
+      single_rays_(part_, tracer_, split, foreign_),
       view_(tracer_.octree().grid(), rays),
       found_here_(rays.width(), rays.height(), rays.samples()),
       found_(rays.width(), rays.height(), rays.samples()),
@@ -214,53 +198,28 @@ bool PartWorker::takes(std::uint32_t leaf, const accel::beam::Crossing& face,
 
 void PartWorker::collect_samples() {
   for (const std::uint32_t sample : watch_.decided) {
-    decide(sample, global(found_here_.get(sample)));
+    decide(sample, single_rays_.global(found_here_.get(sample)));
   }
   for (const BorderWatch::Crossed& each : watch_.crossed) {
-    const accel::Hit best = global(found_here_.get(each.sample));
+    const accel::Hit best = single_rays_.global(found_here_.get(each.sample));
     outbox_->hand_over(RayHandoff{each.cell, each.sample, each.t, best.t, best.primitive});
   }
   watch_.decided.clear();
   watch_.crossed.clear();
 }
 
-/// Continues where the ray entered. Its best hit so far limits the search: nothing farther is kept,
-/// and an equal t is compared by the whole scene's ids.
+/// Continues where the ray entered.
 void PartWorker::trace_ray(const RayHandoff& crossing) {
-  const accel::Ray ray = rays::ray_at(*rays_, crossing.sample);
-  const accel::CellRay cell_ray(tracer_.octree().grid(), ray);
-  accel::ClosestHit closest(ray);
-  closest.ray.t_max = crossing.best_t;
-  accel::NoCounting none;
-  std::optional<RayHandoff> next;
-  double t = crossing.t;
-  const accel::octree::OctreeNode* nodes = tracer_.octree().nodes().data();
-  accel::octree::LeafWalk{tracer_.octree(), tracer_.neighbors(), ray, cell_ray}.from(
-      cursor_of_cell(tracer_.octree(), *split_, crossing.cell), t, 0, none,
-      [&](const accel::octree::OctreeNode& leaf, double exit_t) {
-        if (const auto cell = foreign_.cell_at(static_cast<std::uint32_t>(&leaf - nodes))) {
-          next = RayHandoff{*cell, crossing.sample, t, 0.0F, 0};
-          return true;
-        }
-        t = exit_t;
-        return accel::test_references(part_.scene, tracer_.octree().references(leaf), exit_t, none,
-                                      closest);
-      });
-  accel::Hit best{crossing.best_t, crossing.best};
-  if (const accel::Hit here = global(closest.result()); accel::precedes(here, best)) best = here;
-  if (!next) return decide(crossing.sample, best);
-  next->best_t = best.t;
-  next->best = best.primitive;
-  outbox_->hand_over(*next);
+  const PartTracer::Passage passage = single_rays_.closest(
+      rays::ray_at(*rays_, crossing.sample), single_rays_.entry(crossing.cell, crossing.t),
+      {crossing.best_t, crossing.best});
+  const auto& [best, exit] = passage;
+  if (!exit) return decide(crossing.sample, best);
+  outbox_->hand_over(RayHandoff{exit->cell, crossing.sample, exit->t, best.t, best.primitive});
 }
 
 void PartWorker::decide(std::uint32_t sample, const accel::Hit& best) {
   if (best.primitive != scenes::kNoPrimitive) found_.set(sample, best);
-}
-
-accel::Hit PartWorker::global(const std::optional<accel::Hit>& local) const {
-  if (!local) return kNothing;
-  return {local->t, part_.global[local->primitive]};
 }
 
 void PartWorker::require_own(std::uint32_t cell) const {

@@ -12,6 +12,7 @@
 #include "accel/beam/beam_tracer.hpp"
 #include "harness/cluster/messages.hpp"
 #include "harness/cluster/report.hpp"
+#include "harness/cluster/split/part_tracer.hpp"
 #include "harness/cluster/split/scene_split.hpp"
 #include "harness/cluster/tasks.hpp"
 
@@ -65,23 +66,6 @@ class Outbox {
   Traffic sent_;
   std::uint64_t beams_ = 0;
   std::uint64_t rays_ = 0;
-};
-
-/// Which leaves of a process's octree are other processes' cells.
-class ForeignLeaves {
- public:
-  ForeignLeaves(const accel::octree::Octree& octree, const SceneSplit& split, ProcessId self);
-
-  /// The cell of another process that a leaf stands for, if any.
-  std::optional<std::uint32_t> cell_at(std::uint32_t leaf) const {
-    if (cells_[leaf] == kOwn) return std::nullopt;
-    return cells_[leaf];
-  }
-  std::size_t memory_bytes() const { return cells_.capacity() * sizeof(std::uint32_t); }
-
- private:
-  static constexpr std::uint32_t kOwn = 0xFFFFFFFFU;
-  std::vector<std::uint32_t> cells_;  ///< by node
 };
 
 /// Records which samples beams decided, and which continue as rays into a foreign leaf.
@@ -154,9 +138,14 @@ class PartWorker : private accel::beam::BeamBorder {
   std::vector<std::uint32_t> hit_samples() const;
   const accel::HitBuffer& hits() const { return found_; }
 
+  /// For rays that do not come from the eye.
+  const PartTracer& single_rays() const { return single_rays_; }
+
   const accel::beam::EyeView& view() const { return view_; }
   const scenes::Scene& scene() const { return part_.scene; }
   std::uint64_t structure_bytes() const;
+  /// Of the part's octree.
+  accel::Statistics statistics() const { return tracer_.statistics(); }
 
  private:
   /// Rays and beams that are traced between two polls for messages.
@@ -172,7 +161,6 @@ class PartWorker : private accel::beam::BeamBorder {
   void collect_samples();
   void require_own(std::uint32_t cell) const;
   void decide(std::uint32_t sample, const accel::Hit& best);
-  accel::Hit global(const std::optional<accel::Hit>& local) const;
 
   ScenePart part_;
   const SceneSplit* split_;
@@ -181,6 +169,7 @@ class PartWorker : private accel::beam::BeamBorder {
   Outbox* outbox_;
   accel::beam::BeamTracer tracer_;
   ForeignLeaves foreign_;
+  PartTracer single_rays_;
   accel::beam::EyeView view_;
   accel::beam::WholeImage sight_;
   accel::HitBuffer found_here_;  ///< by this part's ids, while a beam is traced

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "harness/bench/record/machine.hpp"
 #include "harness/cluster/run.hpp"
+#include "harness/cluster/split/light_run.hpp"
 #include "harness/cluster/split/part_member.hpp"
 #include "harness/cluster/split/scene_division.hpp"
 #include "harness/rays/fingerprint.hpp"
@@ -30,13 +32,47 @@ struct Setup {
   std::unique_ptr<PartState> state;
 };
 
-Setup set_up(const Job& job, Transport& transport, std::vector<std::string>* warnings) {
-  auto whole = std::make_shared<const scenes::Scene>(scenes::load_scene(job.scene, warnings));
+std::shared_ptr<const scenes::Scene> load_whole(const Job& job,
+                                                std::vector<std::string>* warnings) {
+  return std::make_shared<const scenes::Scene>(scenes::load_scene(job.scene, warnings));
+}
+
+/// The scene lives on only where the caller keeps it.
+Setup set_up(std::shared_ptr<const scenes::Scene> whole, const Job& job, Transport& transport) {
   Setup place{{visible_hash(*whole), whole->primitives.size(), 0, 0},
               scenes::memory_bytes(*whole),
               nullptr};
   place.state = std::make_unique<PartState>(std::move(whole), job, transport);
   return place;
+}
+
+/// Does process 0 look at the primitives that were hit?
+bool needs_surfaces(const ClusterRequest& request) {
+  if (request.job.light) return true;
+  const bool is_of_hits =
+      request.shading == render::Shading::kId || request.shading == render::Shading::kDepth;
+  return !request.picture.empty() && !is_of_hits;
+}
+
+/// Finds the light of all samples of an image whose hits are known.
+render::Image drawn_light(const ClusterRequest& request, Transport& transport,
+                          const scenes::Scene& whole, const PartState& state,
+                          const accel::HitBuffer& hits, SplitRun& run) {
+  LightLeader leader(transport, *state.worker, state.split, request.producer.timeout);
+  DrawnLight drawn = leader.draw(whole, request.job.whitted,
+                                 rays::HitCheck(whole, beam_choice(request.job)), state.rays, hits);
+  run.light = std::move(drawn.reports);
+  run.light_seconds = drawn.seconds;
+  run.census = drawn.census;
+  return std::move(drawn.image);
+}
+
+Json to_json(const LightReport& report) {
+  return {{"rays_out", report.rays_out},
+          {"answers_out", report.answers_out},
+          {"out", to_json(report.out)},
+          {"rays_in", to_json(report.rays_in)},
+          {"cpu_seconds", report.cpu_seconds}};
 }
 
 Json to_json(const PartReport& report) {
@@ -55,8 +91,11 @@ Json to_json(const PartReport& report) {
 
 SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
   Setup place;
+  std::shared_ptr<const scenes::Scene> whole;
   set_up_producer(transport, [&](std::vector<std::string>& warnings) {
-    place = set_up(request.job, transport, &warnings);
+    whole = load_whole(request.job, &warnings);
+    auto read = needs_surfaces(request) ? whole : std::exchange(whole, nullptr);
+    place = set_up(std::move(read), request.job, transport);
   });
   const auto check = [&](ProcessId process, std::span<const std::byte> ready_report) {
     read_ready_report(process, ready_report, place.identity);
@@ -64,6 +103,7 @@ SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
   SplitRun run;
   run.job = request.job;
   run.whole_scene_bytes = place.whole_bytes;
+  run.shading_bytes = whole ? place.whole_bytes : 0;
   run.whole_primitives = place.identity.primitives;
   const double begin = transport.seconds();
   PartState& state = *place.state;
@@ -74,27 +114,35 @@ SplitRun lead_split(const ClusterRequest& request, Transport& transport) {
   accel::HitBuffer hits(rays.width(), rays.height(), rays.samples());
   for (const Bytes& result : results) run.reports.push_back(take_result(result, hits));
   run.seconds = transport.seconds() - begin;
-  run.result_hash = rays::fingerprint(hits);
+  std::optional<render::Image> light;
+  if (request.job.light) light = drawn_light(request, transport, *whole, state, hits, run);
+  run.result_hash = light ? render::fingerprint(*light) : rays::fingerprint(hits);
   run.job.resolution = {rays.width(), rays.height()};
   if (!request.picture.empty()) {
     // The ids are those of the whole scene, of which each process has a part.
     rays::HitCheck(run.whole_primitives, "structure 'beam'").require(hits, rays);
-    render::write_image(request.picture,
-                        render::shade(state.worker->scene(), rays, hits, request.shading));
+    render::write_image(
+        request.picture,
+        light ? *light
+              : render::shade(whole ? *whole : state.worker->scene(), rays, hits, request.shading));
   }
   if (!request.report.empty()) write_file(request.report, json_text(to_json(run)) + "\n");
   return run;
 }
 
 void follow_split(const Job& job, Transport& transport) {
-  const auto place = set_up_consumer(transport, [&] { return set_up(job, transport, nullptr); });
+  const auto place =
+      set_up_consumer(transport, [&] { return set_up(load_whole(job, nullptr), job, transport); });
   if (!place) return;
   transport.send(kProducer, Tag::kReady,
                  write_ready_report({host_name(), "", place->identity, 0.0, 0}));
-  PartWorker& worker = *place->state->worker;
-  PartMember member(transport, worker, place->state->outbox, 5.0 * job.heartbeat_interval,
+  PartState& state = *place->state;
+  PartMember member(transport, *state.worker, state.outbox, 5.0 * job.heartbeat_interval,
                     [](ProcessId, std::span<const std::byte>) {});
-  member.follow([&] { return write_result(member.report(), worker); });
+  member.follow([&] { return write_result(member.report(), *state.worker); });
+  if (member.began() && job.light) {
+    serve_light(transport, *state.worker, state.split, job.heartbeat_interval);
+  }
 }
 
 nlohmann::ordered_json to_json(const SplitRun& run) {
@@ -114,11 +162,35 @@ nlohmann::ordered_json to_json(const SplitRun& run) {
             {"seconds", run.seconds},
             {"result_hash", fmt::format("{:016x}", run.result_hash)},
             {"whole_primitives", run.whole_primitives},
-            {"whole_scene_bytes", run.whole_scene_bytes}};
+            {"whole_scene_bytes", run.whole_scene_bytes},
+            {"shading_bytes", run.shading_bytes}};
+  if (!run.light.empty()) {
+    json["light_seconds"] = run.light_seconds;
+    json["rays"] = to_json(run.census);
+  }
   Json& each = json["each"] = Json::array();
   for (const PartReport& report : run.reports) each.push_back(to_json(report));
+  for (std::size_t i = 0; i < run.light.size(); ++i) each[i]["light"] = to_json(run.light[i]);
   return json;
 }
+
+namespace {
+
+std::string summary_of_light(const SplitRun& run) {
+  if (run.light.empty()) return "";
+  Traffic out;
+  std::uint64_t rays = 0;
+  for (const LightReport& report : run.light) {
+    out += report.out;
+    rays += report.rays_out;
+  }
+  return fmt::format(
+      "; light in {:.3f} s, its rays were handed over {} times, in {} messages with "
+      "{:.2f} MB",
+      run.light_seconds, rays, out.messages, 1e-6 * static_cast<double>(out.bytes));
+}
+
+}  // namespace
 
 std::string summary(const SplitRun& run) {
   Traffic crossings;
@@ -133,12 +205,17 @@ std::string summary(const SplitRun& run) {
     most = std::max(most, report.primitives);
     largest = std::max(largest, report.scene_bytes + report.structure_bytes);
   }
-  return fmt::format(
+  std::string text = fmt::format(
       "{} processes in {:.3f} s; {} beams and {} rays were handed over in {} messages with {:.2f} "
       "MB; the largest part has {} of {} primitives and {:.2f} MB with its octree",
       run.reports.size(), run.seconds, beams, rays, crossings.messages,
       1e-6 * static_cast<double>(crossings.bytes), most, run.whole_primitives,
       1e-6 * static_cast<double>(largest));
+  if (run.shading_bytes > 0) {
+    text += fmt::format("; process 0 keeps the whole scene to shade it, {:.2f} MB more",
+                        1e-6 * static_cast<double>(run.shading_bytes));
+  }
+  return text + summary_of_light(run);
 }
 
 }  // namespace beambench::cluster
