@@ -27,7 +27,7 @@ auto members(Report& report) requires std::same_as<std::remove_const_t<Report>, 
 
 LostProcess silent_part(ProcessId process, double seconds) {
   return LostProcess(
-      fmt::format("process {} was silent for {:.0f} s, and no other has its part of the scene; no "
+      fmt::format("process {} was silent for {} s, and no other has its part of the scene; no "
                   "picture was made",
                   process, seconds));
 }
