@@ -43,8 +43,40 @@ def write_report(pieces: list[dict], folder: Path) -> list[Path]:
     return [
         write_text(folder / "campaigns.md", as_markdown(pieces)),
         write_text(folder / "campaigns.csv", _csv(rows)),
-        write_text(folder / "record.json", as_json(pieces)),
+        write_text(folder / "record.json", as_json(merged(pieces))),
     ]
+
+
+def merged(pieces: list[dict]) -> list[dict]:
+    """Pieces of one subject, commit and machine as one, but for those with findings.
+
+    What is published need not say when each of thousands was done.
+    """
+    groups: dict[tuple[object, ...], list[dict]] = defaultdict(list)
+    for number, piece in enumerate(pieces):
+        one = number if piece["findings"] else None
+        key = (piece["command"], piece["subject"], piece["commit"], piece["machine"], one)
+        groups[key].append(piece)
+    return [_as_one(ours) if len(ours) > 1 else ours[0] for ours in groups.values()]
+
+
+def _as_one(pieces: list[dict]) -> dict:
+    what = dict.fromkeys(name for piece in pieces for name in piece["counts"])
+    return pieces[-1] | {
+        "seed": pieces[0]["seed"],
+        "counts": {name: sum(piece["counts"].get(name, 0) for piece in pieces) for name in what},
+        "cpu_seconds": round(sum(piece["cpu_seconds"] for piece in pieces), 1),
+        "pieces": sum(_pieces(piece) for piece in pieces),
+        "first_utc": min(_first(piece) for piece in pieces),
+    }
+
+
+def _pieces(piece: dict) -> int:
+    return piece.get("pieces", 1)
+
+
+def _first(piece: dict) -> str:
+    return piece.get("first_utc", piece["time_utc"])
 
 
 def summed(pieces: list[dict]) -> list[dict[str, object]]:
@@ -52,16 +84,18 @@ def summed(pieces: list[dict]) -> list[dict[str, object]]:
     groups: dict[tuple[str, str], list[dict]] = defaultdict(list)
     for piece in pieces:
         groups[piece["command"], piece["subject"]].append(piece)
+    for ours in groups.values():
+        ours.sort(key=lambda piece: piece["time_utc"])
     return [
         {
             "command": command,
             "subject": subject,
-            "pieces": len(ours),
+            "pieces": sum(_pieces(piece) for piece in ours),
             **{what: sum(piece["counts"].get(what, 0) for piece in ours) for what in _COUNTS},
             "cpu_seconds": round(sum(piece["cpu_seconds"] for piece in ours), 1),
             **{what: ours[-1]["coverage"].get(what, "") for what in _COVERAGE},
             "findings": sum(len(piece["findings"]) for piece in ours),
-            "first_utc": ours[0]["time_utc"],
+            "first_utc": min(_first(piece) for piece in ours),
             "last_utc": ours[-1]["time_utc"],
             "commits": " ".join(dict.fromkeys(piece["commit"][:7] for piece in ours)),
         }

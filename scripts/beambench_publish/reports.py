@@ -68,7 +68,10 @@ def _in_copy(write: Callable[[Path], object], tables: Sequence[str], folder: Pat
         return (Path(copy) / "report.md").read_text("utf-8")
 
 
-_CLUSTER = ("measured.csv", "processes.csv", "recorded.json", "simulations.csv", "split.csv")
+_CLUSTER = (
+    *("measured.csv", "processes.csv", "recorded.json", "simulations.csv", "split.csv"),
+    "scene-divisions.csv",
+)
 _REPORTS: dict[str, Callable[[Path], str]] = {
     "beat-embree/report.md": partial(_comparison, BEAT_EMBREE),
     "cluster/report.md": partial(_in_copy, write_cluster, _CLUSTER),

@@ -13,7 +13,9 @@ from beambench_report.base.cell_files import REPETITIONS, write_repetitions
 from beambench_report.base.files import write_text
 
 _COLORS = 256
-_NOT_COMMITTED = ("google-benchmark.json", "report.html")
+_NOT_COMMITTED = ("google-benchmark.json", "report.html", "*answers.jsonl")
+_FOLDERS_NOT_COMMITTED = ("tasks",)
+"""Of the cluster's record: what single beams cost, from which only its simulations begin."""
 
 
 def make_small(folder: Path) -> None:
@@ -29,6 +31,9 @@ def make_small(folder: Path) -> None:
     for name in _NOT_COMMITTED:
         for file in folder.rglob(name):
             file.unlink()
+    for name in _FOLDERS_NOT_COMMITTED:
+        for inner in sorted(folder.rglob(name)):
+            shutil.rmtree(inner)
     make_images_small(folder)
 
 

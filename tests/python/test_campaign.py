@@ -10,6 +10,7 @@ import subprocess
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from random import Random
 
@@ -19,7 +20,7 @@ from beambench_campaign import night_kills, quake3_maps
 from beambench_campaign import rays as random_rays
 from beambench_campaign.__main__ import main
 from beambench_campaign.libfuzzer import status
-from beambench_campaign.piece import Piece, Task
+from beambench_campaign.piece import Finding, Piece, Task
 from beambench_campaign.pool import do_pieces
 from beambench_campaign.programs import Programs
 from beambench_campaign.record import Record
@@ -123,6 +124,21 @@ def test_the_report_has_a_row_for_each_subject_and_each_finding(record: Record) 
     assert "In all: rays, 1 scenes, 1,234,569 rays in 0.00 hours" in markdown.read_text()
     assert Record(again.parent).pieces() == record.pieces()
     assert table.read_text().splitlines()[1].startswith("rays,beam,1,0,0,2,0,0,0.5,")
+
+
+def test_a_published_record_has_one_piece_of_a_subject_and_goes_on_from_there(
+    record: Record,
+) -> None:
+    finding = Finding("case", "wrong", "repeat it")
+    record.add(piece("samet", 5))
+    record.add(piece("beam", 7))
+    record.add(replace(piece("samet", 1), findings=[finding]))
+    record.add(piece("samet", 6))
+    *_, again = write_report(record.pieces(), record.folder / "report")
+    published = Record(again.parent)
+    assert [one["counts"]["rays"] for one in published.pieces()] == [11, 7, 1]
+    assert summed(published.pieces()) == summed(record.pieces())
+    assert published.total("rays", "samet", "scenes") == record.total("rays", "samet", "scenes")
 
 
 # Sweeps

@@ -388,6 +388,9 @@ def test_what_is_committed_is_small(tmp_path: Path) -> None:
     one = {"round": 1, "build_ms": 1.0, "trace_ms": 2.0}
     cell = {"row": row, "message": "", "examples": [], "repetitions": [one]}
     (run / "cells/a.json").write_text(json.dumps(cell))
+    (run / "answers.jsonl").write_text("{}")
+    (run / "tasks").mkdir()
+    (run / "tasks/gato-bill-beams.csv").write_text("seconds")
     plots = run / "plots"
     plots.mkdir()
     for name in ("drawn.png", "drawn.svg", "rendered.png"):
@@ -397,7 +400,7 @@ def test_what_is_committed_is_small(tmp_path: Path) -> None:
     picture.save(plots / "rendered.png")
     before = size(run)
     make_small(run)
-    assert not (run / "cells").exists()
+    assert {"cells", "tasks", "answers.jsonl"}.isdisjoint(file.name for file in run.iterdir())
     assert (run / "repetitions.csv").is_file()
     assert {file.name for file in plots.iterdir()} == {"drawn.svg", "rendered.png"}
     with Image.open(plots / "rendered.png") as small:

@@ -73,3 +73,11 @@ def test_no_plot_is_there_twice(published: Path) -> None:
     """Of a plot the SVG is committed, which is a fifth of the PNG."""
     twice = [plot for plot in published.rglob("*.png") if plot.with_suffix(".svg").is_file()]
     assert twice == []
+
+
+def test_a_report_shows_the_plots_beside_it(published: Path) -> None:
+    """One that was written anew from too few of its tables would lack a section."""
+    for report in published.rglob("report.md"):
+        texts = "".join(text.read_text("utf-8") for text in report.parent.glob("*.md"))
+        unshown = [plot for plot in report.parent.glob("*.svg") if plot.name not in texts]
+        assert unshown == [], report

@@ -20,6 +20,9 @@ def figures(folder: Path) -> dict[str, Any]:
     simulations, processes = read_simulations(folder), read_processes(folder)
     split = read_table(folder / "split.csv", ("era", "scene", "processes"), _REMEDY, {"era": str})
     measured = read_table(folder / "measured.csv", ("scene", "setting", "seconds"), _REMEDY)
+    divisions = read_table(
+        folder / "scene-divisions.csv", ("division", "scene", "processes", "efficiency"), _REMEDY
+    )
     recorded = read_json(folder / "recorded.json")
     if not isinstance(recorded, dict):
         raise Problem(f"{folder}/recorded.json: there is no such file; {_REMEDY}")
@@ -33,6 +36,11 @@ def figures(folder: Path) -> dict[str, Any]:
         "recorded": recorded,
         "split": lambda era, scene, parts: _one(
             split, {"era": era, "scene": scene, "processes": parts}, folder / "split.csv"
+        ),
+        "divided": lambda scene, division, parts: _one(
+            divisions,
+            {"scene": scene, "division": division, "processes": parts},
+            folder / "scene-divisions.csv",
         ),
         "measured": lambda scene, setting: float(
             _one(measured, {"scene": scene, "setting": setting}, folder / "measured.csv")["seconds"]
