@@ -58,25 +58,20 @@ def _levels(folder: Path) -> str:
     return str(levels_of_runs([file.parent for file in sorted(folder.glob("*/results.csv"))], None))
 
 
-def _in_copy(write: Callable[[Path], object], tables: Sequence[str], folder: Path) -> str:
-    """What a command writes that draws plots beside its report, too."""
+def _in_copy(write: Callable[[Path], object], folder: Path) -> str:
+    """What a command writes from all tables of a folder that draws plots beside its report, too."""
     with tempfile.TemporaryDirectory() as copy:
-        for table in tables:
-            if (folder / table).is_file():
-                shutil.copy(folder / table, copy)
+        for table in (*folder.glob("*.csv"), *folder.glob("*.json")):
+            shutil.copy(table, copy)
         write(Path(copy))
         return (Path(copy) / "report.md").read_text("utf-8")
 
 
-_CLUSTER = (
-    *("measured.csv", "processes.csv", "recorded.json", "simulations.csv", "split.csv"),
-    "scene-divisions.csv",
-)
 _REPORTS: dict[str, Callable[[Path], str]] = {
     "beat-embree/report.md": partial(_comparison, BEAT_EMBREE),
-    "cluster/report.md": partial(_in_copy, write_cluster, _CLUSTER),
-    "haines/report.md": partial(_in_copy, write_haines, ("tests.csv",)),
-    "havran/report.md": partial(_in_copy, write_havran, ("counts.csv",)),
+    "cluster/report.md": partial(_in_copy, write_cluster),
+    "haines/report.md": partial(_in_copy, write_haines),
+    "havran/report.md": partial(_in_copy, write_havran),
     "libraries/embree-4/to-embree.md": partial(_ratios, WATERTIGHT),
     "libraries/to-embree.md": partial(_ratios, WATERTIGHT),
     "libraries/to-tinybvh.md": partial(_ratios, "tinybvh"),

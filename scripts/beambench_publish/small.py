@@ -14,8 +14,9 @@ from beambench_report.base.files import write_text
 
 _COLORS = 256
 _NOT_COMMITTED = ("google-benchmark.json", "report.html", "*answers.jsonl")
+"""The last: what an interrupted simulation of the cluster goes on from."""
 _FOLDERS_NOT_COMMITTED = ("tasks",)
-"""Of the cluster's record: what single beams cost, from which only its simulations begin."""
+"""What single beams cost, from which only simulations of the cluster begin."""
 
 
 def make_small(folder: Path) -> None:
