@@ -17,6 +17,7 @@
 #include "scenes/core/error.hpp"
 #include "tests/cluster/followers.hpp"
 #include "tests/cluster/local_network.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace beambench::cluster {
 namespace {
@@ -32,19 +33,14 @@ Bytes bytes_of(std::string_view text) {
 /// A place for a picture, empty at first.
 class KeptResults : public ::testing::Test {
  protected:
-  void SetUp() override {
-    fs::remove_all(place_);
-    fs::create_directories(place_);
-  }
-  void TearDown() override { fs::remove_all(place_); }
-
   static std::size_t count(const KeptFolder& folder, const std::string& key) {
     std::size_t found = 0;
     folder.read(key, [&](auto, auto) { ++found; });
     return found;
   }
 
-  fs::path place_ = fs::path(::testing::TempDir()) / "beambench-kept";
+  TemporaryFolder folder_;  // of this test alone: others run at the same time
+  fs::path place_ = folder_.path();
   fs::path picture_ = place_ / "picture.png";
 };
 

@@ -1,8 +1,6 @@
 // What must be true of a simulation's parts: costs as they were recorded, played in their order,
 // and messages that are paid for.
 
-#include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
@@ -12,6 +10,7 @@
 #include "harness/cluster/simulation/replay.hpp"
 #include "scenes/core/error.hpp"
 #include "tests/cluster/local_network.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace beambench::cluster {
 namespace {
@@ -32,13 +31,13 @@ struct Purse {
 };
 
 TEST(TaskCosts, AreReadByTheNamesOfTheirColumns) {
-  const auto path = std::filesystem::path(::testing::TempDir()) / "beambench-task-costs.csv";
-  std::ofstream(path) << "samples,task,work_seconds,other,walk_seconds,accept_seconds,task_bytes,"
-                         "result_bytes\r\n"
-                         "100,0,1.5,x,0.25,1e-3,150,800\r\n"
-                         "0,end,0,x,0.5,0,0,0\r\n";
-  const TaskCosts costs = read_task_costs(path);
-  std::filesystem::remove(path);
+  const TemporaryFolder folder;
+  const TaskCosts costs = read_task_costs(
+      folder.write("costs.csv",
+                   "samples,task,work_seconds,other,walk_seconds,accept_seconds,task_bytes,"
+                   "result_bytes\r\n"
+                   "100,0,1.5,x,0.25,1e-3,150,800\r\n"
+                   "0,end,0,x,0.5,0,0,0\r\n"));
   ASSERT_EQ(costs.tasks.size(), 1U);
   EXPECT_EQ(costs.tasks[0].walk_seconds, 0.25);
   EXPECT_EQ(costs.tasks[0].work_seconds, 1.5);
