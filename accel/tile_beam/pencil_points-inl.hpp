@@ -13,11 +13,10 @@
 #include <limits>
 #include <span>
 
-#include <hwy/cache_control.h>
-
 #include "accel/core/ray.hpp"
 #include "accel/tile_beam/lanes-inl.hpp"
 #include "accel/tile_beam/pencil_unit.hpp"
+#include "accel/tile_beam/prefetch-inl.hpp"
 #include "accel/tile_beam/raster_samples-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -130,7 +129,8 @@ class PencilProjection {
     for (std::size_t block = 0; block < unit_->listed; ++block) {
       const std::size_t first = unit_->first[block];
       const LaneBits present = (LaneBits{1} << (unit_->first[block + 1] - first)) - 1;
-      prefetch(&part_->rays[first]);
+      // The next unit's rays, while these are traced.
+      prefetch_lines(&part_->rays[first] + PencilUnit::kRays, PencilUnit::kBlock * sizeof(Ray));
       if (first + PencilUnit::kBlock <= count) {
         project(block, &part_->rays[first], present);
       } else {
@@ -144,12 +144,6 @@ class PencilProjection {
   }
 
  private:
-  /// The next unit's rays, while these are traced.
-  static HWY_INLINE void prefetch(const Ray* rays) {
-    const auto* const next = reinterpret_cast<const std::uint8_t*>(rays + PencilUnit::kRays);
-    for (std::size_t i = 0; i < PencilUnit::kBlock * sizeof(Ray); i += 64) hwy::Prefetch(next + i);
-  }
-
   HWY_INLINE void project(std::size_t block, const Ray* rays, LaneBits present) {
     const Floats infinity = all(kInfinity);
     const Floats minus_infinity = all(-kInfinity);

@@ -14,14 +14,13 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <hwy/cache_control.h>
-
 #include "accel/tile_beam/pencil_groups-inl.hpp"
 #include "accel/tile_beam/pencil_pairs-inl.hpp"
 #include "accel/tile_beam/pencil_shapes-inl.hpp"
 #include "accel/tile_beam/pencil_single_rays-inl.hpp"
 #include "accel/tile_beam/pencil_tests-inl.hpp"
 #include "accel/tile_beam/pencil_unit.hpp"
+#include "accel/tile_beam/prefetch-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace beambench::accel::tile_beam::HWY_NAMESPACE {
@@ -78,7 +77,8 @@ class PencilWalk {
   struct Entry {
     TileChild child;
     std::uint32_t groups;  ///< that it may be seen from, a bit each
-    bool crowded;          ///< more leaves than single rays would take
+    std::uint32_t
+        crowded;  ///< not 0: more leaves than single rays would take; a whole word, as for tiles
     SideBounds bounds;
   };
 
@@ -104,7 +104,7 @@ class PencilWalk {
                               stored[kHighV][lane], stored[kLowW][lane],  stored[kHighW][lane]};
       const std::uint32_t seen = groups & groups_.groups_in(bounds);
       if (seen == 0) continue;
-      prefetch(node.children[lane]);
+      prefetch_child(*hierarchy_, node.children[lane]);
       std::size_t hole = size_++;
       if constexpr (kClosest) {  // the nearest is on top
         for (; hole > first && stack_[hole - 1].bounds[kHighW] > bounds[kHighW]; --hole) {
@@ -150,18 +150,6 @@ class PencilWalk {
     const float all_areas = hn::GetLane(hn::SumOfLanes(Tag(), areas));
     return static_cast<float>(leaves) * all_areas >
            Policy::kHandoverLeaves * (all_rays * area + all_areas);
-  }
-
-  HWY_INLINE void prefetch(TileChild child) const {
-    const auto fetch = [](const auto& block) {
-      const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&block);
-      for (std::size_t i = 0; i < sizeof(block); i += 64) hwy::Prefetch(bytes + i);
-    };
-    if (child.kind() == TileChild::Kind::kNode) {
-      fetch(hierarchy_->nodes[child.index()]);
-    } else if (child.kind() == TileChild::Kind::kMeshlet) {
-      fetch(hierarchy_->meshlets[child.index()]);
-    }
   }
 
   HWY_INLINE void visit_leaf(const Entry& entry, std::uint32_t groups) {

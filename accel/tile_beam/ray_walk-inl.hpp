@@ -11,13 +11,12 @@
 #include <optional>
 #include <span>
 
-#include <hwy/cache_control.h>
-
 #include "accel/bvh/probe_ray.hpp"
 #include "accel/core/hit_buffer.hpp"
 #include "accel/core/intersect.hpp"
 #include "accel/core/trace_step.hpp"
 #include "accel/tile_beam/lanes-inl.hpp"
+#include "accel/tile_beam/prefetch-inl.hpp"
 #include "accel/tile_beam/tile_hierarchy.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -99,7 +98,7 @@ class MeshletProbe {
 };
 
 /// Rays that are on their way together.
-inline constexpr std::size_t kRaysAtOnce = 8;
+inline constexpr std::size_t kRaysAtOnce = 12;
 
 /// The entries still to be visited: the bits of where the ray enters them, which order as the
 /// floats do, above the child's. The nearest is on top.
@@ -258,22 +257,6 @@ auto answer_below(const TileHierarchy& hierarchy, const scenes::Scene& scene, Ti
   while (walk.step(hierarchy, scene, counting)) {
   }
   return walk.result();
-}
-
-/// Asks for what a ray's next step needs of the memory.
-HWY_INLINE void prefetch_for_ray(const TileHierarchy& hierarchy, TileChild child) {
-  const auto fetch = [](const auto& block, std::size_t bytes) {
-    const auto* const from = reinterpret_cast<const std::uint8_t*>(&block);
-    for (std::size_t i = 0; i < bytes; i += 64) hwy::Prefetch(from + i);
-  };
-  if (child.kind() == TileChild::Kind::kNode) {
-    const TileNode& node = hierarchy.nodes[child.index()];
-    fetch(node.boxes, sizeof(TileBoxes));
-    fetch(node.children, sizeof(node.children));
-    fetch(node.count, sizeof(node.count));
-  } else if (child.kind() == TileChild::Kind::kMeshlet) {
-    fetch(hierarchy.meshlets[child.index()], sizeof(Meshlet));
-  }
 }
 
 /// A traversal under way, and the caller's number of its ray.

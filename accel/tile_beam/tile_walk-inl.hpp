@@ -9,12 +9,11 @@
 
 #include <bit>
 
-#include <hwy/cache_control.h>
-
 #include "accel/tile_beam/box_probe-inl.hpp"
 #include "accel/tile_beam/cone_raster-inl.hpp"
 #include "accel/tile_beam/hand_over.hpp"
 #include "accel/tile_beam/meshlet_raster-inl.hpp"
+#include "accel/tile_beam/prefetch-inl.hpp"
 #include "accel/tile_beam/ray_raster-inl.hpp"
 #include "accel/tile_beam/ray_walk-inl.hpp"
 #include "accel/tile_beam/sphere_raster-inl.hpp"
@@ -58,7 +57,9 @@ class TileWalk {
     TileChild child;
     float nearest;  ///< the largest 1/t of its box
     SampleRectangle where;
-    bool crowded;  ///< more leaves than single rays would take
+    /// Not 0: more leaves than single rays would take. A whole word, for entries with a gap are
+    /// copied in pieces that overlap, and reading them waits for the cache.
+    std::uint32_t crowded;
   };
 
   void push_root() {
@@ -97,31 +98,25 @@ class TileWalk {
     probe_.probe(node.boxes, node.count, farthest_, met);
     const LaneBits fronts = met.lanes & backs_->hidden_lanes(*hierarchy_, number);
     if (fronts != 0) met.lanes &= ~(fronts & probe_.turned_away(node));
-    const std::size_t first = size_;
+    Entry* const first = stack_.data() + size_;
+    size_ += static_cast<std::size_t>(std::popcount(met.lanes));
     for (LaneBits left = met.lanes; left != 0; left &= left - 1) {
       const auto lane = static_cast<std::size_t>(std::countr_zero(left));
-      const float nearest = met.nearest[lane];
-      prefetch(node.children[lane]);
-      std::size_t hole = size_++;
-      for (; hole > first && stack_[hole - 1].nearest > nearest; --hole) {
-        stack_[hole] = stack_[hole - 1];
-      }
-      stack_[hole] = {node.children[lane], nearest, met.where(lane),
-                      is_crowded(node.leaves[lane], met.samples[lane])};
+      prefetch_child(*hierarchy_, node.children[lane]);
+      first[farther_lanes(met, lane)] = {node.children[lane], met.nearest[lane], met.where(lane),
+                                         is_crowded(node.leaves[lane], met.samples[lane])};
     }
   }
 
-  /// Entries on the stack are visited soon, in an order that the processor cannot predict.
-  HWY_INLINE void prefetch(TileChild child) const {
-    const auto fetch = [](const auto& block) {
-      const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&block);
-      for (std::size_t i = 0; i < sizeof(block); i += 64) hwy::Prefetch(bytes + i);
-    };
-    if (child.kind() == TileChild::Kind::kNode) {
-      fetch(hierarchy_->nodes[child.index()]);
-    } else if (child.kind() == TileChild::Kind::kMeshlet) {
-      fetch(hierarchy_->meshlets[child.index()]);
-    }
+  /// Of those met, how many lie farther than one: its place on the stack. Counting them needs no
+  /// branch, which could not be predicted. Of the equally near the first lane is the farthest.
+  static HWY_INLINE int farther_lanes(const BoxProbe::Met& met, std::size_t lane) {
+    const Floats own = all(met.nearest[lane]);
+    const LaneBits farther = for_each_register(
+        [&](std::size_t other) { return hn::Lt(load(&met.nearest[other]), own); });
+    const LaneBits equal = for_each_register(
+        [&](std::size_t other) { return hn::Eq(load(&met.nearest[other]), own); });
+    return std::popcount(met.lanes & (farther | (equal & ((LaneBits{1} << lane) - 1))));
   }
 
   HWY_INLINE void visit_leaf_of_tile(const Entry& entry) {
