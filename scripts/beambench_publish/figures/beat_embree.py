@@ -5,10 +5,14 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from beambench_publish.figures.cells import Cells
 from beambench_publish.figures.comparison import figures_of, read_pairings
 from beambench_publish.reports import BEAT_EMBREE
 
 _MILLION = "bumpy:triangles=1000000"
+_FEWER = "bumpy:triangles=200000"
+_EQUALLY_DENSE = {"320x200": "143x89", "1280x1024": "572x458"}
+"""For each resolution of the million triangles, that at which a fifth of them are as dense."""
 
 
 def figures(folder: Path) -> dict[str, Any]:
@@ -31,5 +35,26 @@ def figures(folder: Path) -> dict[str, Any]:
             "tile_beam": [one.tile.build for one in million],
             "embree": [one.embree.build for one in million],
         },
+        "memory": _memory(folder / "memory"),
         "fastest": sorted({one.embree.contender for one in found if one.isa == "best"}),
+    }
+
+
+def _memory(run: Path) -> dict[str, float]:
+    """The time per ray over a million triangles, over that at as many pixels per triangle.
+
+    Empty where it was not measured.
+    The work is the same but for what a fifth of the triangles, and of the image, does not wait for.
+    """
+    if not run.is_dir():
+        return {}
+    cells = Cells(run)
+
+    def per_ray(scene: str, size: str) -> float:
+        row = cells.row("tile-beam", scene=scene, size=size)
+        return float(row["trace_ms_median"] / row["rays"])
+
+    return {
+        size: per_ray(_MILLION, size) / per_ray(_FEWER, fewer)
+        for size, fewer in _EQUALLY_DENSE.items()
     }
