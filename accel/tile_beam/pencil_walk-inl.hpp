@@ -76,9 +76,8 @@ class PencilWalk {
   static constexpr SideBounds kEverywhere{-kAtApex, kAtApex, -kAtApex, kAtApex, -kAtApex, kAtApex};
   struct Entry {
     TileChild child;
-    std::uint32_t groups;  ///< that it may be seen from, a bit each
-    std::uint32_t
-        crowded;  ///< not 0: more leaves than single rays would take; a whole word, as for tiles
+    std::uint32_t groups;   ///< that it may be seen from, a bit each
+    std::uint32_t crowded;  ///< not 0: more leaves than single rays take; a word: see TileWalk
     SideBounds bounds;
   };
 
