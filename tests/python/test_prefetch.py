@@ -1,7 +1,7 @@
 """The compiled traversals ask the memory for what they need next.
 
 GCC takes a function that does nothing but prefetch for one without effect and removes calls of it,
-unless it is inlined before: for months the loops of tiles and pencils had no prefetch left, and an
+unless it is inlined before: the loops of tiles and pencils once had no prefetch left, and an
 image of a million triangles took far longer.
 """
 
