@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from math import exp, hypot, log, sqrt
 from pathlib import Path
+from random import Random
 
 import numpy as np
 import pytest
@@ -31,8 +33,14 @@ from beambench_report.thesis.paper.evidence import (
     published_evidence,
     share,
     smallest,
+    total,
 )
-from beambench_report.thesis.paper.measured import UNKNOWN_SPREAD, census_work, measured_evidence
+from beambench_report.thesis.paper.measured import (
+    BETWEEN_RUNS,
+    UNKNOWN_SPREAD,
+    census_work,
+    measured_evidence,
+)
 from synthetic_run import synthetic_rows, without_times, write_run
 
 YES, NO, UNDECIDED, MISSING = Outcome
@@ -50,18 +58,23 @@ def measured(value: float, half: float = 0.1) -> Measured:
     [
         (measured(1), measured(2), 1, YES),
         (measured(2), measured(1), 1, NO),
-        (measured(1), measured(1.15), 1, UNDECIDED),
+        (measured(1), measured(1.15), 1, YES),  # errors of both at once are unlikely
+        (measured(1), measured(1.13), 1, UNDECIDED),
+        (measured(10), measured(10.1), 1, NO),  # surely alike
+        (measured(10, 0.3), measured(10.4, 0.3), 1, UNDECIDED),
+        (measured(10), measured(20.2), 2, UNDECIDED),
+        (Measured.exact(10), measured(10.1, 0.2), 1, UNDECIDED),  # a bound is met or not
         (measured(1), measured(2.5), 2, YES),
         (measured(1), measured(2.1), 2, UNDECIDED),
         (measured(1), measured(1.5), 2, NO),
         (Measured.exact(1), Measured.exact(1.001), 1, YES),
-        (Measured.exact(1), Measured.exact(1), 1, UNDECIDED),
+        (Measured.exact(1), Measured.exact(1), 1, NO),
         (Measured.exact(1), Measured.exact(2), 2, YES),
         (None, measured(1), 1, MISSING),
         (measured(1), None, 1, MISSING),
     ],
 )
-def test_a_difference_counts_where_the_intervals_do_not_meet(
+def test_a_difference_counts_where_its_interval_says_so(
     smaller: Measured | None, larger: Measured | None, factor: float, outcome: Outcome
 ) -> None:
     assert below("cell", smaller, larger, factor).outcome is outcome
@@ -110,19 +123,44 @@ def test_no_verdict_depends_on_what_stands_beside() -> None:
 # Figures
 
 
-def test_intervals_of_ratios_differences_and_shares_hold_every_possible_value() -> None:
+def test_errors_of_ratios_differences_sums_and_shares_are_combined_as_independent_ones() -> None:
     four, two = Measured(4, 3, 5), Measured(2, 1, 2.5)
-    assert four / two == Measured(2, 3 / 2.5, 5)
-    assert four - two == Measured(2, 0.5, 4)
-    assert share(two, four) == Measured(2 / 6, 1 / 6, 2.5 / 5.5)
+    ratio, gap, sum_of_both = four / two, four - two, total([four, two])
+    assert ratio.value == 2
+    assert ratio.low == pytest.approx(2 * exp(-hypot(log(4 / 3), log(2.5 / 2))))
+    assert ratio.high == pytest.approx(2 * exp(hypot(log(5 / 4), log(2))))
+    assert (gap.low, gap.value, gap.high) == (2 - hypot(1, 0.5), 2, 2 + hypot(1, 1))
+    assert (sum_of_both.low, sum_of_both.high) == (6 - hypot(1, 1), 6 + hypot(1, 0.5))
+    odds = two / four
+    part = share(two, four)
+    assert (part.low, part.value) == (
+        pytest.approx(odds.low / (1 + odds.low)),
+        pytest.approx(2 / 6),
+    )
     assert smallest([four, two]) == Measured(2, 1, 2.5)
+
+
+def test_a_ratio_of_figures_that_may_be_zero_holds_every_possible_value() -> None:
+    assert Measured(1, 0, 2) / Measured(2, 1, 4) == Measured(0.5, 0, 2)
+    assert share(Measured.exact(0), Measured(2, 1, 4)) == Measured.exact(0)
+
+
+def test_an_interval_of_independent_errors_covers_what_it_says() -> None:
+    random = Random(7)
+    covered = 0
+    for _ in range(2000):
+        ten, five = (random.gauss(value, 0.1) for value in (10, 5))
+        figures = (measured(figure, 1.96 * 0.1) for figure in (ten, five))
+        ratio = next(figures) / next(figures)
+        covered += ratio.low <= 2 <= ratio.high
+    assert 0.94 < covered / 2000 < 0.96
 
 
 def test_a_line_is_found_with_the_slopes_that_its_intervals_allow() -> None:
     line = fit_line([0, 1, 2], [Measured(1, 0.9, 1.1), Measured(3, 2.9, 3.1), Measured(5, 4.5, 6)])
     assert line.slope.value == pytest.approx(2)
-    assert line.slope.low == pytest.approx((4.5 - 1.1) / 2)
-    assert line.slope.high == pytest.approx((6 - 0.9) / 2)
+    assert line.slope.low == pytest.approx(2 - hypot(0.5, 0.1) / 2)
+    assert line.slope.high == pytest.approx(2 + hypot(1, 0.1) / 2)
     assert line.intercept == pytest.approx(1)
     assert line.r_squared == pytest.approx(1)
     assert line.within_intervals
@@ -194,24 +232,37 @@ def row_of(structure: str, parameters: str, **changes: object) -> dict[str, obje
     return synthetic_rows()[0] | row | {"structure": structure, "parameters": parameters} | changes
 
 
-def test_seconds_are_those_of_build_and_trace_with_the_wider_interval(tmp_path: Path) -> None:
+def test_seconds_are_those_of_build_and_trace_with_the_interval_of_a_repeat(
+    tmp_path: Path,
+) -> None:
     times = {"total_ms_median": 200, "total_ms_ci_low": 199, "total_ms_ci_high": 203}
-    cycles = {
-        "total_mcycles_median": 600,
-        "total_mcycles_repeat_low": 570,
-        "total_mcycles_repeat_high": 606,
-    }
-    write_run(tmp_path, [row_of("beam", BEAM, **times, **cycles)])
+    write_run(tmp_path, [row_of("beam", BEAM, total_mcycles_median=600, **times)])
     time = measured_evidence([tmp_path]).time("escena1", "beam", COARSEST)
-    assert time == Measured(0.2, pytest.approx(0.19), 0.203)
+    assert time is not None
+    assert time.value == pytest.approx(0.2)
+    assert time.low == pytest.approx(0.2 - hypot(sqrt(2) * 0.001, BETWEEN_RUNS * 0.2))
+    assert time.high == pytest.approx(0.2 + hypot(sqrt(2) * 0.003, BETWEEN_RUNS * 0.2))
+
+
+def test_a_clock_that_slows_down_makes_no_structure_slower(tmp_path: Path) -> None:
+    """Of one work, a run at 2 GHz takes longer than one at 3; in cycles both take the same."""
+    for name, clock in (("first", 3.0), ("second", 2.0)):
+        times = {"total_ms_median": 600 / clock, "total_ms_ci_low": "", "total_ms_ci_high": ""}
+        levels = BEAM if name == "first" else BEAM.replace("max_level=6", "max_level=5")
+        (tmp_path / name).mkdir()
+        write_run(tmp_path / name, [row_of("beam", levels, total_mcycles_median=600, **times)])
+    found = measured_evidence([tmp_path / "first", tmp_path / "second"])
+    six, five = (found.time("escena1", "beam", COARSEST, level=level) for level in (6, 5))
+    assert six is not None
+    assert five is not None
+    assert (six.value, six.low) == (pytest.approx(five.value), pytest.approx(five.low))
+    assert six.value == pytest.approx(0.6 / 2.5)
 
 
 def test_a_time_of_few_repetitions_is_taken_to_be_vague(tmp_path: Path) -> None:
-    ends = [
-        f"total_{name}_{end}" for name in ("ms_ci", "mcycles_repeat") for end in ("low", "high")
-    ]
-    nothing = dict.fromkeys(ends, "")
-    write_run(tmp_path, [row_of("beam", BEAM, total_ms_median=100, **nothing)])
+    nothing = {"total_ms_ci_low": "", "total_ms_ci_high": ""}
+    times = {"total_ms_median": 100, "total_mcycles_median": 300}
+    write_run(tmp_path, [row_of("beam", BEAM, **times, **nothing)])
     time = measured_evidence([tmp_path]).time("escena1", "beam", COARSEST)
     assert time is not None
     assert time.low == pytest.approx(0.1 * (1 - UNKNOWN_SPREAD))

@@ -9,7 +9,7 @@ import numpy as np
 from beambench_report.base.published import COARSEST, FINEST, RESOLUTIONS, rays
 from beambench_report.thesis.chapter5.cost import MIN_CELLS, r_squared
 from beambench_report.thesis.claims.verdict import Check, Outcome, below
-from beambench_report.thesis.paper.evidence import LEVEL, Evidence, Measured, smallest
+from beambench_report.thesis.paper.evidence import LEVEL, Evidence, Measured, smallest, total
 
 
 @dataclass(frozen=True)
@@ -17,7 +17,7 @@ class Line:
     """Least squares through points whose heights have intervals."""
 
     slope: Measured
-    """From the least to the largest slope that heights within the intervals can have."""
+    """Errors of the heights combined as independent ones."""
     intercept: float
     r_squared: float
     within_intervals: bool
@@ -31,11 +31,9 @@ def fit_line(places: Sequence[float], heights: Sequence[Measured]) -> Line:
     value = np.array([height.value for height in heights])
     low = np.array([height.low for height in heights])
     high = np.array([height.high for height in heights])
-    slope = Measured(
-        float(weights @ value),
-        float(np.sum(np.where(weights > 0, weights * low, weights * high))),
-        float(np.sum(np.where(weights > 0, weights * high, weights * low))),
-    )
+    rising = total([height.times(w) for height, w in zip(heights, weights, strict=True) if w > 0])
+    falling = total([height.times(-w) for height, w in zip(heights, weights, strict=True) if w < 0])
+    slope = rising - falling
     intercept = float(value.mean() - slope.value * x.mean())
     fitted = intercept + slope.value * x
     return Line(
@@ -199,5 +197,5 @@ def best_place(sweep: dict[int, Measured]) -> Measured | None:
     if len(sweep) < 5:
         return None
     best = min(sweep, key=lambda cells: sweep[cells].value)
-    alike = [cells for cells, time in sweep.items() if time.low <= sweep[best].high]
+    alike = [cells for cells, time in sweep.items() if (time - sweep[best]).low <= 0]
     return Measured(best, min(alike), max(alike))

@@ -41,19 +41,41 @@ class Check:
     """Worth knowing beside the claim, but not a part of it: no verdict depends on it."""
 
 
+ALIKE = 1.05
+"""Two measured figures are equal where their ratio is surely less than this, either way."""
+
+
 def below(cell: str, smaller: Measured | None, larger: Measured | None, factor: float = 1) -> Check:
-    """Is one figure below the other, by `factor` or more? Not decided where intervals meet."""
+    """Is one figure below the other, by `factor` or more?
+
+    Yes and no where the interval of the difference says so; no where the two are surely alike. An
+    exact figure that meets the factor to the digit does meet it.
+    """
     if smaller is None or larger is None:
         return Check(cell, Outcome.MISSING)
-    if smaller.high * factor < larger.low:
-        outcome = Outcome.YES
-    elif smaller.low * factor > larger.high:
-        outcome = Outcome.NO
-    else:
-        outcome = _met_where_exact(smaller, larger, factor)
-    ratio = larger.value / smaller.value if smaller.value > 0 else None
+    gap = larger - smaller.times(factor)
+    is_exact = gap.low == gap.high
     figures = f"{number(smaller.value)} against {number(larger.value)}"
+    if gap.low > 0 or (is_exact and gap.value == 0 and factor > 1):
+        outcome = Outcome.YES
+    elif gap.high < 0 or is_exact:
+        outcome = Outcome.NO
+    elif factor == 1 and _are_alike(smaller, larger):
+        outcome = Outcome.NO
+        figures += f", equal within {ALIKE - 1:.0%}"
+    else:
+        outcome = Outcome.UNDECIDED
+    ratio = larger.value / smaller.value if smaller.value > 0 else None
     return Check(cell, outcome, figures, ratio)
+
+
+def _are_alike(one: Measured, other: Measured) -> bool:
+    """Is their ratio between 1 / ALIKE and ALIKE with all of its interval? A bound is like none."""
+    is_bound = any(figure.low == figure.high for figure in (one, other))
+    if is_bound or min(one.low, other.low) <= 0:
+        return False
+    ratio = one / other
+    return ratio.low > 1 / ALIKE and ratio.high < ALIKE
 
 
 def between(cell: str, figure: Measured | None, low: float, high: float, unit: str = "") -> Check:
@@ -90,12 +112,6 @@ def verdict_of(checks: Sequence[Check]) -> Verdict:
     if Outcome.UNDECIDED in outcomes:
         return Verdict.UNDECIDED
     return Verdict.HOLDS if Outcome.YES in outcomes else Verdict.FAILS
-
-
-def _met_where_exact(smaller: Measured, larger: Measured, factor: float) -> Outcome:
-    """Exact figures that meet a factor to the digit do meet it; equal ones are not decided."""
-    exact = smaller.low == smaller.high and larger.low == larger.high
-    return Outcome.YES if exact and factor > 1 else Outcome.UNDECIDED
 
 
 Rule = Callable[[Evidence], list[Check]]

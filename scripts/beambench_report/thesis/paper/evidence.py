@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
+from math import exp, hypot, log
 from pathlib import Path
 
 import pandas as pd
@@ -14,7 +15,12 @@ from beambench_report.base.published import FINEST, FOLDER, read_published
 
 @dataclass(frozen=True)
 class Measured:
-    """A positive figure and its interval; one that was counted or printed is its own interval."""
+    """A positive figure and its 95% interval; one that was counted or printed is its own interval.
+
+    Figures are measured independently of one another, so their errors are combined as independent
+    ones are: by the root of the sum of their squares (propagation of uncertainty, JCGM 100:2008,
+    section 5.1.2), each side of the interval for itself.
+    """
 
     value: float
     low: float
@@ -26,12 +32,24 @@ class Measured:
         return cls(value, value, value)
 
     def __truediv__(self, other: Measured) -> Measured:
-        """The ratio, from the smallest to the largest that the intervals allow."""
-        return Measured(self.value / other.value, self.low / other.high, self.high / other.low)
+        """The ratio; relative errors are combined, as differences of logarithms.
+
+        Where a figure may be zero, which has no logarithm, from the smallest to the largest ratio
+        that the intervals allow.
+        """
+        ratio = self.value / other.value
+        if min(self.low, other.low) <= 0:
+            return Measured(ratio, self.low / other.high, self.high / other.low)
+        below = hypot(log(self.value / self.low), log(other.high / other.value))
+        above = hypot(log(self.high / self.value), log(other.value / other.low))
+        return Measured(ratio, ratio * exp(-below), ratio * exp(above))
 
     def __sub__(self, other: Measured) -> Measured:
-        """The difference, from the smallest to the largest that the intervals allow."""
-        return Measured(self.value - other.value, self.low - other.high, self.high - other.low)
+        """The difference; absolute errors are combined."""
+        below = hypot(self.value - self.low, other.high - other.value)
+        above = hypot(self.high - self.value, other.value - other.low)
+        gap = self.value - other.value
+        return Measured(gap, gap - below, gap + above)
 
     def times(self, factor: float) -> Measured:
         """The figure in another unit, the factor being positive."""
@@ -40,11 +58,14 @@ class Measured:
 
 def share(part: Measured, rest: Measured) -> Measured:
     """Part of the whole that `part` and `rest` make."""
-    return Measured(
-        part.value / (part.value + rest.value),
-        part.low / (part.low + rest.high),
-        part.high / (part.high + rest.low),
-    )
+    if min(part.value, rest.value) <= 0:
+        return Measured(
+            part.value / (part.value + rest.value),
+            part.low / (part.low + rest.high),
+            part.high / (part.high + rest.low),
+        )
+    odds = part / rest
+    return Measured(*(end / (1 + end) for end in (odds.value, odds.low, odds.high)))
 
 
 def smallest(figures: Sequence[Measured]) -> Measured:
@@ -58,8 +79,11 @@ def largest(figures: Sequence[Measured]) -> Measured:
 
 
 def total(figures: Sequence[Measured]) -> Measured:
-    """The sum."""
-    return _each(sum, figures)
+    """The sum; absolute errors are combined."""
+    value = sum(figure.value for figure in figures)
+    below = hypot(*(figure.value - figure.low for figure in figures))
+    above = hypot(*(figure.high - figure.value for figure in figures))
+    return Measured(value, value - below, value + above)
 
 
 def _each(of: Callable[[list[float]], float], figures: Sequence[Measured]) -> Measured:

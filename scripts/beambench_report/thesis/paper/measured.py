@@ -6,6 +6,7 @@ with one shadow cache for the picture (`--shadows cache --order scan` and `--ord
 """
 
 from collections.abc import Sequence
+from math import hypot, sqrt
 from pathlib import Path
 from typing import Any
 
@@ -43,6 +44,9 @@ _THESIS = {
 # So far a figure may be off that was measured too seldom to have an interval of its own.
 UNKNOWN_SPREAD = 0.15
 
+# What another process differs by, its memory lying elsewhere (kBetweenRuns of the harness).
+BETWEEN_RUNS = 0.015
+
 _TASKS = ("nonterminal", "occupied", "leaving")
 _BEAM_COUNTS = ("beams", "beams_nonterminal", "beams_occupied", "beams_made", "beams_divided")
 
@@ -52,9 +56,15 @@ def measured_evidence(directories: Sequence[Path]) -> Evidence:
 
     Raises Problem where a run cannot be read, or is of several machines.
     """
-    parts = [_evidence_of(directory) for directory in directories]
-    if not parts:
+    runs = [_rows_of(directory) for directory in directories]
+    if not runs:
         return NOTHING
+    # One clock for all runs: what they differ by in cycles, they differ by in these seconds.
+    cycles, ms = (
+        pd.concat(rows[f"total_{name}_median"] for rows in runs) for name in ("mcycles", "ms")
+    )
+    clock = float((cycles / ms).median())
+    parts = [_evidence_of(rows, clock) for rows in runs]
     return Evidence(
         *(
             pd.concat([getattr(part, name) for part in parts], ignore_index=True)
@@ -63,11 +73,14 @@ def measured_evidence(directories: Sequence[Path]) -> Evidence:
     )
 
 
-def _evidence_of(directory: Path) -> Evidence:
+def _rows_of(directory: Path) -> pd.DataFrame:
     rows = read_run(directory).rows
     require_one_machine(rows, directory)
     rows = rows[rows["timed"] & rows["ray_kind"].eq("primary")]
-    rows = rows[rows["camera"].eq(rows.groupby("scene")["camera"].transform("first"))]
+    return rows[rows["camera"].eq(rows.groupby("scene")["camera"].transform("first"))]
+
+
+def _evidence_of(rows: pd.DataFrame, clock: float) -> Evidence:
     times: list[dict[str, object]] = []
     work: list[dict[str, object]] = []
     octrees: list[dict[str, object]] = []
@@ -75,7 +88,7 @@ def _evidence_of(directory: Path) -> Evidence:
         setting = setting_of(row)
         if setting is None:
             continue
-        times.append({"table": ""} | setting | seconds_of(row))
+        times.append({"table": ""} | setting | _at_clock(row, clock))
         work += [setting | entry for entry in _work(row)]
         if setting["contender"] == "beam" and setting["samples"] == 1:
             octrees += _octree(row, setting)
@@ -121,23 +134,28 @@ def _cells_per_axis(resolution: str) -> str:
 
 
 def seconds_of(row: dict[str, object]) -> dict[str, float]:
-    """Building included, as in the thesis.
+    """Building included, as in the thesis; the interval is one for a repeated run's median.
 
-    The interval is the wider of two: that of the median, and the one which in clock cycles holds
-    the median of a repeated run, so that two runs come to one verdict.
+    That differs from this run's by the errors of both, so that its interval is that of the median
+    times the root of two, and by what another process differs by.
     """
     seconds = _number(row, "total_ms_median") / 1e3
-    median = (_number(row, "total_ms_ci_low") / 1e3, _number(row, "total_ms_ci_high") / 1e3)
-    scale = seconds / _number(row, "total_mcycles_median")
-    again = tuple(_number(row, f"total_mcycles_repeat_{end}") * scale for end in ("low", "high"))
-    known = [pair for pair in (median, again) if all(pd.notna(end) for end in pair)]
-    if not known:
-        known = [(seconds * (1 - UNKNOWN_SPREAD), seconds * (1 + UNKNOWN_SPREAD))]
-    return {
-        "seconds": seconds,
-        "low": min(seconds, *(low for low, _ in known)),
-        "high": max(seconds, *(high for _, high in known)),
-    }
+    low, high = (_number(row, f"total_ms_ci_{end}") / 1e3 for end in ("low", "high"))
+    if pd.isna(low) or pd.isna(high):
+        below = above = UNKNOWN_SPREAD * seconds
+    else:
+        below, above = (
+            hypot(sqrt(2) * error, BETWEEN_RUNS * seconds)
+            for error in (seconds - low, high - seconds)
+        )
+    return {"seconds": seconds, "low": seconds - below, "high": seconds + above}
+
+
+def _at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
+    """The seconds that the row's cycles take at a clock rate, which for its own was another."""
+    cycles, own = _number(row, "total_mcycles_median"), _number(row, "total_ms_median")
+    scale = cycles / gigahertz / own
+    return {name: seconds * scale for name, seconds in seconds_of(row).items()}
 
 
 def _work(row: dict[str, object]) -> list[dict[str, object]]:
