@@ -82,7 +82,7 @@ def _check(published: Path) -> int:
 
 
 def _given(options: argparse.Namespace) -> Given:
-    return Given(options.tinybvh, options.madmann91_bvh, options.debian_13)
+    return Given(options.tinybvh, options.madmann91_bvh, options.debian_13, tuple(options.only))
 
 
 def _states(plan: Plan, options: argparse.Namespace, setting: Setting | None) -> dict[str, str]:

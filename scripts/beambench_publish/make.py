@@ -14,7 +14,7 @@ from pathlib import Path
 from beambench_publish.plan import Command, Folder, Step, Sweep
 from beambench_publish.progress import Progress, progress_of, state_file
 from beambench_publish.setting import Setting
-from beambench_publish.small import make_small
+from beambench_publish.small import leave_out, make_small
 from beambench_report.base.files import INTERRUPTED, ROOT, Problem, read_json, say, write_text
 from beambench_report.base.quantities import duration_in_words
 
@@ -137,6 +137,7 @@ def _command(step: Command, target: Path, place: Place) -> int:
 
 def _publish(folder: Folder, progress: Progress, published: Path) -> None:
     """Replaces the published folder; its texts' templates and what it keeps stay."""
+    leave_out(progress.folder, folder.leave_out)
     make_small(progress.folder)
     progress.publish()
     kept = [*folder.keep, *_templates(published)]

@@ -30,6 +30,8 @@ class Given:
     """Folder with bvh/v2/bvh.h."""
     debian_13: Path | None = None
     """Root folder of a Debian 13; made there by debootstrap where it is none yet."""
+    named: tuple[str, ...] = ()
+    """The folders that are wanted by name."""
 
 
 def missing(folder: Folder, given: Given, beambench: Path, setting: Setting) -> str:
@@ -38,6 +40,8 @@ def missing(folder: Folder, given: Given, beambench: Path, setting: Setting) -> 
         return f"it takes Embree {folder.embree}, and this program has {setting.embree}"
     if folder.needs == "meshes" and not _knows(beambench, _MESH):
         return "the meshes are not registered; register them with scripts/meshes"
+    if folder.needs == "its name" and folder.name not in given.named:
+        return f"name it, for it takes long: --only {folder.name}"
     if folder.needs == "libraries" and not (given.tinybvh and given.madmann91_bvh):
         return "give --tinybvh DIR and --madmann91-bvh DIR; its table keeps its commit"
     if folder.needs == "debian-13" and not given.debian_13:

@@ -69,11 +69,15 @@ class Folder:
     title: str
     steps: tuple[Step, ...]
     needs: str = ""
-    """`meshes`, `debian-13` or `libraries`: what must be there, else it is left as it is."""
+    """`meshes`, `debian-13`, `libraries` or `its name`, what must be there or be named by --only;
+    else it is left as it is.
+    """
     embree: str = ""
     """The major version of Embree that it takes; empty: any."""
     keep: tuple[str, ...] = ()
     """Files of an earlier commit that no step makes; the texts name their commit."""
+    leave_out: tuple[str, ...] = ()
+    """Files and folders that steps make and nothing published needs; patterns."""
     is_apart: bool = False
     """Is its time not part of the whole?"""
 
@@ -145,6 +149,7 @@ def _folder(entry: dict[str, Any]) -> Folder:
         entry.get("needs", ""),
         entry.get("embree", ""),
         tuple(entry.get("keep", ())),
+        tuple(entry.get("leave_out", ())),
         "apart" in entry,
     )
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import shutil
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from PIL import Image
@@ -36,6 +36,16 @@ def make_small(folder: Path) -> None:
         for inner in sorted(folder.rglob(name)):
             shutil.rmtree(inner)
     make_images_small(folder)
+
+
+def leave_out(folder: Path, patterns: Sequence[str]) -> None:
+    """Removes the files and folders in a finished folder that match a pattern."""
+    for pattern in patterns:
+        for path in sorted(folder.glob(pattern)):
+            if path.is_dir():
+                shutil.rmtree(path)
+            else:
+                path.unlink()
 
 
 def make_images_small(folder: Path) -> None:

@@ -217,6 +217,13 @@ def test_the_changes_reach_the_program(place: Place) -> None:
     assert calls[1] == ["/built/beambench", "census", "--json"]
 
 
+def test_what_nothing_published_needs_is_left_out(place: Place) -> None:
+    make_folder(replace(FOLDER, leave_out=("second", "census.*", "first/con*")), place, HERE)
+    folder = place.published / "small"
+    files = {str(file.relative_to(folder)) for file in folder.rglob("*") if file.is_file()}
+    assert files == {"first/manifest.json", "README.md.j2", "kept.csv", RECORD}
+
+
 def test_nothing_is_published_before_all_is_done(place: Place) -> None:
     with pytest.raises(Interrupted):
         make_folder(FOLDER, replace(place, run=Fake(stops_at=3)), HERE)
@@ -294,6 +301,9 @@ def test_a_folder_that_lacks_something_says_so() -> None:
     assert "--tinybvh DIR" in missing(libraries, Given(), BINARY, HERE)
     given = Given(Path("tinybvh"), Path("bvh"))
     assert not missing(libraries, given, BINARY, HERE)
+    once_more = Folder("thesis-again", "", (), needs="its name")
+    assert "--only thesis-again" in missing(once_more, Given(), BINARY, HERE)
+    assert not missing(once_more, Given(named=("thesis-again",)), BINARY, HERE)
     with_embree_3 = Folder("beat-embree", "", (), embree="3")
     embree_4 = replace(HERE, embree="4.3.3")
     assert missing(with_embree_3, Given(), BINARY, embree_4) == (

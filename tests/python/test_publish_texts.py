@@ -16,8 +16,10 @@ from beambench_publish.documents import (
     module_of,
     write_documents,
 )
+from beambench_publish.figures.thesis import compared
 from beambench_publish.layout import laid_out
 from beambench_report.base.files import Problem
+from beambench_report.thesis.claims.verdict import Verdict
 
 
 @pytest.fixture
@@ -29,6 +31,29 @@ def copied(tmp_path: Path) -> Path:
 
 def test_every_text_states_what_its_rows_give() -> None:
     assert [str(one) for one in differences()] == []
+
+
+def test_two_runs_of_the_thesis_are_compared_by_the_claims_that_both_decide() -> None:
+    first = {
+        "C01": Verdict.HOLDS,
+        "C02": Verdict.HOLDS,
+        "C03": Verdict.FAILS,
+        "C04": Verdict.UNDECIDED,
+        "C22": Verdict.IN_PART,
+    }
+    second = {
+        "C01": Verdict.HOLDS,
+        "C02": Verdict.IN_PART,
+        "C03": Verdict.UNDECIDED,
+        "C04": Verdict.UNDECIDED,
+        "C22": Verdict.NOT_TESTED,
+    }
+    assert compared(first, second) == {
+        "tested": 4,
+        "decided": 2,
+        "differ": ["C02"],
+        "undecided": [["C04"], ["C03", "C04"]],
+    }
 
 
 def test_there_are_templates_and_reports() -> None:

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from beambench_publish.figures.origins import origins
 from beambench_report.thesis.chapter5.mirrors import read_mirrors
 from beambench_report.thesis.claims.chapter6 import CLUSTER_CLAIMS
 from beambench_report.thesis.claims.register import JudgedClaim, judge_claims, summary
-from beambench_report.thesis.claims.verdict import Outcome, Verdict
+from beambench_report.thesis.claims.verdict import ALIKE, Outcome, Verdict
 from beambench_report.thesis.report.plan import read_plan
 from beambench_report.thesis.report.report import gather
+
+_TESTED = (Verdict.HOLDS, Verdict.IN_PART, Verdict.FAILS, Verdict.UNDECIDED)
 
 
 def figures(folder: Path) -> dict[str, Any]:
@@ -30,11 +34,43 @@ def figures(folder: Path) -> dict[str, Any]:
         "tested": len(tested),
         "verdicts": {
             verdict.value: [one.claim.name for one in tested if one.ours.verdict is verdict]
-            for verdict in (Verdict.HOLDS, Verdict.IN_PART, Verdict.FAILS, Verdict.UNDECIDED)
+            for verdict in _TESTED
         },
+        "alike": ALIKE,
+        "again": _again(folder, tested),
         "mirrors": runs,
         "unread": unread,
     }
+
+
+def _again(folder: Path, first: Sequence[JudgedClaim]) -> dict[str, Any] | None:
+    """The verdicts of a second run beside the first one's; None without one of the same kind."""
+    again = folder.parent / f"{folder.name}-again"
+    if not again.is_dir() or _made_by(again) != _made_by(folder / "synthetic"):
+        return None
+    second = gather(again, read_plan(again), None).claims
+    return compared(
+        {one.claim.name: one.ours.verdict for one in first},
+        {one.claim.name: one.ours.verdict for one in second},
+    )
+
+
+def compared(first: dict[str, Verdict], second: dict[str, Verdict]) -> dict[str, Any]:
+    """The claims that two runs test: undecided in one or both, decided alike, decided otherwise."""
+    both = [name for name in first if second.get(name, Verdict.NOT_TESTED) in _TESTED]
+    decided = [n for n in both if Verdict.UNDECIDED not in (first[n], second[n])]
+    return {
+        "tested": len(both),
+        "decided": len(decided),
+        "differ": [name for name in decided if first[name] is not second[name]],
+        "undecided": [
+            [name for name in both if run[name] is Verdict.UNDECIDED] for run in (first, second)
+        ],
+    }
+
+
+def _made_by(folder: Path) -> set[tuple[str, str]]:
+    return {(one.commit, one.machine_id) for one in origins(folder)}
 
 
 def _claim(one: JudgedClaim) -> dict[str, Any]:
