@@ -432,8 +432,12 @@ def test_check_names_the_line_that_is_wrong(
     shutil.copytree(repository / "results/published/structures", tmp_path / "structures")
     assert main(["--check", "--published", str(tmp_path)]) == 0
     text = tmp_path / "structures/winners.md"
-    text.write_text(
-        text.read_text("utf-8").replace("| `tile-beam` | 1.01 |", "| `tile-beam` | 1.02 |")
-    )
+    stated = text.read_text("utf-8")
+    figure = re.search(r"(?<=\| `tile-beam` \| )\d\.\d\d", stated)
+    assert figure is not None
+    wrong = f"{float(figure[0]) + 0.01:.2f}"
+    text.write_text(stated[: figure.start()] + wrong + stated[figure.end() :])
     assert main(["--check", "--published", str(tmp_path)]) == 1
-    assert "structures/winners.md:5: states '| `tile-beam` | 1.02" in capsys.readouterr().out
+    line = stated.count("\n", 0, figure.start()) + 1
+    found = capsys.readouterr().out
+    assert f"structures/winners.md:{line}: states '| `tile-beam` | {wrong}" in found
