@@ -53,6 +53,8 @@ def _again(folder: Path) -> dict[str, Any]:
         "share": there.share,
         "swapped": int(back.cells["within"].sum()),
         "swapped_share": back.share,
+        "half": float(there.cells["change"].abs().quantile(0.5)),
+        "most": float(there.cells["change"].abs().quantile(0.9)),
     }
 
 
