@@ -24,7 +24,7 @@ from beambench_report.run.pictures import (
     write_contact_sheet,
     write_pictures,
 )
-from beambench_report.run.plots import write_plots
+from beambench_report.run.plots import KINDS, write_plots
 from beambench_report.run.ratio_table import write_ratios
 from beambench_report.run.repeatability import repeatability
 from beambench_report.run.winners import write_winners
@@ -107,7 +107,11 @@ def _add(
 
 def _add_of_runs(add: Callable[..., Callable[..., argparse.Action]]) -> None:
     run = {"type": Path, "metavar": "RUN", "help": "folder of a run"}
-    plots = add("plots", lambda o: write_plots(o.run), help="draw RUN/plots from RUN/results.csv")
+    plots = add(
+        "plots",
+        lambda o: write_plots(o.run, [kind for kind in KINDS if kind.name in o.kinds]),
+        help="draw RUN/plots from RUN/results.csv",
+    )
     pictures = add(
         "pictures",
         lambda o: write_pictures(o.run, o.beambench),
@@ -135,6 +139,15 @@ def _add_of_runs(add: Callable[..., Callable[..., argparse.Action]]) -> None:
     )
     for command in (plots, pictures, page, repeated, repetitions, benchmarks):
         command("run", **run)
+    names = [kind.name for kind in KINDS]
+    plots(
+        "--kinds",
+        nargs="+",
+        choices=names,
+        default=names,
+        metavar="KIND",
+        help=f"draw only these of {', '.join(map(repr, names))}; if not given, all",
+    )
     repeated("second", type=Path, metavar="SECOND", help="the same sweep, run again")
     benchmarks("--format", choices=sorted(_EXPORTS), required=True)
     pictures("--beambench", type=Path, required=True, metavar="PROGRAM", help="the built beambench")

@@ -70,6 +70,17 @@ def test_plotting_again_replaces_and_leaves_nothing_beside(run_folder: Path) -> 
     assert {path.name: path.read_bytes() for path in (run_folder / "plots").iterdir()} == first
 
 
+def test_only_the_kinds_that_are_named_are_drawn(
+    run_folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["plots", str(run_folder), "--kinds", "overall"]) == 0
+    assert plotted(run_folder) == {stem for stem in PLOTS if stem.startswith("overall")}
+    assert "Not drawn" not in (run_folder / "plots" / "README.md").read_text()
+    with pytest.raises(SystemExit):
+        main(["plots", str(run_folder), "--kinds", "pies"])
+    assert "'overall'" in capsys.readouterr().err
+
+
 def titles(path: Path) -> list[str]:
     """What the mouse shows in a plot's SVG."""
     return [text.text or "" for text in ElementTree.parse(path).iter(f"{SVG}title")]

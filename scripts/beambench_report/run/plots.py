@@ -53,23 +53,23 @@ def without_figure(stems: Iterable[str], kinds: Sequence[Kind] = KINDS) -> list[
     return [kind for kind in kinds if not any(stem.startswith(kind.name) for stem in known)]
 
 
-def write_plots(directory: Path) -> list[Path]:
+def write_plots(directory: Path, kinds: Sequence[Kind] = KINDS) -> list[Path]:
     """Fills DIRECTORY/plots from DIRECTORY/results.csv: PNG, SVG, a table, README and index.
 
-    What an earlier call drew and this one does not goes away.
+    Draws `kinds` alone. What an earlier call drew and this one does not goes away.
     """
     measured = read_measured(directory)
     folder = directory / "plots"
     folder.mkdir(exist_ok=True)
     plots, paths = [], []
     with house_style():
-        for plot in draw(measured):
+        for plot in draw(measured, kinds):
             paths += write_plot(plot, folder)
             plots.append(plot)
     _remove_former(folder, {plot.stem for plot in plots})
     table = break_even_table(measured.run)
     paths.append(write_text(folder / "break-even.csv", csv_of(table)))
-    readme = _readme(measured.run, plots)
+    readme = _readme(measured.run, plots, kinds)
     for name, text in (("README.md", readme), (PLOT_INDEX, _index(plots))):
         paths.append(write_text(folder / name, text))
     return paths
@@ -86,7 +86,7 @@ def _remove_former(folder: Path, stems: set[str]) -> None:
             (folder / f"{Path(stem).name}.{ending}").unlink(missing_ok=True)
 
 
-def _readme(run: Run, plots: list[Plot]) -> str:
+def _readme(run: Run, plots: list[Plot], kinds: Sequence[Kind]) -> str:
     lines = [
         f"# Plots of run {run.rows['run_id'].iloc[0]}",
         "",
@@ -99,7 +99,7 @@ def _readme(run: Run, plots: list[Plot]) -> str:
         "| [break-even.csv](break-even.csv) | break-even ray count of every pair |",
         "",
     ]
-    if missing := without_figure(plot.stem for plot in plots):
+    if missing := without_figure((plot.stem for plot in plots), kinds):
         lines += ["Not drawn, for the run has not what they need:", ""]
         lines += [f"- {kind.name}: {kind.needs}" for kind in missing]
         lines += [""]
