@@ -31,7 +31,7 @@
 namespace beambench::cli {
 namespace {
 
-struct Request {
+struct CensusRequest {
   std::vector<std::string> scenes;
   std::string structure = "sah-bvh";
   std::string rules = "image";
@@ -45,7 +45,7 @@ struct Request {
 
 using experiments::CensusResult;
 
-bool by_spd(const Request& request) { return request.rules == "spd"; }
+bool by_spd(const CensusRequest& request) { return request.rules == "spd"; }
 
 using Cells = std::vector<std::string>;
 
@@ -199,7 +199,7 @@ std::string census_text(const std::vector<CensusResult>& results) {
 }
 
 /// The options that depart from the rules of SPD, which explains other counts than the published.
-std::string departure(const Request& request) {
+std::string departure(const CensusRequest& request) {
   std::vector<std::string> options;
   const int published_depth = render::WhittedOptions{}.max_depth;
   if (request.whitted.max_depth != published_depth) {
@@ -211,7 +211,7 @@ std::string departure(const Request& request) {
   return fmt::format("{}", fmt::join(options, ", "));
 }
 
-void print_text(const Request& request, const std::vector<CensusResult>& results) {
+void print_text(const CensusRequest& request, const std::vector<CensusResult>& results) {
   fmt::print("{}, {} rules, depth {}, shadows by {}\n\n{}", request.structure, request.rules,
              request.whitted.max_depth, request.whitted.shadows, census_text(results));
   if (request.count_work) fmt::print("\n{}", work_text(results));
@@ -220,7 +220,7 @@ void print_text(const Request& request, const std::vector<CensusResult>& results
   if (!beside.empty()) fmt::print("\n{}", beside);
 }
 
-void print_json(const Request& request, const std::vector<CensusResult>& results) {
+void print_json(const CensusRequest& request, const std::vector<CensusResult>& results) {
   nlohmann::ordered_json out{{"structure", request.structure},
                              {"rules", request.rules},
                              {"depth", request.whitted.max_depth},
@@ -235,7 +235,7 @@ void print_json(const Request& request, const std::vector<CensusResult>& results
   fmt::print("{}\n", json_text(out));
 }
 
-experiments::CensusOptions options_of(const Request& request) {
+experiments::CensusOptions options_of(const CensusRequest& request) {
   constexpr std::array<std::string_view, 2> kRules{"spd", "image"};
   base::place_of_name("rules", request.rules, kRules);
   if (by_spd(request) && (!request.image.resolution.empty() || request.image.samples != 1)) {
@@ -252,7 +252,7 @@ experiments::CensusOptions options_of(const Request& request) {
   return options;
 }
 
-void census(const Request& request) {
+void census(const CensusRequest& request) {
   const experiments::CensusOptions options = options_of(request);
   const accel::StructureChoice choice = choose_one("--accel", request.structure);
   if (!request.pictures.empty()) make_folder(request.pictures, "choose another with --pictures");
@@ -285,7 +285,7 @@ void census(const Request& request) {
 void add_census_command(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand(
       "census", "Count the rays of whole pictures: primary, shadow, reflected, refracted");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<CensusRequest>();
   command->add_option(
       "SCENE", request->scenes,
       fmt::format("{}; several may be given (default: the whole catalogue)", kSceneHelp));

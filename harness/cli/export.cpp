@@ -19,13 +19,13 @@
 namespace beambench::cli {
 namespace {
 
-struct Request {
+struct ExportRequest {
   std::string scene;
   std::string file;
   scenes::ReadOptions options;
 };
 
-void export_scene(const Request& request) {
+void export_scene(const ExportRequest& request) {
   const bool obj = request.file.ends_with(".obj");
   if (!obj && !request.file.ends_with(".nff")) {
     throw InputError(
@@ -46,7 +46,7 @@ void export_scene(const Request& request) {
 
 void add_export_command(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("export", "Write a scene as an NFF or OBJ file");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ExportRequest>();
   add_scene_option(*command, request->scene);
   command->add_option("-o", request->file, "File to write, .nff or .obj")->required();
   command->add_flag("--strict", request->options.strict,

@@ -20,7 +20,7 @@
 namespace beambench::cli {
 namespace {
 
-struct Request {
+struct HitsRequest {
   std::string scene;
   std::string structure = "sah-bvh";
   std::string rays = "primary";
@@ -28,7 +28,7 @@ struct Request {
   std::string file;
 };
 
-void write_hits(const Request& request) {
+void write_hits(const HitsRequest& request) {
   const bool known =
       request.file.ends_with(rays::kHitFileEnding) || request.file.ends_with(rays::kCsvEnding);
   if (!known) {
@@ -58,7 +58,7 @@ void write_hits(const Request& request) {
 
 void add_hits_command(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("hits", "Trace rays by a structure and save the hits");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<HitsRequest>();
   add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structure, "Structure: NAME:parameter=value,...")
       ->capture_default_str();

@@ -279,13 +279,13 @@ void print_json() {
   fmt::print("{}\n", json_text(all));
 }
 
-struct Request {
+struct ListRequest {
   std::vector<std::string> names;
   bool counters = false;
   bool json = false;
 };
 
-void list(const Request& request) {
+void list(const ListRequest& request) {
   if (request.json) return print_json();
   if (request.counters) return print_all_counters();
   if (request.names.empty()) return print_text();
@@ -297,7 +297,7 @@ void list(const Request& request) {
 void add_list_command(CLI::App& app, int&) {
   CLI::App* command =
       app.add_subcommand("list", "List structures with their parameters, scenes, kinds of rays");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<ListRequest>();
   CLI::Option* names = command->add_option(
       "NAME", request->names, "Structures, scenes or kinds of rays to print (default: all)");
   CLI::Option* counters =

@@ -20,7 +20,7 @@
 namespace beambench::cli {
 namespace {
 
-struct Request {
+struct MirrorsRequest {
   std::string scene;
   std::string structure = "beam";
   ImageRequest image{"640x480", {}, 1};
@@ -30,7 +30,7 @@ struct Request {
 
 double ratio(const experiments::MirrorResult& result) { return result.rays_ms / result.beams_ms; }
 
-void print_text(const scenes::Scene& scene, const Request& request,
+void print_text(const scenes::Scene& scene, const MirrorsRequest& request,
                 const experiments::MirrorComparison& found) {
   fmt::print("{}: {}, {} seen at {}, {}\n\n", scene.name,
              base::counted(found.mirrors, "planar mirror"), found.seen.size(),
@@ -51,7 +51,7 @@ void print_text(const scenes::Scene& scene, const Request& request,
   fmt::print("{}", table.text());
 }
 
-void print_json(const scenes::Scene& scene, const Request& request,
+void print_json(const scenes::Scene& scene, const MirrorsRequest& request,
                 const experiments::MirrorComparison& found) {
   nlohmann::ordered_json out{{"scene", scene.name},
                              {"structure", request.structure},
@@ -72,7 +72,7 @@ void print_json(const scenes::Scene& scene, const Request& request,
 }
 
 /// Returns false when beams and rays found different hits.
-bool show_mirrors(const Request& request) {
+bool show_mirrors(const MirrorsRequest& request) {
   const accel::StructureChoice choice = choose_one("--accel", request.structure);
   const scenes::Scene scene = open_scene(request.scene);
   const rays::ImageOfRays image = choose_image(scene, request.image);
@@ -92,7 +92,7 @@ bool show_mirrors(const Request& request) {
 void add_mirrors_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("mirrors", "Compare beams and single rays for planar mirrors");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<MirrorsRequest>();
   add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structure, "beam, with parameters where wanted")
       ->capture_default_str();

@@ -24,7 +24,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Request {
+struct RaysRequest {
   std::string scene;
   std::string rays = "primary";
   ImageRequest image;
@@ -50,8 +50,8 @@ Json note_of(const scenes::Scene& scene, const rays::ImageOfRays& image,
           {"samples", image.samples}};
 }
 
-void print_facts(const Request& request, const scenes::Scene& scene, const rays::ImageOfRays& image,
-                 const rays::TraceInput& input) {
+void print_facts(const RaysRequest& request, const scenes::Scene& scene,
+                 const rays::ImageOfRays& image, const rays::TraceInput& input) {
   const std::uint64_t hits = verify::ReferenceHits(scene, input).hit_count();
   const bool any = input.query() == rays::Query::kAnyHit;
   if (request.json) {
@@ -76,7 +76,7 @@ void print_facts(const Request& request, const scenes::Scene& scene, const rays:
   }
 }
 
-void show_rays(const Request& request) {
+void show_rays(const RaysRequest& request) {
   const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
   if (!request.file.empty()) {
     if (!rays::is_ray_file(request.file)) {
@@ -98,7 +98,7 @@ void show_rays(const Request& request) {
 
 void add_rays_command(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("rays", "Generate a set of rays, describe it and save it");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<RaysRequest>();
   add_scene_option(*command, request->scene);
   command
       ->add_option("--rays", request->rays,

@@ -36,7 +36,7 @@ namespace {
 /// The structure of plain pictures if none is given: quick to build and to trace.
 constexpr const char* kPlainStructure = "sah-bvh";
 
-struct Request {
+struct RenderRequest {
   std::string scene;
   std::string structure;
   std::string file;
@@ -71,7 +71,7 @@ bool shows_light(render::Shading shading) {
   return shading == render::Shading::kPreview || shading == render::Shading::kWhitted;
 }
 
-void require_exposure(const Request& request) {
+void require_exposure(const RenderRequest& request) {
   const std::optional<double> stops = parse_exposure(request.exposure);
   if (stops == 0.0) return;
   if (!shows_light(render::parse_shading(request.shading))) {
@@ -102,7 +102,7 @@ std::vector<render::DataChannel> hit_channels(const accel::HitBuffer& hits) {
 }
 
 /// A PNG gets a legend; an EXR the numbers themselves.
-void write_heat_map(const Request& request, const render::HeatMap& map,
+void write_heat_map(const RenderRequest& request, const render::HeatMap& map,
                     const accel::HitBuffer& hits) {
   if (render::image_format(request.file) == render::ImageFormat::kPng) {
     render::write_image(request.file, render::draw_heat_map_with_legend(map));
@@ -120,7 +120,7 @@ std::string describe(const std::vector<render::LegendEntry>& legend) {
   return text;
 }
 
-render::Image shaded(const Request& request, const accel::StructureChoice& choice,
+render::Image shaded(const RenderRequest& request, const accel::StructureChoice& choice,
                      const accel::Accelerator& accelerator, const scenes::Scene& scene,
                      const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
                      base::Progress& progress) {
@@ -135,7 +135,8 @@ render::Image shaded(const Request& request, const accel::StructureChoice& choic
 }
 
 /// Lights of other programs' files fall off with the distance; ours do not. An EXR keeps all light.
-std::string remark_on_light(const Request& request, double stops, const render::Image& image) {
+std::string remark_on_light(const RenderRequest& request, double stops,
+                            const render::Image& image) {
   constexpr double kWorthSaying = 0.05;
   if (render::parse_shading(request.shading) != render::Shading::kWhitted) return "";
   if (render::image_format(request.file) != render::ImageFormat::kPng) return "";
@@ -148,7 +149,7 @@ std::string remark_on_light(const Request& request, double stops, const render::
 }
 
 /// Brings the light of a picture to what --exposure asks for; returns remarks on it.
-std::string exposed(const Request& request, render::Image& image) {
+std::string exposed(const RenderRequest& request, render::Image& image) {
   if (const std::optional<double> stops = parse_exposure(request.exposure)) {
     if (*stops != 0.0) render::expose(image, *stops);
     return remark_on_light(request, *stops, image);
@@ -159,7 +160,7 @@ std::string exposed(const Request& request, render::Image& image) {
 }
 
 /// Shades the hits and draws the overlay, with its legend in a PNG; returns remarks on the picture.
-std::string write_shaded(const Request& request, const accel::StructureChoice& choice,
+std::string write_shaded(const RenderRequest& request, const accel::StructureChoice& choice,
                          std::optional<render::OverlayChoice> overlay,
                          const accel::Accelerator& accelerator, const scenes::Scene& scene,
                          const accel::PrimaryRays& rays, const accel::HitBuffer& hits,
@@ -194,7 +195,7 @@ std::string remark_on(const render::HeatMap& map, const accel::StructureChoice& 
 }
 
 /// What --difference compares with: the oracle, or what another structure finds.
-verify::ReferenceHits find_reference(const Request& request, const scenes::Scene& scene,
+verify::ReferenceHits find_reference(const RenderRequest& request, const scenes::Scene& scene,
                                      const accel::PrimaryRays& rays) {
   if (request.difference == render::kOracleName) return {scene, rays};
   const accel::StructureChoice other = choose_one("--difference", request.difference);
@@ -206,7 +207,7 @@ verify::ReferenceHits find_reference(const Request& request, const scenes::Scene
 }
 
 /// Writes the picture of differences; returns how many there are.
-std::string compare(const Request& request, const accel::StructureChoice& choice,
+std::string compare(const RenderRequest& request, const accel::StructureChoice& choice,
                     const scenes::Scene& scene, const accel::PrimaryRays& rays,
                     const rays::TraceResults& results) {
   const verify::ReferenceHits reference = find_reference(request, scene, rays);
@@ -224,7 +225,7 @@ std::string compare(const Request& request, const accel::StructureChoice& choice
 }
 
 /// Any structure draws the same plain picture; other pictures show what one structure does.
-accel::StructureChoice chosen_structure(const Request& request) {
+accel::StructureChoice chosen_structure(const RenderRequest& request) {
   if (!request.structure.empty()) return choose_one("--accel", request.structure);
   for (const auto& [option, value] :
        {std::pair("--heatmap", &request.heatmap), std::pair("--difference", &request.difference),
@@ -236,7 +237,7 @@ accel::StructureChoice chosen_structure(const Request& request) {
   return choose_one("--accel", kPlainStructure);
 }
 
-void render(const Request& request) {
+void render(const RenderRequest& request) {
   render::parse_shading(request.shading);
   require_exposure(request);
   whitted_options(request.whitted);
@@ -285,7 +286,7 @@ void render(const Request& request) {
 
 void add_render_command(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("render", "Draw a scene, or the work of a structure");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<RenderRequest>();
   add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structure,
                       fmt::format("Structure: NAME:parameter=value,... (default, for a plain "

@@ -24,7 +24,7 @@
 namespace beambench::cli {
 namespace {
 
-struct Request {
+struct SamplingRequest {
   std::string scene;
   std::string structure = "beam";
   ImageRequest image{"640x480", {}, 1};
@@ -33,7 +33,7 @@ struct Request {
   bool json = false;
 };
 
-void print_text(const scenes::Scene& scene, const Request& request,
+void print_text(const scenes::Scene& scene, const SamplingRequest& request,
                 const std::vector<experiments::SamplingResult>& results) {
   fmt::print("{}: {} primitives, {}, {}\n\n", scene.name, scene.primitives.size(),
              request.structure, request.image.resolution);
@@ -45,7 +45,7 @@ void print_text(const scenes::Scene& scene, const Request& request,
   fmt::print("{}\n(1) RMS error on a 0-255 scale, against 64 samples per pixel\n", table.text());
 }
 
-void print_json(const scenes::Scene& scene, const Request& request,
+void print_json(const scenes::Scene& scene, const SamplingRequest& request,
                 const std::vector<experiments::SamplingResult>& results) {
   nlohmann::ordered_json out{{"scene", scene.name},
                              {"primitives", scene.primitives.size()},
@@ -74,7 +74,7 @@ void write_picture(const std::string& file, const accel::beam::BeamTracer& trace
   render::write_image(file, render::draw_heat_map_with_legend(map));
 }
 
-void compare(const Request& request) {
+void compare(const SamplingRequest& request) {
   const accel::StructureChoice choice = choose_one("--accel", request.structure);
   if (!request.picture.empty()) {
     render::image_format(request.picture);
@@ -97,7 +97,7 @@ void compare(const Request& request) {
 void add_sampling_command(CLI::App& app, int&) {
   CLI::App* command =
       app.add_subcommand("sampling", "Compare adaptive sampling in object space and image space");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<SamplingRequest>();
   add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structure, "beam, with parameters where wanted")
       ->capture_default_str();

@@ -142,7 +142,7 @@ void print_csv(const experiments::SceneGrowth& growth) {
   }
 }
 
-struct Request {
+struct SceneRequest {
   std::string scene;
   bool json = false;
   bool csv = false;
@@ -151,7 +151,7 @@ struct Request {
   scenes::ReadOptions options;
 };
 
-void show(const Request& request) {
+void show(const SceneRequest& request) {
   if (request.growth) {
     base::Progress progress(1);
     const auto growth = experiments::measure_growth(request.scene, request.growth_limit, progress);
@@ -168,7 +168,7 @@ void show(const Request& request) {
 void add_scene_command(CLI::App& app, int&) {
   CLI::App* command =
       app.add_subcommand("scene", "Print a scene's counts, bounds, cameras and hash");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<SceneRequest>();
   add_scene_option(*command, request->scene);
   CLI::Option* json = command->add_flag("--json", request->json, "Print JSON instead of text");
   command->add_flag("--strict", request->options.strict,

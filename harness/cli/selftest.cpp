@@ -33,7 +33,7 @@
 namespace beambench::cli {
 namespace {
 
-struct Request {
+struct SelftestRequest {
   std::string structures = "all";
   std::string json;
   verify::SelftestEffort effort;
@@ -146,7 +146,7 @@ void print_verdicts(const std::vector<CheckedProperty>& checked,
   }
 }
 
-void write_json(const Request& request, const std::vector<CheckedProperty>& checked,
+void write_json(const SelftestRequest& request, const std::vector<CheckedProperty>& checked,
                 const std::vector<verify::Subject>& subjects, bool passed) {
   nlohmann::ordered_json out{{"beambench", bench::build_info().version},
                              {"seed", request.effort.seed},
@@ -183,7 +183,7 @@ verify::PrimitiveKinds parse_kinds(const std::string& list) {
   return kinds;
 }
 
-int write_kit(const Request& request) {
+int write_kit(const SelftestRequest& request) {
   const verify::PrimitiveKinds kinds = parse_kinds(request.primitives);
   base::Progress progress(verify::kit_size(request.effort, kinds));
   const std::size_t scenes = verify::write_kit(request.kit, request.effort, kinds, progress);
@@ -193,7 +193,7 @@ int write_kit(const Request& request) {
   return base::kSuccess;
 }
 
-int selftest(const Request& request) {
+int selftest(const SelftestRequest& request) {
   if (!request.kit.empty()) return write_kit(request);
   if (!request.json.empty()) require_writable(request.json);
   std::vector<verify::Subject> subjects;
@@ -215,7 +215,7 @@ int selftest(const Request& request) {
 void add_selftest_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("selftest", "Check a structure's contract over scenes made to break it");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<SelftestRequest>();
   CLI::Option* accel = command
                            ->add_option("--accel", request->structures,
                                         "Structures: NAME:parameter=value,... or all")

@@ -27,7 +27,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Request {
+struct StatsRequest {
   std::string scene;
   std::string structures;
   std::string resolution = "320x200";
@@ -212,7 +212,7 @@ void print_json(const scenes::Scene& scene, const rays::ImageOfRays& image,
 }
 
 /// A structure that cannot be built over the scene does not keep the others from being shown.
-int show_statistics(const Request& request) {
+int show_statistics(const StatsRequest& request) {
   const rays::Resolution resolution = rays::parse_resolution(request.resolution);
   const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
   accel::registry().choose_list(
@@ -247,7 +247,7 @@ int show_statistics(const Request& request) {
 void add_stats_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("stats", "Print the sizes of structures and their work per ray");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<StatsRequest>();
   add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structures, "Structures: NAME:parameter=value,... or all")
       ->required();

@@ -29,7 +29,7 @@ namespace {
 /// As in the default sweep: beyond, `exhaustive` would take all the time there is.
 constexpr int kMostForExhaustive = 1000;
 
-struct Request {
+struct TimeRequest {
   std::vector<std::string> scenes;
   std::string structures = "tile-beam,sah-bvh,embree:mode=single,embree:mode=packet16";
   std::string camera;
@@ -65,7 +65,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-nlohmann::json scenes_of(const Request& request) {
+nlohmann::json scenes_of(const TimeRequest& request) {
   nlohmann::json scenes = nlohmann::json::array();
   for (const std::string& scene : request.scenes) {
     if (request.camera.empty()) {
@@ -79,7 +79,7 @@ nlohmann::json scenes_of(const Request& request) {
 
 /// What was asked for, as `beambench run` reads it. At least six repetitions: fewer have no
 /// interval, and then nothing would be decided.
-nlohmann::json sweep_of(const Request& request) {
+nlohmann::json sweep_of(const TimeRequest& request) {
   nlohmann::json structures = nlohmann::json::array();
   for (const auto& choice : accel::registry().choose_list(request.structures)) {
     structures.push_back(choice.short_label());
@@ -99,7 +99,7 @@ nlohmann::json sweep_of(const Request& request) {
 }
 
 /// The sweep is JSON, whose texts are UTF-8.
-void require_can_be_saved(const Request& request) {
+void require_can_be_saved(const TimeRequest& request) {
   for (const std::string& scene : request.scenes) {
     if (is_utf8(scene)) continue;
     throw InputError(fmt::format(
@@ -107,7 +107,7 @@ void require_can_be_saved(const Request& request) {
   }
 }
 
-int time_structures(const Request& request) {
+int time_structures(const TimeRequest& request) {
   if (!request.save.empty()) require_can_be_saved(request);
   Interruption interruption("interrupted; nothing was kept");
   const bench::SweepConfig config =
@@ -132,7 +132,7 @@ int time_structures(const Request& request) {
 void add_time_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("time", "Time a few structures at once: which is fastest, by how much");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<TimeRequest>();
   command->add_option("SCENE", request->scenes, kSceneHelp)->required();
   command
       ->add_option("--accel", request->structures,

@@ -19,7 +19,7 @@
 namespace beambench::cli {
 namespace {
 
-struct Request {
+struct TraceRequest {
   std::string scene;
   std::string structure;
   std::string pixel;
@@ -51,7 +51,7 @@ glm::ivec2 parse_pixel(std::string_view text) {
       text));
 }
 
-std::size_t index_in_image(const Request& request, const accel::PrimaryRays& rays) {
+std::size_t index_in_image(const TraceRequest& request, const accel::PrimaryRays& rays) {
   if (request.pixel.empty()) {
     throw InputError("a primary ray is named by its pixel; give --pixel X,Y");
   }
@@ -71,7 +71,7 @@ std::size_t index_in_image(const Request& request, const accel::PrimaryRays& ray
   return at * static_cast<std::size_t>(rays.samples()) + static_cast<std::size_t>(request.sample);
 }
 
-std::size_t index_in_list(const Request& request, const rays::TraceInput& input) {
+std::size_t index_in_list(const TraceRequest& request, const rays::TraceInput& input) {
   if (!request.pixel.empty()) {
     throw InputError(fmt::format(
         "{} rays are numbered; give --ray N, as mismatches name them, in place of --pixel",
@@ -84,7 +84,7 @@ std::size_t index_in_list(const Request& request, const rays::TraceInput& input)
   return *request.ray;
 }
 
-int trace(const Request& request) {
+int trace(const TraceRequest& request) {
   if (!request.pixel.empty()) parse_pixel(request.pixel);
   const rays::RayChoice kind = rays::parse_ray_choice(request.rays);
   const accel::StructureChoice choice = choose_one("--accel", request.structure);
@@ -107,7 +107,7 @@ int trace(const Request& request) {
 void add_trace_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("trace", "Print the traversal path of one ray, step by step");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<TraceRequest>();
   add_scene_option(*command, request->scene);
   command->add_option("--accel", request->structure, "Structure: NAME:parameter=value,...")
       ->required();

@@ -32,7 +32,7 @@ namespace {
 
 constexpr std::size_t kPrintedDisputes = 3;  // of each cell; the JSON has them all
 
-struct Request {
+struct VerifyRequest {
   std::vector<std::string> scenes;
   std::string hits;
   std::string command;
@@ -97,7 +97,7 @@ void print_missing_rays(const std::vector<verify::VerifiedCell>& cells) {
   }
 }
 
-void write_json(const Request& request, const std::vector<verify::VerifiedCell>& cells,
+void write_json(const VerifyRequest& request, const std::vector<verify::VerifiedCell>& cells,
                 bool passed) {
   nlohmann::ordered_json out{{"beambench", bench::build_info().version},
                              {"resolution", request.resolution},
@@ -111,7 +111,7 @@ void write_json(const Request& request, const std::vector<verify::VerifiedCell>&
 }
 
 /// The request as one about the hits of a program. Throws InputError for what does not go together.
-VerifyHitsRequest hits_request(const Request& request, bool structure_given) {
+VerifyHitsRequest hits_request(const VerifyRequest& request, bool structure_given) {
   VerifyHitsRequest out{.scene = {},
                         .kit = request.kit,
                         .rays = {},
@@ -145,7 +145,7 @@ VerifyHitsRequest hits_request(const Request& request, bool structure_given) {
 }
 
 /// All of them before any work is done, so that a wrong name fails early.
-std::vector<scenes::Scene> open_scenes(const Request& request) {
+std::vector<scenes::Scene> open_scenes(const VerifyRequest& request) {
   std::vector<scenes::Scene> scenes;
   for (const std::string& spec : request.scenes) scenes.push_back(open_scene(spec));
   if (!scenes.empty()) return scenes;
@@ -155,7 +155,7 @@ std::vector<scenes::Scene> open_scenes(const Request& request) {
 }
 
 /// Reduces the first error of each cell, and adds what came of it to the cell's disputes.
-void minimize_errors(const Request& request, const verify::VerifiedView& view,
+void minimize_errors(const VerifyRequest& request, const verify::VerifiedView& view,
                      const Contenders& contenders, std::vector<verify::VerifiedCell>& cells,
                      base::Progress& progress) {
   for (verify::VerifiedCell& cell : cells) {
@@ -170,11 +170,9 @@ void minimize_errors(const Request& request, const verify::VerifiedView& view,
   }
 }
 
-std::vector<verify::VerifiedCell> verify_kind(const scenes::Scene& scene,
-                                              const rays::ImageOfRays& image,
-                                              const rays::RayChoice& kind,
-                                              const Contenders& contenders, const Request& request,
-                                              base::Progress& progress) {
+std::vector<verify::VerifiedCell> verify_kind(
+    const scenes::Scene& scene, const rays::ImageOfRays& image, const rays::RayChoice& kind,
+    const Contenders& contenders, const VerifyRequest& request, base::Progress& progress) {
   if (kind.kind == rays::RayKind::kWhitted) {
     return render::verify_picture(scene, image, kind, contenders.choices, progress);
   }
@@ -201,7 +199,7 @@ std::vector<verify::VerifiedCell> verify_kind(const scenes::Scene& scene,
   }
 }
 
-int verify_structures(const Request& request) {
+int verify_structures(const VerifyRequest& request) {
   const rays::Resolution resolution = rays::parse_resolution(request.resolution);
   const std::vector<rays::RayChoice> kinds = rays::parse_ray_choices(request.rays);
   rays::require_ray_count(resolution,
@@ -248,7 +246,7 @@ int verify_structures(const Request& request) {
 void add_verify_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("verify", "Verify hits, ray by ray, against an exact oracle");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<VerifyRequest>();
   command->add_option("SCENE", request->scenes,
                       fmt::format("{}; several may be given (default: the whole catalogue, which "
                                   "takes some minutes)",

@@ -29,7 +29,7 @@ namespace {
 
 using Line = Activity::Line;
 
-constexpr const char* kVariable = "BEAMBENCH_GUARD";  // the descriptor of an Activity
+constexpr const char* kGuardVariable = "BEAMBENCH_GUARD";  // the descriptor of an Activity
 
 constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGTRAP, SIGSYS, SIGALRM};
 constexpr std::array kPassedOn{SIGINT, SIGTERM, SIGHUP, SIGQUIT};
@@ -83,7 +83,7 @@ int watch(pid_t child, const HeldSignals& signals) {
 }
 
 pid_t start(char** arguments, const Activity& activity, const HeldSignals& signals) {
-  ::setenv(kVariable, std::to_string(activity.descriptor()).c_str(), 1);
+  ::setenv(kGuardVariable, std::to_string(activity.descriptor()).c_str(), 1);
   const pid_t guard = ::getpid();
   const pid_t child = ::fork();
   if (child == 0) become_guarded(arguments, guard, signals);
@@ -227,10 +227,10 @@ int run_guarded(char** arguments) {
 }
 
 std::unique_ptr<Activity> guarded_activity() {
-  const char* text = std::getenv(kVariable);
+  const char* text = std::getenv(kGuardVariable);
   if (text == nullptr) return nullptr;
   auto activity = std::make_unique<Activity>(std::atoi(text));
-  ::unsetenv(kVariable);  // what this process starts is not guarded
+  ::unsetenv(kGuardVariable);  // what this process starts is not guarded
   return activity;
 }
 

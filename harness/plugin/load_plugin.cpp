@@ -208,7 +208,7 @@ void adopt(std::vector<Thing>& things, const std::string& file, Activity& activi
 namespace fs = std::filesystem;
 
 constexpr std::string_view kOption = "--plugin";
-constexpr const char* kVariable = "BEAMBENCH_PLUGINS";
+constexpr const char* kPluginsVariable = "BEAMBENCH_PLUGINS";
 
 void add_once(std::vector<std::string>& files, std::string file) {
   if (std::ranges::find(files, file) == files.end()) files.push_back(std::move(file));
@@ -225,7 +225,7 @@ void add_folder(std::vector<std::string>& files, const fs::path& folder) {
 }
 
 void add_from_environment(std::vector<std::string>& files) {
-  const char* text = std::getenv(kVariable);
+  const char* text = std::getenv(kPluginsVariable);
   std::string_view rest = text == nullptr ? "" : text;
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find(':'), rest.size());

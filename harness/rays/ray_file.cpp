@@ -39,7 +39,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kFirstLine = "beambench-rays 1";
-constexpr std::uint64_t kMaxRays = std::uint64_t{1} << 32U;
+constexpr std::uint64_t kMaxRaysInFile = std::uint64_t{1} << 32U;
 constexpr std::uint64_t kMaxRaysInMemory = std::uint64_t{1} << 28U;
 
 static_assert(std::endian::native == std::endian::little, "rays are written as they lie in memory");
@@ -173,8 +173,8 @@ class BinaryRays : public RayReader::Format {
     header.query = query == "any" ? Query::kAnyHit : Query::kClosestHit;
     const Json rays = json.value("rays", Json());
     if (!rays.is_number_unsigned() || rays.get<std::uint64_t>() < 1 ||
-        rays.get<std::uint64_t>() > kMaxRays) {
-      fail(path_, fmt::format("\"rays\" is not a whole number from 1 to {}", kMaxRays));
+        rays.get<std::uint64_t>() > kMaxRaysInFile) {
+      fail(path_, fmt::format("\"rays\" is not a whole number from 1 to {}", kMaxRaysInFile));
     }
     count_ = rays.get<std::uint64_t>();
     header.pencils = read_pencils(path_, json.value("pencils", Json::array()), count_);

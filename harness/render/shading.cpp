@@ -55,7 +55,8 @@ Reflected reflect_lights(const scenes::Scene& scene, const glm::dvec3& point,
   return sum;
 }
 
-constexpr std::array<std::string_view, 5> kNames{"preview", "normals", "id", "depth", "whitted"};
+constexpr std::array<std::string_view, 5> kShadingNames{"preview", "normals", "id", "depth",
+                                                        "whitted"};
 
 using HitColor = std::function<glm::vec3(const accel::Ray&, const accel::Hit&)>;
 
@@ -120,10 +121,10 @@ glm::vec3 background_color(const scenes::Scene& scene) {
   return display_to_linear(scene.background);
 }
 
-std::span<const std::string_view> shading_names() { return kNames; }
+std::span<const std::string_view> shading_names() { return kShadingNames; }
 
 Shading parse_shading(std::string_view name) {
-  return static_cast<Shading>(base::place_of_name("shading", name, kNames));
+  return static_cast<Shading>(base::place_of_name("shading", name, kShadingNames));
 }
 
 Image shade(const scenes::Scene& scene, const accel::PrimaryRays& rays,

@@ -19,7 +19,7 @@
 namespace beambench::render {
 namespace {
 
-constexpr std::array<std::string_view, 3> kNames{"rays", "cache", "light-buffer"};
+constexpr std::array<std::string_view, 3> kMethodNames{"rays", "cache", "light-buffer"};
 
 using glm::dvec3;
 
@@ -102,10 +102,10 @@ float transmittance_of(const scenes::Scene& scene, scenes::PrimitiveId id) {
 
 }  // namespace
 
-std::span<const std::string_view> shadow_method_names() { return kNames; }
+std::span<const std::string_view> shadow_method_names() { return kMethodNames; }
 
 ShadowMethod parse_shadow_method(std::string_view name) {
-  return static_cast<ShadowMethod>(base::place_of_name("shadow method", name, kNames));
+  return static_cast<ShadowMethod>(base::place_of_name("shadow method", name, kMethodNames));
 }
 
 WhittedOptions whitted_options(const rays::RayChoice& choice) {

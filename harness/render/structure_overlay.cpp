@@ -19,7 +19,7 @@
 namespace beambench::render {
 namespace {
 
-constexpr std::array<std::string_view, 3> kNames{"beams", "cells", "pencils"};
+constexpr std::array<std::string_view, 3> kOverlayNames{"beams", "cells", "pencils"};
 
 std::vector<ParameterInfo> parameters_of(Overlay overlay) {
   if (overlay != Overlay::kPencils) return {};
@@ -78,11 +78,12 @@ std::vector<LegendEntry> draw_pencil(Image& picture, const accel::Accelerator& a
 
 }  // namespace
 
-std::span<const std::string_view> overlay_names() { return kNames; }
+std::span<const std::string_view> overlay_names() { return kOverlayNames; }
 
 OverlayChoice parse_overlay(std::string_view text, const accel::StructureInfo& structure) {
   const Spec spec = parse_spec(text);
-  const auto overlay = static_cast<Overlay>(base::place_of_name("overlay", spec.name, kNames));
+  const auto overlay =
+      static_cast<Overlay>(base::place_of_name("overlay", spec.name, kOverlayNames));
   const Parameters parameters(spec.name, parameters_of(overlay), spec.parameters);
   if (shows(structure, overlay)) {
     OverlayChoice choice{overlay};

@@ -22,10 +22,11 @@
 namespace beambench::verify {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 16U;  // rays whose reference is in memory at once
+constexpr std::size_t kReferencesAtOnce = std::size_t{1}
+                                          << 16U;  // rays whose reference is in memory at once
 // As for the long-double search of the differ: what enough errors or tests leave open is presumed.
 constexpr std::uint64_t kEnoughFaults = 64;
-constexpr std::uint64_t kSearchBudget = 400'000'000;  // primitives
+constexpr std::uint64_t kPrimitiveBudget = 400'000'000;  // primitives
 
 constexpr std::string_view kBesideRay = "the point does not lie on the ray";
 constexpr std::string_view kOutsideInterval = "t is outside of the ray's interval";
@@ -186,7 +187,7 @@ struct ClaimVerifier::State {
       answer.hit.primitive = expected->primitive;
       return;
     }
-    if (faults_found >= kEnoughFaults || searched >= kSearchBudget) {
+    if (faults_found >= kEnoughFaults || searched >= kPrimitiveBudget) {
       answer.fault = kNotSearched;
       return;
     }
@@ -224,8 +225,8 @@ void ClaimVerifier::add(std::span<const accel::Ray> rays, const rays::ClaimedHit
                                        hits.size(), classes.size()));
   }
   state_->require_valid_part(rays, hits);
-  for (std::size_t first = 0; first < rays.size(); first += kBlock) {
-    const std::size_t count = std::min(kBlock, rays.size() - first);
+  for (std::size_t first = 0; first < rays.size(); first += kReferencesAtOnce) {
+    const std::size_t count = std::min(kReferencesAtOnce, rays.size() - first);
     state_->add_block(rays.subspan(first, count), hits.part(first, count),
                       classes.empty() ? classes : classes.subspan(first, count));
   }

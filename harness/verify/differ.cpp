@@ -16,8 +16,8 @@ namespace beambench::verify {
 namespace {
 
 constexpr std::uint64_t kEnoughErrors = 64;
-constexpr std::uint64_t kSearchBudget = 400'000'000;  // primitive tests
-constexpr std::size_t kBatch = 64;                    // rays searched at once, on all cores
+constexpr std::uint64_t kTestBudget = 400'000'000;  // primitive tests
+constexpr std::size_t kBatch = 64;                  // rays searched at once, on all cores
 
 double graze_budget(std::uint64_t rays) { return std::max(2.0, 1e-4 * static_cast<double>(rays)); }
 
@@ -159,7 +159,7 @@ class Differ::Part {
       batch.clear();
       for (std::size_t i = first; i < last; ++i) batch.push_back(mismatch(disputed[i]));
       if (count_of(DiffClass::kStructureError) < kEnoughErrors &&
-          differ_.search_tests_ < kSearchBudget) {
+          differ_.search_tests_ < kTestBudget) {
         tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
           beambench::verify::classify_by_search(scene_, tolerance_of(batch[i]), batch[i]);
         });

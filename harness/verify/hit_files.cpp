@@ -13,7 +13,7 @@
 namespace beambench::verify {
 namespace {
 
-constexpr std::size_t kBlock = std::size_t{1} << 18U;  // rays in memory at once
+constexpr std::size_t kRaysAtOnce = std::size_t{1} << 18U;  // rays in memory at once
 
 [[noreturn]] void refuse_counts(const std::filesystem::path& rays, std::uint64_t ray_count,
                                 const std::filesystem::path& hits, const std::string& hit_count) {
@@ -43,14 +43,14 @@ ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem:
 
   progress.start(fmt::format("{} over {}", hits.string(), scene.name));
   ClaimVerifier verifier(scene, std::move(on_mismatch));
-  std::vector<accel::Ray> block(kBlock);
+  std::vector<accel::Ray> block(kRaysAtOnce);
   rays::HitTable table;
   std::uint64_t verified = 0;
   for (;;) {
     const std::size_t ray_count = ray_reader.read(block);
     // One more than there are rays, to find hits that are too many.
     const std::size_t hit_count =
-        hit_reader.read(ray_count < kBlock ? ray_count + 1 : ray_count, table);
+        hit_reader.read(ray_count < kRaysAtOnce ? ray_count + 1 : ray_count, table);
     if (hit_count < ray_count) {
       // The rays are counted to their end for the message.
       std::uint64_t all = verified + ray_count;
@@ -70,7 +70,7 @@ ClaimsReport verify_hit_files(const scenes::Scene& scene, const std::filesystem:
     }
     verified += ray_count;
     progress.advance(ray_reader.part());
-    if (ray_count < kBlock) break;
+    if (ray_count < kRaysAtOnce) break;
   }
 
   ClaimsReport found{hit_reader.query(), verifier.finish(), {}};

@@ -21,7 +21,7 @@ struct BitsReference {
   rays::TraceResults results;
 };
 
-std::string show(const rays::TraceResults& results, std::size_t i) {
+std::string answer_at(const rays::TraceResults& results, std::size_t i) {
   if (std::holds_alternative<rays::AnyHits>(results))
     return rays::is_hit_at(results, i) ? "a hit" : "no hit";
   const auto hit = std::get<accel::HitBuffer>(results).get(i);
@@ -50,8 +50,8 @@ void compare_bits(const rays::TraceInput& input, const rays::TraceResults& resul
     if (cell.different_bits++ > 0) continue;
     cell.disputes.push_back(fmt::format(
         "{}: {} found {}, {} found {}; a bit-exact structure must find the same\n  replay {}\n",
-        rays::place_text(input, i), cell.label, show(results, i), reference.label,
-        show(reference.results, i), replay.of(i)));
+        rays::place_text(input, i), cell.label, answer_at(results, i), reference.label,
+        answer_at(reference.results, i), replay.of(i)));
   }
   if (cell.different_bits > 0) cell.verdict = Verdict::kMismatch;
 }

@@ -267,11 +267,15 @@ def test_a_small_sweep_leaves_records_pictures_plots_and_a_page(
         )
     )
     run = tmp_path / "run"
+    picture = repository / "results/runs/first-picture.png"
+    picture.unlink(missing_ok=True)
     # Relative names are the caller's, whatever folder the script works in.
     result = call(
         repository / "scripts/run", "--sweep", "small.json", "--output", "run", directory=tmp_path
     )
     assert result.returncode == 0, result.stderr
+    assert f"habitacion: {picture}\n== Measuring" in result.stdout
+    assert picture.read_bytes().startswith(b"\x89PNG")
     rows = pd.read_csv(run / "results.csv", keep_default_na=False)
     assert len(rows) == 6
     assert set(rows["verdict"]) == {"ok", "baseline"}

@@ -47,10 +47,12 @@ void fill(Image& image, int left, int top, int size, const glm::vec3& color) {
 constexpr float kDimmed = 0.35F;
 
 /// Relative luminance of linear sRGB (IEC 61966-2-1).
-float luminance(const glm::vec3& c) { return glm::dot(c, glm::vec3(0.2126F, 0.7152F, 0.0722F)); }
+float relative_luminance(const glm::vec3& c) {
+  return glm::dot(c, glm::vec3(0.2126F, 0.7152F, 0.0722F));
+}
 
-constexpr std::size_t kFew = 40;  // pixels of a category that get a frame each
-constexpr int kFrame = 5;         // from the pixel to its frame
+constexpr std::size_t kFew = 40;   // pixels of a category that get a frame each
+constexpr int kFrameDistance = 5;  // from the pixel to its frame
 
 std::vector<std::size_t> count_pixels(const CategoryMap& map) {
   std::vector<std::size_t> counts(map.categories.size(), 0);
@@ -62,9 +64,9 @@ std::vector<std::size_t> count_pixels(const CategoryMap& map) {
 
 /// A square around a pixel, as far as it lies in the picture.
 void frame(Image& image, int x, int y, const glm::vec3& color) {
-  for (int dy = -kFrame; dy <= kFrame; ++dy) {
-    for (int dx = -kFrame; dx <= kFrame; ++dx) {
-      if (std::max(std::abs(dx), std::abs(dy)) != kFrame) continue;
+  for (int dy = -kFrameDistance; dy <= kFrameDistance; ++dy) {
+    for (int dx = -kFrameDistance; dx <= kFrameDistance; ++dx) {
+      if (std::max(std::abs(dx), std::abs(dy)) != kFrameDistance) continue;
       const bool inside =
           x + dx >= 0 && x + dx < image.width() && y + dy >= 0 && y + dy < image.height();
       if (inside) image.at(x + dx, y + dy) = color;
@@ -224,7 +226,7 @@ Image with_legend(const Image& picture, const std::string& title,
   return image;
 }
 
-glm::vec3 dimmed(const glm::vec3& color) { return glm::vec3(kDimmed * luminance(color)); }
+glm::vec3 dimmed(const glm::vec3& color) { return glm::vec3(kDimmed * relative_luminance(color)); }
 
 void dim(Image& image) {
   for (glm::vec3& pixel : image.pixels()) pixel = dimmed(pixel);

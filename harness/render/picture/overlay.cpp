@@ -113,11 +113,11 @@ double enter(const accel::Box& box, const glm::dvec3& eye, const glm::dvec3& dir
 
 /// The pixels that a box may appear in: around its edges, cut off at the camera's plane. Empty
 /// (last < first) where there are none.
-struct PixelRange {
+struct PixelBounds {
   glm::ivec2 first;
   glm::ivec2 last;
 };
-PixelRange pixels_of(const accel::Box& box, const Projection& projection, int width, int height) {
+PixelBounds pixels_of(const accel::Box& box, const Projection& projection, int width, int height) {
   glm::dvec2 low(kInfiniteDepth);
   glm::dvec2 high(-kInfiniteDepth);
   for (const BoxEdge& edge : box_edges(box, projection.eye)) {
@@ -178,7 +178,7 @@ class NearestBoxes {
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
 
   void add(std::uint32_t box) {
-    const PixelRange range = pixels_of(boxes_[box], projection_, width_, height_);
+    const PixelBounds range = pixels_of(boxes_[box], projection_, width_, height_);
     for (int y = range.first.y; y <= range.last.y; ++y) {
       for (int x = range.first.x; x <= range.last.x; ++x) {
         const glm::dvec3 direction = projection_.direction(glm::dvec2(x, y) + 0.5);
@@ -206,7 +206,7 @@ class NearestBoxes {
   std::vector<double> depths_;
 };
 
-constexpr float kTint = 0.15F;
+constexpr float kCellTint = 0.15F;
 
 struct Look {
   accel::BeamKind kind;
@@ -240,8 +240,9 @@ void add_outline(LineLayer& layer, const accel::BeamOutline& beam) {
 /// An end tints its area: the edges of beams that continue run along it, too, and hide its own.
 /// What no beam ends at stays gray; where two did, the tint would be twice as strong.
 void tint(Image& image, const accel::BeamOutline& beam, const glm::vec3& color) {
-  for_each_pixel_in(beam.corners, image.width(), image.height(),
-                    [&](int x, int y) { image.at(x, y) = glm::mix(image.at(x, y), color, kTint); });
+  for_each_pixel_in(beam.corners, image.width(), image.height(), [&](int x, int y) {
+    image.at(x, y) = glm::mix(image.at(x, y), color, kCellTint);
+  });
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using Way = BeamPlace::Way;
 
 /// How much of its color a pixel in order gets, and one where a block begins: a mesh, as long as
 /// blocks are of more than one pixel.
-constexpr float kTint = 0.35F;
+constexpr float kPlaceTint = 0.35F;
 constexpr float kMeshTint = 0.15F;
 
 constexpr glm::vec3 kWhite(1.0F);
@@ -90,7 +90,8 @@ void draw(Image& image, const PlacedRays& rays) {
         pixel = kBorder;
       } else if (place->way == Way::kInOrder || place->way == Way::kBackground) {
         const bool is_mesh = places.begins(x, y, &BeamPlace::block);
-        pixel = glm::mix(pixel, color_of(place->way, place->side), is_mesh ? kMeshTint : kTint);
+        pixel =
+            glm::mix(pixel, color_of(place->way, place->side), is_mesh ? kMeshTint : kPlaceTint);
       } else {
         pixel = color_of(place->way);
       }

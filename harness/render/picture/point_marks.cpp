@@ -12,7 +12,7 @@ namespace beambench::render {
 namespace {
 
 constexpr int kRadius = 2;  // pixels; the frame is one more
-constexpr glm::vec3 kFrame(0.0F);
+constexpr glm::vec3 kFrameColor(0.0F);
 
 /// The pixel where a point appears, or nothing where it is not in the picture.
 std::optional<glm::ivec2> pixel_of(const glm::dvec3& point, const Projection& projection,
@@ -56,11 +56,11 @@ std::vector<LegendEntry> mark_points(Image& image, const accel::PrimaryRays& ray
       }
     }
     // All frames first, so that no frame hides a dot of its own group.
-    for (const glm::ivec2& pixel : pixels) fill_disc(image, pixel, kRadius + 1, kFrame);
+    for (const glm::ivec2& pixel : pixels) fill_disc(image, pixel, kRadius + 1, kFrameColor);
     for (const glm::ivec2& pixel : pixels) fill_disc(image, pixel, kRadius, group.category.color);
     legend.push_back({group.category.name, group.category.color, group.points.size()});
   }
-  if (outside > 0) legend.push_back({"outside of this picture", kFrame, outside});
+  if (outside > 0) legend.push_back({"outside of this picture", kFrameColor, outside});
   return legend;
 }
 
