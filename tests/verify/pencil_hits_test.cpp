@@ -350,8 +350,8 @@ TEST(PencilHits, OfTheCatalogueAreRight) {
 }
 
 TEST(PencilHits, OfEveryInstructionSetAreRight) {
-  std::uint64_t beams = 0;
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    std::uint64_t beams = 0;
     SCOPED_TRACE(hwy::TargetName(target));
     const testing::OnlyTarget only(target);
     for (const char* name : {"casa-de-campo", "balls:n=2", "teapot"}) {
@@ -369,8 +369,8 @@ TEST(PencilHits, OfEveryInstructionSetAreRight) {
       beams += expect_right_over(scene, image_over(scene, 100, 75), "shadow");
       beams += expect_right_over(scene, image_over(scene, 100, 75), "mirror");
     }
+    EXPECT_GT(beams, 200U);
   }
-  EXPECT_GT(beams, 1000U);
 }
 
 TEST(PencilHits, RaysAroundPencilsAreTracedToo) {

@@ -15,24 +15,35 @@ namespace beambench::scenes::mesh {
 namespace {
 
 constexpr std::string_view kBlanks = " \t\r";
+constexpr std::string_view kName = "newmtl";
 
-/// What tinyobjloader can read, without lines whose numbers overflow in it. A material without a
-/// color of its own is as gray as Assimp and tinyobjloader make it; the latter only where it has a
-/// texture.
-std::string with_default_colors(std::string_view text) {
-  std::string result;
+/// The text of a library as tinyobjloader can read it, and the names of its materials.
+struct MaterialLibrary {
+  std::string text;  ///< each material is called by its index in `names`
+  std::vector<std::string> names;
+};
+
+/// Leaves out lines whose numbers overflow in tinyobjloader. A material without a color of its own
+/// is as gray as Assimp and tinyobjloader make it; the latter only where it has a texture. Of a name
+/// with blanks its release candidate 13 reads the first word alone.
+MaterialLibrary readable(std::string_view text) {
+  MaterialLibrary library;
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));
     text.remove_prefix(std::min(line.size() + 1, text.size()));
     const std::string_view words =
         line.substr(std::min(line.find_first_not_of(kBlanks), line.size()));
-    const bool is_name = words.starts_with("newmtl");
-    if (!is_name && has_long_exponent(line)) continue;
-    result += line;
-    result += '\n';
-    if (is_name) result += "Kd 0.6 0.6 0.6\n";
+    const bool is_name = words.size() > kName.size() && words.starts_with(kName) &&
+                         kBlanks.find(words[kName.size()]) != std::string_view::npos;
+    if (is_name) {
+      library.text += fmt::format("newmtl {}\nKd 0.6 0.6 0.6\n", library.names.size());
+      library.names.emplace_back(material_name(words.substr(kName.size())));
+    } else if (!has_long_exponent(line)) {
+      library.text += line;
+      library.text += '\n';
+    }
   }
-  return result;
+  return library;
 }
 
 float in_range(float part) { return part >= 0.0F ? std::min(part, 1.0F) : 0.0F; }
@@ -47,14 +58,18 @@ Surface surface_of(const tinyobj::material_t& material) {
 }
 
 void add_library(std::string_view text, std::map<std::string, Surface>& surfaces) {
-  std::istringstream stream(with_default_colors(text));
+  const MaterialLibrary library = readable(text);
+  std::istringstream stream(library.text);
   std::map<std::string, int> indices;
   std::vector<tinyobj::material_t> materials;
   std::string warning;
   std::string error;
   tinyobj::LoadMtl(&indices, &materials, &stream, &warning, &error);
-  for (const tinyobj::material_t& material : materials) {
-    surfaces.emplace(material_name(material.name), surface_of(material));
+  for (std::size_t i = 0; i < library.names.size(); ++i) {
+    const auto found = indices.find(fmt::to_string(i));
+    if (found == indices.end() || library.names[i].empty()) continue;
+    surfaces.emplace(library.names[i],
+                     surface_of(materials[static_cast<std::size_t>(found->second)]));
   }
 }
 
