@@ -15,7 +15,15 @@ from pathlib import Path
 import pytest
 
 from beambench_report.thesis.chapter6.record import Picture, measure, measured_section
-from cluster import CLUSTER, finish, mpirun, needs_mpi, processes_of, start
+from cluster import (
+    CLUSTER,
+    finish,
+    mpirun,
+    needs_mpi,
+    processes_of,
+    skip_where_mpirun_starts_one_program_only,
+    start,
+)
 from program import beambench, output_of
 
 pytestmark = needs_mpi
@@ -346,6 +354,7 @@ def test_wrong_requests_are_refused_in_one_sentence(arguments: list[str], words:
 
 def test_another_scene_on_one_process_is_refused(tmp_path: Path) -> None:
     """The same name, read in two folders."""
+    skip_where_mpirun_starts_one_program_only()
     file = tmp_path / "picture.png"
     for folder, size in (("a", 1), ("b", 2)):
         (tmp_path / folder).mkdir()
@@ -363,6 +372,7 @@ def test_another_scene_on_one_process_is_refused(tmp_path: Path) -> None:
 
 def test_another_version_on_one_process_is_refused(tmp_path: Path) -> None:
     """The same program, built from a commit that there is not."""
+    skip_where_mpirun_starts_one_program_only()
     report = tmp_path / "run.json"
     assert mpirun("-n", 1, CLUSTER, "tetra:n=1", "--report", report).returncode == 0
     commit = json.loads(report.read_text())["commit"].encode()

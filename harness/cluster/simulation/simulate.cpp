@@ -13,6 +13,7 @@
 #include <simgrid/Exception.hpp>
 #include <simgrid/kernel/ProfileBuilder.hpp>
 #include <simgrid/s4u.hpp>
+#include <simgrid/version.h>
 
 #include "harness/base/stopwatch.hpp"
 #include "harness/cluster/consumer.hpp"
@@ -59,8 +60,17 @@ simgrid::kernel::profile::Profile* load_of(const std::string& name, const Cluste
   return simgrid::kernel::profile::ProfileBuilder::from_string(name, points, cluster.load_period);
 }
 
+/// Version 4 makes the root itself, and of what is set up here only zones in it take the models.
+s4u::NetZone* make_zone() {
+#if SIMGRID_VERSION_MAJOR >= 4
+  return s4u::Engine::get_instance()->get_netzone_root()->add_netzone_star("cluster");
+#else
+  return s4u::create_star_zone("cluster");
+#endif
+}
+
 std::vector<s4u::Host*> make_machines(const ClusterModel& cluster) {
-  auto* zone = s4u::create_star_zone("cluster");
+  auto* zone = make_zone();
   s4u::Link* medium = nullptr;
   if (cluster.network == ClusterModel::Network::kShared) {
     medium = zone->create_link("medium", cluster.bytes_per_second);

@@ -4,8 +4,8 @@ Files are written beside their place and renamed, so that none is ever incomplet
 stay links: what they lead to is replaced. Devices and pipes are written into.
 """
 
-import contextlib
 import json
+import os
 import signal
 import subprocess
 import sys
@@ -28,8 +28,11 @@ class Problem(Exception):  # noqa: N818 (invalid arguments are no programming er
 
 def say(text: str) -> None:
     """Reports progress or a warning on standard error; where that is full, the work goes on."""
-    with contextlib.suppress(OSError):
+    try:
         print(printable(text), file=sys.stderr, flush=True)
+    except OSError:
+        # What was not written is not tried again at the end, which from Python 3.13 on would fail.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stderr.fileno())
 
 
 def write_whole(path: Path, write: Callable[[Path], object]) -> Path:
