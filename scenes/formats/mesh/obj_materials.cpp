@@ -24,8 +24,8 @@ struct MaterialLibrary {
 };
 
 /// Leaves out lines whose numbers overflow in tinyobjloader. A material without a color of its own
-/// is as gray as Assimp and tinyobjloader make it; the latter only where it has a texture. Of a name
-/// with blanks its release candidate 13 reads the first word alone.
+/// is as gray as Assimp and tinyobjloader make it; the latter only where it has a texture. Of a
+/// name with blanks its release candidate 13 reads the first word alone.
 MaterialLibrary readable(std::string_view text) {
   MaterialLibrary library;
   while (!text.empty()) {
