@@ -1,4 +1,4 @@
-"""The site over all runs, as files: what is in it, what it refuses, and how long it takes."""
+"""The site over all runs, as files: what is in it, what it refuses, and how much work it is."""
 
 from __future__ import annotations
 
@@ -6,16 +6,18 @@ import json
 import re
 import shutil
 import subprocess
+from collections import Counter
+from functools import partial
 from pathlib import Path
 from urllib.parse import unquote
 
-import numpy as np
 import pytest
-from processor import times_of_reading
+from work import calls_during, count_calls_of
 
 from beambench_report.__main__ import main
 from beambench_report.base.files import Problem
 from beambench_report.base.records import read_run
+from beambench_report.site import write
 from beambench_report.site.changes import Repository, _output_of, web_address
 from beambench_report.site.comparison import compare
 from beambench_report.site.entry import Entry, as_script, entry_of, read_script
@@ -306,19 +308,27 @@ def test_changes_are_told_by_git(tmp_path: Path) -> None:
     )
 
 
-def test_a_hundred_runs_take_about_thirty_seconds_at_most(tmp_path: Path) -> None:
-    random = np.random.default_rng(3)
-    for place in range(100):
-        noise = float(np.exp(random.normal(0, 0.01)))
-        sweep, machine = ("quick", "slow")[place % 2], "ab"[place // 50]
-        write_small_run(
-            tmp_path / f"runs/{place}", place, sweep=sweep, machine=machine, factor=noise
-        )
-    _, times = times_of_reading(lambda: write_site([tmp_path / "runs"], tmp_path / "site"))
-    assert times < 270
-    assert len(list((tmp_path / "site/runs").iterdir())) == 100
-    assert len(list((tmp_path / "site/history").iterdir())) == 4
-    assert broken_links(tmp_path / "site") == []
+def test_the_work_of_a_site_grows_with_its_runs(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In calls: in seconds of one and the same machine it varies by a factor of two."""
+    counts: Counter[str] = Counter()
+    count_calls_of(monkeypatch, counts, write, "read_run")
+    count_calls_of(monkeypatch, counts, write, "render")
+    calls = {}
+    for turn, runs in enumerate((8, 8, 16)):  # the first time more is imported
+        folder = tmp_path / f"{turn}"
+        for place in range(runs):
+            sweep, machine = ("quick", "slow")[place % 2], "ab"[2 * place // runs]
+            write_small_run(folder / f"runs/{place}", place, sweep=sweep, machine=machine)
+        counts.clear()
+        calls[runs] = calls_during(partial(write_site, [folder / "runs"], folder / "site"))
+        assert counts == {"read_run": runs, "render": runs}
+        assert len(list((folder / "site/runs").iterdir())) == runs
+        assert len(list((folder / "site/history").iterdir())) == 4
+        assert broken_links(folder / "site") == []
+    assert calls[16] < 16 * 600_000, "most of them draw the plot of each run"
+    assert calls[16] < 2.1 * calls[8], "and nothing grows with pairs of runs"
 
 
 def test_a_site_of_nothing_readable_is_still_a_site(tmp_path: Path) -> None:
