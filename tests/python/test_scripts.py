@@ -47,7 +47,7 @@ def test_help_is_given(script: str, repository: Path) -> None:
         ("run", ["--resume"], "--resume needs the folder of a run"),
         ("run", ["--resume", "no/such"], "no/such is not the folder of a run"),
         ("run", ["--resume=a", "--output=b"], "--resume excludes --sweep and --output"),
-        ("setup", ["--jobs"], "knows no job '--jobs', only beambench, cluster, fuzz and all"),
+        ("setup", ["--jobs"], "knows no job '--jobs', only program, python, beambench, "),
         ("setup", ["all", "cluster"], "takes one job, not 2"),
         ("test", ["--quick"], "unknown arguments: --quick"),
         ("meshes", ["--all"], "unknown argument '--all'"),
@@ -126,6 +126,7 @@ def set_up(tree: Path, *arguments: str) -> subprocess.Popen[str]:
 @pytest.mark.parametrize(
     ("job", "targets"),
     [
+        ("program", "beambench"),
         ("beambench", "beambench"),
         ("cluster", "beambench-cluster beambench-cluster-simulated"),
         ("all", "all"),
@@ -150,7 +151,17 @@ def test_scripts_run_installs_nothing_that_only_tests_or_the_cluster_need(reposi
     needed = (repository / "scripts/packages.txt").read_text()
     for package in ("libgtest-dev", "librapidcheck-dev", "libopenmpi-dev", "libsimgrid-dev"):
         assert package not in needed
-    assert "scripts/setup beambench\n" in (repository / "scripts/run").read_text()
+    run = (repository / "scripts/run").read_text()
+    assert re.findall(r"scripts/setup (\w+)\n", run) == ["program", "python"]
+
+
+def test_program_and_python_are_set_up_apart(bare_tree: Path) -> None:
+    output, _ = set_up(bare_tree, "python").communicate(timeout=120)
+    assert output == "", "the environment is there, and nothing is built"
+    shutil.rmtree(bare_tree / ".venv")
+    output, _ = set_up(bare_tree, "program").communicate(timeout=120)
+    assert "cmake --build --preset release --target beambench\n" in output
+    assert not (bare_tree / ".venv").exists()
 
 
 def test_ctrl_c_ends_the_tests_instead_of_going_on_with_the_next_check(
