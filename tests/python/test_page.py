@@ -62,6 +62,11 @@ def page_of(folder: Path, *options: str) -> Reader:
     return Reader((folder / "report.html").read_text("utf-8"))
 
 
+def text_of(folder: Path) -> str:
+    """What is written on the page of a run, without its figures: they take most of the time."""
+    return Reader(render(read_run(folder), drawn_kinds=())).text
+
+
 def links_of(reader: Reader) -> set[str]:
     """The places on the page that it links to; those of single cells are opened by a script."""
     here = {at[1:] for at in reader.addresses if at.startswith("#")}
@@ -70,7 +75,7 @@ def links_of(reader: Reader) -> set[str]:
 
 def test_a_right_run_says_so_first(run_folder: Path) -> None:
     write_manifest(run_folder)
-    text = page_of(run_folder).text
+    text = text_of(run_folder)
     assert "The hits of all 30 cells are correct" in text
     assert "Sweep made-up" in text
     assert "measured for 4 min 10 s" in text
@@ -79,7 +84,7 @@ def test_a_right_run_says_so_first(run_folder: Path) -> None:
 
 
 def test_the_fastest_is_named_with_its_margin(run_folder: Path) -> None:
-    text = page_of(run_folder).text
+    text = text_of(run_folder)
     best = standings(read_run(run_folder), {})[0]
     assert f"Fastest: {best.fastest.contender} , " in text or "Tied for the fastest" in text
     table = text[text.index("pays off from") :]
@@ -94,12 +99,12 @@ def test_a_build_pays_off_over_a_contender_that_is_named(run_folder: Path) -> No
     for row in rows:
         if row["structure"] == "embree":
             row["build_ms_median"] = 2.5
-    text = page_of(write_run(run_folder, rows)).text
+    text = text_of(write_run(run_folder, rows))
     # 1 ms more than samet max_level=5 to build, 160 ns less for a ray.
     assert "6.25 k rays (samet max_level=5)" in text
     assert "Its build pays off from 6.25 k rays (samet max_level=5) on." in text
     rows = [{**row, "build_ms_median": 0.0} for row in rows]
-    text = page_of(write_run(run_folder, rows)).text
+    text = text_of(write_run(run_folder, rows))
     assert "the first ray" in text
     assert "the first ray (" not in text
 
@@ -112,7 +117,7 @@ def test_an_embree_that_is_the_next_has_its_figures_once(tmp_path: Path) -> None
     for row in rows:
         row["trace_ms_ci_low"] = 0.99 * row["trace_ms_median"]
         row["trace_ms_ci_high"] = 1.01 * row["trace_ms_median"]
-    text = page_of(write_run(tmp_path, rows)).text
+    text = text_of(write_run(tmp_path, rows))
     assert re.search(r"embree 6\.00 \S+ to \S+ not paired the same", text)
     assert "6 times as fast as the next (embree, Embree's best)" in text
     assert "Embree's best (embree) takes" not in text
@@ -122,12 +127,12 @@ def test_ratios_of_rounds_are_said_to_differ_from_those_of_medians(
     run_folder: Path, full_run: Path
 ) -> None:
     words = "it can differ from the ratio of the medians in results.csv"
-    assert words not in page_of(run_folder).text
-    assert words in page_of(full_run).text
+    assert words not in text_of(run_folder)
+    assert words in text_of(full_run)
 
 
 def test_what_was_traced_stands_at_the_head(tmp_path: Path) -> None:
-    text = page_of(write_run(tmp_path, synthetic_rows())).text
+    text = text_of(write_run(tmp_path, synthetic_rows()))
     line = "Primary rays · 320x200, 640x480, 1280x1024 · 1 sample per pixel · 1 thread"
     assert text.index(line) < text.index("cells are correct")
     rows = synthetic_rows()
@@ -135,7 +140,7 @@ def test_what_was_traced_stands_at_the_head(tmp_path: Path) -> None:
         {**row, "samples": 4, "ray_kind": "shadow", "width": 8 + place, "threads": 2}
         for place, row in enumerate(rows)
     ]
-    text = page_of(write_run(tmp_path, rows + more)).text
+    text = text_of(write_run(tmp_path, rows + more))
     assert "Primary and shadow rays · 33 resolutions from " in text
     assert "1 and 4 samples per pixel · 1 and 2 threads" in text
 
@@ -146,7 +151,7 @@ def test_references_are_counted_apart_and_explained(tmp_path: Path) -> None:
         {**row, "query_path": paths.get(row["structure"], "image-single")}
         for row in synthetic_rows()
     ]
-    text = page_of(write_run(tmp_path, rows)).text
+    text = text_of(write_run(tmp_path, rows))
     assert "3 contenders 2 references (exhaustive, null)" in text
     assert (
         "References do not compete: null makes every ray one by one and finds nothing; "
@@ -155,9 +160,9 @@ def test_references_are_counted_apart_and_explained(tmp_path: Path) -> None:
         "embree, whose rays are made in packets by SIMD."
     ) in text
     alike = [{**row, "query_path": "image-single"} for row in rows]
-    assert "no lower limit" not in page_of(write_run(tmp_path, alike)).text
+    assert "no lower limit" not in text_of(write_run(tmp_path, alike))
     without = [row for row in alike if row["structure"] not in ("null", "exhaustive")]
-    text = page_of(write_run(tmp_path, without)).text
+    text = text_of(write_run(tmp_path, without))
     assert "References do not compete" not in text
     assert "2 references" not in text
 
@@ -188,7 +193,7 @@ def test_words_of_this_project_lead_to_what_they_mean(tmp_path: Path) -> None:
 def test_references_never_win_and_stand_last(run_folder: Path) -> None:
     for view in standings(read_run(run_folder), {}):
         assert {"null", "exhaustive"}.isdisjoint(one.structure for one in view.ranked)
-    page = page_of(run_folder).text
+    page = text_of(run_folder)
     table = page[page.index("escena1 2") if "escena1 2" in page else 0 :]
     assert "reference" in table
 
@@ -202,18 +207,18 @@ def test_who_was_left_out_has_a_row_with_the_reason(run_folder: Path) -> None:
     write_run(run_folder, rows)
     exclude = [{"structure": "exhaustive", "scene": "escena1"}]
     (run_folder / "config.json").write_text(json.dumps({"exclude": exclude}))
-    assert "exhaustive left out by the sweep (this scene)" in page_of(run_folder).text
+    assert "exhaustive left out by the sweep (this scene)" in text_of(run_folder)
     (run_folder / "config.json").unlink()
-    assert "exhaustive not in the record" in page_of(run_folder).text
+    assert "exhaustive not in the record" in text_of(run_folder)
 
 
 def test_times_that_are_worth_little_say_why(run_folder: Path) -> None:
     write_manifest(run_folder, measurement={"noise": 0.01}, machine={"load_average": 0.1})
-    assert "Equal work" not in page_of(run_folder).text
+    assert "Equal work" not in text_of(run_folder)
     write_manifest(
         run_folder, measurement={"noise": 0.31}, machine={"cpu": "x", "load_average": 3.5}
     )
-    text = page_of(run_folder).text
+    text = text_of(run_folder)
     assert "The times are to be taken with care" in text
     assert "Equal work took up to 31% longer than usual" in text
     assert "Other work was running (load 3.50)" in text
@@ -221,13 +226,13 @@ def test_times_that_are_worth_little_say_why(run_folder: Path) -> None:
 
 def test_times_less_precise_than_wanted_say_so(run_folder: Path) -> None:
     write_run(run_folder, [{**row, "stop_reason": "budget"} for row in synthetic_rows()])
-    assert re.search(r"\d+ of \d+ timed cells less precise than wanted", page_of(run_folder).text)
+    assert re.search(r"\d+ of \d+ timed cells less precise than wanted", text_of(run_folder))
 
 
 def test_a_wrong_cell_is_shown_with_its_reason_and_how_to_replay_it(
     full_run: Path,
 ) -> None:
-    text = page_of(full_run).text
+    text = text_of(full_run)
     assert "3 of 30 cells were wrong" in text
     assert (
         "mismatch samet max_level=6 in tetra:n=6 at 320x200, 640x480, 1280x1024: "
@@ -329,28 +334,28 @@ def test_of_a_folder_with_intervals_but_no_repetitions_the_page_has_intervals(
 def test_repetitions_of_some_cells_only_are_counted(run_folder: Path) -> None:
     for row in synthetic_rows()[:10]:
         write_cell(run_folder, row, dict.fromkeys(range(7), 1.0))
-    text = page_of(run_folder).text
+    text = text_of(run_folder)
     assert "The repetitions of 20 of 30 timed cells are not in this folder" in text
 
 
 def test_why_cells_were_wrong_is_missed_where_the_folder_does_not_say(tmp_path: Path) -> None:
     rows = [without_times(row, "mismatch") for row in synthetic_rows()[:3]] + synthetic_rows()[3:]
-    assert "Why cells were wrong is not in this folder" in page_of(write_run(tmp_path, rows)).text
+    assert "Why cells were wrong is not in this folder" in text_of(write_run(tmp_path, rows))
 
 
 def test_a_machine_that_nothing_is_known_of_was_not_quiet(run_folder: Path) -> None:
     write_run(run_folder, [{**row, "repetitions": 9} for row in synthetic_rows()])
-    text = page_of(run_folder).text
+    text = text_of(run_folder)
     assert "Whether the machine was quiet is not recorded" in text
     assert "The machine was quiet" not in text
     write_manifest(run_folder, measurement={"noise": 0.01}, machine={"load_average": 0.1})
-    assert "The machine was quiet" in page_of(run_folder).text
+    assert "The machine was quiet" in text_of(run_folder)
 
 
 def test_precision_that_was_not_recorded_is_not_praised(tmp_path: Path) -> None:
     rows = [{**row, "repetitions": 9} for row in synthetic_rows()]
     write_run(tmp_path, rows, without=("stop_reason",))
-    text = page_of(tmp_path).text
+    text = text_of(tmp_path)
     assert "How precise the times are is unknown" in text
     assert "The times are precise" not in text
 
@@ -382,7 +387,7 @@ def test_cells_without_rays_are_not_wrong(tmp_path: Path) -> None:
     rows[:3] = [{**without_times(row, "no_rays"), "ray_kind": "shadow"} for row in rows[:3]]
     for row in rows[:3]:
         row["rays"] = 0
-    text = page_of(write_run(tmp_path, rows)).text
+    text = text_of(write_run(tmp_path, rows))
     assert "The hits of all 27 cells are correct" in text
     assert "3 cells have no rays" in text
     assert "were wrong" not in text
@@ -402,7 +407,7 @@ def test_one_cell_is_enough(tmp_path: Path) -> None:
 
 def test_a_run_that_was_cut_off_says_so(run_folder: Path) -> None:
     write_manifest(run_folder, finished_utc=None)
-    text = page_of(run_folder).text
+    text = text_of(run_folder)
     assert "The run was cut off" in text
     assert "Scenes without any cell" not in text
 
@@ -428,7 +433,7 @@ def test_a_run_that_was_cut_off_is_compared_where_two_contenders_were_measured(
     assert "contender not measured" not in text
     missing = {**rows[0], "scene": "tetra:n=6"}
     write_run(tmp_path, [*rows, missing])
-    assert "320x200, 4 contenders not measured" in page_of(tmp_path).text
+    assert "320x200, 4 contenders not measured" in text_of(tmp_path)
 
 
 def test_a_run_without_a_finished_cell_is_one_sentence_and_exit_code_2(
@@ -450,7 +455,7 @@ def test_names_from_a_record_cannot_become_part_of_the_page(tmp_path: Path) -> N
 
 
 def test_the_reference_can_be_chosen(run_folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    text = page_of(run_folder).text
+    text = text_of(run_folder)
     assert "Comparison with embree, build included" in text
     assert (
         "multiple of that of embree (Embree's fastest of those with correct hits in the most views)"
@@ -485,18 +490,18 @@ def test_the_trace_of_which_the_harness_has_the_largest_part_is_named(run_folder
     name = "samet max_level=5 in escena1 at 640x480"
     write_manifest(run_folder, harness_overhead={"part": 3.71, "cell": cell})
     words = f"371% of the time of a trace is what null takes, at most: {name}"
-    assert words in page_of(run_folder).text  # the query path is not in the record
+    assert words in text_of(run_folder)  # the query path is not in the record
     write_run(run_folder, [{**row, "query_path": "image-single"} for row in synthetic_rows()])
     write_manifest(run_folder, harness_overhead={"part": 0.071, "cell": cell})
     words = "7.1% of a trace is the harness's, at most: {}"
-    assert words.format(name) in page_of(run_folder).text
+    assert words.format(name) in text_of(run_folder)
     write_manifest(run_folder, harness_overhead={"part": 0.071, "cell": "of/another/run"})
-    assert words.format("of/another/run") in page_of(run_folder).text
+    assert words.format("of/another/run") in text_of(run_folder)
 
 
 def test_the_harness_s_own_part_is_told(run_folder: Path) -> None:
     write_manifest(run_folder, harness_overhead={"part": 0.0123})
-    assert "1.2% of the fastest trace is the harness's, at most" in page_of(run_folder).text
+    assert "1.2% of the fastest trace is the harness's, at most" in text_of(run_folder)
 
 
 def test_a_manifest_that_is_none_is_one_sentence_and_exit_code_2(
