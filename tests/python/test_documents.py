@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 import re
 import shutil
 import subprocess
@@ -154,7 +153,9 @@ def test_install_brings_the_manual_and_the_completions(tmp_path: Path) -> None:
         pytest.skip("not a build folder in which everything was built")
     done = shell(f"cmake --install {build} --prefix {tmp_path}", tmp_path)
     assert done.returncode == 0, done.stderr
-    assert os.access(tmp_path / "bin/beambench", os.X_OK)
+    picture = ["render", "tetra:n=1", "--resolution", "8x8", "-o", tmp_path / "a.png"]
+    subprocess.run([tmp_path / "bin/beambench", *picture], check=True, timeout=60)
+    assert (tmp_path / "a.png").exists(), "what writes pictures is installed beside the program"
     share = tmp_path / "share"
     assert (share / "man/man1/beambench.1").read_text() == output_of("man")
     scripts = {

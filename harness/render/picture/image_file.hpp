@@ -1,5 +1,5 @@
 #pragma once
-// Pictures as files, through OpenImageIO.
+// Pictures as files, through OpenImageIO (see image_encoder.hpp).
 
 #include <cstdint>
 #include <filesystem>
@@ -27,8 +27,8 @@ struct DataChannel {
   std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
 };
 
-/// Writes the file whole or not at all. Throws InputError when it cannot be written, and
-/// std::logic_error when a channel has not one value for each pixel.
+/// Writes the file whole or not at all. Throws InputError when it cannot be written or OpenImageIO
+/// cannot be loaded, and std::logic_error when a channel has not one value for each pixel.
 void write_image(const std::filesystem::path& file, const Image& image,
                  std::span<const DataChannel> data = {});
 
