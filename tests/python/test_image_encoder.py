@@ -1,4 +1,4 @@
-"""OpenImageIO is loaded when a picture is written, from a shared object that is found beside the program."""
+"""OpenImageIO is loaded when a picture is written, by a shared object beside the program."""
 
 from __future__ import annotations
 
@@ -38,7 +38,10 @@ def test_the_encoder_is_found_beside_the_program(tmp_path: Path, place: str) -> 
         (tmp_path / folder).mkdir(parents=True, exist_ok=True)
     program = tmp_path / "bin/beambench"
     shutil.copy(PROGRAM, program)
-    refused(render(program, tmp_path / "a.png"), [ENCODER, str(tmp_path / "lib/beambench"), "build or install again"])
+    refused(
+        render(program, tmp_path / "a.png"),
+        [ENCODER, str(tmp_path / "lib/beambench"), "build or install again"],
+    )
     shutil.copy(BUILT, tmp_path / place)
     done = render(program, tmp_path / "a.png")
     assert done.returncode == 0, done.stderr

@@ -244,6 +244,18 @@ def test_seconds_are_those_of_build_and_trace_with_the_interval_of_a_repeat(
     assert time.high == pytest.approx(0.2 + hypot(sqrt(2) * 0.003, BETWEEN_RUNS * 0.2))
 
 
+def test_the_interval_of_cycles_goes_before_that_of_milliseconds(tmp_path: Path) -> None:
+    """A clock of two rates doubles the spread of milliseconds and leaves that of cycles alone."""
+    times = {"total_ms_median": 200, "total_ms_ci_low": 150, "total_ms_ci_high": 300}
+    cycles = {"total_mcycles_ci_low": 594, "total_mcycles_ci_high": 612}
+    write_run(tmp_path, [row_of("beam", BEAM, total_mcycles_median=600, **times, **cycles)])
+    time = measured_evidence([tmp_path]).time("escena1", "beam", COARSEST)
+    assert time is not None
+    assert time.value == pytest.approx(0.2)
+    assert time.low == pytest.approx(0.2 - hypot(sqrt(2) * 0.002, BETWEEN_RUNS * 0.2))
+    assert time.high == pytest.approx(0.2 + hypot(sqrt(2) * 0.004, BETWEEN_RUNS * 0.2))
+
+
 def test_a_clock_that_slows_down_makes_no_structure_slower(tmp_path: Path) -> None:
     """Of one work, a run at 2 GHz takes longer than one at 3; in cycles both take the same."""
     for name, clock in (("first", 3.0), ("second", 2.0)):

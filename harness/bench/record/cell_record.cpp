@@ -77,11 +77,11 @@ void add_identity(Row& row, const CellRecord& cell) {
   row["coherence"] = or_null(cell.rays.coherence);
 }
 
-/// The 95% interval of a median.
-void add_interval(Row& row, const std::string& phase, const std::vector<double>& samples) {
+/// The 95% interval of a figure's median.
+void add_interval(Row& row, const std::string& figure, const std::vector<double>& samples) {
   const std::optional<Interval> interval = median_interval(samples);
-  row[phase + "_ms_ci_low"] = interval ? Json(interval->low) : Json();
-  row[phase + "_ms_ci_high"] = interval ? Json(interval->high) : Json();
+  row[figure + "_ci_low"] = interval ? Json(interval->low) : Json();
+  row[figure + "_ci_high"] = interval ? Json(interval->high) : Json();
 }
 
 /// A statistic of samples; null where there are none.
@@ -122,19 +122,20 @@ void add_times(Row& row, const CellRecord& cell) {
   row["stop_reason"] = cell.stop_reason ? Json(to_string(*cell.stop_reason)) : Json();
   add_wall_time(row, "build", samples(&Repetition::build_ms));
   add_wall_time(row, "trace", samples(&Repetition::trace_ms));
-  add_interval(row, "trace", samples(&Repetition::trace_ms));
+  add_interval(row, "trace_ms", samples(&Repetition::trace_ms));
   const std::vector<double> warm = known ? warm_traces(cell) : std::vector<double>();
   row["trace_warm_ms_median"] = statistic(median, warm);
-  add_interval(row, "trace_warm", warm);
+  add_interval(row, "trace_warm_ms", warm);
   row["harness_ms"] = known && cell.harness ? Json(cell.harness->ms) : Json();
   row["trace_net_ms_median"] = known ? net_of_harness(cell) : Json();
   const std::vector<double> totals = samples(&Repetition::total_ms);
   add_wall_time(row, "total", totals);
-  add_interval(row, "total", totals);
+  add_interval(row, "total_ms", totals);
   const std::vector<double> cycles = samples(&Repetition::total_mcycles);
   const std::optional<Interval> repeat = repeat_interval(cycles);
   row["clock_ghz_median"] = median_of(&Repetition::clock_ghz);
   row["total_mcycles_median"] = median_of(&Repetition::total_mcycles);
+  add_interval(row, "total_mcycles", cycles);
   row["total_mcycles_repeat_low"] = repeat ? Json(repeat->low * (1.0 - kBetweenRuns)) : Json();
   row["total_mcycles_repeat_high"] = repeat ? Json(repeat->high * (1.0 + kBetweenRuns)) : Json();
   row["build_cpu_ms_median"] = median_of(&Repetition::build_cpu_ms);

@@ -11,9 +11,12 @@ namespace {
 
 OIIO::TypeDesc type_of(StoredType type) {
   switch (type) {
-    case StoredType::kByte: return OIIO::TypeDesc::UINT8;
-    case StoredType::kFloat: return OIIO::TypeDesc::FLOAT;
-    case StoredType::kUint32: break;
+    case StoredType::kByte:
+      return OIIO::TypeDesc::UINT8;
+    case StoredType::kFloat:
+      return OIIO::TypeDesc::FLOAT;
+    case StoredType::kUint32:
+      break;
   }
   return OIIO::TypeDesc::UINT32;
 }

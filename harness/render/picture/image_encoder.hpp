@@ -1,9 +1,10 @@
 #pragma once
-// The interface of libbeambench_image_encoder.so: pixels in, the bytes of a file out, by OpenImageIO.
+// The interface of libbeambench_image_encoder.so: pixels in, the bytes of a file out, by
+// OpenImageIO.
 //
-// It is apart from the program and loaded when a first picture is written, because OpenImageIO brings
-// over two hundred shared libraries: loaded at the start, they took most of the time of every command
-// that writes no picture.
+// It is apart from the program and loaded when a first picture is written, because OpenImageIO
+// brings over two hundred shared libraries: loaded at the start, they took most of the time of
+// every command that writes no picture.
 
 #include <cstdint>
 #include <string>
@@ -40,9 +41,9 @@ using EncodeImage = void(const std::string& file, const StoredImage& image, Enco
 /// The function's name in the shared object.
 inline constexpr const char* kEncodeImage = "beambench_encode_image";
 
-/// The function, with the shared object loaded at the first call: from the folder of the program (or of
-/// the Python module) that this code is part of, or from ../lib/beambench beside it. Throws InputError
-/// where it is in neither or cannot be loaded.
+/// The function, with the shared object loaded at the first call: from the folder of the program
+/// (or of the Python module) that this code is part of, or from ../lib/beambench beside it. Throws
+/// InputError where it is in neither or cannot be loaded.
 EncodeImage& image_encoder();
 
 }  // namespace beambench::render

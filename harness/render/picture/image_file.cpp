@@ -87,8 +87,9 @@ void write_image(const std::filesystem::path& file, const Image& image,
   EncodedImage encoded;
   image_encoder()(file.string(), pixels, encoded);
   if (!encoded.error.empty()) {
-    throw InputError(fmt::format("cannot write the picture '{}': {}; choose another place or format",
-                                 file.string(), encoded.error));
+    throw InputError(
+        fmt::format("cannot write the picture '{}': {}; choose another place or format",
+                    file.string(), encoded.error));
   }
   write_file(file, std::string_view(reinterpret_cast<const char*>(encoded.bytes.data()),
                                     encoded.bytes.size()));

@@ -41,12 +41,13 @@ EncodeImage* load() {
     void* function = object == nullptr ? nullptr : ::dlsym(object, kEncodeImage);
     if (function != nullptr) return reinterpret_cast<EncodeImage*>(function);
     const char* why = ::dlerror();
-    throw InputError(fmt::format("pictures cannot be written: {} cannot be loaded ({}); build or install again",
-                                 place.string(), why == nullptr ? "no reason was given" : why));
+    throw InputError(
+        fmt::format("pictures cannot be written: {} cannot be loaded ({}); build or install again",
+                    place.string(), why == nullptr ? "no reason was given" : why));
   }
-  throw InputError(
-      fmt::format("pictures cannot be written: {} is neither beside the program nor {}; build or install again",
-                  kFile, places.back().string()));
+  throw InputError(fmt::format(
+      "pictures cannot be written: {} is neither beside the program nor {}; build or install again",
+      kFile, places.back().string()));
 }
 
 }  // namespace

@@ -139,8 +139,13 @@ def seconds_of(row: dict[str, object]) -> dict[str, float]:
     That differs from this run's by the errors of both, so that its interval is that of the median
     times the root of two, and by what another process differs by.
     """
-    seconds = _number(row, "total_ms_median") / 1e3
-    low, high = (_number(row, f"total_ms_ci_{end}") / 1e3 for end in ("low", "high"))
+    return _seconds_by(row, "total_ms", 1e3)
+
+
+def _seconds_by(row: dict[str, object], figure: str, per_second: float) -> dict[str, float]:
+    """The seconds of the figure's median; UNKNOWN_SPREAD where that has no interval."""
+    seconds = _number(row, f"{figure}_median") / per_second
+    low, high = (_number(row, f"{figure}_ci_{end}") / per_second for end in ("low", "high"))
     if pd.isna(low) or pd.isna(high):
         below = above = UNKNOWN_SPREAD * seconds
     else:
@@ -153,6 +158,9 @@ def seconds_of(row: dict[str, object]) -> dict[str, float]:
 
 def _at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
     """The seconds that the row's cycles take at a clock rate, which for its own was another."""
+    if pd.notna(_number(row, "total_mcycles_ci_low")):
+        return _seconds_by(row, "total_mcycles", 1e3 * gigahertz)
+    # Older rows have no interval of the cycles: that of the milliseconds, which is no narrower.
     cycles, own = _number(row, "total_mcycles_median"), _number(row, "total_ms_median")
     scale = cycles / gigahertz / own
     return {name: seconds * scale for name, seconds in seconds_of(row).items()}
