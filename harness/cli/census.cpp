@@ -331,7 +331,7 @@ void add_census_command(CLI::App& app, int&) {
       "  beambench census escena1 --accel beam --resolution 640x480 --shadows cache --json\n"
       "  beambench census maceta --accel beam --shadows cache --order beams\n"
       "  beambench census mount --min-weight 0.01\n"
-      "  beambench census --resolution 1280x1024 --threads 2 --pictures drawn");
+      "  beambench census --resolution 640x480 --threads 2 --pictures drawn");
   command->callback([request] { census(*request); });
 }
 
