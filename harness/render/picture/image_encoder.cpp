@@ -1,7 +1,8 @@
 #include "harness/render/picture/image_encoder.hpp"
 
-#include <algorithm>
+#include <cstddef>
 #include <memory>
+#include <type_traits>
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
@@ -54,5 +55,7 @@ extern "C" void beambench_encode_image(const std::string& file, const StoredImag
     encoded.error = output ? output->geterror() : OIIO::geterror();
   }
 }
+// The loader of the shared object takes it for one.
+static_assert(std::is_same_v<decltype(beambench_encode_image), EncodeImage>);
 
 }  // namespace beambench::render
