@@ -933,7 +933,7 @@ def test_verify_judges_every_ray_of_whole_pictures(tmp_path: Path) -> None:
 def test_a_build_that_memory_does_not_hold_is_refused_before_it_begins(tmp_path: Path) -> None:
     stats = "beambench stats mount:n=9 --resolution 8x8 --accel"
     refused(
-        shell(f"BEAMBENCH_MEMORY=150M {stats} sah-bvh", tmp_path),
+        shell(f"BEAMBENCH_MEMORY=100M {stats} sah-bvh", tmp_path),
         ["'sah-bvh'", "524292 primitives", "GiB of memory", "available", "BEAMBENCH_MEMORY"],
     )
     refused(
