@@ -31,8 +31,8 @@ struct StoredImage {
 
 /// What became of an image: the bytes of the file, or why there are none.
 struct EncodedImage {
-  std::vector<unsigned char> bytes;
-  std::string error;  ///< empty: none
+  std::vector<unsigned char> bytes;  ///< none: it could not be encoded
+  std::string error;                 ///< why, where OpenImageIO states it
 };
 
 /// Encodes the image in the format that the ending of `file` names, which is not written.

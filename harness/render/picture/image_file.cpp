@@ -86,7 +86,7 @@ void write_image(const std::filesystem::path& file, const Image& image,
       format == ImageFormat::kPng ? png_image(image) : exr_image(image, data);
   EncodedImage encoded;
   image_encoder()(file.string(), pixels, encoded);
-  if (!encoded.error.empty()) {
+  if (encoded.bytes.empty()) {
     throw InputError(
         fmt::format("cannot write the picture '{}': {}; choose another place or format",
                     file.string(), encoded.error));
