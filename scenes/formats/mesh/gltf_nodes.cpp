@@ -46,9 +46,11 @@ glm::dmat4 local_matrix(const tinygltf::Node& node, int number) {
 
 /// The nodes that a scene starts from; without scenes, those that are no node's child.
 std::vector<int> root_nodes(const tinygltf::Model& model) {
+  std::vector<int> roots;
   if (!model.scenes.empty()) {
     const int scene = model.defaultScene < 0 ? 0 : model.defaultScene;
-    return element_of(model.scenes, scene, "scene", "the file").nodes;
+    roots = element_of(model.scenes, scene, "scene", "the file").nodes;
+    return roots;
   }
   std::vector<bool> is_child(model.nodes.size(), false);
   for (const tinygltf::Node& node : model.nodes) {
@@ -57,7 +59,6 @@ std::vector<int> root_nodes(const tinygltf::Model& model) {
       is_child[static_cast<std::size_t>(child)] = true;
     }
   }
-  std::vector<int> roots;
   for (std::size_t i = 0; i < is_child.size(); ++i) {
     if (!is_child[i]) roots.push_back(static_cast<int>(i));
   }
