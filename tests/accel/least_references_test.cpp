@@ -206,8 +206,8 @@ TEST(ReferenceLimit, IsKnownToBeExceededEarly) {
            {"gargantini:max_level=16,build=on-demand,built_level=15,planes=cost",
             "gargantini:max_level=8,build=on-demand,built_level=8,planes=cost", spheres},
            {"kd-tree:builder=median,max_depth=60,max_objects=0",
-            "kd-tree:builder=median,max_depth=22,max_objects=0", sphere},
-           {"kd-tree:builder=median,max_depth=50", "kd-tree:builder=median,max_depth=22", spheres},
+            "kd-tree:builder=median,max_depth=20,max_objects=0", sphere},
+           {"kd-tree:builder=median,max_depth=50", "kd-tree:builder=median,max_depth=20", spheres},
            {"voxel-grid:resolution=1200," + grid, "voxel-grid:resolution=128," + grid, sphere},
            {"hierarchical-grid:resolution=1200," + grid, "hierarchical-grid:resolution=128," + grid,
             sphere}}) {
