@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <exception>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -80,11 +81,11 @@ bool PrimitiveKinds::include(const scenes::Scene& scene) const {
          (polygons || scene.polygons.empty());
 }
 
-std::vector<std::string> PrimitiveKinds::names() const {
-  std::vector<std::string> names;
-  if (spheres) names.emplace_back("spheres");
-  if (cones) names.emplace_back("cones");
-  if (polygons) names.emplace_back("polygons");
+std::vector<std::string_view> PrimitiveKinds::names() const {
+  std::vector<std::string_view> names;
+  if (spheres) names.push_back("spheres");
+  if (cones) names.push_back("cones");
+  if (polygons) names.push_back("polygons");
   return names;
 }
 

@@ -2,7 +2,7 @@
 // The structure that a self-test is about, and the primitives that it takes.
 
 #include <memory>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "accel/core/registry.hpp"
@@ -23,7 +23,7 @@ struct PrimitiveKinds {
   /// Is the scene made of nothing else?
   bool include(const scenes::Scene& scene) const;
   /// `spheres`, `cones`, `polygons`: those of them.
-  std::vector<std::string> names() const;
+  std::vector<std::string_view> names() const;
   /// The others.
   PrimitiveKinds without() const { return {!spheres, !cones, !polygons}; }
 };
