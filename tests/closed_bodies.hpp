@@ -18,7 +18,7 @@
 #include "scenes/modelling/parametric_surface.hpp"
 #include "scenes/modelling/subdivide.hpp"
 
-namespace beambench::testing {
+namespace beambench::tests {
 
 /// A closed mesh of triangles about the origin.
 struct Body {
@@ -104,4 +104,4 @@ struct Placement {
   glm::dvec3 shift{0.0};
 };
 
-}  // namespace beambench::testing
+}  // namespace beambench::tests

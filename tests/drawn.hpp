@@ -76,7 +76,7 @@ inline scenes::SceneBuilder with_light(const glm::dvec3& position,
 
 /// A random scene with lights and mirrors, and with glass where the seed is even.
 inline scenes::Scene scene_of_all_surfaces(std::uint64_t seed) {
-  scenes::Scene scene = testing::random_scene(seed, 60);
+  scenes::Scene scene = tests::random_scene(seed, 60);
   Random random(seed);
   scene.lights = {{{3.0F, 2.0F, 4.0F}, glm::vec3(1.0F)}, {{0.1F, 0.2F, 0.3F}, glm::vec3(0.5F)}};
   scene.surfaces = {{.color = {0.9F, 0.5F, 0.2F}, .diffuse = 0.8F},

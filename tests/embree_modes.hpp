@@ -7,11 +7,11 @@
 
 #include "accel/core/registry.hpp"
 
-namespace beambench::testing {
+namespace beambench::tests {
 
 inline std::vector<std::string> embree_modes() {
   const accel::StructureChoice embree = accel::registry().choose({"embree", {}});
   return std::ranges::find(embree.info().parameters, "mode", &ParameterInfo::name)->choices;
 }
 
-}  // namespace beambench::testing
+}  // namespace beambench::tests

@@ -10,7 +10,7 @@
 #include "scenes/core/random.hpp"
 #include "tests/random_scene.hpp"
 
-namespace beambench::testing {
+namespace beambench::tests {
 
 /// Expects the hits of exhaustive search of `rays` difficult rays, and of the same rays any hit.
 inline void expect_hits_of_exhaustive(const scenes::Scene& scene,
@@ -26,4 +26,4 @@ inline void expect_hits_of_exhaustive(const scenes::Scene& scene,
   }
 }
 
-}  // namespace beambench::testing
+}  // namespace beambench::tests

@@ -5,7 +5,7 @@
 
 #include <hwy/targets.h>
 
-namespace beambench::testing {
+namespace beambench::tests {
 
 /// Makes Highway believe that the machine has one instruction set, until destroyed.
 class OnlyTarget {
@@ -22,4 +22,4 @@ class OnlyTarget {
   }
 };
 
-}  // namespace beambench::testing
+}  // namespace beambench::tests

@@ -19,7 +19,7 @@
 #include "scenes/scene.hpp"
 #include "tests/random_view.hpp"
 
-namespace beambench::testing {
+namespace beambench::tests {
 
 /// How often each place of the hit buffer was painted, and what became of samples.
 class PaintWatch : public accel::beam::NoBeamWatch {
@@ -90,4 +90,4 @@ inline scenes::Camera random_camera(const scenes::Scene& scene, Random& random) 
   return camera;
 }
 
-}  // namespace beambench::testing
+}  // namespace beambench::tests

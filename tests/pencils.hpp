@@ -16,7 +16,7 @@
 #include "harness/rays/trace_input.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench::testing {
+namespace beambench::tests {
 
 /// By how much a ray passes beside a point, in units of what floats round of the numbers involved.
 inline double roundings_beside(const accel::Ray& ray, const glm::dvec3& apex, double extent) {
@@ -92,4 +92,4 @@ class CheckedPencils {
   double roundings_;
 };
 
-}  // namespace beambench::testing
+}  // namespace beambench::tests

@@ -3,9 +3,9 @@
 
 #include "harness/verify/selftest/test_scenes.hpp"
 
-namespace beambench::testing {
+namespace beambench::tests {
 
 using beambench::verify::random_ray;
 using beambench::verify::random_scene;
 
-}  // namespace beambench::testing
+}  // namespace beambench::tests

@@ -6,7 +6,7 @@
 #include "scenes/core/random.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench::testing {
+namespace beambench::tests {
 
 /// A camera outside, inside or in the middle planes of the scene's box, in a random direction: its
 /// `from` and `at`.
@@ -30,4 +30,4 @@ inline scenes::Camera random_view(const scenes::Scene& scene, Random& random) {
   return camera;
 }
 
-}  // namespace beambench::testing
+}  // namespace beambench::tests

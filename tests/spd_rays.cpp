@@ -5,7 +5,7 @@
 #include "accel/core/primary_rays.hpp"
 #include "accel/octree/samet.hpp"
 
-namespace beambench::testing {
+namespace beambench::tests {
 
 namespace {
 
@@ -51,4 +51,4 @@ SpdRays spd_rays(const scenes::Scene& scene) {
   return rays;
 }
 
-}  // namespace beambench::testing
+}  // namespace beambench::tests

@@ -7,7 +7,7 @@
 #include "accel/core/ray.hpp"
 #include "scenes/scene.hpp"
 
-namespace beambench::testing {
+namespace beambench::tests {
 
 /// Rays through the corners of 512 x 512 pixels, 513 x 513 of them, and from where they hit a
 /// shadow ray to each light that the seen side of the polygon faces.
@@ -22,4 +22,4 @@ struct SpdRays {
 /// The rays over a scene of polygons.
 SpdRays spd_rays(const scenes::Scene& scene);
 
-}  // namespace beambench::testing
+}  // namespace beambench::tests

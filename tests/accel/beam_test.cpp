@@ -20,7 +20,7 @@
 namespace beambench::accel {
 namespace {
 
-using testing::random_scene;
+using tests::random_scene;
 
 /// Does the ray of a sample pass through the root cell?
 bool meets_root(const beam::BeamTracer& tracer, const Ray& ray) {
@@ -31,7 +31,7 @@ bool meets_root(const beam::BeamTracer& tracer, const Ray& ray) {
 void expect_painted_once(const scenes::Scene& scene, const beam::BeamOptions& options,
                          const PrimaryRays& rays, std::size_t stride = 1) {
   const beam::BeamTracer tracer(scene, options);
-  const auto watch = testing::expect_painted_once(
+  const auto watch = tests::expect_painted_once(
       scene, tracer, [&](const Ray& ray) { return meets_root(tracer, ray); }, rays, stride);
   if (options.handover == 0) {
     EXPECT_EQ(watch.rays_by(beam::RayReason::kHandover), 0U);
@@ -45,7 +45,7 @@ beam::BeamOptions options_with(int max_level, std::uint32_t max_objects = 0) {
   return options;
 }
 
-beam::BeamOptions random_options(Random& random) {
+beam::BeamOptions random_beam_options(Random& random) {
   beam::BeamOptions options = options_with(1 + static_cast<int>(random.below(6)),
                                            static_cast<std::uint32_t>(random.below(3)));
   options.octree.root =
@@ -60,9 +60,9 @@ TEST(Beam, PaintsEverySampleOfRandomScenesOnce) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Random random(seed);
     const scenes::Scene scene = verify::random_scene(seed, static_cast<int>(1 + random.below(60)));
-    const beam::BeamOptions options = random_options(random);
+    const beam::BeamOptions options = random_beam_options(random);
     const PrimaryRays rays(
-        testing::random_camera(scene, random), 1 + static_cast<int>(random.below(40)),
+        tests::random_camera(scene, random), 1 + static_cast<int>(random.below(40)),
         1 + static_cast<int>(random.below(40)), std::array{1, 4, 5}[random.below(3)]);
     SCOPED_TRACE(fmt::format("seed {}", seed));
     expect_painted_once(scene, options, rays);

@@ -35,7 +35,7 @@ void expect_same(const octree::Octree& a, const octree::Octree& b) {
 TEST(DeepenedOctree, IsTheOneBuiltAtOnce) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 40);
+    const scenes::Scene scene = tests::random_scene(seed, 40);
     octree::OctreeOptions options;
     options.max_objects = static_cast<std::uint32_t>(seed % 4);
     options.root =

@@ -31,7 +31,7 @@ namespace {
 
 using octree::OctreeOptions;
 
-OctreeOptions some_options(std::uint64_t number) {
+OctreeOptions some_cost_options(std::uint64_t number) {
   OctreeOptions options;
   options.planes = OctreeOptions::Planes::kCost;
   options.max_level = static_cast<int>(1 + number % 6);
@@ -65,8 +65,8 @@ TEST(CostPlanes, LieWhereTheCostIsLeast) {
 TEST(CostPlanes, LeavesTileTheRootAndReferToWhatOverlapsThem) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 25);
-    const octree::Octree octree(scene, some_options(seed));
+    const scenes::Scene scene = tests::random_scene(seed, 25);
+    const octree::Octree octree(scene, some_cost_options(seed));
     const double tolerance = overlap_tolerance(scene);
     std::uint64_t volume = 0;
     octree::for_each_node(octree::BoxCursor(octree), [&](const octree::BoxCursor& leaf) {
@@ -89,11 +89,11 @@ TEST(CostPlanes, LeavesTileTheRootAndReferToWhatOverlapsThem) {
 TEST(CostPlanes, HitsAreThoseOfExhaustive) {
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 60);
-    testing::expect_hits_of_exhaustive(scene, octree::GlassnerAnyPlanes(scene, some_options(seed)),
-                                       seed, 100);
-    testing::expect_hits_of_exhaustive(
-        scene, octree::GargantiniAnyPlanes(scene, some_options(seed)), seed, 100);
+    const scenes::Scene scene = tests::random_scene(seed, 60);
+    tests::expect_hits_of_exhaustive(
+        scene, octree::GlassnerAnyPlanes(scene, some_cost_options(seed)), seed, 100);
+    tests::expect_hits_of_exhaustive(
+        scene, octree::GargantiniAnyPlanes(scene, some_cost_options(seed)), seed, 100);
   }
 }
 
@@ -115,8 +115,8 @@ TEST(CostPlanes, SaveTests) {
 
 TEST(CostPlanes, ADeeperOctreeIsTheSameFromACoarserOne) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    const scenes::Scene scene = testing::random_scene(seed, 40);
-    OctreeOptions options = some_options(seed);
+    const scenes::Scene scene = tests::random_scene(seed, 40);
+    OctreeOptions options = some_cost_options(seed);
     options.max_level = 3;
     const octree::Octree coarser(scene, options);
     options.max_level = 5;
@@ -124,7 +124,7 @@ TEST(CostPlanes, ADeeperOctreeIsTheSameFromACoarserOne) {
     const octree::Octree deepened(scene, options, coarser);
     ASSERT_EQ(deepened.nodes().size(), fresh.nodes().size());
     ASSERT_EQ(deepened.reference_count(), fresh.reference_count());
-    testing::expect_hits_of_exhaustive(
+    tests::expect_hits_of_exhaustive(
         scene, octree::GargantiniAnyPlanes(scene, octree::Octree(deepened)), seed, 50);
   }
 }
@@ -146,16 +146,16 @@ TEST(CostPlanes, AreRefusedWhereNeighborsAreFoundByHalving) {
     }
   }
   const scenes::Scene scene = scenes::load_scene("tetra:n=2");
-  EXPECT_THROW(octree::Samet(scene, some_options(4)), InputError);
-  EXPECT_THROW(octree::SametNet(scene, some_options(4)), InputError);
+  EXPECT_THROW(octree::Samet(scene, some_cost_options(4)), InputError);
+  EXPECT_THROW(octree::SametNet(scene, some_cost_options(4)), InputError);
 }
 
 // A ray passes through the same leaves, whichever rays divided them.
 TEST(OnDemandOctree, WorkAndHitsAreThoseOfTheCompleteOctree) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 60);
-    OctreeOptions options = some_options(seed);
+    const scenes::Scene scene = tests::random_scene(seed, 60);
+    OctreeOptions options = some_cost_options(seed);
     options.built_level = static_cast<int>(1 + seed % 4);
     const octree::GlassnerAnyPlanes complete(scene, options);
     const octree::GlassnerOnDemand glassner(scene, options);
@@ -166,7 +166,7 @@ TEST(OnDemandOctree, WorkAndHitsAreThoseOfTheCompleteOctree) {
     Random random(seed);
     std::array<WorkCounters, 5> work;
     for (int i = 0; i < 60; ++i) {
-      const Ray ray = testing::random_ray(scene, random);
+      const Ray ray = tests::random_ray(scene, random);
       const auto hit = complete.closest_hit(ray, work.data());
       ASSERT_EQ(glassner.closest_hit(ray, &work[1]), hit);
       ASSERT_EQ(gargantini.closest_hit(ray, &work[2]), hit);

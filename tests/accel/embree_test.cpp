@@ -25,11 +25,11 @@
 namespace beambench::accel {
 namespace {
 
-using testing::embree_modes;
-using testing::random_ray;
-using testing::random_scene;
+using tests::embree_modes;
+using tests::random_ray;
+using tests::random_scene;
 
-Ray ray(const glm::vec3& origin, const glm::vec3& direction) {
+Ray ray_from(const glm::vec3& origin, const glm::vec3& direction) {
   Ray made;
   made.origin = origin;
   made.direction = direction;
@@ -61,7 +61,7 @@ void expect_hit(const std::optional<embree::ExactHit>& hit, double t,
 TEST(EmbreeOracle, HitsEachKindWhereItsDefinitionSays) {
   const scenes::Scene scene = row_of_primitives();
   const embree::EmbreeOracle oracle(scene, 10.0);
-  Ray along = ray({-5.0F, 0.0F, 0.25F}, {2.0F, 0.0F, 0.0F});
+  Ray along = ray_from({-5.0F, 0.0F, 0.25F}, {2.0F, 0.0F, 0.0F});
   const double half = std::sqrt(1.0 - 0.0625);
   expect_hit(oracle.closest_hit(along), (5.0 - half) / 2.0, 0);
   along.t_min = 2.3F;  // beyond the entry: the far side of the hollow sphere
@@ -83,7 +83,7 @@ TEST(EmbreeOracle, HitsEachKindWhereItsDefinitionSays) {
 TEST(EmbreeOracle, TakesTheRangeAsClosed) {
   const scenes::Scene scene = row_of_primitives();
   const embree::EmbreeOracle oracle(scene, 10.0);
-  Ray exact = ray({10.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F});
+  Ray exact = ray_from({10.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F});
   exact.t_min = 2.0F;
   exact.t_max = 2.0F;
   expect_hit(oracle.closest_hit(exact), 2.0, 4);
@@ -97,8 +97,8 @@ TEST(EmbreeOracle, TakesTheRangeAsClosed) {
 TEST(EmbreeOracle, SeesNoCapsOnACone) {
   const scenes::Scene scene = row_of_primitives();
   const embree::EmbreeOracle oracle(scene, 10.0);
-  EXPECT_FALSE(oracle.any_hit(ray({6.0F, 0.0F, -5.0F}, {0.0F, 0.0F, 1.0F})));
-  EXPECT_TRUE(oracle.any_hit(ray({6.0F, 0.0F, -5.0F}, {0.2F, 0.0F, 1.0F})));
+  EXPECT_FALSE(oracle.any_hit(ray_from({6.0F, 0.0F, -5.0F}, {0.0F, 0.0F, 1.0F})));
+  EXPECT_TRUE(oracle.any_hit(ray_from({6.0F, 0.0F, -5.0F}, {0.2F, 0.0F, 1.0F})));
 }
 
 TEST(EmbreeOracle, LosesNoRayAtTheVerticesOfAClosedMesh) {
@@ -106,7 +106,7 @@ TEST(EmbreeOracle, LosesNoRayAtTheVerticesOfAClosedMesh) {
   const glm::vec3 inside(0.1F, -0.2F, 0.05F);  // from here no vertex is on a silhouette
   const embree::EmbreeOracle oracle(scene, glm::length(inside));
   for (const glm::vec3& vertex : scene.vertices) {
-    const Ray aimed = ray(inside, vertex - inside);
+    const Ray aimed = ray_from(inside, vertex - inside);
     ASSERT_TRUE(oracle.any_hit(aimed));
     ASSERT_TRUE(oracle.closest_hit(aimed).has_value());
   }
@@ -124,13 +124,13 @@ TEST(EmbreeOracle, LosesNoRayFromAnywhereAtTheVerticesOfAClosedMesh) {
       const glm::vec3 eye(glm::dvec3(random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1),
                                      random.uniform(-0.1, 0.1)));
       const auto vertex = random.below(static_cast<std::uint32_t>(scene.vertices.size()));
-      if (!oracle.closest_hit(ray(eye, scene.vertices[vertex] - eye))) ++count;
+      if (!oracle.closest_hit(ray_from(eye, scene.vertices[vertex] - eye))) ++count;
     }
     EXPECT_EQ(count, 0) << name;
   }
   const scenes::Scene scene = scenes::load_scene("bumpy:triangles=1000");
-  const Ray aimed = ray({0x1.99493p-5F, 0x1.23a03p-4F, -0x1.a8a096p-4F},
-                        {-0x1.bc6ccep-2F, 0x1.a437d8p-1F, -0x1.e65e2ap-4F});
+  const Ray aimed = ray_from({0x1.99493p-5F, 0x1.23a03p-4F, -0x1.a8a096p-4F},
+                             {-0x1.bc6ccep-2F, 0x1.a437d8p-1F, -0x1.e65e2ap-4F});
   EXPECT_TRUE(embree::EmbreeOracle(scene, 2.0).closest_hit(aimed));
 }
 
@@ -154,7 +154,7 @@ class EmbreeModes : public ::testing::TestWithParam<std::string> {
  protected:
   std::string mode() const { return "mode=" + GetParam(); }
 };
-INSTANTIATE_TEST_SUITE_P(All, EmbreeModes, ::testing::ValuesIn(testing::embree_modes()));
+INSTANTIATE_TEST_SUITE_P(All, EmbreeModes, ::testing::ValuesIn(tests::embree_modes()));
 
 TEST_P(EmbreeModes, WriteEverySampleOfAnImageOfAnySize) {
   const scenes::Scene scene = row_of_primitives();  // user geometry meets packets, too
@@ -217,7 +217,7 @@ TEST_P(EmbreeModes, TraceTheVeryRaysOfTheImageOnEveryInstructionSet) {
   const scenes::Scene scene = user_primitives(random);
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));
-    const testing::OnlyTarget only(target);
+    const tests::OnlyTarget only(target);
     const auto structure = embree(mode(), scene);
     for (const auto& [width, height, samples] :
          {std::tuple(64, 48, 1), std::tuple(37, 19, 4), std::tuple(23, 30, 5)}) {
@@ -244,7 +244,7 @@ TEST_P(EmbreeModes, TraceListsOfAnyLengthOnEveryInstructionSet) {
   const scenes::Scene scene = user_primitives(random);
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));
-    const testing::OnlyTarget only(target);
+    const tests::OnlyTarget only(target);
     const auto structure = embree(mode(), scene);
     std::size_t hits = 0;
     for (const std::size_t count : {0U, 1U, 3U, 4U, 15U, 16U, 17U, 255U, 256U, 300U, 1000U}) {
@@ -364,7 +364,7 @@ TEST(Embree, ReportsItsMemoryAndWhatItHolds) {
 TEST(Embree, HasStreamsBeforeVersion4) {
   std::vector<std::string> expected = {"single", "packet4", "packet8", "packet16"};
   if (embree::embree_version().starts_with("3.")) expected.emplace_back("stream");
-  EXPECT_EQ(testing::embree_modes(), expected);
+  EXPECT_EQ(tests::embree_modes(), expected);
 }
 
 TEST(Embree, RefusesAnUnknownMode) {
@@ -412,7 +412,7 @@ TEST(Embree, OfEachInstructionSetEveryModeGivesTheHitsOfSingleRays) {
   for (const char* isa : {"best", "avx2", "sse4"}) {
     HitBuffer single(45, 35, 5);
     embree(fmt::format("mode=single,isa={}", isa), scene)->trace(rays, single, nullptr);
-    for (const std::string& mode : testing::embree_modes()) {
+    for (const std::string& mode : tests::embree_modes()) {
       HitBuffer hits(45, 35, 5);
       embree(fmt::format("mode={},isa={}", mode, isa), scene)->trace(rays, hits, nullptr);
       for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -428,7 +428,7 @@ TEST(Embree, ConesAsCurvesAreClosedAndThoseFromInsideStayCallbacks) {
   const scenes::Scene scene = row_of_primitives();
   const auto structure = embree("cones=curves", scene);
   EXPECT_EQ(structure->statistics().library_geometry, "triangles+points+curves+callbacks");
-  const Ray into_the_end = ray({6.0F, 0.0F, -3.0F}, {0.0F, 0.0F, 2.0F});
+  const Ray into_the_end = ray_from({6.0F, 0.0F, -3.0F}, {0.0F, 0.0F, 2.0F});
   EXPECT_EQ(structure->closest_hit(into_the_end, nullptr), (Hit{1.0F, 2}));
   EXPECT_FALSE(embree("cones=callbacks", scene)->closest_hit(into_the_end, nullptr).has_value());
 }
@@ -467,7 +467,7 @@ TEST(Embree, NullWithSimdRaysWritesAMissForEveryRayOfAList) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=1");
   const auto null = registry().choose({"null", {{"rays", "simd"}}}).build(scene);
   for (const std::size_t count : {1U, 16U, 37U}) {
-    const std::vector<Ray> rays(count, ray({0, 0, 0}, {0, 0, 1}));
+    const std::vector<Ray> rays(count, ray_from({0, 0, 0}, {0, 0, 1}));
     HitBuffer closest(static_cast<int>(count), 1, 1);
     std::fill_n(closest.primitive(), count, 0U);
     std::vector<std::uint8_t> any(count, 255);
@@ -498,7 +498,7 @@ TEST(Embree, HitsTheSameWhateverIsFlaggedAsCoherent) {
 
 TEST(Embree, RefusesAnInstructionSetThatTheMachineLacks) {
   const scenes::Scene scene = row_of_primitives();
-  const testing::OnlyTarget only(HWY_SSE4);
+  const tests::OnlyTarget only(HWY_SSE4);
   EXPECT_TRUE(scenes::says(scenes::thrown_message([&] { embree("isa=avx2", scene); }),
                            {"avx2", "does not have", "isa=best"}));
   EXPECT_NO_THROW(embree("isa=best", scene)) << "Embree runs on more than was requested";

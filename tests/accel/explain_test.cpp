@@ -14,7 +14,7 @@ namespace beambench::accel {
 namespace {
 
 /// Two triangles in opposite corners of [0, 4]^3: eight leaves of size 2, six of them empty.
-scenes::Scene two_corners() {
+scenes::Scene triangles_in_two_corners() {
   scenes::SceneBuilder builder("two corners");
   const std::array<glm::dvec3, 3> low{{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}}};
   const std::array<glm::dvec3, 3> high{{{3.0, 3.0, 4.0}, {4.0, 3.0, 4.0}, {4.0, 4.0, 4.0}}};
@@ -46,7 +46,7 @@ void expect_leaf(const TraceStep& step, std::uint64_t index, const glm::dvec3& l
 }
 
 TEST(Explain, SametTraversesASmallOctreeAsByHand) {
-  const scenes::Scene scene = two_corners();
+  const scenes::Scene scene = triangles_in_two_corners();
   const octree::Samet samet(scene, eight_cells());
   Ray ray;
   ray.origin = {3.25F, 0.25F, 1.5F};
@@ -65,7 +65,7 @@ TEST(Explain, SametTraversesASmallOctreeAsByHand) {
 }
 
 TEST(Explain, ATestThatFindsNothingIsAMiss) {
-  const scenes::Scene scene = two_corners();
+  const scenes::Scene scene = triangles_in_two_corners();
   const octree::Samet samet(scene, eight_cells());
   Ray ray;
   ray.origin = {3.25F, 3.75F, 10.0F};  // beside the upper triangle, in its cell
@@ -81,7 +81,7 @@ TEST(Explain, ATestThatFindsNothingIsAMiss) {
 }
 
 TEST(Explain, ARayThatPassesByEntersNothing) {
-  const scenes::Scene scene = two_corners();
+  const scenes::Scene scene = triangles_in_two_corners();
   Ray ray;
   ray.origin = {9.0F, 9.0F, 9.0F};
   EXPECT_TRUE(octree::Samet(scene, eight_cells()).explain(ray).empty());
@@ -102,12 +102,12 @@ std::optional<Hit> nearest(const std::vector<TraceStep>& steps) {
 TEST(Explain, ReportsTheWorkThatIsCountedAndTheHitThatIsFound) {
   int reported = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
-    const scenes::Scene scene = testing::random_scene(seed, 30);
+    const scenes::Scene scene = tests::random_scene(seed, 30);
     for (const StructureInfo& info : registry().structures()) {
       const auto structure = registry().choose(Spec{info.name, {}}).build(scene);
       Random random(seed);
       for (int i = 0; i < 50; ++i) {
-        const Ray ray = testing::random_ray(scene, random);
+        const Ray ray = tests::random_ray(scene, random);
         const std::vector<TraceStep> steps = structure->explain(ray);
         if (steps.empty()) continue;
         ++reported;
@@ -127,10 +127,10 @@ TEST(Explain, ReportsTheWorkThatIsCountedAndTheHitThatIsFound) {
 
 TEST(Explain, SametsLeavesFollowEachOther) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const scenes::Scene scene = testing::random_scene(seed, 20);
+    const scenes::Scene scene = tests::random_scene(seed, 20);
     const octree::Samet samet(scene, {});
     Random random(seed);
-    const std::vector<TraceStep> steps = samet.explain(testing::random_ray(scene, random));
+    const std::vector<TraceStep> steps = samet.explain(tests::random_ray(scene, random));
     for (std::size_t i = 1; i < steps.size(); ++i) {
       EXPECT_EQ(steps[i].t_enter, std::max(steps[i - 1].t_exit, steps[0].t_enter));
     }

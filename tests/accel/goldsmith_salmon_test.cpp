@@ -32,7 +32,7 @@ bvh::GoldsmithSalmonOptions options_for(Order order,
 
 constexpr std::array kInsertions{bvh::Insertion::kEverywhere, bvh::Insertion::kTerminal};
 
-bool contains(const scenes::Bounds& outer, const scenes::Bounds& inner) {
+bool surrounds(const scenes::Bounds& outer, const scenes::Bounds& inner) {
   for (int axis = 0; axis < 3; ++axis) {
     if (inner.lower[axis] < outer.lower[axis] || inner.upper[axis] > outer.upper[axis]) {
       return false;
@@ -53,7 +53,7 @@ void expect_valid(const bvh::InsertionHierarchy& hierarchy, const scenes::Scene&
     if (!entries[i].is_volume()) {
       ASSERT_EQ(entries[i].end, i + 1);
       ++seen[entries[i].primitive];
-      EXPECT_TRUE(contains(entries[i].box, scenes::primitive_bounds(scene, entries[i].primitive)));
+      EXPECT_TRUE(surrounds(entries[i].box, scenes::primitive_bounds(scene, entries[i].primitive)));
       continue;
     }
     ++volumes;
@@ -77,7 +77,7 @@ void expect_valid(const bvh::InsertionHierarchy& hierarchy, const scenes::Scene&
 TEST(GoldsmithSalmon, HoldsEveryPrimitiveOnceInBoxesThatFit) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, static_cast<int>(1 + seed * 3));
+    const scenes::Scene scene = tests::random_scene(seed, static_cast<int>(1 + seed * 3));
     for (const Order order : {Order::kGiven, Order::kShuffled, Order::kSorted}) {
       for (const bvh::Insertion insertion : kInsertions) {
         expect_valid(bvh::GoldsmithSalmon(scene, options_for(order, insertion)).hierarchy(), scene);
@@ -201,7 +201,7 @@ TEST(GoldsmithSalmon, OrderMattersToTheTreeAndNotToTheHits) {
       const bvh::GoldsmithSalmon structure(scene, options_for(order, insertion));
       costs.push_back(structure.hierarchy().cost);
       for (int i = 0; i < 300; ++i) {
-        const Ray ray = testing::random_ray(scene, random);
+        const Ray ray = tests::random_ray(scene, random);
         EXPECT_EQ(structure.closest_hit(ray, nullptr), exhaustive.closest_hit(ray, nullptr));
         EXPECT_EQ(structure.any_hit(ray, nullptr), exhaustive.any_hit(ray, nullptr));
       }
@@ -217,13 +217,13 @@ TEST(GoldsmithSalmon, OrderMattersToTheTreeAndNotToTheHits) {
 TEST(GoldsmithSalmon, BothInsertionsGiveTheHitsOfExhaustiveSearch) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, static_cast<int>(1 + seed * 3));
+    const scenes::Scene scene = tests::random_scene(seed, static_cast<int>(1 + seed * 3));
     const exhaustive::Exhaustive exhaustive(scene);
     for (const bvh::Insertion insertion : kInsertions) {
       const bvh::GoldsmithSalmon structure(scene, options_for(Order::kGiven, insertion));
       Random random(seed);
       for (int i = 0; i < 100; ++i) {
-        const Ray ray = testing::random_ray(scene, random);
+        const Ray ray = tests::random_ray(scene, random);
         ASSERT_EQ(structure.closest_hit(ray, nullptr), exhaustive.closest_hit(ray, nullptr));
         ASSERT_EQ(structure.any_hit(ray, nullptr), exhaustive.any_hit(ray, nullptr));
       }
@@ -296,7 +296,7 @@ TEST(GoldsmithSalmon, TakesADeepHierarchy) {
   const exhaustive::Exhaustive exhaustive(scene);
   Random random(3);
   for (int i = 0; i < 200; ++i) {
-    const Ray ray = testing::random_ray(scene, random);
+    const Ray ray = tests::random_ray(scene, random);
     EXPECT_EQ(structure.closest_hit(ray, nullptr), exhaustive.closest_hit(ray, nullptr));
     EXPECT_EQ(structure.any_hit(ray, nullptr), exhaustive.any_hit(ray, nullptr));
   }

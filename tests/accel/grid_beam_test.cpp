@@ -28,10 +28,10 @@ void expect_painted_once(const scenes::Scene& scene, const GridBeamOptions& opti
   const auto meets_grid = [&](const Ray& ray) {
     return CellRay(tracer.lattice().cells(), ray).enter(0.0F) < double{kInfinity};
   };
-  testing::expect_painted_once(scene, tracer, meets_grid, rays);
+  tests::expect_painted_once(scene, tracer, meets_grid, rays);
 }
 
-GridBeamOptions random_options(Random& random) {
+GridBeamOptions random_grid_options(Random& random) {
   GridBeamOptions options;
   options.grid.inner = HierarchicalGridOptions::Inner::kPowers;
   const auto cells = [&] { return 1 + static_cast<std::int32_t>(random.below(6)); };
@@ -50,10 +50,10 @@ TEST(GridBeam, PaintsEverySampleOfRandomScenesOnce) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
-    const scenes::Scene scene = testing::random_scene(seed, static_cast<int>(1 + random.below(60)));
-    const GridBeamOptions options = random_options(random);
+    const scenes::Scene scene = tests::random_scene(seed, static_cast<int>(1 + random.below(60)));
+    const GridBeamOptions options = random_grid_options(random);
     const PrimaryRays rays(
-        testing::random_camera(scene, random), 1 + static_cast<int>(random.below(40)),
+        tests::random_camera(scene, random), 1 + static_cast<int>(random.below(40)),
         1 + static_cast<int>(random.below(40)), std::array{1, 4, 5}[random.below(3)]);
     expect_painted_once(scene, options, rays);
   }

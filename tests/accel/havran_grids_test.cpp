@@ -31,13 +31,13 @@
 namespace beambench::accel {
 namespace {
 
-struct Counts {
+struct GridCounts {
   std::uint64_t voxels, empty, references;
 
-  friend bool operator==(const Counts&, const Counts&) = default;
+  friend bool operator==(const GridCounts&, const GridCounts&) = default;
 };
 
-void PrintTo(const Counts& counts, std::ostream* out) {
+void PrintTo(const GridCounts& counts, std::ostream* out) {
   *out << counts.voxels << " voxels, " << counts.empty << " empty, " << counts.references
        << " references";
 }
@@ -45,7 +45,7 @@ void PrintTo(const Counts& counts, std::ostream* out) {
 struct UniformRow {
   const char* scene;
   const char* resolution;
-  Counts published, ours;
+  GridCounts published, ours;
   double within;  ///< the largest difference, as a share of the published count
 };
 
@@ -85,7 +85,7 @@ TEST(HavranGrids, UniformGridsHaveThePublishedSizes) {
     const Statistics sizes =
         sizes_of(std::string("voxel-grid:assign=bbox,resolution=") + row.resolution,
                  scenes::load_scene(row.scene));
-    EXPECT_EQ((Counts{sizes.leaves, sizes.empty_leaves, sizes.references}), row.ours);
+    EXPECT_EQ((GridCounts{sizes.leaves, sizes.empty_leaves, sizes.references}), row.ours);
     EXPECT_EQ(sizes.leaves, row.published.voxels);
     expect_within(row.published.empty, sizes.empty_leaves, row.within);
     expect_within(row.published.references, sizes.references, row.within);
@@ -127,13 +127,13 @@ TEST(HavranGrids, RecursiveGridsHaveThePublishedNumberOfGrids) {
 TEST(HavranGrids, CubicGridsInVoxelsHaveThePublishedVoxels) {
   struct Row {
     const char* scene;
-    Counts published, ours;
+    GridCounts published, ours;
   };
   for (const Row& row : {Row{"balls", {16821, 8867, 34255}, {15998, 8866, 21643}},
                          Row{"tree", {16818, 11586, 21978}, {16202, 11237, 15098}}}) {
     SCOPED_TRACE(row.scene);
     const Statistics sizes = sizes_of(recursive_grid("cubic"), scenes::load_scene(row.scene));
-    EXPECT_EQ((Counts{sizes.leaves, sizes.empty_leaves, sizes.references}), row.ours);
+    EXPECT_EQ((GridCounts{sizes.leaves, sizes.empty_leaves, sizes.references}), row.ours);
     expect_within(row.published.voxels, sizes.leaves, 0.05);
     expect_within(row.published.empty, sizes.empty_leaves, 0.05);
   }

@@ -20,6 +20,7 @@
 #include "scenes/core/error.hpp"
 #include "scenes/core/random.hpp"
 #include "scenes/scene_builder.hpp"
+#include "tests/accel/built.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench::accel {
@@ -29,9 +30,11 @@ using hierarchical_grid::GridHierarchy;
 using hierarchical_grid::HierarchicalGridOptions;
 using hierarchical_grid::NestedGrid;
 using hierarchical_grid::Voxel;
+using tests::build;
+using tests::refusal;
 
 /// The options of a test, by number: coarse and fine grids, cubes and not, few and many levels.
-HierarchicalGridOptions some_options(std::uint64_t number) {
+HierarchicalGridOptions some_grid_options(std::uint64_t number) {
   HierarchicalGridOptions options;
   if (number % 3 != 0) {
     const auto n = static_cast<std::int32_t>(number);
@@ -61,25 +64,12 @@ double volume(const Box& box) {
   return size.x * size.y * size.z;
 }
 
-std::unique_ptr<Accelerator> build(const std::string& spec, const scenes::Scene& scene) {
-  return registry().choose(parse_spec(spec)).build(scene);
-}
-
-std::string refusal(const std::string& spec, const scenes::Scene& scene) {
-  try {
-    build(spec, scene);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "it was accepted";
-}
-
 // The builder hands lists down and halves blocks of voxels; the definition does not.
 TEST(HierarchicalGrid, VoxelsReferToExactlyWhatOverlapsThem) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 25);
-    const GridHierarchy hierarchy(scene, some_options(seed));
+    const scenes::Scene scene = tests::random_scene(seed, 25);
+    const GridHierarchy hierarchy(scene, some_grid_options(seed));
     const double tolerance = overlap_tolerance(scene);
     double sum = 0.0;
     for_each_leaf(hierarchy, [&](Voxel voxel, const Box& box) {
@@ -103,15 +93,15 @@ TEST(HierarchicalGrid, VoxelsReferToExactlyWhatOverlapsThem) {
 TEST(HierarchicalGrid, EveryOptionGivesTheHitsOfExhaustive) {
   for (std::uint64_t seed = 0; seed < 80; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 80);
-    HierarchicalGridOptions options = some_options(seed);
+    const scenes::Scene scene = tests::random_scene(seed, 80);
+    HierarchicalGridOptions options = some_grid_options(seed);
     if (seed % 4 == 2) options.assign = grid::Assign::kBounds;
     const hierarchical_grid::HierarchicalGrid<NoMailboxes> plain(scene, options);
     const hierarchical_grid::HierarchicalGrid<grid::Mailboxes> mailboxes(scene, options);
     const exhaustive::Exhaustive exhaustive(scene);
     Random random(seed);
     for (int i = 0; i < 300; ++i) {
-      const Ray ray = testing::random_ray(scene, random);
+      const Ray ray = tests::random_ray(scene, random);
       const auto hit = exhaustive.closest_hit(ray, nullptr);
       ASSERT_EQ(plain.closest_hit(ray, nullptr), hit) << "ray " << i;
       ASSERT_EQ(mailboxes.closest_hit(ray, nullptr), hit) << "ray " << i;
@@ -128,7 +118,7 @@ TEST(HierarchicalGrid, VoxelsAlongARayFollowEachOther) {
   Random random(1);
   std::size_t deep = 0;
   for (int i = 0; i < 300; ++i) {
-    const auto steps = structure->explain(testing::random_ray(scene, random));
+    const auto steps = structure->explain(tests::random_ray(scene, random));
     double left_at = 0.0;
     bool first = true;
     for (const TraceStep& step : steps) {

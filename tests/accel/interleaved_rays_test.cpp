@@ -83,7 +83,7 @@ std::vector<Ray> some_rays(const scenes::Scene& scene, std::uint64_t seed, std::
 TEST(InterleavedRays, HaveTheHitsOfExhaustiveSearch) {
   for (std::uint64_t seed = 1; seed <= 120; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 60);
+    const scenes::Scene scene = tests::random_scene(seed, 60);
     TileHierarchy hierarchy = build_tile_hierarchy(scene, {});
     if (hierarchy.empty()) continue;
     const std::vector<Ray> rays = some_rays(scene, seed, seed % 40);

@@ -157,10 +157,10 @@ double distance_to(const scenes::Scene& scene, scenes::PrimitiveId id, const glm
 }
 
 RC_GTEST_PROP(Intersect, PointAtTheHitLiesOnThePrimitive, (std::uint32_t seed)) {
-  const scenes::Scene scene = testing::random_scene(seed, 12);
+  const scenes::Scene scene = tests::random_scene(seed, 12);
   Random random(seed);
   for (int i = 0; i < 100; ++i) {
-    const Ray query = testing::random_ray(scene, random);
+    const Ray query = tests::random_ray(scene, random);
     const CanonicalRay canonical(query);
     const double diagonal = glm::length(glm::dvec3(scene.bounds.extent()));
     for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {

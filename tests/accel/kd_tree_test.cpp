@@ -34,7 +34,7 @@ namespace {
 using kd_tree::KdTreeOptions;
 
 /// The options of a test, by number: both builders, with and without clipping, deep and shallow.
-KdTreeOptions some_options(std::uint64_t number) {
+KdTreeOptions some_kd_options(std::uint64_t number) {
   KdTreeOptions options;
   if (number % 3 == 1) options.builder = KdTreeOptions::Builder::kMedian;
   options.clip = number % 4 != 2;
@@ -64,8 +64,8 @@ double volume(const scenes::Bounds& cell) {
 TEST(KdTree, LeavesReferToExactlyWhatOverlapsThem) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 25);
-    const KdTreeOptions options = some_options(seed);
+    const scenes::Scene scene = tests::random_scene(seed, 25);
+    const KdTreeOptions options = some_kd_options(seed);
     const kd_tree::KdTree tree = kd_tree::build_kd_tree(scene, options);
     const double tolerance = overlap_tolerance(scene);
     double sum = 0.0;
@@ -98,16 +98,16 @@ TEST(KdTree, LeavesReferToExactlyWhatOverlapsThem) {
 TEST(KdTree, EveryInstructionSetGivesTheHitsOfExhaustive) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));
-    const testing::OnlyTarget only(target);
+    const tests::OnlyTarget only(target);
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
       SCOPED_TRACE(seed);
-      const scenes::Scene scene = testing::random_scene(seed, 80);
-      const kd_tree::KdTracer structure(scene, some_options(seed));
+      const scenes::Scene scene = tests::random_scene(seed, 80);
+      const kd_tree::KdTracer structure(scene, some_kd_options(seed));
       ASSERT_STREQ(structure.instruction_set(), hwy::TargetName(target));
       const exhaustive::Exhaustive exhaustive(scene);
       Random random(seed);
       for (int i = 0; i < 200; ++i) {
-        const Ray ray = testing::random_ray(scene, random);
+        const Ray ray = tests::random_ray(scene, random);
         const auto hit = exhaustive.closest_hit(ray, nullptr);
         ASSERT_EQ(structure.closest_hit(ray, nullptr), hit) << "ray " << i;
         ASSERT_EQ(structure.any_hit(ray, nullptr), hit.has_value()) << "ray " << i;
@@ -238,10 +238,10 @@ TEST(KdTree, RefusesWhatIsOutOfRange) {
 TEST(KdTree, ExplainsLeavesThatFollowEachOther) {
   int compared = 0;
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const scenes::Scene scene = testing::random_scene(seed, 20);
-    const kd_tree::KdTracer structure(scene, some_options(seed));
+    const scenes::Scene scene = tests::random_scene(seed, 20);
+    const kd_tree::KdTracer structure(scene, some_kd_options(seed));
     Random random(seed);
-    const Ray ray = testing::random_ray(scene, random);
+    const Ray ray = tests::random_ray(scene, random);
     std::optional<TraceStep> before;
     for (const TraceStep& step : structure.explain(ray)) {
       ASSERT_TRUE(step.box);

@@ -62,8 +62,8 @@ void expect_no_more_than_there_are(const scenes::Scene& scene) {
 TEST(LeastReferences, AreNoMoreThanThereAre) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
-    expect_no_more_than_there_are(testing::random_scene(seed, 1));
-    expect_no_more_than_there_are(testing::random_scene(seed, 20));
+    expect_no_more_than_there_are(tests::random_scene(seed, 1));
+    expect_no_more_than_there_are(tests::random_scene(seed, 20));
   }
   expect_no_more_than_there_are(one_sphere());
   for (const char* name : {"escena1", "tetra:n=3", "teapot:n=2", "jacks:n=2", "gears:n=1"}) {

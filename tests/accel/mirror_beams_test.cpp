@@ -123,7 +123,7 @@ void compare(const scenes::Scene& scene, const beam::BeamTracer& tracer, const R
 
 /// A random scene of mirrors.
 scenes::Scene mirrors(std::uint64_t seed) {
-  scenes::Scene scene = testing::random_scene(seed, 20);
+  scenes::Scene scene = tests::random_scene(seed, 20);
   for (scenes::Surface& surface : scene.surfaces) surface.specular = 0.5F;
   return scene;
 }

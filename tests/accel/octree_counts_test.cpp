@@ -15,7 +15,7 @@ namespace beambench::accel {
 namespace {
 
 /// A row of the tables: what the thesis prints, and what our scene has.
-struct Row {
+struct OctreeRow {
   const char* scene;
   int max_level;
   std::uint32_t max_objects;
@@ -23,11 +23,11 @@ struct Row {
   std::int64_t leaves, pixels;
 };
 
-void PrintTo(const Row& row, std::ostream* stream) {
+void PrintTo(const OctreeRow& row, std::ostream* stream) {
   *stream << row.scene << " level " << row.max_level << " objects " << row.max_objects;
 }
 
-constexpr std::array<Row, 14> kRows = {{
+constexpr std::array<OctreeRow, 14> kRows = {{
     {"maceta", 6, 0, 1529, 212142, 1582, 225156},
     {"maceta", 6, 10, 956, 48319, 805, 5431},
     {"maceta", 6, 20, 465, 1350, 433, 78},
@@ -44,17 +44,17 @@ constexpr std::array<Row, 14> kRows = {{
     {"delfines", 7, 0, 2385, 786570, 2083, 811166},
 }};
 
-const scenes::Scene& scene_of(const Row& row) {
+const scenes::Scene& scene_of_row(const OctreeRow& row) {
   static const scenes::Scene maceta = scenes::load_scene("maceta");
   static const scenes::Scene delfines = scenes::load_scene("delfines");
   return row.scene == std::string_view("maceta") ? maceta : delfines;
 }
 
-octree::Octree octree_of(const Row& row) {
+octree::Octree octree_of(const OctreeRow& row) {
   octree::OctreeOptions options;
   options.max_level = row.max_level;
   options.max_objects = row.max_objects;
-  return octree::Octree(scene_of(row), options);
+  return octree::Octree(scene_of_row(row), options);
 }
 
 /// The pixels that a beam takes out of the root without an occupied leaf on its path: their ray
@@ -80,10 +80,10 @@ std::int64_t exit_pixels(const octree::Octree& octree, const scenes::Camera& cam
   return pixels;
 }
 
-class OctreeCounts : public testing::TestWithParam<Row> {};
+class OctreeCounts : public ::testing::TestWithParam<OctreeRow> {};
 
 TEST_P(OctreeCounts, OccupiedLeavesAreWithinAQuarterOfTheThesis) {
-  const Row& row = GetParam();
+  const OctreeRow& row = GetParam();
   const Statistics statistics = octree_of(row).statistics();
   const auto leaves = static_cast<std::int64_t>(statistics.leaves - statistics.empty_leaves);
   EXPECT_EQ(leaves, row.leaves);
@@ -93,8 +93,8 @@ TEST_P(OctreeCounts, OccupiedLeavesAreWithinAQuarterOfTheThesis) {
 // Required with max_objects = 0: from level 5 up within a quarter, at level 4 of the same order
 // (a corner of the image more or less). The other rows are pinned to be reported.
 TEST_P(OctreeCounts, PixelsOfExitBeamsAreThoseReported) {
-  const Row& row = GetParam();
-  const std::int64_t pixels = exit_pixels(octree_of(row), scene_of(row).cameras[0]);
+  const OctreeRow& row = GetParam();
+  const std::int64_t pixels = exit_pixels(octree_of(row), scene_of_row(row).cameras[0]);
   EXPECT_EQ(pixels, row.pixels);
   if (row.max_objects > 0) return;
   if (row.max_level > 4) {
@@ -105,7 +105,7 @@ TEST_P(OctreeCounts, PixelsOfExitBeamsAreThoseReported) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Thesis, OctreeCounts, testing::ValuesIn(kRows), [](const auto& info) {
+INSTANTIATE_TEST_SUITE_P(Thesis, OctreeCounts, ::testing::ValuesIn(kRows), [](const auto& info) {
   return std::string(info.param.scene) + "Level" + std::to_string(info.param.max_level) +
          "Objects" + std::to_string(info.param.max_objects);
 });

@@ -36,7 +36,7 @@ TEST(OctreeNet, EachLinkLeadsWhereSametsSearchLeads) {
   std::uint64_t links = 0;
   for (std::uint64_t seed = 1; seed <= 30; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 20);
+    const scenes::Scene scene = tests::random_scene(seed, 20);
     const octree::Octree octree(scene, small_octree(seed));
     const octree::OctreeNet net(octree);
     for_each_node(octree, octree::OctreeCursor(octree), [&](const octree::OctreeCursor& node) {
@@ -64,12 +64,12 @@ TEST(OctreeNet, EachLinkLeadsWhereSametsSearchLeads) {
 TEST(OctreeNet, LeavesTheirOrderAndTheTestsAreThoseOfSamet) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 25);
+    const scenes::Scene scene = tests::random_scene(seed, 25);
     const octree::Samet samet(scene, small_octree(seed));
     const octree::SametNet net(scene, small_octree(seed));
     Random random(seed);
     for (int i = 0; i < 100; ++i) {
-      const Ray ray = testing::random_ray(scene, random);
+      const Ray ray = tests::random_ray(scene, random);
       const auto expected = samet.explain(ray);
       const auto actual = net.explain(ray);
       ASSERT_EQ(actual.size(), expected.size());

@@ -70,7 +70,7 @@ void for_each_leaf(const octree::Octree& octree, std::uint32_t index, const glm:
 TEST(Octree, LeavesReferToExactlyWhatOverlapsThem) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 25);
+    const scenes::Scene scene = tests::random_scene(seed, 25);
     octree::OctreeOptions options;
     options.max_level = static_cast<int>(2 + seed % 4);
     options.max_objects = static_cast<std::uint32_t>(seed % 3);

@@ -75,11 +75,11 @@ Box box_with(const glm::dvec3& point, Random& random) {
 }
 
 RC_GTEST_PROP(Overlap, NeverFalseWhereAHitIs, (std::uint32_t seed)) {
-  const scenes::Scene scene = testing::random_scene(seed, 10);
+  const scenes::Scene scene = tests::random_scene(seed, 10);
   const double tolerance = overlap_tolerance(scene);
   Random random(seed);
   for (int i = 0; i < 100; ++i) {
-    const Ray ray = testing::random_ray(scene, random);
+    const Ray ray = tests::random_ray(scene, random);
     CanonicalRay canonical(ray);
     for (scenes::PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
       const float t = intersect(canonical, scene, id);

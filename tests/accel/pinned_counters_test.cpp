@@ -28,16 +28,16 @@ std::map<std::string, std::uint64_t> work_of(const WorkCounters& counters) {
 }
 
 /// What 64x64 primary rays cost.
-struct Row {
+struct PinnedRow {
   const char* structure;
   const char* scene;
   std::map<std::string, std::uint64_t> work;  ///< counters that are not 0
 };
 
-class PinnedWork : public ::testing::TestWithParam<Row> {};
+class PinnedWork : public ::testing::TestWithParam<PinnedRow> {};
 
 TEST_P(PinnedWork, IsUnchanged) {
-  const Row& row = GetParam();
+  const PinnedRow& row = GetParam();
   const scenes::Scene scene = scenes::load_scene(row.scene);
   const auto structure = registry().choose(parse_spec(row.structure)).build(scene);
   HitBuffer buffer(64, 64, 1);
@@ -52,73 +52,73 @@ std::string test_name(std::string name) {
   return name;
 }
 
-std::string row_name(const ::testing::TestParamInfo<Row>& info) {
+std::string row_name(const ::testing::TestParamInfo<PinnedRow>& info) {
   return test_name(std::string(info.param.structure) + '_' + info.param.scene);
 }
 
 // clang-format off
 INSTANTIATE_TEST_SUITE_P(Structures, PinnedWork, ::testing::Values(
-    Row{"samet", "tetra:n=4", {{"empty_leaves", 17'142}, {"last_climb", 4459}, {"leaves", 22'163}, {"neighbor_steps", 64'398}, {"primitive_tests", 10'665}, {"traversal_steps", 79'395}}},
-    Row{"samet", "balls:n=2", {{"empty_leaves", 20'835}, {"leaves", 36'819}, {"neighbor_steps", 130'031}, {"primitive_tests", 85'609}, {"traversal_steps", 155'896}}},
-    Row{"samet", "escena1", {{"empty_leaves", 16'004}, {"last_climb", 3552}, {"leaves", 26'168}, {"neighbor_steps", 82'127}, {"primitive_tests", 10'726}, {"traversal_steps", 98'455}}},
-    Row{"samet-net", "tetra:n=4", {{"empty_leaves", 17'142}, {"leaves", 22'163}, {"neighbor_steps", 19'683}, {"primitive_tests", 10'665}, {"traversal_steps", 34'680}}},
-    Row{"samet-net", "balls:n=2", {{"empty_leaves", 20'835}, {"leaves", 36'819}, {"neighbor_steps", 32'723}, {"primitive_tests", 85'609}, {"traversal_steps", 58'588}}},
-    Row{"samet-net", "escena1", {{"empty_leaves", 16'004}, {"leaves", 26'168}, {"neighbor_steps", 23'631}, {"primitive_tests", 10'726}, {"traversal_steps", 39'959}}},
-    Row{"glassner", "tetra:n=4", {{"empty_leaves", 17'142}, {"leaves", 22'163}, {"primitive_tests", 10'665}, {"traversal_steps", 112'414}}},
-    Row{"glassner", "balls:n=2", {{"empty_leaves", 20'835}, {"leaves", 36'819}, {"primitive_tests", 85'609}, {"traversal_steps", 210'613}}},
-    Row{"glassner", "escena1", {{"empty_leaves", 16'004}, {"leaves", 26'168}, {"primitive_tests", 10'726}, {"traversal_steps", 152'433}}},
-    Row{"gargantini", "tetra:n=4", {{"empty_leaves", 17'142}, {"leaves", 22'163}, {"primitive_tests", 10'665}, {"traversal_steps", 45'417}}},
-    Row{"gargantini", "balls:n=2", {{"empty_leaves", 20'835}, {"leaves", 36'819}, {"primitive_tests", 85'609}, {"traversal_steps", 90'236}}},
-    Row{"gargantini", "escena1", {{"empty_leaves", 16'004}, {"leaves", 26'168}, {"primitive_tests", 10'726}, {"traversal_steps", 56'667}}},
-    Row{"gargantini:planes=cost", "tetra:n=4", {{"empty_leaves", 13'964}, {"leaves", 18'580}, {"primitive_tests", 9337}, {"traversal_steps", 39'075}}},
-    Row{"gargantini:planes=cost", "balls:n=2", {{"empty_leaves", 43'159}, {"leaves", 52'008}, {"primitive_tests", 10'832}, {"traversal_steps", 100'589}}},
-    Row{"gargantini:planes=cost", "escena1", {{"empty_leaves", 15'544}, {"leaves", 25'260}, {"primitive_tests", 10'024}, {"traversal_steps", 55'484}}},
-    Row{"glassner:planes=cost,build=on-demand", "balls:n=2", {{"empty_leaves", 43'159}, {"leaves", 52'008}, {"primitive_tests", 10'832}, {"traversal_steps", 245'183}}},
-    Row{"voxel-grid", "tetra:n=4", {{"empty_leaves", 12'357}, {"leaves", 18'052}, {"primitive_tests", 26'779}, {"traversal_steps", 18'052}}},
-    Row{"voxel-grid", "balls:n=2", {{"leaves", 12'867}, {"primitive_tests", 195'217}, {"traversal_steps", 12'867}}},
-    Row{"voxel-grid", "escena1", {{"empty_leaves", 1'519}, {"leaves", 12'160}, {"primitive_tests", 18'401}, {"traversal_steps", 12'160}}},
-    Row{"voxel-grid:fill=lazy", "tetra:n=4", {{"empty_leaves", 12'357}, {"leaves", 18'052}, {"primitive_tests", 26'779}, {"traversal_steps", 18'052}}},
-    Row{"voxel-grid:fill=lazy", "balls:n=2", {{"leaves", 12'867}, {"primitive_tests", 195'217}, {"traversal_steps", 12'867}}},
-    Row{"voxel-grid:fill=lazy", "escena1", {{"empty_leaves", 1'519}, {"leaves", 12'160}, {"primitive_tests", 18'401}, {"traversal_steps", 12'160}}},
-    Row{"voxel-grid:mailboxes=true", "tetra:n=4", {{"empty_leaves", 12'357}, {"leaves", 18'052}, {"primitive_tests", 16'744}, {"traversal_steps", 18'052}}},
-    Row{"voxel-grid:mailboxes=true", "balls:n=2", {{"leaves", 12'867}, {"primitive_tests", 170'377}, {"traversal_steps", 12'867}}},
-    Row{"voxel-grid:mailboxes=true", "escena1", {{"empty_leaves", 1'519}, {"leaves", 12'160}, {"primitive_tests", 11'196}, {"traversal_steps", 12'160}}},
-    Row{"voxel-grid:resolution=32", "tetra:n=4", {{"empty_leaves", 51'687}, {"leaves", 56'708}, {"primitive_tests", 10'665}, {"traversal_steps", 56'708}}},
-    Row{"voxel-grid:resolution=32", "balls:n=2", {{"empty_leaves", 94'392}, {"leaves", 123'961}, {"primitive_tests", 92'241}, {"traversal_steps", 123'961}}},
-    Row{"voxel-grid:resolution=32", "escena1", {{"empty_leaves", 20'659}, {"leaves", 30'829}, {"primitive_tests", 10'720}, {"traversal_steps", 30'829}}},
-    Row{"hierarchical-grid:mailboxes=false", "tetra:n=6", {{"empty_leaves", 21'976}, {"leaves", 27'866}, {"primitive_tests", 34'699}, {"traversal_steps", 33'149}}},
-    Row{"hierarchical-grid:mailboxes=false", "balls:n=4", {{"empty_leaves", 46'081}, {"leaves", 63'055}, {"primitive_tests", 51'144}, {"traversal_steps", 73'439}}},
-    Row{"hierarchical-grid:mailboxes=false", "escena2", {{"empty_leaves", 2208}, {"leaves", 5983}, {"primitive_tests", 4113}, {"traversal_steps", 6948}}},
-    Row{"hierarchical-grid:inner=powers", "tetra:n=6", {{"empty_leaves", 22'866}, {"leaves", 28'744}, {"primitive_tests", 25'721}, {"traversal_steps", 33'773}}},
-    Row{"hierarchical-grid:inner=powers", "balls:n=4", {{"empty_leaves", 44'485}, {"leaves", 61'310}, {"primitive_tests", 39'248}, {"traversal_steps", 72'897}}},
-    Row{"hierarchical-grid:inner=powers", "escena2", {{"empty_leaves", 1904}, {"leaves", 5749}, {"primitive_tests", 4015}, {"traversal_steps", 6762}}},
-    Row{"goldsmith-salmon", "tetra:n=6", {{"box_tests", 103'576}, {"primitive_tests", 6'184}, {"traversal_steps", 32'328}}},
-    Row{"goldsmith-salmon", "balls:n=4", {{"box_tests", 84'360}, {"primitive_tests", 5'392}, {"traversal_steps", 29'864}}},
-    Row{"goldsmith-salmon", "escena1", {{"box_tests", 81'281}, {"primitive_tests", 3'579}, {"traversal_steps", 29'116}}},
-    Row{"goldsmith-salmon:order=shuffled", "tetra:n=6", {{"box_tests", 76'474}, {"primitive_tests", 6'184}, {"traversal_steps", 29'080}}},
-    Row{"goldsmith-salmon:order=shuffled", "balls:n=4", {{"box_tests", 101'060}, {"primitive_tests", 5'392}, {"traversal_steps", 39'021}}},
-    Row{"goldsmith-salmon:order=shuffled", "escena1", {{"box_tests", 88'921}, {"primitive_tests", 3'579}, {"traversal_steps", 30'569}}},
-    Row{"goldsmith-salmon:queue=stack", "tetra:n=6", {{"box_tests", 104'116}, {"primitive_tests", 6'304}, {"traversal_steps", 32'532}}},
-    Row{"goldsmith-salmon:queue=stack", "balls:n=4", {{"box_tests", 86'577}, {"primitive_tests", 5'589}, {"traversal_steps", 30'636}}},
-    Row{"goldsmith-salmon:queue=stack", "escena1", {{"box_tests", 81'941}, {"primitive_tests", 3'693}, {"traversal_steps", 29'368}}},
-    Row{"sah-bvh", "tetra:n=6", {{"box_tests", 68'080}, {"confirmed_tests", 1619}, {"leaves", 1'976}, {"primitive_tests", 15'808}, {"traversal_steps", 10'486}}},
-    Row{"sah-bvh", "balls:n=4", {{"box_tests", 102'071}, {"confirmed_tests", 4342}, {"leaves", 6754}, {"primitive_tests", 28'648}, {"traversal_steps", 20'463}}},
-    Row{"sah-bvh", "escena1", {{"box_tests", 58'380}, {"confirmed_tests", 2079}, {"leaves", 5547}, {"primitive_tests", 42'712}, {"traversal_steps", 13'284}}},
-    Row{"sah-bvh:builder=spatial", "tetra:n=6", {{"box_tests", 68'080}, {"confirmed_tests", 1677}, {"leaves", 1'851}, {"primitive_tests", 14'808}, {"traversal_steps", 10'361}}},
-    Row{"sah-bvh:builder=spatial", "balls:n=4", {{"box_tests", 95'977}, {"confirmed_tests", 4663}, {"leaves", 6685}, {"primitive_tests", 34'493}, {"traversal_steps", 19'798}}},
-    Row{"sah-bvh:builder=spatial", "escena1", {{"box_tests", 58'380}, {"confirmed_tests", 2073}, {"leaves", 5560}, {"primitive_tests", 42'566}, {"traversal_steps", 13'297}}},
-    Row{"kd-tree", "tetra:n=6", {{"confirmed_tests", 2031}, {"empty_leaves", 4412}, {"leaves", 8220}, {"primitive_tests", 190'043}, {"traversal_steps", 37'506}}},
-    Row{"kd-tree", "balls:n=4", {{"confirmed_tests", 9704}, {"empty_leaves", 6630}, {"leaves", 18'621}, {"primitive_tests", 240'823}, {"traversal_steps", 77'075}}},
-    Row{"kd-tree", "escena1", {{"confirmed_tests", 2283}, {"empty_leaves", 281}, {"leaves", 3633}, {"primitive_tests", 203'259}, {"traversal_steps", 13'095}}},
-    Row{"kd-tree:builder=median", "tetra:n=6", {{"confirmed_tests", 2221}, {"empty_leaves", 16'095}, {"leaves", 22'045}, {"primitive_tests", 31'818}, {"traversal_steps", 104'686}}},
-    Row{"kd-tree:builder=median", "balls:n=4", {{"confirmed_tests", 8777}, {"empty_leaves", 35'790}, {"leaves", 71'278}, {"primitive_tests", 1'657'914}, {"traversal_steps", 328'526}}},
-    Row{"kd-tree:builder=median", "escena1", {{"confirmed_tests", 2918}, {"empty_leaves", 1175}, {"leaves", 15'684}, {"primitive_tests", 15'059}, {"traversal_steps", 83'455}}},
-    Row{"tile-beam", "tetra:n=6", {{"beams", 1}, {"box_tests", 272}, {"leaves", 256}, {"primitive_tests", 4096}, {"traversal_steps", 273}}},
-    Row{"tile-beam", "bumpy:triangles=50700", {{"beams", 1}, {"box_tests", 2362}, {"leaves", 1389}, {"primitive_tests", 30'245}, {"traversal_steps", 1651}}},
-    Row{"tile-beam", "soup:triangles=100000", {{"beams", 1}, {"box_tests", 17'824}, {"leaves", 13'301}, {"primitive_tests", 99'983}, {"traversal_steps", 17'812}}},
-    Row{"tile-beam", "closed-room:detail=4", {{"beams", 1}, {"box_tests", 346}, {"leaves", 224}, {"primitive_tests", 5083}, {"traversal_steps", 284}}},
-    Row{"tile-beam:backface_culling=false", "bumpy:triangles=50700", {{"beams", 1}, {"box_tests", 2368}, {"leaves", 1695}, {"primitive_tests", 36'114}, {"traversal_steps", 1959}}},
-    Row{"tile-beam:backface_culling=false", "closed-room:detail=4", {{"beams", 1}, {"box_tests", 346}, {"leaves", 247}, {"primitive_tests", 5552}, {"traversal_steps", 307}}}
+    PinnedRow{"samet", "tetra:n=4", {{"empty_leaves", 17'142}, {"last_climb", 4459}, {"leaves", 22'163}, {"neighbor_steps", 64'398}, {"primitive_tests", 10'665}, {"traversal_steps", 79'395}}},
+    PinnedRow{"samet", "balls:n=2", {{"empty_leaves", 20'835}, {"leaves", 36'819}, {"neighbor_steps", 130'031}, {"primitive_tests", 85'609}, {"traversal_steps", 155'896}}},
+    PinnedRow{"samet", "escena1", {{"empty_leaves", 16'004}, {"last_climb", 3552}, {"leaves", 26'168}, {"neighbor_steps", 82'127}, {"primitive_tests", 10'726}, {"traversal_steps", 98'455}}},
+    PinnedRow{"samet-net", "tetra:n=4", {{"empty_leaves", 17'142}, {"leaves", 22'163}, {"neighbor_steps", 19'683}, {"primitive_tests", 10'665}, {"traversal_steps", 34'680}}},
+    PinnedRow{"samet-net", "balls:n=2", {{"empty_leaves", 20'835}, {"leaves", 36'819}, {"neighbor_steps", 32'723}, {"primitive_tests", 85'609}, {"traversal_steps", 58'588}}},
+    PinnedRow{"samet-net", "escena1", {{"empty_leaves", 16'004}, {"leaves", 26'168}, {"neighbor_steps", 23'631}, {"primitive_tests", 10'726}, {"traversal_steps", 39'959}}},
+    PinnedRow{"glassner", "tetra:n=4", {{"empty_leaves", 17'142}, {"leaves", 22'163}, {"primitive_tests", 10'665}, {"traversal_steps", 112'414}}},
+    PinnedRow{"glassner", "balls:n=2", {{"empty_leaves", 20'835}, {"leaves", 36'819}, {"primitive_tests", 85'609}, {"traversal_steps", 210'613}}},
+    PinnedRow{"glassner", "escena1", {{"empty_leaves", 16'004}, {"leaves", 26'168}, {"primitive_tests", 10'726}, {"traversal_steps", 152'433}}},
+    PinnedRow{"gargantini", "tetra:n=4", {{"empty_leaves", 17'142}, {"leaves", 22'163}, {"primitive_tests", 10'665}, {"traversal_steps", 45'417}}},
+    PinnedRow{"gargantini", "balls:n=2", {{"empty_leaves", 20'835}, {"leaves", 36'819}, {"primitive_tests", 85'609}, {"traversal_steps", 90'236}}},
+    PinnedRow{"gargantini", "escena1", {{"empty_leaves", 16'004}, {"leaves", 26'168}, {"primitive_tests", 10'726}, {"traversal_steps", 56'667}}},
+    PinnedRow{"gargantini:planes=cost", "tetra:n=4", {{"empty_leaves", 13'964}, {"leaves", 18'580}, {"primitive_tests", 9337}, {"traversal_steps", 39'075}}},
+    PinnedRow{"gargantini:planes=cost", "balls:n=2", {{"empty_leaves", 43'159}, {"leaves", 52'008}, {"primitive_tests", 10'832}, {"traversal_steps", 100'589}}},
+    PinnedRow{"gargantini:planes=cost", "escena1", {{"empty_leaves", 15'544}, {"leaves", 25'260}, {"primitive_tests", 10'024}, {"traversal_steps", 55'484}}},
+    PinnedRow{"glassner:planes=cost,build=on-demand", "balls:n=2", {{"empty_leaves", 43'159}, {"leaves", 52'008}, {"primitive_tests", 10'832}, {"traversal_steps", 245'183}}},
+    PinnedRow{"voxel-grid", "tetra:n=4", {{"empty_leaves", 12'357}, {"leaves", 18'052}, {"primitive_tests", 26'779}, {"traversal_steps", 18'052}}},
+    PinnedRow{"voxel-grid", "balls:n=2", {{"leaves", 12'867}, {"primitive_tests", 195'217}, {"traversal_steps", 12'867}}},
+    PinnedRow{"voxel-grid", "escena1", {{"empty_leaves", 1'519}, {"leaves", 12'160}, {"primitive_tests", 18'401}, {"traversal_steps", 12'160}}},
+    PinnedRow{"voxel-grid:fill=lazy", "tetra:n=4", {{"empty_leaves", 12'357}, {"leaves", 18'052}, {"primitive_tests", 26'779}, {"traversal_steps", 18'052}}},
+    PinnedRow{"voxel-grid:fill=lazy", "balls:n=2", {{"leaves", 12'867}, {"primitive_tests", 195'217}, {"traversal_steps", 12'867}}},
+    PinnedRow{"voxel-grid:fill=lazy", "escena1", {{"empty_leaves", 1'519}, {"leaves", 12'160}, {"primitive_tests", 18'401}, {"traversal_steps", 12'160}}},
+    PinnedRow{"voxel-grid:mailboxes=true", "tetra:n=4", {{"empty_leaves", 12'357}, {"leaves", 18'052}, {"primitive_tests", 16'744}, {"traversal_steps", 18'052}}},
+    PinnedRow{"voxel-grid:mailboxes=true", "balls:n=2", {{"leaves", 12'867}, {"primitive_tests", 170'377}, {"traversal_steps", 12'867}}},
+    PinnedRow{"voxel-grid:mailboxes=true", "escena1", {{"empty_leaves", 1'519}, {"leaves", 12'160}, {"primitive_tests", 11'196}, {"traversal_steps", 12'160}}},
+    PinnedRow{"voxel-grid:resolution=32", "tetra:n=4", {{"empty_leaves", 51'687}, {"leaves", 56'708}, {"primitive_tests", 10'665}, {"traversal_steps", 56'708}}},
+    PinnedRow{"voxel-grid:resolution=32", "balls:n=2", {{"empty_leaves", 94'392}, {"leaves", 123'961}, {"primitive_tests", 92'241}, {"traversal_steps", 123'961}}},
+    PinnedRow{"voxel-grid:resolution=32", "escena1", {{"empty_leaves", 20'659}, {"leaves", 30'829}, {"primitive_tests", 10'720}, {"traversal_steps", 30'829}}},
+    PinnedRow{"hierarchical-grid:mailboxes=false", "tetra:n=6", {{"empty_leaves", 21'976}, {"leaves", 27'866}, {"primitive_tests", 34'699}, {"traversal_steps", 33'149}}},
+    PinnedRow{"hierarchical-grid:mailboxes=false", "balls:n=4", {{"empty_leaves", 46'081}, {"leaves", 63'055}, {"primitive_tests", 51'144}, {"traversal_steps", 73'439}}},
+    PinnedRow{"hierarchical-grid:mailboxes=false", "escena2", {{"empty_leaves", 2208}, {"leaves", 5983}, {"primitive_tests", 4113}, {"traversal_steps", 6948}}},
+    PinnedRow{"hierarchical-grid:inner=powers", "tetra:n=6", {{"empty_leaves", 22'866}, {"leaves", 28'744}, {"primitive_tests", 25'721}, {"traversal_steps", 33'773}}},
+    PinnedRow{"hierarchical-grid:inner=powers", "balls:n=4", {{"empty_leaves", 44'485}, {"leaves", 61'310}, {"primitive_tests", 39'248}, {"traversal_steps", 72'897}}},
+    PinnedRow{"hierarchical-grid:inner=powers", "escena2", {{"empty_leaves", 1904}, {"leaves", 5749}, {"primitive_tests", 4015}, {"traversal_steps", 6762}}},
+    PinnedRow{"goldsmith-salmon", "tetra:n=6", {{"box_tests", 103'576}, {"primitive_tests", 6'184}, {"traversal_steps", 32'328}}},
+    PinnedRow{"goldsmith-salmon", "balls:n=4", {{"box_tests", 84'360}, {"primitive_tests", 5'392}, {"traversal_steps", 29'864}}},
+    PinnedRow{"goldsmith-salmon", "escena1", {{"box_tests", 81'281}, {"primitive_tests", 3'579}, {"traversal_steps", 29'116}}},
+    PinnedRow{"goldsmith-salmon:order=shuffled", "tetra:n=6", {{"box_tests", 76'474}, {"primitive_tests", 6'184}, {"traversal_steps", 29'080}}},
+    PinnedRow{"goldsmith-salmon:order=shuffled", "balls:n=4", {{"box_tests", 101'060}, {"primitive_tests", 5'392}, {"traversal_steps", 39'021}}},
+    PinnedRow{"goldsmith-salmon:order=shuffled", "escena1", {{"box_tests", 88'921}, {"primitive_tests", 3'579}, {"traversal_steps", 30'569}}},
+    PinnedRow{"goldsmith-salmon:queue=stack", "tetra:n=6", {{"box_tests", 104'116}, {"primitive_tests", 6'304}, {"traversal_steps", 32'532}}},
+    PinnedRow{"goldsmith-salmon:queue=stack", "balls:n=4", {{"box_tests", 86'577}, {"primitive_tests", 5'589}, {"traversal_steps", 30'636}}},
+    PinnedRow{"goldsmith-salmon:queue=stack", "escena1", {{"box_tests", 81'941}, {"primitive_tests", 3'693}, {"traversal_steps", 29'368}}},
+    PinnedRow{"sah-bvh", "tetra:n=6", {{"box_tests", 68'080}, {"confirmed_tests", 1619}, {"leaves", 1'976}, {"primitive_tests", 15'808}, {"traversal_steps", 10'486}}},
+    PinnedRow{"sah-bvh", "balls:n=4", {{"box_tests", 102'071}, {"confirmed_tests", 4342}, {"leaves", 6754}, {"primitive_tests", 28'648}, {"traversal_steps", 20'463}}},
+    PinnedRow{"sah-bvh", "escena1", {{"box_tests", 58'380}, {"confirmed_tests", 2079}, {"leaves", 5547}, {"primitive_tests", 42'712}, {"traversal_steps", 13'284}}},
+    PinnedRow{"sah-bvh:builder=spatial", "tetra:n=6", {{"box_tests", 68'080}, {"confirmed_tests", 1677}, {"leaves", 1'851}, {"primitive_tests", 14'808}, {"traversal_steps", 10'361}}},
+    PinnedRow{"sah-bvh:builder=spatial", "balls:n=4", {{"box_tests", 95'977}, {"confirmed_tests", 4663}, {"leaves", 6685}, {"primitive_tests", 34'493}, {"traversal_steps", 19'798}}},
+    PinnedRow{"sah-bvh:builder=spatial", "escena1", {{"box_tests", 58'380}, {"confirmed_tests", 2073}, {"leaves", 5560}, {"primitive_tests", 42'566}, {"traversal_steps", 13'297}}},
+    PinnedRow{"kd-tree", "tetra:n=6", {{"confirmed_tests", 2031}, {"empty_leaves", 4412}, {"leaves", 8220}, {"primitive_tests", 190'043}, {"traversal_steps", 37'506}}},
+    PinnedRow{"kd-tree", "balls:n=4", {{"confirmed_tests", 9704}, {"empty_leaves", 6630}, {"leaves", 18'621}, {"primitive_tests", 240'823}, {"traversal_steps", 77'075}}},
+    PinnedRow{"kd-tree", "escena1", {{"confirmed_tests", 2283}, {"empty_leaves", 281}, {"leaves", 3633}, {"primitive_tests", 203'259}, {"traversal_steps", 13'095}}},
+    PinnedRow{"kd-tree:builder=median", "tetra:n=6", {{"confirmed_tests", 2221}, {"empty_leaves", 16'095}, {"leaves", 22'045}, {"primitive_tests", 31'818}, {"traversal_steps", 104'686}}},
+    PinnedRow{"kd-tree:builder=median", "balls:n=4", {{"confirmed_tests", 8777}, {"empty_leaves", 35'790}, {"leaves", 71'278}, {"primitive_tests", 1'657'914}, {"traversal_steps", 328'526}}},
+    PinnedRow{"kd-tree:builder=median", "escena1", {{"confirmed_tests", 2918}, {"empty_leaves", 1175}, {"leaves", 15'684}, {"primitive_tests", 15'059}, {"traversal_steps", 83'455}}},
+    PinnedRow{"tile-beam", "tetra:n=6", {{"beams", 1}, {"box_tests", 272}, {"leaves", 256}, {"primitive_tests", 4096}, {"traversal_steps", 273}}},
+    PinnedRow{"tile-beam", "bumpy:triangles=50700", {{"beams", 1}, {"box_tests", 2362}, {"leaves", 1389}, {"primitive_tests", 30'245}, {"traversal_steps", 1651}}},
+    PinnedRow{"tile-beam", "soup:triangles=100000", {{"beams", 1}, {"box_tests", 17'824}, {"leaves", 13'301}, {"primitive_tests", 99'983}, {"traversal_steps", 17'812}}},
+    PinnedRow{"tile-beam", "closed-room:detail=4", {{"beams", 1}, {"box_tests", 346}, {"leaves", 224}, {"primitive_tests", 5083}, {"traversal_steps", 284}}},
+    PinnedRow{"tile-beam:backface_culling=false", "bumpy:triangles=50700", {{"beams", 1}, {"box_tests", 2368}, {"leaves", 1695}, {"primitive_tests", 36'114}, {"traversal_steps", 1959}}},
+    PinnedRow{"tile-beam:backface_culling=false", "closed-room:detail=4", {{"beams", 1}, {"box_tests", 346}, {"leaves", 247}, {"primitive_tests", 5552}, {"traversal_steps", 307}}}
   ), row_name);
 // clang-format on
 

@@ -43,13 +43,13 @@ void PrintTo(const Totals& t, std::ostream* out) {
                       t.climbs, t.hits);
 }
 
-struct Row {
+struct PublishedRow {
   int depth;
   Averages published;
   Totals ours;
 };
 
-void PrintTo(const Row& row, std::ostream* out) { *out << "depth " << row.depth; }
+void PrintTo(const PublishedRow& row, std::ostream* out) { *out << "depth " << row.depth; }
 
 /// Havran's octree: the root being depth 0, a leaf at one object, objects by their bounding box, in
 /// the scene's own box (as in octree_test.cpp, where its size is compared).
@@ -68,7 +68,7 @@ std::uint64_t climb_out(const octree::Samet& samet, const Ray& ray) {
   return steps.empty() ? 0 : static_cast<std::uint64_t>(steps.back().level - 1);
 }
 
-Totals count(const octree::Samet& samet, const testing::SpdRays& rays) {
+Totals count(const octree::Samet& samet, const tests::SpdRays& rays) {
   Totals totals;
   WorkCounters work;
   const auto end = [&](const Ray& ray, bool hit) {
@@ -99,20 +99,20 @@ void print(const char* who, int depth, const Averages& averages) {
              averages.steps, averages.leaves, averages.empty_leaves);
 }
 
-class HavranRays : public ::testing::TestWithParam<Row> {
+class HavranRays : public ::testing::TestWithParam<PublishedRow> {
  protected:
   static const scenes::Scene& scene() {
     static const scenes::Scene tetra = scenes::load_scene("tetra:n=6");
     return tetra;
   }
-  static const testing::SpdRays& rays() {
-    static const testing::SpdRays all = testing::spd_rays(scene());
+  static const tests::SpdRays& rays() {
+    static const tests::SpdRays all = tests::spd_rays(scene());
     return all;
   }
 };
 
 TEST_P(HavranRays, CountsOfSametOnTetra) {
-  const Row& row = GetParam();
+  const PublishedRow& row = GetParam();
   const Totals totals = count(octree::Samet(scene(), octree_of_depth(row.depth)), rays());
   const Averages ours = as_published(totals, rays().size());
   const auto all = static_cast<double>(rays().size());
@@ -137,18 +137,18 @@ TEST_F(HavranRays, HitAsOften) { EXPECT_NEAR(static_cast<double>(rays().eye_hits
 
 INSTANTIATE_TEST_SUITE_P(
     Depths, HavranRays,
-    ::testing::Values(Row{4,
-                          {120.90, 17.75, 4.75, 3.07},
-                          {6'698'978, 5'104'392, 1'465'705, 946'626, 433'457, 55'506}},
-                      Row{5,
-                          {63.66, 23.91, 6.23, 4.51},
-                          {3'536'570, 6'981'084, 1'924'328, 1'391'739, 458'409, 55'506}},
-                      Row{6,
-                          {47.05, 30.14, 7.71, 5.96},
-                          {2'606'614, 8'891'475, 2'379'949, 1'840'410, 471'516, 55'506}},
-                      Row{7,
-                          {47.35, 36.54, 9.24, 7.24},
-                          {2'617'826, 10'854'864, 2'853'087, 2'236'888, 480'483, 55'506}}),
+    ::testing::Values(PublishedRow{4,
+                                   {120.90, 17.75, 4.75, 3.07},
+                                   {6'698'978, 5'104'392, 1'465'705, 946'626, 433'457, 55'506}},
+                      PublishedRow{5,
+                                   {63.66, 23.91, 6.23, 4.51},
+                                   {3'536'570, 6'981'084, 1'924'328, 1'391'739, 458'409, 55'506}},
+                      PublishedRow{6,
+                                   {47.05, 30.14, 7.71, 5.96},
+                                   {2'606'614, 8'891'475, 2'379'949, 1'840'410, 471'516, 55'506}},
+                      PublishedRow{7,
+                                   {47.35, 36.54, 9.24, 7.24},
+                                   {2'617'826, 10'854'864, 2'853'087, 2'236'888, 480'483, 55'506}}),
     [](const auto& info) { return "Depth" + std::to_string(info.param.depth); });
 
 }  // namespace

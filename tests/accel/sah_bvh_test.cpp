@@ -31,8 +31,8 @@ INSTANTIATE_TEST_SUITE_P(All, SahBvhBuilders,
 TEST_P(SahBvhBuilders, GiveTheHitsOfExhaustive) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 80);
-    testing::expect_hits_of_exhaustive(scene, bvh::SahBvh(scene, options()), seed, 200);
+    const scenes::Scene scene = tests::random_scene(seed, 80);
+    tests::expect_hits_of_exhaustive(scene, bvh::SahBvh(scene, options()), seed, 200);
   }
 }
 
@@ -41,19 +41,19 @@ TEST(SahBvh, EveryInstructionSetGivesTheSameHits) {
   ASSERT_GE(targets.size(), 2U) << "no choice at run time was compiled in";
   for (const std::int64_t target : targets) {
     SCOPED_TRACE(hwy::TargetName(target));
-    const testing::OnlyTarget only(target);
+    const tests::OnlyTarget only(target);
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
       SCOPED_TRACE(seed);
-      const scenes::Scene scene = testing::random_scene(seed, 80);
+      const scenes::Scene scene = tests::random_scene(seed, 80);
       const bvh::SahBvh structure(scene, {});
       ASSERT_STREQ(structure.instruction_set(), hwy::TargetName(target));
-      testing::expect_hits_of_exhaustive(scene, structure, seed, 200);
+      tests::expect_hits_of_exhaustive(scene, structure, seed, 200);
     }
   }
 }
 
 TEST(SahBvh, PicksTheBestInstructionSet) {
-  const scenes::Scene scene = testing::random_scene(1, 5);
+  const scenes::Scene scene = tests::random_scene(1, 5);
   EXPECT_STREQ(bvh::SahBvh(scene, {}).instruction_set(),
                hwy::TargetName(hwy::SupportedAndGeneratedTargets().front()));
 }
@@ -63,7 +63,7 @@ TEST_P(SahBvhBuilders, LoseNothingOnMeshes) {
   for (const char* name : {"bumpy:triangles=3072", "tetra:n=5", "balls:n=3"}) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
-    testing::expect_hits_of_exhaustive(scene, bvh::SahBvh(scene, options()), 11, 1500);
+    tests::expect_hits_of_exhaustive(scene, bvh::SahBvh(scene, options()), 11, 1500);
   }
 }
 
@@ -108,13 +108,13 @@ TEST_P(SahBvhBuilders, LoseNoSliverSeenFromAfar) {
 }
 
 TEST(SahBvh, TakesDirectionsOfAnyLength) {
-  const scenes::Scene scene = testing::random_scene(3, 30);
+  const scenes::Scene scene = tests::random_scene(3, 30);
   const bvh::SahBvh structure(scene, {});
   const exhaustive::Exhaustive exhaustive(scene);
   Random random(1);
   for (const float scale : {1e-38F, 1e-30F, 1e-19F, 1e-10F, 1e8F}) {
     for (int i = 0; i < 100; ++i) {
-      Ray ray = testing::random_ray(scene, random);
+      Ray ray = tests::random_ray(scene, random);
       ray.t_min = 0.0F;
       ray.t_max = kInfinity;
       ray.direction *= scale;
@@ -192,7 +192,7 @@ class WideBvhCheck {
 TEST(SahBvh, HoldsEveryPrimitiveOnceInBoxesThatFit) {
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, static_cast<int>(2 + 10 * seed));
+    const scenes::Scene scene = tests::random_scene(seed, static_cast<int>(2 + 10 * seed));
     const bvh::SahBvh structure(scene, {});
     const bvh::WideBvh& bvh = structure.bvh();
     WideBvhCheck check(bvh, scene);

@@ -15,7 +15,7 @@
 namespace beambench::accel {
 namespace {
 
-beam::BeamOptions options_with(int level) {
+beam::BeamOptions options_of_level(int level) {
   beam::BeamOptions options;
   options.octree.max_level = level;
   return options;
@@ -37,15 +37,15 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-  std::vector<Case> all{{"tetra:n=4", options_with(5), 1},
-                        {"escena1", options_with(5), 1},
-                        {"escena2", options_with(5), 5},
-                        {"closed-room:detail=1", options_with(5), 1}};
-  all.push_back({"escena1", options_with(5), 1});
+  std::vector<Case> all{{"tetra:n=4", options_of_level(5), 1},
+                        {"escena1", options_of_level(5), 1},
+                        {"escena2", options_of_level(5), 5},
+                        {"closed-room:detail=1", options_of_level(5), 1}};
+  all.push_back({"escena1", options_of_level(5), 1});
   all.back().options.handover = 30;
-  all.push_back({"escena1", options_with(5), 1});
+  all.push_back({"escena1", options_of_level(5), 1});
   all.back().options.continue_with_rays = false;
-  all.push_back({"tetra:n=3", options_with(4), 5});
+  all.push_back({"tetra:n=3", options_of_level(4), 5});
   all.back().options.share_corners = true;
   return all;
 }
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SamplePaths, ::testing::ValuesIn(cases()));
 // A beam that continues undivided has no new cut and the same outline; one that is cut has both.
 TEST(SamplePath, NamesTheCutsOfADividedBeamOnly) {
   const scenes::Scene scene = scenes::load_scene("escena2");
-  const beam::BeamTracer tracer(scene, options_with(6));
+  const beam::BeamTracer tracer(scene, options_of_level(6));
   const PrimaryRays rays(scene.cameras.front(), 16, 12, 1);
   int whole = 0;
   int divided = 0;

@@ -23,7 +23,7 @@ namespace {
 
 using glm::dvec3;
 using scenes::modelling::PolygonMesh;
-using testing::Body;
+using tests::Body;
 
 scenes::Scene scene_of(const std::vector<PolygonMesh>& meshes) {
   scenes::SceneBuilder builder("meshes");
@@ -48,7 +48,7 @@ std::vector<std::uint32_t> sizes(const std::vector<PolygonMesh>& meshes) {
 using Sizes = std::vector<std::uint32_t>;
 
 TEST(Solids, AreStarShapedBodies) {
-  for (const Body& body : testing::bodies()) {
+  for (const Body& body : tests::bodies()) {
     const Sizes expected = body.name == "torus"
                                ? Sizes{}
                                : Sizes{static_cast<std::uint32_t>(body.mesh.polygons.size())};
@@ -57,7 +57,7 @@ TEST(Solids, AreStarShapedBodies) {
 }
 
 TEST(Solids, ListTheirTriangles) {
-  const PolygonMesh body = testing::tetrahedron();
+  const PolygonMesh body = tests::tetrahedron();
   const scenes::Scene scene =
       scene_of({body, moved(body, dvec3(5.0)), moved(body, dvec3(-5.0), dvec3(-1.0))});
   const Solids found = find_solids(scene);
@@ -72,7 +72,7 @@ TEST(Solids, ListTheirTriangles) {
 }
 
 TEST(Solids, AreNotOpenNorTwistedNorFlat) {
-  const PolygonMesh whole = testing::tetrahedron();
+  const PolygonMesh whole = tests::tetrahedron();
   PolygonMesh open = whole;
   open.polygons.pop_back();
   EXPECT_EQ(sizes({open}), Sizes{});
@@ -125,7 +125,7 @@ TEST(Solids, AreApartWhereTheyTouchAtCorners) {
 }
 
 TEST(Solids, MayHaveAFinOnAnEdge) {
-  PolygonMesh mesh = testing::tetrahedron();
+  PolygonMesh mesh = tests::tetrahedron();
   mesh.vertices.emplace_back(3.0, 3.0, 3.0);
   mesh.polygons.push_back({0, 1, 4});
   EXPECT_LE(sizes({mesh}).size(), 1U);  // the fin itself is none
@@ -133,7 +133,7 @@ TEST(Solids, MayHaveAFinOnAnEdge) {
 }
 
 TEST(Solids, DoNotCareForTheSignOfZero) {
-  PolygonMesh mesh = moved(testing::tetrahedron(), dvec3(1.0));
+  PolygonMesh mesh = moved(tests::tetrahedron(), dvec3(1.0));
   const auto origin = std::ranges::find(mesh.vertices, dvec3(2.0, 0.0, 0.0));
   ASSERT_NE(origin, mesh.vertices.end());
   // A second vertex at the same place, of the other zeros, for one triangle.
@@ -153,9 +153,9 @@ TEST(Solids, OfAnEmptySceneAreNone) {
 /// surface.
 TEST(Solids, AreLeftByEyesOutside) {
   Random random(3);
-  for (const Body& body : testing::bodies()) {
+  for (const Body& body : tests::bodies()) {
     for (int i = 0; i < 40; ++i) {
-      const testing::Placement place(random);
+      const tests::Placement place(random);
       PolygonMesh mesh = body.mesh;
       for (dvec3& vertex : mesh.vertices) vertex = place(vertex);
       if (i % 2 == 0) {
@@ -170,7 +170,7 @@ TEST(Solids, AreLeftByEyesOutside) {
       for (int eye = 0; eye < 50; ++eye) {
         Ray out;
         const dvec3 from =
-            solid.center + size * random.uniform(0.0, 0.8) * testing::direction_from(random);
+            solid.center + size * random.uniform(0.0, 0.8) * tests::direction_from(random);
         out.origin = glm::vec3(from);
         out.direction = glm::vec3(from - solid.center);
         const auto hit = exhaustive.closest_hit(out, nullptr);

@@ -160,7 +160,7 @@ TEST(SpatialBuilder, EachPointOfASphereOrConeIsInALeafThatRefersToIt) {
 TEST(SpatialBuilder, IsAHierarchyOfBoundedSize) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, static_cast<int>(2 + 10 * seed));
+    const scenes::Scene scene = tests::random_scene(seed, static_cast<int>(2 + 10 * seed));
     const Built built(scene);
     const bvh::BinaryBvh& bvh = built.spatial;
     EXPECT_LE(bvh.items.size(), 2 * built.pieces.size());
@@ -201,7 +201,7 @@ TEST(SpatialBuilder, DividesNothingWithoutAReason) {
 }
 
 TEST(SpatialBuilder, NoPiecesMakeNoNodes) {
-  const scenes::Scene scene = testing::random_scene(1, 5);
+  const scenes::Scene scene = tests::random_scene(1, 5);
   EXPECT_TRUE(bvh::build_spatial_bvh(scene, {}, 0.0, {}).nodes.empty());
 }
 

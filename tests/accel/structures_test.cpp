@@ -38,7 +38,7 @@ std::vector<CheckOfStructure> all_checks() {
   return all;
 }
 
-std::string test_name(const ::testing::TestParamInfo<CheckOfStructure>& info) {
+std::string name_of_check(const ::testing::TestParamInfo<CheckOfStructure>& info) {
   std::string name = info.param.structure + ' ' + std::string(info.param.check->name);
   std::erase(name, ',');
   std::ranges::replace(name, '-', '_');
@@ -62,7 +62,7 @@ TEST_P(Contract, IsKept) {
   EXPECT_EQ(outcome.failure, "");
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Contract, ::testing::ValuesIn(all_checks()), test_name);
+INSTANTIATE_TEST_SUITE_P(All, Contract, ::testing::ValuesIn(all_checks()), name_of_check);
 
 TEST(Registry, NamesTheValidStructures) {
   try {
@@ -86,7 +86,7 @@ TEST(Registry, EveryStructureExplainsItself) {
 }
 
 TEST(Null, HitsNothing) {
-  const scenes::Scene scene = testing::random_scene(3, 10);
+  const scenes::Scene scene = tests::random_scene(3, 10);
   const auto null = registry().choose({"null", {}}).build(scene);
   HitBuffer buffer(8, 8, 1);
   null->trace(PrimaryRays(scene.cameras.front(), 8, 8, 1), buffer, nullptr);

@@ -22,11 +22,11 @@
 namespace beambench::accel {
 namespace {
 
-using testing::random_ray;
-using testing::random_scene;
+using tests::random_ray;
+using tests::random_scene;
 
 scenes::Camera random_camera(const scenes::Scene& scene, Random& random) {
-  scenes::Camera camera = testing::random_view(scene, random);
+  scenes::Camera camera = tests::random_view(scene, random);
   const glm::vec3 view = glm::abs(camera.at - camera.from);
   camera.up = glm::vec3(0.0F);
   camera.up[view.y < view.x || view.y < view.z ? 1 : 0] = 1.0F;
@@ -247,7 +247,7 @@ TEST(TileBeam, FindsHitsAtTheEye) {
   std::size_t at_zero = 0;
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));
-    const testing::OnlyTarget only(target);
+    const tests::OnlyTarget only(target);
     for (const Touching& touching : touching_eyes()) {
       const tile_beam::TileBeam structure(touching.scene, {});
       for (const scenes::Camera& camera : cameras_at(touching.eye)) {
@@ -269,7 +269,7 @@ TEST(TileBeam, FindsHitsAtTheEye) {
 
 TEST(TileBeam, FindsHitsAtTheOriginOfSingleRays) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
-    const testing::OnlyTarget only(target);
+    const tests::OnlyTarget only(target);
     for (const Touching& touching : touching_eyes()) {
       const tile_beam::TileBeam structure(touching.scene, {});
       const exhaustive::Exhaustive exhaustive(touching.scene);
@@ -433,7 +433,7 @@ TEST(TileBeam, EveryInstructionSetIsRight) {
   ASSERT_GE(targets.size(), 2U) << "no choice at run time was compiled in";
   for (const std::int64_t target : targets) {
     SCOPED_TRACE(hwy::TargetName(target));
-    const testing::OnlyTarget only(target);
+    const tests::OnlyTarget only(target);
     for (const char* name : {"tetra:n=4", "balls:n=2", "bumpy:triangles=3072"}) {
       const scenes::Scene scene = scenes::load_scene(name);
       const tile_beam::TileBeam structure(scene, {});

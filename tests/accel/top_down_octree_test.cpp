@@ -16,7 +16,7 @@
 namespace beambench::accel {
 namespace {
 
-octree::OctreeOptions some_options(std::uint64_t number) {
+octree::OctreeOptions some_octree_options(std::uint64_t number) {
   octree::OctreeOptions options;
   options.max_level = static_cast<int>(1 + number % 6);
   options.max_objects = static_cast<std::uint32_t>(number % 3);
@@ -35,14 +35,14 @@ std::uint64_t levels_of(const std::vector<TraceStep>& path) {
 TEST(TopDownOctree, LeavesTheirOrderAndTheTestsAreThoseOfSamet) {
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 25);
-    const octree::Samet samet(scene, some_options(seed));
-    const octree::Glassner glassner(scene, some_options(seed));
-    const octree::Gargantini gargantini(scene, some_options(seed));
+    const scenes::Scene scene = tests::random_scene(seed, 25);
+    const octree::Samet samet(scene, some_octree_options(seed));
+    const octree::Glassner glassner(scene, some_octree_options(seed));
+    const octree::Gargantini gargantini(scene, some_octree_options(seed));
     const exhaustive::Exhaustive exhaustive(scene);
     Random random(seed);
     for (int i = 0; i < 100; ++i) {
-      const Ray ray = testing::random_ray(scene, random);
+      const Ray ray = tests::random_ray(scene, random);
       const auto expected = samet.explain(ray);
       const auto hit = exhaustive.closest_hit(ray, nullptr);
       for (const Accelerator* structure : {static_cast<const Accelerator*>(&glassner),
@@ -67,8 +67,8 @@ TEST(TopDownOctree, LeavesTheirOrderAndTheTestsAreThoseOfSamet) {
 TEST(TopDownOctree, StepsAreTheNodesPassed) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 40);
-    octree::OctreeOptions options = some_options(seed);
+    const scenes::Scene scene = tests::random_scene(seed, 40);
+    octree::OctreeOptions options = some_octree_options(seed);
     options.max_level = 6;
     const octree::Glassner glassner(scene, options);
     const octree::Gargantini gargantini(scene, options);
@@ -77,7 +77,7 @@ TEST(TopDownOctree, StepsAreTheNodesPassed) {
     WorkCounters from_root;
     WorkCounters in_order;
     for (int i = 0; i < 100; ++i) {
-      const Ray ray = testing::random_ray(scene, random);
+      const Ray ray = tests::random_ray(scene, random);
       glassner.closest_hit(ray, &from_root);
       gargantini.closest_hit(ray, &in_order);
       searched += levels_of(glassner.explain(ray));

@@ -71,19 +71,19 @@ TEST_P(Threads, ChangeNoHitAndNoCount) {
     }
   }
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-    const scenes::Scene scene = testing::random_scene(seed, 40);
+    const scenes::Scene scene = tests::random_scene(seed, 40);
     const PrimaryRays rays(scene.cameras.front(), 40, 33, 1);
     expect_same_on_threads(registry().choose({GetParam(), {}}), scene, rays);
   }
 }
 
-std::string test_name(const ::testing::TestParamInfo<std::string>& info) {
+std::string name_of_case(const ::testing::TestParamInfo<std::string>& info) {
   std::string name = info.param;
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Threads, ::testing::ValuesIn(all_names()), test_name);
+INSTANTIATE_TEST_SUITE_P(All, Threads, ::testing::ValuesIn(all_names()), name_of_case);
 
 // Where threads share more than the buffer: beams that continue behind leaves, corners of many
 // pixels, packets across the borders of what a thread gets, lists that are filled on first use.

@@ -16,10 +16,14 @@
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/scene_builder.hpp"
+#include "tests/accel/built.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench::accel {
 namespace {
+
+using tests::build;
+using tests::refusal;
 
 constexpr std::uint64_t kNoCap = 1'000'000'000;
 
@@ -27,10 +31,6 @@ grid::VoxelGridOptions with_resolution(std::int32_t x, std::int32_t y, std::int3
   grid::VoxelGridOptions options;
   options.resolution = {x, y, z};
   return options;
-}
-
-std::unique_ptr<Accelerator> build(const std::string& spec, const scenes::Scene& scene) {
-  return registry().choose(parse_spec(spec)).build(scene);
 }
 
 double more(const Statistics& statistics, std::string_view name) {
@@ -43,7 +43,7 @@ double more(const Statistics& statistics, std::string_view name) {
 TEST(VoxelGrid, ListsHoldExactlyWhatOverlapsTheVoxel) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 25);
+    const scenes::Scene scene = tests::random_scene(seed, 25);
     const auto n = static_cast<std::int32_t>(seed);
     const CellGrid grid =
         grid::make_voxel_grid(scene, with_resolution(1 + n % 7, 1 + n % 5, 1 + n % 9));
@@ -81,7 +81,7 @@ TEST(VoxelGrid, VoxelsFollowEachOtherAndTouch) {
   const auto grid = build("voxel-grid:resolution=9x17x33", scene);
   Random random(1);
   for (int i = 0; i < 200; ++i) {
-    const auto steps = grid->explain(testing::random_ray(scene, random));
+    const auto steps = grid->explain(tests::random_ray(scene, random));
     for (std::size_t k = 1; k < steps.size(); ++k) {
       EXPECT_EQ(steps[k].t_enter, std::max(steps[k - 1].t_exit, steps[0].t_enter));
       int moved = 0;
@@ -127,13 +127,13 @@ TEST(VoxelGrid, LazyAndEagerDoTheSameWork) {
 
 TEST(VoxelGrid, LazyIsRightOnManyThreadsAtOnce) {
   for (const std::uint64_t seed : {3U, 4U, 5U, 6U}) {
-    const scenes::Scene scene = testing::random_scene(seed, 60);
+    const scenes::Scene scene = tests::random_scene(seed, 60);
     const exhaustive::Exhaustive exhaustive(scene);
     std::vector<Ray> rays;
     std::vector<std::optional<Hit>> expected;
     Random random(seed);
     for (int i = 0; i < 2000; ++i) {
-      rays.push_back(testing::random_ray(scene, random));
+      rays.push_back(tests::random_ray(scene, random));
       expected.push_back(exhaustive.closest_hit(rays.back(), nullptr));
     }
     const grid::VoxelGrid<grid::LazyVoxels, grid::Mailboxes> grid(scene,
@@ -217,15 +217,6 @@ TEST(VoxelGrid, AutomaticVoxelsAreFewerForACluster) {
   for (int i = 0; i < 2'000; ++i) builder.add_sphere({0.0, 0.0, 0.0}, 1.0);
   const scenes::Scene scene = std::move(builder).build();
   EXPECT_LE(build("voxel-grid:max_references=100000", scene)->statistics().references, 100'000U);
-}
-
-std::string refusal(const std::string& spec, const scenes::Scene& scene) {
-  try {
-    build(spec, scene);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "it was accepted";
 }
 
 TEST(VoxelGrid, RefusesWhatIsTooLargeBeforeItIsMade) {

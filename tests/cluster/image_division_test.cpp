@@ -13,12 +13,12 @@
 namespace beambench::cluster {
 namespace {
 
-constexpr ImageDivision kDivisions[] = {ImageDivision::kContiguous, ImageDivision::kInterlaced,
-                                        ImageDivision::kEqualCost, ImageDivision::kBatches,
-                                        ImageDivision::kFalling};
+constexpr ImageDivision kImageDivisions[] = {ImageDivision::kContiguous, ImageDivision::kInterlaced,
+                                             ImageDivision::kEqualCost, ImageDivision::kBatches,
+                                             ImageDivision::kFalling};
 
 TEST(ImageDivision, HasEveryTaskOnceAndNoEmptyShare) {
-  for (const ImageDivision division : kDivisions) {
+  for (const ImageDivision division : kImageDivisions) {
     for (const std::size_t tasks : {0U, 1U, 7U, 100U, 5000U}) {
       for (const int consumers : {1, 3, 64, 1023}) {
         const std::vector<double> costs(tasks, 2.0);

@@ -13,18 +13,14 @@
 #include "harness/cluster/tasks.hpp"
 #include "scenes/core/error.hpp"
 #include "scenes/core/random.hpp"
+#include "tests/cluster/beam_options.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench::cluster {
 namespace {
 
-using testing::random_scene;
-
-accel::beam::BeamOptions options_with(int max_level) {
-  accel::beam::BeamOptions options;
-  options.octree.max_level = max_level;
-  return options;
-}
+using tests::options_with;
+using tests::random_scene;
 
 /// Calls `visit(cursor)` for all leaves under the cursor.
 template <class Visit>

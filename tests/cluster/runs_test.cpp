@@ -20,6 +20,7 @@
 #include "harness/render/whitted_picture.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
+#include "tests/cluster/beam_options.hpp"
 #include "tests/cluster/followers.hpp"
 #include "tests/cluster/local_network.hpp"
 #include "tests/random_scene.hpp"
@@ -27,14 +28,8 @@
 namespace beambench::cluster {
 namespace {
 
-using testing::random_scene;
-
-accel::beam::BeamOptions options_with(int max_level, std::int64_t handover = 0) {
-  accel::beam::BeamOptions options;
-  options.octree.max_level = max_level;
-  options.handover = handover;
-  return options;
-}
+using tests::options_with;
+using tests::random_scene;
 
 void accept_anybody(ProcessId, std::span<const std::byte>) {}
 

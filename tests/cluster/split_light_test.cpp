@@ -22,23 +22,17 @@
 #include "harness/verify/selftest/test_scenes.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
+#include "tests/cluster/beam_options.hpp"
 #include "tests/cluster/followers.hpp"
 #include "tests/cluster/local_network.hpp"
+#include "tests/cluster/scene_divisions.hpp"
 
 namespace beambench::cluster {
 namespace {
 
+using tests::kSceneDivisions;
+using tests::options_with;
 using verify::SceneWithRays;
-
-constexpr std::array kDivisions{SceneDivision::kPrimitives, SceneDivision::kCost,
-                                SceneDivision::kInterleaved, SceneDivision::kBisection,
-                                SceneDivision::kScattered};
-
-accel::beam::BeamOptions options_with(int max_level) {
-  accel::beam::BeamOptions options;
-  options.octree.max_level = max_level;
-  return options;
-}
 
 /// A scene in parts, each as in a process of its own.
 class Parts {
@@ -84,7 +78,7 @@ void expect_the_hits_of_one_process(const SceneWithRays& given, int level, int p
   const accel::beam::BeamOptions options = options_with(5);
   const accel::PrimaryRays image(given.scene.cameras.front(), 8, 8, 1);
   const accel::beam::BeamTracer whole(given.scene, options);
-  for (const SceneDivision division : kDivisions) {
+  for (const SceneDivision division : kSceneDivisions) {
     LocalNetwork network(processes, 1, 0.0);
     const Parts parts(given.scene, options, image, level, division, network);
     for (std::size_t i = 0; i < given.rays.size(); ++i) {
@@ -215,7 +209,7 @@ void expect_the_answers_of_one_process(const SceneWithRays& given, int level, in
   const accel::PrimaryRays image(given.scene.cameras.front(), 8, 8, 1);
   const accel::beam::BeamTracer whole(given.scene, options);
   const auto count = static_cast<int>(given.rays.size());
-  for (const SceneDivision division : kDivisions) {
+  for (const SceneDivision division : kSceneDivisions) {
     LocalNetwork network(processes, 1, 0.0003);
     const Parts parts(given.scene, options, image, level, division, network);
     led_light(parts, network, [&](LightLeader& leader) {
@@ -250,7 +244,7 @@ TEST(DividedScene, AnswersAsOneProcess) {
 
 void expect_the_picture_of_one_process(const Drawing& drawing, int level, unsigned seed) {
   for (int processes = 1; processes <= 5; ++processes) {
-    const SceneDivision division = kDivisions[(seed + static_cast<unsigned>(processes)) % 5];
+    const SceneDivision division = kSceneDivisions[(seed + static_cast<unsigned>(processes)) % 5];
     const DrawnLight drawn = drawn_in_parts(drawing, level, division, processes, seed);
     EXPECT_TRUE(std::ranges::equal(drawn.image.pixels(), drawing.expected.image.pixels()))
         << "seed " << seed << ", level " << level << ", " << processes << " processes, "

@@ -24,25 +24,18 @@
 #include "harness/rays/fingerprint.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/core/error.hpp"
+#include "tests/cluster/beam_options.hpp"
 #include "tests/cluster/followers.hpp"
 #include "tests/cluster/local_network.hpp"
+#include "tests/cluster/scene_divisions.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench::cluster {
 namespace {
 
-using testing::random_scene;
-
-accel::beam::BeamOptions options_with(int max_level, std::int64_t handover = 0) {
-  accel::beam::BeamOptions options;
-  options.octree.max_level = max_level;
-  options.handover = handover;
-  return options;
-}
-
-constexpr std::array kDivisions{SceneDivision::kPrimitives, SceneDivision::kCost,
-                                SceneDivision::kInterleaved, SceneDivision::kBisection,
-                                SceneDivision::kScattered};
+using tests::kSceneDivisions;
+using tests::options_with;
+using tests::random_scene;
 
 SceneSplit split_of(const scenes::Scene& scene, int max_level, int level, SceneDivision division,
                     int processes) {
@@ -51,8 +44,8 @@ SceneSplit split_of(const scenes::Scene& scene, int max_level, int level, SceneD
 }
 
 TEST(SceneDivision, HasANameEach) {
-  ASSERT_EQ(division_names().size(), kDivisions.size());
-  for (const SceneDivision division : kDivisions) {
+  ASSERT_EQ(division_names().size(), kSceneDivisions.size());
+  for (const SceneDivision division : kSceneDivisions) {
     EXPECT_EQ(parse_scene_division(division_names()[static_cast<std::size_t>(division)]), division);
   }
   EXPECT_THROW(parse_scene_division("halves"), InputError);
@@ -60,7 +53,7 @@ TEST(SceneDivision, HasANameEach) {
 
 TEST(SceneSplit, GivesEveryCellToOneProcessAndWorkToEach) {
   const scenes::Scene scene = scenes::load_scene("tetra:n=4");
-  for (const SceneDivision division : kDivisions) {
+  for (const SceneDivision division : kSceneDivisions) {
     for (const int processes : {1, 2, 3, 7}) {
       const SceneSplit split = split_of(scene, 6, 4, division, processes);
       ASSERT_EQ(split.cells().count(), 512U);
@@ -239,7 +232,7 @@ TEST(SplitScene, GivesTheHitsOfOneProcessBitForBit) {
     accel::beam::BeamTracer(scene, options).trace(rays, expected, nullptr);
     for (const int processes : {1, 2, 5}) {
       const int level = 2 + static_cast<int>(seed) % 4;
-      for (const SceneDivision division : kDivisions) {
+      for (const SceneDivision division : kSceneDivisions) {
         EXPECT_TRUE(traced_in_parts(scene, options, rays, level, processes, seed, division) ==
                     expected)
             << "seed " << seed << ", level " << level << ", " << processes << " processes, "
@@ -262,7 +255,7 @@ TEST(SplitScene, SeesTheSameFromInside) {
     const accel::PrimaryRays rays(camera, 60, 60, 1);
     accel::HitBuffer expected(60, 60, 1);
     accel::beam::BeamTracer(scene, options_with(5)).trace(rays, expected, nullptr);
-    for (const SceneDivision division : kDivisions) {
+    for (const SceneDivision division : kSceneDivisions) {
       EXPECT_TRUE(traced_in_parts(scene, options_with(5), rays, 3, 4, 1, division) == expected);
     }
   }

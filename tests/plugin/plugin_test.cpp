@@ -95,13 +95,13 @@ TEST(Activity, KeepsLinesApartAndCutsOffWhatIsTooLong) {
 
 TEST(CheckScene, PassesWhatTheBuilderMakes) {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    EXPECT_NO_THROW(check_scene(testing::random_scene(seed, 50))) << seed;
+    EXPECT_NO_THROW(check_scene(tests::random_scene(seed, 50))) << seed;
   }
   EXPECT_NO_THROW(check_scene(scenes::SceneBuilder("empty").build()));
 }
 
 TEST(CheckScene, RefusesWhatLeavesItsArraysOrIsNoNumber) {
-  const scenes::Scene sound = testing::random_scene(7, 60);
+  const scenes::Scene sound = tests::random_scene(7, 60);
   ASSERT_FALSE(sound.spheres.empty());
   ASSERT_FALSE(sound.cones.empty());
   ASSERT_FALSE(sound.polygons.empty());

@@ -126,7 +126,7 @@ TEST(PencilsOfLists, AreLightsAndVirtualEyes) {
       const accel::PrimaryRays image(scene.cameras.front(), 160, 120, 1);
       const TraceInput input = input_over(scene, kind, {160, 120});
       const RaySet& set = *input.list();
-      testing::CheckedPencils checked(scene, image, 16.0);
+      tests::CheckedPencils checked(scene, image, 16.0);
       checked.add(set.batch());
       EXPECT_EQ(checked.toward + checked.away, set.rays.size());
       EXPECT_EQ(checked.away > 0, kind == std::string_view("mirror"));
@@ -328,8 +328,7 @@ TEST(MakeInput, ExplainsWhyThereAreNoMirrorRays) {
 
 TEST(EveryKindOfRays, FindsExhaustiveAndEmbreeRight) {
   std::vector<std::string> structures{"exhaustive", "samet"};
-  for (const std::string& mode : testing::embree_modes())
-    structures.push_back("embree:mode=" + mode);
+  for (const std::string& mode : tests::embree_modes()) structures.push_back("embree:mode=" + mode);
   for (const char* name : {"tetra:n=3", "escena1:spheres=60", "balls:n=1", "teapot:n=2"}) {
     const scenes::Scene scene = scenes::load_scene(name);
     for (const char* kind : {"shadow", "reflection", "mirror", "diffuse", "ao", "path", "random"}) {

@@ -52,7 +52,7 @@ class Unmarked : public FollowingQueries {
 /// Checks what is marked, and forwards it.
 class Checked : public Unmarked {
  public:
-  Checked(const accel::Accelerator& structure, testing::CheckedPencils& pencils)
+  Checked(const accel::Accelerator& structure, tests::CheckedPencils& pencils)
       : Unmarked(structure), pencils_(&pencils) {}
 
   void closest_hits(const accel::RayBatch& batch, accel::HitBuffer& buffer,
@@ -73,7 +73,7 @@ class Checked : public Unmarked {
     for (const accel::Pencil& pencil : batch.pencils) EXPECT_GE(pencil.count, kMinPencil);
     pencils_->add(batch);
   }
-  testing::CheckedPencils* pencils_;
+  tests::CheckedPencils* pencils_;
 };
 
 RecordedPicture recorded(const scenes::Scene& scene, const accel::Accelerator& structure,
@@ -126,7 +126,7 @@ TEST(Pencils, PassThroughTheirApexInTheCatalogue) {
     SCOPED_TRACE(name);
     const scenes::Scene scene = scenes::load_scene(name);
     const accel::PrimaryRays image(scene.cameras.front(), 120, 90, 1);
-    testing::CheckedPencils pencils(scene, image, 16.0);
+    tests::CheckedPencils pencils(scene, image, 16.0);
     const auto structure = built(scene, "sah-bvh");
     recorded(scene, Checked(*structure, pencils), image);
     EXPECT_GT(pencils.toward, 0U);
@@ -139,7 +139,7 @@ TEST(Pencils, PassThroughTheirApexInRandomScenes) {
     SCOPED_TRACE(seed);
     const scenes::Scene scene = scene_of_all_surfaces(seed);
     const accel::PrimaryRays image(scene.cameras.front(), 80, 60, seed % 3 == 0 ? 4 : 1);
-    testing::CheckedPencils pencils(scene, image, 16.0);
+    tests::CheckedPencils pencils(scene, image, 16.0);
     const auto structure = built(scene, "sah-bvh");
     recorded(scene, Checked(*structure, pencils), image);
     toward += pencils.toward;
@@ -153,7 +153,7 @@ TEST(Pencils, PassThroughTheirApexInRandomScenes) {
 TEST(Pencils, AreOfAnyDepth) {
   const scenes::Scene scene = mirror_room();
   const accel::PrimaryRays image(scene.cameras.front(), 128, 128, 1);
-  testing::CheckedPencils pencils(scene, image, 16.0);
+  tests::CheckedPencils pencils(scene, image, 16.0);
   const auto structure = built(scene, "sah-bvh");
   const RecordedPicture picture = recorded(scene, Checked(*structure, pencils), image);
   EXPECT_GT(picture.census.reflected, 3U * 128 * 128);
@@ -164,7 +164,7 @@ TEST(Pencils, AreOfAnyDepth) {
 TEST(Pencils, AreNotOfCurvedMirrors) {
   const scenes::Scene scene = scenes::load_scene("balls:n=2");
   const accel::PrimaryRays image(scene.cameras.front(), 120, 90, 1);
-  testing::CheckedPencils pencils(scene, image, 16.0);
+  tests::CheckedPencils pencils(scene, image, 16.0);
   const auto structure = built(scene, "sah-bvh");
   EXPECT_GT(recorded(scene, Checked(*structure, pencils), image).census.reflected, 1000U);
   EXPECT_EQ(pencils.away, 0U);

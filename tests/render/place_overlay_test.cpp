@@ -22,7 +22,7 @@ namespace {
 using accel::BeamPlace;
 using Way = BeamPlace::Way;
 
-const glm::vec3 kGround(0.2F);
+const glm::vec3 kBackground(0.2F);
 
 /// Two tiles side by side of 8 x 4 pixels each, in blocks of 4 x 4.
 std::vector<BeamPlace> two_tiles() {
@@ -47,7 +47,7 @@ std::size_t count_of(const std::vector<LegendEntry>& legend, const std::string& 
 
 TEST(OverlayTiles, DrawsOutlinesAndAMesh) {
   const std::vector<BeamPlace> places = two_tiles();
-  Image image(16, 4, kGround);
+  Image image(16, 4, kBackground);
   const auto legend = overlay_tiles(image, {places, numbers(places.size()), 1});
   EXPECT_EQ(count_of(legend, "tiles"), 2U);
   EXPECT_EQ(count_of(legend, "rays in blocks"), 64U);
@@ -68,7 +68,7 @@ TEST(OverlayTiles, EachWayHasItsColor) {
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (places[i].beam == 1) places[i].way = Way::kBackground;
   }
-  Image image(16, 4, kGround);
+  Image image(16, 4, kBackground);
   const auto legend = overlay_tiles(image, {places, numbers(places.size()), 1});
   EXPECT_EQ(count_of(legend, "rays in blocks"), 31U);
   EXPECT_EQ(count_of(legend, "handed over to single rays"), 1U);
@@ -83,7 +83,7 @@ TEST(OverlayPencil, PixelsWithoutARayStayDimmed) {
                                       {Way::kSingle, 0, 0, 0},
                                       {Way::kHandedOver, 4, 0, 1}};
   const std::vector<std::uint32_t> samples{0, 3, 5, 7};
-  Image image(4, 2, kGround);
+  Image image(4, 2, kBackground);
   const auto legend = overlay_pencil(image, {places, samples, 1});
   EXPECT_EQ(count_of(legend, "parts"), 1U);
   EXPECT_EQ(count_of(legend, "rays in blocks, side -z"), 1U);
@@ -93,7 +93,7 @@ TEST(OverlayPencil, PixelsWithoutARayStayDimmed) {
   EXPECT_EQ(legend.size(), 5U) << "sides that no ray in order passes are not listed";
   for (int i = 0; i < 8; ++i) {
     const bool has_ray = std::ranges::find(samples, static_cast<std::uint32_t>(i)) != samples.end();
-    EXPECT_EQ(image.at(i % 4, i / 4) == dimmed(kGround), !has_ray) << i;
+    EXPECT_EQ(image.at(i % 4, i / 4) == dimmed(kBackground), !has_ray) << i;
   }
   EXPECT_EQ(image.at(3, 1), okabe_ito::kVermillion);
 }
@@ -101,9 +101,9 @@ TEST(OverlayPencil, PixelsWithoutARayStayDimmed) {
 TEST(OverlayPencil, APixelShowsItsFirstSampleThatHasARay) {
   const std::vector<BeamPlace> places{{Way::kHandedOver, 0, 0, 0}, {Way::kRegrouped, 0, 0, 1}};
   const std::vector<std::uint32_t> samples{5, 6};
-  Image image(2, 1, kGround);
+  Image image(2, 1, kBackground);
   overlay_pencil(image, {places, samples, 4});
-  EXPECT_EQ(image.at(0, 0), dimmed(kGround));
+  EXPECT_EQ(image.at(0, 0), dimmed(kBackground));
   EXPECT_EQ(image.at(1, 0), okabe_ito::kVermillion);
 }
 
@@ -156,7 +156,7 @@ TEST(DrawOverlay, DrawsThePencilOfTheChosenLight) {
   ASSERT_GT(scene.lights.size(), 1U);
   const accel::PrimaryRays rays(scene.cameras.front(), 128, 100, 1);
   const auto accelerator = accel::registry().choose({"tile-beam", {}}).build(scene);
-  Image first(128, 100, kGround);
+  Image first(128, 100, kBackground);
   Image second = first;
   draw_overlay({Overlay::kPencils, 1}, first, *accelerator, scene, rays);
   const auto legend = draw_overlay({Overlay::kPencils, 2}, second, *accelerator, scene, rays);
@@ -173,10 +173,10 @@ TEST(DrawOverlay, ALightThatNoHitFacesHasAnEmptyPencil) {
   const scenes::Scene scene = std::move(builder).build();
   const accel::PrimaryRays rays(scene.cameras.front(), 8, 8, 1);
   const auto accelerator = accel::registry().choose({"tile-beam", {}}).build(scene);
-  Image image(8, 8, kGround);
+  Image image(8, 8, kBackground);
   const auto legend = draw_overlay({Overlay::kPencils, 1}, image, *accelerator, scene, rays);
   EXPECT_EQ(count_of(legend, "parts"), 0U);
-  EXPECT_EQ(image.at(3, 3), dimmed(kGround));
+  EXPECT_EQ(image.at(3, 3), dimmed(kBackground));
 }
 
 }  // namespace

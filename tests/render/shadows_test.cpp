@@ -53,14 +53,14 @@ TEST(LightBuffer, AnswersAsASearchOfAllPrimitives) {
   std::size_t hidden = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
     SCOPED_TRACE(seed);
-    const scenes::Scene scene = testing::random_scene(seed, 50);
+    const scenes::Scene scene = tests::random_scene(seed, 50);
     Random random(seed);
     const auto structure = built(scene, "exhaustive");
-    const glm::vec3 light = testing::random_ray(scene, random).origin;
+    const glm::vec3 light = tests::random_ray(scene, random).origin;
     const LightBuffer buffer(scene, light, 1 + static_cast<int>(random.below(40)));
     for (int i = 0; i < 300; ++i) {
       accel::Ray ray;
-      ray.origin = testing::random_ray(scene, random).origin;
+      ray.origin = tests::random_ray(scene, random).origin;
       ray.direction = light - ray.origin;
       ray.t_max = 1.0F;
       if (ray.direction == glm::vec3(0.0F)) continue;

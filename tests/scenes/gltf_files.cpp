@@ -1,16 +1,13 @@
 #include "tests/scenes/gltf_files.hpp"
 
 #include "tests/scenes/mesh_files.hpp"
+#include "tests/scenes/put.hpp"
 
 namespace beambench::scenes {
 namespace {
 
+using tests::put;
 using Json = nlohmann::json;
-
-template <typename T>
-void put(std::string& bytes, const T& value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
-}
 
 int push(Json& list, const Json& element) {
   list.push_back(element);

@@ -36,7 +36,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 using mesh::ImportedMesh;
-using Corners = std::array<glm::vec3, 3>;
+using TriangleCorners = std::array<glm::vec3, 3>;
 
 constexpr int kStrip = 5;
 constexpr int kFan = 6;
@@ -61,8 +61,8 @@ class Gltf : public testing::Test {
   TemporaryFolder folder_;
 };
 
-std::vector<Corners> triangles_of(const ImportedMesh& mesh) {
-  std::vector<Corners> triangles;
+std::vector<TriangleCorners> triangles_of(const ImportedMesh& mesh) {
+  std::vector<TriangleCorners> triangles;
   for (const auto& [a, b, c] : mesh.mesh.triangles) {
     triangles.push_back({mesh.mesh.vertices[a], mesh.mesh.vertices[b], mesh.mesh.vertices[c]});
   }
@@ -70,8 +70,8 @@ std::vector<Corners> triangles_of(const ImportedMesh& mesh) {
 }
 
 /// What glTF 2.0, 3.7.2.1, says of lists, strips and fans.
-std::vector<Corners> triangles_by_the_book(const std::vector<glm::vec3>& p, int mode) {
-  std::vector<Corners> triangles;
+std::vector<TriangleCorners> triangles_by_the_book(const std::vector<glm::vec3>& p, int mode) {
+  std::vector<TriangleCorners> triangles;
   if (mode == 4) {
     for (std::size_t i = 0; i + 2 < p.size(); i += 3)
       triangles.push_back({p[i], p[i + 1], p[i + 2]});
@@ -82,7 +82,7 @@ std::vector<Corners> triangles_by_the_book(const std::vector<glm::vec3>& p, int 
   for (std::size_t i = 0; mode == kFan && i + 2 < p.size(); ++i) {
     triangles.push_back({p[i + 1], p[i + 2], p[0]});
   }
-  std::erase_if(triangles, [](const Corners& t) { return !has_area(t[0], t[1], t[2]); });
+  std::erase_if(triangles, [](const TriangleCorners& t) { return !has_area(t[0], t[1], t[2]); });
   return triangles;
 }
 

@@ -8,17 +8,21 @@
 
 #include <fmt/format.h>
 
+#include "tests/scenes/put.hpp"
+
 namespace beambench::scenes {
 namespace {
 
-constexpr std::array<std::array<float, 3>, 4> kCorners = {
+using tests::put;
+
+constexpr std::array<std::array<float, 3>, 4> kTetrahedron = {
     {{0.0F, 0.0F, 0.0F}, {1.0F, 0.0F, 0.0F}, {0.0F, 2.0F, 0.0F}, {0.0F, 0.0F, 3.0F}}};
 constexpr std::array<std::array<std::uint32_t, 3>, 4> kFaces = {
     {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}}};
 
 std::string corner_lines(std::string_view before) {
   std::string text;
-  for (const auto& [x, y, z] : kCorners) text += fmt::format("{}{} {} {}\n", before, x, y, z);
+  for (const auto& [x, y, z] : kTetrahedron) text += fmt::format("{}{} {} {}\n", before, x, y, z);
   return text;
 }
 
@@ -28,11 +32,6 @@ std::string face_lines(std::string_view before, std::uint32_t first) {
     text += fmt::format("{}{} {} {}\n", before, a + first, b + first, c + first);
   }
   return text;
-}
-
-template <typename T>
-void put(std::string& bytes, const T& value) {
-  bytes.append(reinterpret_cast<const char*>(&value), sizeof(T));
 }
 
 std::string ply_header(std::string_view format) {
@@ -55,7 +54,7 @@ std::string tetrahedron_ply() {
 
 std::string tetrahedron_binary_ply() {
   std::string bytes = ply_header("binary_little_endian");
-  for (const auto& corner : kCorners) put(bytes, corner);
+  for (const auto& corner : kTetrahedron) put(bytes, corner);
   for (const auto& face : kFaces) {
     put(bytes, std::uint8_t{3});
     put(bytes, face);
@@ -68,7 +67,8 @@ std::string tetrahedron_stl() {
   for (const auto& face : kFaces) {
     text += "facet normal 0 0 0\nouter loop\n";
     for (const std::uint32_t i : face) {
-      text += fmt::format("vertex {} {} {}\n", kCorners[i][0], kCorners[i][1], kCorners[i][2]);
+      text += fmt::format("vertex {} {} {}\n", kTetrahedron[i][0], kTetrahedron[i][1],
+                          kTetrahedron[i][2]);
     }
     text += "endloop\nendfacet\n";
   }
@@ -80,7 +80,7 @@ std::string tetrahedron_binary_stl() {
   put(bytes, std::uint32_t{4});
   for (const auto& face : kFaces) {
     put(bytes, std::array<float, 3>{});
-    for (const std::uint32_t i : face) put(bytes, kCorners[i]);
+    for (const std::uint32_t i : face) put(bytes, kTetrahedron[i]);
     put(bytes, std::uint16_t{0});
   }
   return bytes;
@@ -88,7 +88,7 @@ std::string tetrahedron_binary_stl() {
 
 std::string tetrahedron_gltf() {
   std::string buffer;
-  for (const auto& corner : kCorners) put(buffer, corner);
+  for (const auto& corner : kTetrahedron) put(buffer, corner);
   for (const auto& face : kFaces) put(buffer, face);
   return fmt::format(
       R"({{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],)"

@@ -27,7 +27,7 @@ namespace {
 namespace fs = std::filesystem;
 using mesh::ImportedMesh;
 
-constexpr const char* kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+constexpr const char* kThreeVertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
 class Obj : public testing::Test {
  protected:
@@ -130,11 +130,11 @@ RC_GTEST_FIXTURE_PROP(Obj, ConcavePolygonsKeepTheirArea, ()) {
 TEST_F(Obj, FacesNameVerticesInEveryWay) {
   for (const char* face : {"f 1 2 3", "f -3 -2 -1", "f 1/1 2/1 3/1", "f 1//1 2//1 3//1",
                            "f 1/1/1 2/1/1 3/1/1", "  f\t1  2\t3  ", "f 1 \\\n2 3", "f +1 2 3"}) {
-    const ImportedMesh mesh = read(fmt::format("{}vt 0 0\nvn 0 0 1\n{}\n", kCorners, face));
+    const ImportedMesh mesh = read(fmt::format("{}vt 0 0\nvn 0 0 1\n{}\n", kThreeVertices, face));
     ASSERT_EQ(mesh.mesh.triangles.size(), 1U) << face;
     EXPECT_EQ(corner(mesh, 0, 2), glm::vec3(0.0F, 1.0F, 0.0F)) << face;
   }
-  EXPECT_EQ(read(fmt::format("f 1 2 3\n{}", kCorners)).mesh.triangles.size(), 1U)
+  EXPECT_EQ(read(fmt::format("f 1 2 3\n{}", kThreeVertices)).mesh.triangles.size(), 1U)
       << "a vertex may come later";
   EXPECT_EQ(read("v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3\r\n").mesh.triangles.size(), 1U);
   EXPECT_EQ(corner(read("v 1e-999 0 0\nv +1 0 0\nv 0 1. 0\nf 1 2 3"), 0, 0), glm::vec3(0.0F));
@@ -144,8 +144,8 @@ TEST_F(Obj, FacesNameVerticesInEveryWay) {
 TEST_F(Obj, ARefusedOneSaysWhere) {
   const auto refused = [&](const std::string& lines,
                            std::initializer_list<std::string_view> words) {
-    EXPECT_TRUE(says(message(kCorners + lines), words)) << lines;
-    EXPECT_TRUE(says(message(kCorners + lines), {"a.obj: "}));
+    EXPECT_TRUE(says(message(kThreeVertices + lines), words)) << lines;
+    EXPECT_TRUE(says(message(kThreeVertices + lines), {"a.obj: "}));
   };
   refused("f 1 2 4\n", {"face 1 has the vertex 4", "3 vertices"});
   refused("f 1 2 3\nf 1 2 -4\n", {"face 2", "before the first"});
@@ -163,7 +163,7 @@ TEST_F(Obj, ARefusedOneSaysWhere) {
 
 TEST_F(Obj, WhatIsNoFaceIsCounted) {
   const ImportedMesh mesh =
-      read(fmt::format("{}f 1 2 3\nf 1 2\np 1\nl 1 2 3\ncurv 0 1 1 2\n", kCorners));
+      read(fmt::format("{}f 1 2 3\nf 1 2\np 1\nl 1 2 3\ncurv 0 1 1 2\n", kThreeVertices));
   ASSERT_EQ(mesh.warnings.size(), 2U);
   EXPECT_EQ(mesh.warnings[0], "3 points and lines were left out");
   EXPECT_EQ(mesh.warnings[1], "1 free-form curves and surfaces were left out");
@@ -175,7 +175,7 @@ TEST_F(Obj, MaterialsAreThoseOfItsLibraries) {
                 "Kd 0 0 0\nmap_Kd a.png\n");
   folder_.write("b.mtl", "newmtl blue\r\nKd 0 0 1\r\nTr 0.25\r\n");
   folder_.write("c.mtl", "newmtl green\nKd 0 1 0\n");
-  std::string text = std::string("mtllib two words.mtl\nmtllib b.mtl c.mtl\n") + kCorners;
+  std::string text = std::string("mtllib two words.mtl\nmtllib b.mtl c.mtl\n") + kThreeVertices;
   for (const char* name : {"dark red", "blue", "green", "plain", "painted", "unknown"}) {
     text += fmt::format("usemtl {}\nf 1 2 3\n", name);
   }
@@ -194,13 +194,15 @@ TEST_F(Obj, MaterialsAreThoseOfItsLibraries) {
 TEST_F(Obj, ExponentsThatOverflowAreRefused) {
   for (const std::string line :
        {"v 1e-2147483648 0 0", "vn 0 0 .5E+2147483649", "vt 1.e9999999999"}) {
-    EXPECT_TRUE(says(message(kCorners + line + "\nf 1 2 3\n"), {"line 4", "exponent"})) << line;
+    EXPECT_TRUE(says(message(kThreeVertices + line + "\nf 1 2 3\n"), {"line 4", "exponent"}))
+        << line;
   }
-  EXPECT_EQ(read("o a1e2147483649\n" + std::string(kCorners) + "f 1 2 3\n").mesh.triangles.size(),
-            1U);
+  EXPECT_EQ(
+      read("o a1e2147483649\n" + std::string(kThreeVertices) + "f 1 2 3\n").mesh.triangles.size(),
+      1U);
   folder_.write("a.mtl", "newmtl 1e2147483649\nKs .5e-2147483648 0 0\nKd 1 0 0\n");
   const ImportedMesh mesh =
-      read("mtllib a.mtl\n" + std::string(kCorners) + "usemtl 1e2147483649\nf 1 2 3\n");
+      read("mtllib a.mtl\n" + std::string(kThreeVertices) + "usemtl 1e2147483649\nf 1 2 3\n");
   EXPECT_EQ(mesh.mesh.parts.at(0).surface.color, glm::vec3(1.0F, 0.0F, 0.0F));
 }
 
@@ -212,7 +214,8 @@ TEST_F(Obj, LibrariesOutsideOfItsFolderAreNotRead) {
   for (const std::string& library :
        {std::string("../out.mtl"), std::string("link.mtl"), std::string("x/../../out.mtl"),
         std::string("up/out.mtl"), secret.string()}) {
-    const std::string text = fmt::format("mtllib {}\n{}usemtl m\nf 1 2 3\n", library, kCorners);
+    const std::string text =
+        fmt::format("mtllib {}\n{}usemtl m\nf 1 2 3\n", library, kThreeVertices);
     const ImportedMesh mesh = mesh::import_mesh(text, "obj", folder_.write("in/a.obj", text));
     EXPECT_NE(mesh.mesh.parts[0].surface.color, glm::vec3(1.0F, 0.0F, 0.0F)) << library;
     ASSERT_EQ(mesh.warnings.size(), 1U);
@@ -223,12 +226,12 @@ TEST_F(Obj, LibrariesOutsideOfItsFolderAreNotRead) {
   for (const std::string& library :
        {std::string("pipe.mtl"), "file://" + secret.string(), std::string("%2e%2e/out.mtl")}) {
     const ImportedMesh mesh =
-        read(fmt::format("mtllib {}\n{}usemtl m\nf 1 2 3\n", library, kCorners));
+        read(fmt::format("mtllib {}\n{}usemtl m\nf 1 2 3\n", library, kThreeVertices));
     EXPECT_NE(mesh.mesh.parts[0].surface.color, glm::vec3(1.0F, 0.0F, 0.0F)) << library;
     ASSERT_EQ(mesh.warnings.size(), 1U);
     EXPECT_TRUE(says(mesh.warnings[0], {"its materials were left out"})) << library;
   }
-  const ImportedMesh mesh = read(fmt::format("mtllib none.mtl\n{}f 1 2 3\n", kCorners));
+  const ImportedMesh mesh = read(fmt::format("mtllib none.mtl\n{}f 1 2 3\n", kThreeVertices));
   ASSERT_EQ(mesh.warnings.size(), 1U);
   EXPECT_TRUE(says(mesh.warnings[0], {"its materials were left out", "none.mtl", "No such file"}));
 }

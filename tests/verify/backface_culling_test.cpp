@@ -29,9 +29,9 @@ using accel::tile_beam::TileBeam;
 using accel::tile_beam::TileHierarchyOptions;
 using glm::dvec3;
 using scenes::modelling::PolygonMesh;
-using testing::Body;
-using testing::direction_from;
-using testing::Placement;
+using tests::Body;
+using tests::direction_from;
+using tests::Placement;
 
 void turn_inside_out(PolygonMesh& mesh) {
   for (auto& corners : mesh.polygons) std::ranges::reverse(corners);
@@ -166,7 +166,7 @@ void add(Found& found, const scenes::Scene& scene, const TileBeam& structure,
 /// Of 25 views for each of as many scenes.
 void expect_right_views(std::uint64_t exhibits) {
   constexpr int kViews = 25;
-  const std::vector<Body> bodies = testing::bodies();
+  const std::vector<Body> bodies = tests::bodies();
   Found culled;
   Found whole;
   std::size_t solids = 0;
@@ -196,7 +196,7 @@ TEST(BackfaceCulling, IsSeenInNoneOfTenThousandViews) { expect_right_views(400);
 TEST(BackfaceCulling, IsSeenOnNoInstructionSet) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));
-    const testing::OnlyTarget only(target);
+    const tests::OnlyTarget only(target);
     expect_right_views(20);
   }
 }

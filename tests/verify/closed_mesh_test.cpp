@@ -25,10 +25,10 @@ namespace {
 using accel::tile_beam::TileBeam;
 using glm::dvec3;
 using scenes::modelling::PolygonMesh;
-using testing::bodies;
-using testing::Body;
-using testing::direction_from;
-using testing::Placement;
+using tests::bodies;
+using tests::Body;
+using tests::direction_from;
+using tests::Placement;
 
 /// Rays between a light and points: one of them is inside of a body, the other outside.
 class Sealed {
@@ -136,7 +136,7 @@ TEST(ClosedMeshes, LeakNoLightInTenThousandPlacements) { expect_no_leak(10'000);
 TEST(ClosedMeshes, LeakNoLightOnAnyInstructionSet) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));
-    const testing::OnlyTarget only(target);
+    const tests::OnlyTarget only(target);
     expect_no_leak(500);
   }
 }

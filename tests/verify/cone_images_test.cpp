@@ -29,7 +29,7 @@ namespace {
 
 using glm::dvec3;
 
-dvec3 direction_from(Random& random) { return glm::normalize(point_in_cube(random)); }
+dvec3 random_direction(Random& random) { return glm::normalize(point_in_cube(random)); }
 
 /// 10 to a random power.
 double magnitude(Random& random, double lowest, double highest) {
@@ -78,7 +78,7 @@ scenes::Scene cones_of(const Shape& shape, double scale, const dvec3& place, Ran
     const double apex_radius = shape.apex_radius(random, radius);
     const double sign = random.below(5) == 0 ? -scale : scale;
     try {
-      builder.add_cone(base, sign * radius, base + scale * length * direction_from(random),
+      builder.add_cone(base, sign * radius, base + scale * length * random_direction(random),
                        sign * apex_radius);
     } catch (const InputError&) {  // far from the origin, a flat one may have no height in float
     }
@@ -95,14 +95,14 @@ using View = std::pair<dvec3, dvec3>;
 std::vector<View> views_of(const scenes::Cone& cone, Random& random) {
   const dvec3 base(cone.base);
   const dvec3 axis = dvec3(cone.apex) - base;
-  const dvec3 side = glm::normalize(glm::cross(axis, direction_from(random)));
+  const dvec3 side = glm::normalize(glm::cross(axis, random_direction(random)));
   const double taper = static_cast<double>(cone.apex_radius) - cone.base_radius;
   const auto on_surface = [&](double along) {
     return base + along * axis + (cone.base_radius + along * taper) * side;
   };
   const double size = glm::length(axis) + std::max(cone.base_radius, cone.apex_radius);
   const dvec3 middle = base + 0.5 * axis;
-  const dvec3 anywhere = middle + size * direction_from(random);
+  const dvec3 anywhere = middle + size * random_direction(random);
   std::vector<View> views{{middle, anywhere},
                           {base + 0.9 * axis, base},
                           {base + 3.0 * axis, base},
@@ -110,7 +110,7 @@ std::vector<View> views_of(const scenes::Cone& cone, Random& random) {
                           {on_surface(2.0), on_surface(0.5)},
                           {on_surface(-2.0), on_surface(0.5)},
                           {on_surface(0.5), anywhere},
-                          {middle + 100.0 * size * direction_from(random), middle}};
+                          {middle + 100.0 * size * random_direction(random), middle}};
   if (taper != 0.0 && cone.base_radius > 0.0F && cone.apex_radius > 0.0F) {
     views.emplace_back(base - axis * (cone.base_radius / taper), middle);
   }
@@ -149,7 +149,7 @@ scenes::Camera camera_of(const View& view, Random& random) {
   scenes::Camera camera;
   camera.from = glm::vec3(view.first);
   camera.at = glm::vec3(view.second);
-  camera.up = glm::vec3(direction_from(random));
+  camera.up = glm::vec3(random_direction(random));
   camera.angle = static_cast<float>(random.uniform(20.0, 120.0));
   return camera;
 }
@@ -166,7 +166,7 @@ TEST_P(ConeImages, AreRightFromEverywhere) {
   Tally tally;
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));
-    const testing::OnlyTarget only(target);
+    const tests::OnlyTarget only(target);
     for (std::uint64_t seed = 1; seed <= 12 && !HasFailure(); ++seed) {
       SCOPED_TRACE(seed);
       Random random(seed);
@@ -174,7 +174,7 @@ TEST_P(ConeImages, AreRightFromEverywhere) {
       const dvec3 place = seed % 4 == 0 ? 30.0 * scale * point_in_cube(random) : dvec3(0.0);
       const scenes::Scene scene = cones_of(shape, scale, place, random);
       for (int i = 0; i < 4; ++i) {
-        const scenes::Camera view = testing::random_view(scene, random);
+        const scenes::Camera view = tests::random_view(scene, random);
         const scenes::Camera camera = camera_of({view.from, view.at}, random);
         if (is_possible(camera)) expect_right(scene, camera, tally);
       }
@@ -200,7 +200,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, ConeImages, ::testing::Range(std::size_t{0}, sh
 TEST(ConeImages, AreSeldomDoubtful) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     SCOPED_TRACE(hwy::TargetName(target));
-    const testing::OnlyTarget only(target);
+    const tests::OnlyTarget only(target);
     for (const char* name : {"rings:n=2", "tree:n=5", "lattice:n=3", "jacks"}) {
       const scenes::Scene scene = scenes::load_scene(name);
       const accel::tile_beam::TileBeam structure(scene, {});

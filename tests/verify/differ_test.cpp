@@ -15,25 +15,21 @@
 #include "scenes/scene_builder.hpp"
 #include "tests/embree_modes.hpp"
 #include "tests/random_scene.hpp"
+#include "tests/verify/first_example.hpp"
 
 namespace beambench::verify {
 namespace {
 
-using testing::embree_modes;
-using testing::random_ray;
-using testing::random_scene;
+using tests::embree_modes;
+using tests::first_example;
+using tests::random_ray;
+using tests::random_scene;
 
 accel::HitBuffer traced(const std::string& structure, const scenes::Scene& scene,
                         const accel::PrimaryRays& rays) {
   accel::HitBuffer buffer(rays.width(), rays.height(), rays.samples());
   accel::registry().choose(parse_spec(structure)).build(scene)->trace(rays, buffer, nullptr);
   return buffer;
-}
-
-std::string first_example(const ReferenceHits& reference, const DiffReport& report) {
-  return report.examples.empty()
-             ? ""
-             : describe(reference.scene(), reference.input(), report.examples.front());
 }
 
 TEST(Oracle, GivesTheLongDoubleAnswer) {
@@ -81,7 +77,7 @@ TEST(Differ, FindsNoErrorInExhaustiveSearchOnRandomScenes) {
 TEST(Differ, AcceptsEveryModeOfEmbree) {
   std::vector<std::string> variants = {"mode=packet16,coherent=false", "quality=low",
                                        "quality=medium", "robust=false"};
-  for (const std::string& mode : testing::embree_modes()) variants.push_back("mode=" + mode);
+  for (const std::string& mode : tests::embree_modes()) variants.push_back("mode=" + mode);
   for (const char* name : {"tetra:n=4", "escena1", "balls:n=2", "bumpy:triangles=2000"}) {
     const scenes::Scene scene = scenes::load_scene(name);
     const accel::PrimaryRays rays(scene.cameras.front(), 200, 160, 1);
@@ -103,7 +99,7 @@ TEST(Differ, AcceptsEmbreesOwnConesAndInsideSpheres) {
         random_scene(4 * seed + 3, 40);  // neither snapped, repeated nor remote
     const accel::PrimaryRays rays(scene.cameras.front(), 64, 64, 1);
     const ReferenceHits reference(scene, rays);
-    for (const std::string& mode : testing::embree_modes()) {
+    for (const std::string& mode : tests::embree_modes()) {
       const std::string structure = "embree:mode=" + mode;
       const DiffReport report =
           verify_results(reference, traced(structure, scene, rays), accel::Conformance::kTolerance);

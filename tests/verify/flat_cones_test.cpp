@@ -13,9 +13,12 @@
 #include "harness/verify/describe.hpp"
 #include "harness/verify/verify_ray.hpp"
 #include "scenes/scene_builder.hpp"
+#include "tests/verify/first_example.hpp"
 
 namespace beambench::verify {
 namespace {
+
+using tests::first_example;
 
 constexpr double kOuter = 2.0;
 constexpr double kInner = 0.1;
@@ -43,12 +46,6 @@ accel::HitBuffer traced(const std::string& structure, const scenes::Scene& scene
   rays::TraceResults results = rays::make_results(input);
   rays::trace(*built, input, results);
   return std::get<accel::HitBuffer>(std::move(results));
-}
-
-std::string first_example(const ReferenceHits& reference, const DiffReport& report) {
-  return report.examples.empty()
-             ? ""
-             : describe(reference.scene(), reference.input(), report.examples.front());
 }
 
 /// Where the ray meets the ring that the cone is, near enough; nothing beside it. `unsure` when it

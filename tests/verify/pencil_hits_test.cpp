@@ -111,7 +111,7 @@ double size_of(const scenes::Scene& scene) {
   return glm::length(dvec3(scene.bounds.upper) - dvec3(scene.bounds.lower)) + 1e-3;
 }
 
-dvec3 direction_from(Random& random) { return glm::normalize(point_in_cube(random)); }
+dvec3 random_direction(Random& random) { return glm::normalize(point_in_cube(random)); }
 
 /// Anywhere about a scene, on and near its surfaces, in the planes of its faces, close to it and
 /// far away.
@@ -123,7 +123,7 @@ std::vector<scenes::Light> awkward_lights(const scenes::Scene& scene, Random& ra
   add(middle);
   add(middle + size * point_in_cube(random));
   for (const double distance : {1e-6, 0.01, 5.0, 20.0, 1000.0, 1e6}) {
-    add(middle + distance * size * direction_from(random));
+    add(middle + distance * size * random_direction(random));
   }
   if (scene.triangles.empty()) return lights;
   const auto corner = [&](const scenes::Triangle& triangle, std::size_t which) {
@@ -166,7 +166,7 @@ std::vector<scenes::Light> lights_at_every_distance(const scenes::Scene& scene, 
       lights.push_back(light_at(point + distance * normal));
       lights.push_back(light_at(point - distance * normal));
     };
-    lights.push_back(light_at(middle + distance * direction_from(random)));
+    lights.push_back(light_at(middle + distance * random_direction(random)));
     if (!scene.triangles.empty()) {
       const scenes::Triangle& triangle = scene.triangles[random.below(scene.triangles.size())];
       const dvec3 a(scene.vertices[triangle.vertex[0]]);
@@ -176,13 +176,13 @@ std::vector<scenes::Light> lights_at_every_distance(const scenes::Scene& scene, 
     }
     if (!scene.spheres.empty()) {
       const scenes::Sphere& sphere = scene.spheres[random.below(scene.spheres.size())];
-      const dvec3 normal = direction_from(random);
+      const dvec3 normal = random_direction(random);
       add_both(dvec3(sphere.center) + double{sphere.radius} * normal, normal);
     }
     if (!scene.cones.empty()) {
       const scenes::Cone& cone = scene.cones[random.below(scene.cones.size())];
       const dvec3 axis = glm::normalize(dvec3(cone.apex) - dvec3(cone.base));
-      const dvec3 normal = glm::normalize(glm::cross(axis, direction_from(random)));
+      const dvec3 normal = glm::normalize(glm::cross(axis, random_direction(random)));
       add_both(0.5 * (dvec3(cone.base) + dvec3(cone.apex)) +
                    0.5 * (double{cone.base_radius} + cone.apex_radius) * normal,
                normal);
@@ -220,7 +220,7 @@ TEST(PencilHits, OfLightsAtEveryDistanceFromRemoteScenesAreRight) {
     scene.lights = lights_at_every_distance(scene, random);
     for (const double coordinates : {3.0, 6.0, 10.0, 14.0, 19.0}) {
       scene.lights.push_back(
-          light_at(coordinates * scene.bounds.largest_coordinate() * direction_from(random)));
+          light_at(coordinates * scene.bounds.largest_coordinate() * random_direction(random)));
     }
     beams += expect_right_over(scene, image_over(scene, 120, 90), "shadow");
   }
@@ -353,7 +353,7 @@ TEST(PencilHits, OfEveryInstructionSetAreRight) {
   for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
     std::uint64_t beams = 0;
     SCOPED_TRACE(hwy::TargetName(target));
-    const testing::OnlyTarget only(target);
+    const tests::OnlyTarget only(target);
     for (const char* name : {"casa-de-campo", "balls:n=2", "teapot"}) {
       SCOPED_TRACE(name);
       const scenes::Scene scene = scenes::load_scene(name);

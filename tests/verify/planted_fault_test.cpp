@@ -16,13 +16,13 @@ namespace {
 
 /// A scene, and the level at which some leaf is the only one to know what is hit in it: spheres,
 /// being found again where the ray leaves them, need large leaves.
-struct Subject {
+struct SceneAndLevel {
   const char* scene;
   int max_level;
 };
 
 /// What is wrong with a `FaultySamet`. Leaves are named by their index among the nodes.
-struct Fault {
+struct SametFault {
   std::optional<std::size_t> skipped_leaf;
   std::optional<std::uint32_t> dropped_reference;  ///< index into the octree's references
 };
@@ -31,7 +31,7 @@ struct Fault {
 class FaultySamet : public accel::TraversalAccelerator<FaultySamet> {
  public:
   FaultySamet(const scenes::Scene& scene, const accel::octree::OctreeOptions& options,
-              const Fault& fault)
+              const SametFault& fault)
       : scene_(&scene), octree_(scene, options), fault_(fault) {}
 
   accel::Statistics statistics() const override { return octree_.statistics(); }
@@ -60,10 +60,10 @@ class FaultySamet : public accel::TraversalAccelerator<FaultySamet> {
  private:
   const scenes::Scene* scene_;
   accel::octree::Octree octree_;
-  Fault fault_;
+  SametFault fault_;
 };
 
-class PlantedFault : public ::testing::TestWithParam<Subject> {
+class PlantedFault : public ::testing::TestWithParam<SceneAndLevel> {
  protected:
   static constexpr int kSide = 96;
 
@@ -74,17 +74,17 @@ class PlantedFault : public ::testing::TestWithParam<Subject> {
     options_.max_level = GetParam().max_level;
   }
 
-  DiffReport verify_with(const Fault& fault) const {
+  DiffReport verify_with(const SametFault& fault) const {
     accel::HitBuffer buffer(kSide, kSide, 1);
     FaultySamet(scene_, options_, fault).trace(rays_, buffer, nullptr);
     return verify_results(reference_, buffer, accel::Conformance::kBitExact);
   }
 
   /// The leaf in which some ray finds its hit, and the reference that is hit there.
-  Fault where_a_hit_is_found(bool whole_leaf) const {
+  SametFault where_a_hit_is_found(bool whole_leaf) const {
     const FaultySamet sound(scene_, options_, {});
     const accel::octree::Octree& octree = sound.octree();
-    Fault fault;
+    SametFault fault;
     for (int i = 0; i < kSide * kSide; ++i) {
       const accel::Ray ray = rays_.ray(i % kSide, i / kSide, 0);
       const auto hit = sound.closest_hit(ray, nullptr);
@@ -96,8 +96,9 @@ class PlantedFault : public ::testing::TestWithParam<Subject> {
         for (std::uint32_t k = 0; k < references.size(); ++k) {
           if (references[k] != hit->primitive) continue;
           ++leaves;
-          fault = whole_leaf ? Fault{static_cast<std::size_t>(&leaf - octree.nodes().data()), {}}
-                             : Fault{{}, leaf.first + k};
+          fault = whole_leaf
+                      ? SametFault{static_cast<std::size_t>(&leaf - octree.nodes().data()), {}}
+                      : SametFault{{}, leaf.first + k};
         }
         return false;
       };
@@ -130,7 +131,8 @@ TEST_P(PlantedFault, OneLeafSkippedIsAMismatch) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, PlantedFault,
-                         ::testing::Values(Subject{"tetra:n=4", 6}, Subject{"escena1", 3}),
+                         ::testing::Values(SceneAndLevel{"tetra:n=4", 6},
+                                           SceneAndLevel{"escena1", 3}),
                          [](const auto& info) {
                            return info.param.scene[0] == 't' ? "tetra" : "escena1";
                          });

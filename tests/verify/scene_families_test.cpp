@@ -174,7 +174,7 @@ TEST(SceneFamilies, NoStructureErrs) {
 /// The image of a structure compiled for one of Highway's targets.
 accel::HitBuffer image_on(std::int64_t target, const std::string& name, const scenes::Scene& scene,
                           const accel::PrimaryRays& rays) {
-  const testing::OnlyTarget only(target);
+  const tests::OnlyTarget only(target);
   const auto structure = accel::registry().choose({name, {}}).build(scene);
   accel::HitBuffer image(rays.width(), rays.height(), rays.samples());
   rays::poison(image);

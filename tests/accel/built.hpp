@@ -1,0 +1,29 @@
+#pragma once
+// Structures by their specification, and why one is refused.
+
+#include <memory>
+#include <string>
+
+#include "accel/core/accelerator.hpp"
+#include "accel/core/registry.hpp"
+#include "scenes/core/error.hpp"
+#include "scenes/scene.hpp"
+
+namespace beambench::tests {
+
+inline std::unique_ptr<accel::Accelerator> build(const std::string& spec,
+                                                 const scenes::Scene& scene) {
+  return accel::registry().choose(parse_spec(spec)).build(scene);
+}
+
+/// The message of the InputError by which it is refused.
+inline std::string refusal(const std::string& spec, const scenes::Scene& scene) {
+  try {
+    build(spec, scene);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "it was accepted";
+}
+
+}  // namespace beambench::tests

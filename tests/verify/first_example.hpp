@@ -1,0 +1,19 @@
+#pragma once
+// What a failed verification shows.
+
+#include <string>
+
+#include "harness/verify/describe.hpp"
+#include "harness/verify/differ.hpp"
+
+namespace beambench::tests {
+
+/// The first disputed ray, described; empty where there is none.
+inline std::string first_example(const verify::ReferenceHits& reference,
+                                 const verify::DiffReport& report) {
+  return report.examples.empty()
+             ? ""
+             : verify::describe(reference.scene(), reference.input(), report.examples.front());
+}
+
+}  // namespace beambench::tests
