@@ -116,8 +116,8 @@ void add_sampling_command(CLI::App& app, int&) {
       "by its references and its size in pixels; image-space sampling: a pixel that differs from\n"
       "its neighbors gets more. Errors are against 64 samples per pixel, in preview shading.\n"
       "Examples:\n"
-      "  beambench sampling delfines\n"
-      "  beambench sampling maceta --accel beam:max_level=7 --resolution 320x200 --json\n"
+      "  beambench sampling delfines --resolution 320x200\n"
+      "  beambench sampling maceta --accel beam:max_level=5 --resolution 160x100 --json\n"
       "  beambench sampling escena2 --resolution 320x200 --picture samples.png");
   command->callback([request] { compare(*request); });
 }

@@ -159,8 +159,8 @@ void add_time_command(CLI::App& app, int& exit_code) {
       "Contenders take turns, each repetition builds its structure anew, and every hit is "
       "verified.\n"
       "Examples:\n"
-      "  beambench time balls --accel samet,sah-bvh,embree\n"
-      "  beambench time tetra:n=3 --accel all --rays primary shadow --save mine.json");
+      "  beambench time balls:n=3 --accel samet,sah-bvh,embree --seconds 5\n"
+      "  beambench time tetra:n=3 --accel all --rays primary shadow --seconds 5 --save mine.json");
   command->callback([request, &exit_code] { exit_code = time_structures(*request); });
 }
 

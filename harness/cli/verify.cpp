@@ -317,7 +317,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
       "Examples:\n"
       "  beambench verify tetera\n"
       "  beambench verify escena1 tetra:n=4 --accel all\n"
-      "  beambench verify balls --rays shadow,reflection,diffuse,random\n"
+      "  beambench verify balls:n=3 --rays shadow,reflection,diffuse,random\n"
       "  beambench verify finishes --accel all --rays whitted\n"
       "  beambench rays tetera -o tetera.rays\n"
       "  beambench hits tetera --rays tetera.rays --accel embree -o mine.csv    # or your program\n"
