@@ -342,7 +342,7 @@ void add_render_command(CLI::App& app, int&) {
       "  beambench render tetra --accel embree:robust=false -o wrong.png --difference oracle\n"
       "  beambench render escena2 --accel beam:max_level=5 -o beams.png --overlay beams\n"
       "  beambench render balls --accel tile-beam -o pencils.png --overlay pencils:light=2\n"
-      "  beambench render balls --accel beam -o balls.png --shade whitted --samples 4\n"
+      "  beambench render balls:n=3 --accel beam -o balls.png --shade whitted --samples 4\n"
       "  beambench render rings -o rings.png --shade whitted --exposure auto\n"
       "  beambench render tetra --accel embree -o tetra.exr --resolution 640x480 --samples 4");
   command->callback([request] { render(*request); });

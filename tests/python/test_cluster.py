@@ -253,7 +253,8 @@ def test_without_resume_a_run_begins_anew(tmp_path: Path) -> None:
     kept = tmp_path / "tetra.png.kept"
     kept.mkdir()
     (kept / "results-0-0").write_bytes(b"not results")
-    run = mpirun("-n", 2, CLUSTER, "tetra:n=1", *SMALL, "-o", file)
+    # Where other work wants the processors, each message waits until its receiver has one.
+    run = mpirun("-n", 2, CLUSTER, "tetra:n=1", *SMALL, "--batch", "64", "-o", file)
     assert run.returncode == 0, run.stderr
     assert names_in(tmp_path) == {"tetra.png"}
 
