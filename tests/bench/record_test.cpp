@@ -137,6 +137,41 @@ TEST(Statistics, IntervalOfARepeatCoversTheNextMedian) {
   }
 }
 
+TEST(Statistics, TheSpreadOfTheMinimumReachesToTheFifthOfFifteen) {
+  std::vector<double> samples{16, 15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 1};
+  EXPECT_EQ(repeat_spread_of_minimum(samples), 5.0)
+      << "6 - 1: 2.1% that a further minimum is above";
+  samples.resize(9);
+  EXPECT_EQ(repeat_spread_of_minimum(samples), 4.0) << "12 - 8: 1.5%";
+  EXPECT_EQ(repeat_spread_of_minimum(std::vector<double>{3, 4, 1, 9}), 8.0) << "1 of 70";
+  EXPECT_FALSE(repeat_spread_of_minimum(std::vector<double>{1, 2, 3})) << "1 of 20 is too often";
+  EXPECT_FALSE(repeat_spread_of_minimum({}));
+}
+
+TEST(Statistics, SpreadOfTheMinimumCoversTheNextMinimum) {
+  // A machine that is disturbed in six of ten repetitions, by up to 60%; the rest differ by 1%.
+  std::mt19937_64 engine(3);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  const auto sample = [&] {
+    const double time = 100.0 + uniform(engine);
+    return uniform(engine) < 0.6 ? time * (1.0 + 0.6 * uniform(engine)) : time;
+  };
+  constexpr int kTrials = 4000;
+  for (const std::size_t n : {6U, 9U, 15U, 40U}) {
+    int covered = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+      std::vector<double> samples(n);
+      std::vector<double> again(n);
+      std::generate(samples.begin(), samples.end(), sample);
+      std::generate(again.begin(), again.end(), sample);
+      const double change = minimum(again) - minimum(samples);
+      covered += std::abs(change) <= *repeat_spread_of_minimum(samples) ? 1 : 0;
+    }
+    EXPECT_GT(covered, kTrials * 94 / 100) << n;
+    EXPECT_LT(covered, kTrials * 995 / 1000) << n;
+  }
+}
+
 TEST(Csv, QuotesOnlyWhatNeedsIt) {
   EXPECT_EQ(csv_field("tetra"), "tetra");
   EXPECT_EQ(csv_field(""), "");
@@ -222,7 +257,7 @@ const char* const kContract =
     "harness_ms,trace_net_ms_median,"
     "total_ms_median,total_ms_min,total_ms_mad,total_ms_ci_low,total_ms_ci_high,"
     "clock_ghz_median,total_mcycles_median,total_mcycles_ci_low,total_mcycles_ci_high,"
-    "total_mcycles_repeat_low,total_mcycles_repeat_high,"
+    "total_mcycles_repeat_low,total_mcycles_repeat_high,total_mcycles_min,total_mcycles_min_spread,"
     "build_cpu_ms_median,trace_cpu_ms_median,mrays_per_s,"
     "build_instructions,build_cycles,build_cache_misses,"
     "trace_instructions,trace_cycles,trace_cache_misses,"

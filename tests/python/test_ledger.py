@@ -256,6 +256,32 @@ def test_the_interval_of_cycles_goes_before_that_of_milliseconds(tmp_path: Path)
     assert time.high == pytest.approx(0.2 + hypot(sqrt(2) * 0.004, BETWEEN_RUNS * 0.2))
 
 
+def test_the_least_cycles_go_before_their_median(tmp_path: Path) -> None:
+    """Other work beside more than half of the repetitions moves the median, not the minimum."""
+    cycles = {
+        "total_mcycles_ci_low": 612,
+        "total_mcycles_ci_high": 930,
+        "total_mcycles_min": 600,
+        "total_mcycles_min_spread": 12,
+    }
+    row = row_of("beam", BEAM, total_ms_median=300, total_mcycles_median=900, **cycles)
+    write_run(tmp_path, [row])
+    time = measured_evidence([tmp_path]).time("escena1", "beam", COARSEST)
+    assert time is not None
+    assert time.value == pytest.approx(0.2)
+    error = hypot(0.004, BETWEEN_RUNS * 0.2)
+    assert (time.low, time.high) == (pytest.approx(0.2 - error), pytest.approx(0.2 + error))
+
+
+def test_least_cycles_without_a_spread_are_taken_to_be_vague(tmp_path: Path) -> None:
+    cycles = {"total_mcycles_median": 330, "total_mcycles_min": 300, "total_mcycles_min_spread": ""}
+    write_run(tmp_path, [row_of("beam", BEAM, total_ms_median=110, **cycles)])
+    time = measured_evidence([tmp_path]).time("escena1", "beam", COARSEST)
+    assert time is not None
+    assert time.low == pytest.approx(0.1 * (1 - UNKNOWN_SPREAD))
+    assert time.high == pytest.approx(0.1 * (1 + UNKNOWN_SPREAD))
+
+
 def test_a_clock_that_slows_down_makes_no_structure_slower(tmp_path: Path) -> None:
     """Of one work, a run at 2 GHz takes longer than one at 3; in cycles both take the same."""
     for name, clock in (("first", 3.0), ("second", 2.0)):

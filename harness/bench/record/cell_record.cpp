@@ -138,6 +138,9 @@ void add_times(Row& row, const CellRecord& cell) {
   add_interval(row, "total_mcycles", cycles);
   row["total_mcycles_repeat_low"] = repeat ? Json(repeat->low * (1.0 - kBetweenRuns)) : Json();
   row["total_mcycles_repeat_high"] = repeat ? Json(repeat->high * (1.0 + kBetweenRuns)) : Json();
+  const std::optional<double> spread = repeat_spread_of_minimum(cycles);
+  row["total_mcycles_min"] = statistic(minimum, cycles);
+  row["total_mcycles_min_spread"] = spread ? Json(*spread) : Json();
   row["build_cpu_ms_median"] = median_of(&Repetition::build_cpu_ms);
   row["trace_cpu_ms_median"] = median_of(&Repetition::trace_cpu_ms);
   row["mrays_per_s"] = Json();

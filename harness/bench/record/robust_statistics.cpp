@@ -52,6 +52,17 @@ std::size_t samples_outside_repeat(std::size_t n) {
   });
 }
 
+/// The least k with P(smallest of n further samples > k-th smallest of n) <= kTail: the k smallest
+/// of both together are then all of the first n. None if no rank is that rare.
+std::optional<std::size_t> rank_above_next_minimum(std::size_t n) {
+  double probability = 1.0;
+  for (std::size_t k = 1; k <= n; ++k) {
+    probability *= static_cast<double>(n - k + 1) / static_cast<double>(2 * n - k + 1);
+    if (probability <= kTail) return k;
+  }
+  return std::nullopt;
+}
+
 std::optional<Interval> between_order_statistics(std::span<const double> samples,
                                                  std::size_t outside) {
   if (outside == 0) return std::nullopt;
@@ -86,6 +97,13 @@ std::optional<Interval> median_interval(std::span<const double> samples) {
 
 std::optional<Interval> repeat_interval(std::span<const double> samples) {
   return between_order_statistics(samples, samples_outside_repeat(samples.size()));
+}
+
+std::optional<double> repeat_spread_of_minimum(std::span<const double> samples) {
+  const std::optional<std::size_t> rank = rank_above_next_minimum(samples.size());
+  if (!rank) return std::nullopt;
+  const std::vector<double> values = sorted(samples);
+  return values[*rank - 1] - values.front();
 }
 
 }  // namespace beambench::bench

@@ -33,4 +33,13 @@ std::optional<Interval> median_interval(std::span<const double> samples);
 /// ed., section 7.3). None for fewer than nine samples, whose extremes cover less.
 std::optional<Interval> repeat_interval(std::span<const double> samples);
 
+/// How far the smallest of as many further samples lies from the smallest of these, at most, with
+/// at least 95%: the distance to the k-th smallest, where k is the least rank with P(a further
+/// smallest > the k-th) <= 2.5%, five for six to twenty-four samples. That bound holds whatever the
+/// distribution; that a further smallest is no farther below has the same probability, 2^-k for
+/// many samples, if the density is constant near the lower end (the assumption of Robson and
+/// Whitlock, Estimation of a truncation point, Biometrika 51, 1964). None for fewer than four
+/// samples.
+std::optional<double> repeat_spread_of_minimum(std::span<const double> samples);
+
 }  // namespace beambench::bench

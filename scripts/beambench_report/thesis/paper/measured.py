@@ -157,10 +157,26 @@ def _seconds_by(row: dict[str, object], figure: str, per_second: float) -> dict[
 
 
 def _at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
-    """The seconds that the row's cycles take at a clock rate, which for its own was another."""
+    """The seconds that the row's cycles take at a clock rate, which for its own was another.
+
+    Those of the minimum, because other work on the machine only ever adds to a time, and on a
+    shared one to more than half of the repetitions, so that medians of equal work differ by half
+    (Chen and Revels, Robust benchmarking in noisy environments, 2016, section III). Older rows
+    have no interval of their minimum: for these it is the median.
+    """
+    if pd.isna(_number(row, "total_mcycles_min")):
+        return _of_median_at_clock(row, gigahertz)
+    seconds, spread = (
+        _number(row, f"total_mcycles_min{part}") / (1e3 * gigahertz) for part in ("", "_spread")
+    )
+    error = UNKNOWN_SPREAD * seconds if pd.isna(spread) else hypot(spread, BETWEEN_RUNS * seconds)
+    return {"seconds": seconds, "low": seconds - error, "high": seconds + error}
+
+
+def _of_median_at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
     if pd.notna(_number(row, "total_mcycles_ci_low")):
         return _seconds_by(row, "total_mcycles", 1e3 * gigahertz)
-    # Older rows have no interval of the cycles: that of the milliseconds, which is no narrower.
+    # Still older rows have none of the cycles: that of the milliseconds, which is no narrower.
     cycles, own = _number(row, "total_mcycles_median"), _number(row, "total_ms_median")
     scale = cycles / gigahertz / own
     return {name: seconds * scale for name, seconds in seconds_of(row).items()}
