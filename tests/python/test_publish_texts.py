@@ -16,10 +16,12 @@ from beambench_publish.documents import (
     module_of,
     write_documents,
 )
-from beambench_publish.figures.thesis import compared
+from beambench_publish.figures.thesis import compared, times_found_again
 from beambench_publish.layout import laid_out
 from beambench_report.base.files import Problem
+from beambench_report.base.records import read_run
 from beambench_report.thesis.claims.verdict import Verdict
+from synthetic_run import synthetic_rows, write_run
 
 
 @pytest.fixture
@@ -54,6 +56,27 @@ def test_two_runs_of_the_thesis_are_compared_by_the_claims_that_both_decide() ->
         "differ": ["C02"],
         "undecided": [["C04"], ["C03", "C04"]],
     }
+
+
+def test_least_times_are_found_again_where_a_second_run_lies_in_their_intervals(
+    tmp_path: Path,
+) -> None:
+    """Of 30 cells one is out of its interval, and one has none; 4% below is as far as 4% above."""
+    changes = [1.06, 1.5, *(14 * [0.96]), *(14 * [1.04])]
+    runs = []
+    for name in ("first", "second"):
+        rows = synthetic_rows()
+        for row, change in zip(rows, changes, strict=True):
+            factor = change if name == "second" else 1.0
+            row["total_mcycles_min"] = 100.0 * factor
+            row["total_mcycles_min_spread"] = 5.0 if change < 1.5 else ""
+            row["total_mcycles_median"] = 110.0 * factor**2
+        (tmp_path / name).mkdir()
+        runs.append(read_run(write_run(tmp_path / name, rows)))
+    found = times_found_again([(runs[0], runs[1])])
+    assert (found["cells"], found["within"]) == (29, 28)
+    assert found["half"]["min"] == pytest.approx(0.04)
+    assert found["most"] == {"min": pytest.approx(0.04), "median": pytest.approx(0.04 * 2.04)}
 
 
 def test_there_are_templates_and_reports() -> None:

@@ -6,11 +6,17 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+import pandas as pd
+
 from beambench_publish.figures.origins import origins
+from beambench_report.base.cell_files import IDENTITY
+from beambench_report.base.records import Run, read_run
 from beambench_report.thesis.chapter5.mirrors import read_mirrors
 from beambench_report.thesis.claims.chapter6 import CLUSTER_CLAIMS
 from beambench_report.thesis.claims.register import JudgedClaim, judge_claims, summary
 from beambench_report.thesis.claims.verdict import ALIKE, Outcome, Verdict
+from beambench_report.thesis.paper.measured import BETWEEN_RUNS
 from beambench_report.thesis.report.plan import read_plan
 from beambench_report.thesis.report.report import gather
 
@@ -48,11 +54,16 @@ def _again(folder: Path, first: Sequence[JudgedClaim]) -> dict[str, Any] | None:
     again = folder.parent / f"{folder.name}-again"
     if not again.is_dir() or _made_by(again) != _made_by(folder / "synthetic"):
         return None
-    second = gather(again, read_plan(again), None).claims
+    plan = read_plan(again)
+    second = gather(again, plan, None).claims
     return compared(
         {one.claim.name: one.ours.verdict for one in first},
         {one.claim.name: one.ours.verdict for one in second},
-    )
+    ) | {
+        "times": times_found_again(
+            [(read_run(folder / one.name), read_run(again / one.name)) for one in plan.sweeps]
+        )
+    }
 
 
 def compared(first: dict[str, Verdict], second: dict[str, Verdict]) -> dict[str, Any]:
@@ -66,6 +77,32 @@ def compared(first: dict[str, Verdict], second: dict[str, Verdict]) -> dict[str,
         "undecided": [
             [name for name in both if run[name] is Verdict.UNDECIDED] for run in (first, second)
         ],
+    }
+
+
+def times_found_again(runs: Sequence[tuple[Run, Run]]) -> dict[str, Any]:
+    """Do the least cycles of repeated sweeps lie in the intervals that the first ones' have?
+
+    The claims are judged by these intervals (thesis/paper/measured.py). With them the changes that
+    half and nine tenths of the cells stay below, and of the medians the same.
+    """
+    figures = [f"total_mcycles_{name}" for name in ("min", "min_spread", "median")]
+    cells = pd.concat(
+        first.rows[[*IDENTITY, *figures]]
+        .merge(second.rows[[*IDENTITY, *figures]], on=list(IDENTITY), suffixes=("", "_b"))
+        .dropna(subset=[*figures, f"{figures[0]}_b"])
+        for first, second in runs
+    )
+    least, change = cells["total_mcycles_min"], {}
+    for name in ("min", "median"):
+        figure = cells[f"total_mcycles_{name}"]
+        change[name] = (cells[f"total_mcycles_{name}_b"] / figure - 1.0).abs()
+    reach = np.hypot(cells["total_mcycles_min_spread"] / least, BETWEEN_RUNS)
+    return {
+        "cells": len(cells),
+        "within": int((change["min"] <= reach).sum()),
+        "half": {name: float(changes.quantile(0.5)) for name, changes in change.items()},
+        "most": {name: float(changes.quantile(0.9)) for name, changes in change.items()},
     }
 
 
