@@ -194,9 +194,10 @@ Exclusion read_exclusion(const JsonNode& node, const accel::Registry& structures
 void read_repetitions(const JsonNode& root, SweepConfig& config) {
   config.minimum_repetitions = 5;
   config.maximum_repetitions = 50;
+  config.second_traces = 6;  // the fewest whose median has a 95% interval (see median_interval)
   const auto node = root.find("repetitions");
   if (!node) return;
-  node->require_object({"minimum", "maximum"});
+  node->require_object({"minimum", "maximum", "second_traces"});
   if (const auto minimum = node->find("minimum")) {
     config.minimum_repetitions = static_cast<int>(minimum->integer(1, kMaxRepetitions));
     config.maximum_repetitions = std::max(config.maximum_repetitions, config.minimum_repetitions);
@@ -204,6 +205,9 @@ void read_repetitions(const JsonNode& root, SweepConfig& config) {
   if (const auto maximum = node->find("maximum")) {
     config.maximum_repetitions =
         static_cast<int>(maximum->integer(config.minimum_repetitions, kMaxRepetitions));
+  }
+  if (const auto second_traces = node->find("second_traces")) {
+    config.second_traces = static_cast<int>(second_traces->integer(1, kMaxRepetitions));
   }
 }
 

@@ -43,6 +43,7 @@ struct SweepConfig {
   double precision;  ///< wanted half-width of the interval of a repeat, relative to the median
   int minimum_repetitions;
   int maximum_repetitions;
+  int second_traces;      ///< of each cell: so many repetitions are followed by one
   double budget_seconds;  ///< for the whole run; the minimum of repetitions is made all the same
   std::chrono::duration<double> warm_up;  ///< of the machine, before anything is timed
   std::vector<Exclusion> exclude;

@@ -43,7 +43,8 @@ bool is_precise(std::span<const double> samples, double precision) {
 
 }  // namespace
 
-Contender::Contender(const PlannedCell& cell, Task& task) : cell_(&cell), task_(&task) {
+Contender::Contender(const PlannedCell& cell, Task& task, int second_traces)
+    : cell_(&cell), task_(&task), second_traces_(static_cast<std::size_t>(second_traces)) {
   record_.index = cell.index;
   record_.id = cell.id;
   record_.rays = task.facts();
@@ -88,7 +89,7 @@ void Contender::repeat(const Instruments& instruments, int round, int position) 
                        "depend on more than scene and rays",
                        record_.repetitions.size()));
     }
-    if (!failed_ && record_.repetitions.size() <= kWarmTraces) trace_warm(*structure);
+    if (!failed_ && record_.repetitions.size() <= second_traces_) trace_warm(*structure);
   } catch (const std::exception& error) {
     fail(verify::Verdict::kError, message_of(error));
   }

@@ -30,16 +30,13 @@ struct Instruments {
 /// measurement; nothing is thrown.
 class Contender {
  public:
-  Contender(const PlannedCell& cell, Task& task);
+  /// So many of the repetitions are followed by a second trace of the same structure.
+  Contender(const PlannedCell& cell, Task& task, int second_traces);
 
   /// The untimed pass: sizes and counters.
   void count();
-  /// One timed repetition, run through Google Benchmark; the first `kWarmTraces` times followed by
-  /// a second trace of the same structure.
+  /// One timed repetition, run through Google Benchmark; the first ones followed by a second trace.
   void repeat(const Instruments& instruments, int round, int position);
-
-  /// The fewest whose median has a 95% interval (see median_interval).
-  static constexpr std::size_t kWarmTraces = 6;
 
   const CellId& id() const { return cell_->id; }
   bool failed() const { return failed_; }
@@ -60,6 +57,7 @@ class Contender {
 
   const PlannedCell* cell_;
   Task* task_;
+  std::size_t second_traces_;
   CellRecord record_;
   std::vector<double> cycles_;
   double spent_ms_ = 0.0;

@@ -199,7 +199,7 @@ class SweepRun {
     for (const PlannedCell& cell : group.cells) {
       set_activity(cell.id.key());
       options_.before_each_piece();
-      contenders.emplace_back(cell, *task).count();
+      contenders.emplace_back(cell, *task, config_.second_traces).count();
     }
     // The time of the oracle and of the counting passes is the group's own.
     const auto cells = static_cast<double>(group.cells.size());

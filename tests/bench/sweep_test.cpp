@@ -493,6 +493,12 @@ class Resume : public Sweep {
   int traces_ = 0;
 };
 
+TEST_F(Resume, OnlyTheFirstRepetitionsHaveASecondTrace) {
+  config_["repetitions"]["second_traces"] = 1;
+  run(config_);
+  EXPECT_EQ(traces_, 6);  // the counting pass, four repetitions, one second trace
+}
+
 TEST_F(Resume, RepeatsNoFinishedCell) {
   run(config_);
   const std::string table = read_text(results() / "results.csv");
