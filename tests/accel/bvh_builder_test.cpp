@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "accel/bvh/padded_bounds.hpp"
 #include "scenes/core/random.hpp"
+#include "tests/accel/contains.hpp"
 
 namespace beambench::accel {
 namespace {
@@ -22,11 +22,6 @@ std::vector<scenes::Bounds> random_boxes(std::size_t count, std::uint64_t seed) 
     boxes.push_back({lower, lower + size * 0.02F});
   }
   return boxes;
-}
-
-bool contains(const scenes::Bounds& outer, const scenes::Bounds& inner) {
-  return bvh::united(outer, inner).lower == outer.lower &&
-         bvh::united(outer, inner).upper == outer.upper;
 }
 
 /// Every box once, in a leaf of a size that is allowed; every node's box the union of what is
@@ -160,7 +155,7 @@ TEST(BvhBuilder, GatheredChildrenAreTheNode) {
     EXPECT_EQ(count, width);
     scenes::Bounds together;
     for (const std::uint32_t child : children) {
-      EXPECT_TRUE(contains(bvh.nodes[0].box, bvh.nodes[child].box));
+      EXPECT_TRUE(tests::contains(bvh.nodes[0].box, bvh.nodes[child].box));
       together.include(bvh.nodes[child].box);
     }
     EXPECT_EQ(together.lower, bvh.nodes[0].box.lower);

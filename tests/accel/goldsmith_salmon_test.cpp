@@ -15,6 +15,7 @@
 #include "accel/exhaustive/exhaustive.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
+#include "tests/accel/contains.hpp"
 #include "tests/random_scene.hpp"
 
 namespace beambench::accel {
@@ -32,15 +33,6 @@ bvh::GoldsmithSalmonOptions options_for(Order order,
 
 constexpr std::array kInsertions{bvh::Insertion::kEverywhere, bvh::Insertion::kTerminal};
 
-bool surrounds(const scenes::Bounds& outer, const scenes::Bounds& inner) {
-  for (int axis = 0; axis < 3; ++axis) {
-    if (inner.lower[axis] < outer.lower[axis] || inner.upper[axis] > outer.upper[axis]) {
-      return false;
-    }
-  }
-  return true;
-}
-
 /// Every primitive once and within its box; every box the union of those below it; volumes with at
 /// least two children (the root may have one).
 void expect_valid(const bvh::InsertionHierarchy& hierarchy, const scenes::Scene& scene) {
@@ -53,7 +45,8 @@ void expect_valid(const bvh::InsertionHierarchy& hierarchy, const scenes::Scene&
     if (!entries[i].is_volume()) {
       ASSERT_EQ(entries[i].end, i + 1);
       ++seen[entries[i].primitive];
-      EXPECT_TRUE(surrounds(entries[i].box, scenes::primitive_bounds(scene, entries[i].primitive)));
+      EXPECT_TRUE(
+          tests::contains(entries[i].box, scenes::primitive_bounds(scene, entries[i].primitive)));
       continue;
     }
     ++volumes;

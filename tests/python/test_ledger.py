@@ -40,6 +40,7 @@ from beambench_report.thesis.paper.measured import (
     UNKNOWN_SPREAD,
     census_work,
     measured_evidence,
+    seconds_of,
 )
 from synthetic_run import synthetic_rows, without_times, write_run
 
@@ -271,6 +272,18 @@ def test_the_least_cycles_go_before_their_median(tmp_path: Path) -> None:
     assert time.value == pytest.approx(0.2)
     error = hypot(0.004, BETWEEN_RUNS * 0.2)
     assert (time.low, time.high) == (pytest.approx(0.2 - error), pytest.approx(0.2 + error))
+
+
+def test_the_milliseconds_of_tables_are_those_of_the_fastest_repetition() -> None:
+    least = {"total_ms_min": 200, "total_mcycles_min": 500, "total_mcycles_min_spread": 10}
+    medians = {"total_ms_median": 300, "total_ms_ci_low": 220, "total_ms_ci_high": 310}
+    error = 0.2 * hypot(0.02, BETWEEN_RUNS)
+    assert seconds_of(row_of("beam", BEAM, **medians, **least)) == {
+        "seconds": pytest.approx(0.2),
+        "low": pytest.approx(0.2 - error),
+        "high": pytest.approx(0.2 + error),
+    }
+    assert seconds_of(row_of("beam", BEAM, **medians))["seconds"] == pytest.approx(0.3)
 
 
 def test_least_cycles_without_a_spread_are_taken_to_be_vague(tmp_path: Path) -> None:

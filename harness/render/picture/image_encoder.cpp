@@ -53,6 +53,7 @@ extern "C" void beambench_encode_image(const std::string& file, const StoredImag
     encoded.bytes = memory.buffer();
   } else {
     encoded.error = output ? output->geterror() : OIIO::geterror();
+    if (encoded.error.empty()) encoded.error = "OpenImageIO states no reason";
   }
 }
 // The loader of the shared object takes it for one.

@@ -56,13 +56,16 @@ def _again(folder: Path, first: Sequence[JudgedClaim]) -> dict[str, Any] | None:
         return None
     plan = read_plan(again)
     second = gather(again, plan, None).claims
+    sweeps = [one.name for one in plan.sweeps if (again / one.name / "results.csv").is_file()]
     return compared(
         {one.claim.name: one.ours.verdict for one in first},
         {one.claim.name: one.ours.verdict for one in second},
     ) | {
+        "sweeps": sweeps,
+        "planned": len(plan.sweeps),
         "times": times_found_again(
-            [(read_run(folder / one.name), read_run(again / one.name)) for one in plan.sweeps]
-        )
+            [(read_run(folder / name), read_run(again / name)) for name in sweeps]
+        ),
     }
 
 

@@ -134,16 +134,44 @@ def _cells_per_axis(resolution: str) -> str:
 
 
 def seconds_of(row: dict[str, object]) -> dict[str, float]:
-    """Building included, as in the thesis; the interval is one for a repeated run's median.
+    """Building included, as in the thesis; the interval is one for the figure of a repeated run.
 
-    That differs from this run's by the errors of both, so that its interval is that of the median
-    times the root of two, and by what another process differs by.
+    Those of the fastest repetition, because other work on the machine only ever adds to a time, and
+    on a shared one to more than half of the repetitions, so that medians of equal work differ by
+    half (Chen and Revels, Robust benchmarking in noisy environments, 2016, section III). Older rows
+    have no interval of their minimum: for these it is the median.
     """
-    return _seconds_by(row, "total_ms", 1e3)
+    if pd.isna(_number(row, "total_mcycles_min")):
+        return _seconds_by(row, "total_ms", 1e3)
+    return _least(row, _number(row, "total_ms_min") / 1e3)
+
+
+def _at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
+    """The seconds that the row's cycles take at a clock rate, which for its own was another."""
+    least = _number(row, "total_mcycles_min")
+    if pd.notna(least):
+        return _least(row, least / (1e3 * gigahertz))
+    if pd.notna(_number(row, "total_mcycles_ci_low")):
+        return _seconds_by(row, "total_mcycles", 1e3 * gigahertz)
+    # Still older rows have no interval of the cycles: that of the milliseconds is no narrower.
+    cycles, own = _number(row, "total_mcycles_median"), _number(row, "total_ms_median")
+    scale = cycles / gigahertz / own
+    return {name: seconds * scale for name, seconds in seconds_of(row).items()}
+
+
+def _least(row: dict[str, object], seconds: float) -> dict[str, float]:
+    """Those of a cell's fastest repetition, with the interval for that of a repeated run."""
+    spread = _number(row, "total_mcycles_min_spread") / _number(row, "total_mcycles_min")
+    error = seconds * (UNKNOWN_SPREAD if pd.isna(spread) else hypot(spread, BETWEEN_RUNS))
+    return {"seconds": seconds, "low": seconds - error, "high": seconds + error}
 
 
 def _seconds_by(row: dict[str, object], figure: str, per_second: float) -> dict[str, float]:
-    """The seconds of the figure's median; UNKNOWN_SPREAD where that has no interval."""
+    """The seconds of the figure's median; UNKNOWN_SPREAD where that has no interval.
+
+    A repeated run's median differs by the errors of both, so that its interval is that of the
+    median times the root of two, and by what another process differs by.
+    """
     seconds = _number(row, f"{figure}_median") / per_second
     low, high = (_number(row, f"{figure}_ci_{end}") / per_second for end in ("low", "high"))
     if pd.isna(low) or pd.isna(high):
@@ -154,32 +182,6 @@ def _seconds_by(row: dict[str, object], figure: str, per_second: float) -> dict[
             for error in (seconds - low, high - seconds)
         )
     return {"seconds": seconds, "low": seconds - below, "high": seconds + above}
-
-
-def _at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
-    """The seconds that the row's cycles take at a clock rate, which for its own was another.
-
-    Those of the minimum, because other work on the machine only ever adds to a time, and on a
-    shared one to more than half of the repetitions, so that medians of equal work differ by half
-    (Chen and Revels, Robust benchmarking in noisy environments, 2016, section III). Older rows
-    have no interval of their minimum: for these it is the median.
-    """
-    if pd.isna(_number(row, "total_mcycles_min")):
-        return _of_median_at_clock(row, gigahertz)
-    seconds, spread = (
-        _number(row, f"total_mcycles_min{part}") / (1e3 * gigahertz) for part in ("", "_spread")
-    )
-    error = UNKNOWN_SPREAD * seconds if pd.isna(spread) else hypot(spread, BETWEEN_RUNS * seconds)
-    return {"seconds": seconds, "low": seconds - error, "high": seconds + error}
-
-
-def _of_median_at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
-    if pd.notna(_number(row, "total_mcycles_ci_low")):
-        return _seconds_by(row, "total_mcycles", 1e3 * gigahertz)
-    # Still older rows have none of the cycles: that of the milliseconds, which is no narrower.
-    cycles, own = _number(row, "total_mcycles_median"), _number(row, "total_ms_median")
-    scale = cycles / gigahertz / own
-    return {name: seconds * scale for name, seconds in seconds_of(row).items()}
 
 
 def _work(row: dict[str, object]) -> list[dict[str, object]]:

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "scenes/bounds.hpp"
+
+namespace beambench::tests {
+
+/// Whether no point of the inner box is outside the outer one.
+inline bool contains(const scenes::Bounds& outer, const scenes::Bounds& inner) {
+  return glm::all(glm::lessThanEqual(outer.lower, inner.lower)) &&
+         glm::all(glm::lessThanEqual(inner.upper, outer.upper));
+}
+
+}  // namespace beambench::tests
