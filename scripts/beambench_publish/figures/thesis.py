@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pandas as pd
 
 from beambench_publish.figures.origins import origins
@@ -16,7 +15,7 @@ from beambench_report.thesis.chapter5.mirrors import read_mirrors
 from beambench_report.thesis.claims.chapter6 import CLUSTER_CLAIMS
 from beambench_report.thesis.claims.register import JudgedClaim, judge_claims, summary
 from beambench_report.thesis.claims.verdict import ALIKE, Outcome, Verdict
-from beambench_report.thesis.paper.measured import BETWEEN_RUNS
+from beambench_report.thesis.paper.measured import error_of_least
 from beambench_report.thesis.report.plan import read_plan
 from beambench_report.thesis.report.report import gather
 
@@ -96,11 +95,11 @@ def times_found_again(runs: Sequence[tuple[Run, Run]]) -> dict[str, Any]:
         .dropna(subset=[*figures, f"{figures[0]}_b"])
         for first, second in runs
     )
-    least, change = cells["total_mcycles_min"], {}
+    change = {}
     for name in ("min", "median"):
         figure = cells[f"total_mcycles_{name}"]
         change[name] = (cells[f"total_mcycles_{name}_b"] / figure - 1.0).abs()
-    reach = np.hypot(cells["total_mcycles_min_spread"] / least, BETWEEN_RUNS)
+    reach = list(map(error_of_least, cells["total_mcycles_min"], cells["total_mcycles_min_spread"]))
     return {
         "cells": len(cells),
         "within": int((change["min"] <= reach).sum()),

@@ -161,9 +161,15 @@ def _at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
 
 def _least(row: dict[str, object], seconds: float) -> dict[str, float]:
     """Those of a cell's fastest repetition, with the interval for that of a repeated run."""
-    spread = _number(row, "total_mcycles_min_spread") / _number(row, "total_mcycles_min")
-    error = seconds * (UNKNOWN_SPREAD if pd.isna(spread) else hypot(spread, BETWEEN_RUNS))
+    error = seconds * error_of_least(
+        *(_number(row, f"total_mcycles_{name}") for name in ("min", "min_spread"))
+    )
     return {"seconds": seconds, "low": seconds - error, "high": seconds + error}
+
+
+def error_of_least(least: float, spread: float) -> float:
+    """How far the fastest repetition of another process may lie from this one's, in parts of it."""
+    return UNKNOWN_SPREAD if pd.isna(spread) else hypot(spread / least, BETWEEN_RUNS)
 
 
 def _seconds_by(row: dict[str, object], figure: str, per_second: float) -> dict[str, float]:
