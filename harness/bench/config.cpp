@@ -207,7 +207,7 @@ void read_repetitions(const JsonNode& root, SweepConfig& config) {
         static_cast<int>(maximum->integer(config.minimum_repetitions, kMaxRepetitions));
   }
   if (const auto second_traces = node->find("second_traces")) {
-    config.second_traces = static_cast<int>(second_traces->integer(1, kMaxRepetitions));
+    config.second_traces = static_cast<int>(second_traces->integer(0, kMaxRepetitions));
   }
 }
 

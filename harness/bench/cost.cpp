@@ -42,27 +42,27 @@ double rays_per_sample(const CellGroup& group) {
   }
 }
 
-double ray_count(const CellGroup& group) {
+/// Build and trace.
+double repetition_ns(const CellGroup& group, std::string_view structure) {
+  const auto primitives = static_cast<double>(group.scene->primitives.size());
+  if (structure == "null") return kHarnessRay * estimated_rays(group);
+  if (structure == "exhaustive") {
+    return (kHarnessRay + kExhaustiveTest * primitives) * estimated_rays(group);
+  }
+  return kBuildPrimitive * primitives +
+         (kRayAtRoot + kRayPerLevel * levels(group)) * estimated_rays(group);
+}
+
+}  // namespace
+
+double estimated_rays(const CellGroup& group) {
   return static_cast<double>(group.resolution.width) *
          static_cast<double>(group.resolution.height) * static_cast<double>(group.samples) *
          rays_per_sample(group);
 }
 
-/// Build and trace.
-double repetition_ns(const CellGroup& group, std::string_view structure) {
-  const auto primitives = static_cast<double>(group.scene->primitives.size());
-  if (structure == "null") return kHarnessRay * ray_count(group);
-  if (structure == "exhaustive") {
-    return (kHarnessRay + kExhaustiveTest * primitives) * ray_count(group);
-  }
-  return kBuildPrimitive * primitives +
-         (kRayAtRoot + kRayPerLevel * levels(group)) * ray_count(group);
-}
-
-}  // namespace
-
 double estimated_ns(const CellGroup& group, const SweepConfig& config, double allowance_ns) {
-  double sum = kOracleRay * ray_count(group);
+  double sum = kOracleRay * estimated_rays(group);
   for (const PlannedCell& cell : group.cells) {
     const double once = repetition_ns(group, cell.structure.info().name);
     const double repeated = kBesideRepetition * once;

@@ -6,6 +6,10 @@
 
 namespace beambench::bench {
 
+/// How many rays a group's task has, about: exactly those of an image, and of a picture as many as
+/// its lights and a few reflections make.
+double estimated_rays(const CellGroup& group);
+
 /// About how many nanoseconds a group takes: its rays and the oracle, and for each cell the
 /// counting pass and the repetitions, where a cell may spend `allowance_ns` of the sweep's budget.
 /// Right within a factor of a few, which is enough to divide a sweep. The same on every machine, to

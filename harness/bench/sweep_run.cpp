@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <memory>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -14,6 +16,7 @@
 #include "harness/base/progress.hpp"
 #include "harness/base/stopwatch.hpp"
 #include "harness/bench/contender.hpp"
+#include "harness/bench/cost.hpp"
 #include "harness/bench/division.hpp"
 #include "harness/bench/measurement.hpp"
 #include "harness/bench/outcome.hpp"
@@ -50,14 +53,15 @@ std::string with_interval(const Row& row, const std::string& name) {
 }
 
 /// `build 1.23 ms, trace 35.1 ms [34.9, 35.6], second trace 34.0 ms [33.8, 34.3], 37.0 Mrays/s, ok
-/// after 12 repetitions (precision)`.
+/// after 12 repetitions (precision)`; the second trace where there was one.
 std::string result_line(const CellRecord& cell, const Row& row) {
   if (!cell.keeps_times()) {
     return fmt::format("{}: {}", verify::to_string(cell.verdict), cell.message);
   }
-  return fmt::format("build {:.4g} ms, trace {}, second trace {}, {:.4g} Mrays/s, {} after {} ({})",
+  const bool has_second = !row.at("trace_warm_ms_median").is_null();
+  return fmt::format("build {:.4g} ms, trace {}, {}{:.4g} Mrays/s, {} after {} ({})",
                      row.at("build_ms_median").get<double>(), with_interval(row, "trace"),
-                     with_interval(row, "trace_warm"),
+                     has_second ? "second trace " + with_interval(row, "trace_warm") + ", " : "",
                      row.at("mrays_per_s").is_null() ? 0.0 : row.at("mrays_per_s").get<double>(),
                      verify::to_string(cell.verdict),
                      base::counted(cell.repetitions.size(), "repetition"),
@@ -71,10 +75,33 @@ std::string shown(const CellGroup& group) {
 }
 
 /// Fisher and Yates's shuffle, with random numbers that are the same on every machine.
-void shuffle(std::vector<Contender>& contenders, Random& random) {
-  for (std::size_t left = contenders.size(); left > 1; --left) {
-    std::swap(contenders[left - 1], contenders[random.below(left)]);
+template <class T>
+void shuffle(std::vector<T>& values, Random& random) {
+  for (std::size_t left = values.size(); left > 1; --left) {
+    std::swap(values[left - 1], values[random.below(left)]);
   }
+}
+
+/// A group while it is measured.
+struct OpenGroup {
+  const CellGroup* group;
+  std::unique_ptr<Task> task;  // to which the contenders refer
+  std::vector<Contender> contenders;
+};
+
+/// How many groups from `first` on are measured together: views of one scene, few enough that their
+/// rays fit into memory and that an interrupted run has little to repeat; one however large it is.
+std::size_t batch_size(std::span<const CellGroup> groups, std::size_t first) {
+  constexpr double kMostRays = 4e6;
+  constexpr std::size_t kMostGroups = 8;
+  double rays = estimated_rays(groups[first]);
+  std::size_t end = first + 1;
+  while (end < groups.size() && end - first < kMostGroups &&
+         groups[end].scene == groups[first].scene &&
+         rays + estimated_rays(groups[end]) <= kMostRays) {
+    rays += estimated_rays(groups[end++]);
+  }
+  return end - first;
 }
 
 std::optional<ShardFacts> facts_of(const std::optional<PlannedShard>& shard) {
@@ -114,12 +141,16 @@ class SweepRun {
     const base::Stopwatch watch;
     record_crashed_cells();
     std::size_t cells_left = plan_.cell_count();
-    for (CellGroup& group : plan_.groups) {
+    for (std::size_t first = 0; first < plan_.groups.size();) {
       const double left_ms = std::max(1e3 * budget_seconds() - watch.milliseconds(), 0.0);
-      run_group(group, left_ms / static_cast<double>(cells_left));
-      cells_left -= group.cells.size();
-      group.scene.reset();
-      group.cells = {};  // as the record grows, the plan shrinks
+      const auto batch = std::span(plan_.groups).subspan(first, batch_size(plan_.groups, first));
+      run_batch(batch, left_ms / static_cast<double>(cells_left));
+      for (CellGroup& group : batch) {
+        cells_left -= group.cells.size();
+        group.scene.reset();
+        group.cells = {};  // as the record grows, the plan shrinks
+      }
+      first += batch.size();
     }
     return close();
   }
@@ -175,87 +206,110 @@ class SweepRun {
     filter_cells(plan_, [&](const CellId& id) { return !crashed.contains(id.key()); });
   }
 
-  void run_group(const CellGroup& group, double share_ms) {
+  /// Measures groups together, so that the repetitions of a cell are as far apart in time as those
+  /// of all: what disturbs the machine for half a minute meets some repetitions of each view, not
+  /// all of one.
+  void run_batch(std::span<const CellGroup> groups, double share_ms) {
     const base::Stopwatch watch;
+    std::vector<OpenGroup> open;
+    double cells = 0.0;
+    for (const CellGroup& group : groups) {
+      cells += static_cast<double>(group.cells.size());
+      if (std::optional<OpenGroup> opened = open_group(group)) open.push_back(std::move(*opened));
+    }
+    // The time of the oracle and of the counting passes is the groups' own.
+    measure(std::move(open), std::max(share_ms - watch.milliseconds() / cells, 0.0));
+    set_activity("");
+  }
+
+  /// Its rays made, its contenders counted; nothing where there are no rays, which is recorded.
+  std::optional<OpenGroup> open_group(const CellGroup& group) {
     progress_.start(shown(group));
     options_.before_each_piece();
     const auto fail = [&](verify::Verdict verdict, const std::string& why) {
       for (const PlannedCell& cell : group.cells) finish_unmeasured(group, cell, verdict, why);
+      return std::nullopt;
     };
-    std::unique_ptr<Task> task;
+    OpenGroup open{&group, nullptr, {}};
     try {
-      task = make_task(group, core_);
+      open.task = make_task(group, core_);
     } catch (const rays::NoRaysError& error) {  // the other groups are measured all the same
       return fail(verify::Verdict::kNoRays, error.what());
     } catch (const InputError& error) {
       return fail(verify::Verdict::kError, error.what());
     }
-    if (const auto warning = task->warning()) {
+    if (const auto warning = open.task->warning()) {
       std::string sentence = fmt::format("{}: {}.", shown(group), *warning);
       progress_.say("warning: " + sentence);
       manifest_.uncontrolled.push_back(std::move(sentence));
     }
-    std::vector<Contender> contenders;
     for (const PlannedCell& cell : group.cells) {
       set_activity(cell.id.key());
       options_.before_each_piece();
-      contenders.emplace_back(cell, *task, config_.second_traces).count();
+      open.contenders.emplace_back(cell, *open.task, config_.second_traces).count();
     }
-    // The time of the oracle and of the counting passes is the group's own.
-    const auto cells = static_cast<double>(group.cells.size());
-    measure(group, std::move(contenders), std::max(share_ms - watch.milliseconds() / cells, 0.0));
-    set_activity("");
+    return open;
   }
 
-  /// Runs rounds of one repetition for each contender until all are done, in an order shuffled anew
-  /// each round: what slows the machine down for a while slows them all.
-  void measure(const CellGroup& group, std::vector<Contender> contenders, double allowance_ms) {
+  /// Runs rounds of one repetition for each contender until all are done. A round goes from group
+  /// to group, and within one from contender to contender, in orders shuffled anew: what slows the
+  /// machine down for a while slows all that are compared.
+  void measure(std::vector<OpenGroup> groups, double allowance_ms) {
+    if (groups.empty()) return;
     const Instruments instruments{benchmark_, counters_, core_, config_.threads};
-    Random random(rays::fingerprint(group.name()));
-    finish_done(group, contenders, allowance_ms);
-    for (int round = 0; !contenders.empty(); ++round) {
-      shuffle(contenders, random);
-      for (std::size_t i = 0; i < contenders.size(); ++i) {
-        set_activity(contenders[i].id().key());
-        options_.before_each_piece();
-        contenders[i].repeat(instruments, round, static_cast<int>(i));
-        progress_.advance(work_done(contenders, allowance_ms));
+    Random random(rays::fingerprint(groups.front().group->name()));
+    finish_done(groups, allowance_ms);
+    for (int round = 0; !groups.empty(); ++round) {
+      shuffle(groups, random);
+      for (OpenGroup& open : groups) {
+        shuffle(open.contenders, random);
+        for (std::size_t i = 0; i < open.contenders.size(); ++i) {
+          set_activity(open.contenders[i].id().key());
+          options_.before_each_piece();
+          open.contenders[i].repeat(instruments, round, static_cast<int>(i));
+          progress_.advance(work_done(groups, allowance_ms));
+        }
       }
-      finish_done(group, contenders, allowance_ms);
+      finish_done(groups, allowance_ms);
     }
   }
 
-  /// Records and removes the contenders that have failed or need no further repetition.
-  void finish_done(const CellGroup& group, std::vector<Contender>& contenders,
-                   double allowance_ms) {
+  /// Records and removes the contenders that have failed or need no further repetition, and the
+  /// groups that have none left.
+  void finish_done(std::vector<OpenGroup>& groups, double allowance_ms) {
     const StoppingRule rule{config_.precision, config_.minimum_repetitions,
                             config_.maximum_repetitions};
-    std::vector<Contender> still;
-    for (Contender& contender : contenders) {
-      const std::optional<StopReason> reason =
-          contender.failed()
-              ? std::nullopt
-              : reason_to_stop(contender.cycles(), contender.spent_ms(), allowance_ms, rule);
-      if (!reason && !contender.failed()) {
-        still.push_back(std::move(contender));
-        continue;
+    for (OpenGroup& open : groups) {
+      std::vector<Contender> still;
+      for (Contender& contender : open.contenders) {
+        const std::optional<StopReason> reason =
+            contender.failed()
+                ? std::nullopt
+                : reason_to_stop(contender.cycles(), contender.spent_ms(), allowance_ms, rule);
+        if (!reason && !contender.failed()) {
+          still.push_back(std::move(contender));
+          continue;
+        }
+        finish(std::move(contender).finish(reason));
+        progress_.start(shown(*open.group));
       }
-      finish(std::move(contender).finish(reason));
-      progress_.start(shown(group));
+      open.contenders = std::move(still);
     }
-    contenders = std::move(still);
+    std::erase_if(groups, [](const OpenGroup& open) { return open.contenders.empty(); });
   }
 
   /// How far the unfinished are, in whole contenders: by the larger of the time and the repetitions
   /// that they have used up.
-  double work_done(const std::vector<Contender>& contenders, double allowance_ms) const {
+  double work_done(const std::vector<OpenGroup>& groups, double allowance_ms) const {
     double done = 0.0;
-    for (const Contender& contender : contenders) {
-      const double time = contender.spent_ms() / std::max(allowance_ms, 1.0);
-      const auto repetitions = static_cast<double>(contender.cycles().size());
-      done += std::clamp(std::max(std::min(time, repetitions / config_.minimum_repetitions),
-                                  repetitions / config_.maximum_repetitions),
-                         0.0, 1.0);
+    for (const OpenGroup& open : groups) {
+      for (const Contender& contender : open.contenders) {
+        const double time = contender.spent_ms() / std::max(allowance_ms, 1.0);
+        const auto repetitions = static_cast<double>(contender.cycles().size());
+        done += std::clamp(std::max(std::min(time, repetitions / config_.minimum_repetitions),
+                                    repetitions / config_.maximum_repetitions),
+                           0.0, 1.0);
+      }
     }
     return done;
   }

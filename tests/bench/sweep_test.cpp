@@ -9,6 +9,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -295,6 +296,44 @@ TEST_F(Sweep, ContendersTakeTurns) {
   for (const auto& [round, taken] : positions) EXPECT_EQ(taken, (std::set<int>{0, 1, 2}));
 }
 
+/// So that a slow half of a minute meets some repetitions of each view, not all of one.
+TEST_F(Sweep, ViewsOfASceneTakeTurns) {
+  std::vector<std::size_t> rays;  // of each trace
+  add_faulty([&](const Traced& traced) { rays.push_back(traced.buffer.size()); });
+  json document = config({"faulty"});
+  document["resolutions"] = {"4x4", "8x4", "8x8"};
+  document["repetitions"]["second_traces"] = 1;
+  run(document);
+  constexpr std::size_t kViews = 3;
+  constexpr std::size_t kRepetitions = 4;
+  constexpr std::size_t kExtra = 2;  // the counting pass, and the trace after the first repetition
+  ASSERT_EQ(rays.size(), kViews * (kRepetitions + kExtra));
+  const std::set<std::size_t> all{16, 32, 64};
+  const std::span later = std::span(rays).last(kViews * (kRepetitions - 1));
+  for (std::size_t first = 0; first < later.size(); first += kViews) {
+    const auto round = later.subspan(first, kViews);
+    EXPECT_EQ(std::set(round.begin(), round.end()), all) << "round " << 1 + first / kViews;
+  }
+}
+
+/// Rays of several views are in memory together, so they are few; and no more than eight views, so
+/// that an interrupted run loses little.
+TEST_F(Sweep, NoMoreThanEightViewsTakeTurns) {
+  std::vector<std::size_t> rays;
+  add_faulty([&](const Traced& traced) { rays.push_back(traced.buffer.size()); });
+  json document = config({"faulty"});
+  document["resolutions"] = json::array();
+  for (int width = 1; width <= 10; ++width) {
+    document["resolutions"].push_back(fmt::format("{}x1", width));
+  }
+  run(document);
+  const auto at_most = [&](std::size_t most) {
+    return std::is_partitioned(rays.begin(), rays.end(), [&](std::size_t n) { return n <= most; });
+  };
+  EXPECT_FALSE(at_most(7)) << "the eighth view waits for the seventh to end";
+  EXPECT_TRUE(at_most(8)) << "the ninth view does not wait for the eighth to end";
+}
+
 /// A fault in the hits, and what the message says of it.
 struct Planted {
   const char* name;
@@ -497,6 +536,15 @@ TEST_F(Resume, OnlyTheFirstRepetitionsHaveASecondTrace) {
   config_["repetitions"]["second_traces"] = 1;
   run(config_);
   EXPECT_EQ(traces_, 6);  // the counting pass, four repetitions, one second trace
+}
+
+TEST_F(Resume, NoRepetitionNeedsASecondTrace) {
+  config_["repetitions"]["second_traces"] = 0;
+  EXPECT_EQ(run(config_).failed, 0U);
+  EXPECT_EQ(traces_, 5);
+  EXPECT_TRUE(cells()["faulty"]["row"]["trace_warm_ms_median"].is_null());
+  EXPECT_EQ(messages().find("second trace"), std::string::npos);
+  EXPECT_EQ(run(config_, true).cells, 2U) << "what was written is read";
 }
 
 TEST_F(Resume, RepeatsNoFinishedCell) {

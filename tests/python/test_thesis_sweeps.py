@@ -123,7 +123,7 @@ def test_the_best_levels_of_figure_5_14_and_the_grids_of_5_17_are_swept() -> Non
     for scene, best in (("flamenco", "13"), ("ajedrez", "15")):
         grids = {
             dict(cell.parameters)["resolution"]
-            for cell in cells_of("others-large", "best-others-large")
+            for cell in cells_of("others-large", "best-others-large", "best-grids")
             if (cell.scene, cell.structure) == (scene, "voxel-grid")
         }
         assert grids >= {best, "8", "32", "48"}

@@ -85,8 +85,8 @@ struct CellId {
 
 /// One timed repetition: built, traced, thrown away.
 struct Repetition {
-  int round;     ///< the contenders of a group take turns, one repetition each a round
-  int position;  ///< in the order of that round
+  int round;     ///< contenders take turns, one repetition each a round; groups do, too
+  int position;  ///< in the order of its group in that round
   double build_ms;
   double trace_ms;
   double build_cpu_ms;

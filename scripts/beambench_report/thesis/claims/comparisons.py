@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
+from math import log
 
 import numpy as np
 
@@ -43,6 +44,10 @@ def fit_line(places: Sequence[float], heights: Sequence[Measured]) -> Line:
         bool(np.all((low < high) & (low <= fitted) & (fitted <= high))),
     )
 
+
+_WIDTH = 1.96  # of a 95% interval to either side, in standard deviations of a normal distribution
+_DRAWS = 400
+_SEED = 1999
 
 SAMETS = ("samet", "samet-net")
 FINER = RESOLUTIONS[1:]
@@ -156,27 +161,46 @@ def seconds_per_beam(e: Evidence, level: int) -> Measured | None:
 
 def formula(e: Evidence, task: str, quantities: tuple[str, ...]) -> list[Check]:
     """Is the time of a task a sum of counts, each times a cost? Asked of ten cells or more."""
-    rows = []
+    seconds, counts = [], []
     for scene, level, resolution in e.beam_cells:
-        names = (f"seconds_{task}", *quantities)
-        figures = [e.worked(name, scene, resolution, level=level) for name in names]
-        rows.append([figure.value for figure in figures if figure is not None])
-    rows = [row for row in rows if len(row) == len(quantities) + 1 and row[0] > 0]
+        time = e.worked(f"seconds_{task}", scene, resolution, level=level)
+        figures = [e.worked(name, scene, resolution, level=level) for name in quantities]
+        known = [figure.value for figure in figures if figure is not None]
+        if time is not None and time.value > 0 and len(known) == len(quantities):
+            seconds.append(time)
+            counts.append(known)
     explained = error = None
-    if len(rows) >= MIN_CELLS:
-        seconds, counts = np.array(rows)[:, 0], np.array(rows)[:, 1:]
-        # Plain least squares, as the rule was committed: a cost may be negative.
-        scaled = counts / np.maximum(counts.max(axis=0), 1e-300)
-        shares = scaled / seconds[:, None]
-        predicted = scaled @ np.linalg.lstsq(shares, np.ones_like(seconds), rcond=None)[0]
-        value = r_squared(seconds, predicted)
-        explained = Measured(value, value - 0.03, value + 0.03)
-        value = float(np.median(np.abs(predicted - seconds) / seconds))
-        error = Measured(value, value - 0.05, value + 0.05)
+    if len(seconds) >= MIN_CELLS:
+        explained, error = _fit(seconds, np.array(counts))
     return [
-        below(f"{task} beams, R2 above 0.9 ({len(rows)} cells)", Measured.exact(0.9), explained),
+        below(f"{task} beams, R2 above 0.9 ({len(seconds)} cells)", Measured.exact(0.9), explained),
         below(f"{task} beams, median error below 0.25", error, Measured.exact(0.25)),
     ]
+
+
+def _fit(seconds: Sequence[Measured], counts: np.ndarray) -> tuple[Measured, Measured]:
+    """R2 and median error of a fit, with what the errors of the times make of them.
+
+    The fit is repeated with times that are off as their intervals allow (propagation of
+    distributions, JCGM 101:2008). Such times have their errors twice, which fits worse, as times
+    without errors would fit better: so the interval reaches as far either way.
+    """
+    times = np.array([time.value for time in seconds])
+    widths = np.array([log(time.high / time.value) / _WIDTH for time in seconds])
+    # Plain least squares, as the rule was committed: a cost may be negative.
+    scaled = counts / np.maximum(counts.max(axis=0), 1e-300)
+
+    def quality(times: np.ndarray) -> tuple[float, float]:
+        shares = scaled / times[:, None]
+        predicted = scaled @ np.linalg.lstsq(shares, np.ones_like(times), rcond=None)[0]
+        return r_squared(times, predicted), float(np.median(np.abs(predicted - times) / times))
+
+    random = np.random.default_rng(_SEED)
+    drawn = [quality(times * np.exp(random.normal(0.0, widths))) for _ in range(_DRAWS)]
+    value = np.array(quality(times))
+    reach = np.abs(np.quantile(drawn, (0.025, 0.975), axis=0) - value).max(axis=0)
+    explained, error = map(Measured, value.tolist(), value - reach, value + reach)
+    return explained, error
 
 
 def best_is_inside(scene: str, sweep: dict[int, Measured]) -> list[Check]:
