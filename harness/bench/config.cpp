@@ -211,9 +211,18 @@ void read_repetitions(const JsonNode& root, SweepConfig& config) {
   }
 }
 
+Figure read_figure(const JsonNode& node) {
+  const std::string name = node.text();
+  if (name == "median") return Figure::kMedian;
+  if (name == "minimum") return Figure::kMinimum;
+  node.fail(fmt::format("expected median or minimum, not '{}'", name));
+}
+
 void read_effort(const JsonNode& root, SweepConfig& config) {
   const auto precision = root.find("precision");
   config.precision = precision ? precision->number(0.0, 1.0) : kDefaultPrecision;
+  config.precise = Figure::kMedian;
+  if (const auto figure = root.find("precision_of")) config.precise = read_figure(*figure);
   config.budget_seconds = root.require("budget_seconds").number(0.0, kMaxBudgetSeconds);
   const auto warm_up = root.find("warm_up_seconds");
   config.warm_up =
@@ -280,8 +289,8 @@ SweepConfig parse_sweep(nlohmann::json source, const std::string& name,
   config.source = std::move(source);
   const JsonNode root(config.source, name);
   root.require_object({"$schema", "name", "description", "scenes", "structures", "resolutions",
-                       "samples", "rays", "threads", "precision", "repetitions", "budget_seconds",
-                       "warm_up_seconds", "exclude"});
+                       "samples", "rays", "threads", "precision", "precision_of", "repetitions",
+                       "budget_seconds", "warm_up_seconds", "exclude"});
   require_affordable(root, listed_structures(root));
   config.name = read_name(root.require("name"));
   if (const auto description = root.find("description")) config.description = description->text();

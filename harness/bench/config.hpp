@@ -31,6 +31,9 @@ struct Exclusion {
   std::optional<std::uint64_t> rays_above;
 };
 
+/// A figure of a cell's repetitions.
+enum class Figure { kMedian, kMinimum };
+
 struct SweepConfig {
   std::string name;
   std::string description;
@@ -40,7 +43,8 @@ struct SweepConfig {
   std::vector<int> samples;
   std::vector<rays::RayChoice> rays;
   int threads;       ///< that trace an image
-  double precision;  ///< wanted half-width of the interval of a repeat, relative to the median
+  double precision;  ///< wanted half-width of the interval of a repeat, relative to the figure
+  Figure precise;    ///< the figure that is to be that precise
   int minimum_repetitions;
   int maximum_repetitions;
   int second_traces;      ///< of each cell: so many repetitions are followed by one

@@ -36,9 +36,13 @@ bool is_all_zero(const std::map<std::string, std::uint64_t, std::less<>>& counte
                      [](const auto& counter) { return counter.second == 0; });
 }
 
-bool is_precise(std::span<const double> samples, double precision) {
+bool is_precise(std::span<const double> samples, const StoppingRule& rule) {
+  if (rule.precise == Figure::kMinimum) {
+    const std::optional<double> spread = repeat_spread_of_minimum(samples);
+    return spread && *spread <= rule.precision * minimum(samples);
+  }
   const std::optional<Interval> interval = repeat_interval(samples);
-  return interval && 0.5 * (interval->high - interval->low) <= precision * median(samples);
+  return interval && 0.5 * (interval->high - interval->low) <= rule.precision * median(samples);
 }
 
 }  // namespace
@@ -185,7 +189,7 @@ std::optional<StopReason> reason_to_stop(std::span<const double> cycles, double 
                                          double allowance_ms, const StoppingRule& rule) {
   const auto repetitions = static_cast<int>(cycles.size());
   if (repetitions < rule.minimum) return std::nullopt;
-  if (is_look(repetitions, rule.minimum) && is_precise(cycles, rule.precision)) {
+  if (is_look(repetitions, rule.minimum) && is_precise(cycles, rule)) {
     return StopReason::kPrecision;
   }
   if (repetitions >= rule.maximum) return StopReason::kRepetitions;

@@ -66,7 +66,8 @@ class Contender {
 };
 
 struct StoppingRule {
-  double precision;  ///< wanted half-width of the interval of a repeat, relative to the median
+  double precision;  ///< wanted half-width of the interval of a repeat, relative to the figure
+  Figure precise;    ///< the figure that is to be that precise
   int minimum;       ///< repetitions that are made in any case
   int maximum;
 };
@@ -78,7 +79,8 @@ bool is_look(int repetitions, int minimum);
 
 /// Why to stop, or nothing while another repetition is due. `cycles` are the repetitions' totals,
 /// `spent_ms` what they took, `allowance_ms` the cell's share of the budget, which the minimum of
-/// repetitions may exceed. The precision is reached when `repeat_interval` is known and narrow.
+/// repetitions may exceed. The precision is reached when `repeat_interval` of the median, or
+/// `repeat_spread_of_minimum`, is known and narrow.
 std::optional<StopReason> reason_to_stop(std::span<const double> cycles, double spent_ms,
                                          double allowance_ms, const StoppingRule& rule);
 

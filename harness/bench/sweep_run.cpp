@@ -277,7 +277,7 @@ class SweepRun {
   /// Records and removes the contenders that have failed or need no further repetition, and the
   /// groups that have none left.
   void finish_done(std::vector<OpenGroup>& groups, double allowance_ms) {
-    const StoppingRule rule{config_.precision, config_.minimum_repetitions,
+    const StoppingRule rule{config_.precision, config_.precise, config_.minimum_repetitions,
                             config_.maximum_repetitions};
     for (OpenGroup& open : groups) {
       std::vector<Contender> still;

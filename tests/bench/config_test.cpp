@@ -104,6 +104,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"/threads", {1, 2}, {"/threads: expected a whole number"}},
         Wrong{"/precision", -0.5, {"/precision: expected a number from 0 to 1", "-0.5"}},
         Wrong{"/precision", "good", {"/precision: expected a number"}},
+        Wrong{"/precision_of", "mean", {"/precision_of: expected median or minimum", "'mean'"}},
         Wrong{"/repetitions/minimum", 0, {"/repetitions/minimum: expected a whole number from 1"}},
         Wrong{"/repetitions/second_traces",
               -1,
@@ -325,7 +326,7 @@ TEST(BenchmarkFlags, TheFilterSelectsByGoogleBenchmarksRules) {
 }
 
 TEST(Stopping, ContinuesUntilOneReasonHolds) {
-  const StoppingRule rule{0.05, 9, 20};
+  const StoppingRule rule{0.05, Figure::kMedian, 9, 20};
   const std::vector<double> steady(12, 100.0);
   std::vector<double> wild{100, 200, 50, 300, 20, 150, 90, 180, 10};
   EXPECT_EQ(reason_to_stop(std::span(steady).first(8), 900.0, 0.0, rule), std::nullopt);
@@ -335,6 +336,17 @@ TEST(Stopping, ContinuesUntilOneReasonHolds) {
   EXPECT_EQ(reason_to_stop(wild, 900.0, 800.0, rule), StopReason::kBudget);
   wild.insert(wild.end(), {10, 400, 30, 500, 20, 600, 10, 700, 10, 800, 20});
   EXPECT_EQ(reason_to_stop(wild, 900.0, 1e9, rule), StopReason::kRepetitions);
+}
+
+/// Half of the repetitions take half as long again: no median is precise, the minimum is.
+TEST(Stopping, AMinimumIsPreciseWhereOtherWorkDisturbsEverySecondRepetition) {
+  const std::vector<double> disturbed{100, 150, 101, 151, 102, 150, 100, 152, 101, 150, 100, 151};
+  const auto reason = [&](Figure figure, std::size_t repetitions) {
+    return reason_to_stop(std::span(disturbed).first(repetitions), 1.0, 1e9, {0.02, figure, 8, 20});
+  };
+  EXPECT_EQ(reason(Figure::kMedian, 12), std::nullopt);
+  EXPECT_EQ(reason(Figure::kMinimum, 8), std::nullopt) << "four repetitions are undisturbed";
+  EXPECT_EQ(reason(Figure::kMinimum, 12), StopReason::kPrecision);
 }
 
 TEST(Stopping, LooksAtThePrecisionAgainAfterAQuarterMore) {

@@ -47,8 +47,8 @@ def run_thesis(*arguments: str | Path) -> int:
 def test_a_dry_run_lists_sweeps_cells_and_time(capsys: pytest.CaptureFixture[str]) -> None:
     assert run_thesis("--dry-run") == 0
     lines = capsys.readouterr().out.splitlines()
-    assert len(lines) == 15
-    assert lines[0].split() == ["synthetic", "80", "cells", "1", "min", "38", "s"]
+    assert len(lines) == 16
+    assert lines[0].split() == ["synthetic", "80", "cells", "3", "min", "20", "s"]
     assert lines[-1].startswith("in all")
     assert run_thesis("--dry-run", "--table", "5.4", "--quick") == 0
     assert len(capsys.readouterr().out.splitlines()) == 3
