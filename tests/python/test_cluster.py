@@ -202,16 +202,16 @@ def names_in(folder: Path) -> set[str]:
     return {file.name for file in folder.iterdir()}
 
 
-@pytest.mark.parametrize("victim", ["consumer", "producer", "mpirun"])
 @pytest.mark.parametrize(
-    "work",
+    ("victim", "work"),
     [
-        ["--work", "beams"],
-        ["--work", "tiles", "--block", "8"],
-        ["--work", "tiles", "--block", "8", "--results", "stored"],
-        ["--work", "interlaced", "--results", "stored"],
+        ("consumer", ["--work", "beams"]),
+        ("producer", ["--work", "beams"]),
+        ("mpirun", ["--work", "tiles", "--block", "8"]),
+        ("consumer", ["--work", "tiles", "--block", "8", "--results", "stored"]),
+        ("producer", ["--work", "interlaced", "--results", "stored"]),
+        ("mpirun", ["--work", "interlaced", "--results", "stored"]),
     ],
-    ids=["beams", "tiles", "stored tiles", "stored rows"],
 )
 def test_a_killed_run_is_resumed_with_the_same_picture(
     tmp_path: Path, victim: str, work: list[str]

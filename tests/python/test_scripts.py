@@ -209,28 +209,29 @@ def test_the_lists_of_packages_name_each_once(repository: Path) -> None:
     assert len(packages) == len(set(packages)) > 10
 
 
-def test_an_interrupted_run_is_resumed_with_its_plots_and_page(
+def test_an_interrupted_run_is_resumed_and_leaves_records_pictures_plots_and_a_page(
     repository: Path, tmp_path: Path
 ) -> None:
     if not (repository / "build/release/bin/beambench").exists():
         pytest.skip("beambench is not built; run scripts/setup")
-    sweep = tmp_path / "long.json"
-    sweep.write_text(
-        json.dumps(
-            {
-                "name": "long",
-                "scenes": ["stetra"],
-                "structures": ["samet", "null"],
-                "resolutions": ["32x20"],
-                "precision": 1e-9,
-                "repetitions": {"minimum": 20, "maximum": 100000},
-                "budget_seconds": 6,
-            }
-        )
-    )
+    sweep = {
+        "name": "small",
+        "description": "One scene, for a test of scripts/run.",
+        "scenes": ["stetra"],
+        "structures": ["exhaustive", "samet", "null"],
+        "resolutions": ["32x20", "64x40"],
+        "precision": 1e-9,
+        "repetitions": {"minimum": 20, "maximum": 100000},
+        "budget_seconds": 6,
+    }
+    (tmp_path / "small.json").write_text(json.dumps(sweep))
     run = tmp_path / "a run"
+    picture = repository / "results/runs/first-picture.png"
+    picture.unlink(missing_ok=True)
     begun = subprocess.Popen(
-        [repository / "scripts/run", "--sweep", sweep, "--output", run],
+        # Relative names are the caller's, whatever folder the script works in.
+        [repository / "scripts/run", "--sweep", "small.json", "--output", "a run"],
+        cwd=tmp_path,
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
@@ -242,8 +243,10 @@ def test_an_interrupted_run_is_resumed_with_its_plots_and_page(
         time.sleep(0.1)
     time.sleep(1)
     os.killpg(begun.pid, signal.SIGINT)
-    _, messages = begun.communicate(timeout=60)
+    printed, messages = begun.communicate(timeout=60)
     assert begun.returncode == 130, messages
+    assert f"habitacion: {picture}\n== Measuring" in printed
+    assert picture.read_bytes().startswith(b"\x89PNG")
     hint = messages.strip().splitlines()[-1]
     assert hint.startswith("Resume, with pictures, plots and the page: ")
     command = shlex.split(hint.split(": ", 1)[1])
@@ -251,51 +254,15 @@ def test_an_interrupted_run_is_resumed_with_its_plots_and_page(
 
     resumed = call(*command, directory=tmp_path)
     assert resumed.returncode == 0, resumed.stderr
-    assert (run / "results.csv").exists()
-    assert (run / "report.html").exists()
-
-
-def test_a_small_sweep_leaves_records_pictures_plots_and_a_page(
-    repository: Path, tmp_path: Path
-) -> None:
-    if not (repository / "build/release/bin/beambench").exists():
-        pytest.skip("beambench is not built; run scripts/setup")
-    sweep = tmp_path / "small.json"
-    sweep.write_text(
-        json.dumps(
-            {
-                "name": "small",
-                "description": "One scene, for a test of scripts/run.",
-                "scenes": ["stetra"],
-                "structures": ["exhaustive", "samet", "null"],
-                "resolutions": ["32x20", "64x40"],
-                "samples": [1],
-                "rays": ["primary"],
-                "precision": 0.5,
-                "repetitions": {"minimum": 2, "maximum": 3},
-                "budget_seconds": 5,
-            }
-        )
-    )
-    run = tmp_path / "run"
-    picture = repository / "results/runs/first-picture.png"
-    picture.unlink(missing_ok=True)
-    # Relative names are the caller's, whatever folder the script works in.
-    result = call(
-        repository / "scripts/run", "--sweep", "small.json", "--output", "run", directory=tmp_path
-    )
-    assert result.returncode == 0, result.stderr
-    assert f"habitacion: {picture}\n== Measuring" in result.stdout
-    assert picture.read_bytes().startswith(b"\x89PNG")
     rows = pd.read_csv(run / "results.csv", keep_default_na=False)
     assert len(rows) == 6
     assert set(rows["verdict"]) == {"ok", "baseline"}
     assert (run / "plots" / "resolutions.png").exists()
     assert (run / "pictures" / "stetra.png").exists()
     assert (run / "pictures" / "stetra-samet-traversal_steps.png").exists()
-    assert f"Look at {run}/report.html\n" in result.stdout
-    assert result.stdout.endswith((run / "summary.txt").read_text())
-    assert "Fastest by trace time" in result.stdout
-    assert "\nHits:  6 cells, all verified\nTimes: " in result.stdout
+    assert f"Look at {run}/report.html\n" in resumed.stdout
+    assert resumed.stdout.endswith((run / "summary.txt").read_text())
+    assert "Fastest by trace time" in resumed.stdout
+    assert "\nHits:  6 cells, all verified\nTimes: " in resumed.stdout
     page = re.sub(r"<[^>]*>", "", (run / "report.html").read_text())
     assert "The hits of all 6 cells are correct" in page
