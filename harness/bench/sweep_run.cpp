@@ -90,18 +90,20 @@ struct OpenGroup {
 };
 
 /// How many groups from `first` on are measured together: views of one scene, few enough that their
-/// rays fit into memory and that an interrupted run has little to repeat; one however large it is.
+/// rays fit into memory and that an interrupted run has little to repeat. One that is larger is
+/// measured alone, and one whose rays are in a file, since their number is not known yet.
 std::size_t batch_size(std::span<const CellGroup> groups, std::size_t first) {
   constexpr double kMostRays = 4e6;
   constexpr std::size_t kMostGroups = 8;
-  double rays = estimated_rays(groups[first]);
-  std::size_t end = first + 1;
-  while (end < groups.size() && end - first < kMostGroups &&
-         groups[end].scene == groups[first].scene &&
-         rays + estimated_rays(groups[end]) <= kMostRays) {
-    rays += estimated_rays(groups[end++]);
+  double rays = 0.0;
+  std::size_t end = first;
+  for (; end < groups.size() && end - first < kMostGroups; ++end) {
+    const CellGroup& group = groups[end];
+    if (group.scene != groups[first].scene || !group.rays.file.empty()) break;
+    rays += estimated_rays(group);
+    if (rays > kMostRays) break;
   }
-  return end - first;
+  return std::max<std::size_t>(end - first, 1);
 }
 
 std::optional<ShardFacts> facts_of(const std::optional<PlannedShard>& shard) {

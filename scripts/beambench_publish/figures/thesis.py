@@ -116,6 +116,7 @@ def _claim(one: JudgedClaim) -> dict[str, Any]:
     counted = [check for check in one.ours.checks if not check.aside]
     yes = [check for check in counted if check.outcome is Outcome.YES]
     ratios = [check.ratio for check in yes if check.ratio is not None]
+    open_cells = [check for check in counted if check.outcome is Outcome.UNDECIDED]
     return {
         "says": one.claim.says,
         "verdict": one.ours.verdict.value,
@@ -126,4 +127,5 @@ def _claim(one: JudgedClaim) -> dict[str, Any]:
         "least": min(ratios, default=None),
         "most": max(ratios, default=None),
         "summary": summary(one.ours),
+        "undecided": [f"{check.cell}: {check.figures}" for check in open_cells],
     }
