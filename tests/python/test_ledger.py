@@ -402,6 +402,23 @@ def test_other_work_that_lengthens_the_counting_pass_changes_no_time_of_a_task(
     assert calm.value == pytest.approx(0.004)
 
 
+def test_of_several_runs_the_least_time_of_a_cell_counts(tmp_path: Path) -> None:
+    """The first run was disturbed in all of its repetitions, alike; the second in most of them."""
+    for name, cycles, spread in (("first", 450, 1), ("second", 300, 6)):
+        (tmp_path / name).mkdir()
+        times = {"total_ms_median": 200, "total_mcycles_median": 600, "total_ms_min": cycles / 3}
+        least = {"total_mcycles_min": cycles, "total_mcycles_min_spread": spread}
+        write_run(tmp_path / name, [row_of("beam", BEAM, **times, **least)])
+    alone = measured_evidence([tmp_path / "second"]).time("escena1", "beam", COARSEST)
+    both = measured_evidence([tmp_path / "first", tmp_path / "second"])
+    together = both.time("escena1", "beam", COARSEST)
+    assert alone is not None
+    assert together is not None
+    assert together.value == pytest.approx(0.1)
+    assert (together.low, together.high) == pytest.approx((alone.low, alone.high))
+    assert len(both.times) == 1
+
+
 def test_the_size_and_the_cost_of_a_hierarchy_are_read(tmp_path: Path) -> None:
     settings = "order=given,seed=1,queue=heap,insert=terminal"
     write_run(tmp_path, [row_of("goldsmith-salmon", settings, nodes=296, tree_cost=56.2)])

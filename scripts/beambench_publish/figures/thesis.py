@@ -11,13 +11,19 @@ import pandas as pd
 from beambench_publish.figures.origins import origins
 from beambench_report.base.cell_files import IDENTITY
 from beambench_report.base.records import Run, read_run
+from beambench_report.thesis.chapter5.facts import CENSUS
 from beambench_report.thesis.chapter5.mirrors import read_mirrors
 from beambench_report.thesis.claims.chapter6 import CLUSTER_CLAIMS
-from beambench_report.thesis.claims.register import JudgedClaim, judge_claims, summary
+from beambench_report.thesis.claims.register import (
+    SWEPT_CLAIMS,
+    JudgedClaim,
+    judge_claims,
+    summary,
+)
 from beambench_report.thesis.claims.verdict import ALIKE, Outcome, Verdict
 from beambench_report.thesis.paper.measured import error_of_least
 from beambench_report.thesis.report.plan import read_plan
-from beambench_report.thesis.report.report import gather
+from beambench_report.thesis.report.report import Report, gather
 
 _TESTED = (Verdict.HOLDS, Verdict.IN_PART, Verdict.FAILS, Verdict.UNDECIDED)
 
@@ -42,24 +48,33 @@ def figures(folder: Path) -> dict[str, Any]:
             for verdict in _TESTED
         },
         "alike": ALIKE,
-        "again": _again(folder, tested),
+        "again": _again(report, tested),
         "mirrors": runs,
         "unread": unread,
     }
 
 
-def _again(folder: Path, first: Sequence[JudgedClaim]) -> dict[str, Any] | None:
-    """The verdicts of a second run beside the first one's; None without one of the same kind."""
-    again = folder.parent / f"{folder.name}-again"
+def _again(report: Report, first: Sequence[JudgedClaim]) -> dict[str, Any] | None:
+    """The verdicts of a second run beside the first one's, and those of both together.
+
+    None without a second run of the same kind.
+    """
+    folder = report.directory
+    again = folder.with_name(f"{folder.name}-again")
     if not again.is_dir() or _made_by(again) != _made_by(folder / "synthetic"):
         return None
     plan = read_plan(again)
-    second = gather(again, plan, None).claims
+    second = gather(again, plan)
+    both = judge_claims([*report.cells.runs, *second.cells.runs, folder / CENSUS], SWEPT_CLAIMS)
     sweeps = [one.name for one in plan.sweeps if (again / one.name / "results.csv").is_file()]
     return compared(
         {one.claim.name: one.ours.verdict for one in first},
-        {one.claim.name: one.ours.verdict for one in second},
+        {one.claim.name: one.ours.verdict for one in second.claims},
     ) | {
+        "together": {
+            verdict.value: [one.claim.name for one in both if one.ours.verdict is verdict]
+            for verdict in _TESTED
+        },
         "sweeps": sweeps,
         "planned": len(plan.sweeps),
         "times": times_found_again(
