@@ -212,6 +212,7 @@ def names_in(folder: Path) -> set[str]:
         ("producer", ["--work", "interlaced", "--results", "stored"]),
         ("mpirun", ["--work", "interlaced", "--results", "stored"]),
     ],
+    ids=lambda value: value if isinstance(value, str) else " ".join(value[1::2]),
 )
 def test_a_killed_run_is_resumed_with_the_same_picture(
     tmp_path: Path, victim: str, work: list[str]

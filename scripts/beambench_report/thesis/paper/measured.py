@@ -62,7 +62,8 @@ _BEAM_COUNTS = ("beams", "beams_nonterminal", "beams_occupied", "beams_made", "b
 def measured_evidence(directories: Sequence[Path]) -> Evidence:
     """The rows of one or more runs that are of the thesis's scenes and contenders, and were right.
 
-    Raises Problem where a run cannot be read, or is of several machines.
+    Of a cell that several runs measured, the least time counts. Raises Problem where a run
+    cannot be read, or is of several machines.
     """
     runs = [_rows_of(directory) for directory in directories]
     if not runs:
@@ -188,15 +189,19 @@ def _at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
 
 def _least(row: dict[str, object], seconds: float) -> dict[str, float]:
     """Those of a cell's fastest repetition, with the interval for that of a repeated run."""
-    error = seconds * error_of_least(
-        *(_number(row, f"total_mcycles_{name}") for name in ("min", "min_spread"))
-    )
+    error = seconds * _error_of_least(row)
     return {"seconds": seconds, "low": seconds - error, "high": seconds + error}
 
 
 def error_of_least(least: float, spread: float) -> float:
     """How far the fastest repetition of another process may lie from this one's, in parts of it."""
     return UNKNOWN_SPREAD if pd.isna(spread) else hypot(spread / least, BETWEEN_RUNS)
+
+
+def _error_of_least(row: dict[str, object]) -> float:
+    return error_of_least(
+        *(_number(row, f"total_mcycles_{name}") for name in ("min", "min_spread"))
+    )
 
 
 def _seconds_by(row: dict[str, object], figure: str, per_second: float) -> dict[str, float]:
@@ -260,9 +265,7 @@ def _seconds_of_tasks(row: dict[str, object], counted: dict[str, float]) -> list
     trace = _number(row, "trace_ms_min") / 1e3
     if any(map(isnan, (trace, *counted.values()))) or sum(counted.values()) <= 0:
         return entries
-    error = error_of_least(
-        *(_number(row, f"total_mcycles_{name}") for name in ("min", "min_spread"))
-    )
+    error = _error_of_least(row)
     inverse = Measured(1 / trace, 1 / trace / (1 + error), (1 + error) / trace)
     for task, seconds in counted.items():
         rest = Measured.exact(sum(counted.values()) - seconds)
