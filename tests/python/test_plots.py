@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from contextlib import redirect_stdout
+from io import StringIO
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -47,27 +49,36 @@ def svg_text(path: Path) -> str:
     return " ".join("".join(ElementTree.parse(path).getroot().itertext()).split())
 
 
-def test_every_plot_is_written_as_png_and_svg(
-    run_folder: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["plots", str(run_folder)]) == 0
-    folder = run_folder / "plots"
-    assert plotted(run_folder) == PLOTS
+@pytest.fixture(scope="module")
+def drawn(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """A run with all of its plots, and what was printed meanwhile."""
+    run = write_run(tmp_path_factory.mktemp("drawn"), synthetic_rows())
+    printed = StringIO()
+    with redirect_stdout(printed):
+        assert main(["plots", str(run)]) == 0
+    return run, printed.getvalue()
+
+
+def test_every_plot_is_written_as_png_and_svg(drawn: tuple[Path, str]) -> None:
+    run, printed = drawn
+    folder = run / "plots"
+    assert plotted(run) == PLOTS
     assert {path.stem for path in folder.glob("*.svg")} == PLOTS
     for path in folder.glob("*.png"):
         assert path.read_bytes().startswith(b"\x89PNG")
-    written = {Path(line).name for line in capsys.readouterr().out.splitlines()}
-    assert written == {path.name for path in folder.iterdir()}
+    assert {Path(line).name for line in printed.splitlines()} == {
+        path.name for path in folder.iterdir()
+    }
     readme = (folder / "README.md").read_text()
     assert all(f"{stem}.png" in readme for stem in PLOTS)
     assert len(pd.read_csv(folder / "break-even.csv", keep_default_na=False)) == 24
 
 
-def test_plotting_again_replaces_and_leaves_nothing_beside(run_folder: Path) -> None:
-    assert main(["plots", str(run_folder)]) == 0
-    first = {path.name: path.read_bytes() for path in (run_folder / "plots").iterdir()}
-    assert main(["plots", str(run_folder)]) == 0
-    assert {path.name: path.read_bytes() for path in (run_folder / "plots").iterdir()} == first
+def test_plotting_again_replaces_and_leaves_nothing_beside(drawn: tuple[Path, str]) -> None:
+    run, _ = drawn
+    first = {path.name: path.read_bytes() for path in (run / "plots").iterdir()}
+    assert main(["plots", str(run)]) == 0
+    assert {path.name: path.read_bytes() for path in (run / "plots").iterdir()} == first
 
 
 def test_only_the_kinds_that_are_named_are_drawn(
@@ -123,7 +134,7 @@ def test_a_wrong_contender_has_no_line_and_is_named_in_the_caption(tmp_path: Pat
     ]
     run = read_run(write_run(tmp_path, rows))
     assert untimed(run.view("escena1")) == ["samet max_level=6 in escena1: mismatch"]
-    assert main(["plots", str(tmp_path)]) == 0
+    assert main(["plots", str(tmp_path), "--kinds", "trade-offs"]) == 0
     wrong, right = (
         tmp_path / "plots" / f"trade-offs-{stem}.svg" for stem in ("escena1", "tetra-n-6")
     )
@@ -173,16 +184,19 @@ def test_one_cell_makes_no_plot_of_one_point(tmp_path: Path) -> None:
 
 def test_of_one_resolution_there_is_no_plot_of_resolutions(tmp_path: Path) -> None:
     rows = [row for row in synthetic_rows() if row["width"] == 320]
-    assert main(["plots", str(write_run(tmp_path, rows))]) == 0
-    assert plotted(tmp_path) == PLOTS - {"resolutions"}
+    run = write_run(tmp_path, rows)
+    assert main(["plots", str(run), "--kinds", "resolutions", "break-even"]) == 0
+    assert plotted(tmp_path) == {"break-even"}
 
 
 def test_what_was_drawn_before_and_is_no_more_goes_away(tmp_path: Path) -> None:
-    assert main(["plots", str(write_run(tmp_path, synthetic_rows()))]) == 0
+    draw = ["plots", str(tmp_path), "--kinds", "counters"]
+    write_run(tmp_path, synthetic_rows())
+    assert main(draw) == 0
     (tmp_path / "plots" / "mine.png").write_text("not ours")
-    rows = [row for row in synthetic_rows() if row["scene"] == "escena1"]
-    assert main(["plots", str(write_run(tmp_path, rows))]) == 0
-    assert plotted(tmp_path) == {stem for stem in PLOTS if "tetra" not in stem} | {"mine"}
+    write_run(tmp_path, [row for row in synthetic_rows() if row["scene"] == "escena1"])
+    assert main(draw) == 0
+    assert plotted(tmp_path) == {"counters-escena1", "mine"}
 
 
 def test_a_run_that_was_cut_off_is_drawn_at_the_size_that_two_contenders_have(
@@ -192,14 +206,15 @@ def test_a_run_that_was_cut_off_is_drawn_at_the_size_that_two_contenders_have(
     rows = [row for row in rows if row["width"] == 320 or row["structure"] == "embree"]
     measured = read_measured(write_run(tmp_path, rows))
     assert set(measured.finest("escena1")["width"]) == {320}
-    assert main(["plots", str(tmp_path)]) == 0
-    assert {"trade-offs-escena1", "resolutions"} <= plotted(tmp_path)
+    assert main(["plots", str(tmp_path), "--kinds", "trade-offs", "resolutions"]) == 0
+    assert plotted(tmp_path) == {"trade-offs-escena1", "resolutions"}
 
 
 def test_repetitions_are_drawn_each(tmp_path: Path) -> None:
-    assert main(["plots", str(with_cells(tmp_path, synthetic_rows()))]) == 0
+    run = with_cells(tmp_path, synthetic_rows())
+    assert main(["plots", str(run), "--kinds", "distributions"]) == 0
     stems = {"distributions-escena1", "distributions-tetra-n-6"}
-    assert plotted(tmp_path) == PLOTS | stems
+    assert plotted(tmp_path) == stems
     for stem in stems:
         shown = titles(tmp_path / "plots" / f"{stem}.svg")
         assert "samet max_level=5: 220 ns per ray (213 to 227); 9 repetitions" in " ".join(shown)
@@ -235,9 +250,8 @@ def test_no_figure_is_taller_than_a_page_or_a_large_file(tmp_path: Path) -> None
                 assert svg.stat().st_size < 70_000, plot.stem
 
 
-def test_points_say_contender_values_and_units(run_folder: Path) -> None:
-    assert main(["plots", str(run_folder)]) == 0
-    folder = run_folder / "plots"
+def test_points_say_contender_values_and_units(drawn: tuple[Path, str]) -> None:
+    folder = drawn[0] / "plots"
     assert "samet max_level=6: 160 ns per ray; build 4.00 ms; memory 879 KiB" in titles(
         folder / "trade-offs-escena1.svg"
     )
@@ -254,8 +268,8 @@ def test_points_say_contender_values_and_units(run_folder: Path) -> None:
 
 def test_each_kind_of_rays_has_its_own_overview(tmp_path: Path) -> None:
     rows = [*many_rows(2, 3), *many_rows(2, 3, "whitted:shadows=cache")]
-    assert main(["plots", str(write_run(tmp_path, rows))]) == 0
-    assert {"overall-primary", "overall-whitted-shadows-cache"} <= plotted(tmp_path)
+    assert main(["plots", str(write_run(tmp_path, rows)), "--kinds", "overall"]) == 0
+    assert plotted(tmp_path) == {"overall-primary", "overall-whitted-shadows-cache"}
 
 
 def test_unknown_structures_and_memory_of_nothing_are_drawn(tmp_path: Path) -> None:
