@@ -84,6 +84,7 @@ void Contender::repeat(const Instruments& instruments, int round, int position) 
     repetition.position = position;
     record_.repetitions.push_back(repetition);
     cycles_.push_back(repetition.total_mcycles());
+    milliseconds_.push_back(repetition.total_ms());
     spent_ms_ += repetition.total_ms();
     if (record_.repetitions.size() == 1) {
       verify_first(*structure);
@@ -185,11 +186,11 @@ bool is_look(int repetitions, int minimum) {
   return look == repetitions;
 }
 
-std::optional<StopReason> reason_to_stop(std::span<const double> cycles, double spent_ms,
+std::optional<StopReason> reason_to_stop(std::span<const double> totals, double spent_ms,
                                          double allowance_ms, const StoppingRule& rule) {
-  const auto repetitions = static_cast<int>(cycles.size());
+  const auto repetitions = static_cast<int>(totals.size());
   if (repetitions < rule.minimum) return std::nullopt;
-  if (is_look(repetitions, rule.minimum) && is_precise(cycles, rule)) {
+  if (is_look(repetitions, rule.minimum) && is_precise(totals, rule)) {
     return StopReason::kPrecision;
   }
   if (repetitions >= rule.maximum) return StopReason::kRepetitions;

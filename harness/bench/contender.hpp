@@ -40,8 +40,13 @@ class Contender {
 
   const CellId& id() const { return cell_->id; }
   bool failed() const { return failed_; }
-  /// Total cycles of each repetition, in millions.
-  std::span<const double> cycles() const { return cycles_; }
+  int repetitions() const { return static_cast<int>(record_.repetitions.size()); }
+  /// The total of each repetition by which it is decided whether such a figure is precise: of the
+  /// median millions of cycles, because the clock's rate changes; of the minimum milliseconds,
+  /// because a rate that was read in a disturbed moment makes the cycles too few.
+  std::span<const double> totals(Figure figure) const {
+    return figure == Figure::kMinimum ? milliseconds_ : cycles_;
+  }
   /// Warm traces included.
   double spent_ms() const { return spent_ms_; }
   /// The finished cell.
@@ -60,6 +65,7 @@ class Contender {
   std::size_t second_traces_;
   CellRecord record_;
   std::vector<double> cycles_;
+  std::vector<double> milliseconds_;
   double spent_ms_ = 0.0;
   std::uint64_t counted_hits_ = 0;  ///< fingerprint of the counting pass's answers
   bool failed_ = false;
@@ -77,11 +83,11 @@ struct StoppingRule {
 /// happens to be narrower than it should.
 bool is_look(int repetitions, int minimum);
 
-/// Why to stop, or nothing while another repetition is due. `cycles` are the repetitions' totals,
+/// Why to stop, or nothing while another repetition is due. `totals` are those of the repetitions,
 /// `spent_ms` what they took, `allowance_ms` the cell's share of the budget, which the minimum of
 /// repetitions may exceed. The precision is reached when `repeat_interval` of the median, or
 /// `repeat_spread_of_minimum`, is known and narrow.
-std::optional<StopReason> reason_to_stop(std::span<const double> cycles, double spent_ms,
+std::optional<StopReason> reason_to_stop(std::span<const double> totals, double spent_ms,
                                          double allowance_ms, const StoppingRule& rule);
 
 }  // namespace beambench::bench

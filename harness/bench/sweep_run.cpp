@@ -285,9 +285,9 @@ class SweepRun {
       std::vector<Contender> still;
       for (Contender& contender : open.contenders) {
         const std::optional<StopReason> reason =
-            contender.failed()
-                ? std::nullopt
-                : reason_to_stop(contender.cycles(), contender.spent_ms(), allowance_ms, rule);
+            contender.failed() ? std::nullopt
+                               : reason_to_stop(contender.totals(rule.precise),
+                                                contender.spent_ms(), allowance_ms, rule);
         if (!reason && !contender.failed()) {
           still.push_back(std::move(contender));
           continue;
@@ -307,7 +307,7 @@ class SweepRun {
     for (const OpenGroup& open : groups) {
       for (const Contender& contender : open.contenders) {
         const double time = contender.spent_ms() / std::max(allowance_ms, 1.0);
-        const auto repetitions = static_cast<double>(contender.cycles().size());
+        const auto repetitions = static_cast<double>(contender.repetitions());
         done += std::clamp(std::max(std::min(time, repetitions / config_.minimum_repetitions),
                                     repetitions / config_.maximum_repetitions),
                            0.0, 1.0);

@@ -129,8 +129,10 @@ void add_times(Row& row, const CellRecord& cell) {
   row["harness_ms"] = known && cell.harness ? Json(cell.harness->ms) : Json();
   row["trace_net_ms_median"] = known ? net_of_harness(cell) : Json();
   const std::vector<double> totals = samples(&Repetition::total_ms);
+  const std::optional<double> spread = repeat_spread_of_minimum(totals);
   add_wall_time(row, "total", totals);
   add_interval(row, "total_ms", totals);
+  row["total_ms_min_spread"] = spread ? Json(*spread) : Json();
   const std::vector<double> cycles = samples(&Repetition::total_mcycles);
   const std::optional<Interval> repeat = repeat_interval(cycles);
   row["clock_ghz_median"] = median_of(&Repetition::clock_ghz);
@@ -138,9 +140,6 @@ void add_times(Row& row, const CellRecord& cell) {
   add_interval(row, "total_mcycles", cycles);
   row["total_mcycles_repeat_low"] = repeat ? Json(repeat->low * (1.0 - kBetweenRuns)) : Json();
   row["total_mcycles_repeat_high"] = repeat ? Json(repeat->high * (1.0 + kBetweenRuns)) : Json();
-  const std::optional<double> spread = repeat_spread_of_minimum(cycles);
-  row["total_mcycles_min"] = statistic(minimum, cycles);
-  row["total_mcycles_min_spread"] = spread ? Json(*spread) : Json();
   row["build_cpu_ms_median"] = median_of(&Repetition::build_cpu_ms);
   row["trace_cpu_ms_median"] = median_of(&Repetition::trace_cpu_ms);
   row["mrays_per_s"] = Json();
