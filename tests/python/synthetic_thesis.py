@@ -50,7 +50,8 @@ def write_runs(
             write_manifest(folder, sweep=sweep.source["name"])
             for number, row in enumerate(rows):
                 path = folder / "cells" / f"{number:016x}.json"
-                path.write_text(json.dumps({"row": row}))
+                cell = {"row": row, "message": "", "examples": [], "repetitions": []}
+                path.write_text(json.dumps(cell))
     return directory
 
 

@@ -67,7 +67,7 @@ def test_every_planned_sweep_can_be_run(tmp_path: Path) -> None:
                     [BINARY, "run", file, "--dry-run"], capture_output=True, text=True, check=False
                 )
                 assert done.returncode == 0, (folder.name, step.into, done.stderr)
-                assert done.stdout.count("\n") > 3
+                assert done.stdout.count("\n") >= 2
 
 
 def planned_commands() -> Iterator[list[str]]:

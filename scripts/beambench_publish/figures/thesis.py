@@ -10,6 +10,7 @@ import pandas as pd
 
 from beambench_publish.figures.origins import origins
 from beambench_report.base.cell_files import IDENTITY
+from beambench_report.base.fastest import with_fastest
 from beambench_report.base.records import Run, read_run
 from beambench_report.thesis.chapter5.facts import CENSUS
 from beambench_report.thesis.chapter5.mirrors import read_mirrors
@@ -21,7 +22,7 @@ from beambench_report.thesis.claims.register import (
     summary,
 )
 from beambench_report.thesis.claims.verdict import ALIKE, Outcome, Verdict
-from beambench_report.thesis.paper.measured import error_of_least
+from beambench_report.thesis.paper.measured import error_between_runs
 from beambench_report.thesis.report.plan import read_plan
 from beambench_report.thesis.report.report import Report, gather
 
@@ -29,15 +30,21 @@ _TESTED = (Verdict.HOLDS, Verdict.IN_PART, Verdict.FAILS, Verdict.UNDECIDED)
 
 
 def figures(folder: Path) -> dict[str, Any]:
-    """Claims by verdict, each with its cells and the range of its ratios; planar mirrors."""
+    """Claims by verdict, each with its cells and the range of its ratios; planar mirrors.
+
+    Where there are further runs of the same commit and machine, the repetitions of all count.
+    """
     report = gather(folder, read_plan(folder), None)
+    second = _second(folder)
+    more = _more(folder)
+    swept = report.claims
+    if second is not None or more:
+        runs = [*report.cells.runs, *(second.cells.runs if second else ()), *more]
+        swept = judge_claims([*runs, folder / CENSUS], SWEPT_CLAIMS)
     cluster = folder.parent / "cluster"
-    claims = [
-        *report.claims,
-        *(judge_claims([cluster], CLUSTER_CLAIMS) if cluster.is_dir() else ()),
-    ]
+    claims = [*swept, *(judge_claims([cluster], CLUSTER_CLAIMS) if cluster.is_dir() else ())]
     tested = [one for one in claims if one.ours.verdict is not Verdict.NOT_TESTED]
-    runs, unread = read_mirrors(sorted((folder / "mirrors").glob("*.json")))
+    mirrors, unread = read_mirrors(sorted((folder / "mirrors").glob("*.json")))
     return {
         "cells": len(report.cells.cells),
         "wrong": len(report.cells.wrong),
@@ -48,37 +55,47 @@ def figures(folder: Path) -> dict[str, Any]:
             for verdict in _TESTED
         },
         "alike": ALIKE,
-        "again": _again(report, tested),
-        "mirrors": runs,
+        "again": _again(report, second) if second else None,
+        "more": len(more),
+        "mirrors": mirrors,
         "unread": unread,
     }
 
 
-def _again(report: Report, first: Sequence[JudgedClaim]) -> dict[str, Any] | None:
-    """The verdicts of a second run beside the first one's, and those of both together.
-
-    None without a second run of the same kind.
-    """
-    folder = report.directory
+def _second(folder: Path) -> Report | None:
+    """A second run of the same kind."""
     again = folder.with_name(f"{folder.name}-again")
-    if not again.is_dir() or _made_by(again) != _made_by(folder / "synthetic"):
-        return None
-    plan = read_plan(again)
-    second = gather(again, plan)
-    both = judge_claims([*report.cells.runs, *second.cells.runs, folder / CENSUS], SWEPT_CLAIMS)
-    sweeps = [one.name for one in plan.sweeps if (again / one.name / "results.csv").is_file()]
+    return gather(again, read_plan(again)) if _is_of_one_kind(again, folder) else None
+
+
+def _more(folder: Path) -> list[Path]:
+    """Runs of the same kind of single cells, with more repetitions."""
+    more = folder.with_name(f"{folder.name}-more")
+    found = sorted(path.parent for path in more.glob("*/results.csv"))
+    return found if _is_of_one_kind(more, folder) else []
+
+
+def _is_of_one_kind(other: Path, folder: Path) -> bool:
+    return other.is_dir() and _made_by(other) == _made_by(folder / "synthetic")
+
+
+def _again(first: Report, second: Report) -> dict[str, Any]:
+    """The verdicts of two runs beside one another."""
+    names = [
+        one.name
+        for one in second.plan.sweeps
+        if (second.directory / one.name / "results.csv").is_file()
+    ]
     return compared(
-        {one.claim.name: one.ours.verdict for one in first},
-        {one.claim.name: one.ours.verdict for one in second.claims},
+        *({one.claim.name: one.ours.verdict for one in run.claims} for run in (first, second))
     ) | {
-        "together": {
-            verdict.value: [one.claim.name for one in both if one.ours.verdict is verdict]
-            for verdict in _TESTED
-        },
-        "sweeps": sweeps,
-        "planned": len(plan.sweeps),
+        "sweeps": names,
+        "planned": len(second.plan.sweeps),
         "times": times_found_again(
-            [(read_run(folder / name), read_run(again / name)) for name in sweeps]
+            [
+                (read_run(first.directory / name), read_run(second.directory / name))
+                for name in names
+            ]
         ),
     }
 
@@ -98,26 +115,25 @@ def compared(first: dict[str, Verdict], second: dict[str, Verdict]) -> dict[str,
 
 
 def times_found_again(runs: Sequence[tuple[Run, Run]]) -> dict[str, Any]:
-    """Do the least cycles of repeated sweeps lie in the intervals that the first ones' have?
+    """Do the fastest repetitions of repeated sweeps lie in the intervals that the first ones state?
 
     The claims are judged by these intervals (thesis/paper/measured.py). With them the changes that
     half and nine tenths of the cells stay below, and of the medians the same.
     """
-    figures = [f"total_mcycles_{name}" for name in ("min", "min_spread", "median")]
+    figures = {"fastest": "fastest_mcycles", "median": "total_mcycles_median"}
+    columns = [*IDENTITY, "fastest_error", *figures.values()]
+    pairs = [[with_fastest([run])[0][columns] for run in both] for both in runs]
     cells = pd.concat(
-        first.rows[[*IDENTITY, *figures]]
-        .merge(second.rows[[*IDENTITY, *figures]], on=list(IDENTITY), suffixes=("", "_b"))
-        .dropna(subset=[*figures, f"{figures[0]}_b"])
-        for first, second in runs
+        first.merge(second, on=list(IDENTITY), suffixes=("", "_b")).dropna()
+        for first, second in pairs
     )
-    change = {}
-    for name in ("min", "median"):
-        figure = cells[f"total_mcycles_{name}"]
-        change[name] = (cells[f"total_mcycles_{name}_b"] / figure - 1.0).abs()
-    reach = list(map(error_of_least, cells["total_mcycles_min"], cells["total_mcycles_min_spread"]))
+    change = {
+        name: (cells[f"{figure}_b"] / cells[figure] - 1.0).abs() for name, figure in figures.items()
+    }
+    reach = cells["fastest_error"].map(error_between_runs)
     return {
         "cells": len(cells),
-        "within": int((change["min"] <= reach).sum()),
+        "within": int((change["fastest"] <= reach).sum()),
         "half": {name: float(changes.quantile(0.5)) for name, changes in change.items()},
         "most": {name: float(changes.quantile(0.9)) for name, changes in change.items()},
     }

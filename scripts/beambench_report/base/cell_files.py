@@ -52,6 +52,8 @@ class CellFile:
     """The first trace after each build, likewise."""
     warm_ms: Mapping[int, float] = field(default_factory=dict)
     """The second trace of the same structure, in the rounds that had one."""
+    clock_ghz: Mapping[int, float] = field(default_factory=dict)
+    """The clock's rate about each repetition, where it was read."""
 
 
 def identity(row: Mapping[str, object]) -> Identity:
@@ -146,14 +148,16 @@ def _read(path: Path) -> tuple[Identity, CellFile]:
 def _cell_file(
     message: str, examples: tuple[Example, ...], repetitions: list[Repetition]
 ) -> CellFile:
-    total, trace, warm = {}, {}, {}
+    total, trace, warm, clock = {}, {}, {}, {}
     for repetition in repetitions:
         turn = repetition["round"]
         trace[turn] = repetition["trace_ms"]
         total[turn] = repetition["build_ms"] + trace[turn]
         if "warm_trace_ms" in repetition:
             warm[turn] = repetition["warm_trace_ms"]
-    return CellFile(message, examples, total, trace, warm)
+        if "clock_ghz" in repetition:
+            clock[turn] = repetition["clock_ghz"]
+    return CellFile(message, examples, total, trace, warm, clock)
 
 
 def _example(text: str) -> Example:

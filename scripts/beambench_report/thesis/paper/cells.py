@@ -10,6 +10,7 @@ from pathlib import Path
 import pandas as pd
 
 from beambench_report.base.columns import COUNTER_SUFFIX
+from beambench_report.base.fastest import with_fastest
 from beambench_report.base.files import Problem
 from beambench_report.base.machine import require_one_machine
 from beambench_report.base.names import parameter_items
@@ -118,7 +119,7 @@ def read_cells(directory: Path, names: Iterable[str]) -> Cells:
         if not (folder / "results.csv").exists():
             continue
         try:
-            rows = read_run(folder).rows
+            (rows,) = with_fastest([read_run(folder)])
             require_one_machine(rows, folder)
         except Problem as problem:
             unread.append(str(problem))
@@ -174,7 +175,7 @@ def _cell(number: int, run: str, line: int, row: dict) -> Cell:
         Measured(time["seconds"], time["low"], time["high"]) if time else None,
         row["build_ms_median"] / 1e3,
         row["trace_ms_median"] / 1e3,
-        row["total_mcycles_median"],
+        row["fastest_mcycles"] if pd.notna(row["fastest_mcycles"]) else row["total_mcycles_median"],
         row["memory_bytes"],
         *(_known(row, name) for name in _SIZES),
         {

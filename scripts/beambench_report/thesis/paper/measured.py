@@ -13,6 +13,7 @@ from typing import Any
 import pandas as pd
 
 from beambench_report.base.columns import COUNTER_SUFFIX
+from beambench_report.base.fastest import with_fastest
 from beambench_report.base.files import Problem, load_json
 from beambench_report.base.machine import require_one_machine
 from beambench_report.base.names import parameter_items
@@ -62,48 +63,33 @@ _BEAM_COUNTS = ("beams", "beams_nonterminal", "beams_occupied", "beams_made", "b
 def measured_evidence(directories: Sequence[Path]) -> Evidence:
     """The rows of one or more runs that are of the thesis's scenes and contenders, and were right.
 
-    Of a cell that several runs measured, the least time counts. Raises Problem where a run
+    Of a cell that several runs measured, the repetitions of all count. Raises Problem where a run
     cannot be read, or is of several machines.
     """
-    runs = [_rows_of(directory) for directory in directories]
+    runs = [read_run(directory) for directory in directories]
     if not runs:
         return NOTHING
+    for run in runs:
+        require_one_machine(run.rows, run.directory)
+    every = [_compared(rows) for rows in with_fastest(runs)]
     # One clock for all runs: what they differ by in cycles, they differ by in these seconds.
     cycles, ms = (
-        pd.concat(rows[f"total_{name}_median"] for rows in runs) for name in ("mcycles", "ms")
+        pd.concat(rows[f"total_{name}_median"] for rows in every) for name in ("mcycles", "ms")
     )
     clock = float((cycles / ms).median())
-    parts = [_evidence_of(rows, clock) for rows in runs]
+    parts = [_evidence_of(rows, clock) for rows in every]
     times, work, octrees = (
         pd.concat([getattr(part, name) for part in parts], ignore_index=True)
         for name in ("times", "work", "octrees")
     )
-    timed = work["quantity"].str.startswith("seconds_").astype(bool)
-    seconds = _least_of_all(work[timed], [*SETTING, "quantity"], "value")
-    work = pd.concat([work[~timed], seconds], ignore_index=True)
-    return Evidence(_least_of_all(times, list(SETTING), "seconds"), work, octrees)
+    # In the counting passes of two runs the tasks took other parts of the time: the first's stand.
+    is_time = work["quantity"].str.startswith("seconds_").astype(bool)
+    once = ~work.duplicated([*SETTING, "quantity"])
+    return Evidence(times.drop_duplicates(list(SETTING)), work[once | ~is_time], octrees)
 
 
-def _least_of_all(rows: pd.DataFrame, key: list[str], figure: str) -> pd.DataFrame:
-    """One row for each cell, also where several runs measured it.
-
-    Then the least figure counts, for the reason that it does within a run. The undisturbed one is
-    surely no greater than any run says, so that the least upper end is that of all, and the
-    interval reaches as far down as up.
-    """
-    once = rows.drop_duplicates(key).set_index(key)
-    if len(once) == len(rows):
-        return rows
-    least = rows.groupby(key, sort=False)[[figure, "high"]].min()
-    least["low"] = 2 * least[figure] - least["high"]
-    repeated = rows.groupby(key, sort=False).size().gt(1)
-    once.update(least[repeated])
-    return once.reset_index()[list(rows.columns)]
-
-
-def _rows_of(directory: Path) -> pd.DataFrame:
-    rows = read_run(directory).rows
-    require_one_machine(rows, directory)
+def _compared(rows: pd.DataFrame) -> pd.DataFrame:
+    """Those of camera rays from each scene's first camera that have times."""
     rows = rows[rows["timed"] & rows["ray_kind"].eq("primary")]
     return rows[rows["camera"].eq(rows.groupby("scene")["camera"].transform("first"))]
 
@@ -164,44 +150,37 @@ def _cells_per_axis(resolution: str) -> str:
 def seconds_of(row: dict[str, object]) -> dict[str, float]:
     """Building included, as in the thesis; the interval is one for the figure of a repeated run.
 
-    Those of the fastest repetition, because other work on the machine only ever adds to a time, and
-    on a shared one to more than half of the repetitions, so that medians of equal work differ by
-    half (Chen and Revels, Robust benchmarking in noisy environments, 2016, section III). Older rows
-    have no interval of their minimum: for these it is the median.
+    Those of the fastest repetitions (base/fastest.py); the median of all where these are not known.
     """
-    if pd.isna(_number(row, "total_mcycles_min")):
-        return _seconds_by(row, "total_ms", 1e3)
-    return _least(row, _number(row, "total_ms_min") / 1e3)
+    fastest = _number(row, "fastest_ms")
+    return _seconds_by(row, "total_ms", 1e3) if isnan(fastest) else _fastest(row, fastest / 1e3)
 
 
 def _at_clock(row: dict[str, object], gigahertz: float) -> dict[str, float]:
     """The seconds that the row's cycles take at a clock rate, which for its own was another."""
-    least = _number(row, "total_mcycles_min")
-    if pd.notna(least):
-        return _least(row, least / (1e3 * gigahertz))
+    fastest = _number(row, "fastest_mcycles")
+    if not isnan(fastest):
+        return _fastest(row, fastest / (1e3 * gigahertz))
     if pd.notna(_number(row, "total_mcycles_ci_low")):
         return _seconds_by(row, "total_mcycles", 1e3 * gigahertz)
-    # Still older rows have no interval of the cycles: that of the milliseconds is no narrower.
+    # Older rows have no interval of the cycles: that of the milliseconds is no narrower.
     cycles, own = _number(row, "total_mcycles_median"), _number(row, "total_ms_median")
     scale = cycles / gigahertz / own
     return {name: seconds * scale for name, seconds in seconds_of(row).items()}
 
 
-def _least(row: dict[str, object], seconds: float) -> dict[str, float]:
-    """Those of a cell's fastest repetition, with the interval for that of a repeated run."""
-    error = seconds * _error_of_least(row)
+def _fastest(row: dict[str, object], seconds: float) -> dict[str, float]:
+    """Those of a cell's fastest repetitions, with the interval for those of a repeated run."""
+    error = seconds * error_between_runs(_number(row, "fastest_error"))
     return {"seconds": seconds, "low": seconds - error, "high": seconds + error}
 
 
-def error_of_least(least: float, spread: float) -> float:
-    """How far the fastest repetition of another process may lie from this one's, in parts of it."""
-    return UNKNOWN_SPREAD if pd.isna(spread) else hypot(spread / least, BETWEEN_RUNS)
+def error_between_runs(error: float) -> float:
+    """How far the fastest repetitions of another process may lie from this one's, as a part.
 
-
-def _error_of_least(row: dict[str, object]) -> float:
-    return error_of_least(
-        *(_number(row, f"total_mcycles_{name}") for name in ("min", "min_spread"))
-    )
+    UNKNOWN_SPREAD where those of this process are not known.
+    """
+    return UNKNOWN_SPREAD if isnan(error) else hypot(error, BETWEEN_RUNS)
 
 
 def _seconds_by(row: dict[str, object], figure: str, per_second: float) -> dict[str, float]:
@@ -262,10 +241,11 @@ def _seconds_of_tasks(row: dict[str, object], counted: dict[str, float]) -> list
     """
     build = _number(row, "build_ms_median") / 1e3
     entries = [_entry("seconds_build", build, UNKNOWN_SPREAD)] if pd.notna(build) else []
-    trace = _number(row, "trace_ms_min") / 1e3
+    fastest = _number(row, "fastest_trace_ms")
+    trace = (_number(row, "trace_ms_min") if isnan(fastest) else fastest) / 1e3
     if any(map(isnan, (trace, *counted.values()))) or sum(counted.values()) <= 0:
         return entries
-    error = _error_of_least(row)
+    error = error_between_runs(_number(row, "fastest_error"))
     inverse = Measured(1 / trace, 1 / trace / (1 + error), (1 + error) / trace)
     for task, seconds in counted.items():
         rest = Measured.exact(sum(counted.values()) - seconds)

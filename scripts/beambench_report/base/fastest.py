@@ -1,0 +1,95 @@
+"""What a cell costs, by the repetitions that other work on the machine disturbed least.
+
+Other work only ever adds to a time, and on a shared machine to more than half of the repetitions,
+so that medians of equal work differ by half (Chen and Revels, Robust benchmarking in noisy
+environments, 2016, section III). So the fastest few of the repetitions count. They are chosen by
+their wall time, and what they cost is counted in clock cycles, since the clock of two runs may
+differ. To choose by cycles would be wrong: the clock's rate is read before and after a repetition,
+and where a disturbed moment falls on a reading, the cycles are too few. Of a second run on a
+disturbed machine the least cycles lay several times as far from those of the first as the cycles of
+the fastest repetitions.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from math import nan
+from statistics import median
+
+import pandas as pd
+
+from beambench_report.base.cell_files import CellFile, Identity, identity, read_cell_files
+from beambench_report.base.records import Run
+
+
+@dataclass(frozen=True)
+class Fastest:
+    """Medians of the fastest repetitions of a cell, building included."""
+
+    ms: float
+    trace_ms: float
+    mcycles: float
+    error: float
+    """How far as many further repetitions of this process may differ, as a part.
+
+    NaN for fewer than four repetitions, of which the fastest one alone counts. No bound that holds
+    whatever the distribution: results/published/thesis states how often a second run was within it.
+    """
+
+
+_FIGURES = ("ms", "trace_ms", "mcycles", "error")
+COLUMNS = tuple(f"fastest_{name}" for name in _FIGURES)
+
+
+def fastest_of(files: Sequence[CellFile]) -> Fastest | None:
+    """By the repetitions of all files together, which are of one cell in several runs.
+
+    None where no clock rate is known. The error is the range of the fastest ones' cycles, or that
+    of their wall times, if it is less: a clock that was read wrong widens only the former, one that
+    changed only the latter.
+    """
+    repetitions = sorted(
+        (ms, ms * file.clock_ghz[turn], file.trace_ms[turn])
+        for file in files
+        for turn, ms in file.total_ms.items()
+        if turn in file.clock_ghz
+    )
+    if not repetitions:
+        return None
+    count = _rank(len(repetitions))
+    ms, cycles, trace = zip(*repetitions[: count or 1], strict=True)
+    middle = median(cycles)
+    error = min((max(cycles) - min(cycles)) / middle, (ms[-1] - ms[0]) / ms[0]) if count else nan
+    return Fastest(median(ms), median(trace), middle, error)
+
+
+def _rank(repetitions: int) -> int | None:
+    """How many count: the least rank that all of as many further ones exceed with 2.5% at most.
+
+    None for fewer than four, five for six to twenty-four (repeat_spread_of_minimum of the harness).
+    """
+    probability = 1.0
+    for rank in range(repetitions):
+        probability *= (repetitions - rank) / (2 * repetitions - rank)
+        if probability <= 0.025:
+            return rank + 1
+    return None
+
+
+def with_fastest(runs: Sequence[Run]) -> list[pd.DataFrame]:
+    """The rows of each run, and COLUMNS: NaN where the repetitions of a row are not known.
+
+    Of a cell that several runs measured, all repetitions count, in each of its rows.
+    """
+    files: dict[Identity, list[CellFile]] = {}
+    for run in runs:
+        for cell, file in read_cell_files(run.directory).items():
+            files.setdefault(cell, []).append(file)
+    figures = {cell: fastest_of(own) for cell, own in files.items()}
+    return [_with_columns(run.rows, figures) for run in runs]
+
+
+def _with_columns(rows: pd.DataFrame, figures: Mapping[Identity, Fastest | None]) -> pd.DataFrame:
+    found = [figures.get(identity(row)) for row in rows.to_dict("records")]
+    return rows.assign(
+        **{f"fastest_{name}": [getattr(one, name, nan) for one in found] for name in _FIGURES}
+    )
