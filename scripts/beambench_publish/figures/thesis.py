@@ -36,7 +36,7 @@ def figures(folder: Path) -> dict[str, Any]:
     """
     report = gather(folder, read_plan(folder), None)
     second = _second(folder)
-    more = _more(folder)
+    more = more_runs(folder)
     swept = report.claims
     if second is not None or more:
         runs = [*report.cells.runs, *(second.cells.runs if second else ()), *more]
@@ -68,8 +68,11 @@ def _second(folder: Path) -> Report | None:
     return gather(again, read_plan(again)) if _is_of_one_kind(again, folder) else None
 
 
-def _more(folder: Path) -> list[Path]:
-    """Runs of the same kind of single cells, with more repetitions."""
+def more_runs(folder: Path) -> list[Path]:
+    """Runs of single cells, with more repetitions, by the commit and machine of FOLDER's.
+
+    They are made by `scripts/publish --only thesis-more`.
+    """
     more = folder.with_name(f"{folder.name}-more")
     found = sorted(path.parent for path in more.glob("*/results.csv"))
     return found if _is_of_one_kind(more, folder) else []
