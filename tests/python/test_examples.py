@@ -222,7 +222,7 @@ def test_the_table_has_a_row_for_each_program_that_runs(tmp_path: Path) -> None:
     words = ("--scenes", "tetra:n=2", "--rays", "primary", "axis", "-o", out)
     done = measured(tmp_path, "measure.py", *words)
     assert done.returncode == 0, done.stderr
-    lines = (out / "results.csv").read_text().splitlines()
+    lines = (out / "hits.csv").read_text().splitlines()
     rows = [dict(zip(lines[0].split(","), line.split(","), strict=True)) for line in lines[1:]]
     assert [(row["program"], row["ray_kind"], row["verdict"]) for row in rows] == [
         ("right", "primary", "ok"),

@@ -99,6 +99,14 @@ def test_more_repetitions_count_if_they_are_of_the_same_commit_and_machine(tmp_p
     assert more_runs(tmp_path / "thesis") == []
 
 
+def test_every_published_table_of_results_is_that_of_a_run() -> None:
+    """The site lists all others as not readable."""
+    tables = sorted(PUBLISHED.rglob("results.csv"))
+    assert len(tables) > 50
+    for table in tables:
+        assert not read_run(table.parent).rows.empty
+
+
 def test_there_are_templates_and_reports() -> None:
     found = {str(one.path.relative_to(PUBLISHED)) for one in documents()}
     assert {"structures/README.md", "structures/winners.md"} <= found

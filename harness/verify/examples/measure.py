@@ -296,7 +296,7 @@ def main() -> int:
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     add_common_options(parser)
-    parser.add_argument("-o", dest="out", type=Path, help="folder for results.csv, manifest.json")
+    parser.add_argument("-o", dest="out", type=Path, help="folder for hits.csv, manifest.json")
     parser.add_argument("--only", default="", help="programs, by names separated by commas")
     parser.add_argument("--scenes", nargs="+", default=SCENES, help="default: the published ones")
     parser.add_argument("--rays", nargs="+", default=list(RAYS), choices=list(RAYS))
@@ -334,7 +334,7 @@ def main() -> int:
                 print(" ".join(str(row[name]) for name in COLUMNS), flush=True)
     if arguments.out:
         arguments.out.mkdir(parents=True, exist_ok=True)
-        write_table(arguments.out / "results.csv", COLUMNS, rows)
+        write_table(arguments.out / "hits.csv", COLUMNS, rows)
         columns = ["program", "ray_kinds", "scenes", *COUNTS, "not_ok"]
         write_table(arguments.out / "summary.csv", columns, summary(rows))
         manifest = {
