@@ -91,5 +91,8 @@ def with_fastest(runs: Sequence[Run]) -> list[pd.DataFrame]:
 def _with_columns(rows: pd.DataFrame, figures: Mapping[Identity, Fastest | None]) -> pd.DataFrame:
     found = [figures.get(identity(row)) for row in rows.to_dict("records")]
     return rows.assign(
-        **{f"fastest_{name}": [getattr(one, name, nan) for one in found] for name in _FIGURES}
+        **{
+            column: [getattr(one, name, nan) for one in found]
+            for column, name in zip(COLUMNS, _FIGURES, strict=True)
+        }
     )
