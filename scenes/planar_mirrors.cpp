@@ -85,13 +85,17 @@ std::vector<PlanarMirror> planar_mirrors(const Scene& scene) {
   for (PrimitiveId id = 0; id < scene.primitives.size(); ++id) {
     if (!reflects(scene, scene.primitives[id])) continue;
     const Polygon& polygon = scene.polygons[scene.primitives[id].index];
-    PlanarMirror own{corner_of(scene, polygon, 0), unit_normal(scene, polygon), {id}};
+    PlanarMirror own{corner_of(scene, polygon, 0),
+                     unit_normal(scene, polygon),
+                     {id},
+                     primitive_bounds(scene, id)};
     if (!lies_in(scene, polygon, own)) continue;  // it is bent
     std::vector<std::size_t>& near = in_cell[cell_of(scene, own)];
     const auto same = std::ranges::find_if(
         near, [&](std::size_t i) { return lies_in(scene, polygon, mirrors[i]); });
     if (same != near.end()) {
       mirrors[*same].polygons.push_back(id);
+      mirrors[*same].bounds.include(own.bounds);
     } else {
       near.push_back(mirrors.size());
       mirrors.push_back(std::move(own));

@@ -5,6 +5,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "scenes/bounds.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::scenes {
@@ -14,6 +15,7 @@ struct PlanarMirror {
   glm::dvec3 point;   ///< of the plane
   glm::dvec3 normal;  ///< of the plane, unit length
   std::vector<PrimitiveId> polygons;
+  Bounds bounds{};  ///< of the polygons
 };
 
 /// A scene's planar mirrors, by the lowest primitive id: flat-shaded polygons whose surface has a

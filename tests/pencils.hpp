@@ -33,7 +33,7 @@ class CheckedPencils {
   /// `image` is that of the camera; `roundings` are allowed. Both must outlive this.
   CheckedPencils(const scenes::Scene& scene, const accel::PrimaryRays& image, double roundings)
       : extent_(scene.bounds.largest_coordinate()),
-        lift_(accel::surface_lift(scene)),
+        lift_(accel::mirror_lift(scene.bounds)),
         image_(&image),
         roundings_(roundings) {}
 
@@ -66,8 +66,11 @@ class CheckedPencils {
   void add_toward(const accel::Ray& ray, const accel::Pencil& pencil) {
     add_line(ray, pencil);
     ++toward;
-    EXPECT_EQ(ray.t_max, 1.0F);
     const glm::dvec3 direction(ray.direction);
+    const double before = (1.0 - ray.t_max) * glm::length(direction) /
+                          accel::surface_lift(glm::dvec3(ray.origin), pencil.apex);
+    EXPECT_GE(before, 0.9);
+    EXPECT_LE(before, 1.1);
     EXPECT_LE(glm::length(glm::dvec3(ray.origin) + direction - pencil.apex),
               0x1p-24 * roundings_ * (extent_ + glm::length(direction)));
   }

@@ -11,12 +11,12 @@ namespace beambench::accel::beam {
 
 using glm::dvec3;
 
-std::optional<MirrorView> view_in(const scenes::PlanarMirror& mirror, const scenes::Scene& scene,
-                                  const PrimaryRays& rays, const HitBuffer& hits) {
+std::optional<MirrorView> view_in(const scenes::PlanarMirror& mirror, const PrimaryRays& rays,
+                                  const HitBuffer& hits) {
   const dvec3 eye(rays.eye());
   const double side = glm::dot(eye - mirror.point, mirror.normal) > 0.0 ? 1.0 : -1.0;
   const dvec3 virtual_eye = mirror.point + mirrored(eye - mirror.point, mirror.normal);
-  const dvec3 lift = side * surface_lift(scene) * mirror.normal;
+  const dvec3 lift = side * mirror_lift(mirror.bounds) * mirror.normal;
   MirrorView view{rays.mirrored(mirror.point, mirror.normal), virtual_eye + lift, {}, {}};
   rays.for_each(0, rays.height(), [&](std::size_t index, const Ray& ray) {
     const auto hit = hits.get(index);

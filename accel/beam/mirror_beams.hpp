@@ -27,7 +27,7 @@ struct MirrorView {
 };
 
 /// From the hits of an image: the rays that a mirror sends on. Nothing where none see it.
-std::optional<MirrorView> view_in(const scenes::PlanarMirror& mirror, const scenes::Scene& scene,
-                                  const PrimaryRays& rays, const HitBuffer& hits);
+std::optional<MirrorView> view_in(const scenes::PlanarMirror& mirror, const PrimaryRays& rays,
+                                  const HitBuffer& hits);
 
 }  // namespace beambench::accel::beam

@@ -2,6 +2,7 @@
 // A ray as the canonical ray-primitive tests use it.
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -79,5 +80,15 @@ struct CanonicalRay {
   std::array<int, 2> side_axis;  ///< the other two
   std::array<double, 2> shear;   ///< direction on the side axes over that on the main axis
 };
+
+/// A root t of a surface's equation f(t) = 0 on a ray. Next to the origin, relative to `scale`, the
+/// root's digits have cancelled, but a ray that begins on the surface must find t = 0: the root is
+/// then -f(0) / f'(0). `at_origin` returns f(0) and f'(0) / 2.
+template <class AtOrigin>
+double root_near_origin(double t, double scale, AtOrigin at_origin) {
+  if (std::abs(t) > 0x1p-40 * scale) return t;
+  const glm::dvec2 value_and_half_slope = at_origin();
+  return value_and_half_slope.y != 0.0 ? -0.5 * value_and_half_slope.x / value_and_half_slope.y : t;
+}
 
 }  // namespace beambench::accel

@@ -81,7 +81,12 @@ inline float intersect_cone(const CanonicalRay& ray, const scenes::Cone& cone) {
     if (!(std::abs(off_surface(root)) <= slack)) continue;
     if (!(s.at(root) >= -0.5 && s.at(root) <= 0.5)) continue;
     if (cone.inside_only && a * root + b <= 0.0) continue;
-    const float t = ray.accept(t_near + root);
+    const float t = ray.accept(root_near_origin(t_near + root, std::abs(t_near), [&] {
+      const double radius_0 =
+          0.5 * (static_cast<double>(cone.base_radius) + cone.apex_radius) + height.value * taper;
+      return glm::dvec2(glm::dot(across.value, across.value) - radius_0 * radius_0,
+                        drift - radius_0 * taper * height.slope);
+    }));
     if (is_hit(t)) return t;
   }
   return kMiss;

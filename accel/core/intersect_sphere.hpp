@@ -24,11 +24,17 @@ inline float intersect_sphere(const CanonicalRay& ray, const scenes::Sphere& sph
   const double discriminant = radius * radius - glm::dot(closest, closest);
   if (discriminant < 0.0) return kMiss;
   const double half_chord = std::sqrt(discriminant * inverse);
+  const auto accepted = [&](double t) {
+    return ray.accept(root_near_origin(t, half_chord, [&] {
+      return glm::dvec2(glm::dot(from_center, from_center) - radius * radius,
+                        glm::dot(from_center, ray.direction));
+    }));
+  };
   if (!sphere.inside_only) {
-    const float t = ray.accept(t_closest - half_chord);
+    const float t = accepted(t_closest - half_chord);
     if (is_hit(t)) return t;
   }
-  return ray.accept(t_closest + half_chord);
+  return accepted(t_closest + half_chord);
 }
 
 }  // namespace beambench::accel

@@ -12,14 +12,25 @@ namespace beambench::accel {
 
 inline constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// The points origin + t * direction with t in the closed interval [t_min, t_max]. The direction is
-/// not zero and need not have unit length; t counts in its units (for primary rays: view depth).
+/// The points origin + t * direction with t in the interval of `in_interval`. The direction is not
+/// zero and need not have unit length; t counts in its units (for primary rays: view depth).
 struct Ray {
   glm::vec3 origin{0.0F};
   float t_min = 0.0F;
   glm::vec3 direction{0.0F, 0.0F, -1.0F};
   float t_max = kInfinity;
 };
+
+/// The rule for the ends of a ray, the same for structures, oracle, exact search and hits files: a
+/// hit counts if its t, rounded once to float, is finite and lies in the closed interval
+/// [t_min, t_max]. So a ray whose t_max is the t of its own hit has that hit; a t beyond the
+/// largest float is not a hit, whatever t_max is.
+inline bool in_interval(const Ray& ray, float t) {
+  return t >= ray.t_min && t <= ray.t_max && t <= std::numeric_limits<float>::max();
+}
+inline bool in_interval(const Ray& ray, double t) {
+  return in_interval(ray, static_cast<float>(t));
+}
 
 /// Where a ray meets a primitive first. `t` was computed in double and rounded once.
 struct Hit {

@@ -19,10 +19,11 @@ struct Pencil {
   std::size_t count;
   /// A point light, or the virtual eye of a planar mirror.
   glm::dvec3 apex;
-  /// The rays run toward the apex and end there, as shadow rays do: t in [0, 1], the apex at t = 1.
-  /// Otherwise they run away from it, t in [0, infinity], and begin at some distance from it, as
-  /// reflected rays begin beside the mirror. A ray may have a shorter interval, as a shadow ray
-  /// that goes on behind glass; structures do not hit what lies beyond it.
+  /// The rays run toward the apex, which is at t = 1, and end there or a little before it, as
+  /// shadow rays do: t in [0, t_max]. Otherwise they run away from it, t in [0, infinity], and
+  /// begin at some distance from it, as reflected rays begin beside the mirror. A ray may have a
+  /// shorter interval, as a shadow ray that goes on behind glass; structures do not hit what lies
+  /// beyond it.
   bool toward;
   /// The rays of an image that look from the apex, as far as `RayBatch::samples` says
   /// (`PrimaryRays::mirrored`): the same lines but for rounding, with directions of other lengths

@@ -1,6 +1,6 @@
 #pragma once
 // How far a computed hit may lie from its primitive, by how much overlaps are widened for it, and
-// how far from surfaces rays begin.
+// how far from surfaces rays begin and before lights they end.
 
 #include <algorithm>
 #include <cmath>
@@ -37,14 +37,40 @@ inline double overlap_tolerance(const scenes::Scene& scene) {
   return 0x1p-30 * glm::length(upper - lower) + 0x1p-48 * coordinate;
 }
 
-/// How far from a surface rays begin, along its unit normal: 64 x 2^-24 x (largest |coordinate| of
-/// the scene + the distance of its box's farthest corner from the origin), four times the length
-/// within which the differ cannot distinguish points. One length for all points of a scene: rays
-/// that a planar mirror reflects then still come from one point, the virtual eye moved by it.
-inline double surface_lift(const scenes::Scene& scene) {
-  if (scene.bounds.empty()) return 0.0;
-  const glm::dvec3 farthest(glm::max(glm::abs(scene.bounds.lower), glm::abs(scene.bounds.upper)));
-  return 64.0 * 0x1p-24 * (double{scene.bounds.largest_coordinate()} + glm::length(farthest));
+/// u, the unit in which points on a ray are compared: 2^-24 x (largest |coordinate| of the point +
+/// distance of the ray's origin from the origin of the coordinates). Floats cannot place the point
+/// much better. Only ray and point matter, so a large primitive elsewhere blurs nothing.
+inline double float_unit(const glm::dvec3& origin, const glm::dvec3& point) {
+  const glm::dvec3 size = glm::abs(point);
+  return 0x1p-24 * (std::max({size.x, size.y, size.z}) + glm::length(origin));
+}
+
+/// How many u two points may be apart that count as one (K): about four times the worst residual
+/// that Embree's float kernels showed.
+inline constexpr double kUnits = 16.0;
+
+/// How far from a surface, along its unit normal, rays begin that start where a ray from `origin`
+/// met it at `point`; also how far before a light at `point` its shadow rays end. Four times the
+/// length within which the differ cannot distinguish points.
+inline double surface_lift(const glm::dvec3& origin, const glm::dvec3& point) {
+  return 4.0 * kUnits * float_unit(origin, point);
+}
+
+/// How far beside a planar mirror the rays begin that it reflects, whatever they met it at: rays
+/// from one point then still come from one point, the virtual eye moved by this length. `polygons`
+/// are the bounds of the mirror's polygons.
+inline double mirror_lift(const scenes::Bounds& polygons) {
+  if (polygons.empty()) return 0.0;
+  const glm::dvec3 farthest(glm::max(glm::abs(polygons.lower), glm::abs(polygons.upper)));
+  return surface_lift(farthest, farthest);
+}
+
+/// The t_max of a ray from `origin` whose direction leads to the light: it ends a little before the
+/// light, so that a surface on which the light lies does not hide it. 0 where that would be before
+/// the origin.
+inline float t_before_light(const glm::dvec3& origin, const glm::dvec3& light) {
+  const double distance = glm::distance(origin, light);
+  return static_cast<float>(std::max(1.0 - surface_lift(origin, light) / distance, 0.0));
 }
 
 }  // namespace beambench::accel

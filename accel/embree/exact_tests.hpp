@@ -14,18 +14,16 @@ namespace beambench::accel::embree {
 
 /// A ray's floats as doubles.
 struct ExactRay {
-  explicit ExactRay(const Ray& ray)
-      : origin(ray.origin), direction(ray.direction), t_min(ray.t_min), t_max(ray.t_max) {}
+  explicit ExactRay(const Ray& ray) : origin(ray.origin), direction(ray.direction), floats(ray) {}
 
-  bool contains(double t) const { return t_min <= t && t <= t_max; }
+  bool contains(double t) const { return in_interval(floats, t); }
 
   glm::dvec3 origin;
   glm::dvec3 direction;
-  double t_min;
-  double t_max;
+  Ray floats;
 };
 
-/// Each returns the smallest t in the ray's closed range at which it hits, if any.
+/// Each returns the smallest t in the ray's interval at which it hits, if any.
 /// Triangles are two-sided and closed; rays through a shared edge hit one of its triangles.
 std::optional<double> first_hit(const ExactRay& ray, const scenes::Scene& scene,
                                 const scenes::Triangle& triangle);

@@ -1,9 +1,12 @@
 #include "accel/embree/oracle.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "accel/core/canonical_ray.hpp"
 #include "accel/embree/device.hpp"
 #include "accel/embree/exact_tests.hpp"
 
@@ -14,18 +17,39 @@ namespace {
 /// A query inside Embree: the best hit so far keeps its double t here, since Embree's
 /// own ray has only a float.
 struct OracleQuery : Context {
-  explicit OracleQuery(const Ray& r) : Context(false), ray(r) {}
+  explicit OracleQuery(const Ray& r)
+      : Context(false),
+        ray(r),
+        exponent(std::ilogb(r.direction[static_cast<int>(longest_axis(r.direction))])) {}
 
-  ExactRay ray;  ///< t_max shrinks to the best hit
+  ExactRay ray;
+  int exponent;             ///< of the direction's longest component
+  double best = kInfinity;  ///< t of the best hit
   scenes::PrimitiveId primitive = scenes::kNoPrimitive;
 };
 
 OracleQuery& query_of(RawContext* context) { return *static_cast<OracleQuery*>(context); }
 
-/// The smallest float that is not below: Embree prunes by it, so it may only err to the far side.
-float rounded_up(double t) {
-  const auto rounded = static_cast<float>(t);
-  return static_cast<double>(rounded) < t ? std::nextafter(rounded, kInfinity) : rounded;
+/// A float that is not below t: Embree prunes by it, so it may only err to the far side.
+float at_least(double t) {
+  constexpr float kSmallest = std::numeric_limits<float>::min();
+  return std::nextafter(std::max(static_cast<float>(t), kSmallest), kInfinity);
+}
+
+/// The ray for Embree, whose traversal loses boxes where components of the direction are tiny: the
+/// direction is scaled by a power of two, which is exact, so that its longest component is in
+/// [1, 2). Ends of the interval err to the outside.
+RTCRay scaled(const OracleQuery& query) {
+  Ray ray = query.ray.floats;
+  for (int axis = 0; axis < 3; ++axis) {
+    ray.direction[axis] = std::ldexp(ray.direction[axis], -query.exponent);
+  }
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  const auto enter = static_cast<float>(std::ldexp(double{ray.t_min}, query.exponent));
+  const bool is_from_origin = enter <= 2.0F * std::numeric_limits<float>::min();
+  ray.t_min = is_from_origin ? 0.0F : std::nextafter(std::min(enter, kLargest), 0.0F);
+  ray.t_max = at_least(std::ldexp(double{ray.t_max}, query.exponent));
+  return to_embree(ray);
 }
 
 /// One user geometry holds all primitives of one kind, which says how many there are, and of each
@@ -85,14 +109,14 @@ struct Padded {
     OracleQuery& query = query_of(arguments->context);
     const std::optional<double> t = self.kind.hit(query.ray, arguments->primID);
     const scenes::PrimitiveId owner = self.kind.owner(arguments->primID);
-    if (!t || (*t == query.ray.t_max && owner >= query.primitive)) {
+    if (!t || *t > query.best || (*t == query.best && owner >= query.primitive)) {
       arguments->valid[0] = 0;
       return;
     }
-    query.ray.t_max = *t;
+    query.best = *t;
     query.primitive = owner;
     RTCRayHitN* const ray_hit = arguments->rayhit;
-    RTCRayN_tfar(RTCRayHitN_RayN(ray_hit, 1), 1, 0) = rounded_up(*t);
+    RTCRayN_tfar(RTCRayHitN_RayN(ray_hit, 1), 1, 0) = at_least(std::ldexp(*t, query.exponent));
     RTCHitN_geomID(RTCRayHitN_HitN(ray_hit, 1), 1, 0) = arguments->geomID;
     RTCHitN_primID(RTCRayHitN_HitN(ray_hit, 1), 1, 0) = arguments->primID;
   }
@@ -155,14 +179,15 @@ EmbreeOracle::~EmbreeOracle() = default;
 std::optional<ExactHit> EmbreeOracle::closest_hit(const Ray& ray) const {
   OracleQuery query(ray);
   RTCRayHit ray_hit = to_embree_query(ray);
+  ray_hit.ray = scaled(query);
   intersect(state_->scene.get(), query, ray_hit);
   if (query.primitive == scenes::kNoPrimitive) return std::nullopt;
-  return ExactHit{query.ray.t_max, query.primitive};
+  return ExactHit{query.best, query.primitive};
 }
 
 bool EmbreeOracle::any_hit(const Ray& ray) const {
   OracleQuery query(ray);
-  RTCRay out = to_embree(ray);
+  RTCRay out = scaled(query);
   return occluded(state_->scene.get(), query, out);
 }
 

@@ -54,7 +54,7 @@ MirrorComparison compare_mirrors(const accel::beam::BeamTracer& tracer, const sc
   const std::vector<scenes::PlanarMirror> mirrors = scenes::planar_mirrors(scene);
   MirrorComparison comparison{mirrors.size(), {}};
   for (const scenes::PlanarMirror& mirror : mirrors) {
-    const auto view = accel::beam::view_in(mirror, scene, rays, hits);
+    const auto view = accel::beam::view_in(mirror, rays, hits);
     if (view) comparison.seen.push_back(compare(tracer, *view, mirror, repetitions));
   }
   return comparison;

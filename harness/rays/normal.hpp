@@ -1,5 +1,5 @@
 #pragma once
-// The normal of a surface where a ray meets it, and where rays that start there begin.
+// The normal of a surface where a ray meets it.
 
 #include <optional>
 #include <span>
@@ -9,7 +9,6 @@
 #include <glm/vec3.hpp>
 
 #include "accel/core/ray.hpp"
-#include "accel/core/tolerance.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::rays {
@@ -47,12 +46,5 @@ class NormalTable {
 /// At a point of a primitive; the table is the scene's.
 SurfaceNormals surface_normals(const scenes::Scene& scene, scenes::PrimitiveId primitive,
                                const glm::dvec3& point, const NormalTable& table);
-
-/// A point a little beside a surface, on the side that `normal` (unit length) points to. Geometry
-/// alone then decides whether the surface itself is met again, and rays need no t_min.
-inline glm::dvec3 beside_surface(const scenes::Scene& scene, const glm::dvec3& point,
-                                 const glm::dvec3& normal) {
-  return point + normal * accel::surface_lift(scene);
-}
 
 }  // namespace beambench::rays

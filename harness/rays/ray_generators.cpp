@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <tbb/parallel_for.h>
 
+#include "accel/core/tolerance.hpp"
 #include "accel/embree/oracle.hpp"
 #include "harness/rays/normal.hpp"
 #include "harness/rays/picture_order.hpp"
@@ -21,22 +22,22 @@ namespace {
 
 using glm::dvec3;
 
-SurfacePoint point_of(const scenes::Scene& scene, const accel::Ray& ray,
+SurfacePoint point_of(const scenes::Scene& scene, const MirrorTable& mirrors, const accel::Ray& ray,
                       const accel::embree::ExactHit& hit, std::size_t sample) {
+  const dvec3 origin(ray.origin);
   const dvec3 direction(ray.direction);
-  return {dvec3(ray.origin) + hit.t * direction,
+  const dvec3 point = origin + hit.t * direction;
+  return {point,
           geometric_normal(scene, ray, {static_cast<float>(hit.t), hit.primitive}),
-          glm::normalize(direction), hit.primitive, static_cast<std::uint32_t>(sample)};
+          glm::normalize(direction),
+          mirrors.lift_at(hit.primitive, origin, point),
+          hit.primitive,
+          static_cast<std::uint32_t>(sample)};
 }
 
-dvec3 above(const scenes::Scene& scene, const SurfacePoint& at) {
-  return beside_surface(scene, at.point, at.normal);
-}
-
-accel::Ray& add_ray(const scenes::Scene& scene, const SurfacePoint& at, const dvec3& direction,
-                    RayList& list) {
+accel::Ray& add_ray(const SurfacePoint& at, const dvec3& direction, RayList& list) {
   accel::Ray& ray = list.rays.emplace_back();
-  ray.origin = glm::vec3(above(scene, at));
+  ray.origin = glm::vec3(at.beside());
   ray.direction = glm::vec3(direction);
   list.samples.push_back(at.sample);
   return ray;
@@ -48,14 +49,14 @@ void reserve(std::size_t rays, RayList& list) {
 }
 
 /// The rays of the list from `first` on, where they hit.
-std::vector<SurfacePoint> points_hit(const scenes::Scene& scene,
+std::vector<SurfacePoint> points_hit(const scenes::Scene& scene, const MirrorTable& mirrors,
                                      const accel::embree::EmbreeOracle& oracle, const RayList& list,
                                      std::size_t first) {
   std::vector<std::optional<SurfacePoint>> found(list.rays.size() - first);
   tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
     const accel::Ray& ray = list.rays[first + i];
     const std::optional<accel::embree::ExactHit> hit = oracle.closest_hit(ray);
-    if (hit) found[i] = point_of(scene, ray, *hit, list.samples[first + i]);
+    if (hit) found[i] = point_of(scene, mirrors, ray, *hit, list.samples[first + i]);
   });
   std::vector<SurfacePoint> points;
   for (const std::optional<SurfacePoint>& point : found) {
@@ -64,8 +65,8 @@ std::vector<SurfacePoint> points_hit(const scenes::Scene& scene,
   return points;
 }
 
-void add_reflected(const scenes::Scene& scene, const SurfacePoint& at, RayList& list) {
-  add_ray(scene, at, accel::mirrored(at.incoming, at.normal), list);
+void add_reflected(const SurfacePoint& at, RayList& list) {
+  add_ray(at, accel::mirrored(at.incoming, at.normal), list);
 }
 
 /// A unit vector with density cos / pi in the hemisphere about the unit vector `normal` (Malley's
@@ -83,10 +84,9 @@ dvec3 cosine_direction(const dvec3& normal, Random& random) {
 }
 
 /// One ray from each point.
-void add_scattered(const scenes::Scene& scene, const std::vector<SurfacePoint>& points,
-                   Random& random, RayList& list) {
+void add_scattered(const std::vector<SurfacePoint>& points, Random& random, RayList& list) {
   for (const SurfacePoint& at : points) {
-    add_ray(scene, at, cosine_direction(at.normal, random), list);
+    add_ray(at, cosine_direction(at.normal, random), list);
   }
 }
 
@@ -127,11 +127,13 @@ accel::Ray line_through(const Box& box, Random& random) {
 std::vector<SurfacePoint> surface_points(const scenes::Scene& scene,
                                          const accel::PrimaryRays& rays) {
   const accel::embree::EmbreeOracle oracle(scene, glm::length(dvec3(rays.eye())));
+  const MirrorTable mirrors(scene);
   std::vector<std::vector<SurfacePoint>> rows(static_cast<std::size_t>(rays.height()));
   tbb::parallel_for(0, rays.height(), [&](int y) {
     rays.for_each(y, y + 1, [&](std::size_t sample, const accel::Ray& ray) {
       const std::optional<accel::embree::ExactHit> hit = oracle.closest_hit(ray);
-      if (hit) rows[static_cast<std::size_t>(y)].push_back(point_of(scene, ray, *hit, sample));
+      if (!hit) return;
+      rows[static_cast<std::size_t>(y)].push_back(point_of(scene, mirrors, ray, *hit, sample));
     });
   });
   std::vector<SurfacePoint> points;
@@ -158,9 +160,9 @@ RayList shadow_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>&
     const dvec3 position(light.position);
     const std::size_t first = list.rays.size();
     for (const SurfacePoint& at : points) {
-      const dvec3 to_light = position - above(scene, at);
+      const dvec3 to_light = position - at.beside();
       if (glm::dot(to_light, at.normal) <= 0.0) continue;
-      add_ray(scene, at, to_light, list).t_max = 1.0F;
+      add_ray(at, to_light, list).t_max = accel::t_before_light(at.beside(), position);
     }
     const std::size_t count = list.rays.size() - first;
     if (count > 0) list.pencils.push_back({first, count, position, true});
@@ -168,15 +170,15 @@ RayList shadow_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>&
   return list;
 }
 
-RayList reflection_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points) {
+RayList reflection_rays(const std::vector<SurfacePoint>& points) {
   RayList list;
   reserve(points.size(), list);
-  for (const SurfacePoint& at : points) add_reflected(scene, at, list);
+  for (const SurfacePoint& at : points) add_reflected(at, list);
   return list;
 }
 
-RayList mirror_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points,
-                    const MirrorTable& mirrors, const accel::PrimaryRays& image) {
+RayList mirror_rays(const std::vector<SurfacePoint>& points, const MirrorTable& mirrors,
+                    const accel::PrimaryRays& image) {
   struct Reflected {
     std::uint32_t mirror;
     const SurfacePoint* at;
@@ -193,33 +195,32 @@ RayList mirror_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>&
   for (auto first = reflected.begin(); first != reflected.end();) {
     const auto last =
         std::ranges::upper_bound(first, reflected.end(), first->mirror, {}, &Reflected::mirror);
-    if (auto behind = eye.behind(mirrors.mirrors()[first->mirror], mirrors.lift())) {
+    if (auto behind = eye.behind(mirrors.mirrors()[first->mirror])) {
       list.views.push_back(std::make_shared<const accel::PrimaryRays>(std::move(behind->view)));
       list.pencils.push_back({list.rays.size(), static_cast<std::size_t>(last - first),
                               behind->place, false, list.views.back().get()});
     }
-    for (; first != last; ++first) add_reflected(scene, *first->at, list);
+    for (; first != last; ++first) add_reflected(*first->at, list);
   }
   return list;
 }
 
-RayList diffuse_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points,
-                     std::uint64_t seed) {
+RayList diffuse_rays(const std::vector<SurfacePoint>& points, std::uint64_t seed) {
   Random random(seed);
   RayList list;
   reserve(points.size(), list);
-  add_scattered(scene, points, random, list);
+  add_scattered(points, random, list);
   return list;
 }
 
-RayList occlusion_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points,
-                       int samples, float distance, std::uint64_t seed) {
+RayList occlusion_rays(const std::vector<SurfacePoint>& points, int samples, float distance,
+                       std::uint64_t seed) {
   Random random(seed);
   RayList list;
   reserve(points.size() * static_cast<std::size_t>(samples), list);
   for (const SurfacePoint& at : points) {
     for (int i = 0; i < samples; ++i) {
-      add_ray(scene, at, cosine_direction(at.normal, random), list).t_max = distance;
+      add_ray(at, cosine_direction(at.normal, random), list).t_max = distance;
     }
   }
   return list;
@@ -230,14 +231,15 @@ RayList path_rays(const scenes::Scene& scene, std::vector<SurfacePoint> points, 
   Random random(seed);
   RayList list;
   std::optional<accel::embree::EmbreeOracle> oracle;
+  const MirrorTable mirrors(scene);
   for (int bounce = 0; bounce < bounces && !points.empty(); ++bounce) {
     const std::size_t first = list.rays.size();
-    add_scattered(scene, points, random, list);
+    add_scattered(points, random, list);
     if (bounce + 1 == bounces) break;
     // Its reach: every point is on a primitive, and rays begin a little beside it.
     if (!oracle)
       oracle.emplace(scene, 2.0 * static_cast<double>(scene.bounds.largest_coordinate()));
-    points = points_hit(scene, *oracle, list, first);
+    points = points_hit(scene, mirrors, *oracle, list, first);
   }
   return list;
 }

@@ -15,11 +15,16 @@
 
 namespace beambench::rays {
 
-/// Where a ray meets a surface.
+/// Where a ray meets a surface, and where the rays begin that start there: `lift` beside it, on the
+/// side that the ray comes from (`MirrorTable::lift_at`). Geometry alone then decides whether the
+/// surface itself is met again, and rays need no t_min.
 struct SurfacePoint {
+  glm::dvec3 beside() const { return point + normal * lift; }
+
   glm::dvec3 point;
   glm::dvec3 normal;    ///< unit length, geometric, on the side that the ray comes from
   glm::dvec3 incoming;  ///< the ray's direction, unit length
+  double lift;
   scenes::PrimitiveId primitive;
   std::uint32_t sample;  ///< that the ray comes from, as a HitBuffer of the image numbers them
 };
@@ -33,28 +38,27 @@ std::vector<SurfacePoint> surface_points(const scenes::Scene& scene,
 std::vector<SurfacePoint> in_picture_order(const std::vector<SurfacePoint>& points,
                                            const accel::PrimaryRays& image);
 
-/// All secondary rays start `beside_surface`, on the side of the primary ray, and name its sample.
+/// All secondary rays start `beside` the surface, and name the sample of the primary ray.
 ///
-/// Light by light, from each point that faces the light: t in [0, 1], the light being at 1. Each
-/// light is a pencil.
+/// Light by light, from each point that faces the light, which is at t = 1: the rays end a little
+/// before it (`accel::t_before_light`). Each light is a pencil.
 RayList shadow_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points);
 
 /// The mirror direction of the incoming ray, of unit length.
-RayList reflection_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points);
+RayList reflection_rays(const std::vector<SurfacePoint>& points);
 
 /// The same at the points of planar mirrors alone, mirror by mirror. Each mirror is a pencil, away
 /// from the image's eye behind it, unless it is seen from its edge (`VirtualEye::behind`).
-RayList mirror_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points,
-                    const MirrorTable& mirrors, const accel::PrimaryRays& image);
+RayList mirror_rays(const std::vector<SurfacePoint>& points, const MirrorTable& mirrors,
+                    const accel::PrimaryRays& image);
 
 /// One direction per point with density cos / pi about the normal, of unit length.
-RayList diffuse_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points,
-                     std::uint64_t seed);
+RayList diffuse_rays(const std::vector<SurfacePoint>& points, std::uint64_t seed);
 
 /// `samples` rays from each point, one after the other, with directions as those of diffuse rays:
 /// t in [0, distance], which is in units of the scene.
-RayList occlusion_rays(const scenes::Scene& scene, const std::vector<SurfacePoint>& points,
-                       int samples, float distance, std::uint64_t seed);
+RayList occlusion_rays(const std::vector<SurfacePoint>& points, int samples, float distance,
+                       std::uint64_t seed);
 
 /// Diffuse rays, from where these hit (by the oracle, on all cores) diffuse rays again, and so on
 /// for `bounces` times; fewer when all paths have left the scene. The first are `diffuse_rays`.

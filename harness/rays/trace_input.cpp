@@ -52,7 +52,7 @@ RayList made_rays(const scenes::Scene& scene, const accel::PrimaryRays& primary,
       }
       return shadow_rays(scene, in_picture_order(surface_points(scene, primary), primary));
     case RayKind::kReflection:
-      return reflection_rays(scene, surface_points(scene, primary));
+      return reflection_rays(surface_points(scene, primary));
     case RayKind::kMirror: {
       const MirrorTable mirrors(scene);
       if (mirrors.mirrors().empty()) {
@@ -62,18 +62,18 @@ RayList made_rays(const scenes::Scene& scene, const accel::PrimaryRays& primary,
             "mirrors",
             scene.name));
       }
-      return mirror_rays(scene, in_picture_order(surface_points(scene, primary), primary), mirrors,
+      return mirror_rays(in_picture_order(surface_points(scene, primary), primary), mirrors,
                          primary);
     }
     case RayKind::kDiffuse:
-      return diffuse_rays(scene, surface_points(scene, primary), choice.seed);
+      return diffuse_rays(surface_points(scene, primary), choice.seed);
     case RayKind::kOcclusion: {
       const Parameters parameters = parameters_of(choice);
       const auto samples = parameters.integer("samples");
       const double diagonal = glm::length(glm::dvec3(scene.bounds.upper - scene.bounds.lower));
       const auto points = surface_points(scene, primary);
       require_list_size(points.size(), samples, choice, "samples");
-      return occlusion_rays(scene, points, static_cast<int>(samples),
+      return occlusion_rays(points, static_cast<int>(samples),
                             static_cast<float>(parameters.real("distance") * diagonal),
                             choice.seed);
     }

@@ -8,8 +8,7 @@
 
 namespace beambench::rays {
 
-MirrorTable::MirrorTable(const scenes::Scene& scene)
-    : mirrors_(scenes::planar_mirrors(scene)), lift_(accel::surface_lift(scene)) {
+MirrorTable::MirrorTable(const scenes::Scene& scene) : mirrors_(scenes::planar_mirrors(scene)) {
   if (mirrors_.empty()) return;
   mirror_of_.assign(scene.primitives.size(), kNone);
   for (std::uint32_t i = 0; i < mirrors_.size(); ++i) {
@@ -17,8 +16,8 @@ MirrorTable::MirrorTable(const scenes::Scene& scene)
   }
 }
 
-std::optional<VirtualEye> VirtualEye::behind(const scenes::PlanarMirror& mirror,
-                                             double lift) const {
+std::optional<VirtualEye> VirtualEye::behind(const scenes::PlanarMirror& mirror) const {
+  const double lift = accel::mirror_lift(mirror.bounds);
   const glm::dvec3 from_mirror = place - mirror.point;
   const double distance = glm::dot(from_mirror, mirror.normal);
   if (std::abs(distance) <= 4.0 * (lift + 0x1p-20 * glm::length(from_mirror))) return std::nullopt;

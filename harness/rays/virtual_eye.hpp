@@ -10,12 +10,13 @@
 #include <glm/vec3.hpp>
 
 #include "accel/core/primary_rays.hpp"
+#include "accel/core/tolerance.hpp"
 #include "scenes/planar_mirrors.hpp"
 #include "scenes/scene.hpp"
 
 namespace beambench::rays {
 
-/// A scene's planar mirrors by primitive, and how far from them rays begin.
+/// A scene's planar mirrors by primitive.
 class MirrorTable {
  public:
   explicit MirrorTable(const scenes::Scene& scene);
@@ -26,12 +27,18 @@ class MirrorTable {
     return mirrors_.empty() ? kNone : mirror_of_[primitive];
   }
   const std::vector<scenes::PlanarMirror>& mirrors() const { return mirrors_; }
-  double lift() const { return lift_; }
+  /// How far beside a primitive, which a ray from `origin` met at `point`, rays begin: one length
+  /// for all of a planar mirror.
+  double lift_at(scenes::PrimitiveId primitive, const glm::dvec3& origin,
+                 const glm::dvec3& point) const {
+    const std::uint32_t mirror = mirror_of(primitive);
+    return mirror == kNone ? accel::surface_lift(origin, point)
+                           : accel::mirror_lift(mirrors_[mirror].bounds);
+  }
 
  private:
   std::vector<scenes::PlanarMirror> mirrors_;
   std::vector<std::uint32_t> mirror_of_;  ///< by primitive; empty without mirrors
-  double lift_;
 };
 
 /// The eye of an image, or what mirrors make of it.
@@ -39,9 +46,9 @@ struct VirtualEye {
   explicit VirtualEye(accel::PrimaryRays image) : place(image.eye()), view(std::move(image)) {}
 
   /// That of the rays which a mirror reflects: they begin a little beside it, so their lines pass
-  /// through the eye's image moved by as much (`accel::surface_lift`). Nothing for a mirror that is
+  /// through the eye's image moved by as much (`accel::mirror_lift`). Nothing for a mirror that is
   /// seen from its edge, where rounding decides on which side a ray meets it.
-  std::optional<VirtualEye> behind(const scenes::PlanarMirror& mirror, double lift) const;
+  std::optional<VirtualEye> behind(const scenes::PlanarMirror& mirror) const;
 
   glm::dvec3 place;
   /// The image seen from there, but for rounding: its eye is a float, and is not moved.

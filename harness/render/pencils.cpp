@@ -45,7 +45,7 @@ void MirrorPencils::mark_pencils() {
     Group& group = groups_[i];
     if (group.count < kMinPencil) continue;
     const rays::VirtualEye& before = before_[group.key & kNoEye];
-    auto behind = before.behind(mirrors_->mirrors()[group.key >> 16U], mirrors_->lift());
+    auto behind = before.behind(mirrors_->mirrors()[group.key >> 16U]);
     if (!behind) continue;
     group.eye = static_cast<EyeIndex>(eyes_.size());
     group.next = first;

@@ -68,7 +68,7 @@ inline Vector facing(const Vector& normal, const Vector& direction, const Vector
   return if_then_else(is_direction, turned, opposite(incoming));
 }
 
-void complete(Places& places, double lift) {
+void complete(Places& places) {
   for (std::size_t i = 0; i < places.size; i += hn::Lanes(Tag())) {
     const Vector point = load(places.point, i);
     const Vector direction = load(places.incoming, i);
@@ -77,7 +77,8 @@ void complete(Places& places, double lift) {
     store(incoming, places.incoming, i);
     store(geometric, places.geometric, i);
     store(facing(load(places.shading, i), direction, incoming), places.shading, i);
-    store(sum(point, scaled(geometric, set(lift))), places.beside, i);
+    store(sum(point, scaled(geometric, hn::LoadU(Tag(), places.lift.data() + i))), places.beside,
+          i);
   }
 }
 

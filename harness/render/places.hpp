@@ -49,13 +49,15 @@ struct Places {
       : size(count),
         point(count),
         beside(count),
+        lift(count),
         incoming(count),
         geometric(count),
         shading(count) {}
 
   std::size_t size;
   Vectors point;
-  Vectors beside;     ///< a little before the surface: where rays begin (`rays::beside_surface`)
+  Vectors beside;     ///< `lift` before the surface: where rays begin
+  Doubles lift;       ///< `accel::surface_lift`, or `mirror_lift` on a planar mirror
   Vectors incoming;   ///< the ray's direction, of unit length
   Vectors geometric;  ///< unit normals on the side of the ray
   Vectors shading;
@@ -72,10 +74,9 @@ struct LightAngles {
 
 /// The computations for one instruction set.
 struct PlaceKernels {
-  /// From points, directions of any length and normals of any length on either side to all that
-  /// `Places` describes; a normal without a direction is turned against the ray. `lift` is the
-  /// scene's (`accel::surface_lift`).
-  void (*complete)(Places& places, double lift);
+  /// From points, lifts, directions of any length and normals of any length on either side to all
+  /// that `Places` describes; a normal without a direction is turned against the ray.
+  void (*complete)(Places& places);
   void (*find_angles)(const Places& places, const glm::dvec3& light, LightAngles& angles);
 };
 

@@ -172,7 +172,6 @@ Shadows::Shadows(const scenes::Scene& scene, const accel::Accelerator& structure
       structure_(&structure),
       check_(std::move(check)),
       method_(options.shadows),
-      lift_(accel::surface_lift(scene)),
       all_opaque_(std::none_of(scene.surfaces.begin(), scene.surfaces.end(),
                                [](const scenes::Surface& s) { return s.transmittance > 0.0F; })) {
   if (method_ != ShadowMethod::kLightBuffer) return;
@@ -307,7 +306,10 @@ double Shadows::followed(accel::Ray ray, scenes::PrimitiveId& blocker, RayCensus
 float Shadows::passed_through(accel::Ray& ray, const accel::Hit& hit) const {
   check_.require(ray, hit);
   const float through = std::max(transmittance_of(*scene_, hit.primitive), 0.0F);
-  ray.t_min = static_cast<float>(hit.t + lift_ / glm::length(glm::dvec3(ray.direction)));
+  const dvec3 origin(ray.origin);
+  const dvec3 direction(ray.direction);
+  const double lift = accel::surface_lift(origin, origin + double{hit.t} * direction);
+  ray.t_min = static_cast<float>(hit.t + lift / glm::length(direction));
   return through;
 }
 

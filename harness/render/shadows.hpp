@@ -127,7 +127,6 @@ class Shadows {
   const accel::Accelerator* structure_;
   rays::HitCheck check_;
   ShadowMethod method_;
-  double lift_;
   bool all_opaque_;
   std::vector<LightBuffer> buffers_;  ///< one a light, or none
 };

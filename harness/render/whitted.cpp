@@ -192,6 +192,7 @@ Whitted::Found Whitted::find_places(const Part& part) const {
     const rays::SurfaceNormals normals =
         rays::surface_normals(*scene_, hit.primitive, point, shaded_->normals());
     places.point.set(place, point);
+    places.lift[place] = shaded_->mirrors().lift_at(hit.primitive, dvec3(ray.origin), point);
     places.incoming.set(place, direction);
     places.geometric.set(place, normals.geometric);
     places.shading.set(place, normals.shading);
@@ -202,7 +203,7 @@ Whitted::Found Whitted::find_places(const Part& part) const {
     found.path[place] = part.paths[i];
     ++place;
   }
-  kernels_->complete(places, accel::surface_lift(*scene_));
+  kernels_->complete(places);
   return found;
 }
 
@@ -235,7 +236,7 @@ void Whitted::add_light(std::size_t light, const Found& found, std::span<const d
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (angles.is_before[i] == 0.0) continue;
     const dvec3 beside = found.places.beside[i];
-    add_ray(rays, beside, position - beside).t_max = 1.0F;
+    add_ray(rays, beside, position - beside).t_max = accel::t_before_light(beside, position);
     places.push_back(i);
   }
   std::vector<std::uint32_t> samples(places.size());
@@ -306,8 +307,7 @@ Whitted::Spawned Whitted::spawned(const Found& found, const Part& part, Progress
     }
     if (mirror > 0.0 || options_.glass_always_mirrors) reflect(i, mirror);
     if (!spawn(i, glass, entering)) continue;
-    add_ray(glass_rays, rays::beside_surface(*scene_, places.point[i], -places.geometric[i]),
-            *direction);
+    add_ray(glass_rays, places.point[i] - places.lift[i] * places.geometric[i], *direction);
     glass_samples.push_back(found.sample[i]);
     is_glass.push_back(true);
   }

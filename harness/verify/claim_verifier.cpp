@@ -16,7 +16,9 @@
 #include "accel/embree/oracle.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/rays/trace_results.hpp"
+#include "harness/verify/contact.hpp"
 #include "harness/verify/differ.hpp"
+#include "harness/verify/tolerance.hpp"
 #include "harness/verify/verify_ray.hpp"
 
 namespace beambench::verify {
@@ -24,7 +26,7 @@ namespace {
 
 constexpr std::size_t kReferencesAtOnce = std::size_t{1}
                                           << 16U;  // rays whose reference is in memory at once
-// As for the long-double search of the differ: what enough errors or tests leave open is presumed.
+// As for the exact search of the differ: what enough errors or tests leave open is presumed.
 constexpr std::uint64_t kEnoughFaults = 64;
 constexpr std::uint64_t kPrimitiveBudget = 400'000'000;  // primitives
 
@@ -109,11 +111,11 @@ Answer answer_of(const scenes::Scene& scene, const accel::Ray& ray, const rays::
     const glm::dvec3 offset = glm::dvec3(hits.points[i]) - glm::dvec3(ray.origin);
     const double length = glm::length(direction);
     const double t = glm::dot(offset, direction) / (length * length);
-    const double near = tolerance(scene, ray.origin);
+    const double near = tolerance(ray, glm::dvec3(hits.points[i]));
     answer.hit.t = within(ray, t, length, near);
     if (!(glm::length(offset - t * direction) <= near)) answer.fault = kBesideRay;
   }
-  if (!answer.primitive_known && (answer.hit.t < ray.t_min || answer.hit.t > ray.t_max)) {
+  if (!answer.primitive_known && !accel::in_interval(ray, answer.hit.t)) {
     answer.fault = kOutsideInterval;
   }
   return answer;
@@ -179,7 +181,7 @@ struct ClaimVerifier::State {
   /// of the nearest.
   void find_primitive(const accel::Ray& ray, const std::optional<accel::embree::ExactHit>& expected,
                       Answer& answer) {
-    const double near = tolerance(scene, ray.origin);
+    const double near = tolerance(ray, answer.hit.t);
     const auto offset = [&](scenes::PrimitiveId id) {
       return contact(scene, ray, {answer.hit.t, id}, near).offset;
     };

@@ -14,18 +14,21 @@
 
 namespace beambench::verify {
 
-/// How one answer compares. u is 2^-24 x (largest |coordinate| + distance of the ray's origin), K
-/// is 16: correct hits of Embree in float were found up to 3.6 u off. The first three need a sound
-/// answer: its point lies within K u of the primitive it names. An answer to an any-hit query names
-/// no point, so it never ties: it agrees, or it grazes where every hit that is in dispute does.
+/// How one answer compares. u is 2^-24 x (largest |coordinate| of the hit + distance of the ray's
+/// origin from that of the coordinates), K is 16: correct hits of Embree in float were found up to
+/// 3.6 u off. The first three need a sound answer: its point lies within K u of the primitive it
+/// names. Answers that differ from the oracle's are judged by exact arithmetic (`class_of`). An
+/// answer to an any-hit query names no point, so it never ties: it agrees, or it grazes where every
+/// hit that is in dispute does.
 enum class DiffClass : std::size_t {
-  kAgree,           ///< same primitive, |dt| x |cos theta| <= K u (a sphere or cone: the point is
-                    ///< within K u of the surface, where the ray enters or leaves as the oracle's)
-  kTie,             ///< other primitive at the same point: |dt| x the smaller |cos theta| <= K u
-  kGraze,           ///< the disputed primitive's boundary is within K u of the ray, or the disputed
-                    ///< hit within K u of the ray's end
-  kStructureError,  ///< the structure is wrong, by long-double search over all primitives
-  kEmbreeError,     ///< the structure is right and the oracle wrong, by the same search
+  kAgree,  ///< the exact hit: same primitive, |dt| x |cos theta| <= K u (a sphere or cone:
+           ///< the point is within K u of the surface, on the same side of it)
+  kTie,    ///< other primitive at the same point: |dt| x |cos theta| of the nearer surface
+           ///< <= K u, and |dt| <= 1024 K u
+  kGraze,  ///< the boundary of the primitive in dispute is within K u of the ray, or its
+           ///< hit at one place with an end of the ray; what lies behind it is judged alike
+  kStructureError,  ///< the structure is wrong, by exact arithmetic
+  kEmbreeError,     ///< the structure is right and the oracle wrong, by the same arithmetic
   kCount
 };
 inline constexpr std::array<std::string_view, static_cast<std::size_t>(DiffClass::kCount)>
@@ -55,8 +58,8 @@ struct Mismatch {
   std::optional<accel::Hit> answer;  ///< the structure's, of a closest-hit query
   std::uint8_t any_hit_answer;       ///< of an any-hit query: 0, 1, or what the structure wrote
   std::optional<accel::embree::ExactHit> oracle;  ///< the closest hit, whatever the query
-  std::optional<accel::embree::ExactHit> exact;   ///< the long-double hit, if it was searched
-  bool searched;            ///< did the rules leave it to the long-double search?
+  std::optional<accel::embree::ExactHit> exact;   ///< the exact hit, if it was searched
+  bool searched;                                  ///< was the answer judged by exact arithmetic?
   std::string_view reason;  ///< why it is of its class: a clause for `describe`
 };
 

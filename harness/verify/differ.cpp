@@ -10,6 +10,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include "harness/verify/tolerance.hpp"
 #include "harness/verify/verify_ray.hpp"
 
 namespace beambench::verify {
@@ -89,7 +90,7 @@ class Differ::Part {
         continue;
       }
       Mismatch found = mismatch(i);
-      if (classify_by_rules(scene_, tolerance_of(found), found)) {
+      if (classify_by_oracle(scene_, found)) {
         record(found);
       } else {
         disputed.push_back(i);
@@ -108,8 +109,6 @@ class Differ::Part {
   }
 
  private:
-  double tolerance_of(const Mismatch& found) const { return tolerance(scene_, found.ray.origin); }
-
   static accel::Hit answer(const accel::HitBuffer& hits, std::size_t i) {
     return {hits.t()[i], hits.primitive()[i]};
   }
@@ -133,10 +132,8 @@ class Differ::Part {
     if (hit.primitive != hits_[i]->primitive) return false;
     const double apart = std::abs(static_cast<double>(hit.t) - hits_[i]->t);
     const accel::Ray ray = input_.ray(i);
-    const double near = tolerance(scene_, ray.origin);
-    const glm::dvec3 direction(ray.direction);
-    return hit.t >= ray.t_min && hit.t <= ray.t_max &&
-           apart * apart * glm::dot(direction, direction) <= near * near;
+    return accel::in_interval(ray, hit.t) &&
+           apart * glm::length(glm::dvec3(ray.direction)) <= tolerance(ray, hit.t);
   }
 
   Mismatch mismatch(std::size_t i) const {
@@ -161,7 +158,7 @@ class Differ::Part {
       if (count_of(DiffClass::kStructureError) < kEnoughErrors &&
           differ_.search_tests_ < kTestBudget) {
         tbb::parallel_for(std::size_t{0}, batch.size(), [&](std::size_t i) {
-          beambench::verify::classify_by_search(scene_, tolerance_of(batch[i]), batch[i]);
+          beambench::verify::classify_by_search(scene_, batch[i]);
         });
         differ_.search_tests_ +=
             batch.size() * (scene_.triangles.size() + scene_.primitives.size());

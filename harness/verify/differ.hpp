@@ -54,8 +54,8 @@ class ReferenceHits {
 };
 
 /// Compares results with the oracle's hits, part by part where there are too many to be in memory
-/// at once. Disputed rays are searched in long double until 64 errors are proven or the search has
-/// made 4e8 primitive tests; what is disputed beyond that counts as structure error, unproven.
+/// at once. Disputed rays are judged by exact arithmetic until 64 errors are found or the search
+/// has made 4e8 primitive tests; what is disputed beyond that counts as structure error, unproven.
 class Differ {
  public:
   /// Gets every ray whose class is not kAgree.

@@ -292,7 +292,7 @@ TEST(MirrorBeams, RaysOfAMirrorAreReflectedRays) {
   registry().choose({"samet", {}}).build(scene)->trace(rays, hits, nullptr);
   const auto mirrors = scenes::planar_mirrors(scene);
   ASSERT_EQ(mirrors.size(), 1U);  // the checkerboard, all squares of it
-  const auto view = beam::view_in(mirrors[0], scene, rays, hits);
+  const auto view = beam::view_in(mirrors[0], rays, hits);
   ASSERT_TRUE(view.has_value());
   EXPECT_GT(view->rays.size(), 200U);
   const double size = scene.bounds.largest_coordinate();

@@ -68,7 +68,7 @@ TEST_P(RaysFromSurfaces, HitWhatExhaustiveSearchHits) {
       const exhaustive::Exhaustive exhaustive(scene);
       const auto structure = registry().choose(parse_spec(GetParam())).build(scene);
       Random random(seed);
-      for (const Ray& ray : rays_from(scene, surface_lift(scene), random)) {
+      for (const Ray& ray : rays_from(scene, mirror_lift(scene.bounds), random)) {
         const auto hit = exhaustive.closest_hit(ray, nullptr);
         ASSERT_EQ(structure->closest_hit(ray, nullptr), hit);
         ASSERT_EQ(structure->any_hit(ray, nullptr), hit.has_value());
@@ -96,7 +96,7 @@ TEST(SecondaryRays, DoNotConfirmTheTriangleThatTheyLeave) {
           glm::normalize(glm::cross(corner[1] - corner[0], corner[2] - corner[0]));
       const glm::dvec3 middle = (corner[0] + corner[1] + corner[2]) / 3.0;
       Ray ray;
-      ray.origin = glm::vec3(middle + surface_lift(scene) * normal);
+      ray.origin = glm::vec3(middle + surface_lift(middle, middle) * normal);
       ray.direction =
           glm::vec3(normal + 0.7 * glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1), 0.0));
       ++rays;

@@ -172,17 +172,19 @@ TEST(Pencils, AreNotOfCurvedMirrors) {
 
 // Rounding decides on which side such a mirror is seen.
 TEST(Pencils, AreNotOfMirrorsSeenFromTheirEdge) {
-  const scenes::PlanarMirror mirror{{0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, {0}};
+  const scenes::PlanarMirror mirror{
+      {0.0, 0.0, 1.0}, {0.0, 0.0, 1.0}, {0}, {{-4.0F, -4.0F, 1.0F}, {4.0F, 4.0F, 1.0F}}};
+  const double lift = accel::mirror_lift(mirror.bounds);
   const auto behind = [&](float height) {
     scenes::Camera camera;
     camera.from = {5.0F, 0.0F, height};
-    return rays::VirtualEye(accel::PrimaryRays(camera, 1, 1, 1)).behind(mirror, 1e-4);
+    return rays::VirtualEye(accel::PrimaryRays(camera, 1, 1, 1)).behind(mirror);
   };
   EXPECT_FALSE(behind(1.0F));
   EXPECT_FALSE(behind(1.0001F));
   ASSERT_TRUE(behind(1.5F));
-  EXPECT_EQ(behind(1.5F)->place, dvec3(5.0, 0.0, 0.5 + 1e-4));
-  EXPECT_EQ(behind(0.5F)->place, dvec3(5.0, 0.0, 1.5 - 1e-4));
+  EXPECT_EQ(behind(1.5F)->place, dvec3(5.0, 0.0, 0.5 + lift));
+  EXPECT_EQ(behind(0.5F)->place, dvec3(5.0, 0.0, 1.5 - lift));
 }
 
 // A structure that uses marks and is bit-exact finds the same hits, so the same rays follow.

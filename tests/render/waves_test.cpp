@@ -169,11 +169,12 @@ TEST(Places, AreThoseOfSingleRays) {
         const glm::dvec3 point = glm::dvec3(ray.origin) + double{found.t} * direction;
         const auto normals = rays::surface_normals(scene, found.primitive, point, table);
         places.point.set(k, point);
+        places.lift[k] = accel::surface_lift(glm::dvec3(ray.origin), point);
         places.incoming.set(k, direction);
         places.geometric.set(k, normals.geometric);
         places.shading.set(k, normals.shading);
       }
-      kernels.complete(places, accel::surface_lift(scene));
+      kernels.complete(places);
       const glm::dvec3 position(scene.lights.front().position);
       LightAngles angles(hit.size());
       kernels.find_angles(places, position, angles);
@@ -183,7 +184,7 @@ TEST(Places, AreThoseOfSingleRays) {
         const glm::dvec3 incoming = glm::normalize(glm::dvec3(ray.direction));
         const glm::dvec3 geometric = rays::geometric_normal(scene, ray, found);
         const glm::dvec3 shading = rays::shading_normal(scene, ray, found);
-        const glm::dvec3 beside = rays::beside_surface(scene, places.point[k], geometric);
+        const glm::dvec3 beside = places.point[k] + geometric * places.lift[k];
         const glm::dvec3 offset = position - beside;
         const glm::dvec3 to_light = glm::normalize(offset);
         ASSERT_EQ(places.incoming[k], incoming);

@@ -12,8 +12,9 @@
 
 #include "accel/exhaustive/exhaustive.hpp"
 #include "harness/verify/claim_verifier.hpp"
+#include "harness/verify/contact.hpp"
 #include "harness/verify/selftest/test_scenes.hpp"
-#include "harness/verify/verify_ray.hpp"
+#include "harness/verify/tolerance.hpp"
 #include "scenes/catalogue.hpp"
 #include "tests/scenes/thrown_message.hpp"
 
@@ -115,7 +116,7 @@ std::size_t clear_hit(const Traced& traced) {
     if (traced.hits.primitives[i] == scenes::kNoPrimitive) continue;
     const accel::Ray& ray = traced.rays[i];
     const Contact found = contact(traced.scene, ray, {traced.hits.t[i], traced.hits.primitives[i]},
-                                  tolerance(traced.scene, ray.origin));
+                                  tolerance(ray, traced.hits.t[i]));
     const bool inside = boundary_distance(traced.scene, ray, traced.hits.primitives[i]) > 0.01;
     if (found.cosine > 0.5 && inside) return i;
   }
@@ -136,7 +137,7 @@ TEST(Claims, PlantedFaultsAreFoundInEveryForm) {
   const std::size_t i = clear_hit(traced);
   const accel::Ray& ray = traced.rays[i];
   const double length = glm::length(glm::dvec3(ray.direction));
-  const double step = 10.0 * tolerance(traced.scene, ray.origin);
+  const double step = 10.0 * tolerance(ray, traced.hits.t[i]);
   for (const Form& form : forms()) {
     HitTable moved = traced.hits;
     moved.t[i] += static_cast<float>(step / length);

@@ -10,6 +10,8 @@
 
 #include "accel/core/registry.hpp"
 #include "harness/verify/describe.hpp"
+#include "harness/verify/exact_search.hpp"
+#include "harness/verify/tolerance.hpp"
 #include "harness/verify/verify_ray.hpp"
 #include "scenes/catalogue.hpp"
 #include "scenes/scene_builder.hpp"
@@ -32,7 +34,7 @@ accel::HitBuffer traced(const std::string& structure, const scenes::Scene& scene
   return buffer;
 }
 
-TEST(Oracle, GivesTheLongDoubleAnswer) {
+TEST(Oracle, GivesTheExactAnswer) {
   std::uint64_t rays = 0;
   std::uint64_t not_equal = 0;
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
@@ -53,9 +55,7 @@ TEST(Oracle, GivesTheLongDoubleAnswer) {
       ++not_equal;
       std::optional<accel::Hit> rounded;
       if (found) rounded = accel::Hit{static_cast<float>(found->t), found->primitive};
-      const double length = tolerance(scene, ray.origin);
-      ASSERT_TRUE(classify(scene, ray, rounded, exact, length).has_value())
-          << scene.name << " ray " << i;
+      ASSERT_TRUE(class_of(scene, ray, rounded).has_value()) << scene.name << " ray " << i;
     }
   }
   EXPECT_LT(not_equal, rays / 10);
@@ -161,7 +161,8 @@ class FaultyBuffer : public ::testing::Test {
   }
   void shift(std::size_t index, double tolerances) {
     accel::Hit hit = *buffer_.get(index);
-    hit.t = static_cast<float>(hit.t + tolerances * tolerance(scene_, rays_.eye()));
+    const accel::Ray ray = rays_.ray(static_cast<int>(index % 65), static_cast<int>(index / 65), 0);
+    hit.t = static_cast<float>(hit.t + tolerances * tolerance(ray, hit.t));
     buffer_.set(index, hit);
   }
 
@@ -330,28 +331,32 @@ class Grazing : public ::testing::Test {
     ray.origin = glm::vec3(static_cast<float>(x), static_cast<float>(y), 2.0F);
     const auto exact = exact_closest_hit(scene_, ray);
     EXPECT_TRUE(exact && exact->primitive == id) << x << " " << y;
-    return classify(scene_, ray, std::nullopt, exact, kUnit);
+    return class_of(scene_, ray, std::nullopt);
+  }
+  /// K u near a place that a ray from 2 before it passes.
+  static double unit(double x, double y) {
+    const accel::Ray ray{{static_cast<float>(x), static_cast<float>(y), 2.0F}};
+    return tolerance(ray, glm::dvec3(x, y, 0.0));
   }
 
-  static constexpr double kUnit = 1e-3;  // the tolerance; coarse, so that floats can hit it
   scenes::Scene scene_ = make_scene();
 };
 
 TEST_F(Grazing, IsWithinOneToleranceOfAnEdge) {
-  EXPECT_EQ(missing(0.5 * kUnit, 0.0, 0), DiffClass::kGraze);
-  EXPECT_EQ(missing(2.0 * kUnit, 0.0, 0), std::nullopt);
+  EXPECT_EQ(missing(0.5 * unit(0.0, 0.0), 0.0, 0), DiffClass::kGraze);
+  EXPECT_EQ(missing(2.0 * unit(0.0, 0.0), 0.0, 0), std::nullopt);
 }
 
 TEST_F(Grazing, IsWithinOneToleranceOfASilhouette) {
-  EXPECT_EQ(missing(-1.0 - 0.5 * kUnit, 0.0, 1), DiffClass::kGraze);
-  EXPECT_EQ(missing(-1.0 - 2.0 * kUnit, 0.0, 1), std::nullopt);
-  EXPECT_EQ(missing(3.0 + 0.5 * kUnit, 0.0, 2), DiffClass::kGraze);
-  EXPECT_EQ(missing(3.0 + 2.0 * kUnit, 0.0, 2), std::nullopt);
+  EXPECT_EQ(missing(-1.0 - 0.5 * unit(-1.0, 0.0), 0.0, 1), DiffClass::kGraze);
+  EXPECT_EQ(missing(-1.0 - 2.0 * unit(-1.0, 0.0), 0.0, 1), std::nullopt);
+  EXPECT_EQ(missing(3.0 + 0.5 * unit(3.0, 0.0), 0.0, 2), DiffClass::kGraze);
+  EXPECT_EQ(missing(3.0 + 2.0 * unit(3.0, 0.0), 0.0, 2), std::nullopt);
 }
 
 TEST_F(Grazing, IsWithinOneToleranceOfARim) {
-  EXPECT_EQ(missing(4.5, 1.0 - 0.5 * kUnit, 2), DiffClass::kGraze);
-  EXPECT_EQ(missing(4.5, 1.0 - 2.0 * kUnit, 2), std::nullopt);
+  EXPECT_EQ(missing(4.5, 1.0 - 0.5 * unit(4.5, 1.0), 2), DiffClass::kGraze);
+  EXPECT_EQ(missing(4.5, 1.0 - 2.0 * unit(4.5, 1.0), 2), std::nullopt);
 }
 
 /// Rays that begin or end at a chosen distance from a surface's tangent plane, in units of K u.
@@ -394,7 +399,7 @@ class EndsAtASurface : public ::testing::Test {
       ray.direction = glm::vec3(target - glm::dvec3(ray.origin));
       ray.t_min = end == End::kTMin ? 0.5F : 0.0F;
       ray.t_max = 1.0F;
-      offset = tolerances * tolerance(scene_, ray.origin);
+      offset = tolerances * tolerance(ray, place.point);
     }
     return ray;
   }

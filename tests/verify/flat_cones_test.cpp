@@ -11,7 +11,7 @@
 #include "harness/rays/ray_kind.hpp"
 #include "harness/rays/trace_input.hpp"
 #include "harness/verify/describe.hpp"
-#include "harness/verify/verify_ray.hpp"
+#include "harness/verify/exact_search.hpp"
 #include "scenes/scene_builder.hpp"
 #include "tests/verify/first_example.hpp"
 

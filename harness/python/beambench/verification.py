@@ -61,11 +61,11 @@ class Example:
     oracle_primitive: int | None
     """Of the same hit."""
     exact_t: float | None
-    """Of the closest hit by a search in long double; None: no hit, or not searched."""
+    """Of the closest hit by exact arithmetic; None: no hit, or not searched."""
     exact_primitive: int | None
     """Of the same hit."""
     searched: bool
-    """Was the search in long double made? It is where the oracle alone does not decide."""
+    """Was the answer judged by exact arithmetic? It is where it differs from the oracle's."""
 
     @property
     def claim(self) -> str:
@@ -210,8 +210,8 @@ def verify(
 
     The claims are of closest hits (`t` or `point`, and where the program knows them `primitive` or
     `triangle`) or of any hits (`occluded` alone). A claim is compared with the hit of an oracle in
-    double precision, with tolerances of rounding in float32; what is in dispute is searched for in
-    long double.
+    double precision, with tolerances of rounding in float32; what is in dispute is
+    decided by exact arithmetic.
 
     Args:
         scene: what the rays were traced against.

@@ -1,0 +1,40 @@
+#pragma once
+// The lengths within which the judge does not distinguish points.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+#include "accel/core/ray.hpp"
+#include "accel/core/tolerance.hpp"
+
+namespace beambench::verify {
+
+/// K u for a point on the ray (`accel::float_unit`): the length within which points near it cannot
+/// be distinguished in float. At least the smallest normal float, as smaller numbers are flushed to
+/// 0.
+inline double tolerance(const accel::Ray& ray, const glm::dvec3& point) {
+  return std::max<double>(accel::kUnits * accel::float_unit(glm::dvec3(ray.origin), point),
+                          std::numeric_limits<float>::min());
+}
+inline double tolerance(const accel::Ray& ray, double t) {
+  return tolerance(ray, glm::dvec3(ray.origin) + t * glm::dvec3(ray.direction));
+}
+
+/// How many tolerances two places on a ray may be apart along the ray. At a grazing incidence
+/// places that are close across a surface are far apart along it; where they are farther than this,
+/// the sine of the incidence is below 1/1024, and they are two places.
+inline constexpr double kAlong = 1024.0;
+
+/// Are two places on the ray one: across a surface that the ray meets there at an angle with that
+/// cosine to the normal, and along the ray?
+inline bool at_one_place(const accel::Ray& ray, double t0, double t1, double cosine,
+                         double tolerance) {
+  const double gap = std::abs(t0 - t1) * glm::length(glm::dvec3(ray.direction));
+  return gap * cosine <= tolerance && gap <= kAlong * tolerance;
+}
+
+}  // namespace beambench::verify
