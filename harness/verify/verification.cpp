@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "harness/rays/fingerprint.hpp"
 #include "harness/rays/hit_check.hpp"
 #include "harness/rays/trace_results.hpp"
 #include "harness/verify/describe.hpp"
@@ -123,12 +124,14 @@ std::vector<VerifiedCell> verify_scene(const VerifiedView& view,
     progress.say(fmt::format("warning: {}: {}", view.scene.name, *warning));
   }
   std::optional<BitsReference> bits;
+  const std::string hash = rays::hex_digits(rays::fingerprint(view.input));
   const auto verify_into = [&](const accel::StructureChoice& choice, VerifiedCell& cell) {
     const auto accelerator =
         choice.build(view.scene, rays::workload_of(view.image, view.input, view.threads));
     rays::TraceResults results = rays::make_results(view.input);
     rays::trace_with_progress(*accelerator, view.input, results, view.threads, progress);
     const ReplayCommand replay(view.program, view.scene, view.image, choice, view.input);
+    cell.rays_hash = hash;
     std::vector<DiffClass> classes(view.input.size());
     cell.report = verify_results(reference, results, choice.info().conformance, classes);
     cell.verdict = cell.report->verdict;
@@ -160,6 +163,7 @@ nlohmann::ordered_json to_json(const VerifiedCell& cell) {
   nlohmann::ordered_json out{{"scene", cell.scene},           {"ray_kind", cell.rays},
                              {"primitives", cell.primitives}, {"structure", cell.structure},
                              {"parameters", cell.parameters}, {"verdict", to_string(cell.verdict)}};
+  if (!cell.rays_hash.empty()) out["rays_hash"] = cell.rays_hash;
   if (!cell.message.empty()) out["message"] = cell.message;
   if (cell.report) {
     out["rays"] = cell.report->rays;

@@ -23,6 +23,7 @@ struct VerifiedCell {
   std::string structure;   ///< the bare name
   std::string parameters;  ///< all of them, canonical
   std::string label;       ///< the name and the parameters that are not at their defaults
+  std::string rays_hash;   ///< empty where the rays follow from the hits, as those of pictures
 
   std::optional<DiffReport> report;   ///< absent where nothing was verified
   std::vector<std::string> disputes;  ///< rays described, errors first

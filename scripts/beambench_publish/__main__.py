@@ -16,7 +16,8 @@ from beambench_publish.plan import Folder, Plan, as_table, read_plan
 from beambench_publish.progress import Progress, is_published, progress_of, seconds_of
 from beambench_publish.setting import Setting, git, preflight, require_clean
 from beambench_publish.small import size
-from beambench_report.base.files import ROOT, Problem, say
+from beambench_publish.verified_again import verify_again, write_summary
+from beambench_report.base.files import ROOT, Problem, load_json, say
 from beambench_report.base.quantities import size_in_words
 from beambench_report.site.write import write_site
 
@@ -47,6 +48,7 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--plan", "--dry-run", action="store_true")
     parser.add_argument("--texts", action="store_true")
     parser.add_argument("--check", action="store_true")
+    parser.add_argument("--verify-again", action="store_true")
     parser.add_argument("--commit", action="store_true")
     parser.add_argument("--tinybvh", type=Path, metavar="DIR")
     parser.add_argument("--madmann91-bvh", type=Path, metavar="DIR")
@@ -67,6 +69,8 @@ def _run(options: argparse.Namespace) -> int:
             print(path)
         return 0
     beambench = options.beambench.absolute()
+    if options.verify_again:
+        return _verify_again(options, beambench)
     if options.plan:
         setting = preflight(beambench) if beambench.is_file() else None
         print(as_table(plan, _states(plan, options, setting), _took(plan, options.published)))
@@ -79,6 +83,20 @@ def _check(published: Path) -> int:
     for one in found:
         print(one)
     return 1 if found else 0
+
+
+def _verify_again(options: argparse.Namespace, beambench: Path) -> int:
+    """Verifies all committed cells; writes what differs beside them."""
+    commit = preflight(beambench).commit
+    record = options.aside.parent / f"verified-again-{commit[:12]}.jsonl"
+    lines = verify_again(options.published, beambench, record)
+    path = write_summary(options.published / "verified-again.json", lines, commit)
+    found = load_json(path)
+    for name in ("hashes_changed", "verdicts_changed", "classes_changed"):
+        say(f"{name.replace('_', ' ')}: {len(found[name])}")
+    say(f"{found['cells']} cells of {found['views']} views; the list is {path}")
+    wrong = [one for one in found["verdicts_changed"] if one["now"]["verdict"] != "ok"]
+    return 1 if wrong else 0
 
 
 def _given(options: argparse.Namespace) -> Given:

@@ -31,8 +31,8 @@ using accel::Hit;
 using accel::Ray;
 using glm::dvec3;
 
-constexpr const char* kExact[] = {"exhaustive",       "samet",   "voxel-grid",
-                                  "goldsmith-salmon", "sah-bvh", "kd-tree"};
+constexpr const char* kExactStructures[] = {"exhaustive",       "samet",   "voxel-grid",
+                                            "goldsmith-salmon", "sah-bvh", "kd-tree"};
 
 void add_rectangle(scenes::SceneBuilder& builder, const dvec3& corner, const dvec3& side,
                    const dvec3& other) {
@@ -53,21 +53,21 @@ scenes::Camera looking(const glm::vec3& from, const glm::vec3& at) {
   return camera;
 }
 
-rays::TraceInput rays_over(const scenes::Scene& scene, std::string_view kind, int size) {
+rays::TraceInput made_rays(const scenes::Scene& scene, std::string_view kind, int size) {
   return rays::make_trace_input(scene, {scene.cameras.front(), {size, size}, 1},
                                 rays::parse_ray_choice(kind));
 }
 
-rays::TraceResults traced(const scenes::Scene& scene, const rays::TraceInput& input,
-                          const std::string& structure) {
+rays::TraceResults results_of(const scenes::Scene& scene, const rays::TraceInput& input,
+                              const std::string& structure) {
   rays::TraceResults results = rays::make_results(input);
   rays::trace(*accel::registry().choose(parse_spec(structure)).build(scene), input, results,
               nullptr);
   return results;
 }
 
-DiffReport verified(const scenes::Scene& scene, const rays::TraceInput& input,
-                    const rays::TraceResults& results) {
+DiffReport report_of(const scenes::Scene& scene, const rays::TraceInput& input,
+                     const rays::TraceResults& results) {
   return verify_results(ReferenceHits(scene, input), results, accel::Conformance::kTolerance);
 }
 
@@ -76,8 +76,8 @@ void expect_right(const scenes::Scene& scene, const rays::TraceInput& input,
   const ReferenceHits reference(scene, input);
   for (const char* structure : structures) {
     SCOPED_TRACE(structure);
-    const DiffReport report =
-        verify_results(reference, traced(scene, input, structure), accel::Conformance::kTolerance);
+    const DiffReport report = verify_results(reference, results_of(scene, input, structure),
+                                             accel::Conformance::kTolerance);
     EXPECT_EQ(report.verdict, Verdict::kOk) << tests::first_example(reference, report);
     EXPECT_LE(report.count(DiffClass::kGraze), grazes) << tests::first_example(reference, report);
   }
@@ -96,17 +96,17 @@ scenes::Scene room_lit_from_its_ceiling(bool with_sphere) {
 
 TEST(EndsOfRays, ALightOnASurfaceShines) {
   const scenes::Scene empty = room_lit_from_its_ceiling(false);
-  const rays::TraceInput rays = rays_over(empty, "shadow", 65);
+  const rays::TraceInput rays = made_rays(empty, "shadow", 65);
   ASSERT_GT(rays.size(), 1000U);
-  const auto answers = std::get<rays::AnyHits>(traced(empty, rays, "exhaustive"));
+  const auto answers = std::get<rays::AnyHits>(results_of(empty, rays, "exhaustive"));
   EXPECT_EQ(std::ranges::count(answers, 1), 0);
   expect_right(empty, rays, {"exhaustive", "samet", "kd-tree", "sah-bvh", "embree", "tile-beam"});
 }
 
 TEST(EndsOfRays, StructuresAreRightAboutALightOnASurface) {
   const scenes::Scene scene = room_lit_from_its_ceiling(true);
-  const rays::TraceInput rays = rays_over(scene, "shadow", 65);
-  const auto answers = std::get<rays::AnyHits>(traced(scene, rays, "exhaustive"));
+  const rays::TraceInput rays = made_rays(scene, "shadow", 65);
+  const auto answers = std::get<rays::AnyHits>(results_of(scene, rays, "exhaustive"));
   EXPECT_GT(std::ranges::count(answers, 1), 10);
   expect_right(scene, rays, {"exhaustive", "samet", "kd-tree", "sah-bvh"});
   expect_right(scene, rays, {"embree", "tile-beam"}, 2);
@@ -147,7 +147,7 @@ TEST(EndsOfRays, HitsAtTheStartCount) {
   const scenes::Scene scene = std::move(builder).build();
   for (const char* kind : {"primary", "diffuse", "path"}) {
     SCOPED_TRACE(kind);
-    expect_right(scene, rays_over(scene, kind, 129), {"exhaustive", "samet", "kd-tree", "sah-bvh"});
+    expect_right(scene, made_rays(scene, kind, 129), {"exhaustive", "samet", "kd-tree", "sah-bvh"});
   }
 }
 
@@ -156,7 +156,7 @@ TEST(EndsOfRays, AnEyeOnASphereSeesItOrLooksAway) {
   builder.add_sphere({0.1, 0.2, 0.3}, 0.7);
   builder.add_camera(looking({0.1F, 0.2F, 1.0F}, {5.0F, 0.3F, 0.9F}));
   const scenes::Scene scene = std::move(builder).build();
-  expect_right(scene, rays_over(scene, "primary", 33), {"exhaustive", "samet", "sah-bvh"});
+  expect_right(scene, made_rays(scene, "primary", 33), {"exhaustive", "samet", "sah-bvh"});
 }
 
 /// Claims of closest hits, each judged alone.
@@ -213,15 +213,15 @@ TEST(Tolerances, AreNotThoseOfAHugeFloor) {
   floor_builder.add_camera(scene.cameras.front());
   const scenes::Scene floor = std::move(floor_builder).build();
 
-  const rays::TraceInput primary = rays_over(scene, "primary", 65);
-  const DiffReport report = verified(scene, primary, traced(floor, primary, "exhaustive"));
+  const rays::TraceInput primary = made_rays(scene, "primary", 65);
+  const DiffReport report = report_of(scene, primary, results_of(floor, primary, "exhaustive"));
   EXPECT_EQ(report.verdict, Verdict::kMismatch);
   EXPECT_LE(report.count(DiffClass::kTie), 2U);
   EXPECT_GT(report.count(DiffClass::kStructureError), 500U);
 
-  const rays::TraceInput shadow = rays_over(scene, "shadow", 65);
+  const rays::TraceInput shadow = made_rays(scene, "shadow", 65);
   EXPECT_GT(shadow.size(), 2000U);
-  for (const char* structure : kExact) {
+  for (const char* structure : kExactStructures) {
     expect_right(scene, primary, {structure});
     expect_right(scene, shadow, {structure});
   }
@@ -276,8 +276,8 @@ TEST(ShortAndLongDirections, AreJudgedAlike) {
     set.rays = {ray};
     set.query = rays::Query::kAnyHit;
     const rays::TraceInput any(std::move(set));
-    EXPECT_EQ(verified(scene, any, rays::AnyHits{1}).verdict, Verdict::kOk);
-    EXPECT_EQ(verified(scene, any, rays::AnyHits{0}).verdict, Verdict::kMismatch);
+    EXPECT_EQ(report_of(scene, any, rays::AnyHits{1}).verdict, Verdict::kOk);
+    EXPECT_EQ(report_of(scene, any, rays::AnyHits{0}).verdict, Verdict::kMismatch);
   }
 }
 
@@ -307,7 +307,7 @@ TEST(Disputes, ExactAnswersAreNeverGrazes) {
     set.rays.push_back({{0.0F, static_cast<float>(i) / 16.0F, 1.0F}});
   }
   const rays::TraceInput input(std::move(set));
-  const rays::TraceResults hits = traced(scene, input, "exhaustive");
+  const rays::TraceResults hits = results_of(scene, input, "exhaustive");
   const std::vector<std::optional<accel::embree::ExactHit>> none(input.size());
   const DiffReport report =
       verify_results(ReferenceHits(scene, input, none), hits, accel::Conformance::kTolerance);
@@ -338,7 +338,7 @@ TEST(RandomScenes, ExhaustiveSearchIsRightWithLightsAtSurfaces) {
     if (scene.lights.empty()) continue;
     for (const char* kind : {"shadow", "diffuse"}) {
       SCOPED_TRACE(fmt::format("seed {}, {}", seed, kind));
-      const rays::TraceInput input = rays_over(scene, kind, 24);
+      const rays::TraceInput input = made_rays(scene, kind, 24);
       rays += input.size();
       expect_right(scene, input, {"exhaustive"}, 2);
       if (::testing::Test::HasFailure()) return;

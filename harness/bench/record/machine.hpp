@@ -18,7 +18,7 @@ struct BuildInfo {
   std::string_view compiler;
   std::string_view flags;
   /// The libraries that were found when the build was configured.
-  std::array<std::pair<std::string_view, std::string_view>, 8> libraries;
+  std::array<std::pair<std::string_view, std::string_view>, 9> libraries;
 };
 
 const BuildInfo& build_info();
