@@ -117,7 +117,7 @@ TEST(HitCheck, NoRayIsTracedOnFromAnInvalidHit) {
   const auto that_follow = [&](const accel::Ray& ray) {
     return ray.origin != eye && ray.t_max == accel::kInfinity;
   };
-  const auto to_the_light = [&](const accel::Ray& ray) { return ray.t_max == 1.0F; };
+  const auto to_the_light = [&](const accel::Ray& ray) { return ray.t_max <= 1.0F; };
   for (const accel::Hit& fault : {accel::Hit{1.0F, 3}, accel::Hit{kNoNumber, 0},
                                   accel::Hit{accel::kInfinity, 0}, accel::Hit{-1.0F, 0}}) {
     for (const Planted::Chosen& chosen : {Planted::Chosen(of_the_eye), Planted::Chosen(that_follow),

@@ -222,6 +222,7 @@ TEST(PathRays, GoOnFromWhereTheyHit) {
 
   set.rays = list.rays;
   const verify::ReferenceHits reference(scene, TraceInput(std::move(set)));
+  const MirrorTable mirrors(scene);
   for (std::size_t i = points.size(); i < list.rays.size(); ++i) {
     const std::size_t before = i - points.size();
     const accel::Ray& ray = list.rays[before];
@@ -229,7 +230,7 @@ TEST(PathRays, GoOnFromWhereTheyHit) {
     const dvec3 hit = dvec3(ray.origin) + reference.hits()[before]->t * dvec3(ray.direction);
     ASSERT_EQ(list.samples[i], list.samples[before]);
     ASSERT_LT(glm::distance(dvec3(list.rays[i].origin), hit),
-              2.0 * accel::surface_lift(dvec3(ray.origin), hit));
+              2.0 * mirrors.lift_at(reference.hits()[before]->primitive, dvec3(ray.origin), hit));
   }
 }
 
