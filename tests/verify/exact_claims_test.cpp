@@ -1,8 +1,9 @@
 // The judge against exact arithmetic: it accepts no claim that is wrong by more than 4 K u, and
 // refuses none within K u / 4.
 //
-// BEAMBENCH_EXACT_CLAIMS=1000000 in the environment requests that many claims, BEAMBENCH_EXACT_SEED=N
-// others. BEAMBENCH_EXACT_REPORT=N prints that many violations of each family instead of 3.
+// BEAMBENCH_EXACT_CLAIMS=1000000 in the environment requests that many claims,
+// BEAMBENCH_EXACT_SEED=N others. BEAMBENCH_EXACT_REPORT=N prints that many violations of each
+// family instead of 3.
 
 #include <cstdlib>
 #include <map>
@@ -117,8 +118,7 @@ std::vector<DiffClass> judged(const scenes::Scene& scene, const std::vector<cons
   const bool any = set.query == rays::Query::kAnyHit;
   const verify::ReferenceHits reference(scene, rays::TraceInput(std::move(set)));
   std::vector<DiffClass> classes(claims.size());
-  verify::verify_results(reference,
-                         any ? rays::TraceResults(occluded) : rays::TraceResults(hits),
+  verify::verify_results(reference, any ? rays::TraceResults(occluded) : rays::TraceResults(hits),
                          accel::Conformance::kTolerance, classes);
   return classes;
 }
@@ -172,14 +172,13 @@ class Comparison {
       std::size_t& count = claim.right ? refused_ : accepted_;
       static const std::uint64_t kReported = number_from("BEAMBENCH_EXACT_REPORT", 3);
       if (count++ < kReported) {
-        examples_ += fmt::format(
-            "seed {}: the judge {} this claim, which is {} (class {})\n{}", seed,
-            claim.right ? "refuses" : "accepts",
-            claim.right ? "within K u / 4" : "wrong by more than 4 K u",
-            verify::kDiffClassNames[static_cast<std::size_t>(classes[i])],
-            claim.query == rays::Query::kAnyHit
-                ? text_of(scene, Traced(solids, claim.ray), claim.occluded)
-                : text_of(scene, Traced(solids, claim.ray), claim.closest));
+        examples_ += fmt::format("seed {}: the judge {} this claim, which is {} (class {})\n{}",
+                                 seed, claim.right ? "refuses" : "accepts",
+                                 claim.right ? "within K u / 4" : "wrong by more than 4 K u",
+                                 verify::kDiffClassNames[static_cast<std::size_t>(classes[i])],
+                                 claim.query == rays::Query::kAnyHit
+                                     ? text_of(scene, Traced(solids, claim.ray), claim.occluded)
+                                     : text_of(scene, Traced(solids, claim.ray), claim.closest));
       }
     }
   }

@@ -109,8 +109,7 @@ class Acceptance {
   bool touches_an_end(const Crossing& crossing) const {
     const accel::Ray& ray = traced_.ray.given;
     return is_one_place(crossing, traced_.ray.parameter(ray.t_min)) ||
-           (std::isfinite(ray.t_max) &&
-            is_one_place(crossing, traced_.ray.parameter(ray.t_max)));
+           (std::isfinite(ray.t_max) && is_one_place(crossing, traced_.ray.parameter(ray.t_max)));
   }
 
   bool all_graze() const {

@@ -29,7 +29,7 @@ inline bool is_near_segment(const ExactRay& ray, const Vector& a, const Vector& 
   if (across_2.sign() > 0) {
     // The line of the edge is nearest at a + (along / across_2) edge.
     const Vector offset = ray.origin - a;
-    const Number along = dot(cross(offset, ray.direction), across);
+    const Number along = dot(cross(ray.direction, offset), across);
     if (along.sign() >= 0 && along <= across_2) {
       return dot(offset, across).squared() <= within_2 * across_2;
     }
@@ -76,8 +76,7 @@ inline bool is_far_from_rim(const ExactRay& ray, const Cone& cone, const Vector&
   const Number climb = dot(ray.direction, cone.axis);
   const Vector w = climb * offset - dot(offset, cone.axis) * ray.direction;
   const Number value = square(w) - (radius * climb).squared();
-  const Vector gradient =
-      Number(2.0) * (climb * w - dot(w, ray.direction) * cone.axis);
+  const Vector gradient = Number(2.0) * (climb * w - dot(w, ray.direction) * cone.axis);
   const double turn = std::abs(climb.rounded()) + length(cone.axis) * ray.speed;
   return has_no_zero(value, gradient, Number(turn).squared(), within);
 }
@@ -91,8 +90,8 @@ inline bool is_far_from_silhouette(const ExactRay& ray, const Cone& cone, double
   const Vector gradient_b =
       length_4 * ray.direction - (e.climb * (cone.length_2 + taper_2)) * cone.axis;
   const Vector gradient_c =
-      Number(2.0) * (length_4 * e.offset -
-                     (e.height * cone.length_2 + e.radius * cone.taper) * cone.axis);
+      Number(2.0) *
+      (length_4 * e.offset - (e.height * cone.length_2 + e.radius * cone.taper) * cone.axis);
   const Vector gradient = (Number(2.0) * e.b) * gradient_b - e.a * gradient_c;
   const Number bend = square(gradient_b) + e.a.abs() * (length_4 + taper_2 * cone.length_2);
   return has_no_zero(e.b.squared() - e.a * e.c, gradient, bend, within);
@@ -104,7 +103,8 @@ inline const std::array<std::array<double, 2>, 16>& around() {
     constexpr double kA = 0.9238795325112867;
     constexpr double kB = 0.7071067811865475;
     constexpr double kC = 0.3826834323650897;
-    const std::array<double, 16> cosines{1, kA, kB, kC, 0, -kC, -kB, -kA, -1, -kA, -kB, -kC, 0, kC, kB, kA};
+    const std::array<double, 16> cosines{1,  kA,  kB,  kC,  0, -kC, -kB, -kA,
+                                         -1, -kA, -kB, -kC, 0, kC,  kB,  kA};
     std::array<std::array<double, 2>, 16> made{};
     for (std::size_t i = 0; i < 16; ++i) made[i] = {cosines[i], cosines[(i + 12) % 16]};
     return made;
@@ -132,9 +132,8 @@ inline bool is_near_boundary(const Cone& cone, const ExactRay& ray, double withi
              is_far_from_rim(ray, cone, cone.apex, cone.apex_radius, within));
   }
   const glm::dvec3 along = glm::normalize(ray.direction.rounded());
-  const glm::dvec3 aside =
-      glm::normalize(glm::cross(along, std::abs(along.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0)
-                                                               : glm::dvec3(0.0, 1.0, 0.0)));
+  const glm::dvec3 aside = glm::normalize(glm::cross(
+      along, std::abs(along.x) < 0.5 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0)));
   const glm::dvec3 upward = glm::cross(along, aside);
   const std::array<int, 2> here = crossing_counts(cone, ray);
   return std::ranges::any_of(around(), [&](const std::array<double, 2>& step) {
@@ -146,8 +145,8 @@ inline bool is_near_boundary(const Cone& cone, const ExactRay& ray, double withi
 }
 
 inline bool is_near_boundary(const Solid& solid, const ExactRay& ray, double within, Doubt doubt) {
-  return std::visit(
-      [&](const auto& shape) { return is_near_boundary(shape, ray, within, doubt); }, solid.shape);
+  return std::visit([&](const auto& shape) { return is_near_boundary(shape, ray, within, doubt); },
+                    solid.shape);
 }
 
 }  // namespace beambench::exact

@@ -123,9 +123,8 @@ inline glm::vec3 start_of(const scenes::Scene& scene, scenes::PrimitiveId target
       return point;
     }
     case RayStyle::Start::kInPlane:
-      return glm::vec3(jittered(2.0 * point_on(scene, target, random) -
-                                    point_on(scene, target, random),
-                                random));
+      return glm::vec3(jittered(
+          2.0 * point_on(scene, target, random) - point_on(scene, target, random), random));
     default: {
       const glm::dvec3 middle =
           std::abs(scene.bounds.lower.x) > 100.0F
@@ -141,8 +140,7 @@ inline glm::vec3 start_of(const scenes::Scene& scene, scenes::PrimitiveId target
 /// component of any smaller size.
 inline glm::vec3 of_any_size(glm::vec3 direction, Random& random) {
   if (random.below(6) == 0) {
-    direction[static_cast<int>(random.below(3))] =
-        static_cast<float>(log_uniform(-149, 0, random));
+    direction[static_cast<int>(random.below(3))] = static_cast<float>(log_uniform(-149, 0, random));
   }
   const glm::dvec3 size = glm::abs(glm::dvec3(direction));
   int exponent = 0;
@@ -175,8 +173,8 @@ inline void end_at_own_t(const std::vector<Solid>& solids, accel::Ray& ray, Rand
       }
       break;
     default:
-      t *= static_cast<float>(1.0 + log_uniform(-24, -10, random) *
-                                        (random.below(2) == 0 ? -1.0 : 1.0));
+      t *= static_cast<float>(1.0 +
+                              log_uniform(-24, -10, random) * (random.below(2) == 0 ? -1.0 : 1.0));
   }
   if (!std::isfinite(t)) return;
   (random.below(3) == 0 ? ray.t_min : ray.t_max) = std::max(t, 0.0F);
@@ -188,18 +186,17 @@ inline accel::Ray claim_ray(const scenes::Scene& scene, const std::vector<Solid>
     accel::Ray ray;
     const auto target = static_cast<scenes::PrimitiveId>(random.below(scene.primitives.size()));
     ray.origin = start_of(scene, target, style.start, random);
-    ray.direction =
-        glm::vec3(target_on(scene, target, glm::dvec3(ray.origin), random) - glm::dvec3(ray.origin));
+    ray.direction = glm::vec3(target_on(scene, target, glm::dvec3(ray.origin), random) -
+                              glm::dvec3(ray.origin));
     if (random.below(8) == 0) ray.direction[static_cast<int>(random.below(3))] = 0.0F;
     if (random.below(8) == 0) ray.direction *= static_cast<float>(random.uniform(0.1, 3.0));
     if (largest(glm::abs(glm::dvec3(ray.direction))) < 1e-12) continue;
     if (style.all_exponents || random.below(6) == 0) {
       ray.direction = of_any_size(ray.direction, random);
     }
-    const RayStyle::Limits limits =
-        style.limits == RayStyle::Limits::kAny && random.below(2) == 0
-            ? static_cast<RayStyle::Limits>(random.below(3))
-            : style.limits;
+    const RayStyle::Limits limits = style.limits == RayStyle::Limits::kAny && random.below(2) == 0
+                                        ? static_cast<RayStyle::Limits>(random.below(3))
+                                        : style.limits;
     if (limits == RayStyle::Limits::kSegment) ray.t_max = 1.0F;
     if (limits == RayStyle::Limits::kOwnT) end_at_own_t(solids, ray, random);
     return ray;

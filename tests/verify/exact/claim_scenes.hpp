@@ -26,13 +26,14 @@ inline glm::dvec3 unit_vector(Random& random) {
 
 /// Its logarithm is about uniform, between powers of two.
 inline double log_uniform(int low, int high, Random& random) {
-  const int exponent =
-      low + static_cast<int>(random.below(static_cast<std::uint64_t>(high - low)));
+  const int exponent = low + static_cast<int>(random.below(static_cast<std::uint64_t>(high - low)));
   return std::ldexp(random.uniform(1.0, 2.0), exponent);
 }
 
 inline double snapped(double value) { return std::round(value * 8.0) / 8.0; }
-inline glm::dvec3 snapped(const glm::dvec3& v) { return {snapped(v.x), snapped(v.y), snapped(v.z)}; }
+inline glm::dvec3 snapped(const glm::dvec3& v) {
+  return {snapped(v.x), snapped(v.y), snapped(v.z)};
+}
 
 /// Adds primitives; y is up there, and any axis, by `turn`, in the scene.
 class Modeller {
@@ -136,7 +137,8 @@ inline scenes::Scene planes(Random& random) {
   upright.add_level_square({0.0, level, 0.0}, 1.0);
   upright.add_level_square({0.25, level, 0.5}, 1.0);  // coplanar, overlapping
   const double wall = snapped(random.uniform(-1.0, 1.0));
-  upright.add_polygon({{wall, level, -1.0}, {wall, level, 1.0}, {wall, 1.5, 1.0}, {wall, 1.5, -1.0}});
+  upright.add_polygon(
+      {{wall, level, -1.0}, {wall, level, 1.0}, {wall, 1.5, 1.0}, {wall, 1.5, -1.0}});
   upright.add_polygon({{-1.0, level, wall}, {1.0, level, wall}, {0.0, level + 1.0, wall}});
   upright.add_objects_at_height(level, 2, random);
   return std::move(upright).build();

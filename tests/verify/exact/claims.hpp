@@ -52,9 +52,9 @@ class ClaimMaker {
   /// The parameter at a distance of -100 to 100 times K u across the surface, or along the ray.
   double moved(const Crossing& crossing) {
     const double s = crossing.at.rounded();
-    const double unit = 16.0 * 0x1p-24 *
-                        (largest(glm::abs(traced_.ray.at(s))) +
-                         glm::length(glm::dvec3(traced_.ray.given.origin)));
+    const double unit =
+        16.0 * 0x1p-24 *
+        (largest(glm::abs(traced_.ray.at(s))) + glm::length(glm::dvec3(traced_.ray.given.origin)));
     const double sign = random_.below(2) == 0 ? -1.0 : 1.0;
     static constexpr std::array<double, 6> kFactors{0.05, 0.15, 0.22, 4.5, 8.0, 100.0};
     const double distance = sign * kFactors[random_.below(kFactors.size())] * unit;
@@ -64,10 +64,10 @@ class ClaimMaker {
   double cosine(const Crossing& crossing) const {
     const double root = std::sqrt(crossing.at.d.rounded());
     const double across =
-        crossing.curved
-            ? crossing.at.w.rounded() * root /
-                  (crossing.stretch * (crossing.slack.rounded() + crossing.slack_of_root.rounded() * root))
-            : crossing.at.w.rounded() / crossing.stretch;
+        crossing.curved ? crossing.at.w.rounded() * root /
+                              (crossing.stretch *
+                               (crossing.slack.rounded() + crossing.slack_of_root.rounded() * root))
+                        : crossing.at.w.rounded() / crossing.stretch;
     return std::clamp(across / traced_.ray.speed, 0x1p-12, 1.0);
   }
 

@@ -15,9 +15,9 @@ namespace beambench::exact {
 struct Crossing {
   Root at;
   bool curved;
-  bool leaves;          ///< the sphere or cone: the ray leaves it here
+  bool leaves;                  ///< the sphere or cone: the ray leaves it here
   Number slack, slack_of_root;  ///< of a curved surface, see `is_across`
-  double stretch;       ///< of a polygon: the length of the normal
+  double stretch;               ///< of a polygon: the length of the normal
   scenes::PrimitiveId primitive = scenes::kNoPrimitive;
 
   /// Whether |s - at| |direction| |cos| <= within, the cosine being that of the angle between the
@@ -88,7 +88,9 @@ inline void add_crossings(const Sphere& sphere, const ExactRay& ray, std::vector
 /// crossing a s + b is negative where the line enters.
 struct ConeEquation {
   ConeEquation(const Cone& cone, const Vector& origin, const Vector& direction)
-      : offset(origin - cone.base), height(dot(offset, cone.axis)), climb(dot(direction, cone.axis)) {
+      : offset(origin - cone.base),
+        height(dot(offset, cone.axis)),
+        climb(dot(direction, cone.axis)) {
     const Number length_4 = cone.length_2.squared();
     radius = cone.base_radius * cone.length_2 + cone.taper * height;
     widening = cone.taper * climb;

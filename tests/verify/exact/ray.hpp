@@ -20,7 +20,8 @@ struct Bound {
   bool closed;
 };
 
-/// The numbers whose nearest float is at least `limit`: ties go to the float with the even mantissa.
+/// The numbers whose nearest float is at least `limit`: ties go to the float with the even
+/// mantissa.
 inline Bound rounding_to_at_least(float limit) {
   const double below = std::nextafter(limit, -std::numeric_limits<float>::infinity());
   return {Number(limit) + (Number(below) - Number(limit)).times_two_to(-1),

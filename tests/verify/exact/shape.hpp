@@ -87,8 +87,8 @@ inline std::vector<Solid> solids_of(const scenes::Scene& scene) {
     switch (primitive.kind) {
       case scenes::PrimitiveKind::kSphere: {
         const scenes::Sphere& sphere = scene.spheres[primitive.index];
-        solid.shape = Sphere{Vector(glm::dvec3(sphere.center)), double{sphere.radius},
-                             sphere.inside_only};
+        solid.shape =
+            Sphere{Vector(glm::dvec3(sphere.center)), double{sphere.radius}, sphere.inside_only};
         break;
       }
       case scenes::PrimitiveKind::kCone:
