@@ -54,6 +54,7 @@ const Family kFamilies[] = {
     {"IntervalsEndingAtHits", room, {.limits = Limits::kOwnT}},
     {"AllExponents", room, {.all_exponents = true}},
     {"AllExponentsOverAHugeFloor", huge_floor, {.all_exponents = true}},
+    {"AllSizes", room, {.all_sizes = true}},
     {"GeneralPosition", general, {}},
 };
 
@@ -88,11 +89,34 @@ void decide(const Traced& traced, Claim claim, Claims& claims) {
   }
 }
 
-Claims make_claims(const Family& family, const scenes::Scene& scene,
-                   const std::vector<Solid>& solids, Random& random) {
-  Claims claims;
+/// Rays over a scene.
+struct Problem {
+  scenes::Scene scene;
+  std::vector<accel::Ray> rays;
+};
+
+Problem make_problem(const Family& family, Random& random) {
+  Problem problem{family.scene(random), {}};
+  const std::vector<Solid> solids = solids_of(problem.scene);
   for (int i = 0; i < 10; ++i) {
-    const accel::Ray ray = claim_ray(scene, solids, family.style, random);
+    problem.rays.push_back(claim_ray(problem.scene, solids, family.style, random));
+  }
+  if (family.style.all_sizes) {
+    const int power = -26 + static_cast<int>(random.below(53));  // extents from 1e-7 to 4e8
+    problem.scene = times_two_to(power, std::move(problem.scene));
+    for (accel::Ray& ray : problem.rays) {
+      ray.origin *= std::ldexp(1.0F, power);
+      ray.t_min = std::ldexp(ray.t_min, power);
+      ray.t_max = std::ldexp(ray.t_max, power);
+    }
+  }
+  return problem;
+}
+
+Claims make_claims(const std::vector<Solid>& solids, const std::vector<accel::Ray>& all_rays,
+                   Random& random) {
+  Claims claims;
+  for (const accel::Ray& ray : all_rays) {
     const Traced traced(solids, ray);
     for (const ClosestClaim& claim : ClaimMaker(traced, random).closest()) {
       decide(traced, {ray, rays::Query::kClosestHit, claim, false, false}, claims);
@@ -130,9 +154,9 @@ class Comparison {
 
   void add(std::uint64_t seed) {
     Random random(seed);
-    const scenes::Scene scene = family_.scene(random);
+    const auto [scene, all_rays] = make_problem(family_, random);
     const std::vector<Solid> solids = solids_of(scene);
-    const Claims claims = make_claims(family_, scene, solids, random);
+    const Claims claims = make_claims(solids, all_rays, random);
     undecided_ += claims.undecided;
     // The judge counts disputes as errors after the 64th one: right claims come apart, wrong ones
     // in small parts.
@@ -191,7 +215,7 @@ class Comparison {
 class ExactClaims : public ::testing::TestWithParam<Family> {};
 
 TEST_P(ExactClaims, JudgeAcceptsRightOnesAndRefusesWrongOnes) {
-  const std::uint64_t wanted = number_from("BEAMBENCH_EXACT_CLAIMS", 24'000) / std::size(kFamilies);
+  const std::uint64_t wanted = number_from("BEAMBENCH_EXACT_CLAIMS", 26'000) / std::size(kFamilies);
   const std::uint64_t first = number_from("BEAMBENCH_EXACT_SEED", 1) * 10'000'000;
   Comparison comparison(GetParam());
   for (std::uint64_t seed = first; comparison.made() < wanted; ++seed) {

@@ -22,7 +22,8 @@ struct RayStyle {
   enum class Limits { kNone, kSegment, kOwnT, kAny };
   Start start = Start::kAny;
   Limits limits = Limits::kAny;
-  bool all_exponents = false;
+  bool all_exponents = false;  ///< of directions
+  bool all_sizes = false;      ///< scene and ray are multiplied by a power of two
 };
 
 /// The part of the scene that is looked at: what is large goes beyond it.
@@ -136,21 +137,21 @@ inline glm::vec3 start_of(const scenes::Scene& scene, scenes::PrimitiveId target
   }
 }
 
-/// The direction times a power of two, its longest component from 1e-30 to 1e9; sometimes with one
-/// component of any smaller size.
-inline glm::vec3 of_any_size(glm::vec3 direction, Random& random) {
+/// Multiplies the direction by a power of two, its longest component from 1e-30 to 1e9, and keeps
+/// the end of the ray where it is; sometimes sets one component to any smaller size.
+inline void set_any_size(accel::Ray& ray, Random& random) {
   if (random.below(6) == 0) {
-    direction[static_cast<int>(random.below(3))] = static_cast<float>(log_uniform(-149, 0, random));
+    ray.direction[static_cast<int>(random.below(3))] =
+        static_cast<float>(log_uniform(-149, 0, random));
   }
-  const glm::dvec3 size = glm::abs(glm::dvec3(direction));
+  const glm::dvec3 wide(ray.direction);
   int exponent = 0;
-  std::frexp(largest(size), &exponent);
-  const int wanted = -98 + static_cast<int>(random.below(128));
-  const glm::dvec3 wide(direction);
-  const auto scaled = [&](double value) {
-    return static_cast<float>(std::ldexp(value, wanted - exponent));
-  };
-  return {scaled(wide.x), scaled(wide.y), scaled(wide.z)};
+  std::frexp(largest(glm::abs(wide)), &exponent);
+  const int power = -98 + static_cast<int>(random.below(128)) - exponent;
+  for (int axis = 0; axis < 3; ++axis) {
+    ray.direction[axis] = static_cast<float>(std::ldexp(wide[axis], power));
+  }
+  ray.t_max = static_cast<float>(std::ldexp(double{ray.t_max}, -power));
 }
 
 /// Sets an end of the ray to the t of one of its crossings, or close to it.
@@ -191,13 +192,11 @@ inline accel::Ray claim_ray(const scenes::Scene& scene, const std::vector<Solid>
     if (random.below(8) == 0) ray.direction[static_cast<int>(random.below(3))] = 0.0F;
     if (random.below(8) == 0) ray.direction *= static_cast<float>(random.uniform(0.1, 3.0));
     if (largest(glm::abs(glm::dvec3(ray.direction))) < 1e-12) continue;
-    if (style.all_exponents || random.below(6) == 0) {
-      ray.direction = of_any_size(ray.direction, random);
-    }
     const RayStyle::Limits limits = style.limits == RayStyle::Limits::kAny && random.below(2) == 0
                                         ? static_cast<RayStyle::Limits>(random.below(3))
                                         : style.limits;
     if (limits == RayStyle::Limits::kSegment) ray.t_max = 1.0F;
+    if (style.all_exponents || random.below(6) == 0) set_any_size(ray, random);
     if (limits == RayStyle::Limits::kOwnT) end_at_own_t(solids, ray, random);
     return ray;
   }

@@ -59,19 +59,23 @@ class Modeller {
                 double apex_radius) {
     attempt([&] { builder_.add_cone(turned(base), base_radius, turned(apex), apex_radius); });
   }
-  /// A sphere, cone or upright triangle that stands on the point.
+  /// A sphere, cone or upright triangle that stands on the point. Some cones are flat, some
+  /// triangles thin.
   void add_object_on(const glm::dvec3& place, Random& random) {
     const double size = random.uniform(0.1, 0.6);
     const double seen = random.below(5) == 0 ? -1.0 : 1.0;  // from the inside only
+    const double extreme = random.below(4) == 0 ? log_uniform(-12, 0, random) : 1.0;
     switch (random.below(3)) {
       case 0:
         return add_sphere(place + glm::dvec3(0.0, size, 0.0), seen * size);
       case 1:
-        return add_cone(place, seen * size * random.uniform(0.2, 1.0),
-                        place + glm::dvec3(random.below(2) == 0 ? 0.0 : 0.3 * size, size, 0.0),
-                        random.below(3) == 0 ? 0.0 : seen * size * random.uniform(0.2, 1.0));
+        return add_cone(
+            place, seen * size * random.uniform(0.2, 1.0),
+            place + extreme * glm::dvec3(random.below(2) == 0 ? 0.0 : 0.3 * size, size, 0.0),
+            random.below(3) == 0 ? 0.0 : seen * size * random.uniform(0.2, 1.0));
       default:
-        return add_polygon({place, place + glm::dvec3(size, 0.0, snapped(random.uniform(-1, 1))),
+        return add_polygon({place,
+                            place + extreme * glm::dvec3(size, 0.0, snapped(random.uniform(-1, 1))),
                             place + glm::dvec3(0.0, size, 0.0)});
     }
   }
@@ -178,6 +182,25 @@ inline scenes::Scene sheet(Random& random) {
   }
   modeller.add_level_square({0.0, -1.5, 0.0}, 4.0);
   return std::move(modeller).build();
+}
+
+/// The scene with all coordinates times a power of two, which is exact.
+inline scenes::Scene times_two_to(int power, scenes::Scene scene) {
+  const float factor = std::ldexp(1.0F, power);
+  for (glm::vec3& vertex : scene.vertices) vertex *= factor;
+  for (scenes::Sphere& sphere : scene.spheres) {
+    sphere.center *= factor;
+    sphere.radius *= factor;
+  }
+  for (scenes::Cone& cone : scene.cones) {
+    cone.base *= factor;
+    cone.apex *= factor;
+    cone.base_radius *= factor;
+    cone.apex_radius *= factor;
+  }
+  scene.bounds.lower *= factor;
+  scene.bounds.upper *= factor;
+  return scene;
 }
 
 /// Spheres, cones and concave polygons at random.
