@@ -58,7 +58,7 @@ const Family kFamilies[] = {
     {"GeneralPosition", general, {}},
 };
 
-/// One answer to one ray, and whether it is right: a closest hit or none, or an occlusion.
+/// A result claimed for one ray, a closest hit or an occlusion, and whether it is right.
 struct Claim {
   accel::Ray ray;
   rays::Query query;

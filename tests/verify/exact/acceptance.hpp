@@ -15,8 +15,8 @@
 
 namespace beambench::exact {
 
-/// How far from exact a claim may be: `factor` times K u, where u = 2^-24 (largest |coordinate| of
-/// the point + distance of the ray's origin) and K = 16.
+/// The distance by which a claim may be wrong: `factor` times K u, where u = 2^-24 (largest
+/// |coordinate| of the point + distance of the ray's origin) and K = 16.
 struct Leniency {
   double factor;
   Doubt doubt;
@@ -57,7 +57,7 @@ class Acceptance {
     return is_near(*claim) && nothing_is_lost_before(*claim);
   }
 
-  /// Whether the answer to an any-hit query is acceptable.
+  /// Whether the result of an any-hit query is acceptable.
   bool accepts_occlusion(bool occluded) const {
     if (!occluded) return all_graze();
     if (std::ranges::find(traced_.inside, true) != traced_.inside.end()) return true;
@@ -140,7 +140,7 @@ class Acceptance {
   }
 
   /// Walks through the crossings before the claim. Of crossings at one parameter, the claim's own
-  /// comes first or last, whichever the leniency asks for.
+  /// comes first if doubts favor the claim and last if not.
   bool nothing_is_lost_before(const accel::Hit& claim) const {
     const Number s = traced_.ray.parameter(claim.t);
     const std::vector<Crossing>& all = traced_.crossings;

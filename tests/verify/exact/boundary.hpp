@@ -13,8 +13,8 @@
 
 namespace beambench::exact {
 
-/// How a question is decided that exact arithmetic does not answer at acceptable cost: in favor of
-/// the claim or against it.
+/// The side that a decision takes where exact arithmetic would cost too much: for the claim or
+/// against it.
 enum class Doubt { kFavors, kOpposes };
 
 inline bool is_near_point(const ExactRay& ray, const Vector& point, const Number& within_2) {

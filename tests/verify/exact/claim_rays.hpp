@@ -16,7 +16,7 @@
 
 namespace beambench::exact {
 
-/// Where rays begin, what they may be, and where they end.
+/// The choice of the rays of a family: origins, ends and lengths of directions.
 struct RayStyle {
   enum class Start { kAround, kOnSurface, kInPlane, kAny };
   enum class Limits { kNone, kSegment, kOwnT, kAny };

@@ -94,7 +94,7 @@ struct Root {
   Number d;
   Number w;
 
-  /// Without cancellation: the error is a few units in the last place.
+  /// Rounds without cancellation: the error is a few units in the last place.
   double rounded() const {
     const double root = std::sqrt(d.rounded());
     const double rational = p.rounded();
