@@ -30,6 +30,7 @@ from beambench_report.thesis.chapter6.simulate import (
     simulate,
     simulations,
 )
+from svg_texts import missing_in
 
 BINARIES = Path(
     os.environ.get("BEAMBENCH_BINARY", Path(__file__).parents[2] / "build/release/bin/beambench")
@@ -304,6 +305,7 @@ def test_all_steps_write_a_page(tmp_path: Path, capsys: pytest.CaptureFixture[st
     for figure in ("figure-6.3", "many-processes-1999", "many-processes-today", "divisions"):
         assert f"]({figure}.png)" in page
         assert (tmp_path / f"{figure}.svg").is_file()
+    assert missing_in(tmp_path) == {}
     capsys.readouterr()
 
 

@@ -12,6 +12,7 @@ import pytest
 
 from beambench_report.__main__ import main
 from program import beambench, output_of, refused
+from svg_texts import missing_in
 
 CSV = """generator,parameter,size,primitives,bytes,seconds,scene
 tetra,n,1,4,1000,0.000001,"tetra:n=1"
@@ -97,6 +98,7 @@ def test_the_plot_lies_beside_the_first_file(
     assert main(["growth", str(first), "-o", str(tmp_path / "growth.png")]) == 0
     assert (tmp_path / "growth.png").exists()
     assert (tmp_path / "growth.svg").exists()
+    assert missing_in(tmp_path) == {}
 
 
 @pytest.mark.parametrize(

@@ -26,6 +26,7 @@ from beambench_report.run.measured import read_measured
 from beambench_report.run.plots import KINDS
 from beambench_report.run.resolutions import resolutions
 from beambench_report.run.trade_offs import pareto_front, trade_offs
+from svg_texts import missing_in
 from synthetic_run import synthetic_rows, without_times, write_run, write_trace_cell
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -72,6 +73,10 @@ def test_every_plot_is_written_as_png_and_svg(drawn: tuple[Path, str]) -> None:
     readme = (folder / "README.md").read_text()
     assert all(f"{stem}.png" in readme for stem in PLOTS)
     assert len(pd.read_csv(folder / "break-even.csv", keep_default_na=False)) == 24
+
+
+def test_every_axis_and_color_of_a_plot_is_named(drawn: tuple[Path, str]) -> None:
+    assert missing_in(drawn[0] / "plots") == {}
 
 
 def test_plotting_again_replaces_and_leaves_nothing_beside(drawn: tuple[Path, str]) -> None:
@@ -215,6 +220,7 @@ def test_repetitions_are_drawn_each(tmp_path: Path) -> None:
     assert main(["plots", str(run), "--kinds", "distributions"]) == 0
     stems = {"distributions-escena1", "distributions-tetra-n-6"}
     assert plotted(tmp_path) == stems
+    assert missing_in(tmp_path) == {}
     for stem in stems:
         shown = titles(tmp_path / "plots" / f"{stem}.svg")
         assert "samet max_level=5: 220 ns per ray (213 to 227); 9 repetitions" in " ".join(shown)

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from beambench_report.base.figure import house_style, svg_of
 from beambench_report.thesis.chapter5.cost import (
     cost_section,
     fit,
@@ -18,6 +19,7 @@ from beambench_report.thesis.chapter5.cost import (
 from beambench_report.thesis.paper.cells import Cell, read_cells
 from beambench_report.thesis.paper.section import section_as_markdown
 from beambench_report.thesis.report.plan import PlannedCell
+from svg_texts import missing_texts
 from synthetic_run import write_run
 from synthetic_thesis import Row, row_of
 
@@ -201,4 +203,7 @@ def test_the_section_tells_costs_intervals_and_errors(tmp_path: Path) -> None:
     assert "| 48 | 4 | 1.000 | 0.0% | 0.0% | 0.0% |" in text
     assert [figure.stem for figure in section.figures] == ["cost-formulas", "cost-sums"]
     assert len(section.figures[1].draw().figure.axes) == 3
+    with house_style():
+        for figure in section.figures:
+            assert missing_texts(svg_of(figure.draw())) == []
     assert cost_section([]) is None

@@ -15,6 +15,7 @@ from beambench_report.thesis.paper.cells import Cell, read_cells
 from beambench_report.thesis.report.plan import LEVELS, PlannedCell, make_plan, quick, read_sweep
 from beambench_report.thesis.report.report import gather
 from beambench_report.thesis.report.write import write_report
+from svg_texts import missing_in
 from synthetic_run import without_times, write_manifest, write_run
 from synthetic_thesis import Row, row_of, write_runs
 
@@ -166,6 +167,7 @@ def test_the_command_prints_the_choices_or_writes_them(
         file.read_text()
     )
     assert (tmp_path / "level-choice.svg").exists()
+    assert missing_in(tmp_path) == {}
 
 
 @pytest.mark.parametrize("rows", [[], [row(5, 1), row(6, 1)]])

@@ -19,6 +19,7 @@ from beambench_report.thesis.report.report import gather
 from beambench_report.thesis.report.tables import fill
 from beambench_report.thesis.report.write import write_report
 from browser import Browser, find_browser
+from svg_texts import missing_in
 from synthetic_run import without_times
 from synthetic_thesis import Row, write_runs
 
@@ -208,6 +209,11 @@ def test_captions_hold_the_thesiss_numbers(everything: Path) -> None:
     assert "Escena 1 2.21 to 13.52 s (+512%)" in captions["5.8"]
     assert "Caracol" in captions["5.10"]
     assert "93 s" in captions["5.17"]
+
+
+def test_every_axis_and_color_of_a_figure_is_named(everything: Path, page: str) -> None:
+    assert 'id="figure-5.12"' in page
+    assert missing_in(everything / "figures") == {}
 
 
 def test_figures_are_drawn_as_multiples_of_the_same_base(everything: Path) -> None:

@@ -19,6 +19,7 @@ from beambench_report.thesis.chapter5.sampling import (
 from beambench_report.thesis.paper.section import section_as_markdown
 from beambench_report.thesis.report.plan import make_plan
 from beambench_report.thesis.report.write import write_report
+from svg_texts import missing_in
 from synthetic_thesis import write_runs
 
 Result = tuple[str, str, float, float, float]
@@ -162,6 +163,7 @@ def test_the_command_writes_a_table_and_a_plot_a_scene(
         "sampling-maceta-640x480.svg",
     ]
     assert "](sampling-maceta-640x480.png)" in (tmp_path / "out/sampling.md").read_text()
+    assert missing_in(tmp_path / "out") == {}
 
 
 @pytest.mark.parametrize(

@@ -9,7 +9,7 @@ from xml.etree.ElementTree import Element
 from matplotlib.artist import Artist
 
 _SVG, _XLINK = "http://www.w3.org/2000/svg", "http://www.w3.org/1999/xlink"
-_G, _USE, _TEXT = f"{{{_SVG}}}g", f"{{{_SVG}}}use", f"{{{_SVG}}}text"
+_G, _USE = f"{{{_SVG}}}g", f"{{{_SVG}}}use"
 _TITLE, _DEFS = f"{{{_SVG}}}title", f"{{{_SVG}}}defs"
 _HREF = f"{{{_XLINK}}}href"
 _HOVER = "hover:"
@@ -84,9 +84,12 @@ def _shorten(element: Element, used: dict[str, str]) -> None:
         element.set(key, re.sub(r"url\(#([^)]+)\)", lambda m: f"url(#{used[m[1]]})", value))
     if element.get("transform", "").startswith("rotate(-0 "):
         del element.attrib["transform"]
-    if element.tag != _TEXT and element.tag != _TITLE:
+    # Between elements there is nothing but indentation. Characters are kept wherever they stand:
+    # mathematical labels have theirs in a <tspan> for each character.
+    if element.text and not element.text.strip():
         element.text = None
-    element.tail = None
+    if element.tail and not element.tail.strip():
+        element.tail = None
 
 
 def _share_markers(root: Element) -> None:

@@ -295,6 +295,8 @@ def draw_fits(stem: str, fits: Sequence[Fit]) -> Plot:
         panel.plot(ends, ends, color="#333333", linewidth=0.8)
         panel.fill_between(ends, *band, color="#999999", alpha=0.25, linewidth=0)
         panel.set(xscale="log", yscale="log", xlim=ends, ylim=ends, aspect="equal")
+        for axis in (panel.xaxis, panel.yaxis):
+            axis.set_major_formatter("{x:,g}")
         panel.set_title(one.formula.title, fontsize=8.5)
         panel.set_ylabel(f"predicted / {one.formula.unit}", labelpad=1)
         panel.set_xlabel(f"measured / {one.formula.unit}")
