@@ -84,7 +84,7 @@ def test_ratios_are_those_of_one_machine(folder: Path, tmp_path: Path) -> None:
         for run in map(read_run, (folder, alone))
     )
     assert found == pytest.approx(wanted)
-    assert len(races(read_run(folder).rows)) == len(races(read_run(alone).rows))
+    assert len(races(read_run(folder).rows, {})) == len(races(read_run(alone).rows, {}))
     assert len(entry_of(read_run(folder)).cells) == len(entry_of(read_run(alone)).cells)
 
 

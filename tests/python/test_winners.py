@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from beambench_report.__main__ import main
+from beambench_report.base.cell_files import CellFile, identity
 from beambench_report.base.records import read_run
 from beambench_report.run.winners import races
 from synthetic_run import synthetic_rows, write_run
@@ -34,7 +35,7 @@ def test_a_structure_counts_once_with_its_best_parameters(tmp_path: Path) -> Non
             ("exhaustive", ""): (1, 1, 1),
         },
     )
-    (race,) = races(read_run(run).rows)
+    (race,) = races(read_run(run).rows, {})
     assert list(race.ranked["structure"]) == ["sah-bvh", "samet"]
     assert list(race.ranked["ratio"]) == [1, 2]
     assert list(race.ranked["parameters"]) == ["max_leaf=8", "max_level=6"]
@@ -42,7 +43,7 @@ def test_a_structure_counts_once_with_its_best_parameters(tmp_path: Path) -> Non
     assert race.words == "`sah-bvh`; 2.00 `samet`"
 
 
-def test_intervals_that_overlap_are_a_tie(tmp_path: Path) -> None:
+def test_a_ratio_whose_interval_holds_1_is_a_tie(tmp_path: Path) -> None:
     run = a_run(
         tmp_path,
         {
@@ -51,9 +52,37 @@ def test_intervals_that_overlap_are_a_tie(tmp_path: Path) -> None:
             ("kd-tree", ""): (15, 14, 16),
         },
     )
-    (race,) = races(read_run(run).rows)
+    (race,) = races(read_run(run).rows, {})
     assert race.tied == ["sah-bvh", "samet"]
     assert race.words == "`sah-bvh`, `samet`; 1.50 `kd-tree`"
+
+
+def test_intervals_of_medians_may_overlap_without_a_tie(tmp_path: Path) -> None:
+    run = a_run(tmp_path, {("samet", ""): (11.4, 10.4, 12), ("sah-bvh", ""): (10, 9, 10.5)})
+    (race,) = races(read_run(run).rows, {})
+    assert race.tied == ["sah-bvh"]
+    assert race.is_decided
+
+
+def test_a_ratio_is_that_of_the_rounds_where_repetitions_are_known(tmp_path: Path) -> None:
+    """A slow round is in both times, and in the medians of one alone."""
+    run = read_run(a_run(tmp_path, {("samet", ""): (12, 9, 20), ("sah-bvh", ""): (10, 8, 18)}))
+    rounds = {"sah-bvh": [8, 9, 10, 10, 10, 17, 18], "samet": [8.8, 9.9, 11, 11, 12, 18.7, 19.8]}
+    files = {
+        identity(row): CellFile("", (), {}, dict(enumerate(rounds[row["structure"]])))
+        for row in run.rows.to_dict("records")
+    }
+    (race,) = races(run.rows, files)
+    assert list(race.ranked["ratio"]) == pytest.approx([1, 1.1])
+    assert race.tied == ["sah-bvh"]
+
+
+def test_the_medians_decide_where_a_ratio_has_no_interval(tmp_path: Path) -> None:
+    none = float("nan")
+    run = a_run(tmp_path, {("samet", ""): (10.1, none, none), ("sah-bvh", ""): (10, none, none)})
+    (race,) = races(read_run(run).rows, {})
+    assert race.tied == ["sah-bvh"]
+    assert not race.is_decided
 
 
 def test_the_tables_are_printed_or_written(

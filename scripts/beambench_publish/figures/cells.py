@@ -29,7 +29,8 @@ class Cells:
         self.rows = rows.assign(size=sizes, scene=rows["scene"])
 
     @cached_property
-    def _files(self) -> dict[Identity, CellFile]:
+    def files(self) -> dict[Identity, CellFile]:
+        """The repetitions of each cell, where they are published."""
         return read_cell_files(self.folder)
 
     def having(self, contender: str = "", **columns: str) -> pd.DataFrame:
@@ -53,7 +54,7 @@ class Cells:
     def ratio(self, over: str, under: str, phase: Phase = "trace", **columns: str) -> Ratio:
         """A contender's time over another one's: paired where the repetitions are published."""
         both = (self.row(contender, **columns) for contender in (over, under))
-        return ratio_of(phase, *both, self._files)
+        return ratio_of(phase, *both, self.files)
 
     def mean(
         self, over: str, under: str, scenes: Sequence[str], phase: Phase = "trace", **columns: str

@@ -11,6 +11,7 @@ from scipy.stats import gmean
 from beambench_publish.figures.cells import Cells
 from beambench_report.base.files import read_table
 from beambench_report.base.names import parameter_items
+from beambench_report.run.winners import with_ratios
 
 _WATERTIGHT = "embree, watertight"
 
@@ -19,7 +20,7 @@ def figures(folder: Path) -> dict[str, Any]:
     """Geometric means over the views, as times the fastest; every camera; the large scene."""
     cells = Cells(folder)
     kinds = list(dict.fromkeys(cells.rows["ray_kind"]))
-    means = {kind: _means(cells.rows[cells.rows["ray_kind"] == kind]) for kind in kinds}
+    means = {kind: _means(cells, kind) for kind in kinds}
     embree = {
         kind: min((value, name) for name, value in own["mean"].items() if _is_embree(name))
         for kind, own in means.items()
@@ -53,17 +54,14 @@ def _name(row: pd.Series) -> str:
     return str(row["contender"])
 
 
-def _means(rows: pd.DataFrame) -> dict[str, dict]:
-    timed = rows[rows["timed"]]
+def _means(cells: Cells, kind: str) -> dict[str, dict]:
+    timed = cells.having(ray_kind=kind).query("timed")
     timed = timed.assign(name=timed.apply(_name, axis=1))
-    fastest = timed.groupby("scene")["trace_ms_median"].transform("min")
-    timed = timed.assign(ratio=timed["trace_ms_median"] / fastest)
-    first = timed[timed["ratio"] == 1].set_index("scene")["trace_ms_ci_high"]
-    overlap = timed["trace_ms_ci_low"] <= timed["scene"].map(first)
-    wins = timed[(timed["ratio"] == 1) | overlap].groupby("name").size()
+    views = (with_ratios(own, cells.files) for _, own in timed.groupby("scene", sort=False))
+    ranked = pd.concat(views)
     return {
-        "mean": timed.groupby("name")["ratio"].agg(gmean).to_dict(),
-        "wins": wins.to_dict(),
+        "mean": ranked.groupby("name")["ratio"].agg(gmean).to_dict(),
+        "wins": ranked[ranked["is_tied"]].groupby("name").size().to_dict(),
     }
 
 

@@ -13,13 +13,14 @@ from beambench_publish.figures.cells import Cells
 from beambench_report.run.winners import races
 
 _KINDS = ("primary", "shadow", "diffuse")
-_ONES_OF_TODAY = ("embree", "tile-beam", "sah-bvh", "kd-tree")
+_NOT_OLDER = ("embree", "tile-beam", "sah-bvh", "kd-tree", "beam", "grid-beam")
+"""Structures of today, and beams, which do not trace rays one by one."""
 
 
 def figures(folder: Path) -> dict[str, Any]:
     """Of each structure, by kind of rays: the mean over the scenes, and how often it wins."""
     cells = Cells(folder)
-    found = races(cells.rows)
+    found = races(cells.rows, cells.files)
     by_kind = {kind: [race for race in found if race.ray_kind == kind] for kind in _KINDS}
     best = {
         kind: {
@@ -38,12 +39,14 @@ def figures(folder: Path) -> dict[str, Any]:
         "best": best,
         "order": order,
         "scenes": {kind: len(races_) for kind, races_ in by_kind.items()},
+        "views": len(found),
+        "undecided": sum(not race.is_decided for race in found),
         "cells": len(cells.rows),
         "wrong": wrong.to_dict("records"),
         "single": min(
             (name for name in order if name not in ("embree", "tile-beam")),
             key=lambda name: sum(best[kind][name]["mean"] for kind in _KINDS),
         ),
-        "of_the_thesis": [name for name in order if name not in _ONES_OF_TODAY],
+        "older": [name for name in order if name not in _NOT_OLDER],
         "size": cells.sizes[0],
     }

@@ -1,18 +1,20 @@
 """Which structure wins where: each structure with its own best parameters, view by view.
 
 Beside `standings`, which ranks every contender, a structure counts once here: with the parameters
-that give it the least median trace time in the view. Two structures are tied where the intervals
-of their medians overlap.
+that give it the least median trace time in the view. A structure is tied with the fastest where the
+interval of the ratio of their times holds 1 (`base.ratio`), as in `standings`. Where a ratio has no
+interval, because a cell was repeated too seldom, the medians decide.
 """
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import pandas as pd
 from scipy.stats import gmean
 
+from beambench_report.base.cell_files import CellFile, Identity, ratio_of, read_cell_files
 from beambench_report.base.files import Problem, write_text
 from beambench_report.base.quantities import markdown_table, number
 from beambench_report.base.records import REFERENCES, contenders_with_times, read_run
@@ -27,14 +29,17 @@ class Race:
     scene: str
     ray_kind: str
     ranked: pd.DataFrame
-    """Their best rows, with `ratio`: times the fastest."""
+    """Their best rows, with the columns of `with_ratios`."""
 
     @property
     def tied(self) -> list[str]:
-        """The fastest structure, and those whose interval overlaps its own."""
-        first = self.ranked.iloc[0]
-        overlap = self.ranked["trace_ms_ci_low"] <= first["trace_ms_ci_high"]
-        return list(self.ranked.loc[overlap | (self.ranked["ratio"] == 1), "structure"])
+        """The fastest structure, and those that may be as fast."""
+        return list(self.ranked.loc[self.ranked["is_tied"], "structure"])
+
+    @property
+    def is_decided(self) -> bool:
+        """Does the ratio of the second to the fastest have an interval?"""
+        return len(self.ranked) < 2 or bool(self.ranked["has_interval"].iloc[1])
 
     @property
     def words(self) -> str:
@@ -48,22 +53,39 @@ class Race:
         return f"{text}; {second['ratio']:.2f} `{second['structure']}`"
 
 
-def races(rows: pd.DataFrame) -> list[Race]:
+def races(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> list[Race]:
     """Of all views and kinds of rays, in the order of the rows."""
     timed = contenders_with_times(rows)
     timed = timed[~timed["structure"].isin(REFERENCES)]
     found = []
     for (scene, _, _, _, _, kind), group in timed.groupby([*_VIEW, "ray_kind"], sort=False):
         best = group.loc[group.groupby("structure")["trace_ms_median"].idxmin()]
-        best = best.sort_values("trace_ms_median")
-        ratio = best["trace_ms_median"] / best["trace_ms_median"].iloc[0]
-        found.append(Race(str(scene), str(kind), best.assign(ratio=ratio)))
+        found.append(Race(str(scene), str(kind), with_ratios(best, files)))
     return found
+
+
+def with_ratios(rows: pd.DataFrame, files: Mapping[Identity, CellFile]) -> pd.DataFrame:
+    """Returns the rows of one view, the fastest first, compared with it.
+
+    `ratio` is that of the trace times, as in the plots (`base.ratio`). `is_tied` is true of the
+    fastest, and where the interval of the ratio holds 1.
+    """
+    ranked = rows.sort_values("trace_ms_median")
+    fastest = ranked.iloc[0]
+    ratios = [ratio_of("trace", row, fastest, files) for _, row in ranked.iterrows()]
+    return ranked.assign(
+        ratio=[ratio.value for ratio in ratios],
+        has_interval=[ratio.interval is not None for ratio in ratios],
+        is_tied=[
+            place == 0 or (ratio.low is not None and ratio.low <= 1)
+            for place, ratio in enumerate(ratios)
+        ],
+    )
 
 
 def write_winners(run: Path, output: Path | None) -> str | list[Path]:
     """The tables as Markdown: a text to be printed, or the file that was written."""
-    found = races(read_run(run).rows)
+    found = races(read_run(run).rows, read_cell_files(run))
     if not found:
         raise Problem(f"{run}: no structure has times; a run with correct hits is needed")
     text = "\n".join((*_by_structure(found), _by_scene(found)))
@@ -115,6 +137,6 @@ def _by_scene(found: Sequence[Race]) -> str:
     rows = [(scene, *(of.get(kind, "-") for kind in kinds)) for scene, of in words.items()]
     lines = markdown_table(("scene", *kinds), rows)
     return (
-        "## By scene\n\nThe fastest, with those that are tied with it, and the next with its ratio."
-        "\n\n" + "\n".join(lines) + "\n"
+        "## By scene\n\nThe fastest, with those tied with it, and the next with its ratio. "
+        "Tied: the interval of the ratio of their times holds 1.\n\n" + "\n".join(lines) + "\n"
     )
