@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -54,6 +55,7 @@ def figures(folder: Path) -> dict[str, Any]:
             verdict.value: [one.claim.name for one in tested if one.ours.verdict is verdict]
             for verdict in _TESTED
         },
+        "alone": Counter(one.ours.verdict.value for one in report.claims),
         "alike": ALIKE,
         "again": _again(report, second) if second else None,
         "more": len(more),

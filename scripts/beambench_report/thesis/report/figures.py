@@ -12,6 +12,7 @@ from beambench_report.thesis.paper.evidence import (
     Measured,
     published_evidence,
 )
+from beambench_report.thesis.paper.measured import UNKNOWN_SPREAD
 from beambench_report.thesis.paper.printed import (
     PrintedPart,
     contender_title,
@@ -22,6 +23,12 @@ from beambench_report.thesis.report.drawing import FigureData, Panel, Points, Si
 
 ACROSS = "rays / 10,000"
 TICKS = tuple(round(rays(resolution) / 1e4, 2) for resolution in RESOLUTIONS)
+
+# Figures of few repetitions have bars all the same, which nobody measured.
+_BARS = (
+    f"bars are intervals, or {UNKNOWN_SPREAD:.0%} to each side by assumption where a cell has too "
+    "few repetitions for one"
+)
 
 _RESOLUTION = SETTING.index("resolution")
 
@@ -76,7 +83,7 @@ def figure_5_14(cells: Cells) -> FigureData:
         "that each contender's lowest point counts, and that the beams' is the lowest at high "
         "resolution. At level 6 and 1280x1024 the thesis has: "
         f"{'; '.join(_printed_at_six(scene) for scene in ('casa-de-campo', 'gato-bill'))}. The "
-        "vertical axis is logarithmic; bars are intervals.",
+        f"vertical axis is logarithmic; {_BARS}.",
         (4, 5, 6, 7, 8, 9),
         is_log=True,
         is_all_ours=True,
@@ -104,8 +111,8 @@ def figure_5_17(cells: Cells) -> FigureData:
         f"being {ours}. Of the thesis's figure only this is known: with 32 cells per axis "
         f"{_printed_grid('ajedrez', at):g} s (Ajedrez) and {_printed_grid('flamenco', at):g} s "
         "(Flamenco) by table 5.8, Flamenco's best with 13 cells, 93 s at a resolution that it does "
-        "not state, Ajedrez's best with 15 (its seconds are lost). Both axes are logarithmic; bars "
-        "are intervals.",
+        "not state, Ajedrez's best with 15 (its seconds are lost). Both axes are logarithmic; "
+        f"{_BARS}.",
         (8, 13, 16, 20, 24, 32, 48),
         is_log=True,
         is_log_across=True,
@@ -158,7 +165,7 @@ def figure_5_18(cells: Cells) -> FigureData:
         ACROSS,
         "The thesis's best grids are 15 cells per axis for Ajedrez and 13 for Flamenco; its points "
         "for them are lost but for Flamenco's 93 s, so its column shows the 32 cells of table "
-        "5.8. Build included; the vertical axis is logarithmic; bars are intervals.",
+        f"5.8. Build included; the vertical axis is logarithmic; {_BARS}.",
         TICKS,
         is_log=True,
     )
@@ -258,7 +265,7 @@ def _of_table(figure: str, title: str, table: str, *, is_log: bool = False) -> C
             tuple(_table_panel(part, cells) for part in parts),
             ACROSS,
             f"{_caption_of(parts)} Each part is drawn as a multiple of its first row's time at "
-            "320x200, the thesis's left and ours right; build included; bars are intervals"
+            f"320x200, the thesis's left and ours right; build included; {_BARS}"
             f"{'; the vertical axis is logarithmic' if is_log else ''}.",
             TICKS,
             is_log,
@@ -350,7 +357,7 @@ def _samples(cells: Cells) -> FigureData:
         "Four samples at a pixel's corners and one in its center; none where a beam leaves the "
         "scene. The base of each line is its own time at 320x200 with as many samples. The "
         "thesis's points are lost; it says that the lines lie farther apart with five samples "
-        "(right) than with one (left, figure 5.10 b). Bars are intervals.",
+        f"(right) than with one (left, figure 5.10 b). {_BARS[0].upper()}{_BARS[1:]}.",
         TICKS,
         is_all_ours=True,
     )
@@ -404,7 +411,7 @@ def _caption_of_scenes(thesis: dict) -> str:
     without = f" Its points for {' and '.join(lost)} are lost." if lost else ""
     return (
         f"The beams at level 6. Thesis, 320x200 to 1280x1024: {'; '.join(texts)}.{without} Both "
-        "axes of (a) are multiples of one scene's time at 320x200; bars are intervals."
+        f"axes of (a) are multiples of one scene's time at 320x200; {_BARS}."
     )
 
 
