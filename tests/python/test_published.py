@@ -55,6 +55,30 @@ def test_the_finding_of_the_root_readme(repository: Path, published: Path) -> No
     assert f"only {large:.2f} times as long at 1280x1024" in text
 
 
+def test_the_table_of_programs_has_the_sums_of_its_rows(published: Path) -> None:
+    """Its page has no template."""
+    sums: dict[str, dict[str, list[int]]] = {}
+    with (published / "programs/summary.csv").open(encoding="utf-8") as table:
+        for row in csv.DictReader(table):
+            own = [int(row[name]) for name in ("rays", "graze", "structure_error", "scenes")]
+            own.append(int(row["hits"]) - int(row["program_hits"]))
+            sums.setdefault(row["program"], {})[row["ray_kinds"]] = own
+    expected = []
+    for program, kinds in sums.items():
+        cells = [
+            f"{rays:,}; {grazes:,}, {errors:,}"
+            for rays, grazes, errors, *_ in (
+                kinds[kind] for kind in ("scene's own", "edges", "axis")
+            )
+        ]
+        rays, *_, lost = kinds.get("inside", [0, 0])
+        cells.append(f"{rays:,}; {lost:,}" if rays else "-")
+        expected.append(f"| {program} | {kinds['edges'][3]} | {' | '.join(cells)} |")
+    lines = (published / "programs/README.md").read_text("utf-8").splitlines()
+    start = next(place for place, line in enumerate(lines) if line.startswith("| program |"))
+    assert lines[start + 2 : start + 2 + len(expected)] == expected
+
+
 def test_the_findings_are_one_page(published: Path) -> None:
     assert len((published / "README.md").read_text("utf-8").splitlines()) <= 200
 
