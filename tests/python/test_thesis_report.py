@@ -211,6 +211,13 @@ def test_captions_hold_the_thesiss_numbers(everything: Path) -> None:
     assert "93 s" in captions["5.17"]
 
 
+def test_captions_state_that_bars_of_few_repetitions_are_an_assumption(everything: Path) -> None:
+    captions = [figure.caption for figure in gather(everything, PLAN).figures]
+    with_bars = [caption for caption in captions if "ars are intervals" in caption]
+    assert len(with_bars) > 10
+    assert all("15% to each side by assumption" in caption for caption in with_bars)
+
+
 def test_every_axis_and_color_of_a_figure_is_named(everything: Path, page: str) -> None:
     assert 'id="figure-5.12"' in page
     assert missing_in(everything / "figures") == {}
