@@ -1,7 +1,6 @@
 #include "scenes/core/process_memory.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -11,8 +10,9 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include "scenes/core/control_groups.hpp"
 #include "scenes/core/error.hpp"
-#include "scenes/core/files.hpp"
+#include "scenes/core/kernel_text.hpp"
 
 namespace beambench {
 namespace {
@@ -20,36 +20,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kKibi = 1024;
-constexpr std::uint64_t kLargestSystemText = std::uint64_t{1} << 20U;
-
-/// A file of the system's; empty where it is not there.
-std::string system_text(const fs::path& path) {
-  try {
-    return read_input(path, kLargestSystemText);
-  } catch (const InputError&) {
-    return "";
-  }
-}
-
-/// The whole number at the start of a text, after spaces.
-std::optional<std::uint64_t> number_at(std::string_view text) {
-  text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
-  std::uint64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() ? std::optional(value) : std::nullopt;
-}
-
-/// The number after a key that begins a line: `MemAvailable: 123 kB`, `inactive_file 123`.
-std::optional<std::uint64_t> value_of(std::string_view text, std::string_view key) {
-  for (std::size_t start = 0; start < text.size();) {
-    if (text.substr(start).starts_with(key)) return number_at(text.substr(start + key.size()));
-    start = std::min(text.find('\n', start), text.size() - 1) + 1;
-  }
-  return std::nullopt;
-}
 
 std::optional<std::uint64_t> status_bytes(std::string_view key) {
-  const auto kibibytes = value_of(system_text("/proc/self/status"), key);
+  const auto kibibytes = value_of(kernel_text("/proc/self/status"), key);
   return kibibytes ? std::optional(*kibibytes * kKibi) : std::nullopt;
 }
 
@@ -60,28 +33,11 @@ std::uint64_t left_of(std::uint64_t limit, std::uint64_t used) {
 /// Of one control group. What it caches of files can be given up, and does not count.
 std::optional<std::uint64_t> left_of_group(const fs::path& folder, const char* limit_name,
                                            const char* used_name, const char* cached_name) {
-  const auto limit = number_at(system_text(folder / limit_name));
-  const auto used = number_at(system_text(folder / used_name));
+  const auto limit = number_at(kernel_text(folder / limit_name));
+  const auto used = number_at(kernel_text(folder / used_name));
   if (!limit || !used) return std::nullopt;  // `max`: there is no limit
-  const auto cached = value_of(system_text(folder / "memory.stat"), cached_name).value_or(0);
+  const auto cached = value_of(kernel_text(folder / "memory.stat"), cached_name).value_or(0);
   return left_of(*limit, left_of(*used, cached));
-}
-
-/// The folder of this process below a mount of control groups: the path that the line of
-/// /proc/self/cgroup with this start names.
-fs::path group_of_process(const fs::path& mount, std::string_view start) {
-  const std::string groups = system_text("/proc/self/cgroup");
-  std::string_view rest = groups;
-  while (!rest.empty()) {
-    const std::string_view line = rest.substr(0, rest.find('\n'));
-    const std::size_t at = line.find(start);
-    if (at != std::string_view::npos) {
-      const std::string_view path = line.substr(at + start.size());
-      return mount / fs::path(path).relative_path();
-    }
-    rest.remove_prefix(std::min(line.size() + 1, rest.size()));
-  }
-  return mount;
 }
 
 /// The text of BEAMBENCH_MEMORY; nothing where it is not set.
@@ -108,22 +64,19 @@ void take_least(std::optional<std::uint64_t>& least, const std::optional<std::ui
 
 }  // namespace
 
-std::optional<std::uint64_t> available_memory() {
+std::optional<std::uint64_t> available_memory(const fs::path& root) {
   if (const auto limit = own_limit()) {
     return left_of(*limit, status_bytes("VmRSS:").value_or(0));
   }
   std::optional<std::uint64_t> least;
-  if (const auto kibibytes = value_of(system_text("/proc/meminfo"), "MemAvailable:")) {
+  if (const auto kibibytes = value_of(kernel_text(root / "proc/meminfo"), "MemAvailable:")) {
     least = *kibibytes * kKibi;
   }
-  // Control groups of both versions, seen from the host or from inside a container, where the
-  // process's own group is the mount.
-  const fs::path mount = "/sys/fs/cgroup";
-  for (const fs::path& folder : {mount, group_of_process(mount, "0::")}) {
+  const ControlGroups groups = control_groups("memory", root);
+  for (const fs::path& folder : groups.version2) {
     take_least(least, left_of_group(folder, "memory.max", "memory.current", "inactive_file "));
   }
-  for (const fs::path& folder :
-       {mount / "memory", group_of_process(mount / "memory", ":memory:")}) {
+  for (const fs::path& folder : groups.version1) {
     take_least(least, left_of_group(folder, "memory.limit_in_bytes", "memory.usage_in_bytes",
                                     "total_inactive_file "));
   }

@@ -2,6 +2,7 @@
 // How much memory this process uses, and how much more it may use.
 
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 
@@ -9,10 +10,10 @@ namespace beambench {
 
 /// Bytes that this process may still use: what is left of BEAMBENCH_MEMORY where that is set, a
 /// number of bytes with an optional unit of 1024 (`800M`, `12G`); else the least of what the system
-/// has available without swapping and what is left of the limits of the process's control group.
-/// Nothing where the system says none of them. Throws InputError for another text in
-/// BEAMBENCH_MEMORY.
-std::optional<std::uint64_t> available_memory();
+/// has available without swapping and what is left of the limits of the process's control group
+/// and the groups above it. `root` is the folder that holds /proc and the mounts. Nothing where the
+/// system says none of them. Throws InputError for another text in BEAMBENCH_MEMORY.
+std::optional<std::uint64_t> available_memory(const std::filesystem::path& root = "/");
 
 /// Bytes of memory of its own that this process has mapped, used or not: what RLIMIT_DATA limits.
 /// Nothing where the system does not say.
