@@ -29,6 +29,12 @@ std::string_view take_cell(std::string_view& line) {
   return trimmed(cell);
 }
 
+/// The text between quotation marks, which spreadsheets and R write around names and numbers.
+std::string_view unquoted(std::string_view cell) {
+  const bool is_quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+  return is_quoted ? trimmed(cell.substr(1, cell.size() - 2)) : cell;
+}
+
 std::size_t count_cells(std::string_view line) {
   return 1 + static_cast<std::size_t>(std::ranges::count(line, ','));
 }
@@ -37,13 +43,7 @@ std::vector<std::string> names_of(std::string_view line) {
   line = trimmed(line);
   if (line.starts_with('#')) line.remove_prefix(1);
   std::vector<std::string> names(count_cells(line));
-  for (std::string& name : names) {
-    std::string_view cell = take_cell(line);
-    if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') {
-      cell = cell.substr(1, cell.size() - 2);
-    }
-    name = cell;
-  }
+  for (std::string& name : names) name = unquoted(take_cell(line));
   return names;
 }
 
@@ -96,7 +96,9 @@ bool CsvNumbers::next(std::span<double> row, std::span<const double> when_empty)
     throw InputError(fmt::format("{}: the line has {} cells, but there are {} columns",
                                  place_of(records_), cells, columns_.size()));
   }
-  for (std::size_t i = 0; i < row.size(); ++i) row[i] = number(take_cell(rest), i, when_empty[i]);
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    row[i] = number(unquoted(take_cell(rest)), i, when_empty[i]);
+  }
   ++records_;
   return true;
 }

@@ -13,8 +13,8 @@
 namespace beambench::rays {
 
 /// Reads the records in their order. Blanks around cells, a byte order mark, "\r\n" and a "# "
-/// before the names (which NumPy writes) are skipped; numbers may be `inf` and `nan`. Blank lines
-/// may stand at the end alone.
+/// before the names (which NumPy writes) are skipped; names and numbers may be in quotation marks,
+/// and numbers may be `inf` and `nan`. Blank lines may stand at the end alone.
 class CsvNumbers {
  public:
   /// `first_line` was read from the input already, and is the line of the names.

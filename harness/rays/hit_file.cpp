@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -15,6 +17,7 @@
 #include <nlohmann/json.hpp>
 
 #include "accel/core/ray.hpp"
+#include "harness/rays/column_names.hpp"
 #include "harness/rays/csv_numbers.hpp"
 #include "harness/rays/file_header.hpp"
 #include "scenes/core/error.hpp"
@@ -57,22 +60,29 @@ constexpr std::array<std::size_t, 7> kColumnBytes{4, 4, 4, 4, 4, 4, 1};
 /// The columns of a file, checked.
 class Columns {
  public:
-  template <class Names>
-  Columns(const std::filesystem::path& path, const Names& names) {
-    for (const std::string& name : names) {
-      const auto place =
-          static_cast<std::size_t>(std::ranges::find(kColumnNames, name) - kColumnNames.begin());
-      if (place == kColumnNames.size() || has_[place]) refuse(path, names);
-      has_[place] = true;
-      order_.push_back(static_cast<Column>(place));
+  /// `place` is that of the names in the file.
+  Columns(const std::filesystem::path& path, const std::string& place,
+          std::span<const std::string> names) {
+    const auto places = places_of_columns(place, names, kColumnNames);
+    if (!places) refuse_names(path);
+    for (const std::size_t i : *places) {
+      has_[i] = true;
+      order_.push_back(static_cast<Column>(i));
     }
-    const bool point = has(Column::kX) && has(Column::kY) && has(Column::kZ);
     const bool some_of_point = has(Column::kX) || has(Column::kY) || has(Column::kZ);
-    const bool id = has(Column::kPrimitive) || has(Column::kTriangle);
-    const bool closest = point != has(Column::kT) && point == some_of_point &&
-                         !(has(Column::kPrimitive) && has(Column::kTriangle));
-    const bool any = !some_of_point && !has(Column::kT) && !id;
-    if (has(Column::kOccluded) ? !any : !closest) refuse(path, names);
+    for (const Column each : {Column::kX, Column::kY, Column::kZ}) {
+      if (some_of_point && !has(each)) refuse_missing(place, each);
+    }
+    if (!some_of_point && !has(Column::kT) && !has(Column::kOccluded)) {
+      refuse_missing(place, Column::kT);
+    }
+    const bool both_places = some_of_point && has(Column::kT);
+    const bool both_ids = has(Column::kPrimitive) && has(Column::kTriangle);
+    const bool both_queries = has(Column::kOccluded) && order_.size() > 1;
+    if (both_places || both_ids || both_queries) {
+      throw InputError(fmt::format("{}: the columns '{}' do not go together; expected {}", place,
+                                   fmt::join(names, ","), kColumnHelp));
+    }
   }
 
   bool has(Column column) const { return has_[static_cast<std::size_t>(column)]; }
@@ -89,11 +99,15 @@ class Columns {
   }
 
  private:
-  template <class Names>
-  [[noreturn]] static void refuse(const std::filesystem::path& path, const Names& names) {
-    fail(path, fmt::format("this is no file of hits: its first line is not '{}', and its columns, "
-                           "'{}', are not {}",
-                           kFirstLine, fmt::join(names, ","), kColumnHelp));
+  [[noreturn]] static void refuse_names(const std::filesystem::path& path) {
+    fail(path, fmt::format("this is no file of hits: its first line is neither '{}' nor the names "
+                           "of columns, {}",
+                           kFirstLine, kColumnHelp));
+  }
+
+  [[noreturn]] static void refuse_missing(const std::string& place, Column column) {
+    throw InputError(fmt::format("{}: column '{}' is missing; expected {}", place,
+                                 kColumnNames[static_cast<std::size_t>(column)], kColumnHelp));
   }
 
   std::array<bool, 7> has_{};
@@ -173,7 +187,7 @@ class BinaryHits : public HitReader::Format {
     if (!columns.is_array() || !std::ranges::all_of(columns, is_text)) {
       fail(path_, R"("columns" is not a list of names, such as ["t", "primitive"])");
     }
-    return {path_, columns.get<std::vector<std::string>>()};
+    return {path_, path_.string() + ":2", columns.get<std::vector<std::string>>()};
   }
 
   [[noreturn]] void refuse_length(std::uint64_t bytes) const {
@@ -198,7 +212,7 @@ class CsvHits : public HitReader::Format {
   CsvHits(const std::filesystem::path& path, InputStream input, std::string_view first_line)
       : path_(path),
         numbers_(path, std::move(input), first_line),
-        columns_(path, numbers_.columns()),
+        columns_(path, fmt::format("{}:1", path.string()), numbers_.columns()),
         row_(columns_.order().size()) {
     for (const Column column : columns_.order()) when_empty_.push_back(missing(column));
   }

@@ -15,6 +15,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "harness/rays/column_names.hpp"
 #include "harness/rays/csv_numbers.hpp"
 #include "harness/rays/file_header.hpp"
 #include "harness/rays/fingerprint.hpp"
@@ -223,17 +224,15 @@ class CsvRays : public RayReader::Format {
   CsvRays(const std::filesystem::path& path, InputStream input, std::string_view first_line)
       : path_(path), numbers_(path, std::move(input), first_line) {
     header.label = name_of_path(path.string());
-    std::array<bool, 8> found{};
-    for (const std::string& name : numbers_.columns()) {
-      const auto place =
-          static_cast<std::size_t>(std::ranges::find(kColumns, name) - kColumns.begin());
-      if (place == kColumns.size() || found[place]) refuse_columns();
-      found[place] = true;
-      places_.push_back(place);
-      when_empty_.push_back(kWhenEmpty[place]);
-    }
+    const std::string place = fmt::format("{}:1", path.string());
+    const auto places = places_of_columns(place, numbers_.columns(), kColumns);
+    if (!places) refuse_columns();
+    places_ = *places;
+    for (const std::size_t i : places_) when_empty_.push_back(kWhenEmpty[i]);
     for (std::size_t i = 0; i < kColumns.size(); ++i) {
-      if (!found[i] && std::isnan(kWhenEmpty[i])) refuse_columns();
+      if (!std::isnan(kWhenEmpty[i]) || std::ranges::find(places_, i) != places_.end()) continue;
+      throw InputError(fmt::format("{}: column '{}' is missing; only t_min and t_max may be", place,
+                                   kColumns[i]));
     }
     row_.resize(places_.size());
   }

@@ -28,8 +28,9 @@ namespace beambench::rays {
 ///         rays = numpy.fromfile(f, "<f4").reshape(-1, 8)
 ///
 /// A CSV file has the columns ox, oy, oz, t_min, dx, dy, dz, t_max, in any order; t_min (0) and
-/// t_max (infinity) may be missing or empty. Its query is "closest". Its numbers are exact for
-/// readers of float and of double.
+/// t_max (infinity) may be missing or empty. Upper and lower case are the same, and names and
+/// numbers may be in quotation marks. Its query is "closest". Its numbers are exact for readers of
+/// float and of double.
 ///
 /// The ending, `.csv` or another, decides what is written. Throws InputError when the file cannot
 /// be written; then there is none.

@@ -88,6 +88,9 @@ TEST_F(HitFile, TakesWhatProgramsWriteAsCsv) {
   const HitTable spreadsheet = table("\xEF\xBB\xBF\"primitive\" , \"t\"\r\n7,+2\r\n,\r\n\r\n");
   EXPECT_EQ(spreadsheet.t, (std::vector<float>{2.0F, accel::kInfinity}));
   EXPECT_EQ(spreadsheet.primitives, (std::vector<std::uint32_t>{7, scenes::kNoPrimitive}));
+  const HitTable quoted = table("\"T\",\"Primitive\"\n\"1.5\",\"7\"\n\"\",\" -1 \"\n");
+  EXPECT_EQ(quoted.t, (std::vector<float>{1.5F, accel::kInfinity}));
+  EXPECT_EQ(quoted.primitives, (std::vector<std::uint32_t>{7, scenes::kNoPrimitive}));
   const HitTable points = table("x,y,z,triangle\n1,2,3,0\n,,,\n1e-60,-INF,nan,4294967295");
   ASSERT_EQ(points.points.size(), 3U);
   EXPECT_EQ(points.points[0], glm::vec3(1, 2, 3));
@@ -101,13 +104,19 @@ TEST_F(HitFile, ThatIsMalformedIsRefusedWithItsPlace) {
   for (const auto& [text, why] : std::vector<std::pair<std::string, std::string>>{
            {"", "this is no file of hits"},
            {"t,primitive\n", "there are no hits in it"},
-           {"t,id\n1,2\n", "this is no file of hits"},
-           {"t,t\n1,2\n", "this is no file of hits"},
-           {"primitive\n1\n", "this is no file of hits"},
-           {"x,y,primitive\n1,2,3\n", "this is no file of hits"},
-           {"t,x,y,z\n1,2,3,4\n", "this is no file of hits"},
-           {"t,primitive,triangle\n1,2,3\n", "this is no file of hits"},
-           {"t,occluded\n1,1\n", "this is no file of hits"},
+           {"t,id\n1,2\n", "some.hits:1: column 'id' is unknown"},
+           {"t,t\n1,2\n", "some.hits:1: column 't' is there twice"},
+           {"time,id\n1,2\n", "this is no file of hits"},
+           {"t;primitive\n1;2\n", "some.hits:1: the columns are separated by semicolons"},
+           {"t\tprimitive\n1\t2\n", "some.hits:1: the columns are separated by tabs"},
+           {",t,primitive\n0,1,2\n", "some.hits:1: column 1 has no name"},
+           {"primitive\n1\n", "some.hits:1: column 't' is missing"},
+           {"x,y,primitive\n1,2,3\n", "some.hits:1: column 'z' is missing"},
+           {"t,x,y,z\n1,2,3,4\n", "some.hits:1: the columns 't,x,y,z' do not go together"},
+           {"t,primitive,triangle\n1,2,3\n", "do not go together"},
+           {"t,occluded\n1,1\n", "do not go together"},
+           {"t,primitive\n1,\"2,5\"\n", "some.hits:2: the line has 3 cells"},
+           {"t,primitive\n\"1,2\n", "some.hits:2: column 't' holds '\"1'"},
            {"t,primitive\n1,2\nabc,3\n", "some.hits:3: column 't' holds 'abc'"},
            {"t,primitive\n1,2\n1,3,4\n", "some.hits:3: the line has 3 cells"},
            {"t,primitive\n1,2\n1\n", "some.hits:3: the line has 1 cells"},
@@ -125,6 +134,8 @@ TEST_F(HitFile, ThatIsMalformedIsRefusedWithItsPlace) {
            {"beambench-hits 1\n{\"hits\":1}\n1234", "\"columns\" is not a list of names"},
            {"beambench-hits 1\n{\"hits\":1,\"columns\":[3]}\n1234", "\"columns\" is not"},
            {"beambench-hits 1\n{\"hits\":1,\"columns\":[\"u\"]}\n1234", "no file of hits"},
+           {"beambench-hits 1\n{\"hits\":1,\"columns\":[\"t\",\"u\"]}\n1234",
+            "some.hits:2: column 'u'"},
            {"beambench-hits 1\n{\"hits\":1,\"columns\":[\"t\"]}\n123",
             "3 bytes of hits follow the header, not the 4 of 1 hits"},
            {"beambench-hits 1\n{\"hits\":1,\"columns\":[\"t\"]}\n12345", "5 bytes of hits"},
@@ -155,13 +166,29 @@ TEST_F(HitFile, RaysAsCsvAreTheSameRays) {
   EXPECT_EQ(least.rays.at(0).origin, glm::vec3(4, 5, 6));
   EXPECT_EQ(least.rays[0].t_min, 0.0F);
   EXPECT_EQ(least.rays[0].t_max, accel::kInfinity);
+  const RaySet quoted = read_ray_file(
+      folder_.write("c.csv", "\"OX\",OY,Oz,T_MIN,dx,dy,dz\n\"4\",\"5\",6,\"\",\"1e0\",0,0\n"));
+  EXPECT_EQ(quoted.rays.at(0).origin, glm::vec3(4, 5, 6));
+  EXPECT_EQ(quoted.rays[0].direction, glm::vec3(1, 0, 0));
+  EXPECT_EQ(quoted.rays[0].t_min, 0.0F);
 }
 
 TEST_F(HitFile, RaysAsCsvThatAreMalformedAreRefusedWithTheirLine) {
   const std::string columns = "ox,oy,oz,t_min,dx,dy,dz,t_max\n";
   for (const auto& [text, why] : std::vector<std::pair<std::string, std::string>>{
-           {"ox,oy,oz\n1,2,3\n", "this is no file of rays"},
-           {"ox,oy,oz,dx,dy,dz,dz\n", "this is no file of rays"},
+           {"time,place\n1,2\n", "this is no file of rays"},
+           {"0,0,0,0,0,0,1,inf\n", "this is no file of rays"},
+           {"ox,oy,oz,dx,dy\n1,2,3,4,5\n", "a.csv:1: column 'dz' is missing"},
+           {"ox,oy,oz,dx,dy,dz,dz\n", "a.csv:1: column 'dz' is there twice"},
+           {"ox,oy,oz,dx,dy,DZ,dz\n", "a.csv:1: column 'dz' is there twice"},
+           {"index," + columns, "a.csv:1: column 'index' is unknown; remove it"},
+           {"Index," + columns, "a.csv:1: column 'Index' is unknown; remove it"},
+           {"," + columns, "a.csv:1: column 1 has no name"},
+           {"ox,oy,oz,tmin,dx,dy,dz\n", "column 'tmin' is unknown; did you mean 't_min'?"},
+           {"ox;oy;oz;dx;dy;dz\n0;0;0;0;0;1\n", "a.csv:1: the columns are separated by semicolons"},
+           {"\"ox\";\"oy\";\"dz\"\n", "a.csv:1: the columns are separated by semicolons"},
+           {"ox\toy\toz\tdx\tdy\tdz\n", "a.csv:1: the columns are separated by tabs"},
+           {"# ox oy oz dx dy dz\n0 0 0 0 0 1\n", "a.csv:1: the columns are separated by blanks"},
            {columns, "there are no rays in it"},
            {columns + "0,0,0,0,0,0,1,inf\n0,0,0,0,0,0,0,inf\n", "a.csv:3: "},
            {columns + "nan,0,0,0,0,0,1,inf\n", "a.csv:2: "},
