@@ -2,6 +2,8 @@
 // The parts of the extension `_beambench`. Its functions are called by the Python files of the
 // package, which check and convert what users give and hold the documentation.
 
+#include <string>
+
 #include <nanobind/nanobind.h>
 
 namespace beambench::python {
@@ -9,6 +11,9 @@ namespace beambench::python {
 /// A dict by name, of values of several types, and a list of such, with their types in the stubs.
 using Record = nanobind::typed<nanobind::dict, nanobind::str, nanobind::any>;
 using Records = nanobind::typed<nanobind::list, Record>;
+
+/// Returns a name or a path as Python's `os.fsencode` makes it: any bytes, UTF-8 or not.
+inline std::string text_of(const nanobind::bytes& given) { return {given.c_str(), given.size()}; }
 
 void bind_catalogue(nanobind::module_& module);
 void bind_scene(nanobind::module_& module);

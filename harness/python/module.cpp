@@ -9,6 +9,7 @@
 #include "harness/bench/record/machine.hpp"
 #include "harness/python/bindings.hpp"
 #include "scenes/core/error.hpp"
+#include "scenes/core/printable.hpp"
 #include "scenes/primitive.hpp"
 
 NB_MODULE(_beambench, module) {
@@ -27,7 +28,7 @@ NB_MODULE(_beambench, module) {
     try {
       std::rethrow_exception(thrown);
     } catch (const std::filesystem::filesystem_error& error) {
-      PyErr_SetString(PyExc_OSError, error.what());
+      PyErr_SetString(PyExc_OSError, beambench::message_line(error.what()).c_str());
     }
   });
   const std::string_view version = beambench::bench::build_info().version;

@@ -23,6 +23,7 @@
 #include "harness/python/arrays.hpp"
 #include "harness/python/bindings.hpp"
 #include "harness/python/interruption.hpp"
+#include "harness/python/scene_bytes.hpp"
 #include "harness/python/scene_handle.hpp"
 #include "harness/python/scene_of_arrays.hpp"
 #include "harness/rays/fingerprint.hpp"
@@ -73,7 +74,8 @@ SceneHandle handle_of(scenes::Scene scene, std::vector<std::string> warnings = {
   return {std::make_shared<const scenes::Scene>(std::move(scene)), std::move(warnings)};
 }
 
-SceneHandle load(const std::string& spec, bool strict) {
+SceneHandle load(const nb::bytes& given, bool strict) {
+  const std::string spec = text_of(given);
   const nb::gil_scoped_release released;
   return result_of([=](const StopRequest&) {
     std::vector<std::string> warnings;
@@ -102,6 +104,21 @@ SceneHandle of_spheres(const std::string& name, const Vertices& centers,
                     orientation = orientation_of(up)](const StopRequest&) {
     return handle_of(sphere_scene(name, own_points, own_radii, orientation));
   });
+}
+
+nb::bytes pickled(const SceneHandle& handle) {
+  std::string bytes;
+  {
+    const nb::gil_scoped_release released;
+    bytes = bytes_of_scene(*handle.scene);
+  }
+  return nb::bytes(bytes.data(), bytes.size());
+}
+
+SceneHandle unpickled(const nb::bytes& given, std::vector<std::string> warnings) {
+  const std::string_view bytes(given.c_str(), given.size());  // the caller keeps them alive
+  const nb::gil_scoped_release released;
+  return handle_of(scene_of_bytes(bytes), std::move(warnings));
 }
 
 ArrayOut<std::uint32_t> without_area(const Vertices& vertices, const Triangles& triangles) {
@@ -198,8 +215,9 @@ std::vector<accel::Ray> make_rays(const scenes::Scene& scene, const rays::ImageO
   return rays;
 }
 
-ArrayOut<float> rays_of_kind(const SceneHandle& handle, const std::string& kind,
+ArrayOut<float> rays_of_kind(const SceneHandle& handle, const nb::bytes& given,
                              const ImageChoice& choice) {
+  const std::string kind = text_of(given);
   std::shared_ptr<std::vector<accel::Ray>> rays;
   {
     const nb::gil_scoped_release released;
@@ -263,7 +281,10 @@ void bind_scene(nb::module_& module) {
       .def_prop_ro("primitive_kinds", &kinds_of, kOwned,
                    "(P,) uint32: 0 sphere, 1 cone, 2 polygon; read-only.")
       .def("rays", &rays_of_kind, nb::arg("kind"), nb::arg("image"),
-           "The rays of a kind: (N, 8) float32.");
+           "The rays of a kind: (N, 8) float32.")
+      .def("pickled", &pickled, "All of it, bit by bit.");
+  module.def("unpickled_scene", &unpickled, nb::arg("pickled"), nb::arg("warnings"),
+             "The scene of `Scene.pickled`.");
   module.def("load_scene", &load, nb::arg("spec"), nb::arg("strict"),
              "A scene by catalogue name or file.");
   module.def("scene_of_triangles", &of_triangles, nb::arg("name"), nb::arg("vertices").noconvert(),

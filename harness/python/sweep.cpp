@@ -53,9 +53,11 @@ bench::SweepConfig read_config(const std::string& json, const std::string& file)
                             accel::registry());
 }
 
-std::tuple<std::string, std::string> run_sweep(const std::string& json, const std::string& file,
-                                               const std::string& folder, bool resume,
-                                               bool progress) {
+std::tuple<nb::bytes, std::string> run_sweep(const std::string& json, const nb::bytes& file_given,
+                                             const nb::bytes& folder_given, bool resume,
+                                             bool progress) {
+  const std::string file = text_of(file_given);
+  const std::string folder = text_of(folder_given);
   bench::SweepOutcome outcome;
   {
     const nb::gil_scoped_release released;
@@ -71,7 +73,8 @@ std::tuple<std::string, std::string> run_sweep(const std::string& json, const st
                               progress ? stderr : nowhere.get());
     });
   }
-  return {outcome.results.string(), outcome.summary};
+  const std::string& results = outcome.results.native();
+  return {nb::bytes(results.data(), results.size()), outcome.summary};
 }
 
 }  // namespace

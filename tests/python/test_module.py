@@ -460,6 +460,21 @@ INVALID: dict[str, tuple[Callable[[], object], type[Exception], str]] = {
         r"threads is 0\.5",
     ),
     "whole pictures as rays": (lambda: plane().rays("whitted"), bb.InputError, r"whitted"),
+    "a structure that is not Unicode": (
+        lambda: bb.Structure(plane(), "\udcff"),
+        bb.InputError,
+        r"spec is '\\udcff'; expected a text that UTF-8 can hold",
+    ),
+    "a file name that no file has": (
+        lambda: bb.Scene("\ud800.nff"),
+        bb.InputError,
+        r"spec is '\\ud800.nff'",
+    ),
+    "a number as a scene": (
+        lambda: bb.Scene(3),
+        TypeError,
+        r"spec is 3; expected a text or a path",
+    ),
     "an unknown kind of rays": (lambda: plane().rays("light"), bb.InputError, r"'light'"),
     "an unknown structure": (lambda: bb.Structure(plane(), "same"), bb.InputError, r"samet"),
     "an unknown parameter": (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import numpy as np
@@ -20,10 +21,24 @@ def whole_number(name: str, given: object) -> int:
 
 
 def text(name: str, given: object) -> str:
-    """A text; raises TypeError for anything else."""
+    """A text of Unicode; raises TypeError for anything else, InputError for lone surrogates."""
     if not isinstance(given, str):
         raise TypeError(f"{name} is {given!r}; expected a text")
+    try:
+        given.encode()
+    except UnicodeEncodeError:
+        raise InputError(f"{name} is {given!a}; expected a text that UTF-8 can hold") from None
     return given
+
+
+def encoded(name: str, given: str | bytes | os.PathLike[Any]) -> bytes:
+    """The bytes of a name or a path, UTF-8 or not; raises TypeError for anything else."""
+    try:
+        return os.fsencode(given)
+    except UnicodeEncodeError:
+        raise InputError(f"{name} is {given!a}; expected characters that files can have") from None
+    except TypeError:
+        raise TypeError(f"{name} is {given!r}; expected a text or a path") from None
 
 
 def _shape_text(shape: tuple[int | str, ...]) -> str:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import os
 import warnings
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from beambench import _beambench
 from beambench._beambench import InputError
-from beambench.arrays import ids, reals, require_coordinates, text, whole_number
+from beambench.arrays import encoded, ids, reals, require_coordinates, text, whole_number
 
 if TYPE_CHECKING:
     from beambench.structure import Structure
@@ -66,12 +66,12 @@ class Scene:
     A scene never changes: structures, arrays and other threads may share it.
     """
 
-    def __init__(self, spec: str | os.PathLike[str], *, strict: bool = False) -> None:
+    def __init__(self, spec: str | bytes | os.PathLike[Any], *, strict: bool = False) -> None:
         """Makes a scene of the catalogue, or reads a file.
 
         Args:
             spec: a name with parameters (`"balls:n=3"`, see `scenes`), a registered mesh
-                (`"mesh:dragon"`), or the path of an NFF or mesh file.
+                (`"mesh:dragon"`), or the path of an NFF or mesh file, which need not be UTF-8.
             strict: raise where a file's reader would skip or repair something; otherwise that is
                 a UserWarning.
 
@@ -79,7 +79,7 @@ class Scene:
             InputError: no such name or file, a parameter out of its range, or a malformed file,
                 with the line.
         """
-        self._compiled = _beambench.load_scene(text("spec", os.fspath(spec)), bool(strict))
+        self._compiled = _beambench.load_scene(encoded("spec", spec), bool(strict))
         self._source_rows: NDArray[np.int64] | None = None
         for warning in self._compiled.warnings:
             warnings.warn(warning, stacklevel=2)
@@ -288,7 +288,7 @@ class Scene:
 
     def rays(
         self,
-        kind: str = "primary",
+        kind: str | bytes | os.PathLike[Any] = "primary",
         *,
         resolution: tuple[int, int] | None = None,
         camera: Camera | str | None = None,
@@ -312,7 +312,7 @@ class Scene:
             InputError: an unknown kind or camera, an image that is not possible, or a scene
                 without such rays (no lights, no mirrors).
         """
-        return self._compiled.rays(text("kind", kind), self._image(camera, resolution, samples))
+        return self._compiled.rays(encoded("kind", kind), self._image(camera, resolution, samples))
 
     def render(
         self,
@@ -332,7 +332,7 @@ class Scene:
             samples: rays per pixel: 1, 4, 5, 9, 16, ...
             shading: preview, normals, id, depth, or whitted (lights, shadows, mirrors, glass).
             structure: one that was built over this scene, or a name with parameters.
-            threads: that trace; 0: one for each core.
+            threads: that trace; 0: one for each core, within the CPU quota.
 
         Returns:
             Linear light of shape (height, width, 3), float32, the top row first, without a copy.
@@ -350,6 +350,26 @@ class Scene:
             raise InputError("structure was built over another scene; build one over this scene")
         return _beambench.render(built._compiled, image, text("shading", shading), count)
 
+    def __copy__(self) -> Scene:
+        """This scene, which never changes."""
+        return self
+
+    def __deepcopy__(self, memo: dict[int, object]) -> Scene:
+        """This scene, which never changes."""
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Returns all of the scene for pickle, not the name that it was made by."""
+        compiled = self._compiled
+        return _unpickled, (compiled.pickled(), list(compiled.warnings), self._source_rows)
+
     def __repr__(self) -> str:
         """Name and size."""
         return f"<beambench.Scene '{self.name}', {self.primitives} primitives>"
+
+
+def _unpickled(pickled: bytes, warned: list[str], source_rows: NDArray[np.int64] | None) -> Scene:
+    """The scene that `Scene.__reduce__` took apart."""
+    scene = Scene._of(_beambench.unpickled_scene(pickled, warned))
+    scene._source_rows = source_rows
+    return scene

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from beambench import _beambench
+from beambench.arrays import encoded
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -23,8 +24,8 @@ TEXT_COLUMNS = (
 
 
 def sweep(
-    config: Mapping[str, Any] | str | os.PathLike[str],
-    output: str | os.PathLike[str] | None = None,
+    config: Mapping[str, Any] | str | bytes | os.PathLike[Any],
+    output: str | bytes | os.PathLike[Any] | None = None,
     *,
     resume: bool = False,
     progress: bool = False,
@@ -50,15 +51,15 @@ def sweep(
     except ImportError as error:
         raise ImportError("sweeps are returned as DataFrames: install pandas first") from error
     text = json.dumps(dict(config)) if isinstance(config, Mapping) else ""
-    path = "" if isinstance(config, Mapping) else os.fspath(config)
+    path = b"" if isinstance(config, Mapping) else encoded("config", config)
     if resume and output is None:
         raise _beambench.InputError("resume continues the run in a folder; give it as output")
     with tempfile.TemporaryDirectory(prefix="beambench-") as temporary:
-        folder = Path(temporary) / "run" if output is None else Path(output)
-        results, summary = _beambench.sweep(text, path, str(folder), resume, progress)
+        folder = Path(temporary) / "run" if output is None else output
+        results, summary = _beambench.sweep(text, path, encoded("output", folder), resume, progress)
         # `null` is a structure's name; only an empty field is a missing value.
         frame = pd.read_csv(
-            results,
+            os.fsdecode(results),
             keep_default_na=False,
             na_values=[""],
             dtype=dict.fromkeys(TEXT_COLUMNS, "str"),

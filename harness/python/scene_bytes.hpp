@@ -1,0 +1,18 @@
+#pragma once
+// Scenes as bytes, for pickle.
+
+#include <string>
+#include <string_view>
+
+#include "scenes/scene.hpp"
+
+namespace beambench::python {
+
+/// Returns all of a scene, bit by bit.
+std::string bytes_of_scene(const scenes::Scene& scene);
+
+/// Returns the scene of which these are the bytes. Throws InputError for bytes of another version
+/// of beambench and for damaged ones. Like pickle itself, it trusts whoever made them.
+scenes::Scene scene_of_bytes(std::string_view bytes);
+
+}  // namespace beambench::python
